@@ -1,0 +1,3 @@
+//! Pure mathematics of the GPU path, on the host. The oracle (`reference/`) shares none of it on purpose.
+
+pub mod srgb;

@@ -1,0 +1,153 @@
+//! The pinhole camera, and the one that is chosen where none is given.
+
+use glam::{DMat3, DVec3};
+
+use super::Bounds;
+use crate::error::{Error, Result};
+
+/// A pinhole camera in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where the eye is.
+    pub eye: DVec3,
+    /// What it looks at: the middle of the image.
+    pub target: DVec3,
+    /// What is up in the image; need not be orthogonal to the view. Where it is parallel to the view, the nearest
+    /// other axis takes its place.
+    pub up: DVec3,
+    /// The vertical field of view in radians, between 0 and π.
+    pub fov_y_rad: f64,
+    /// The depth of the near plane in world units; `None` is 1e-6 of the distance from eye to target.
+    pub near: Option<f64>,
+}
+
+/// The rigid motion from world to view space: `view = rotation · (world − eye)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewFromWorld {
+    /// Its rows are the view axes x (right), y (down), z (forward) in world space.
+    pub rotation: DMat3,
+    /// The eye in world space.
+    pub eye: DVec3,
+}
+
+/// How much wider than the bounding sphere the fitted view is.
+const FIT_MARGIN: f64 = 1.05;
+
+impl Camera {
+    /// The camera that shows all of `bounds`: 45° vertical, looking along −z with +y up; the bounding sphere fits
+    /// the smaller of the two angles with 5% margin. Bounds without extent are taken as a unit ball.
+    pub fn fit(bounds: &Bounds, size_px: [u32; 2]) -> Self {
+        let fov_y_rad = std::f64::consts::FRAC_PI_4;
+        let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
+        let half_y = 0.5 * fov_y_rad;
+        let half = half_y.min((half_y.tan() * aspect).atan());
+        let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 1.0 };
+        let target = bounds.center();
+        let eye = target + DVec3::Z * (FIT_MARGIN * radius / half.sin());
+        Self { eye, target, up: DVec3::Y, fov_y_rad, near: None }
+    }
+
+    /// The depth of the near plane in world units.
+    pub fn near(&self) -> f64 {
+        self.near.unwrap_or_else(|| 1e-6 * self.eye.distance(self.target))
+    }
+
+    /// The focal length in pixels for an image of this height: an image-plane coordinate times this is a pixel
+    /// distance from the middle.
+    pub fn focal_px(&self, height_px: u32) -> f64 {
+        0.5 * f64::from(height_px) / (0.5 * self.fov_y_rad).tan()
+    }
+
+    /// The motion from world to view space.
+    pub fn view_from_world(&self) -> ViewFromWorld {
+        let forward = (self.target - self.eye).normalize();
+        let up = usable_up(self.up, forward);
+        let right = forward.cross(up).normalize();
+        let down = forward.cross(right);
+        ViewFromWorld { rotation: DMat3::from_cols(right, down, forward).transpose(), eye: self.eye }
+    }
+
+    /// Refuses a camera that has no picture.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] for values that are not finite, an eye at the target, an angle outside (0°,
+    /// 180°), a near plane not above zero.
+    pub fn validate(&self) -> Result<()> {
+        let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
+        if !finite {
+            return Err(Error::option("camera", "eye, target and up must be finite numbers"));
+        }
+        let distance = self.eye.distance(self.target);
+        if !(distance > 0.0 && distance.is_finite()) {
+            return Err(Error::option("camera", "eye and target must be two different points"));
+        }
+        if !(self.fov_y_rad > 0.0 && self.fov_y_rad < std::f64::consts::PI) {
+            let degrees = self.fov_y_rad.to_degrees();
+            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 0 and 180")));
+        }
+        if !(self.near() > 0.0 && self.near().is_finite()) {
+            return Err(Error::option("camera", "near must be above zero"));
+        }
+        Ok(())
+    }
+}
+
+impl ViewFromWorld {
+    /// A world point in view space.
+    pub fn point(&self, world: DVec3) -> DVec3 {
+        self.rotation * (world - self.eye)
+    }
+}
+
+/// `up`, or where it is zero or parallel to the view the coordinate axis nearest to it that is not.
+fn usable_up(up: DVec3, forward: DVec3) -> DVec3 {
+    let parallel = |v: DVec3| forward.cross(v).length() <= 1e-9 * v.length();
+    if !parallel(up) {
+        return up;
+    }
+    let mut axes = [DVec3::Y, DVec3::Z, DVec3::X];
+    axes.sort_by(|a, b| b.dot(up).abs().total_cmp(&a.dot(up).abs()));
+    axes.into_iter().find(|&axis| forward.cross(axis).length() > 1e-3).unwrap_or(DVec3::Y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn view_axes_are_right_down_forward() {
+        let camera =
+            Camera { eye: DVec3::new(0.0, 0.0, 5.0), target: DVec3::ZERO, ..Camera::fit(&unit(), [1, 1]) };
+        let view = camera.view_from_world();
+        assert!(view.point(DVec3::X).distance(DVec3::new(1.0, 0.0, 5.0)) < 1e-15);
+        assert!(view.point(DVec3::Y).distance(DVec3::new(0.0, -1.0, 5.0)) < 1e-15);
+        assert!(view.point(DVec3::Z).distance(DVec3::new(0.0, 0.0, 4.0)) < 1e-15);
+    }
+
+    #[test]
+    fn up_parallel_to_the_view_still_gives_a_rotation() {
+        for up in [DVec3::Y, DVec3::NEG_Y, DVec3::ZERO] {
+            let camera = Camera { eye: DVec3::Y, target: DVec3::ZERO, up, fov_y_rad: 1.0, near: None };
+            assert!((camera.view_from_world().rotation.determinant() - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_fit_shows_the_bounding_sphere_in_both_directions_and_survives_a_point() {
+        for size in [[200, 100], [100, 200], [1, 1]] {
+            let camera = Camera::fit(&unit(), size);
+            let distance = camera.eye.z;
+            let half_y = (0.5 * camera.fov_y_rad).tan();
+            let half_x = half_y * f64::from(size[0]) / f64::from(size[1]);
+            let seen = (unit().radius() / distance).asin().tan();
+            assert!(seen <= half_x.min(half_y), "{size:?}");
+            assert!(seen >= 0.9 * half_x.min(half_y), "{size:?}");
+        }
+        let point = Bounds::of_ball(DVec3::new(5e5, 4.6e6, 300.0), 0.0);
+        Camera::fit(&point, [64, 64]).validate().unwrap();
+    }
+
+    fn unit() -> Bounds {
+        Bounds::of_ball(DVec3::ZERO, 1.0)
+    }
+}
