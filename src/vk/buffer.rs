@@ -1,0 +1,114 @@
+//! Buffers.
+
+use ash::vk;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+
+use super::{
+    device::Device,
+    garbage::Retired,
+    memory::{Memory, MemoryUse},
+    result::VkResultExt,
+};
+use crate::error::Result;
+
+/// What a buffer is.
+#[derive(Clone, Copy, Debug)]
+pub struct BufferDesc<'a> {
+    /// Its debug name.
+    pub name: &'a str,
+    /// Bytes, above 0.
+    pub size: u64,
+    /// What it is used for.
+    pub usage: vk::BufferUsageFlags,
+}
+
+/// A buffer with memory of its own or in a shared block.
+pub struct Buffer {
+    device: Device,
+    raw: vk::Buffer,
+    size: u64,
+    allocation: Option<Allocation>,
+}
+
+impl Buffer {
+    /// A buffer with memory of its own.
+    ///
+    /// # Errors
+    /// Whatever the driver or the allocator answers.
+    pub fn new(device: &Device, desc: BufferDesc<'_>, memory: MemoryUse) -> Result<Self> {
+        let raw = create(device, desc)?;
+        // From here on a failure must not leak the handle: the owner exists before the memory does.
+        let mut buffer = Self { device: device.clone(), raw, size: desc.size, allocation: None };
+        // SAFETY: the buffer was just made from this device.
+        let requirements = unsafe { device.raw().get_buffer_memory_requirements(raw) };
+        let allocation = device.allocate(&AllocationCreateDesc {
+            name: desc.name,
+            requirements,
+            location: memory.location(),
+            linear: true,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        })?;
+        // SAFETY: the memory outlives the buffer: both are retired together, the buffer destroyed first.
+        let bound = unsafe { device.raw().bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
+        buffer.allocation = Some(allocation);
+        bound.of_call("vkBindBufferMemory", desc.name)?;
+        Ok(buffer)
+    }
+
+    /// A buffer at an offset of a shared block; the block must be dropped after it.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub(crate) fn placed(
+        device: &Device,
+        desc: BufferDesc<'_>,
+        memory: &Memory,
+        offset: u64,
+    ) -> Result<Self> {
+        let raw = create(device, desc)?;
+        let buffer = Self { device: device.clone(), raw, size: desc.size, allocation: None };
+        let (block, start) = memory.raw();
+        // SAFETY: the caller keeps the block until after this buffer; the offset is aligned by the graph's plan.
+        unsafe { device.raw().bind_buffer_memory(raw, block, start + offset) }
+            .of_call("vkBindBufferMemory", desc.name)?;
+        Ok(buffer)
+    }
+
+    /// The raw buffer.
+    pub fn raw(&self) -> vk::Buffer {
+        self.raw
+    }
+
+    /// Its size in bytes.
+    pub fn size(&self) -> u64 {
+        self.size
+    }
+
+    /// Its bytes, where the host can see them ([`MemoryUse::Upload`], [`MemoryUse::Readback`]); else empty. For
+    /// reading, the device must have finished writing.
+    pub fn bytes(&self) -> &[u8] {
+        let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice).unwrap_or_default();
+        &mapped[..mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX))]
+    }
+
+    /// Its bytes for writing, where the host can see them; else empty. The device must not read them meanwhile.
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut).unwrap_or_default();
+        let size = mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX));
+        &mut mapped[..size]
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        self.device.retire(Retired::Buffer(self.raw, self.allocation.take()));
+    }
+}
+
+fn create(device: &Device, desc: BufferDesc<'_>) -> Result<vk::Buffer> {
+    let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
+    // SAFETY: the device is alive; sizes are above 0 by the description's contract.
+    let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
+    device.set_name(raw, desc.name);
+    Ok(raw)
+}

@@ -1,0 +1,56 @@
+//! Compute pipelines.
+
+use ash::vk;
+
+use super::{
+    Stage, device::Device, garbage::Retired, graphics_pipeline::CompiledStage, layout::PipelineLayout,
+    pipeline_cache::PipelineCache, result::VkResultExt,
+};
+use crate::error::Result;
+
+/// What a compute pipeline is.
+#[derive(Clone, Copy)]
+pub struct ComputePipelineDesc<'a> {
+    /// Its debug name.
+    pub name: &'a str,
+    /// The one stage.
+    pub stage: Stage<'a>,
+    /// Sets and push constants.
+    pub layout: &'a PipelineLayout,
+}
+
+/// A compute pipeline.
+pub struct ComputePipeline {
+    device: Device,
+    raw: vk::Pipeline,
+}
+
+impl ComputePipeline {
+    /// Compiles a pipeline.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, cache: &PipelineCache, desc: &ComputePipelineDesc<'_>) -> Result<Self> {
+        let stage = CompiledStage::new(device, desc.stage)?;
+        let constants = stage.specialization();
+        let info = vk::ComputePipelineCreateInfo::default()
+            .stage(stage.info(vk::ShaderStageFlags::COMPUTE, &constants))
+            .layout(desc.layout.raw());
+        // SAFETY: everything the info points to lives until the call returns and belongs to this device.
+        let made = unsafe { device.raw().create_compute_pipelines(cache.raw(), &[info], None) };
+        let raw = made.map_err(|(_, result)| result).of_call("vkCreateComputePipelines", desc.name)?[0];
+        device.set_name(raw, desc.name);
+        Ok(Self { device: device.clone(), raw })
+    }
+
+    /// The raw pipeline.
+    pub fn raw(&self) -> vk::Pipeline {
+        self.raw
+    }
+}
+
+impl Drop for ComputePipeline {
+    fn drop(&mut self) {
+        self.device.retire(Retired::Pipeline(self.raw));
+    }
+}

@@ -1,0 +1,167 @@
+//! Descriptor sets: layouts, and pools that are reset as a whole.
+
+use ash::vk;
+
+use super::{device::Device, garbage::Retired, result::VkResultExt};
+use crate::error::Result;
+
+/// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
+#[derive(Clone, Copy, Debug)]
+pub struct Binding {
+    /// What it holds.
+    pub kind: vk::DescriptorType,
+    /// The stages that see it.
+    pub stages: vk::ShaderStageFlags,
+}
+
+/// What a binding is given.
+#[derive(Clone, Copy, Debug)]
+pub enum Descriptor {
+    /// A whole storage buffer.
+    Buffer(vk::Buffer),
+    /// A sampled image, read by `texelFetch` in this layout.
+    Sampled(vk::ImageView, vk::ImageLayout),
+}
+
+/// The bindings of a set.
+pub struct SetLayout {
+    device: Device,
+    raw: vk::DescriptorSetLayout,
+    kinds: Vec<vk::DescriptorType>,
+}
+
+impl SetLayout {
+    /// A set of bindings numbered from 0.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, name: &str, bindings: &[Binding]) -> Result<Self> {
+        let raw_bindings: Vec<_> = (0..)
+            .zip(bindings)
+            .map(|(number, binding)| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(number)
+                    .descriptor_type(binding.kind)
+                    .descriptor_count(1)
+                    .stage_flags(binding.stages)
+            })
+            .collect();
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&raw_bindings);
+        // SAFETY: the device is alive.
+        let raw = unsafe { device.raw().create_descriptor_set_layout(&info, None) }
+            .of_call("vkCreateDescriptorSetLayout", name)?;
+        device.set_name(raw, name);
+        let kinds = bindings.iter().map(|binding| binding.kind).collect();
+        Ok(Self { device: device.clone(), raw, kinds })
+    }
+
+    /// The raw layout.
+    pub fn raw(&self) -> vk::DescriptorSetLayout {
+        self.raw
+    }
+}
+
+impl Drop for SetLayout {
+    fn drop(&mut self) {
+        self.device.retire(Retired::SetLayout(self.raw));
+    }
+}
+
+/// A pool of sets that live and die together.
+pub struct DescriptorPool {
+    device: Device,
+    raw: vk::DescriptorPool,
+    name: String,
+}
+
+impl DescriptorPool {
+    /// A pool for up to `sets` sets with up to `buffers` storage buffers and `images` sampled images in all.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, name: &str, sets: u32, buffers: u32, images: u32) -> Result<Self> {
+        let size = |kind, count| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
+        let mut sizes = Vec::new();
+        if buffers > 0 {
+            sizes.push(size(vk::DescriptorType::STORAGE_BUFFER, buffers));
+        }
+        if images > 0 {
+            sizes.push(size(vk::DescriptorType::SAMPLED_IMAGE, images));
+        }
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(sets).pool_sizes(&sizes);
+        // SAFETY: the device is alive.
+        let raw = unsafe { device.raw().create_descriptor_pool(&info, None) }
+            .of_call("vkCreateDescriptorPool", name)?;
+        device.set_name(raw, name);
+        Ok(Self { device: device.clone(), raw, name: name.to_owned() })
+    }
+
+    /// A set with each of its bindings given, in order.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as an exhausted pool.
+    pub fn set(&self, layout: &SetLayout, given: &[Descriptor]) -> Result<vk::DescriptorSet> {
+        assert_eq!(layout.kinds.len(), given.len(), "set '{}' is not given all its bindings", self.name);
+        let layouts = [layout.raw];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.raw).set_layouts(&layouts);
+        // SAFETY: pool and layout are alive and of this device; the pool is ours alone (`&self` of a type that is
+        // not shared between threads while recording).
+        let set = unsafe { self.device.raw().allocate_descriptor_sets(&info) }
+            .of_call("vkAllocateDescriptorSets", &self.name)?[0];
+        self.device.set_name(set, &self.name);
+        let buffers: Vec<_> = given
+            .iter()
+            .map(|descriptor| match descriptor {
+                Descriptor::Buffer(buffer) => {
+                    vk::DescriptorBufferInfo::default().buffer(*buffer).range(vk::WHOLE_SIZE)
+                }
+                Descriptor::Sampled(..) => vk::DescriptorBufferInfo::default(),
+            })
+            .collect();
+        let images: Vec<_> = given
+            .iter()
+            .map(|descriptor| match descriptor {
+                Descriptor::Sampled(view, layout) => {
+                    vk::DescriptorImageInfo::default().image_view(*view).image_layout(*layout)
+                }
+                Descriptor::Buffer(_) => vk::DescriptorImageInfo::default(),
+            })
+            .collect();
+        let writes: Vec<_> = (0..)
+            .zip(given)
+            .map(|(number, descriptor)| {
+                let i = number as usize;
+                let write = vk::WriteDescriptorSet::default()
+                    .dst_set(set)
+                    .dst_binding(number)
+                    .descriptor_type(layout.kinds[i]);
+                match descriptor {
+                    Descriptor::Buffer(_) => write.buffer_info(&buffers[i..=i]),
+                    Descriptor::Sampled(..) => write.image_info(&images[i..=i]),
+                }
+            })
+            .collect();
+        // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
+        unsafe { self.device.raw().update_descriptor_sets(&writes, &[]) };
+        Ok(set)
+    }
+
+    /// Takes all sets back.
+    ///
+    /// # Safety
+    /// No submission that uses one of the sets may be unfinished.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub unsafe fn reset(&self) -> Result<()> {
+        // SAFETY: this function's contract.
+        unsafe { self.device.raw().reset_descriptor_pool(self.raw, vk::DescriptorPoolResetFlags::empty()) }
+            .of_call("vkResetDescriptorPool", &self.name)
+    }
+}
+
+impl Drop for DescriptorPool {
+    fn drop(&mut self) {
+        self.device.retire(Retired::DescriptorPool(self.raw));
+    }
+}

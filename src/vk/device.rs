@@ -1,0 +1,279 @@
+//! The logical device, owned or borrowed, with its allocator and its deferred destruction.
+
+use std::{
+    ffi::CString,
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use ash::{ext, vk};
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, AllocatorCreateDesc};
+
+use super::{
+    choose::{DeviceFacts, choose},
+    facts::{all_facts, facts},
+    garbage::{Garbage, Retired},
+    instance::Instance,
+    result::VkResultExt,
+};
+use crate::error::{Error, ErrorKind, Result};
+
+/// Optional features that are enabled on a device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EnabledFeatures {
+    /// Points above one pixel.
+    pub large_points: bool,
+    /// Counts of vertices and fragments.
+    pub pipeline_statistics: bool,
+}
+
+/// A host's device, for [`Device::borrow`].
+pub struct BorrowedDevice {
+    /// The physical device.
+    pub physical: vk::PhysicalDevice,
+    /// The logical device.
+    pub raw: ash::Device,
+    /// The family of the queue to which the host submits what we record; graphics and compute.
+    pub queue_family: u32,
+    /// The optional features that the host enabled.
+    pub features: EnabledFeatures,
+}
+
+/// A logical device; clones share it. See [the module](super) for how things die.
+#[derive(Clone)]
+pub struct Device(Arc<Shared>);
+
+struct Shared {
+    raw: ash::Device,
+    instance: Instance,
+    physical: vk::PhysicalDevice,
+    facts: DeviceFacts,
+    queue_family: u32,
+    features: EnabledFeatures,
+    names: Option<ext::debug_utils::Device>,
+    /// The epoch in which commands are being recorded now: one more than the last submission's.
+    epoch: AtomicU64,
+    // `None` only while `drop` runs. Locked together, so that there is one order of locks.
+    memory: Mutex<Option<(Allocator, Garbage)>>,
+    owned: bool,
+}
+
+impl Device {
+    /// Opens the device asked for (see [`choose`]) with one queue of graphics and compute.
+    ///
+    /// # Errors
+    /// As [`choose`], or whatever the driver answers.
+    pub fn new(instance: &Instance, asked: Option<&str>) -> Result<Self> {
+        let mut all = all_facts(instance)?;
+        let facts: Vec<_> = all.iter().map(|(_, facts)| facts.clone()).collect();
+        let (physical, facts) = all.swap_remove(choose(&facts, asked)?);
+        let Some(queue_family) = facts.queue_family else {
+            return Err(ErrorKind::NoDevice { reasons: facts.refusals() }.into());
+        };
+        let features = EnabledFeatures {
+            large_points: facts.large_points,
+            pipeline_statistics: facts.pipeline_statistics,
+        };
+        let core = vk::PhysicalDeviceFeatures::default()
+            .large_points(features.large_points)
+            .pipeline_statistics_query(features.pipeline_statistics);
+        let mut features12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
+        let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
+            .synchronization2(true)
+            .dynamic_rendering(true)
+            .maintenance4(true);
+        let queues =
+            [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .enabled_features(&core)
+            .push_next(&mut features12)
+            .push_next(&mut features13);
+        // SAFETY: `physical` was enumerated from this instance and offers all that is enabled here.
+        let raw = unsafe { instance.raw().create_device(physical, &info, None) }
+            .of_call("vkCreateDevice", &facts.name)?;
+        Self::assemble(instance, physical, facts, raw, queue_family, features, true)
+    }
+
+    /// Takes a host's device, which the host destroys after everything of ours is dropped.
+    ///
+    /// # Safety
+    /// All handles must belong together and to `instance`, and stay alive until every object made from this device
+    /// is dropped. The host must have enabled `timelineSemaphore`, `synchronization2`, `dynamicRendering`,
+    /// `maintenance4` and what `features` says. Before the last of our objects is dropped, all submissions of
+    /// commands recorded by them must have finished.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NoDevice`] if the device lacks what we need.
+    pub unsafe fn borrow(instance: &Instance, host: BorrowedDevice) -> Result<Self> {
+        // SAFETY: this function's contract.
+        let mut facts = unsafe { facts(instance.raw(), host.physical) };
+        let refusals = facts.refusals();
+        if !refusals.is_empty() {
+            return Err(ErrorKind::NoDevice { reasons: refusals }.into());
+        }
+        facts.queue_family = Some(host.queue_family);
+        facts.large_points = host.features.large_points;
+        facts.pipeline_statistics = host.features.pipeline_statistics;
+        if !host.features.large_points {
+            facts.limits.point_size_range = [1.0, 1.0];
+        }
+        Self::assemble(instance, host.physical, facts, host.raw, host.queue_family, host.features, false)
+    }
+
+    fn assemble(
+        instance: &Instance,
+        physical: vk::PhysicalDevice,
+        facts: DeviceFacts,
+        raw: ash::Device,
+        queue_family: u32,
+        features: EnabledFeatures,
+        owned: bool,
+    ) -> Result<Self> {
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.raw().clone(),
+            device: raw.clone(),
+            physical_device: physical,
+            debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+            buffer_device_address: false,
+            allocation_sizes: gpu_allocator::AllocationSizes::default(),
+        });
+        let allocator = allocator.map_err(|error| {
+            if owned {
+                // SAFETY: just created, used by nobody.
+                unsafe { raw.destroy_device(None) };
+            }
+            Error::from(ErrorKind::Memory { object: facts.name.clone(), bytes: 0, reason: error.to_string() })
+        })?;
+        let names = instance.has_debug_utils().then(|| ext::debug_utils::Device::new(instance.raw(), &raw));
+        Ok(Self(Arc::new(Shared {
+            raw,
+            instance: instance.clone(),
+            physical,
+            facts,
+            queue_family,
+            features,
+            names,
+            epoch: AtomicU64::new(1),
+            memory: Mutex::new(Some((allocator, Garbage::default()))),
+            owned,
+        })))
+    }
+
+    /// The raw device.
+    pub fn raw(&self) -> &ash::Device {
+        &self.0.raw
+    }
+
+    /// The instance it was made from.
+    pub fn instance(&self) -> &Instance {
+        &self.0.instance
+    }
+
+    /// The physical device.
+    pub fn physical(&self) -> vk::PhysicalDevice {
+        self.0.physical
+    }
+
+    /// What the device is and can do.
+    pub fn facts(&self) -> &DeviceFacts {
+        &self.0.facts
+    }
+
+    /// The optional features that are enabled.
+    pub fn features(&self) -> EnabledFeatures {
+        self.0.features
+    }
+
+    /// The family of the one queue that is used.
+    pub fn queue_family(&self) -> u32 {
+        self.0.queue_family
+    }
+
+    /// The debug extension's functions, where it is enabled: labels in command buffers.
+    pub fn debug_utils(&self) -> Option<&ext::debug_utils::Device> {
+        self.0.names.as_ref()
+    }
+
+    /// Gives an object its debug name.
+    pub fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
+        if let Some(names) = &self.0.names {
+            let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
+            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&text);
+            // A name is a help for people: failing to set one changes nothing.
+            // SAFETY: the object is alive and belongs to this device; the extension is enabled.
+            let _ = unsafe { names.set_debug_utils_object_name(&info) };
+        }
+    }
+
+    /// Ends the epoch in which commands were recorded and returns its number. Whoever submits (our queue, or the
+    /// embedding host once per submission that contains our commands) calls it at the submission.
+    pub fn end_epoch(&self) -> u64 {
+        self.0.epoch.fetch_add(1, Ordering::AcqRel)
+    }
+
+    /// Destroys all that was dropped up to the end of an epoch.
+    ///
+    /// # Safety
+    /// The device has finished every submission up to the one whose [`Device::end_epoch`] gave `epoch`.
+    pub unsafe fn epoch_done(&self, epoch: u64) {
+        if let Some((allocator, garbage)) = self.memory().as_mut() {
+            // SAFETY: this function's contract.
+            unsafe { garbage.collect(epoch, &self.0.raw, allocator) };
+        }
+    }
+
+    /// Bytes of device memory that are allocated now, and how many allocations they are.
+    pub fn memory_in_use(&self) -> (u64, usize) {
+        self.memory().as_ref().map_or((0, 0), |(allocator, _)| {
+            let report = allocator.generate_report();
+            (report.total_allocated_bytes, report.allocations.len())
+        })
+    }
+
+    pub(super) fn allocate(&self, desc: &AllocationCreateDesc<'_>) -> Result<Allocation> {
+        let failed = |reason: String| -> Error {
+            ErrorKind::Memory { object: desc.name.to_owned(), bytes: desc.requirements.size, reason }.into()
+        };
+        match self.memory().as_mut() {
+            Some((allocator, _)) => allocator.allocate(desc).map_err(|error| failed(error.to_string())),
+            None => Err(failed("the device is gone".to_owned())),
+        }
+    }
+
+    /// Hands a raw object over, to be destroyed once the epoch that is being recorded now is done.
+    pub(super) fn retire(&self, object: Retired) {
+        if let Some((_, garbage)) = self.memory().as_mut() {
+            // Read under the lock, so that epochs enter the queue in order.
+            garbage.push(self.0.epoch.load(Ordering::Acquire), object);
+        }
+    }
+
+    fn memory(&self) -> MutexGuard<'_, Option<(Allocator, Garbage)>> {
+        self.0.memory.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        // Every object holds a clone of the `Arc` around this, so all of them are retired by now.
+        // A lost device answers with an error and is idle all the same. For a borrowed device the host's
+        // contract says that its submissions have finished.
+        if self.owned {
+            // SAFETY: the device is alive.
+            let _ = unsafe { self.raw.device_wait_idle() };
+        }
+        let memory = self.memory.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if let Some((mut allocator, mut garbage)) = memory.take() {
+            // SAFETY: the device is idle.
+            unsafe { garbage.collect(u64::MAX, &self.raw, &mut allocator) };
+            drop(allocator);
+        }
+        if self.owned {
+            // SAFETY: all children are destroyed.
+            unsafe { self.raw.destroy_device(None) };
+        }
+    }
+}

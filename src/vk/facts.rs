@@ -1,0 +1,119 @@
+//! Asks a physical device for the facts that [`choose`](super::choose) weighs.
+
+use ash::vk;
+
+use super::{
+    choose::{DeviceFacts, DeviceKind, Limits},
+    instance::Instance,
+    result::VkResultExt,
+};
+use crate::error::Result;
+
+/// Every physical device with its facts, in Vulkan's order.
+///
+/// # Errors
+/// Whatever `vkEnumeratePhysicalDevices` answers.
+pub fn all_facts(instance: &Instance) -> Result<Vec<(vk::PhysicalDevice, DeviceFacts)>> {
+    // SAFETY: the instance is alive.
+    let devices =
+        unsafe { instance.raw().enumerate_physical_devices() }.of_call("vkEnumeratePhysicalDevices", "")?;
+    // SAFETY: each device was just enumerated from this instance.
+    Ok(devices.into_iter().map(|device| (device, unsafe { facts(instance.raw(), device) })).collect())
+}
+
+/// The facts of one device.
+///
+/// # Safety
+/// `device` must belong to `instance`, and both must be alive.
+pub(super) unsafe fn facts(instance: &ash::Instance, device: vk::PhysicalDevice) -> DeviceFacts {
+    // SAFETY: this function's contract, here and in the calls below.
+    let properties = unsafe { instance.get_physical_device_properties(device) };
+    let version = properties.api_version;
+    let api_version =
+        [vk::api_version_major(version), vk::api_version_minor(version), vk::api_version_patch(version)];
+    let name = text(properties.device_name_as_c_str());
+    // Before 1.2 the extended structures below don't exist; such a device is refused by its version alone.
+    let modern = version >= vk::API_VERSION_1_2;
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut features12 = vk::PhysicalDeviceVulkan12Features::default();
+    let mut features13 = vk::PhysicalDeviceVulkan13Features::default();
+    let mut features = vk::PhysicalDeviceFeatures2::default();
+    if modern {
+        let mut extended = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        // SAFETY: as above; the chain lives until the call returns.
+        unsafe { instance.get_physical_device_properties2(device, &mut extended) };
+        features = features.push_next(&mut features12);
+        if version >= vk::API_VERSION_1_3 {
+            features = features.push_next(&mut features13);
+        }
+        // SAFETY: as above.
+        unsafe { instance.get_physical_device_features2(device, &mut features) };
+    }
+    let core = features.features;
+    // SAFETY: as above.
+    let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
+    let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+    let queue_family = families.iter().position(|family| family.queue_flags.contains(wanted));
+    // SAFETY: as above.
+    let format = |format| unsafe {
+        instance.get_physical_device_format_properties(device, format).optimal_tiling_features
+    };
+    let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND | vk::FormatFeatureFlags::SAMPLED_IMAGE;
+    let depth = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT | vk::FormatFeatureFlags::SAMPLED_IMAGE;
+    let needed = [
+        (features12.timeline_semaphore == vk::TRUE, "timelineSemaphore"),
+        (features13.synchronization2 == vk::TRUE, "synchronization2"),
+        (features13.dynamic_rendering == vk::TRUE, "dynamicRendering"),
+        (features13.maintenance4 == vk::TRUE, "maintenance4"),
+        (format(vk::Format::D32_SFLOAT).contains(depth), "D32_SFLOAT depth attachments that can be sampled"),
+        (
+            format(vk::Format::R16G16B16A16_SFLOAT).contains(blended),
+            "R16G16B16A16_SFLOAT attachments that can be blended and sampled",
+        ),
+    ];
+    let limits = properties.limits;
+    DeviceFacts {
+        name,
+        kind: kind(properties.device_type),
+        driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()))
+            .trim()
+            .to_owned(),
+        api_version,
+        ids: [properties.vendor_id, properties.device_id, properties.driver_version],
+        queue_family: queue_family.and_then(|index| u32::try_from(index).ok()),
+        missing: needed.iter().filter(|(there, _)| !there).map(|(_, name)| (*name).to_owned()).collect(),
+        large_points: core.large_points == vk::TRUE,
+        pipeline_statistics: core.pipeline_statistics_query == vk::TRUE,
+        blend_f32: format(vk::Format::R32G32B32A32_SFLOAT).contains(blended),
+        limits: Limits {
+            max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
+            point_size_range: match core.large_points == vk::TRUE {
+                true => limits.point_size_range,
+                false => [1.0, 1.0],
+            },
+            point_size_granularity: limits.point_size_granularity,
+            max_image_side: limits
+                .max_image_dimension2_d
+                .min(limits.max_framebuffer_width)
+                .min(limits.max_framebuffer_height)
+                .min(limits.max_viewport_dimensions[0])
+                .min(limits.max_viewport_dimensions[1]),
+            timestamp_period_ns: limits.timestamp_period,
+            timestamp_valid_bits: queue_family.map_or(0, |index| families[index].timestamp_valid_bits),
+        },
+    }
+}
+
+fn kind(kind: vk::PhysicalDeviceType) -> DeviceKind {
+    match kind {
+        vk::PhysicalDeviceType::DISCRETE_GPU => DeviceKind::Discrete,
+        vk::PhysicalDeviceType::INTEGRATED_GPU => DeviceKind::Integrated,
+        vk::PhysicalDeviceType::VIRTUAL_GPU => DeviceKind::Virtual,
+        vk::PhysicalDeviceType::CPU => DeviceKind::Cpu,
+        _ => DeviceKind::Other,
+    }
+}
+
+fn text(raw: std::result::Result<&std::ffi::CStr, std::ffi::FromBytesUntilNulError>) -> String {
+    raw.map(|text| text.to_string_lossy().into_owned()).unwrap_or_default()
+}

@@ -1,0 +1,155 @@
+//! Two-dimensional images, each with its one view.
+
+use ash::vk;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+
+use super::{
+    device::Device,
+    garbage::Retired,
+    memory::{Memory, MemoryUse},
+    result::VkResultExt,
+};
+use crate::error::Result;
+
+/// What an image is: two-dimensional, one mip level, one layer, one sample, optimal tiling.
+#[derive(Clone, Copy, Debug)]
+pub struct ImageDesc<'a> {
+    /// Its debug name.
+    pub name: &'a str,
+    /// The format of a pixel.
+    pub format: vk::Format,
+    /// Width and height in pixels.
+    pub extent: vk::Extent2D,
+    /// What it is used for.
+    pub usage: vk::ImageUsageFlags,
+}
+
+impl ImageDesc<'_> {
+    /// The description in Vulkan's own form.
+    pub fn create_info(&self) -> vk::ImageCreateInfo<'static> {
+        vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(self.format)
+            .extent(self.extent.into())
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(self.usage)
+    }
+
+    /// Which aspect of the format there is.
+    pub fn aspect(&self) -> vk::ImageAspectFlags {
+        match self.format {
+            vk::Format::D32_SFLOAT => vk::ImageAspectFlags::DEPTH,
+            _ => vk::ImageAspectFlags::COLOR,
+        }
+    }
+}
+
+/// An image and its view, with memory of its own or in a shared block.
+pub struct Image {
+    device: Device,
+    raw: vk::Image,
+    view: vk::ImageView,
+    format: vk::Format,
+    extent: vk::Extent2D,
+    allocation: Option<Allocation>,
+}
+
+impl Image {
+    /// An image with device memory of its own.
+    ///
+    /// # Errors
+    /// Whatever the driver or the allocator answers.
+    pub fn new(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
+        let mut image = Self::unbound(device, desc)?;
+        // SAFETY: the image was just made from this device.
+        let requirements = unsafe { device.raw().get_image_memory_requirements(image.raw) };
+        let allocation = device.allocate(&AllocationCreateDesc {
+            name: desc.name,
+            requirements,
+            location: MemoryUse::Device.location(),
+            linear: false,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        })?;
+        // SAFETY: the memory outlives the image: both are retired together, the image destroyed first.
+        let bound =
+            unsafe { device.raw().bind_image_memory(image.raw, allocation.memory(), allocation.offset()) };
+        image.allocation = Some(allocation);
+        bound.of_call("vkBindImageMemory", desc.name)?;
+        image.create_view(desc)?;
+        Ok(image)
+    }
+
+    /// An image at an offset of a shared block; the block must be dropped after it.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub(crate) fn placed(device: &Device, desc: ImageDesc<'_>, memory: &Memory, offset: u64) -> Result<Self> {
+        let mut image = Self::unbound(device, desc)?;
+        let (block, start) = memory.raw();
+        // SAFETY: the caller keeps the block until after this image; the offset is aligned by the graph's plan.
+        unsafe { device.raw().bind_image_memory(image.raw, block, start + offset) }
+            .of_call("vkBindImageMemory", desc.name)?;
+        image.create_view(desc)?;
+        Ok(image)
+    }
+
+    /// The raw image.
+    pub fn raw(&self) -> vk::Image {
+        self.raw
+    }
+
+    /// The view of the whole image.
+    pub fn view(&self) -> vk::ImageView {
+        self.view
+    }
+
+    /// The format of a pixel.
+    pub fn format(&self) -> vk::Format {
+        self.format
+    }
+
+    /// Width and height in pixels.
+    pub fn extent(&self) -> vk::Extent2D {
+        self.extent
+    }
+
+    /// The image without memory and view: an owner already, so that no failure after it leaks the handle.
+    fn unbound(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
+        // SAFETY: the device is alive; the description is checked by the device's validation only.
+        let raw = unsafe { device.raw().create_image(&desc.create_info(), None) }
+            .of_call("vkCreateImage", desc.name)?;
+        device.set_name(raw, desc.name);
+        Ok(Self {
+            device: device.clone(),
+            raw,
+            view: vk::ImageView::null(),
+            format: desc.format,
+            extent: desc.extent,
+            allocation: None,
+        })
+    }
+
+    fn create_view(&mut self, desc: ImageDesc<'_>) -> Result<()> {
+        let range =
+            vk::ImageSubresourceRange::default().aspect_mask(desc.aspect()).level_count(1).layer_count(1);
+        let info = vk::ImageViewCreateInfo::default()
+            .image(self.raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(self.format)
+            .subresource_range(range);
+        // SAFETY: the image is alive and bound.
+        self.view = unsafe { self.device.raw().create_image_view(&info, None) }
+            .of_call("vkCreateImageView", desc.name)?;
+        self.device.set_name(self.view, desc.name);
+        Ok(())
+    }
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        self.device.retire(Retired::Image(self.raw, self.view, self.allocation.take()));
+    }
+}

@@ -1,0 +1,201 @@
+//! The Vulkan instance, owned or borrowed, and its validation.
+
+use std::{ffi::CStr, sync::Arc};
+
+use ash::{ext, vk};
+
+use super::{
+    messages::{Messages, on_message},
+    result::VkResultExt,
+};
+use crate::error::{ErrorKind, Result};
+
+const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+/// Whether the validation layer watches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Validation {
+    /// No layer is loaded.
+    Off,
+    /// Core, synchronization and best-practices checks. Hazards across submits too where
+    /// [`arm_validation_across_submits`] came first.
+    On,
+}
+
+/// Makes validation layers up to 1.3.239 or so look for hazards across submits, which they only do when told by
+/// the environment (newer ones do so by themselves). Adds to what the user has set.
+///
+/// # Safety
+/// No other thread may read or write the process's environment at the same time; in a program: first thing in
+/// `main`; in tests: before the process's first Vulkan instance, behind a `Once`.
+pub unsafe fn arm_validation_across_submits() {
+    const FLAG: &str = "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
+    let separator = if cfg!(windows) { ";" } else { ":" };
+    let enables = match std::env::var("VK_LAYER_ENABLES") {
+        Ok(set) if set.split(separator).any(|flag| flag == FLAG) => return,
+        Ok(set) if !set.is_empty() => format!("{set}{separator}{FLAG}"),
+        _ => FLAG.to_owned(),
+    };
+    // SAFETY: this function's own contract.
+    unsafe { std::env::set_var("VK_LAYER_ENABLES", enables) };
+}
+
+/// A Vulkan instance; clones share it.
+#[derive(Clone)]
+pub struct Instance(Arc<Shared>);
+
+struct Shared {
+    raw: ash::Instance,
+    debug_utils: bool,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
+    owned: bool,
+    // Dropped after the messenger, which points to it, is destroyed (`drop` below runs before any field's).
+    messages: Arc<Messages>,
+    // The library with Vulkan's code: dropped last.
+    _entry: Option<ash::Entry>,
+}
+
+impl Instance {
+    /// Creates an instance of Vulkan 1.3.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NoDevice`] without a Vulkan loader or driver, or where validation is asked for and its layer is
+    /// not installed.
+    pub fn new(validation: Validation) -> Result<Self> {
+        let no_device = |reason: String| ErrorKind::NoDevice { reasons: vec![reason] };
+        // SAFETY: loading the system's Vulkan loader runs its initializers, which is what it is installed for.
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| {
+            no_device(format!("the Vulkan loader (libvulkan) is not installed or can't be loaded: {error}"))
+        })?;
+        // SAFETY: no contract beyond a loaded entry, here and in the next call.
+        let version = unsafe { entry.try_enumerate_instance_version() }
+            .of_call("vkEnumerateInstanceVersion", "")?
+            .unwrap_or(vk::API_VERSION_1_0);
+        if version < vk::API_VERSION_1_3 {
+            let (major, minor) = (vk::api_version_major(version), vk::api_version_minor(version));
+            return Err(no_device(format!("the Vulkan loader is {major}.{minor}, 1.3 is needed")).into());
+        }
+        let watch = validation == Validation::On;
+        if watch && !has_layer(&entry, VALIDATION_LAYER)? {
+            let name = VALIDATION_LAYER.to_string_lossy();
+            return Err(no_device(format!("validation was asked for, but {name} is not installed")).into());
+        }
+        let debug_utils = watch || has_extension(&entry, ext::debug_utils::NAME)?;
+
+        let app = vk::ApplicationInfo::default()
+            .application_name(c"surfel")
+            .engine_name(c"surfel")
+            .api_version(vk::API_VERSION_1_3);
+        let layers: &[_] = if watch { &[VALIDATION_LAYER.as_ptr()] } else { &[] };
+        let mut extensions = Vec::new();
+        if debug_utils {
+            extensions.push(ext::debug_utils::NAME.as_ptr());
+        }
+        if watch {
+            extensions.push(ext::validation_features::NAME.as_ptr());
+        }
+        let messages = Arc::new(Messages::default());
+        let enables = [
+            vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION,
+            vk::ValidationFeatureEnableEXT::BEST_PRACTICES,
+        ];
+        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enables);
+        let mut early = messenger_info(&messages);
+        let mut info = vk::InstanceCreateInfo::default()
+            .application_info(&app)
+            .enabled_layer_names(layers)
+            .enabled_extension_names(&extensions);
+        if watch {
+            info = info.push_next(&mut features).push_next(&mut early);
+        }
+        // SAFETY: the chain above lives until the call returns; `messages` outlives the instance (field order).
+        let raw = unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
+            vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
+                no_device("no Vulkan driver is installed (or VK_DRIVER_FILES names none)".to_owned()).into()
+            }
+            other => crate::Error::vulkan("vkCreateInstance", "", other),
+        })?;
+        let mut shared =
+            Shared { raw, debug_utils, messenger: None, owned: true, messages, _entry: Some(entry.clone()) };
+        if watch {
+            let loader = ext::debug_utils::Instance::new(&entry, &shared.raw);
+            let info = messenger_info(&shared.messages);
+            // SAFETY: the extension is enabled; `messages` outlives the messenger, see `Drop`.
+            let raw = unsafe { loader.create_debug_utils_messenger(&info, None) }
+                .of_call("vkCreateDebugUtilsMessengerEXT", "")?;
+            shared.messenger = Some((loader, raw));
+        }
+        Ok(Self(Arc::new(shared)))
+    }
+
+    /// Takes a host's instance, which the host destroys after everything of ours is dropped. `debug_utils` says
+    /// whether the host enabled `VK_EXT_debug_utils`: then our objects carry names.
+    ///
+    /// # Safety
+    /// `raw` must be a live Vulkan 1.3 instance and stay alive until every object made from it here is dropped.
+    pub unsafe fn borrow(raw: ash::Instance, debug_utils: bool) -> Self {
+        let messages = Arc::default();
+        Self(Arc::new(Shared { raw, debug_utils, messenger: None, owned: false, messages, _entry: None }))
+    }
+
+    /// The raw instance.
+    pub fn raw(&self) -> &ash::Instance {
+        &self.0.raw
+    }
+
+    /// Whether `VK_EXT_debug_utils` is enabled.
+    pub fn has_debug_utils(&self) -> bool {
+        self.0.debug_utils
+    }
+
+    /// Whether the validation layer watches this instance through us.
+    pub fn is_validated(&self) -> bool {
+        self.0.messenger.is_some()
+    }
+
+    /// What the validation layer said. Stays readable after the instance is gone.
+    pub fn messages(&self) -> Arc<Messages> {
+        Arc::clone(&self.0.messages)
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        if let Some((loader, messenger)) = self.messenger.take() {
+            // SAFETY: created from this instance, destroyed once.
+            unsafe { loader.destroy_debug_utils_messenger(messenger, None) };
+        }
+        if self.owned {
+            // SAFETY: every child holds a clone of the `Arc` around this, so none is left.
+            unsafe { self.raw.destroy_instance(None) };
+        }
+    }
+}
+
+fn messenger_info(messages: &Arc<Messages>) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+    vk::DebugUtilsMessengerCreateInfoEXT::default()
+        .message_severity(
+            vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
+        )
+        .message_type(
+            vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
+                | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE
+                | vk::DebugUtilsMessageTypeFlagsEXT::GENERAL,
+        )
+        .pfn_user_callback(Some(on_message))
+        .user_data(Arc::as_ptr(messages).cast_mut().cast())
+}
+
+fn has_layer(entry: &ash::Entry, name: &CStr) -> Result<bool> {
+    // SAFETY: no contract beyond a loaded entry.
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }
+        .of_call("vkEnumerateInstanceLayerProperties", "")?;
+    Ok(layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(name)))
+}
+
+fn has_extension(entry: &ash::Entry, name: &CStr) -> Result<bool> {
+    // SAFETY: no contract beyond a loaded entry.
+    let extensions = unsafe { entry.enumerate_instance_extension_properties(None) }
+        .of_call("vkEnumerateInstanceExtensionProperties", "")?;
+    Ok(extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)))
+}

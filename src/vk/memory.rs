@@ -1,0 +1,82 @@
+//! Device memory: where it lies, and blocks that several transient resources share.
+
+use ash::vk;
+use gpu_allocator::{
+    MemoryLocation,
+    vulkan::{Allocation, AllocationCreateDesc, AllocationScheme},
+};
+
+use super::{device::Device, garbage::Retired};
+use crate::error::Result;
+
+/// Who touches a piece of memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemoryUse {
+    /// Only the device.
+    Device,
+    /// The host writes, the device reads.
+    Upload,
+    /// The device writes, the host reads.
+    Readback,
+}
+
+impl MemoryUse {
+    pub(super) fn location(self) -> MemoryLocation {
+        match self {
+            Self::Device => MemoryLocation::GpuOnly,
+            Self::Upload => MemoryLocation::CpuToGpu,
+            Self::Readback => MemoryLocation::GpuToCpu,
+        }
+    }
+}
+
+/// A block of device memory in which a render graph places its transient resources.
+pub struct Memory {
+    device: Device,
+    allocation: Option<Allocation>,
+    size: u64,
+}
+
+impl Memory {
+    /// Allocates a block. `linear` is true for buffers, false for images.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Memory`].
+    pub fn new(
+        device: &Device,
+        name: &str,
+        requirements: vk::MemoryRequirements,
+        linear: bool,
+    ) -> Result<Self> {
+        let allocation = device.allocate(&AllocationCreateDesc {
+            name,
+            requirements,
+            location: MemoryLocation::GpuOnly,
+            linear,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        })?;
+        Ok(Self { device: device.clone(), allocation: Some(allocation), size: requirements.size })
+    }
+
+    /// The block's size in bytes.
+    pub fn size(&self) -> u64 {
+        self.size
+    }
+
+    /// The raw memory and the block's offset in it.
+    pub(super) fn raw(&self) -> (vk::DeviceMemory, u64) {
+        self.allocation.as_ref().map_or((vk::DeviceMemory::null(), 0), |allocation| {
+            // SAFETY: what is bound to the memory is retired before this block is: its owner drops it first, and
+            // the queue of retired objects keeps the order.
+            (unsafe { allocation.memory() }, allocation.offset())
+        })
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        if let Some(allocation) = self.allocation.take() {
+            self.device.retire(Retired::Memory(allocation));
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Vulkan 1.3 with owners: one kind of object a file, each named, each destroyed after its last use on the device.
+//!
+//! Every object holds the [`Device`] it was made by, so that dropping them in any order is sound. A drop never
+//! destroys at once: it hands the raw handle to the device's [deferred destruction](Device::epoch_done), because a
+//! command buffer may still use it. Instance and device are either owned or borrowed from an embedding host; all
+//! else works on both alike.
+
+mod allow_list;
+mod buffer;
+mod choose;
+mod commands;
+mod compute_pipeline;
+mod descriptors;
+mod device;
+mod facts;
+mod garbage;
+mod graphics_pipeline;
+mod image;
+mod instance;
+mod layout;
+mod memory;
+mod messages;
+mod pipeline_cache;
+mod queries;
+mod queue;
+mod result;
+mod staging;
+
+pub use allow_list::{ALLOWED, Allowed};
+pub use buffer::{Buffer, BufferDesc};
+pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
+pub use commands::CommandPool;
+pub use compute_pipeline::{ComputePipeline, ComputePipelineDesc};
+pub use descriptors::{Binding, Descriptor, DescriptorPool, SetLayout};
+pub use device::{BorrowedDevice, Device, EnabledFeatures};
+pub use facts::all_facts;
+pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
+pub use image::{Image, ImageDesc};
+pub use instance::{Instance, Validation, arm_validation_across_submits};
+pub use layout::PipelineLayout;
+pub use memory::{Memory, MemoryUse};
+pub use messages::{Message, Messages};
+pub use pipeline_cache::PipelineCache;
+pub use queries::{Statistics, Timestamps};
+pub use queue::Queue;
+pub use result::VkResultExt;
+pub use staging::Staging;
+
+/// One shader stage of a pipeline: its name for messages, its SPIR-V, its specialization constants.
+#[derive(Clone, Copy)]
+pub struct Stage<'a> {
+    /// Shown in messages and as the module's debug name.
+    pub name: &'a str,
+    /// The SPIR-V words; the entry point is `main`.
+    pub spirv: &'a [u32],
+    /// Values of specialization constants by their id, as 32-bit patterns (booleans are 0 or 1).
+    pub constants: &'a [(u32, u32)],
+}

@@ -1,0 +1,129 @@
+//! The pipeline cache, kept on disk from run to run.
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use ash::vk;
+
+use super::{choose::DeviceFacts, device::Device, garbage::Retired, result::VkResultExt};
+use crate::error::{Error, Result};
+
+/// Compiled pipelines, in memory and, where a folder was given, on disk.
+pub struct PipelineCache {
+    device: Device,
+    raw: vk::PipelineCache,
+    file: Option<PathBuf>,
+}
+
+impl PipelineCache {
+    /// Opens the cache of this device and driver in `folder`; `None` keeps it in memory only. A file that is
+    /// missing, cut or of another driver counts as absent: the cache then starts empty.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn open(device: &Device, folder: Option<&Path>) -> Result<Self> {
+        const NAME: &str = "pipeline cache";
+        let file = folder.map(|folder| folder.join(file_name(device.facts())));
+        let stored = file.as_ref().and_then(|file| std::fs::read(file).ok()).unwrap_or_default();
+        // SAFETY: the device is alive.
+        let properties = unsafe { device.instance().raw().get_physical_device_properties(device.physical()) };
+        let data: &[u8] = match fits(&stored, &properties) {
+            true => &stored,
+            false => &[],
+        };
+        let create = |data: &[u8]| {
+            let info = vk::PipelineCacheCreateInfo::default().initial_data(data);
+            // SAFETY: the data has the header of this very driver and device.
+            unsafe { device.raw().create_pipeline_cache(&info, None) }
+        };
+        let raw = create(data).or_else(|_| create(&[])).of_call("vkCreatePipelineCache", NAME)?;
+        device.set_name(raw, NAME);
+        Ok(Self { device: device.clone(), raw, file })
+    }
+
+    /// The raw cache.
+    pub fn raw(&self) -> vk::PipelineCache {
+        self.raw
+    }
+
+    /// Writes the cache to its file, whole or not at all; nothing to do without a folder.
+    ///
+    /// # Errors
+    /// Whatever the driver or the file system answers. Losing the cache costs time only.
+    pub fn save(&self) -> Result<()> {
+        let Some(file) = &self.file else { return Ok(()) };
+        // SAFETY: the cache is alive.
+        let data = unsafe { self.device.raw().get_pipeline_cache_data(self.raw) }
+            .of_call("vkGetPipelineCacheData", "pipeline cache")?;
+        let write = || -> std::io::Result<()> {
+            if let Some(folder) = file.parent() {
+                std::fs::create_dir_all(folder)?;
+            }
+            let unfinished = file.with_extension(format!("{}.tmp", std::process::id()));
+            let written = std::fs::File::create(&unfinished)
+                .and_then(|mut out| out.write_all(&data))
+                .and_then(|()| std::fs::rename(&unfinished, file));
+            if written.is_err() {
+                let _ = std::fs::remove_file(&unfinished);
+            }
+            written
+        };
+        write().map_err(|error| Error::file(file.clone(), "write", error))
+    }
+}
+
+impl Drop for PipelineCache {
+    fn drop(&mut self) {
+        self.device.retire(Retired::PipelineCache(self.raw));
+    }
+}
+
+/// One file per vendor, device and driver version.
+fn file_name(facts: &DeviceFacts) -> String {
+    let [vendor, device, driver] = facts.ids;
+    format!("pipelines-{vendor:08x}-{device:08x}-{driver:08x}.bin")
+}
+
+/// Whether stored data starts with the header (Vulkan 1.3, `VkPipelineCacheHeaderVersionOne`) of this device.
+fn fits(data: &[u8], properties: &vk::PhysicalDeviceProperties) -> bool {
+    const HEADER_BYTES: usize = 32;
+    let word = |i: usize| data.get(4 * i..4 * i + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+    data.len() > HEADER_BYTES
+        && word(0) == Some(HEADER_BYTES as u32)
+        && word(1) == Some(1)
+        && word(2) == Some(properties.vendor_id)
+        && word(3) == Some(properties.device_id)
+        && data[16..32] == properties.pipeline_cache_uuid
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_whole_header_of_the_same_device_fits() {
+        let properties = vk::PhysicalDeviceProperties {
+            vendor_id: 7,
+            device_id: 9,
+            pipeline_cache_uuid: [3; 16],
+            ..Default::default()
+        };
+        let mut data = Vec::new();
+        for word in [32_u32, 1, 7, 9] {
+            data.extend(word.to_le_bytes());
+        }
+        data.extend([3; 16]);
+        assert!(!fits(&data, &properties), "a header alone holds nothing");
+        data.push(0);
+        assert!(fits(&data, &properties));
+        for broken in [0, 4, 8, 12, 16, 31] {
+            let mut other = data.clone();
+            other[broken] ^= 1;
+            assert!(!fits(&other, &properties), "byte {broken}");
+        }
+        assert!(!fits(&data[..20], &properties));
+        assert!(!fits(&[], &properties));
+    }
+}

@@ -1,0 +1,222 @@
+//! Queries: timestamps and pipeline statistics, with the device's own limits honored.
+
+use ash::vk;
+
+use super::{device::Device, garbage::Retired, result::VkResultExt};
+use crate::error::Result;
+
+/// A pool of timestamps.
+pub struct Timestamps {
+    pool: QueryPool,
+    period_ns: f64,
+    valid_bits: u32,
+}
+
+impl Timestamps {
+    /// A pool of `count` timestamps; `None` where the queue has none.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, name: &str, count: u32) -> Result<Option<Self>> {
+        let limits = &device.facts().limits;
+        if limits.timestamp_valid_bits == 0 {
+            return Ok(None);
+        }
+        let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(count);
+        Ok(Some(Self {
+            pool: QueryPool::new(device, name, info)?,
+            period_ns: f64::from(limits.timestamp_period_ns),
+            valid_bits: limits.timestamp_valid_bits,
+        }))
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u32 {
+        self.pool.count
+    }
+
+    /// Records the reset of all; comes before any write of a frame, outside of rendering.
+    ///
+    /// # Safety
+    /// `commands` must be recording, outside of rendering; no unfinished submission uses the pool.
+    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
+        // SAFETY: this function's contract.
+        unsafe { self.pool.reset(commands) };
+    }
+
+    /// Records a timestamp that is taken once all earlier commands are complete.
+    ///
+    /// # Safety
+    /// `commands` must be recording; `index` is below [`Timestamps::count`] and was reset since its last write.
+    pub unsafe fn write(&self, commands: vk::CommandBuffer, index: u32) {
+        let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+        // SAFETY: this function's contract.
+        unsafe { self.pool.device.raw().cmd_write_timestamp2(commands, stage, self.pool.raw, index) };
+    }
+
+    /// The first `count` timestamps in ticks, each `None` where it was not written.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn read(&self, count: u32) -> Result<Vec<Option<u64>>> {
+        let values = self.pool.read(count, 1)?;
+        let mask = if self.valid_bits >= 64 { u64::MAX } else { (1 << self.valid_bits) - 1 };
+        Ok(values.into_iter().map(|value| value.map(|v| v[0] & mask)).collect())
+    }
+
+    /// Seconds from one timestamp to a later one, across one wrap of the counter.
+    pub fn seconds_between(&self, begin: u64, end: u64) -> f64 {
+        seconds_between(begin, end, self.valid_bits, self.period_ns)
+    }
+}
+
+fn seconds_between(begin: u64, end: u64, valid_bits: u32, period_ns: f64) -> f64 {
+    let mask = if valid_bits >= 64 { u64::MAX } else { (1 << valid_bits) - 1 };
+    (end.wrapping_sub(begin) & mask) as f64 * period_ns * 1e-9
+}
+
+/// A pool of counts of vertices and fragments.
+pub struct Statistics {
+    pool: QueryPool,
+}
+
+impl Statistics {
+    /// A pool of `count` queries; `None` where the device can't count.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, name: &str, count: u32) -> Result<Option<Self>> {
+        if !device.features().pipeline_statistics {
+            return Ok(None);
+        }
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::PIPELINE_STATISTICS)
+            .query_count(count)
+            .pipeline_statistics(
+                vk::QueryPipelineStatisticFlags::VERTEX_SHADER_INVOCATIONS
+                    | vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS,
+            );
+        Ok(Some(Self { pool: QueryPool::new(device, name, info)? }))
+    }
+
+    /// Records the reset of all.
+    ///
+    /// # Safety
+    /// As [`Timestamps::reset`].
+    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
+        // SAFETY: this function's contract.
+        unsafe { self.pool.reset(commands) };
+    }
+
+    /// Records the begin of a count.
+    ///
+    /// # Safety
+    /// `commands` must be recording; the query was reset and is not active; begin and end come on the same side of
+    /// a rendering's begin and end.
+    pub unsafe fn begin(&self, commands: vk::CommandBuffer, index: u32) {
+        let flags = vk::QueryControlFlags::empty();
+        // SAFETY: this function's contract.
+        unsafe { self.pool.device.raw().cmd_begin_query(commands, self.pool.raw, index, flags) };
+    }
+
+    /// Records the end of a count.
+    ///
+    /// # Safety
+    /// As [`Statistics::begin`]; the query is active.
+    pub unsafe fn end(&self, commands: vk::CommandBuffer, index: u32) {
+        // SAFETY: this function's contract.
+        unsafe { self.pool.device.raw().cmd_end_query(commands, self.pool.raw, index) };
+    }
+
+    /// Vertex and fragment invocations of the first `count` queries, each `None` where it was not written.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn read(&self, count: u32) -> Result<Vec<Option<[u64; 2]>>> {
+        let values = self.pool.read(count, 2)?;
+        Ok(values.into_iter().map(|value| value.map(|v| [v[0], v[1]])).collect())
+    }
+}
+
+struct QueryPool {
+    device: Device,
+    raw: vk::QueryPool,
+    count: u32,
+    name: String,
+}
+
+impl QueryPool {
+    fn new(device: &Device, name: &str, info: vk::QueryPoolCreateInfo<'_>) -> Result<Self> {
+        // SAFETY: the device is alive and has the feature, see the callers.
+        let raw =
+            unsafe { device.raw().create_query_pool(&info, None) }.of_call("vkCreateQueryPool", name)?;
+        device.set_name(raw, name);
+        Ok(Self { device: device.clone(), raw, count: info.query_count, name: name.to_owned() })
+    }
+
+    /// # Safety
+    /// `commands` must be recording outside of rendering.
+    unsafe fn reset(&self, commands: vk::CommandBuffer) {
+        // SAFETY: this function's contract.
+        unsafe { self.device.raw().cmd_reset_query_pool(commands, self.raw, 0, self.count) };
+    }
+
+    /// The first `count` queries of `words` values each. Does not wait: what is not available is `None`.
+    fn read(&self, count: u32, words: usize) -> Result<Vec<Option<[u64; 3]>>> {
+        let count = count.min(self.count) as usize;
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let stride = words + 1;
+        let mut data = vec![0_u64; count * stride];
+        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WITH_AVAILABILITY;
+        let size = size_of_val(data.as_slice());
+        let get = self.device.raw().fp_v1_0().get_query_pool_results;
+        // SAFETY: `data` has room for `count` results of `stride` 64-bit values; the pool is alive. The raw function
+        // is called because ash's wrapper takes one element a query.
+        let result = unsafe {
+            get(
+                self.device.raw().handle(),
+                self.raw,
+                0,
+                count as u32,
+                size,
+                data.as_mut_ptr().cast(),
+                (stride * size_of::<u64>()) as u64,
+                flags,
+            )
+        };
+        match result {
+            vk::Result::SUCCESS | vk::Result::NOT_READY => {}
+            other => return Err(other).of_call("vkGetQueryPoolResults", &self.name),
+        }
+        Ok(data
+            .chunks_exact(stride)
+            .map(|row| {
+                (row[words] != 0).then(|| {
+                    let mut values = [0; 3];
+                    values[..words].copy_from_slice(&row[..words]);
+                    values
+                })
+            })
+            .collect())
+    }
+}
+
+impl Drop for QueryPool {
+    fn drop(&mut self) {
+        self.device.retire(Retired::QueryPool(self.raw));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::seconds_between;
+
+    #[test]
+    fn period_and_wrap_are_honored() {
+        assert_eq!(seconds_between(10, 35, 64, 40.0), 1e-6);
+        assert_eq!(seconds_between((1 << 36) - 5, 5, 36, 1.0), 1e-8);
+        assert_eq!(seconds_between(u64::MAX, 0, 64, 1e9), 1.0);
+    }
+}

@@ -1,0 +1,98 @@
+//! Our own queue with its timeline: each submission counts it up by one epoch.
+
+use std::sync::{
+    Mutex, PoisonError,
+    atomic::{AtomicU64, Ordering},
+};
+
+use ash::vk;
+
+use super::{commands::CommandPool, device::Device, garbage::Retired, result::VkResultExt};
+use crate::error::Result;
+
+/// The one queue of an owned device. An embedding host has its own and needs none of this.
+pub struct Queue {
+    device: Device,
+    raw: Mutex<vk::Queue>,
+    timeline: vk::Semaphore,
+    submitted: AtomicU64,
+}
+
+impl Queue {
+    /// The first queue of the device's family. At most one `Queue` may exist for a device at a time.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device) -> Result<Self> {
+        // SAFETY: the device was made with one queue of this family.
+        let raw = unsafe { device.raw().get_device_queue(device.queue_family(), 0) };
+        device.set_name(raw, "queue");
+        let mut kind = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
+        let info = vk::SemaphoreCreateInfo::default().push_next(&mut kind);
+        // SAFETY: the device is alive, timelineSemaphore is enabled.
+        let timeline =
+            unsafe { device.raw().create_semaphore(&info, None) }.of_call("vkCreateSemaphore", "timeline")?;
+        device.set_name(timeline, "timeline");
+        Ok(Self { device: device.clone(), raw: Mutex::new(raw), timeline, submitted: AtomicU64::new(0) })
+    }
+
+    /// Submits a recorded command buffer and returns its epoch, to [wait](Self::wait) for.
+    ///
+    /// # Safety
+    /// `commands` is recorded and belongs to the device, and all that it uses is alive until the epoch is done.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub unsafe fn submit(&self, commands: vk::CommandBuffer) -> Result<u64> {
+        let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
+        let epoch = self.device.end_epoch();
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
+        let signals = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(self.timeline)
+            .value(epoch)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let info = vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signals);
+        // SAFETY: this function's contract; the lock synchronizes the queue.
+        unsafe { self.device.raw().queue_submit2(*queue, &[info], vk::Fence::null()) }
+            .of_call("vkQueueSubmit2", "queue")?;
+        self.submitted.store(epoch, Ordering::Release);
+        Ok(epoch)
+    }
+
+    /// Waits until an epoch is done, then destroys what was dropped up to it.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    pub fn wait(&self, epoch: u64) -> Result<()> {
+        let (semaphores, values) = ([self.timeline], [epoch]);
+        let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
+        // SAFETY: the semaphore is alive; `epoch` was submitted, or the wait never ends, which `submit` prevents.
+        unsafe { self.device.raw().wait_semaphores(&info, u64::MAX) }
+            .of_call("vkWaitSemaphores", "timeline")?;
+        // SAFETY: the timeline counts every submission of this device in order.
+        unsafe { self.device.epoch_done(epoch) };
+        Ok(())
+    }
+
+    /// Records, submits and waits: for work that is done once.
+    ///
+    /// # Errors
+    /// What `record` or the driver answers.
+    pub fn run_once(&self, name: &str, record: impl FnOnce(vk::CommandBuffer) -> Result<()>) -> Result<()> {
+        let pool = CommandPool::new(&self.device, name)?;
+        // SAFETY: the pool is new.
+        record(unsafe { pool.begin() }?)?;
+        // SAFETY: just recorded; this function waits before anything can be dropped.
+        let epoch = unsafe { self.submit(pool.end()?) }?;
+        self.wait(epoch)
+    }
+}
+
+impl Drop for Queue {
+    fn drop(&mut self) {
+        // The timeline must not be destroyed while a submission is to signal it, and an epoch that is being
+        // recorded is never "done" without another submission: so wait here for the last one.
+        let _ = self.wait(self.submitted.load(Ordering::Acquire));
+        self.device.retire(Retired::Semaphore(self.timeline));
+    }
+}

@@ -1,0 +1,63 @@
+//! Uploads: bytes go to a buffer that the host can write, from there to the device's own by a copy.
+
+use ash::vk;
+
+use super::{
+    buffer::{Buffer, BufferDesc},
+    device::Device,
+    memory::MemoryUse,
+};
+use crate::error::Result;
+
+/// One batch of uploads. Fill it, record it, and keep it until the submission has finished (or drop it any time
+/// after the submission: the memory waits for its epoch).
+pub struct Staging {
+    device: Device,
+    buffer: Buffer,
+    used: usize,
+    copies: Vec<(vk::Buffer, vk::BufferCopy)>,
+}
+
+impl Staging {
+    /// A batch with room for `bytes` in all (above 0).
+    ///
+    /// # Errors
+    /// Whatever the driver or the allocator answers.
+    pub fn new(device: &Device, name: &str, bytes: u64) -> Result<Self> {
+        let desc = BufferDesc { name, size: bytes, usage: vk::BufferUsageFlags::TRANSFER_SRC };
+        let buffer = Buffer::new(device, desc, MemoryUse::Upload)?;
+        Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new() })
+    }
+
+    /// Adds bytes for the start of `target`, whose usage includes `TRANSFER_DST`. The batch must have room.
+    pub fn push(&mut self, target: &Buffer, bytes: &[u8]) {
+        let begin = self.used;
+        self.buffer.bytes_mut()[begin..begin + bytes.len()].copy_from_slice(bytes);
+        self.used += bytes.len();
+        let region = vk::BufferCopy::default().src_offset(begin as u64).size(bytes.len() as u64);
+        if !bytes.is_empty() {
+            self.copies.push((target.raw(), region));
+        }
+    }
+
+    /// Records all copies and what makes them visible to every later command's shaders.
+    ///
+    /// # Safety
+    /// `commands` must be recording outside of rendering; the targets are alive until it has run.
+    pub unsafe fn record(&self, commands: vk::CommandBuffer) {
+        let barriers = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::COPY)
+            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .dst_access_mask(vk::AccessFlags2::SHADER_STORAGE_READ)];
+        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+        let device = self.device.raw();
+        // SAFETY: this function's contract; each region lies within both buffers.
+        unsafe {
+            for (target, region) in &self.copies {
+                device.cmd_copy_buffer(commands, self.buffer.raw(), *target, std::slice::from_ref(region));
+            }
+            device.cmd_pipeline_barrier2(commands, &info);
+        }
+    }
+}
