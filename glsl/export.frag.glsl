@@ -1,0 +1,30 @@
+// The normalized surface itself, for whoever wants data instead of a picture. Empty pixels: weight, albedo and normal
+// 0, depth +infinity.
+#version 460
+#include "inc/surface.glsl"
+
+layout(set = 0, binding = 2) uniform texture2D visible_depth;
+
+// The host's mirror is `ExportConstants` in src/passes/constants.rs; the build compares the offsets.
+struct ExportConstants {
+    float near; // world unit
+};
+layout(push_constant, std430) uniform Push { ExportConstants push; };
+
+layout(location = 0) out float weight;
+layout(location = 1) out vec4 albedo;
+layout(location = 2) out vec4 normal;
+layout(location = 3) out float depth; // view-space z of the normalized surface, world unit
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    Surface surface = load_surface(pixel);
+    bool covered = surface.weight > 0.0;
+    float depth_sum = texelFetch(normal_sums, pixel, 0).w; // of weight * z / z_visible
+    float z_visible = push.near / texelFetch(visible_depth, pixel, 0).r;
+    weight = surface.weight;
+    albedo = vec4(surface.albedo, covered ? 1.0 : 0.0);
+    normal = covered ? vec4(surface.normal, 1.0) : vec4(0.0);
+    depth = covered ? z_visible * (depth_sum / surface.weight) : uintBitsToFloat(0x7f800000u);
+}

@@ -1,0 +1,28 @@
+// The tests' lever: each formula of the GPU path can be falsified by 1%, so that a comparison with the oracle that
+// still passes is caught lying. Without TEST_FORMULAS (every build but the tests') nothing of it is compiled.
+
+#ifdef TEST_FORMULAS
+layout(constant_id = 31) const uint PERTURBED_FORMULA = 0;
+#define FORMULA(number, value) ((PERTURBED_FORMULA == number) ? 1.01 * (value) : (value))
+#else
+#define FORMULA(number, value) (value)
+#endif
+
+// The numbers; src/passes/formula.rs names the same.
+#define FORMULA_INVERSE_MAPPING_U 1
+#define FORMULA_INVERSE_MAPPING_V 2
+#define FORMULA_INVERSE_MAPPING_W 3
+#define FORMULA_EXPANSION_POINT 4
+#define FORMULA_EXPANSION_CONSTANTS 5
+#define FORMULA_BOX_CENTER 6
+#define FORMULA_BOX_HALF_SIZE 7
+#define FORMULA_NEAR_BOX 8
+#define FORMULA_EPSILON_SHIFT 9
+#define FORMULA_FILTER_RADIUS 10
+#define FORMULA_FILTER_ROTATION 11
+#define FORMULA_KERNEL 12
+#define FORMULA_TANGENT_FRAME 13
+#define FORMULA_NORMAL 14
+#define FORMULA_COLOR 15
+#define FORMULA_DEPTH_SUM 16
+#define FORMULA_VIEW_TRANSFORM 17

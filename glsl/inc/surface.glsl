@@ -1,0 +1,30 @@
+// The sums of the accumulation pass, normalized: the surface seen at a pixel.
+
+layout(set = 0, binding = 0) uniform texture2D color_sums;
+layout(set = 0, binding = 1) uniform texture2D normal_sums;
+
+struct Surface {
+    float weight; // sum of weights; 0: nothing here
+    vec3 albedo;  // linear
+    vec3 normal;  // unit, view space
+};
+
+// Normals that cancel give (0, 0, -1), the one toward the viewer.
+vec3 normal_of_sum(vec3 sum)
+{
+    float largest = max(max(abs(sum.x), abs(sum.y)), abs(sum.z));
+    if (!(largest > 0.0)) {
+        return vec3(0.0, 0.0, -1.0);
+    }
+    return normalize(sum / largest); // scaled, so that tiny sums of 32 bits don't underflow when squared
+}
+
+Surface load_surface(ivec2 pixel)
+{
+    vec4 color_sum = texelFetch(color_sums, pixel, 0);
+    Surface surface;
+    surface.weight = color_sum.a;
+    surface.albedo = color_sum.a > 0.0 ? color_sum.rgb / color_sum.a : vec3(0.0);
+    surface.normal = normal_of_sum(texelFetch(normal_sums, pixel, 0).xyz);
+    return surface;
+}

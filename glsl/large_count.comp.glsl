@@ -1,0 +1,44 @@
+// Finds the splats whose point would exceed the device's largest: a bit a splat, a count a block. The decision is
+// made here once; the vertex stages only read it, so that no splat is drawn twice or not at all.
+#version 460
+#define LARGE_BITS_ACCESS writeonly
+#include "inc/perturb.glsl"
+#include "inc/frame.glsl"
+#include "inc/variant.glsl"
+#include "inc/splat.glsl"
+#include "inc/adjust.glsl"
+#include "inc/box.glsl"
+#include "inc/setup.glsl"
+
+#define BLOCK 256
+layout(local_size_x = BLOCK) in;
+layout(set = 1, binding = 0, std430) writeonly buffer LargeBits { uint large_bits[]; };
+layout(set = 1, binding = 1, std430) writeonly buffer BlockCounts { uint block_counts[]; };
+
+shared uint words[BLOCK / 32];
+
+void main()
+{
+    uint local = gl_LocalInvocationIndex;
+    uint index = gl_GlobalInvocationID.x;
+    if (local < BLOCK / 32) {
+        words[local] = 0;
+    }
+    barrier();
+    Setup o;
+    // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most.
+    if (index < frame.splat_count && set_up(index, o) && point_size_px(o) > frame.point_cap_px - 1.0) {
+        atomicOr(words[local / 32], 1u << (local % 32));
+    }
+    barrier();
+    if (local < BLOCK / 32) {
+        large_bits[gl_WorkGroupID.x * (BLOCK / 32) + local] = words[local];
+    }
+    if (local == 0) {
+        uint count = 0;
+        for (uint i = 0; i < BLOCK / 32; i++) {
+            count += bitCount(words[i]);
+        }
+        block_counts[gl_WorkGroupID.x] = count;
+    }
+}
