@@ -10,5 +10,6 @@ pub mod report;
 #[cfg(feature = "files")]
 pub mod save;
 pub mod scene;
+pub mod shaders;
 
 pub use error::{Error, ErrorKind, Result};
