@@ -93,7 +93,7 @@ fn an_include_that_is_missing_outside_or_circular_is_an_error() {
 
 #[test]
 fn a_warning_is_an_error() {
-    // `#pragma` with an unknown extension behaviour would be silent; a requirement of `warn` is not.
+    // To enable what the compiler does not know is the warning that needs the least text; `require` is an error.
     let warned = format!("{COMPUTE}#extension GL_unheard_of : enable\nvoid main() {{}}\n");
     let said = errors(&[("a.comp.glsl", &warned)], &[]);
     assert!(said.contains("glsl/a.comp.glsl:4: error:") && said.contains("GL_unheard_of"), "{said}");

@@ -2,11 +2,10 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use rspirv::{
-    binary::{Consumer, ParseAction, parse_words},
-    dr::{Instruction, ModuleHeader, Operand},
-    spirv::{Decoration, Op, Word},
-};
+use super::spirv::{Instruction, decoration, instructions, op, text};
+
+/// The number that stands for a result, such as a type.
+type Id = u32;
 
 /// A member of a struct that lies in a buffer.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,40 +29,16 @@ pub struct StructLayout {
     pub stride_bytes: Option<u32>,
 }
 
-/// The structs of a module that have a memory layout (members with offsets) and a name.
+/// The structs of a module that have one of these names and a memory layout (members with offsets).
 ///
 /// # Errors
 ///
 /// A sentence, where the words are no SPIR-V module or use a type whose size is not known here.
-pub fn struct_layouts(spirv: &[u32]) -> Result<Vec<StructLayout>, String> {
-    let mut module = Instructions(Vec::new());
-    parse_words(spirv, &mut module).map_err(|e| format!("cannot read the SPIR-V: {e}"))?;
-    let types = Types::new(&module.0);
-    let structs = module.0.iter().filter(|i| i.class.opcode == Op::TypeStruct);
-    structs.filter_map(|i| types.layout(i).transpose()).collect()
-}
-
-/// A module's instructions in order. rspirv's own loader does not take `OpExecutionModeId`, which every compute
-/// shader in SPIR-V 1.6 has.
-struct Instructions(Vec<Instruction>);
-
-impl Consumer for Instructions {
-    fn initialize(&mut self) -> ParseAction {
-        ParseAction::Continue
-    }
-
-    fn finalize(&mut self) -> ParseAction {
-        ParseAction::Continue
-    }
-
-    fn consume_header(&mut self, _: ModuleHeader) -> ParseAction {
-        ParseAction::Continue
-    }
-
-    fn consume_instruction(&mut self, instruction: Instruction) -> ParseAction {
-        self.0.push(instruction);
-        ParseAction::Continue
-    }
+pub fn struct_layouts(spirv: &[u32], names: &[&str]) -> Result<Vec<StructLayout>, String> {
+    let module = instructions(spirv)?;
+    let types = Types::new(&module);
+    let structs = module.iter().filter(|i| i.opcode == op::TYPE_STRUCT);
+    structs.filter_map(|i| types.layout(i.operands, names).transpose()).collect()
 }
 
 /// Adds the layout that `shader` has of a struct to what the shaders before it said.
@@ -93,129 +68,115 @@ pub fn merge(
 }
 
 /// The types of a module and what is said about them, by id.
+#[derive(Default)]
 struct Types<'a> {
-    by_id: HashMap<Word, &'a Instruction>,
-    names: HashMap<Word, &'a str>,
-    member_names: HashMap<(Word, Word), &'a str>,
-    offsets: HashMap<(Word, Word), u32>,
-    matrix_strides: HashMap<(Word, Word), u32>,
-    row_major: HashSet<(Word, Word)>,
-    array_strides: HashMap<Word, u32>,
+    /// Opcode, and the operands after the result; constants too, for they give arrays their lengths.
+    by_id: BTreeMap<Id, (u32, &'a [u32])>,
+    names: HashMap<Id, String>,
+    member_names: HashMap<(Id, u32), String>,
+    offsets: HashMap<(Id, u32), u32>,
+    matrix_strides: HashMap<(Id, u32), u32>,
+    row_major: HashSet<(Id, u32)>,
+    array_strides: HashMap<Id, u32>,
 }
 
 impl<'a> Types<'a> {
-    fn new(module: &'a [Instruction]) -> Self {
-        let mut types = Self {
-            by_id: module.iter().filter_map(|i| Some((i.result_id?, i))).collect(),
-            names: HashMap::new(),
-            member_names: HashMap::new(),
-            offsets: HashMap::new(),
-            matrix_strides: HashMap::new(),
-            row_major: HashSet::new(),
-            array_strides: HashMap::new(),
-        };
+    fn new(module: &[Instruction<'a>]) -> Self {
+        let mut types = Self::default();
         for instruction in module {
-            match (instruction.class.opcode, instruction.operands.as_slice()) {
-                (Op::Name, [Operand::IdRef(id), Operand::LiteralString(text)]) => {
-                    types.names.insert(*id, text);
+            match (instruction.opcode, instruction.operands) {
+                (op::NAME, &[id, ref name @ ..]) => {
+                    types.names.insert(id, text(name));
                 }
-                (
-                    Op::MemberName,
-                    [Operand::IdRef(id), Operand::LiteralBit32(member), Operand::LiteralString(text)],
-                ) => {
-                    types.member_names.insert((*id, *member), text);
+                (op::MEMBER_NAME, &[id, member, ref name @ ..]) => {
+                    types.member_names.insert((id, member), text(name));
                 }
-                (Op::Decorate | Op::MemberDecorate, operands) => types.add_annotation(operands),
+                (op::DECORATE, &[id, decoration::ARRAY_STRIDE, bytes]) => {
+                    types.array_strides.insert(id, bytes);
+                }
+                (op::MEMBER_DECORATE, &[id, member, decoration::OFFSET, bytes]) => {
+                    types.offsets.insert((id, member), bytes);
+                }
+                (op::MEMBER_DECORATE, &[id, member, decoration::MATRIX_STRIDE, bytes]) => {
+                    types.matrix_strides.insert((id, member), bytes);
+                }
+                (op::MEMBER_DECORATE, &[id, member, decoration::ROW_MAJOR]) => {
+                    types.row_major.insert((id, member));
+                }
+                (opcode @ op::TYPE_INT..=op::TYPE_POINTER, &[id, ref operands @ ..]) => {
+                    types.by_id.insert(id, (opcode, operands));
+                }
+                (op::CONSTANT, &[_type, id, ref value @ ..]) => {
+                    types.by_id.insert(id, (op::CONSTANT, value));
+                }
                 _ => {}
             }
         }
         types
     }
 
-    fn add_annotation(&mut self, operands: &[Operand]) {
-        use Operand::{Decoration as Is, IdRef, LiteralBit32 as Number};
-        match *operands {
-            [IdRef(id), Number(member), Is(Decoration::Offset), Number(bytes)] => {
-                self.offsets.insert((id, member), bytes);
-            }
-            [IdRef(id), Number(member), Is(Decoration::MatrixStride), Number(bytes)] => {
-                self.matrix_strides.insert((id, member), bytes);
-            }
-            [IdRef(id), Number(member), Is(Decoration::RowMajor)] => {
-                self.row_major.insert((id, member));
-            }
-            [IdRef(id), Is(Decoration::ArrayStride), Number(bytes)] => {
-                self.array_strides.insert(id, bytes);
-            }
-            _ => {}
-        }
-    }
-
-    /// `None` for a struct without a name or without offsets: one that is in no buffer.
-    fn layout(&self, instruction: &Instruction) -> Result<Option<StructLayout>, String> {
-        let Some(id) = instruction.result_id else { return Ok(None) };
-        let Some(name) = self.names.get(&id) else { return Ok(None) };
+    /// The layout of the struct with these words: its id and those of its members' types. `None` for a struct that
+    /// has another name, or no offsets and so is in no buffer.
+    fn layout(&self, words: &[u32], names: &[&str]) -> Result<Option<StructLayout>, String> {
+        let &[id, ref member_types @ ..] = words else { return Ok(None) };
+        let Some(name) = self.names.get(&id).filter(|name| names.contains(&name.as_str())) else {
+            return Ok(None);
+        };
         let mut members = Vec::new();
-        for member in 0..instruction.operands.len() as u32 {
+        for (member, _) in (0..).zip(member_types) {
             let Some(&offset_bytes) = self.offsets.get(&(id, member)) else { return Ok(None) };
-            let name = self.member_names.get(&(id, member)).copied().unwrap_or_default().to_owned();
+            let name = self.member_names.get(&(id, member)).cloned().unwrap_or_default();
             members.push(Member { name, offset_bytes });
         }
-        let end_bytes = self.struct_end(id, instruction)?;
-        let stride_bytes = self.by_id.iter().find_map(|(array, i)| {
-            let is_array = matches!(i.class.opcode, Op::TypeArray | Op::TypeRuntimeArray);
-            (is_array && i.operands.first() == Some(&Operand::IdRef(id)))
-                .then(|| self.array_strides.get(array).copied())
-                .flatten()
+        let end_bytes = self.struct_end(id, member_types)?;
+        let stride_bytes = self.by_id.iter().find_map(|(array, (opcode, operands))| {
+            let is_array = matches!(*opcode, op::TYPE_ARRAY | op::TYPE_RUNTIME_ARRAY);
+            if is_array && operands.first() == Some(&id) {
+                self.array_strides.get(array).copied()
+            } else {
+                None
+            }
         });
-        Ok(Some(StructLayout { name: (*name).to_owned(), members, end_bytes, stride_bytes }))
+        Ok(Some(StructLayout { name: name.clone(), members, end_bytes, stride_bytes }))
     }
 
     /// Bytes up to the end of the last member; `None` where that has no length.
-    fn struct_end(&self, id: Word, instruction: &Instruction) -> Result<Option<u32>, String> {
+    fn struct_end(&self, id: Id, member_types: &[Id]) -> Result<Option<u32>, String> {
         let mut end = 0;
-        for (member, operand) in (0..).zip(&instruction.operands) {
-            let Some(size) = self.size(operand, (id, member))? else { return Ok(None) };
+        for (member, &type_) in (0..).zip(member_types) {
+            let Some(size) = self.size(type_, (id, member))? else { return Ok(None) };
             end = end.max(self.offsets.get(&(id, member)).copied().unwrap_or_default() + size);
         }
         Ok(Some(end))
     }
 
     /// Bytes that a value of a type takes as that member of a struct; `None` for an array without a length.
-    fn size(&self, type_: &Operand, member: (Word, Word)) -> Result<Option<u32>, String> {
-        let unknown = || format!("a buffer holds a type of unknown size: {type_:?}");
-        let Operand::IdRef(id) = type_ else { return Err(unknown()) };
-        let instruction = self.by_id.get(id).ok_or_else(unknown)?;
-        let bytes = match (instruction.class.opcode, instruction.operands.as_slice()) {
-            (Op::TypeInt | Op::TypeFloat, [Operand::LiteralBit32(bits), ..]) => bits / 8,
+    fn size(&self, type_: Id, member: (Id, u32)) -> Result<Option<u32>, String> {
+        let unknown = || format!("member {} of a shared struct has a type of unknown size", member.1);
+        let bytes = match self.by_id.get(&type_) {
+            Some(&(op::TYPE_INT | op::TYPE_FLOAT, &[bits, ..])) => bits / 8,
             // A buffer's address (GL_EXT_buffer_reference).
-            (Op::TypePointer, _) => 8,
-            (Op::TypeVector, [component, Operand::LiteralBit32(count)]) => {
+            Some((op::TYPE_POINTER, _)) => 8,
+            Some(&(op::TYPE_VECTOR, &[component, count])) => {
                 count * self.size(component, member)?.ok_or_else(unknown)?
             }
-            (Op::TypeMatrix, [column @ Operand::IdRef(column_id), Operand::LiteralBit32(columns)]) => {
+            Some(&(op::TYPE_MATRIX, &[column, columns])) => {
                 let stride = *self.matrix_strides.get(&member).ok_or_else(unknown)?;
-                let rows = match self.by_id.get(column_id).map(|i| i.operands.as_slice()) {
-                    Some([_, Operand::LiteralBit32(rows)]) => *rows,
-                    _ => return Err(unknown()),
-                };
-                let column_bytes = self.size(column, member)?.ok_or_else(unknown)?;
-                // The last column (or row) is not padded.
-                if self.row_major.contains(&member) {
-                    stride * (rows - 1) + column_bytes / rows * columns
-                } else {
-                    stride * (columns - 1) + column_bytes
-                }
+                let Some(&(_, &[component, rows])) = self.by_id.get(&column) else { return Err(unknown()) };
+                let component_bytes = self.size(component, member)?.ok_or_else(unknown)?;
+                // The last column (or row) has no padding behind it.
+                let (vectors, length) =
+                    if self.row_major.contains(&member) { (rows, columns) } else { (columns, rows) };
+                stride * vectors.saturating_sub(1) + component_bytes * length
             }
-            (Op::TypeArray, [_, Operand::IdRef(length)]) => {
-                let stride = *self.array_strides.get(id).ok_or_else(unknown)?;
-                match self.by_id.get(length).map(|i| (i.class.opcode, i.operands.as_slice())) {
-                    Some((Op::Constant, [Operand::LiteralBit32(count)])) => stride * count,
-                    _ => return Err(unknown()),
-                }
+            Some(&(op::TYPE_ARRAY, &[_, length])) => {
+                let stride = *self.array_strides.get(&type_).ok_or_else(unknown)?;
+                // A length by specialization constant has no value here.
+                let Some(&(op::CONSTANT, &[count])) = self.by_id.get(&length) else { return Err(unknown()) };
+                stride * count
             }
-            (Op::TypeRuntimeArray, _) => return Ok(None),
-            (Op::TypeStruct, _) => return self.struct_end(*id, instruction),
+            Some((op::TYPE_RUNTIME_ARRAY, _)) => return Ok(None),
+            Some(&(op::TYPE_STRUCT, member_types)) => return self.struct_end(type_, member_types),
             _ => return Err(unknown()),
         };
         Ok(Some(bytes))

@@ -2,6 +2,7 @@
 
 mod compile;
 mod layout;
+mod spirv;
 mod table;
 
 use std::{
@@ -25,6 +26,7 @@ pub type HostStruct<'a> = (&'a str, &'a str);
 pub fn build(glsl: &Path, host_structs: &[HostStruct]) -> Result<String, Vec<String>> {
     let sources = find_shaders(glsl)?;
     let compiler = Compiler::new(glsl).map_err(|message| vec![message])?;
+    let shared: Vec<&str> = host_structs.iter().map(|(glsl_name, _)| *glsl_name).collect();
     let mut errors = Vec::new();
     let mut shaders = Vec::new();
     let mut layouts = BTreeMap::new();
@@ -32,14 +34,15 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct]) -> Result<String, Vec<Str
         // The optimizer strips names, so that the struct members are read from a second, unoptimized copy.
         let result = compiler.spirv(&path, Optimize::Performance).and_then(|optimized| {
             let named = compiler.spirv(&path, Optimize::Off)?;
-            Ok((optimized, struct_layouts(&named).map_err(|e| format!("{}: error: {e}", path.display()))?))
+            Ok((
+                optimized,
+                struct_layouts(&named, &shared).map_err(|e| format!("{}: error: {e}", path.display()))?,
+            ))
         });
         match result {
             Ok((spirv, found)) => {
                 for layout in found {
-                    if host_structs.iter().any(|(glsl_name, _)| *glsl_name == layout.name) {
-                        errors.extend(layout::merge(&mut layouts, &name, layout).err());
-                    }
+                    errors.extend(layout::merge(&mut layouts, &name, layout).err());
                 }
                 shaders.push((name, spirv));
             }
