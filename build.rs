@@ -1,1 +1,30 @@
-fn main() {}
+//! Compiles `glsl/` and writes `$OUT_DIR/shaders.rs`, which `src/shaders/mod.rs` takes in.
+
+#[path = "src/shaders/build/mod.rs"]
+mod shader_build;
+
+use std::{env, fs, path::Path};
+
+/// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
+/// offset, and the size; a listed struct that no shader has is an error.
+const HOST_STRUCTS: &[shader_build::HostStruct] = &[];
+
+fn main() {
+    let glsl = Path::new("glsl");
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/shaders/build");
+    match shader_build::files_and_folders(glsl) {
+        Ok(paths) => paths.iter().for_each(|p| println!("cargo::rerun-if-changed={}", p.display())),
+        Err(e) => return println!("cargo::error=cannot list {}: {e}", glsl.display()),
+    }
+    match shader_build::build(glsl, HOST_STRUCTS) {
+        Ok(rust) => {
+            let out = Path::new(&env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs");
+            if let Err(e) = fs::write(&out, rust) {
+                println!("cargo::error=cannot write {}: {e}", out.display());
+            }
+        }
+        // Cargo shows each such line as an error and then stops the build.
+        Err(errors) => errors.iter().flat_map(|e| e.lines()).for_each(|line| println!("cargo::error={line}")),
+    }
+}

@@ -10,6 +10,7 @@ pub mod report;
 #[cfg(feature = "files")]
 pub mod save;
 pub mod scene;
+pub mod shaders;
 pub mod vk;
 
 pub use error::{Error, ErrorKind, Result};

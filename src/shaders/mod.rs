@@ -1,0 +1,16 @@
+//! The shaders of `glsl/`, compiled to SPIR-V by `build.rs`: one `static` each, named after pass and stage, as
+//! `VISIBILITY_FRAG` for `glsl/visibility.frag.glsl`.
+//!
+//! Building the crate also checks that each struct which host and shaders share (`HOST_STRUCTS` in `build.rs`) has the
+//! same layout on both sides; a member that differs stops the build with its name.
+
+/// A compiled shader; its entry point is `main`.
+#[derive(Debug)]
+pub struct Shader {
+    /// Pass and stage, such as `visibility.frag`.
+    pub name: &'static str,
+    /// SPIR-V 1.6 for Vulkan 1.3.
+    pub spirv: &'static [u32],
+}
+
+include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
