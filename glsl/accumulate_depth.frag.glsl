@@ -2,6 +2,7 @@
 // z / z_visible, which is at most 1, so that 16 bits neither overflow nor lose it. z = near / w, so the ratio is
 // w_visible / w, with w_visible the visibility pass's (shifted) depth.
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
 #include "inc/variant.glsl"

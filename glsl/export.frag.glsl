@@ -1,6 +1,7 @@
 // The normalized surface itself, for whoever wants data instead of a picture. Empty pixels: weight, albedo and normal
 // 0, depth +infinity.
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #include "inc/surface.glsl"
 
 layout(set = 0, binding = 2) uniform texture2D visible_depth;

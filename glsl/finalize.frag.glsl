@@ -2,6 +2,7 @@
 // attenuation, so that l = v = -normalize(x, y, 1). Phong's mirror direction is r = 2 (n.l) n - l, hence
 // r.v = 2 (n.l)^2 - 1. Writes linear light; an sRGB target encodes it.
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #include "inc/variant.glsl"
 #include "inc/surface.glsl"
 
