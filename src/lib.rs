@@ -2,9 +2,12 @@
 
 pub mod error;
 pub mod geometry;
+pub mod graph;
 #[cfg(feature = "files")]
 pub mod load;
 pub mod math;
+pub mod passes;
+pub mod prepare;
 pub mod reference;
 pub mod report;
 #[cfg(feature = "files")]

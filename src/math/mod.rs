@@ -1,3 +1,5 @@
 //! Pure mathematics of the GPU path, on the host. The oracle (`reference/`) shares none of it on purpose.
 
+pub mod kernel;
+pub mod size;
 pub mod srgb;

@@ -174,9 +174,17 @@ impl DefectCounts {
         self.counts[defect as usize]
     }
 
-    fn add(&mut self, defect: Option<Defect>) {
+    /// Counts a splat's [`Splats::defect`]; nothing for `None`.
+    pub fn add(&mut self, defect: Option<Defect>) {
         if let Some(defect) = defect {
             self.counts[defect as usize] += 1;
+        }
+    }
+
+    /// Adds the counts of others.
+    pub fn merge(&mut self, other: &Self) {
+        for (count, more) in self.counts.iter_mut().zip(other.counts) {
+            *count += more;
         }
     }
 }

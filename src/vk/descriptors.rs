@@ -72,6 +72,8 @@ pub struct DescriptorPool {
     device: Device,
     raw: vk::DescriptorPool,
     name: String,
+    // Vulkan wants the pool's calls one at a time.
+    _not_sync: std::marker::PhantomData<std::cell::Cell<()>>,
 }
 
 impl DescriptorPool {
@@ -93,56 +95,39 @@ impl DescriptorPool {
         let raw = unsafe { device.raw().create_descriptor_pool(&info, None) }
             .of_call("vkCreateDescriptorPool", name)?;
         device.set_name(raw, name);
-        Ok(Self { device: device.clone(), raw, name: name.to_owned() })
+        Ok(Self { device: device.clone(), raw, name: name.to_owned(), _not_sync: std::marker::PhantomData })
     }
 
-    /// A set with each of its bindings given, in order.
+    /// A set with some of its bindings given, by number: those that the pipelines use which it is bound for.
     ///
     /// # Errors
     /// Whatever the driver answers, such as an exhausted pool.
-    pub fn set(&self, layout: &SetLayout, given: &[Descriptor]) -> Result<vk::DescriptorSet> {
-        assert_eq!(layout.kinds.len(), given.len(), "set '{}' is not given all its bindings", self.name);
+    pub fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
         let layouts = [layout.raw];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.raw).set_layouts(&layouts);
-        // SAFETY: pool and layout are alive and of this device; the pool is ours alone (`&self` of a type that is
-        // not shared between threads while recording).
+        // SAFETY: pool and layout are alive and of this device. The pool is not `Sync`, so nobody else allocates.
         let set = unsafe { self.device.raw().allocate_descriptor_sets(&info) }
             .of_call("vkAllocateDescriptorSets", &self.name)?[0];
         self.device.set_name(set, &self.name);
-        let buffers: Vec<_> = given
-            .iter()
-            .map(|descriptor| match descriptor {
-                Descriptor::Buffer(buffer) => {
-                    vk::DescriptorBufferInfo::default().buffer(*buffer).range(vk::WHOLE_SIZE)
+        for (number, descriptor) in given {
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(*number)
+                .descriptor_type(layout.kinds[*number as usize]);
+            let (buffer, image);
+            let write = match *descriptor {
+                Descriptor::Buffer(raw) => {
+                    buffer = [vk::DescriptorBufferInfo::default().buffer(raw).range(vk::WHOLE_SIZE)];
+                    write.buffer_info(&buffer)
                 }
-                Descriptor::Sampled(..) => vk::DescriptorBufferInfo::default(),
-            })
-            .collect();
-        let images: Vec<_> = given
-            .iter()
-            .map(|descriptor| match descriptor {
                 Descriptor::Sampled(view, layout) => {
-                    vk::DescriptorImageInfo::default().image_view(*view).image_layout(*layout)
+                    image = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];
+                    write.image_info(&image)
                 }
-                Descriptor::Buffer(_) => vk::DescriptorImageInfo::default(),
-            })
-            .collect();
-        let writes: Vec<_> = (0..)
-            .zip(given)
-            .map(|(number, descriptor)| {
-                let i = number as usize;
-                let write = vk::WriteDescriptorSet::default()
-                    .dst_set(set)
-                    .dst_binding(number)
-                    .descriptor_type(layout.kinds[i]);
-                match descriptor {
-                    Descriptor::Buffer(_) => write.buffer_info(&buffers[i..=i]),
-                    Descriptor::Sampled(..) => write.image_info(&images[i..=i]),
-                }
-            })
-            .collect();
-        // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
-        unsafe { self.device.raw().update_descriptor_sets(&writes, &[]) };
+            };
+            // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
+            unsafe { self.device.raw().update_descriptor_sets(&[write], &[]) };
+        }
         Ok(set)
     }
 

@@ -192,11 +192,6 @@ impl Device {
         self.0.queue_family
     }
 
-    /// The debug extension's functions, where it is enabled: labels in command buffers.
-    pub fn debug_utils(&self) -> Option<&ext::debug_utils::Device> {
-        self.0.names.as_ref()
-    }
-
     /// Gives an object its debug name.
     pub fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
         if let Some(names) = &self.0.names {
@@ -205,6 +200,24 @@ impl Device {
             // A name is a help for people: failing to set one changes nothing.
             // SAFETY: the object is alive and belongs to this device; the extension is enabled.
             let _ = unsafe { names.set_debug_utils_object_name(&info) };
+        }
+    }
+
+    /// Begins a debug label in a command buffer; nothing without the debug extension.
+    pub fn begin_label(&self, commands: vk::CommandBuffer, name: &str) {
+        if let Some(names) = &self.0.names {
+            let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
+            let label = vk::DebugUtilsLabelEXT::default().label_name(&text);
+            // SAFETY: `commands` is recording (every caller records into it); the extension is enabled.
+            unsafe { names.cmd_begin_debug_utils_label(commands, &label) };
+        }
+    }
+
+    /// Ends the label begun last.
+    pub fn end_label(&self, commands: vk::CommandBuffer) {
+        if let Some(names) = &self.0.names {
+            // SAFETY: as in `begin_label`, which came before.
+            unsafe { names.cmd_end_debug_utils_label(commands) };
         }
     }
 

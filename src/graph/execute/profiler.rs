@@ -1,0 +1,156 @@
+//! What each pass costs: a pair of timestamps, or counts of vertices and fragments.
+//!
+//! Times and counts are taken in different frames: counting may cost time.
+
+use ash::vk;
+
+use crate::{
+    error::Result,
+    vk::{Device, Statistics, Timestamps},
+};
+
+/// The most passes of a frame that are measured; what comes after them is not.
+const MAX_PASSES: u32 = 256;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// Times.
+    Times,
+    /// Counts of vertices and fragments.
+    Counts,
+}
+
+/// Measures one frame at a time.
+pub struct Profiler {
+    queries: Queries,
+    passes: Vec<String>,
+}
+
+enum Queries {
+    Times(Timestamps),
+    Counts(Statistics),
+    /// The device can't.
+    Nothing,
+}
+
+/// What one frame's passes cost, in their order.
+#[derive(Clone, Debug, Default)]
+pub struct FrameProfile {
+    /// One a pass.
+    pub passes: Vec<PassProfile>,
+    /// From the first pass's first timestamp to the last pass's last; `None` where not measured.
+    pub span_secs: Option<f64>,
+}
+
+/// What one pass cost.
+#[derive(Clone, Debug)]
+pub struct PassProfile {
+    /// The pass.
+    pub name: String,
+    /// Its time; `None` where not measured.
+    pub secs: Option<f64>,
+    /// Its counts; `None` where not measured.
+    pub counts: Option<PassCounts>,
+}
+
+/// What a graphics pass shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PassCounts {
+    /// Invocations of the vertex stage.
+    pub vertices: u64,
+    /// Invocations of the fragment stage.
+    pub fragments: u64,
+}
+
+impl Profiler {
+    /// A profiler; where the device can't measure, its figures are `None`.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, profile: Profile) -> Result<Self> {
+        let queries = match profile {
+            Profile::Times => Timestamps::new(device, "pass times", 2 * MAX_PASSES)?.map(Queries::Times),
+            Profile::Counts => Statistics::new(device, "pass counts", MAX_PASSES)?.map(Queries::Counts),
+        };
+        Ok(Self { queries: queries.unwrap_or(Queries::Nothing), passes: Vec::new() })
+    }
+
+    /// The figures of the last frame, once it has finished.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn read(&self) -> Result<FrameProfile> {
+        let measured = (self.passes.len() as u32).min(MAX_PASSES);
+        let (mut secs, mut counts) = (vec![None; self.passes.len()], vec![None; self.passes.len()]);
+        let mut span_secs = None;
+        match &self.queries {
+            Queries::Times(timestamps) => {
+                let ticks = timestamps.read(2 * measured)?;
+                for (secs, pair) in secs.iter_mut().zip(ticks.chunks_exact(2)) {
+                    *secs = pair[0].zip(pair[1]).map(|(begin, end)| timestamps.seconds_between(begin, end));
+                }
+                let ends = ticks.first().copied().flatten().zip(ticks.last().copied().flatten());
+                span_secs = ends.map(|(begin, end)| timestamps.seconds_between(begin, end));
+            }
+            Queries::Counts(statistics) => {
+                let read = statistics.read(measured)?;
+                for (counts, values) in counts.iter_mut().zip(read) {
+                    *counts = values.map(|[vertices, fragments]| PassCounts { vertices, fragments });
+                }
+            }
+            Queries::Nothing => {}
+        }
+        let passes = self.passes.iter().zip(secs).zip(counts);
+        let passes = passes.map(|((name, secs), counts)| PassProfile { name: name.clone(), secs, counts });
+        Ok(FrameProfile { passes: passes.collect(), span_secs })
+    }
+
+    /// # Safety
+    /// `commands` must be recording outside of rendering; the frame measured before has finished.
+    pub(super) unsafe fn begin_frame<'a>(
+        &mut self,
+        commands: vk::CommandBuffer,
+        passes: impl Iterator<Item = &'a str>,
+    ) {
+        self.passes = passes.map(str::to_owned).collect();
+        // SAFETY: this function's contract.
+        unsafe {
+            match &self.queries {
+                Queries::Times(timestamps) => timestamps.reset(commands),
+                Queries::Counts(statistics) => statistics.reset(commands),
+                Queries::Nothing => {}
+            }
+        }
+    }
+
+    /// # Safety
+    /// As [`Profiler::begin_frame`], after it; once for each pass, in order.
+    pub(super) unsafe fn begin_pass(&self, commands: vk::CommandBuffer, pass: u32) {
+        if pass < MAX_PASSES {
+            // SAFETY: this function's contract.
+            unsafe {
+                match &self.queries {
+                    Queries::Times(timestamps) => timestamps.write(commands, 2 * pass),
+                    Queries::Counts(statistics) => statistics.begin(commands, pass),
+                    Queries::Nothing => {}
+                }
+            }
+        }
+    }
+
+    /// # Safety
+    /// As [`Profiler::begin_pass`], after it.
+    pub(super) unsafe fn end_pass(&self, commands: vk::CommandBuffer, pass: u32) {
+        if pass < MAX_PASSES {
+            // SAFETY: this function's contract.
+            unsafe {
+                match &self.queries {
+                    Queries::Times(timestamps) => timestamps.write(commands, 2 * pass + 1),
+                    Queries::Counts(statistics) => statistics.end(commands, pass),
+                    Queries::Nothing => {}
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! How large a splat's image can get: the host's proof that no point exceeds the device's cap.
+
+/// What bounds the splats of a chunk, seen from a camera; lengths in one unit.
+#[derive(Clone, Copy, Debug)]
+pub struct SizeBound {
+    /// The smallest view-space depth of any point of any splat.
+    pub nearest_z: f64,
+    /// The largest radius of a splat.
+    pub largest_radius: f64,
+    /// The depth of the near plane.
+    pub near: f64,
+    /// Focal length in pixels.
+    pub focal_px: f64,
+    /// Width and height of the image in pixels.
+    pub size_px: [f64; 2],
+    /// Radius of the low-pass filter in pixels; 0 without.
+    pub filter_px: f64,
+}
+
+/// An upper bound of the side of a splat's box within the image, in pixels; infinite where a splat may reach the near
+/// plane.
+///
+/// Two points of a splat at x₁, x₂ in the image plane with depths z₁, z₂: `x₁ − x₂ = ((X₁ − X₂) − x₂ (z₁ − z₂)) / z₁`,
+/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it. The
+/// filter replaces an axis by one of its own radius, parallel to the screen: 2h more. Three pixels for rounding.
+pub fn largest_box_px(bound: &SizeBound) -> f64 {
+    if bound.nearest_z <= bound.near {
+        return f64::INFINITY;
+    }
+    let half_image = 0.5 * bound.size_px[0].max(bound.size_px[1]) / bound.focal_px;
+    let splat = 2.0 * bound.largest_radius * (1.0 + half_image) / bound.nearest_z * bound.focal_px;
+    splat + 2.0 * bound.filter_px + 3.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Points of random disks in front of the near plane never span more than the bound.
+        #[test]
+        fn no_disk_spans_more_than_the_bound(
+            center in prop::array::uniform3(-3.0..3.0_f64),
+            s in prop::array::uniform3(-1.0..1.0_f64),
+            t in prop::array::uniform3(-1.0..1.0_f64),
+        ) {
+            let (p, s, t) = (glam::DVec3::from(center) + 4.5 * glam::DVec3::Z, glam::DVec3::from(s), glam::DVec3::from(t));
+            let rim: Vec<_> = (0..360).map(|i| f64::from(i).to_radians()).map(|a| p + s * a.cos() + t * a.sin()).collect();
+            let nearest_z = rim.iter().map(|q| q.z).fold(f64::MAX, f64::min) - 1e-3;
+            prop_assume!(nearest_z > 0.1);
+            let bound = SizeBound {
+                nearest_z, largest_radius: s.length().hypot(t.length()), near: 0.01,
+                focal_px: 100.0, size_px: [200.0, 100.0], filter_px: 0.0,
+            };
+            let half = [1.0, 0.5];
+            for axis in 0..2 {
+                let inside = rim.iter().map(|q| [q.x / q.z, q.y / q.z]).filter(|x| x[0].abs() < half[0] && x[1].abs() < half[1]);
+                let (lo, hi) = inside.map(|x| x[axis]).fold((f64::MAX, f64::MIN), |(lo, hi), x| (lo.min(x), hi.max(x)));
+                if hi > lo {
+                    prop_assert!((hi - lo) * 100.0 <= largest_box_px(&bound));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_splat_that_may_reach_the_near_plane_has_no_bound() {
+        let bound = SizeBound {
+            nearest_z: 0.1,
+            largest_radius: 1.0,
+            near: 0.1,
+            focal_px: 100.0,
+            size_px: [100.0; 2],
+            filter_px: 0.0,
+        };
+        assert_eq!(largest_box_px(&bound), f64::INFINITY);
+    }
+}

@@ -1,0 +1,70 @@
+//! Attribute accumulation: weighted sums of color and normal of the fragments that belong to the visible surface.
+
+use ash::vk;
+
+use super::{
+    Inputs,
+    draws::{SplatPass, draw_splats},
+    list_large::{LargeList, ids_of, read_lists},
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    shaders,
+    vk::Descriptor,
+};
+
+/// What accumulation leaves.
+pub(super) struct Sums {
+    /// Σ weight · linear albedo, Σ weight.
+    pub color: Handle<Image>,
+    /// Σ weight · normal (view space); Σ weight · z / z_visible where depth is summed, else 0.
+    pub normal: Handle<Image>,
+}
+
+/// Declares the pass. `with_depth`: something reads the surface's depth, so it is summed too.
+pub(super) fn accumulate<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    large: &[Option<LargeList>],
+    depth: &Handle<Image>,
+    with_depth: bool,
+) -> Result<Sums> {
+    let format = inputs.sum_format();
+    let splats = SplatPass {
+        fragment: if with_depth { &shaders::ACCUMULATE_DEPTH_FRAG } else { &shaders::ACCUMULATE_FRAG },
+        color_formats: vec![format; 2],
+        depth: (vk::CompareOp::GREATER_OR_EQUAL, false),
+    };
+    let pipelines = splats.pipelines(inputs)?;
+    let large_ids = ids_of(large);
+    let depth_id = depth.id();
+
+    let mut sums = Sums {
+        color: graph.create_image("color sums", inputs.image(format)),
+        normal: graph.create_image("normal sums", inputs.image(format)),
+    };
+    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
+    let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
+    let pass = graph
+        .pass("accumulate")
+        .write(&mut sums.color, Access::ColorAttachment, zero)
+        .write(&mut sums.normal, Access::ColorAttachment, zero)
+        .read(depth, access);
+    read_lists(pass, large).finish(Box::new(move |context| {
+        if with_depth {
+            let (_, view) = context.image(depth_id)?;
+            let given = [(0, Descriptor::Sampled(view, context.layout(depth_id)))];
+            let set = inputs.descriptors.set(&inputs.shaders.depth_set, &given)?;
+            let layout = inputs.shaders.splat_layout.raw();
+            let bind_point = vk::PipelineBindPoint::GRAPHICS;
+            // SAFETY: set 2 of the splat passes' layout; stays bound while the sets below it change.
+            unsafe {
+                let device = context.device();
+                device.cmd_bind_descriptor_sets(context.commands(), bind_point, layout, 2, &[set], &[]);
+            }
+        }
+        draw_splats(context, inputs, &pipelines, &large_ids)
+    }));
+    Ok(sums)
+}

@@ -1,0 +1,59 @@
+//! Push constants: the host's mirrors of the structs in `glsl/`, whose offsets the build compares.
+
+use bytemuck::{Pod, Zeroable};
+
+/// What every splat pass is told of the frame; see `glsl/inc/frame.glsl` for spaces and units.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct FrameConstants {
+    /// Row of the rotation from local to view space, then the translation.
+    pub view_from_local_x: [f32; 4],
+    /// As above.
+    pub view_from_local_y: [f32; 4],
+    /// As above.
+    pub view_from_local_z: [f32; 4],
+    /// Width and height of the image.
+    pub size_px: [f32; 2],
+    /// An image-plane unit in pixels.
+    pub focal_px: f32,
+    /// Depth of the near plane, local unit.
+    pub near: f32,
+    /// √2 pixels, image-plane unit.
+    pub filter_radius: f32,
+    /// ε as a multiple of the splat's larger radius.
+    pub epsilon_radii: f32,
+    /// ε as a length, local unit.
+    pub epsilon_length: f32,
+    /// The largest u² + v² that covers.
+    pub coverage_r2: f32,
+    /// The largest point of the device.
+    pub point_cap_px: f32,
+    /// The step of point sizes.
+    pub point_step_px: f32,
+    /// Splats of the chunk.
+    pub splat_count: u32,
+    /// 1: all splats of the chunk have color 0.
+    pub uniform_color: u32,
+}
+
+/// What finalization is told; see `glsl/finalize.frag.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct FinalizeConstants {
+    /// Linear color of empty pixels.
+    pub background: [f32; 4],
+    /// Half of width and height.
+    pub half_size_px: [f32; 2],
+    /// An image-plane unit in pixels.
+    pub focal_px: f32,
+    /// Not used.
+    pub padding: u32,
+}
+
+/// What the export is told; see `glsl/export.frag.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct ExportConstants {
+    /// Depth of the near plane, world unit.
+    pub near: f32,
+}

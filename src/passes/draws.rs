@@ -1,0 +1,176 @@
+//! What is drawn: the chunks of a prepared scene as this frame's camera and settings see them; and how.
+
+use std::sync::Arc;
+
+use ash::vk;
+use glam::DVec3;
+
+use super::{
+    Inputs,
+    constants::FrameConstants,
+    list_large::LargeIds,
+    pipelines::GraphicsKey,
+    variant::{Constants, splat_constants},
+};
+use crate::{
+    error::Result,
+    graph::execute::PassContext,
+    math::{
+        kernel::coverage_r2,
+        size::{SizeBound, largest_box_px},
+    },
+    prepare::{Chunk, PreparedScene},
+    scene::{Camera, Epsilon, Filter, Settings},
+    shaders::{self, Shader},
+    vk::{Descriptor, GraphicsPipeline, Limits},
+};
+
+/// A chunk in this frame.
+pub struct Draw<'a> {
+    /// The splats.
+    pub chunk: &'a Chunk,
+    /// What its shaders are told.
+    pub constants: FrameConstants,
+    /// Whether a splat of it may exceed the device's largest point: then large ones are listed and drawn as quads.
+    pub may_be_large: bool,
+    /// The specialization constants of its pipelines.
+    pub(super) variant: Constants,
+}
+
+/// The low-pass filter's radius: √2 pixels (Guennebaud et al. 2006, section 4.1).
+const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
+
+/// All chunks as seen from a camera.
+pub fn draws<'a>(
+    scene: &'a PreparedScene,
+    camera: &Camera,
+    settings: &Settings,
+    limits: &Limits,
+) -> Vec<Draw<'a>> {
+    let rebase = &scene.rebase;
+    let [view_from_local_x, view_from_local_y, view_from_local_z] = rebase.view_from_local(camera);
+    let focal_px = camera.focal_px(settings.size_px[1]);
+    let near = camera.near() * rebase.scale;
+    let (epsilon_radii, epsilon_length) = match settings.epsilon {
+        Epsilon::Radii(radii) => (radii, 0.0),
+        Epsilon::Length(length) => (0.0, length * rebase.scale),
+    };
+    let draw = |chunk: &'a Chunk| {
+        let bound = SizeBound {
+            nearest_z: nearest_z(chunk, view_from_local_z),
+            largest_radius: chunk.largest_radius,
+            near,
+            focal_px,
+            size_px: settings.size_px.map(f64::from),
+            filter_px: if settings.filter == Filter::Adjust { FILTER_RADIUS_PX } else { 0.0 },
+        };
+        let point_cap_px = limits.point_size_range[1];
+        Draw {
+            chunk,
+            constants: FrameConstants {
+                view_from_local_x,
+                view_from_local_y,
+                view_from_local_z,
+                size_px: settings.size_px.map(|side| side as f32),
+                focal_px: focal_px as f32,
+                near: near as f32,
+                filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
+                epsilon_radii: epsilon_radii as f32,
+                epsilon_length: epsilon_length as f32,
+                coverage_r2: coverage_r2(settings.kernel) as f32,
+                point_cap_px,
+                point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
+                splat_count: chunk.count,
+                uniform_color: u32::from(chunk.uniform_color),
+            },
+            may_be_large: largest_box_px(&bound) > f64::from(point_cap_px),
+            variant: splat_constants(settings, chunk.ellipses, chunk.closed),
+        }
+    };
+    scene.chunks.iter().map(draw).collect()
+}
+
+/// The smallest depth of any point of the chunk's splats: of the box of centers, less the largest radius.
+fn nearest_z(chunk: &Chunk, z_row: [f32; 4]) -> f64 {
+    let row = DVec3::new(z_row[0].into(), z_row[1].into(), z_row[2].into());
+    let [lo, hi] = chunk.bounds;
+    let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    row.dot(center) + f64::from(z_row[3]) - row.abs().dot(half) - chunk.largest_radius
+}
+
+/// What a splat pass writes: all but the splats themselves.
+pub(super) struct SplatPass {
+    pub fragment: &'static Shader,
+    pub color_formats: Vec<vk::Format>,
+    pub depth: (vk::CompareOp, bool),
+}
+
+/// The pipelines for one draw: points, and quads where there may be large splats.
+pub(super) struct DrawPipelines {
+    points: Arc<GraphicsPipeline>,
+    quads: Option<Arc<GraphicsPipeline>>,
+}
+
+impl SplatPass {
+    /// The pipelines of every draw, in their order.
+    pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
+        let make = |vertex, topology, draw: &Draw<'_>| {
+            let key = GraphicsKey {
+                color_formats: self.color_formats.clone(),
+                add: true,
+                depth: Some(self.depth),
+                ..GraphicsKey::new(topology, draw.variant.clone())
+            };
+            inputs.shaders.graphics(vertex, self.fragment, &inputs.shaders.splat_layout, key)
+        };
+        let both = |draw: &Draw<'_>| {
+            let (points, quads) = match draw.may_be_large {
+                false => (&shaders::SPLAT_POINTS_VERT, None),
+                true => (&shaders::SPLAT_SMALL_POINTS_VERT, Some(&shaders::SPLAT_LARGE_QUADS_VERT)),
+            };
+            Ok(DrawPipelines {
+                points: make(points, vk::PrimitiveTopology::POINT_LIST, draw)?,
+                quads: quads
+                    .map(|quads| make(quads, vk::PrimitiveTopology::TRIANGLE_STRIP, draw))
+                    .transpose()?,
+            })
+        };
+        inputs.draws.iter().map(both).collect()
+    }
+}
+
+/// Records the draws of all chunks.
+pub(super) fn draw_splats(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    pipelines: &[DrawPipelines],
+    large: &[Option<LargeIds>],
+) -> Result<()> {
+    let (device, commands) = (context.device(), context.commands());
+    let layout = &inputs.shaders.splat_layout;
+    let bind_point = vk::PipelineBindPoint::GRAPHICS;
+    for ((draw, pipelines), large) in inputs.draws.iter().zip(pipelines).zip(large) {
+        let mut sets = vec![draw.chunk.set()];
+        let mut arguments = None;
+        if let Some(large) = large {
+            let bits = Descriptor::Buffer(context.buffer(large.bits)?);
+            let list = Descriptor::Buffer(context.buffer(large.list)?);
+            sets.push(inputs.descriptors.set(&inputs.shaders.large_set, &[(0, bits), (2, list)])?);
+            arguments = Some(context.buffer(large.arguments)?);
+        }
+        // SAFETY: inside of rendering, with pipelines, sets and push constants of one layout; the graph's barriers
+        // order what the draws read.
+        unsafe {
+            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+            let constants = bytemuck::bytes_of(&draw.constants);
+            device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+            device.cmd_bind_pipeline(commands, bind_point, pipelines.points.raw());
+            device.cmd_draw(commands, draw.chunk.count, 1, 0, 0);
+            if let (Some(quads), Some(arguments)) = (&pipelines.quads, arguments) {
+                device.cmd_bind_pipeline(commands, bind_point, quads.raw());
+                device.cmd_draw_indirect(commands, arguments, 0, 1, 16);
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! Normalization and shading: from sums to the picture.
+
+use ash::vk;
+
+use super::{
+    Inputs, accumulate::Sums, constants::FinalizeConstants, fullscreen::draw_fullscreen,
+    pipelines::GraphicsKey, variant::shading_constants,
+};
+use crate::{
+    error::Result,
+    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    math::srgb::linear_from_srgb,
+    shaders,
+    vk::Descriptor,
+};
+
+/// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept.
+pub(super) fn finalize<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    sums: &Sums,
+    target: &mut Handle<Image>,
+    target_format: vk::Format,
+) -> Result<()> {
+    let layout = &inputs.shaders.finalize_layout;
+    let key = GraphicsKey {
+        color_formats: vec![target_format],
+        ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, shading_constants(inputs.settings.shading))
+    };
+    let pipeline =
+        inputs.shaders.graphics(&shaders::FULLSCREEN_VERT, &shaders::FINALIZE_FRAG, layout, key)?;
+    let [width, height] = inputs.settings.size_px;
+    let background = inputs.settings.background.map_or([0.0; 4], |srgb| {
+        let [r, g, b] = srgb.map(linear_from_srgb);
+        [r, g, b, 1.0]
+    });
+    let constants = FinalizeConstants {
+        background,
+        half_size_px: [0.5 * width as f32, 0.5 * height as f32],
+        focal_px: inputs.camera.focal_px(height) as f32,
+        padding: 0,
+    };
+    let ids = [sums.color.id(), sums.normal.id()];
+    graph
+        .pass("finalize")
+        .read(&sums.color, Access::SampledFragment)
+        .read(&sums.normal, Access::SampledFragment)
+        .write(target, Access::ColorAttachment, Start::Discard)
+        .finish(Box::new(move |context| {
+            let mut given = Vec::new();
+            for (number, id) in (0..).zip(ids) {
+                given.push((number, Descriptor::Sampled(context.image(id)?.1, context.layout(id))));
+            }
+            let set = inputs.descriptors.set(&inputs.shaders.sums_set, &given)?;
+            draw_fullscreen(context, &pipeline, layout, set, bytemuck::bytes_of(&constants));
+            Ok(())
+        }));
+    Ok(())
+}

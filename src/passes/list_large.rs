@@ -1,0 +1,198 @@
+//! The splats that exceed the device's largest point: found, counted and listed on the GPU, in input order.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::{Draw, Inputs};
+use crate::{
+    error::Result,
+    graph::{
+        Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
+        execute::{Body, PassContext},
+    },
+    shaders::{self, Shader},
+    vk::{ComputePipeline, Descriptor},
+};
+
+/// Splats of a block: one workgroup, as in `glsl/large_count.comp.glsl`.
+const BLOCK: u32 = 256;
+
+/// The large splats of one chunk. The order of the fields is that of the set's bindings.
+pub(super) struct LargeList {
+    /// A bit a splat: it is large.
+    bits: Handle<Buffer>,
+    /// How many large splats a block has; later how many come before it.
+    counts: Handle<Buffer>,
+    /// The indices of the large splats, in order.
+    list: Handle<Buffer>,
+    /// `VkDrawIndirectCommand`: one strip of four vertices a large splat.
+    arguments: Handle<Buffer>,
+}
+
+/// The resources of a [`LargeList`].
+#[derive(Clone, Copy)]
+pub(super) struct LargeIds {
+    pub bits: ResourceId,
+    pub counts: ResourceId,
+    pub list: ResourceId,
+    pub arguments: ResourceId,
+}
+
+impl LargeList {
+    fn create(graph: &mut Graph<Body<'_>>, number: usize, draw: &Draw<'_>) -> Self {
+        let blocks = u64::from(blocks_of(draw));
+        let mut buffer = |what: &str, size_bytes| {
+            graph.create_buffer(&format!("large {what} of chunk {number}"), BufferDesc { size_bytes })
+        };
+        Self {
+            bits: buffer("bits", blocks * u64::from(BLOCK) / 8),
+            counts: buffer("counts", blocks * 4),
+            list: buffer("list", u64::from(draw.chunk.count) * 4),
+            arguments: buffer("arguments", 16),
+        }
+    }
+
+    pub fn ids(&self) -> LargeIds {
+        LargeIds {
+            bits: self.bits.id(),
+            counts: self.counts.id(),
+            list: self.list.id(),
+            arguments: self.arguments.id(),
+        }
+    }
+}
+
+/// Declares that a pass draws with these lists.
+pub(super) fn read_lists<'g, B>(
+    mut pass: PassBuilder<'g, B>,
+    lists: &[Option<LargeList>],
+) -> PassBuilder<'g, B> {
+    for list in lists.iter().flatten() {
+        pass = pass
+            .read(&list.bits, Access::StorageReadVertex)
+            .read(&list.list, Access::StorageReadVertex)
+            .read(&list.arguments, Access::IndirectRead);
+    }
+    pass
+}
+
+/// The resources of each list, for the passes' bodies.
+pub(super) fn ids_of(lists: &[Option<LargeList>]) -> Vec<Option<LargeIds>> {
+    lists.iter().map(|list| list.as_ref().map(LargeList::ids)).collect()
+}
+
+/// Declares the three passes that list large splats; none where no chunk may have any. One list (or none) a draw.
+pub(super) fn list_large<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+) -> Result<Vec<Option<LargeList>>> {
+    let mut lists: Vec<_> = inputs
+        .draws
+        .iter()
+        .enumerate()
+        .map(|(number, draw)| draw.may_be_large.then(|| LargeList::create(graph, number, draw)))
+        .collect();
+    if lists.iter().all(Option::is_none) {
+        return Ok(lists);
+    }
+    let ids = ids_of(&lists);
+
+    let count = Dispatches::new(inputs, &ids, &shaders::LARGE_COUNT_COMP, true)?;
+    let mut pass = graph.pass("count large splats");
+    for list in lists.iter_mut().flatten() {
+        pass = pass.write(&mut list.bits, Access::StorageWriteCompute, Start::Discard).write(
+            &mut list.counts,
+            Access::StorageWriteCompute,
+            Start::Discard,
+        );
+    }
+    pass.finish(Box::new(move |context| {
+        count.record(context, |ids| vec![(0, ids.bits), (1, ids.counts)], blocks_of)
+    }));
+
+    let scan = Dispatches::new(inputs, &ids, &shaders::LARGE_SCAN_COMP, false)?;
+    let mut pass = graph.pass("scan large splats");
+    for list in lists.iter_mut().flatten() {
+        pass = pass.write(&mut list.counts, Access::StorageReadWriteCompute, Start::Load).write(
+            &mut list.arguments,
+            Access::StorageWriteCompute,
+            Start::Discard,
+        );
+    }
+    pass.finish(Box::new(move |context| {
+        scan.record(context, |ids| vec![(1, ids.counts), (3, ids.arguments)], |_| 1)
+    }));
+
+    let place = Dispatches::new(inputs, &ids, &shaders::LARGE_LIST_COMP, false)?;
+    let mut pass = graph.pass("list large splats");
+    for list in lists.iter_mut().flatten() {
+        pass = pass
+            .read(&list.bits, Access::StorageReadCompute)
+            .read(&list.counts, Access::StorageReadCompute)
+            .write(&mut list.list, Access::StorageWriteCompute, Start::Discard);
+    }
+    pass.finish(Box::new(move |context| {
+        place.record(context, |ids| vec![(0, ids.bits), (1, ids.counts), (2, ids.list)], blocks_of)
+    }));
+    Ok(lists)
+}
+
+/// One dispatch for each chunk that may have large splats.
+struct Dispatches<'a> {
+    inputs: Inputs<'a>,
+    chunks: Vec<(&'a Draw<'a>, LargeIds, Arc<ComputePipeline>)>,
+}
+
+impl<'a> Dispatches<'a> {
+    /// `set_up`: the shader sets splats up and so has the variants of the splat passes.
+    fn new(
+        inputs: Inputs<'a>,
+        ids: &[Option<LargeIds>],
+        shader: &'static Shader,
+        set_up: bool,
+    ) -> Result<Self> {
+        let mut chunks = Vec::new();
+        for (draw, ids) in inputs.draws.iter().zip(ids) {
+            if let Some(ids) = ids {
+                let constants = if set_up { draw.variant.clone() } else { Vec::new() };
+                let pipeline = inputs.shaders.compute(shader, &inputs.shaders.splat_layout, constants)?;
+                chunks.push((draw, *ids, pipeline));
+            }
+        }
+        Ok(Self { inputs, chunks })
+    }
+
+    fn record(
+        &self,
+        context: &PassContext<'_>,
+        bindings: impl Fn(&LargeIds) -> Vec<(u32, ResourceId)>,
+        groups: impl Fn(&Draw<'_>) -> u32,
+    ) -> Result<()> {
+        let (device, commands) = (context.device(), context.commands());
+        let shaders = self.inputs.shaders;
+        let layout = &shaders.splat_layout;
+        let bind_point = vk::PipelineBindPoint::COMPUTE;
+        for (draw, ids, pipeline) in &self.chunks {
+            let mut given = Vec::new();
+            for (number, id) in bindings(ids) {
+                given.push((number, Descriptor::Buffer(context.buffer(id)?)));
+            }
+            let sets = [draw.chunk.set(), self.inputs.descriptors.set(&shaders.large_set, &given)?];
+            // SAFETY: pipeline, sets and push constants have one layout; the graph's barriers order the passes.
+            unsafe {
+                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+                let constants = bytemuck::bytes_of(&draw.constants);
+                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+                device.cmd_dispatch(commands, groups(draw), 1, 1);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Workgroups of one invocation a splat.
+fn blocks_of(draw: &Draw<'_>) -> u32 {
+    draw.chunk.count.div_ceil(BLOCK)
+}

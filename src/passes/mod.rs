@@ -1,0 +1,101 @@
+//! The passes of a frame: one pass, one file, one function that declares it.
+
+mod accumulate;
+mod constants;
+mod draws;
+mod export;
+mod finalize;
+#[cfg(feature = "test-formulas")]
+mod formula;
+mod fullscreen;
+mod list_large;
+mod pipelines;
+mod readback;
+mod variant;
+mod visibility;
+
+use ash::vk;
+
+pub use constants::{ExportConstants, FinalizeConstants, FrameConstants};
+pub use draws::{Draw, draws};
+pub use export::Exported;
+#[cfg(feature = "test-formulas")]
+pub use formula::Formula;
+pub use pipelines::Shaders;
+pub use readback::readback;
+
+use crate::{
+    error::Result,
+    graph::{Graph, Handle, Image, ImageDesc, execute::Body},
+    scene::{Accumulate, Camera, Settings},
+    vk::DescriptorPool,
+};
+
+/// What all passes of a frame are given.
+#[derive(Clone, Copy)]
+pub struct Inputs<'a> {
+    /// What is drawn.
+    pub draws: &'a [Draw<'a>],
+    /// From where.
+    pub camera: &'a Camera,
+    /// How.
+    pub settings: &'a Settings,
+    /// Pipelines and their layouts.
+    pub shaders: &'a Shaders,
+    /// Descriptor sets that live as long as the frame; room for [`sets_needed`].
+    pub descriptors: &'a DescriptorPool,
+}
+
+impl Inputs<'_> {
+    fn extent(&self) -> vk::Extent2D {
+        let [width, height] = self.settings.size_px;
+        vk::Extent2D { width, height }
+    }
+
+    fn image(&self, format: vk::Format) -> ImageDesc {
+        ImageDesc { format, extent: self.extent() }
+    }
+
+    /// The format of the sums.
+    fn sum_format(&self) -> vk::Format {
+        match self.settings.accumulate {
+            Accumulate::F16 => vk::Format::R16G16B16A16_SFLOAT,
+            Accumulate::F32 => vk::Format::R32G32B32A32_SFLOAT,
+        }
+    }
+}
+
+/// The visibility pass's reversed depth: near / z.
+const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
+
+/// Sets, storage buffers and sampled images that a frame takes from [`Inputs::descriptors`], at most.
+pub fn sets_needed(draws: &[Draw<'_>]) -> [u32; 3] {
+    let large = draws.iter().filter(|draw| draw.may_be_large).count() as u32;
+    // For each chunk with large splats: three passes that list them, two that draw them.
+    let lists = 5 * large;
+    // Depth for accumulation; sums for finalization; sums and depth for export.
+    let (sets, images) = (3, 1 + 2 + 3);
+    [lists + sets, 4 * lists, images]
+}
+
+/// The frame of an opaque scene: visibility, accumulation, finalization; before them the list of large splats, only
+/// where a splat may exceed the device's largest point; after them the surface as data, only where it is asked for.
+///
+/// # Errors
+/// Whatever the driver answers when a pipeline is made.
+pub fn opaque_frame<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    target: &mut Handle<Image>,
+    target_format: vk::Format,
+    export: bool,
+) -> Result<Option<Exported>> {
+    let large = list_large::list_large(graph, inputs)?;
+    let depth = visibility::visibility(graph, inputs, &large)?;
+    let sums = accumulate::accumulate(graph, inputs, &large, &depth, export)?;
+    finalize::finalize(graph, inputs, &sums, target, target_format)?;
+    match export {
+        true => export::export(graph, inputs, &sums, &depth).map(Some),
+        false => Ok(None),
+    }
+}

@@ -1,0 +1,219 @@
+//! Pipelines, made when a frame first needs them, and the layouts that they share.
+
+use std::{
+    collections::HashMap,
+    path::Path,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use ash::vk;
+
+use super::{constants, variant::Constants};
+use crate::{
+    error::Result,
+    prepare::SplatSetLayout,
+    shaders::Shader,
+    vk::{
+        Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
+        GraphicsPipelineDesc, PipelineCache, PipelineLayout, SetLayout, Stage,
+    },
+};
+
+/// The layouts of all passes and the pipelines made so far.
+pub struct Shaders {
+    device: Device,
+    graphics: Mutex<HashMap<GraphicsKey, Arc<GraphicsPipeline>>>,
+    compute: Mutex<HashMap<ComputeKey, Arc<ComputePipeline>>>,
+    cache: PipelineCache,
+    /// Set 0 of the splat passes.
+    pub splat_set: SplatSetLayout,
+    /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats.
+    pub(super) large_set: SetLayout,
+    /// Set 2 of accumulation with depth: the visible depth.
+    pub(super) depth_set: SetLayout,
+    /// Set 0 of finalization: the sums of colors and normals.
+    pub(super) sums_set: SetLayout,
+    /// Set 0 of export: the sums and the visible depth.
+    pub(super) surface_set: SetLayout,
+    pub(super) splat_layout: PipelineLayout,
+    pub(super) finalize_layout: PipelineLayout,
+    pub(super) export_layout: PipelineLayout,
+    /// The formula that is made wrong; for tests of the tests.
+    #[cfg(feature = "test-formulas")]
+    pub perturbed: Option<super::Formula>,
+}
+
+/// What a graphics pipeline is made of, apart from its layout, which follows from the shaders.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub(super) struct GraphicsKey {
+    pub vertex: &'static str,
+    pub fragment: &'static str,
+    pub constants: Constants,
+    pub topology: vk::PrimitiveTopology,
+    pub color_formats: Vec<vk::Format>,
+    pub add: bool,
+    /// The depth test: the comparison and whether it writes.
+    pub depth: Option<(vk::CompareOp, bool)>,
+}
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct ComputeKey {
+    shader: &'static str,
+    constants: Constants,
+}
+
+impl Shaders {
+    /// Layouts without any pipeline yet. Compiled pipelines are kept in `cache_folder` from run to run.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, cache_folder: Option<&Path>) -> Result<Self> {
+        let (vertex, fragment, compute) =
+            (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
+        let buffer = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | compute };
+        let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
+        let splat_set = SplatSetLayout::new(device)?;
+        let large_set = SetLayout::new(device, "large splats", &[buffer; 4])?;
+        let depth_set = SetLayout::new(device, "visible depth", &[image])?;
+        let sums_set = SetLayout::new(device, "sums", &[image; 2])?;
+        let surface_set = SetLayout::new(device, "surface", &[image; 3])?;
+        let splat_layout = PipelineLayout::new(
+            device,
+            "splat passes",
+            &[splat_set.set(), &large_set, &depth_set],
+            size_of::<constants::FrameConstants>() as u32,
+            vertex | fragment | compute,
+        )?;
+        let finalize_layout = PipelineLayout::new(
+            device,
+            "finalization",
+            &[&sums_set],
+            size_of::<constants::FinalizeConstants>() as u32,
+            fragment,
+        )?;
+        let export_layout = PipelineLayout::new(
+            device,
+            "export",
+            &[&surface_set],
+            size_of::<constants::ExportConstants>() as u32,
+            fragment,
+        )?;
+        Ok(Self {
+            device: device.clone(),
+            graphics: Mutex::default(),
+            compute: Mutex::default(),
+            cache: PipelineCache::open(device, cache_folder)?,
+            splat_set,
+            large_set,
+            depth_set,
+            sums_set,
+            surface_set,
+            splat_layout,
+            finalize_layout,
+            export_layout,
+            #[cfg(feature = "test-formulas")]
+            perturbed: None,
+        })
+    }
+
+    /// Writes compiled pipelines to the cache's file.
+    ///
+    /// # Errors
+    /// Whatever the driver or the file system answers.
+    pub fn save_cache(&self) -> Result<()> {
+        self.cache.save()
+    }
+
+    /// The pipelines made so far, by name: vertex and fragment shader, or compute shader.
+    pub fn pipeline_names(&self) -> Vec<String> {
+        let graphics = lock(&self.graphics);
+        let compute = lock(&self.compute);
+        let mut names: Vec<_> =
+            graphics.keys().map(|key| format!("{} + {}", key.vertex, key.fragment)).collect();
+        names.extend(compute.keys().map(|key| key.shader.to_owned()));
+        names.sort();
+        names
+    }
+
+    pub(super) fn graphics(
+        &self,
+        vertex: &'static Shader,
+        fragment: &'static Shader,
+        layout: &PipelineLayout,
+        mut key: GraphicsKey,
+    ) -> Result<Arc<GraphicsPipeline>> {
+        (key.vertex, key.fragment) = (vertex.name, fragment.name);
+        self.perturb(&mut key.constants);
+        let mut made = lock(&self.graphics);
+        if let Some(pipeline) = made.get(&key) {
+            return Ok(Arc::clone(pipeline));
+        }
+        let constants = &key.constants;
+        let desc = GraphicsPipelineDesc {
+            name: &format!("{} + {}", key.vertex, key.fragment),
+            vertex: Stage { name: vertex.name, spirv: vertex.spirv, constants },
+            fragment: Stage { name: fragment.name, spirv: fragment.spirv, constants },
+            topology: key.topology,
+            color_formats: &key.color_formats,
+            blend: if key.add { Blend::Add } else { Blend::Replace },
+            depth: key.depth.map(|(compare, write)| DepthState {
+                format: super::DEPTH_FORMAT,
+                compare,
+                write,
+            }),
+            layout,
+        };
+        let pipeline = Arc::new(GraphicsPipeline::new(&self.device, &self.cache, &desc)?);
+        made.insert(key, Arc::clone(&pipeline));
+        Ok(pipeline)
+    }
+
+    pub(super) fn compute(
+        &self,
+        shader: &'static Shader,
+        layout: &PipelineLayout,
+        mut constants: Constants,
+    ) -> Result<Arc<ComputePipeline>> {
+        self.perturb(&mut constants);
+        let key = ComputeKey { shader: shader.name, constants };
+        let mut made = lock(&self.compute);
+        if let Some(pipeline) = made.get(&key) {
+            return Ok(Arc::clone(pipeline));
+        }
+        let stage = Stage { name: shader.name, spirv: shader.spirv, constants: &key.constants };
+        let desc = ComputePipelineDesc { name: shader.name, stage, layout };
+        let pipeline = Arc::new(ComputePipeline::new(&self.device, &self.cache, &desc)?);
+        made.insert(key, Arc::clone(&pipeline));
+        Ok(pipeline)
+    }
+
+    #[cfg(feature = "test-formulas")]
+    fn perturb(&self, constants: &mut Constants) {
+        if let Some(formula) = self.perturbed {
+            constants.push((31, formula as u32));
+        }
+    }
+
+    #[cfg(not(feature = "test-formulas"))]
+    fn perturb(&self, _constants: &mut Constants) {}
+}
+
+impl GraphicsKey {
+    /// Points, quads or triangles without color, blending and depth: to be completed.
+    pub fn new(topology: vk::PrimitiveTopology, constants: Constants) -> Self {
+        Self {
+            vertex: "",
+            fragment: "",
+            constants,
+            topology,
+            color_formats: Vec::new(),
+            add: false,
+            depth: None,
+        }
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    // A panic while the lock was held leaves a map without the pipeline that was being made.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,38 @@
+//! What differs between pipelines of the same shader: the host's mirror of `glsl/inc/variant.glsl`.
+
+use crate::scene::{Backfaces, Filter, Kernel, Settings, Shading};
+
+/// Specialization constants: number and 32-bit pattern.
+pub type Constants = Vec<(u32, u32)>;
+
+/// The constants of the splat passes for one kind of chunk.
+pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
+    let cull = match settings.backfaces {
+        Backfaces::Auto => closed,
+        Backfaces::Flip => false,
+        Backfaces::Cull => true,
+    };
+    let (kernel, a, n) = match settings.kernel {
+        Kernel::Gaussian { sigma } => (0, 0.5 / (sigma * sigma), 1.0),
+        Kernel::PsiE { a, n, .. } => (1, a, n),
+    };
+    vec![
+        (0, u32::from(ellipses)),
+        (1, u32::from(cull)),
+        (2, u32::from(settings.filter == Filter::Adjust)),
+        (3, kernel),
+        (4, a.to_bits()),
+        (5, n.to_bits()),
+    ]
+}
+
+/// The constants of finalization.
+pub fn shading_constants(shading: Shading) -> Constants {
+    let number = match shading {
+        Shading::Phong => 0,
+        Shading::Lambert => 1,
+        Shading::Normals => 2,
+        Shading::Albedo => 3,
+    };
+    vec![(6, number)]
+}

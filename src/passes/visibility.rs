@@ -1,0 +1,39 @@
+//! Visibility splatting: the depth of the nearest surface, moved away from the eye by ε.
+
+use ash::vk;
+
+use super::{
+    DEPTH_FORMAT, Inputs,
+    draws::{SplatPass, draw_splats},
+    list_large::{LargeList, ids_of, read_lists},
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    shaders,
+};
+
+/// Declares the pass; returns its reversed depth: near / z, 0 where there is nothing.
+pub(super) fn visibility<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    large: &[Option<LargeList>],
+) -> Result<Handle<Image>> {
+    let splats = SplatPass {
+        fragment: &shaders::VISIBILITY_FRAG,
+        color_formats: Vec::new(),
+        depth: (vk::CompareOp::GREATER, true),
+    };
+    let pipelines = splats.pipelines(inputs)?;
+    let large_ids = ids_of(large);
+
+    let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
+    let pass = graph.pass("visibility").write(
+        &mut depth,
+        Access::DepthAttachment,
+        Start::Clear(ClearValue::Depth(0.0)),
+    );
+    read_lists(pass, large)
+        .finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &large_ids)));
+    Ok(depth)
+}

@@ -1,0 +1,124 @@
+//! A piece of an object within the device's limits.
+
+use ash::vk;
+use glam::DVec3;
+
+use super::pack::{Packed, shape_bytes};
+use crate::{
+    error::Result,
+    vk::{Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, SetLayout, Staging},
+};
+
+/// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
+const MAX_SPLATS: usize = 1 << 22;
+
+/// How many splats fit into buffers of this many bytes: the larger shape decides, so that it is the same for all.
+pub(super) fn capacity(max_storage_buffer_range: u64) -> usize {
+    let fit = max_storage_buffer_range / shape_bytes(true) as u64;
+    usize::try_from(fit).unwrap_or(usize::MAX).clamp(1, MAX_SPLATS)
+}
+
+/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors.
+pub struct SplatSetLayout(SetLayout);
+
+impl SplatSetLayout {
+    /// The layout.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device) -> Result<Self> {
+        let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::COMPUTE;
+        let binding = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages };
+        Ok(Self(SetLayout::new(device, "splats", &[binding, binding])?))
+    }
+
+    /// The set's layout.
+    pub fn set(&self) -> &SetLayout {
+        &self.0
+    }
+}
+
+/// Splats of one object in buffers of their own.
+pub struct Chunk {
+    /// How many splats.
+    pub count: u32,
+    /// Whether they carry tangent vectors.
+    pub ellipses: bool,
+    /// Whether they belong to a closed, outward-oriented surface.
+    pub closed: bool,
+    /// One color for all.
+    pub uniform_color: bool,
+    /// The box of the centers, local space.
+    pub bounds: [DVec3; 2],
+    /// The largest major radius, local space.
+    pub largest_radius: f64,
+    set: vk::DescriptorSet,
+    // Never read again, but the set names them; dropped after the pool.
+    _pool: DescriptorPool,
+    buffers: [Buffer; 2],
+}
+
+impl Chunk {
+    pub(super) fn new(
+        device: &Device,
+        layout: &SplatSetLayout,
+        number: usize,
+        closed: bool,
+        packed: &Packed,
+    ) -> Result<(Self, Staging)> {
+        let contents: [(&str, &[u8]); 2] = [
+            ("shapes", bytemuck::cast_slice(&packed.shapes)),
+            ("colors", bytemuck::cast_slice(&packed.colors)),
+        ];
+        let bytes = contents.iter().map(|(_, bytes)| bytes.len() as u64).sum();
+        let mut staging = Staging::new(device, &format!("upload of chunk {number}"), bytes)?;
+        let mut buffer = |(what, bytes): (&str, &[u8])| {
+            let name = format!("{what} of chunk {number}");
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+            let desc = BufferDesc { name: &name, size: bytes.len() as u64, usage };
+            let buffer = Buffer::new(device, desc, MemoryUse::Device)?;
+            staging.push(&buffer, bytes);
+            Ok::<_, crate::Error>(buffer)
+        };
+        let buffers = [buffer(contents[0])?, buffer(contents[1])?];
+        let pool = DescriptorPool::new(device, &format!("set of chunk {number}"), 1, 2, 0)?;
+        let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
+        let set = pool.set(layout.set(), &given)?;
+        let chunk = Self {
+            count: packed.count,
+            ellipses: packed.ellipses,
+            closed,
+            uniform_color: packed.uniform_color,
+            bounds: packed.bounds,
+            largest_radius: packed.largest_radius,
+            set,
+            _pool: pool,
+            buffers,
+        };
+        Ok((chunk, staging))
+    }
+
+    /// The descriptor set.
+    pub fn set(&self) -> vk::DescriptorSet {
+        self.set
+    }
+
+    /// Bytes of device memory.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(Buffer::size).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chunk_never_exceeds_the_range_by_a_byte_nor_our_own_cap() {
+        for range in [48, 95, 96, 1 << 27, (1 << 27) + 8, u64::from(u32::MAX), u64::MAX] {
+            let capacity = capacity(range) as u64;
+            assert!(capacity * 48 <= range && capacity <= 1 << 22, "{range}");
+        }
+        assert_eq!(capacity(1 << 27), 2_796_202);
+    }
+}

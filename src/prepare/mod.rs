@@ -1,0 +1,78 @@
+//! From a scene to GPU buffers: what is done once, before any frame.
+//!
+//! World coordinates are `f64`; shaders have `f32`. So the scene is *rebased*: moved by an origin near its middle and
+//! scaled by a power of two such that its radius is about 1. Both are exact; what is left is one rounding of each
+//! coordinate to `f32`, 6e-8 of the scene's size. The scale keeps products of lengths far from over- and underflow
+//! whatever the file's unit is.
+
+mod chunk;
+mod pack;
+mod rebase;
+
+pub use chunk::{Chunk, SplatSetLayout};
+pub use rebase::Rebase;
+
+use crate::{
+    error::Result,
+    scene::{DefectCounts, Scene},
+    vk::{Device, Staging},
+};
+
+/// A scene on the device. Chunks keep the scene's order.
+pub struct PreparedScene {
+    /// From world to local space.
+    pub rebase: Rebase,
+    /// Pieces of objects, each within the device's limits.
+    pub chunks: Vec<Chunk>,
+    /// What was left out, in all objects together.
+    pub defects: DefectCounts,
+}
+
+impl PreparedScene {
+    /// How many splats are drawn.
+    pub fn splat_count(&self) -> u64 {
+        self.chunks.iter().map(|chunk| u64::from(chunk.count)).sum()
+    }
+
+    /// Bytes of device memory in splat buffers.
+    pub fn bytes(&self) -> u64 {
+        self.chunks.iter().map(Chunk::bytes).sum()
+    }
+}
+
+/// Uploads a scene. Splats with a defect are left out and counted. `submit` runs one batch of uploads: our own queue,
+/// or the host's, which may defer it as long as it comes before the first frame and the batch lives until then.
+/// `progress` is called with splats done and splats in all.
+///
+/// # Errors
+/// Whatever the allocator, the driver or `submit` answers.
+pub fn prepare(
+    device: &Device,
+    layout: &SplatSetLayout,
+    scene: &Scene,
+    submit: &mut dyn FnMut(Staging) -> Result<()>,
+    progress: &dyn Fn(u64, u64),
+) -> Result<PreparedScene> {
+    let rebase = Rebase::of(scene);
+    let total = scene.splat_count() as u64;
+    let capacity = chunk::capacity(device.facts().limits.max_storage_buffer_range);
+    let mut prepared = PreparedScene { rebase, chunks: Vec::new(), defects: DefectCounts::default() };
+    let mut done = 0;
+    for object in &scene.objects {
+        let splats = &object.splats;
+        for first in (0..splats.len()).step_by(capacity) {
+            let range = first..splats.len().min(first + capacity);
+            done += range.len() as u64;
+            let packed = pack::pack(splats, range, &rebase);
+            prepared.defects.merge(&packed.defects);
+            if packed.count > 0 {
+                let number = prepared.chunks.len();
+                let (chunk, staging) = Chunk::new(device, layout, number, object.closed, &packed)?;
+                submit(staging)?;
+                prepared.chunks.push(chunk);
+            }
+            progress(done, total);
+        }
+    }
+    Ok(prepared)
+}

@@ -1,0 +1,107 @@
+//! The layout of splats in GPU buffers.
+//!
+//! Disks, 32 bytes: `position radius`, `normal 0`. Ellipses, 48 bytes: `position major-radius`, `s 0`, `t 0`. Local
+//! space, f32. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6).
+
+use std::ops::Range;
+
+use glam::{DVec3, Vec3};
+
+use super::rebase::Rebase;
+use crate::scene::{Colors, DefectCounts, Shapes, Splats};
+
+/// Splats as bytes for the GPU.
+pub struct Packed {
+    /// How many.
+    pub count: u32,
+    /// Whether they carry tangent vectors.
+    pub ellipses: bool,
+    /// One color for all.
+    pub uniform_color: bool,
+    /// See the module.
+    pub shapes: Vec<[f32; 4]>,
+    /// See the module.
+    pub colors: Vec<[u16; 4]>,
+    /// The box of the centers, local space.
+    pub bounds: [DVec3; 2],
+    /// The largest major radius, local space.
+    pub largest_radius: f64,
+    /// What was left out.
+    pub defects: DefectCounts,
+}
+
+/// Bytes of a splat's shape.
+pub fn shape_bytes(ellipses: bool) -> usize {
+    if ellipses { 48 } else { 32 }
+}
+
+/// Packs the splats of a range, without those that have a defect.
+pub fn pack(splats: &Splats, range: Range<usize>, rebase: &Rebase) -> Packed {
+    let ellipses = matches!(splats.shapes, Shapes::Ellipses { .. });
+    let uniform_color = matches!(splats.colors, Colors::Uniform(_));
+    let mut packed = Packed {
+        count: 0,
+        ellipses,
+        uniform_color,
+        shapes: Vec::with_capacity(range.len() * shape_bytes(ellipses) / 16),
+        colors: Vec::with_capacity(if uniform_color { 1 } else { range.len() }),
+        bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
+        largest_radius: 0.0,
+        defects: DefectCounts::default(),
+    };
+    for i in range {
+        let defect = splats.defect(i);
+        packed.defects.add(defect);
+        if defect.is_some() {
+            continue;
+        }
+        let position = rebase.point(splats.positions[i]);
+        let radius = splats.major_radius(i) * rebase.scale;
+        packed.bounds = [packed.bounds[0].min(position), packed.bounds[1].max(position)];
+        packed.largest_radius = packed.largest_radius.max(radius);
+        packed.count += 1;
+        packed.shapes.push(position.as_vec3().extend(radius as f32).into());
+        match &splats.shapes {
+            // In f64: a normal may have any length that f32 has.
+            Shapes::Disks { normals, .. } => {
+                packed.shapes.push(normals[i].as_dvec3().normalize().as_vec3().extend(0.0).into());
+            }
+            Shapes::Ellipses { s, t } => {
+                let local =
+                    |v: Vec3| -> [f32; 4] { (v.as_dvec3() * rebase.scale).as_vec3().extend(0.0).into() };
+                packed.shapes.extend([local(s[i]), local(t[i])]);
+            }
+        }
+        if !uniform_color || packed.colors.is_empty() {
+            packed.colors.push(splats.color(i).map(|c| (c.clamp(0.0, 1.0) * 65535.0).round() as u16));
+        }
+    }
+    packed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defective_splats_leave_no_trace_and_normals_of_any_length_become_unit() {
+        let lengths = [1.0_f32, 1e-38, 1e38, 0.0, 3.0];
+        let splats = Splats {
+            positions: vec![DVec3::ZERO; 5],
+            shapes: Shapes::Disks {
+                normals: lengths.iter().map(|l| Vec3::new(0.0, 0.6, 0.8) * *l).collect(),
+                radii: vec![1.0, 2.0, 3.0, 9.0, f32::NAN],
+            },
+            colors: Colors::Uniform([0.0, 0.5, 1.0, 1.0]),
+        };
+        let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
+        let packed = pack(&splats, 0..5, &rebase);
+        assert_eq!((packed.count, packed.defects.total(), packed.largest_radius), (3, 2, 1.5));
+        assert_eq!(packed.colors, [[0, 32768, 65535, 65535]]);
+        for (i, radius) in [0.5, 1.0, 1.5].into_iter().enumerate() {
+            assert_eq!(packed.shapes[2 * i], [0.0, 0.0, 0.0, radius]);
+            let normal = Vec3::from_slice(&packed.shapes[2 * i + 1][..3]);
+            assert!((normal.length() - 1.0).abs() < 1e-6, "{i}: {normal}");
+        }
+    }
+}
