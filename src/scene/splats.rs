@@ -174,7 +174,8 @@ impl DefectCounts {
         self.counts[defect as usize]
     }
 
-    fn add(&mut self, defect: Option<Defect>) {
+    /// Counts one splat: with its defect, or not at all where it has none.
+    pub fn add(&mut self, defect: Option<Defect>) {
         if let Some(defect) = defect {
             self.counts[defect as usize] += 1;
         }
