@@ -32,7 +32,7 @@ fn a_tilted_disk_has_the_depth_of_its_plane() {
             let expected = (4.0 - 0.2 * slope) / (1.0 - slope * x);
             assert!((pixel.depth / expected - 1.0).abs() < 1e-12, "{angle_deg}°: {x}, {y}");
         }
-        assert!(covered(&picture) > 100, "{angle_deg}°");
+        assert!(covered(&picture) > 50, "{angle_deg}°");
     }
 }
 
@@ -83,7 +83,7 @@ fn a_scene_far_from_the_origin_gives_the_same_picture() {
             (center, (0.2 * s).as_vec3(), (0.2 * normal.cross(s)).as_vec3(), GRAY)
         })
         .collect();
-    let settings = Settings { filter: Filter::Adjust, ..settings(64) };
+    let settings = Settings { filter: Filter::Adjust, ..settings(128) };
     let near = picture(&ellipses(&list), &settings);
 
     let offset = DVec3::new(500_000.0, 4_600_000.0, 300.0);
