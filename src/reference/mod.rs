@@ -4,9 +4,9 @@
 //! Pajarola, Sainz, Guidotti 2003). Slow and obvious on purpose, and it shares no formula with the GPU path: not
 //! even [`crate::math`].
 //!
-//! A splat is looked for in a box that is far larger than it ([`search_box`]). In each pixel the ray meets the
-//! splat's plane ([`intersect`]), the kernel gives a weight ([`kernel`]); the nearest shifted depth is found first,
-//! then the fragments at or before it are summed, normalized and shaded ([`band`], [`shade`]).
+//! A splat is looked for in a box that is far larger than it (`search_box`). In each pixel the ray meets the
+//! splat's plane (`intersect`), the kernel gives a weight (`kernel`); the nearest shifted depth is found first,
+//! then the fragments at or before it are summed, normalized and shaded (`band`, `shade`).
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
@@ -43,7 +43,7 @@ use crate::scene::{Camera, Scene, Settings};
 /// that every thread stays busy.
 const BAND_ROWS: usize = 16;
 
-/// Renders `scene` as DESIGN's mathematics says, with every setting but `accumulate`.
+/// Renders `scene` seen by `camera`, with every setting but `accumulate`.
 ///
 /// Splats with a [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on
 /// how many. `progress(done, total)` is called from several threads, with rows.

@@ -88,9 +88,9 @@ fn the_color_is_shaded_from_the_normalized_surface() {
     let picture = picture(&scene, &settings);
     for (x, y, pixel) in pixels_at(&picture) {
         let n_dot_l = 1.0 / (1.0 + x * x + y * y).sqrt();
-        for i in 0..3 {
-            let expected = f64::from(GRAY[i]) * (0.1 + 0.9 * n_dot_l);
-            assert!((pixel.color[i] - expected).abs() < 1e-14, "{x}, {y}");
+        for (color, albedo) in pixel.color.iter().zip(&GRAY[..3]) {
+            let expected = f64::from(*albedo) * (0.1 + 0.9 * n_dot_l);
+            assert!((color - expected).abs() < 1e-14, "{x}, {y}");
         }
         assert_eq!(pixel.color[3], 1.0);
     }
