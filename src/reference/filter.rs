@@ -114,6 +114,18 @@ mod tests {
     }
 
     #[test]
+    fn the_jacobian_is_the_difference_quotient_of_the_projection() {
+        let mut random = Random(5);
+        for _ in 0..100 {
+            let at = DVec3::new(random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.within(0.5, 8.0));
+            let v = random.direction();
+            let image = |step: f64| (at + step * v).truncate() / (at + step * v).z;
+            let quotient = (image(1e-5) - image(-1e-5)) / 2e-5;
+            assert!((projected(at, v) - quotient).length() < 1e-7);
+        }
+    }
+
+    #[test]
     fn an_adjusted_axis_is_parallel_to_the_screen() {
         // Far away and tilted: both axes are replaced.
         let center = DVec3::new(3.0, -2.0, 100.0);

@@ -107,3 +107,18 @@ fn empty_pixels_show_the_background_as_linear_light() {
     let transparent = Settings { background: None, ..settings(32) };
     assert_eq!(picture(&scene, &transparent).pixel(0, 0).unwrap().color, [0.0; 4]);
 }
+
+#[test]
+fn the_heavier_splat_turns_the_normal_more() {
+    // Turned by ±30° about x, whose axis holds both centers: the weights at x = 0 are exp(−1/8) and exp(−9/8).
+    let (sin, cos) = 30.0_f32.to_radians().sin_cos();
+    let turned = |x: f64, sign: f32| {
+        (DVec3::new(x, 0.0, 1.0), Vec3::new(0.0, cos, sign * sin) * 0.5, Vec3::X * 0.5, GRAY)
+    };
+    let scene = ellipses(&[turned(-0.125, 1.0), turned(0.375, -1.0)]);
+    let pixel = *picture(&scene, &settings(65)).pixel(32, 32).unwrap();
+    // (0, cos, ±sin) × x = (0, ±½, −√¾), mixed with the weights 1 and e⁻¹.
+    let fade = (-1.0_f64).exp();
+    let expected = DVec3::new(0.0, 0.5 * (1.0 - fade), -0.75_f64.sqrt() * (1.0 + fade)).normalize();
+    assert!((DVec3::from(pixel.normal) - expected).length() < 1e-7, "{:?}", pixel.normal);
+}

@@ -97,7 +97,8 @@ fn random_splats(random: &mut Random, count: usize) -> Vec<Ellipse> {
         .map(|_| {
             let size = 10.0_f64.powf(random.within(-3.0, 0.7));
             let first = random.direction();
-            let second = first.cross(random.direction()).normalize() / random.within(1.0, 20.0);
+            let second =
+                first.cross(random.direction()).normalize() * 10.0_f64.powf(random.within(-1.3, 1.3));
             let center =
                 DVec3::new(random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.within(-1.0, 5.0));
             (center, (first * size).as_vec3(), (second * size).as_vec3(), GRAY)

@@ -3,6 +3,8 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
+use crate::reference::splat::prepare;
+use crate::reference::view::View;
 
 /// A disk of radius ½ at depth 1, on the axis, turned about x by `angle_deg` from the screen.
 fn turned(angle_deg: f64) -> Ellipse {
@@ -62,4 +64,30 @@ fn at_grazing_angles_the_area_is_that_of_the_projected_ellipse() {
         // The f32 tangents are not exactly ½ long.
         assert!(expected > 5000 && covered(&picture).abs_diff(expected) <= 4, "{angle_deg}: {expected}");
     }
+}
+
+#[test]
+fn a_ray_in_the_plane_hits_nothing() {
+    let view = View::new(&camera(), [65, 65]);
+    let (splats, _) = prepare(&ellipses(&[(DVec3::Z, Vec3::Z, Vec3::X, GRAY)]), &view, &settings(65));
+    for x in [0.0, 0.3] {
+        assert_eq!(splats[0].hit(DVec3::new(x, 0.0, 1.0), view.near), None);
+    }
+}
+
+#[test]
+fn the_rim_of_a_thin_splat_reaches_far_beyond_it() {
+    // A millionth of a degree from the edge, radius 0.05: in the row y = 0 depth is 1 and r = x/0.05.
+    let angle_rad = (90.0 - 1e-6_f64).to_radians();
+    let s = (DVec3::Y * angle_rad.cos() + DVec3::Z * angle_rad.sin()).as_vec3() * 0.05;
+    let picture = picture(&ellipses(&[(DVec3::Z, s, Vec3::X * 0.05, GRAY)]), &settings(129));
+    let minor_px = 64.5 * f64::from(s.y);
+    let mut beyond = 0;
+    for (x, _, pixel) in pixels_at(&picture).filter(|(_, y, _)| *y == 0.0) {
+        let r2 = (x / f64::from(0.05_f32)).powi(2);
+        let margin = (16.0 * 64.5 * x.abs() / 16_777_216.0 / minor_px).max(1e-3);
+        assert_eq!(pixel.rim, (r2 - 1.0).abs() <= margin, "{x}");
+        beyond += usize::from(pixel.rim && r2 > 4.0);
+    }
+    assert!(beyond > 20, "{beyond}");
 }

@@ -96,3 +96,16 @@ fn a_thin_wall_mixes_its_sides_unless_it_is_known_to_be_closed() {
     let closed = *picture(&scene, &settings(33)).pixel(16, 16).unwrap();
     assert_eq!(closed.albedo, [1.0, 0.0, 0.0]);
 }
+
+#[test]
+fn the_shift_goes_by_the_depth_of_the_center_not_by_its_distance() {
+    // Off the axis: depth 1, distance 1.7. The threshold is 1 + ε.
+    let settings = Settings { epsilon: Epsilon::Length(0.1), ..settings(32) };
+    for (distance, weight) in [(0.099, 2.0), (0.101, 1.0)] {
+        let place = DVec3::new(0.984_375, 0.984_375, 1.0);
+        let scene =
+            ellipses(&[facing_disk(place, 0.5, RED), facing_disk(place * (1.0 + distance), 0.5, BLUE)]);
+        let last = *picture(&scene, &settings).pixel(31, 31).unwrap();
+        assert!((last.weight.round() - weight).abs() < 1e-12 && last.weight > 0.9 * weight, "{distance}");
+    }
+}

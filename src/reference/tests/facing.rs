@@ -83,3 +83,31 @@ fn sphere(count: u32, radius: f32) -> Scene {
     };
     Scene { objects: vec![Object { name: "sphere".into(), splats, closed: false }] }
 }
+
+#[test]
+fn scene_and_camera_turned_together_give_the_same_picture() {
+    let (sin, cos) = 0.7_f64.sin_cos();
+    let turn = |v: DVec3| DVec3::new(cos * v.x + sin * v.z, v.y, cos * v.z - sin * v.x);
+    let turn_f32 = |v: Vec3| turn(v.as_dvec3()).as_vec3();
+    let list = [
+        facing_disk(DVec3::new(0.3, 0.1, 2.0), 0.7, GRAY),
+        (
+            DVec3::new(-0.5, 0.2, 2.5),
+            Vec3::new(0.3, 0.5, 0.2),
+            Vec3::new(0.6, -0.2, 0.4),
+            [1.0, 0.0, 0.0, 0.5],
+        ),
+    ];
+    let turned = list.map(|(center, s, t, color)| (turn(center), turn_f32(s), turn_f32(t), color));
+    let camera = Camera { target: turn(DVec3::Z), up: turn(DVec3::NEG_Y), ..camera() };
+    let settings = settings(64);
+    let expected = picture(&ellipses(&list), &settings);
+    let picture = render(&ellipses(&turned), &camera, &settings, &|_, _| ()).unwrap();
+    for (a, b) in expected.pixels.iter().zip(&picture.pixels).filter(|(a, _)| !a.rim) {
+        // The turned tangents are rounded to f32.
+        assert!((a.weight - b.weight).abs() < 1e-5);
+        assert!(a.depth == b.depth || (a.depth - b.depth).abs() < 1e-5);
+        assert!((DVec3::from(a.normal) - DVec3::from(b.normal)).length() < 1e-5);
+    }
+    assert!(covered(&picture) > 300);
+}

@@ -3,6 +3,8 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
+use crate::reference::splat::prepare;
+use crate::reference::view::View;
 
 #[test]
 fn a_ground_disk_under_the_eye_covers_all_below_the_horizon() {
@@ -88,5 +90,32 @@ fn a_splat_behind_the_eye_or_before_the_near_plane_is_not_seen() {
         let camera = Camera { near: Some(near), ..camera() };
         let picture = render(&close, &camera, &settings(32), &|_, _| ()).unwrap();
         assert_eq!(covered(&picture) > 0, seen, "{near}");
+    }
+}
+
+#[test]
+fn no_filter_acts_on_a_splat_whose_center_is_not_in_front() {
+    // A ground disk so close below the eye that its projection at the center would be thinner than the filter.
+    for z in [-0.5, 0.0, 5e-7] {
+        let scene = ellipses(&[(DVec3::new(0.0, 0.001, z), Vec3::X * 2.0, Vec3::Z * 2.0, GRAY)]);
+        let with = |filter| picture(&scene, &Settings { filter, ..settings(64) });
+        let (none, adjusted) = (with(Filter::None), with(Filter::Adjust));
+        assert!(covered(&none) > 1000);
+        assert_eq!(none.pixels, adjusted.pixels, "{z}");
+    }
+}
+
+#[test]
+fn the_margin_of_a_splat_that_reaches_the_near_plane_is_that_at_the_fragment() {
+    // A ground disk of radius 10, 1e-4 below the eye, seen where its depth is 10: y = 1e-5. There the axes project
+    // to 10/10 and 10 y/10; of the second, 64 pixels a unit, the disk is 6.4e-4 pixels wide.
+    let view = View::new(&camera(), [128, 128]);
+    let settings = Settings { filter: Filter::None, ..settings(128) };
+    for z in [0.0, 0.5] {
+        let scene = ellipses(&[(DVec3::new(0.0, 1e-4, z), Vec3::X * 10.0, Vec3::Z * 10.0, GRAY)]);
+        let (splats, _) = prepare(&scene, &view, &settings);
+        let margin = splats[0].r2_margin(DVec3::new(0.0, 1e-5, 1.0), 10.0, 64.0, &view);
+        let expected = 16.0 * 64.0 / 16_777_216.0 / 6.4e-4;
+        assert!((margin / expected - 1.0).abs() < 1e-9, "{z}: {margin}, {expected}");
     }
 }
