@@ -2,7 +2,7 @@
 //!
 //! In `f64` on the CPU, one pixel at a time, from the equations of the papers (Guennebaud, Barthe, Paulin 2006;
 //! Pajarola, Sainz, Guidotti 2003). Slow and obvious on purpose, and it shares no formula with the GPU path: not
-//! even [`crate::math`].
+//! even the `math` folder.
 //!
 //! A splat is looked for in a box that is far larger than it (`search_box`). In each pixel the ray meets the
 //! splat's plane (`intersect`), the kernel gives a weight (`kernel`); the nearest shifted depth is found first,
