@@ -1,1 +1,107 @@
-//! Not yet.
+//! The oracle: the picture that every other rasterizer is measured against.
+//!
+//! In `f64` on the CPU, one pixel at a time, from the equations of the papers (Guennebaud, Barthe, Paulin 2006;
+//! Pajarola, Sainz, Guidotti 2003). Slow and obvious on purpose, and it shares no formula with the GPU path: not
+//! even the `math` folder.
+//!
+//! A splat is looked for in a box that is far larger than it (`search_box`). In each pixel the ray meets the
+//! splat's plane (`intersect`), the kernel gives a weight (`kernel`); the nearest shifted depth is found first,
+//! then the fragments at or before it are summed, normalized and shaded (`band`, `shade`).
+//!
+//! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
+//! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
+//!
+//! Not modelled: [`crate::scene::Accumulate`]. The sums are `f64` whatever it says.
+
+mod band;
+mod filter;
+mod intersect;
+mod kernel;
+mod picture;
+mod search_box;
+mod shade;
+mod splat;
+mod view;
+
+#[cfg(test)]
+mod tests;
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+pub use picture::{Picture, Pixel};
+
+use self::band::Frame;
+use self::search_box::SearchBox;
+use self::view::View;
+use crate::error::{Error, Result};
+use crate::scene::{Camera, Scene, Settings};
+
+/// Rows that a thread takes at a time: enough that the boxes of all splats are not walked too often, few enough
+/// that every thread stays busy.
+const BAND_ROWS: usize = 16;
+
+/// Renders `scene` seen by `camera`, with every setting but `accumulate`.
+///
+/// Splats with a [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on
+/// how many. `progress(done, total)` is called from several threads, with rows.
+///
+/// # Errors
+/// [`crate::ErrorKind::Option`] for settings or a camera out of range, and for a size that memory can't hold.
+pub fn render(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &Settings,
+    progress: &(dyn Fn(u64, u64) + Sync),
+) -> Result<Picture> {
+    settings.validate()?;
+    camera.validate()?;
+    let [width, height] = settings.size_px;
+    let view = View::new(camera, settings.size_px);
+    let (splats, defects) = splat::prepare(scene, &view, settings);
+    let limit_r2 = kernel::limit_r2(settings.kernel);
+    let boxes = splats.iter().map(|splat| SearchBox::of(splat, limit_r2, &view)).collect();
+    let frame = Frame { view, settings, splats, boxes };
+
+    let mut pixels = empty_pixels(settings)?;
+    let rows_done = AtomicU64::new(0);
+    progress(0, u64::from(height));
+    let bands = Mutex::new(pixels.chunks_mut(width as usize * BAND_ROWS).enumerate());
+    let work = || {
+        loop {
+            // The lock is held only while the next band is taken: nothing can be left half done under it.
+            let next = bands.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((i, pixels)) = next else { break };
+            let first = (i * BAND_ROWS) as u32;
+            let rows = (pixels.len() / width as usize) as u32;
+            band::render(&frame, first..first + rows, pixels);
+            let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
+            progress(done, u64::from(height));
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    thread::scope(|scope| {
+        for _ in 1..threads {
+            scope.spawn(work);
+        }
+        work();
+    });
+    Ok(Picture { size_px: settings.size_px, pixels, defects })
+}
+
+/// A picture of background only.
+fn empty_pixels(settings: &Settings) -> Result<Vec<Pixel>> {
+    let [width, height] = settings.size_px;
+    let background = settings.background.map_or([0.0; 4], |srgb| {
+        let [red, green, blue] = srgb.map(|c| shade::linear_from_srgb(f64::from(c)));
+        [red, green, blue, 1.0]
+    });
+    let too_large = || Error::option("--size", format!("{width}x{height}: memory can't hold the picture"));
+    let count = usize::try_from(u64::from(width) * u64::from(height)).map_err(|_| too_large())?;
+    let mut pixels = Vec::new();
+    pixels.try_reserve_exact(count).map_err(|_| too_large())?;
+    pixels.resize(count, Pixel::empty(background));
+    Ok(pixels)
+}

@@ -1,5 +1,7 @@
 //! How a scene is rendered. The default of each setting is the first value of its option in the manual.
 
+use crate::error::{Error, Result};
+
 /// Every choice that changes the picture, apart from scene and camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -36,6 +38,40 @@ impl Default for Settings {
     }
 }
 
+/// The most pixels along a side.
+const MAX_SIDE_PX: u32 = 65_536;
+
+impl Settings {
+    /// Refuses settings that have no picture.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] for a side outside 1–65536 pixels, kernel parameters that are not finite and
+    /// above 0, an ε that is not finite and at least 0, a background outside 0–1.
+    pub fn validate(&self) -> Result<()> {
+        let [width, height] = self.size_px;
+        if !self.size_px.iter().all(|side| (1..=MAX_SIDE_PX).contains(side)) {
+            let problem = format!("{width}x{height}: expected 1 to {MAX_SIDE_PX} pixels a side");
+            return Err(Error::option("--size", problem));
+        }
+        self.kernel.validate()?;
+        let (Epsilon::Radii(epsilon) | Epsilon::Length(epsilon)) = self.epsilon;
+        if !(epsilon >= 0.0 && epsilon.is_finite()) {
+            return Err(Error::option(
+                "--epsilon",
+                format!("{epsilon}: expected a finite number, at least 0"),
+            ));
+        }
+        if let Some(color) = self.background
+            && !color.iter().all(|component| (0.0..=1.0).contains(component))
+        {
+            let [red, green, blue] = color;
+            let problem = format!("{red},{green},{blue}: expected three numbers from 0 to 1");
+            return Err(Error::option("--background", problem));
+        }
+        Ok(())
+    }
+}
+
 /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Filter {
@@ -67,6 +103,22 @@ pub enum Kernel {
         /// Flatness of the top, above 0.
         n: f32,
     },
+}
+
+impl Kernel {
+    fn validate(&self) -> Result<()> {
+        let parameters: &[(&str, f32)] = match *self {
+            Self::Gaussian { sigma } => &[("gaussian: σ", sigma)],
+            Self::PsiE { a, b, n } => &[("psi_e: a", a), ("psi_e: b", b), ("psi_e: n", n)],
+        };
+        for (name, value) in parameters {
+            if !(*value > 0.0 && value.is_finite()) {
+                let problem = format!("{name} is {value}: expected a finite number above 0");
+                return Err(Error::option("--kernel", problem));
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Default for Kernel {
@@ -118,4 +170,52 @@ pub enum Shading {
     Normals,
     /// The albedo itself.
     Albedo,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_and_the_ends_of_the_ranges_are_accepted() {
+        Settings::default().validate().unwrap();
+        let ends = Settings {
+            size_px: [1, 65_536],
+            epsilon: Epsilon::Length(0.0),
+            kernel: Kernel::PsiE { a: 1e-30, b: 1e30, n: 1.0 },
+            background: Some([0.0, 0.5, 1.0]),
+            ..Settings::default()
+        };
+        ends.validate().unwrap();
+        Settings { background: None, ..ends }.validate().unwrap();
+    }
+
+    #[test]
+    fn each_value_out_of_range_is_refused_under_its_options_name() {
+        let good = Settings::default;
+        let gaussian = |sigma| Settings { kernel: Kernel::Gaussian { sigma }, ..good() };
+        let psi_e = |a, b, n| Settings { kernel: Kernel::PsiE { a, b, n }, ..good() };
+        let background = |blue| Settings { background: Some([0.0, 1.0, blue]), ..good() };
+        let cases = [
+            ("--size", Settings { size_px: [0, 5], ..good() }),
+            ("--size", Settings { size_px: [5, 65_537], ..good() }),
+            ("--kernel", gaussian(0.0)),
+            ("--kernel", gaussian(-1.0)),
+            ("--kernel", gaussian(f32::NAN)),
+            ("--kernel", psi_e(f32::INFINITY, 1.0, 1.0)),
+            ("--kernel", psi_e(1.0, 0.0, 1.0)),
+            ("--kernel", psi_e(1.0, 1.0, f32::NAN)),
+            ("--epsilon", Settings { epsilon: Epsilon::Radii(-1e-9), ..good() }),
+            ("--epsilon", Settings { epsilon: Epsilon::Length(f64::NAN), ..good() }),
+            ("--epsilon", Settings { epsilon: Epsilon::Length(f64::INFINITY), ..good() }),
+            ("--background", background(1.1)),
+            ("--background", background(-0.1)),
+            ("--background", background(f32::NAN)),
+        ];
+        for (option, settings) in cases {
+            let error = settings.validate().expect_err(option);
+            assert_eq!(error.exit_code(), 1);
+            assert!(error.to_string().starts_with(option), "{error}");
+        }
+    }
 }

@@ -1,0 +1,160 @@
+//! A splat as it is drawn: in view space, after culling and filter, with all that a pixel asks of it.
+
+use glam::DVec3;
+
+use super::filter::{adjust, minor_axis, projected};
+use super::view::View;
+use crate::scene::{Backfaces, DefectCounts, Epsilon, Filter, Object, Scene, Settings, Shapes};
+
+/// A splat in view space. A point of it is `center + u·s + v·t`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DrawnSplat {
+    pub center: DVec3,
+    /// First tangent vector after the filter.
+    pub s: DVec3,
+    /// Second tangent vector after the filter.
+    pub t: DVec3,
+    /// Unit normal of the plane that is drawn, to either side.
+    pub plane_normal: DVec3,
+    /// `u = u_axis · q` for a point `center + q` of the plane.
+    pub u_axis: DVec3,
+    /// `v = v_axis · q`.
+    pub v_axis: DVec3,
+    /// Unit normal of the surface, toward the eye.
+    pub normal: DVec3,
+    /// Linear.
+    pub albedo: DVec3,
+    /// Straight.
+    pub alpha: f64,
+    /// The depth of the visibility test is this times the fragment's own; at least 1.
+    pub shift: f64,
+    /// Semi-minor axis of the projection at the center, in pixels; `None` where the disk reaches the near plane
+    /// and the projection is no ellipse.
+    pub minor_px: Option<f64>,
+}
+
+/// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
+pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
+    let mut drawn = Vec::new();
+    let mut defects = DefectCounts::default();
+    for object in &scene.objects {
+        let cull = match settings.backfaces {
+            Backfaces::Auto => object.closed,
+            Backfaces::Flip => false,
+            Backfaces::Cull => true,
+        };
+        for i in 0..object.splats.len() {
+            let defect = object.splats.defect(i);
+            defects.add(defect);
+            if defect.is_none() {
+                drawn.extend(prepare_one(object, i, cull, view, settings));
+            }
+        }
+    }
+    (drawn, defects)
+}
+
+/// `None` where the splat faces away and is culled.
+fn prepare_one(
+    object: &Object,
+    i: usize,
+    cull: bool,
+    view: &View,
+    settings: &Settings,
+) -> Option<DrawnSplat> {
+    let splats = &object.splats;
+    let center = view.from_world.point(splats.positions[i]);
+    let (s, t) = tangents(&splats.shapes, i);
+    let (s, t) = (view.from_world.rotation * s, view.from_world.rotation * t);
+
+    let outward = s.cross(t).normalize();
+    let faces_away = outward.dot(center) > 0.0;
+    if faces_away && cull {
+        return None;
+    }
+    let normal = if faces_away { -outward } else { outward };
+
+    let epsilon = match settings.epsilon {
+        Epsilon::Radii(factor) => factor * splats.major_radius(i),
+        Epsilon::Length(length) => length,
+    };
+    let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
+
+    let (s, t) = match settings.filter {
+        // The projection at a center behind the near plane has no meaning: such a splat is drawn as it is.
+        Filter::Adjust if center.z > view.near => adjust(center, s, t, view.filter_radius()),
+        Filter::Adjust | Filter::None => (s, t),
+    };
+
+    let plane_normal = s.cross(t).normalize();
+    let (u_direction, v_direction) = (t.cross(plane_normal), plane_normal.cross(s));
+    let reaches_near = center.z - s.z.hypot(t.z) < view.near;
+    let minor_px =
+        (!reaches_near).then(|| view.focal_px * minor_axis(projected(center, s), projected(center, t)));
+    let [red, green, blue, alpha] = splats.color(i).map(f64::from);
+    Some(DrawnSplat {
+        center,
+        s,
+        t,
+        plane_normal,
+        u_axis: u_direction / u_direction.dot(s),
+        v_axis: v_direction / v_direction.dot(t),
+        normal,
+        albedo: DVec3::new(red, green, blue),
+        alpha,
+        shift,
+        minor_px,
+    })
+}
+
+/// The scaled tangent vectors in world space, with `s × t` along the outward normal.
+fn tangents(shapes: &Shapes, i: usize) -> (DVec3, DVec3) {
+    match shapes {
+        Shapes::Disks { normals, radii } => {
+            let normal = normals[i].as_dvec3().normalize();
+            // The coordinate axis farthest from the normal is never parallel to it.
+            let n = normal.abs();
+            let axis = if n.x <= n.y && n.x <= n.z {
+                DVec3::X
+            } else if n.y <= n.z {
+                DVec3::Y
+            } else {
+                DVec3::Z
+            };
+            let first = axis.cross(normal).normalize();
+            let radius = f64::from(radii[i]);
+            (radius * first, radius * normal.cross(first))
+        }
+        Shapes::Ellipses { s, t } => (s[i].as_dvec3(), t[i].as_dvec3()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    #[test]
+    fn the_tangents_of_a_disk_are_right_handed_for_every_normal() {
+        // Axes and diagonals, at the ends of the f32 range too.
+        for x in [-1.0, -0.0, 0.0, 1.0] {
+            for y in [-1.0, -0.0, 0.0, 1.0] {
+                for z in [-1.0, 0.0, 1.0] {
+                    for length in [1e-38_f32, 1.0, 1e38] {
+                        let normal = Vec3::new(x, y, z) * length;
+                        if normal == Vec3::ZERO {
+                            continue;
+                        }
+                        let shapes = Shapes::Disks { normals: vec![normal], radii: vec![2.0] };
+                        let (s, t) = tangents(&shapes, 0);
+                        assert!((s.length() - 2.0).abs() < 1e-14 && (t.length() - 2.0).abs() < 1e-14);
+                        assert!(s.dot(t).abs() < 1e-14);
+                        let expected = normal.as_dvec3().normalize();
+                        assert!((s.cross(t) / 4.0 - expected).length() < 1e-14, "{normal}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Scenes whose picture is known in closed form.
+
+mod attributes;
+mod coverage;
+mod depth;
+mod diagnostics;
+mod edge_on;
+mod epsilon;
+mod facing;
+mod hostile;
+mod near_plane;
+
+use glam::{DVec3, Vec3};
+
+use super::{Picture, Pixel, render};
+use crate::scene::{Camera, Colors, Epsilon, Filter, Kernel, Object, Scene, Settings, Shapes, Splats};
+
+/// World space is view space; 90° in both directions for a square picture: the focal length is half its side.
+pub(super) fn camera() -> Camera {
+    Camera {
+        eye: DVec3::ZERO,
+        target: DVec3::Z,
+        up: DVec3::NEG_Y,
+        fov_y_rad: std::f64::consts::FRAC_PI_2,
+        near: None,
+    }
+}
+
+/// No filter, so that the splat is drawn as it is.
+pub(super) fn settings(side_px: u32) -> Settings {
+    Settings { size_px: [side_px; 2], filter: Filter::None, ..Settings::default() }
+}
+
+pub(super) const GRAY: [f32; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// One splat: center, s, t, color.
+pub(super) type Ellipse = (DVec3, Vec3, Vec3, [f32; 4]);
+
+pub(super) fn ellipses(list: &[Ellipse]) -> Scene {
+    let splats = Splats {
+        positions: list.iter().map(|e| e.0).collect(),
+        shapes: Shapes::Ellipses {
+            s: list.iter().map(|e| e.1).collect(),
+            t: list.iter().map(|e| e.2).collect(),
+        },
+        colors: Colors::PerSplat(list.iter().map(|e| e.3).collect()),
+    };
+    Scene { objects: vec![Object { name: "test".into(), splats, closed: false }] }
+}
+
+/// A disk parallel to the screen that faces the eye.
+pub(super) fn facing_disk(center: DVec3, radius: f32, color: [f32; 4]) -> Ellipse {
+    (center, Vec3::Y * radius, Vec3::X * radius, color)
+}
+
+pub(super) fn picture(scene: &Scene, settings: &Settings) -> Picture {
+    render(scene, &camera(), settings, &|_, _| ()).unwrap()
+}
+
+pub(super) fn covered(picture: &Picture) -> usize {
+    picture.pixels.iter().filter(|pixel| pixel.is_covered()).count()
+}
+
+/// Every pixel with its image-plane position, for the camera of these tests.
+pub(super) fn pixels_at(picture: &Picture) -> impl Iterator<Item = (f64, f64, &Pixel)> {
+    let [width, height] = picture.size_px;
+    let focal_px = 0.5 * f64::from(height);
+    picture.pixels.iter().enumerate().map(move |(i, pixel)| {
+        let (column, row) = (i % width as usize, i / width as usize);
+        let x = (column as f64 + 0.5 - 0.5 * f64::from(width)) / focal_px;
+        let y = (row as f64 + 0.5 - 0.5 * f64::from(height)) / focal_px;
+        (x, y, pixel)
+    })
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine.
+pub(super) struct Random(pub u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 * 0.5_f64.powi(53)
+    }
+
+    /// Uniform over the sphere.
+    pub fn direction(&mut self) -> DVec3 {
+        let z = self.within(-1.0, 1.0);
+        let (sin, cos) = self.within(0.0, std::f64::consts::TAU).sin_cos();
+        let radius = (1.0 - z * z).sqrt();
+        DVec3::new(radius * cos, radius * sin, z)
+    }
+}
