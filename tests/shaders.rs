@@ -39,7 +39,9 @@ fn every_shader_of_the_crate_is_valid_for_vulkan_1_3() {
     assert!(!shaders::ALL.is_empty());
     assert!(shaders::ALL.is_sorted_by(|a, b| a.name < b.name));
     let in_folder = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl")).unwrap();
-    assert_eq!(shaders::ALL.len(), in_folder.filter(|e| e.as_ref().unwrap().path().is_file()).count());
+    let glsl_files =
+        in_folder.filter(|e| e.as_ref().unwrap().path().extension().is_some_and(|x| x == "glsl"));
+    assert_eq!(shaders::ALL.len(), glsl_files.count());
     let folder = folder(&[]);
     for shader in shaders::ALL {
         let bytes: Vec<u8> = shader.spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
@@ -101,7 +103,7 @@ fn a_warning_is_an_error() {
 
 #[test]
 fn a_file_that_is_named_unlike_a_shader_is_an_error() {
-    for name in ["a.glsl", "A.comp.glsl", "a.geom.glsl", "notes.txt", ".comp.glsl"] {
+    for name in ["a.glsl", "A.comp.glsl", "a.geom.glsl", "notes.txt"] {
         let said = errors(&[(name, "void main() {}")], &[]);
         assert!(said.contains(&format!("glsl/{name}: error: a shader is named")), "{said}");
     }

@@ -52,8 +52,8 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct]) -> Result<String, Vec<Str
     // A struct may be missing only because its shader failed; then that failure is the thing to read.
     if errors.is_empty() {
         for (glsl_name, _) in host_structs.iter().filter(|(name, _)| !layouts.contains_key(*name)) {
-            errors
-                .push(format!("{}: error: no shader has a struct `{glsl_name}` in a buffer", glsl.display()));
+            let folder = glsl.display();
+            errors.push(format!("{folder}: error: no shader has a struct `{glsl_name}` in a buffer"));
         }
     }
     if !errors.is_empty() {
@@ -77,17 +77,18 @@ pub fn files_and_folders(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The shaders right in `glsl`: name without `.glsl`, and path; sorted by name. Folders hold only includes.
+/// The shaders right in `glsl`: name without `.glsl`, and path; sorted by name. Its folders hold only includes.
 fn find_shaders(glsl: &Path) -> Result<Vec<(String, PathBuf)>, Vec<String>> {
     let unreadable = |e: io::Error| vec![format!("{}: error: cannot list: {e}", glsl.display())];
     let mut shaders = Vec::new();
     let mut errors = Vec::new();
     for entry in fs::read_dir(glsl).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
-        if path.is_dir() {
+        let file_name = path.file_name().unwrap_or_default().to_string_lossy();
+        // Hidden files are an editor's.
+        if path.is_dir() || file_name.starts_with('.') {
             continue;
         }
-        let file_name = path.file_name().unwrap_or_default().to_string_lossy();
         let name = file_name.strip_suffix(".glsl").unwrap_or_default();
         let pass = name.rsplit_once('.').map_or("", |(pass, _)| pass);
         // The name becomes an identifier of Rust.
