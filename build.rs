@@ -7,7 +7,11 @@ use std::{env, fs, path::Path};
 
 /// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
 /// offset, and the size; a listed struct that no shader has is an error.
-const HOST_STRUCTS: &[shader_build::HostStruct] = &[];
+const HOST_STRUCTS: &[shader_build::HostStruct] = &[
+    ("FrameConstants", "crate::passes::FrameConstants"),
+    ("FinalizeConstants", "crate::passes::FinalizeConstants"),
+    ("ExportConstants", "crate::passes::ExportConstants"),
+];
 
 fn main() {
     let glsl = Path::new("glsl");

@@ -1,6 +1,7 @@
 //! A Vulkan-native splat renderer whose every method carries a measured cost and a measured error.
 
 pub mod error;
+pub mod frame;
 pub mod geometry;
 pub mod graph;
 #[cfg(feature = "files")]
@@ -9,6 +10,7 @@ pub mod math;
 pub mod passes;
 pub mod prepare;
 pub mod reference;
+pub mod renderer;
 pub mod report;
 #[cfg(feature = "files")]
 pub mod save;

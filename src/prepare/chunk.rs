@@ -78,7 +78,7 @@ impl Chunk {
             let desc = BufferDesc { name: &name, size: bytes.len() as u64, usage };
             let buffer = Buffer::new(device, desc, MemoryUse::Device)?;
             staging.push(&buffer, bytes);
-            Ok::<_, crate::Error>(buffer)
+            Ok::<_, crate::error::Error>(buffer)
         };
         let buffers = [buffer(contents[0])?, buffer(contents[1])?];
         let pool = DescriptorPool::new(device, &format!("set of chunk {number}"), 1, 2, 0)?;

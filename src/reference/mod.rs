@@ -49,7 +49,7 @@ const BAND_ROWS: usize = 16;
 /// how many. `progress(done, total)` is called from several threads, with rows.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Option`] for settings or a camera out of range, and for a size that memory can't hold.
+/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, and for a size that memory can't hold.
 pub fn render(
     scene: &Scene,
     camera: &Camera,

@@ -70,7 +70,7 @@ impl Camera {
     /// Refuses a camera that has no picture.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for values that are not finite, an eye at the target, an angle outside (0°,
+    /// [`crate::error::ErrorKind::Option`] for values that are not finite, an eye at the target, an angle outside (0°,
     /// 180°), a near plane not above zero.
     pub fn validate(&self) -> Result<()> {
         let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();

@@ -45,7 +45,7 @@ impl Settings {
     /// Refuses settings that have no picture.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for a side outside 1–65536 pixels, kernel parameters that are not finite and
+    /// [`crate::error::ErrorKind::Option`] for a side outside 1–65536 pixels, kernel parameters that are not finite and
     /// above 0, an ε that is not finite and at least 0, a background outside 0–1.
     pub fn validate(&self) -> Result<()> {
         let [width, height] = self.size_px;

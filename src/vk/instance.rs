@@ -113,7 +113,7 @@ impl Instance {
             vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
                 no_device("no Vulkan driver is installed (or VK_DRIVER_FILES names none)".to_owned()).into()
             }
-            other => crate::Error::vulkan("vkCreateInstance", "", other),
+            other => crate::error::Error::vulkan("vkCreateInstance", "", other),
         })?;
         let mut shared =
             Shared { raw, debug_utils, messenger: None, owned: true, messages, _entry: Some(entry.clone()) };

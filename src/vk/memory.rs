@@ -41,7 +41,7 @@ impl Memory {
     /// Allocates a block. `linear` is true for buffers, false for images.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Memory`].
+    /// [`crate::error::ErrorKind::Memory`].
     pub fn new(
         device: &Device,
         name: &str,

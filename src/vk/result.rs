@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 
 /// Adds call and object to a raw Vulkan result.
 pub trait VkResultExt<T> {
-    /// The value, or [`crate::ErrorKind::Vulkan`] with the call's name and the object's debug name.
+    /// The value, or [`crate::error::ErrorKind::Vulkan`] with the call's name and the object's debug name.
     ///
     /// # Errors
     /// Whatever the driver answered.

@@ -87,7 +87,7 @@ impl PassContext<'_> {
             .ok_or_else(|| self.refuse(id, "has no Vulkan object: an import was not given"))
     }
 
-    fn refuse(&self, id: ResourceId, reason: &str) -> crate::Error {
+    fn refuse(&self, id: ResourceId, reason: &str) -> crate::error::Error {
         let resource = format!("#{}", id.index());
         ErrorKind::Graph { pass: self.pass.name.clone(), resource, reason: reason.to_owned() }.into()
     }
@@ -258,7 +258,7 @@ impl Recorder<'_> {
             .ok_or_else(|| self.refuse(id, "has no Vulkan object: an import was not given"))
     }
 
-    fn refuse(&self, id: ResourceId, reason: &str) -> crate::Error {
+    fn refuse(&self, id: ResourceId, reason: &str) -> crate::error::Error {
         let resource = self.plan.resource(id).name.clone();
         ErrorKind::Graph { pass: String::new(), resource, reason: reason.to_owned() }.into()
     }

@@ -1,0 +1,7 @@
+//! Where frames go, and what lives as long as one is under way.
+
+mod slot;
+mod target;
+
+pub use slot::FrameSlot;
+pub use target::{HeadlessTarget, Target};

@@ -1,0 +1,246 @@
+//! A host of our own: a device, a queue, one frame at a time, pictures instead of a window.
+
+use std::{path::PathBuf, time::Instant};
+
+use ash::vk;
+
+use super::{Readbacks, Renderer, bytes_per_pixel};
+use crate::{
+    error::Result,
+    frame::{FrameSlot, HeadlessTarget},
+    graph::{
+        Plan,
+        execute::{FrameProfile, Profile},
+    },
+    passes::Exported,
+    prepare::PreparedScene,
+    scene::{Camera, Scene, Settings},
+    vk::{Buffer, BufferDesc, CommandPool, Device, Instance, MemoryUse, Queue, Validation},
+};
+
+/// How a [`Headless`] is set up.
+#[derive(Clone, Debug)]
+pub struct HeadlessOptions {
+    /// Whether the validation layer watches.
+    pub validation: Validation,
+    /// The device: an index or a part of its name; `None` takes the best.
+    pub device: Option<String>,
+    /// Where compiled pipelines are kept; `None` keeps them in memory.
+    pub cache_folder: Option<PathBuf>,
+}
+
+/// Renders to memory.
+pub struct Headless {
+    /// The renderer.
+    pub renderer: Renderer,
+    device: Device,
+    queue: Queue,
+    commands: CommandPool,
+    slot: FrameSlot,
+    targets: Option<Targets>,
+}
+
+/// The target and the buffers that it is read through, for one size and one choice of [`Wanted`].
+struct Targets {
+    size_px: [u32; 2],
+    wanted: Wanted,
+    target: HeadlessTarget,
+    picture: Option<Buffer>,
+    surface: Option<[Buffer; 4]>,
+}
+
+/// What is wanted of a frame, beside its being drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// The picture: 8-bit sRGB, or linear 32-bit floats.
+    pub picture: bool,
+    /// The picture's pixels are linear 32-bit floats instead of 8-bit sRGB.
+    pub linear: bool,
+    /// The normalized surface.
+    pub surface: bool,
+    /// Times or counts of the passes.
+    pub profile: Option<Profile>,
+}
+
+/// A frame that is done. Images are row-major, top row first.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// RGBA, 8-bit sRGB (alpha linear); empty unless wanted so.
+    pub srgb: Vec<[u8; 4]>,
+    /// RGBA, linear; empty unless wanted so.
+    pub linear: Vec<[f32; 4]>,
+    /// Σ of weights; empty unless the surface was wanted, as are the three below.
+    pub weight: Vec<f32>,
+    /// Linear albedo; alpha is 1 where covered.
+    pub albedo: Vec<[f32; 4]>,
+    /// Unit normal in view space; the fourth is 1 where covered.
+    pub normal: Vec<[f32; 4]>,
+    /// View-space z of the normalized surface in world units, +∞ where empty.
+    pub depth: Vec<f32>,
+    /// What the passes cost, where it was asked for.
+    pub profile: Option<FrameProfile>,
+    /// Seconds from the submission to the end of the wait for it.
+    pub wall_secs: f64,
+    /// What was recorded.
+    pub plan: Plan,
+}
+
+impl Headless {
+    /// Opens a device.
+    ///
+    /// # Errors
+    /// As [`Instance::new`] and [`Device::new`].
+    pub fn new(options: &HeadlessOptions) -> Result<Self> {
+        let instance = Instance::new(options.validation)?;
+        let device = Device::new(&instance, options.device.as_deref())?;
+        Ok(Self {
+            renderer: Renderer::new(&device, options.cache_folder.as_deref())?,
+            queue: Queue::new(&device)?,
+            commands: CommandPool::new(&device, "frame")?,
+            slot: FrameSlot::new(&device),
+            targets: None,
+            device,
+        })
+    }
+
+    /// The device.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// The queue, for work beside frames.
+    pub fn queue(&self) -> &Queue {
+        &self.queue
+    }
+
+    /// Bytes of device memory in transients of the frame rendered last.
+    pub fn transient_bytes(&self) -> u64 {
+        self.slot.transient_bytes()
+    }
+
+    /// Uploads a scene and waits for it.
+    ///
+    /// # Errors
+    /// Whatever the allocator or the driver answers.
+    pub fn prepare(&self, scene: &Scene, progress: &dyn Fn(u64, u64)) -> Result<PreparedScene> {
+        let mut submit = |staging: crate::vk::Staging| {
+            self.queue.run_once("upload", |commands| {
+                // SAFETY: recording; `run_once` waits, and the chunk that owns the targets is alive till then.
+                unsafe { staging.record(commands) };
+                Ok(())
+            })
+        };
+        self.renderer.prepare(scene, &mut submit, progress)
+    }
+
+    /// Renders one frame and waits for it.
+    ///
+    /// # Errors
+    /// As [`Renderer::record`].
+    pub fn render(
+        &mut self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        wanted: Wanted,
+    ) -> Result<Frame> {
+        // Before any image of that size is made.
+        self.renderer.check(camera, settings)?;
+        if self.targets.as_ref().is_none_or(|t| t.size_px != settings.size_px || t.wanted != wanted) {
+            self.targets = None;
+        }
+        let targets = match &mut self.targets {
+            Some(targets) => targets,
+            none => none.insert(Targets::new(&self.device, settings.size_px, wanted)?),
+        };
+        // SAFETY: the frame before was waited for.
+        let commands = unsafe { self.commands.begin() }?;
+        // SAFETY: recording; all that the frame uses is alive until the wait below; the same for the slot.
+        let plan = unsafe {
+            self.renderer.record(
+                commands,
+                &mut self.slot,
+                scene,
+                camera,
+                settings,
+                &targets.target.target(),
+                targets.readbacks(),
+                wanted.profile,
+            )
+        }?;
+        let commands = self.commands.end()?;
+        let submitted = Instant::now();
+        // SAFETY: recorded just now; waited for at once.
+        let epoch = unsafe { self.queue.submit(commands) }?;
+        self.queue.wait(epoch)?;
+        let wall_secs = submitted.elapsed().as_secs_f64();
+        let profile = self.slot.profiler().map(|profiler| profiler.read()).transpose()?;
+        Ok(targets.frame(plan, profile, wall_secs))
+    }
+}
+
+impl Targets {
+    fn new(device: &Device, size_px: [u32; 2], wanted: Wanted) -> Result<Self> {
+        let format = match wanted.linear {
+            true => vk::Format::R32G32B32A32_SFLOAT,
+            false => vk::Format::R8G8B8A8_SRGB,
+        };
+        let buffer = |name: &str, format| {
+            let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
+            let size = pixels * bytes_per_pixel(format);
+            let desc = BufferDesc { name, size, usage: vk::BufferUsageFlags::TRANSFER_DST };
+            Buffer::new(device, desc, MemoryUse::Readback)
+        };
+        let surface = || -> Result<[Buffer; 4]> {
+            let [weight, albedo, normal, depth] = Exported::FORMATS;
+            Ok([
+                buffer("read-back of weight", weight)?,
+                buffer("read-back of albedo", albedo)?,
+                buffer("read-back of normal", normal)?,
+                buffer("read-back of depth", depth)?,
+            ])
+        };
+        Ok(Self {
+            size_px,
+            wanted,
+            target: HeadlessTarget::new(device, format, size_px)?,
+            picture: wanted.picture.then(|| buffer("read-back of target", format)).transpose()?,
+            surface: wanted.surface.then(surface).transpose()?,
+        })
+    }
+
+    fn readbacks(&self) -> Readbacks {
+        Readbacks {
+            target: self.picture.as_ref().map(Buffer::raw),
+            surface: self.surface.as_ref().map(|buffers| buffers.each_ref().map(Buffer::raw)),
+        }
+    }
+
+    /// Copies what was wanted out of the buffers.
+    fn frame(&self, plan: Plan, profile: Option<FrameProfile>, wall_secs: f64) -> Frame {
+        let picture = self.picture.as_ref().map(Buffer::bytes).unwrap_or_default();
+        let (srgb, linear) = match self.wanted.linear {
+            false => (copied(picture), Vec::new()),
+            true => (Vec::new(), copied(picture)),
+        };
+        let surface = |i: usize| self.surface.as_ref().map(|buffers| buffers[i].bytes()).unwrap_or_default();
+        Frame {
+            size_px: self.size_px,
+            srgb,
+            linear,
+            weight: copied(surface(0)),
+            albedo: copied(surface(1)),
+            normal: copied(surface(2)),
+            depth: copied(surface(3)),
+            profile,
+            wall_secs,
+            plan,
+        }
+    }
+}
+
+fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+    bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+}

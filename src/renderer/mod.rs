@@ -1,0 +1,210 @@
+//! The renderer: records frames of prepared scenes into command buffers that it is given. It never submits and never
+//! waits, so that an embedding host keeps device, queue and submission to itself; [`Headless`] is such a host.
+
+mod headless;
+
+use ash::vk;
+
+pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
+
+use crate::{
+    error::{Error, Result},
+    frame::{FrameSlot, Target},
+    graph::{
+        Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan,
+        execute::{Body, Physical, Profile, Transients, execute, memory_need},
+    },
+    passes::{self, Draw, Exported, Inputs, Shaders},
+    prepare::{PreparedScene, prepare},
+    scene::{Accumulate, Camera, Scene, Settings},
+    vk::{Device, Staging},
+};
+
+/// Draws splats on a device.
+pub struct Renderer {
+    device: Device,
+    /// Pipelines and their layouts.
+    pub shaders: Shaders,
+}
+
+/// Buffers that the frame is copied to, for the host to read: rows without padding, top row first. `Some` asks for
+/// it. The surface's four images come together or not at all.
+#[derive(Clone, Copy, Default)]
+pub struct Readbacks {
+    /// The target's pixels, in its format.
+    pub target: Option<vk::Buffer>,
+    /// Weight (R32F), albedo (RGBA32F), normal (RGBA32F), depth (R32F), as [`Exported`] has them.
+    pub surface: Option<[vk::Buffer; 4]>,
+}
+
+impl Renderer {
+    /// A renderer without any pipeline yet; they are made when a frame first needs them, and kept in `cache_folder`
+    /// from run to run.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, cache_folder: Option<&std::path::Path>) -> Result<Self> {
+        Ok(Self { device: device.clone(), shaders: Shaders::new(device, cache_folder)? })
+    }
+
+    /// Uploads a scene; see [`prepare`].
+    ///
+    /// # Errors
+    /// As [`prepare`].
+    pub fn prepare(
+        &self,
+        scene: &Scene,
+        submit: &mut dyn FnMut(Staging) -> Result<()>,
+        progress: &dyn Fn(u64, u64),
+    ) -> Result<PreparedScene> {
+        prepare(&self.device, &self.shaders.splat_set, scene, submit, progress)
+    }
+
+    /// Refuses settings and targets that this device can't do.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub fn check(&self, camera: &Camera, settings: &Settings) -> Result<()> {
+        settings.validate()?;
+        camera.validate()?;
+        let facts = self.device.facts();
+        let [width, height] = settings.size_px;
+        let side = facts.limits.max_image_side;
+        if width > side || height > side {
+            return Err(Error::option(
+                "--size",
+                format!("{width}x{height}: the device '{}' draws at most {side}x{side}", facts.name),
+            ));
+        }
+        if settings.accumulate == Accumulate::F32 && !facts.blend_f32 {
+            let problem = format!("f32: the device '{}' can't blend 32-bit floats; use f16", facts.name);
+            return Err(Error::option("--accumulate", problem));
+        }
+        Ok(())
+    }
+
+    /// Records one frame. Returns the plan that was recorded.
+    ///
+    /// # Errors
+    /// As [`Renderer::check`], and whatever driver or allocator answer.
+    ///
+    /// # Safety
+    /// `commands` must be recording, outside of rendering, and be submitted to the device's queue. `scene`, the
+    /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
+    /// recorded before in this slot must have finished. The target is `settings.size_px` large and in its initial
+    /// state; the host may read `readbacks` after its own wait.
+    #[allow(clippy::too_many_arguments, reason = "each is a different thing, named at the call")]
+    pub unsafe fn record(
+        &self,
+        commands: vk::CommandBuffer,
+        slot: &mut FrameSlot,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        target: &Target,
+        readbacks: Readbacks,
+        profile: Option<Profile>,
+    ) -> Result<Plan> {
+        self.check(camera, settings)?;
+        let draws = passes::draws(scene, camera, settings, &self.device.facts().limits);
+        // SAFETY: this function's contract.
+        unsafe { slot.begin(passes::sets_needed(&draws), profile) }?;
+        // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
+        let (descriptors, transients, profiler) = slot.parts()?;
+        let inputs = Inputs { draws: &draws, camera, settings, shaders: &self.shaders, descriptors };
+        let (graph, imports) = declare(inputs, target, readbacks)?;
+        let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
+        let plan = compiled.plan.clone();
+        let transients = match transients {
+            Some(kept) if kept.fit(&plan) => kept,
+            // The old ones are destroyed once the frames that use them are done.
+            other => other.insert(Transients::new(&self.device, &plan)?),
+        };
+        // SAFETY: this function's contract.
+        unsafe { execute(&self.device, commands, compiled, transients, &imports, profiler) }?;
+        Ok(plan)
+    }
+}
+
+type Imports = Vec<(crate::graph::ResourceId, Physical)>;
+
+/// The whole frame: the opaque passes, and a copy for each thing that the host wants to read.
+fn declare<'a>(
+    inputs: Inputs<'a>,
+    target: &Target,
+    readbacks: Readbacks,
+) -> Result<(Graph<Body<'a>>, Imports)> {
+    let mut graph = Graph::new();
+    let mut imports = Imports::new();
+    let desc = ImageDesc { format: target.format, extent: target.extent };
+    let mut image = graph.import_image("target", desc, target.initial, target.last);
+    imports.push((image.id(), Physical::Image(target.image, target.view)));
+
+    let exported =
+        passes::opaque_frame(&mut graph, inputs, &mut image, target.format, readbacks.surface.is_some())?;
+
+    let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
+        let mut destination = import_readback(graph, what, format, target.extent);
+        imports.push((destination.id(), Physical::Buffer(buffer)));
+        passes::readback(
+            graph,
+            &format!("read back {what}"),
+            source,
+            format,
+            target.extent,
+            &mut destination,
+        );
+    };
+    if let Some(buffer) = readbacks.target {
+        copy(&mut graph, "target", &image, target.format, buffer);
+    }
+    if let (Some(buffers), Some(exported)) = (readbacks.surface, &exported) {
+        let images = [&exported.weight, &exported.albedo, &exported.normal, &exported.depth];
+        let names = ["weight", "albedo", "normal", "depth"];
+        for (((what, source), format), buffer) in
+            names.into_iter().zip(images).zip(Exported::FORMATS).zip(buffers)
+        {
+            copy(&mut graph, what, source, format, buffer);
+        }
+    }
+    Ok((graph, imports))
+}
+
+/// A host-visible buffer for an image: the frame before may still write it; the host reads it after.
+fn import_readback(
+    graph: &mut Graph<Body<'_>>,
+    what: &str,
+    format: vk::Format,
+    extent: vk::Extent2D,
+) -> Handle<GraphBuffer> {
+    let size_bytes = u64::from(extent.width) * u64::from(extent.height) * bytes_per_pixel(format);
+    let initial = BufferState {
+        stages: vk::PipelineStageFlags2::ALL_TRANSFER,
+        access: vk::AccessFlags2::TRANSFER_WRITE,
+    };
+    let last = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
+    let name = format!("read-back of {what}");
+    graph.import_buffer(&name, BufferDesc { size_bytes }, initial, Some(last))
+}
+
+/// Bytes of a pixel, for the formats that are read back.
+fn bytes_per_pixel(format: vk::Format) -> u64 {
+    match format {
+        vk::Format::R32G32B32A32_SFLOAT => 16,
+        vk::Format::R16G16B16A16_SFLOAT => 8,
+        _ => 4,
+    }
+}
+
+/// Why a frame has the passes and pipelines that it has, for people.
+pub fn explain(draws: &[Draw<'_>]) -> Vec<String> {
+    let large = draws.iter().filter(|draw| draw.may_be_large).count();
+    let mut lines = vec![format!("{} chunk(s) of splats", draws.len())];
+    lines.push(match large {
+        0 => "no splat can exceed the device's largest point: no list of large splats, no quads".to_owned(),
+        _ => format!(
+            "{large} chunk(s) may hold splats above the device's largest point: listed, drawn as quads"
+        ),
+    });
+    lines
+}

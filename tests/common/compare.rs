@@ -1,0 +1,130 @@
+//! GPU against oracle, pixel by pixel.
+
+use surfel::{reference::Picture, renderer::Frame};
+
+/// The largest errors over the compared pixels.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Errors {
+    /// Pixels covered in the oracle or on the GPU.
+    pub covered: usize,
+    /// Of them: left out because a fragment lies within 1e-4 of the ε-threshold.
+    pub exempt_epsilon: usize,
+    /// Of them: left out because a splat's rim passes through the pixel's center.
+    pub exempt_rim: usize,
+    /// Compared pixels.
+    pub compared: usize,
+    /// Compared pixels covered in one and empty in the other.
+    pub coverage: usize,
+    /// Σw, relative.
+    pub weight: f64,
+    /// Linear albedo, absolute.
+    pub albedo: f64,
+    /// Depth, relative.
+    pub depth: f64,
+    /// Degrees between normals.
+    pub normal_deg: f64,
+    /// NaN or infinite values in covered pixels.
+    pub not_finite: usize,
+}
+
+/// The tolerances of 32-bit accumulation. f32 carries 6e-8 a step; the setup's few dozen steps, magnified by the
+/// kernel's slope (4 at the rim) and by a splat's small axis in pixels, stay within 1e-3 of the weight; see the rim
+/// exemption for what is beyond. Albedo and normal are means of the splats', so that only differences of weights
+/// enter: 1/1024 and 0.1°. Depth is linear on the screen: 1e-4.
+pub const F32: Errors = Errors {
+    covered: 0,
+    exempt_epsilon: 0,
+    exempt_rim: 0,
+    compared: 1000,
+    coverage: 0,
+    weight: 1e-3,
+    albedo: 1.0 / 1024.0,
+    depth: 1e-4,
+    normal_deg: 0.1,
+    not_finite: 0,
+};
+
+/// How near to the ε-threshold a fragment exempts its pixel, relative.
+const EPSILON_MARGIN: f64 = 1e-4;
+
+/// Compares a frame that has its surface with the oracle's picture.
+pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
+    assert_eq!(frame.size_px, oracle.size_px);
+    let mut errors = Errors::default();
+    for (i, expected) in oracle.pixels.iter().enumerate() {
+        let covered = frame.weight[i] > 0.0;
+        if !covered && !expected.is_covered() {
+            continue;
+        }
+        errors.covered += 1;
+        let values = frame.albedo[i].iter().chain(&frame.normal[i]).chain([&frame.weight[i]]);
+        errors.not_finite += values.filter(|value| !value.is_finite()).count();
+        if expected.rim {
+            errors.exempt_rim += 1;
+            continue;
+        }
+        if expected.epsilon_margin < EPSILON_MARGIN {
+            errors.exempt_epsilon += 1;
+            continue;
+        }
+        errors.compared += 1;
+        if covered != expected.is_covered() {
+            errors.coverage += 1;
+            continue;
+        }
+        let worst = |worst: &mut f64, value: f64| {
+            // A NaN is the worst of all.
+            *worst = if value.is_nan() { f64::INFINITY } else { worst.max(value) };
+        };
+        worst(&mut errors.weight, (f64::from(frame.weight[i]) / expected.weight - 1.0).abs());
+        for c in 0..3 {
+            worst(&mut errors.albedo, (f64::from(frame.albedo[i][c]) - expected.albedo[c]).abs());
+        }
+        worst(&mut errors.depth, (f64::from(frame.depth[i]) / expected.depth - 1.0).abs());
+        worst(&mut errors.normal_deg, degrees_between(frame.normal[i], expected.normal));
+    }
+    errors
+}
+
+fn degrees_between(a: [f32; 4], b: [f64; 3]) -> f64 {
+    let a = glam::DVec3::new(a[0].into(), a[1].into(), a[2].into());
+    let b = glam::DVec3::from(b);
+    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+}
+
+impl Errors {
+    /// What exceeds the tolerances, in words; empty where nothing does.
+    pub fn beyond(&self, limit: &Self) -> Vec<String> {
+        let mut beyond = Vec::new();
+        let mut check = |name: &str, value: f64, limit: f64| {
+            if value > limit {
+                beyond.push(format!("{name} {value:.3e} > {limit:.3e}"));
+            }
+        };
+        check("weight", self.weight, limit.weight);
+        check("albedo", self.albedo, limit.albedo);
+        check("depth", self.depth, limit.depth);
+        check("normal (degrees)", self.normal_deg, limit.normal_deg);
+        check("pixels covered in one only", self.coverage as f64, limit.coverage as f64);
+        check("values not finite", self.not_finite as f64, limit.not_finite as f64);
+        check("compared pixels missing", limit.compared as f64, self.compared as f64);
+        beyond
+    }
+
+    /// One row of the table that the tests print.
+    pub fn row(&self, name: &str) -> String {
+        let share = |part: usize| 100.0 * part as f64 / self.covered.max(1) as f64;
+        format!(
+            "{name:36} {:6} px, exempt {:5.2}% eps {:5.2}% rim | weight {:.1e} albedo {:.1e} depth {:.1e} \
+             normal {:.1e} deg, coverage {}",
+            self.compared,
+            share(self.exempt_epsilon),
+            share(self.exempt_rim),
+            self.weight,
+            self.albedo,
+            self.depth,
+            self.normal_deg,
+            self.coverage,
+        )
+    }
+}
