@@ -5,6 +5,7 @@ pub mod geometry;
 #[cfg(feature = "files")]
 pub mod load;
 pub mod math;
+pub mod progress;
 pub mod reference;
 pub mod report;
 #[cfg(feature = "files")]
@@ -12,3 +13,4 @@ pub mod save;
 pub mod scene;
 
 pub use error::{Error, ErrorKind, Result};
+pub use progress::Progress;
