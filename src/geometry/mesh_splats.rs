@@ -15,7 +15,11 @@ use crate::{
     scene::{Colors, Mesh, MeshColors, Shapes, Splats},
 };
 
-/// Measured below.
+/// How much larger than the smallest hole-free radius disks are made: so that their kernels blend.
+///
+/// On a sphere of 1 026 vertices with the Gaussian kernel (σ = ½), the blended normals are off by 2.06° at factor 1, 0.88°
+/// at 1.25, 0.33° at 1.5, 0.53° at 1.75 and 0.37° at 2, and a point is in 1.4, 2.2, 3.2, 4.4 and 5.7 disks: more than 1.5
+/// costs fragments and gains nothing. The test `more_overlap_gives_smoother_normals` prints these figures.
 pub const DEFAULT_OVERLAP: f64 = 1.5;
 
 /// The albedo of meshes without colors, as an sRGB value.

@@ -50,3 +50,65 @@ pub(super) fn format(path: &Path, bytes: &[u8]) -> Result<Format> {
         _ => refuse("unknown format"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use crate::load::{Model, load};
+
+    fn load_bytes(name: &str, bytes: &[u8]) -> Result<Model, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        load(&path, &()).map_err(|e| {
+            assert_eq!(e.exit_code(), 1);
+            e.to_string().replace(&folder.path().display().to_string(), "")
+        })
+    }
+
+    const TRIANGLE_OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const TRIANGLE_PLY: &[u8] = b"ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\n\
+        property float y\r\nproperty float z\r\nelement face 1\r\nproperty list uchar int vertex_index\r\n\
+        end_header\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n";
+
+    #[test]
+    fn the_content_decides_then_the_name() {
+        for (name, bytes) in [("a.ply", TRIANGLE_PLY), ("a.obj", TRIANGLE_PLY), ("b.OBJ", TRIANGLE_OBJ)] {
+            let Ok(Model::Mesh(mesh)) = load_bytes(name, bytes) else { panic!("{name}") };
+            assert_eq!((mesh.triangles, mesh.positions.len()), (vec![[0, 1, 2]], 3));
+        }
+    }
+
+    #[test]
+    fn what_is_no_model_is_named() {
+        let cases: [(&str, &[u8], &str); 7] = [
+            ("a.ply", b"", "the file is empty"),
+            ("a.ply", TRIANGLE_OBJ, "named .ply, but its first line is not 'ply'"),
+            ("a.ply", b"plywood", "named .ply, but its first line is not 'ply'"),
+            (
+                "a.ply",
+                b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+                "this is a git-lfs pointer, not the file itself (run `git lfs pull`)",
+            ),
+            ("a.obj", b"\x89PNG\r\n\x1a\n", "this is a PNG picture"),
+            ("a.obj", b"v 0 0 0\0", "named .obj, but its content is binary"),
+            ("a", TRIANGLE_OBJ, "unknown format"),
+        ];
+        for (name, bytes, found) in cases {
+            let expected = format!("/{name}: {found}; expected a PLY or OBJ file");
+            assert_eq!(load_bytes(name, bytes).unwrap_err(), expected);
+        }
+    }
+
+    #[test]
+    fn missing_files_and_folders_are_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = load(&folder.path().join("no.ply"), &()).unwrap_err();
+        assert_eq!(missing.exit_code(), 1);
+        let expected = format!("{}/no.ply: cannot read: No such file", folder.path().display());
+        assert!(missing.to_string().starts_with(&expected), "{missing}");
+        let is_folder = load(folder.path(), &()).unwrap_err().to_string();
+        assert!(is_folder.ends_with("not a file; expected a PLY or OBJ file"), "{is_folder}");
+    }
+}

@@ -67,7 +67,11 @@ mod tests {
                 let i = channels.iter().position(|&c| channel.name == *c).unwrap();
                 let FlatSamples::F32(read) = &channel.sample_data else { panic!("not f32") };
                 let written = values.iter().skip(i).step_by(channels.len());
-                assert!(read.iter().map(|v| v.to_bits()).eq(written.map(|v| v.to_bits())), "{}", channel.name);
+                assert!(
+                    read.iter().map(|v| v.to_bits()).eq(written.map(|v| v.to_bits())),
+                    "{}",
+                    channel.name
+                );
             }
         }
     }

@@ -22,12 +22,8 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     let task = format!("read {}", file_name(path));
     let total = bytes.len() as u64;
     let mut rows = Rows::new(bytes, |done| progress.step(&task, done, total));
-    let options = tobj::LoadOptions {
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        single_index: false,
-    };
+    let options =
+        tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, single_index: false };
     let loaded = tobj::load_obj_buf(&mut rows, &options, |_| Err(tobj::LoadError::OpenFileFailed));
     if let Some(fault) = rows.fault() {
         return Err(Error::input(path, format!("line {}", fault.line), fault.problem));

@@ -23,11 +23,11 @@ use crate::{
 };
 use body::Body;
 use faces::Triangles;
-use vertices::{Vertices, VertexLayout};
+use vertices::{VertexLayout, Vertices};
 
 /// The albedo of files without colors: 0.8 sRGB, linear, opaque.
 fn default_color() -> [f32; 4] {
-    let gray = crate::math::srgb::linear_from_srgb(204.0 / 255.0);
+    let gray = crate::math::srgb::linear_from_srgb(vertices::DEFAULT_SRGB);
     [gray, gray, gray, 1.0]
 }
 
@@ -38,6 +38,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     };
     let layout = VertexLayout::of(path, vertex_def)?;
     let vertex_count = vertex_def.count;
+    for def in header.elements.values() {
+        faces::index_list(path, def)?;
+    }
     let mut triangles = Triangles::new(path, vertex_count);
     let mut vertices = Vertices::new(layout);
     let mut body = Body::new(path, &header, bytes);
@@ -56,7 +59,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
                     Ok(())
                 })?;
             }
-            ("face", true) => body.read(def, &mut on_progress, |i, record| triangles.add_polygon(i, record))?,
+            ("face", true) => {
+                body.read(def, &mut on_progress, |i, record| triangles.add_polygon(i, record))?
+            }
             ("tristrips", true) => {
                 body.read(def, &mut on_progress, |i, record| triangles.add_strip(i, record))?;
             }

@@ -24,7 +24,7 @@ pub(super) struct VertexLayout {
 }
 
 /// The color of vertices without one, as the sRGB value 204/255.
-const DEFAULT_SRGB: f32 = 204.0 / 255.0;
+pub(super) const DEFAULT_SRGB: f32 = 204.0 / 255.0;
 
 impl VertexLayout {
     /// Finds the groups of properties. A group is there as a whole or not at all.
