@@ -9,6 +9,7 @@ pub mod load;
 pub mod math;
 pub mod passes;
 pub mod prepare;
+pub mod progress;
 pub mod reference;
 pub mod renderer;
 pub mod report;
@@ -19,3 +20,4 @@ pub mod shaders;
 pub mod vk;
 
 pub use error::{Error, ErrorKind, Result};
+pub use progress::Progress;

@@ -1,1 +1,30 @@
-//! Not yet.
+//! CPU preparation: what turns other models into splats.
+
+mod mesh_splats;
+mod normals;
+mod radii;
+mod topology;
+
+pub use mesh_splats::{DEFAULT_OVERLAP, MeshReport, splats_from_mesh};
+
+use glam::DVec3;
+
+use crate::scene::Mesh;
+
+/// The corner positions of a triangle; `None` where it is degenerate: a corner repeated, out of range or not finite, or
+/// no area beyond rounding.
+fn corners(mesh: &Mesh, triangle: [u32; 3]) -> Option<[DVec3; 3]> {
+    let [a, b, c] = triangle;
+    if a == b || b == c || c == a {
+        return None;
+    }
+    let position = |i: u32| mesh.positions.get(i as usize).copied().filter(|p| p.is_finite());
+    let corners = [position(a)?, position(b)?, position(c)?];
+    let (ab, ac) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let longest_squared = ab.length_squared().max(ac.length_squared());
+    (ab.cross(ac).length() > MIN_RELATIVE_AREA * longest_squared).then_some(corners)
+}
+
+/// Twice a triangle's area over its longest edge squared, below which the area is taken as rounding: some thousand times
+/// the relative step of f64.
+const MIN_RELATIVE_AREA: f64 = 1e-12;

@@ -1,1 +1,54 @@
-//! Not yet.
+//! Models from files, and the one that needs none.
+//!
+//! The format is told by the content, not by the name alone. No file is opened because another one names it.
+
+pub mod builtin;
+mod obj;
+mod ply;
+mod sniff;
+
+use std::{fs, path::Path};
+
+use crate::{
+    error::{Error, Result},
+    progress::Progress,
+    scene::{Mesh, Splats},
+};
+
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub enum Model {
+    /// Disks, ready to be drawn once [`Splats::drop_defective`] was called.
+    Splats(Splats),
+    /// Triangles; [`crate::geometry::splats_from_mesh`] makes splats of them.
+    Mesh(Mesh),
+}
+
+/// Reads a PLY (ascii or binary) or OBJ file whole.
+///
+/// Elements that can't be drawn (not finite, zero size) stay in: the scene and geometry modules drop and count them.
+///
+/// # Errors
+/// [`crate::ErrorKind::File`] if the file can't be read; [`crate::ErrorKind::Input`], naming element and number or the line, if
+/// its content is not what its format demands, or is of a format that surfel does not know.
+pub fn load(path: &Path, progress: &dyn Progress) -> Result<Model> {
+    let bytes = read_file(path)?;
+    match sniff::format(path, &bytes)? {
+        sniff::Format::Ply => ply::parse(path, &bytes, progress),
+        sniff::Format::Obj => obj::parse(path, &bytes, progress).map(Model::Mesh),
+    }
+}
+
+/// The whole file. Only regular files: a device or a pipe may never end, and counts are checked against the size.
+fn read_file(path: &Path) -> Result<Vec<u8>> {
+    let metadata = fs::metadata(path).map_err(|e| Error::file(path, "read", e))?;
+    if !metadata.is_file() {
+        return Err(Error::input(path, "", "not a file; expected a PLY or OBJ file"));
+    }
+    fs::read(path).map_err(|e| Error::file(path, "read", e))
+}
+
+/// The file's own name, for progress messages.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

@@ -1,0 +1,111 @@
+use std::path::Path;
+
+use proptest::prelude::*;
+
+use super::*;
+
+fn mesh(text: &str) -> Mesh {
+    parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap()
+}
+
+#[track_caller]
+fn refuses(text: &str, expected: &str) {
+    let error = parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap_err();
+    assert_eq!((error.to_string(), error.exit_code()), (format!("a.obj: {expected}"), 1));
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+#[test]
+fn polygons_are_fans_and_positions_stay_f64() {
+    let mesh = mesh(&format!(
+        "# a comment\r\nmtllib ../secret.mtl\r\n{SQUARE}v 4600000.000123456 2 3\nf 1 2 3 4 # quad\nf 3 4 5\n"
+    ));
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [2, 3, 4]]);
+    assert_eq!(mesh.positions[4], DVec3::new(4_600_000.000_123_456, 2.0, 3.0));
+    assert!(mesh.normals.is_none() && matches!(mesh.colors, MeshColors::None));
+}
+
+#[test]
+fn groups_and_materials_do_not_split_the_vertices() {
+    let mesh =
+        mesh(&format!("o a\n{SQUARE}g one\nusemtl red\ns 1\nf 1 2 3\ng two\nusemtl blue\no b\nf -4 -2 -1\n"));
+    assert_eq!((mesh.positions.len(), mesh.triangles), (4, vec![[0, 1, 2], [0, 2, 3]]));
+}
+
+#[test]
+fn colors_stay_with_their_vertices_where_only_some_have_one_and_w_divides() {
+    let mesh = mesh("v 0 0 0\nv 1 0 0 1 0 0.5\nv 2 4 6 2\nvt 0 0\nf 1/1 2/1 3/1\n");
+    let gray = linear_from_srgb(0.8);
+    let MeshColors::PerVertex(colors) = mesh.colors else { panic!("colors") };
+    let gray = [gray, gray, gray, 1.0];
+    assert_eq!(colors, [gray, [1.0, 0.0, linear_from_srgb(0.5), 1.0], gray]);
+    assert_eq!(mesh.positions[2], DVec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn normals_count_only_if_every_corner_has_one_and_are_averaged_a_vertex() {
+    let text = format!("{SQUARE}vn 0 0 2\nvn 1 0 0\nf 1//1 2//1 3//1\nf 1//2 3/7/1 4/7/-1\n");
+    let normals = mesh(&text).normals.unwrap();
+    let tilted = Vec3::new(1.0, 0.0, 1.0).normalize();
+    assert!(normals[0].distance(tilted) < 1e-6 && normals[3].distance(Vec3::X) < 1e-6);
+    assert_eq!(normals[2], Vec3::Z);
+    assert!(mesh(&format!("{text}f 1 2 4\n")).normals.is_none());
+}
+
+#[test]
+fn faults_name_their_line() {
+    refuses("v 0 0\n", "line 1: a vertex of 2 numbers, expected 3, 4 or 6");
+    refuses("v 0 0 0 0\n", "line 1: a vertex with w = 0");
+    refuses("v 0 zero 0\n", "line 1: 'zero', expected a number");
+    refuses("\n\nvn 0 0\n", "line 3: a normal of 2 numbers, expected 3");
+    refuses(&format!("{SQUARE}f 1 2 3\nf 1 2 9\n"), "line 6: vertex 9, but the file has 4");
+    refuses(&format!("{SQUARE}f 1 2 -5\n"), "line 5: vertex '-5', but the file has 4 so far");
+    refuses(&format!("{SQUARE}f 1 2 0\n"), "line 5: vertex '0', but the file has 4 so far");
+    refuses(&format!("{SQUARE}f 1//1 2//1 3//1\n"), "line 5: normal 1, but the file has 0");
+    refuses(&format!("{SQUARE}f 1 2 x\n"), "line 5: a corner with vertex 'x', expected a whole number");
+    refuses(&format!("{SQUARE}f 1 2 1/2/3/4\n"), "line 5: a corner '1/2/3/4', expected v/vt/vn");
+    refuses(&format!("{SQUARE}f\n"), "line 5: a face without corners");
+    let largest = i64::MAX;
+    refuses(
+        &format!("{SQUARE}f 1//{largest} 2//1 3//1\n"),
+        &format!("line 5: normal '{largest}', but the file has 0 so far"),
+    );
+    let bare = "no faces; expected a mesh (bare points: normals from points come later)";
+    refuses(SQUARE, bare);
+    refuses("p 1\nl 1 2\n", bare);
+}
+
+#[test]
+fn faces_may_stand_before_their_vertices_and_lines_and_points_are_skipped() {
+    let mesh = mesh(&format!("f 1 2 3\nf 1 2\nf 4\n{SQUARE}v NaN 0 inf\nf 1 2 5"));
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 1, 3]]);
+    assert!(mesh.positions[3].x.is_nan());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_bytes_panic(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 0..6),
+    ) {
+        let mut bytes = format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1\nf -1/3 -2 -3\nv 1 2 3 1 0 1\n").into_bytes();
+        for (place, value, kind) in edits {
+            let at = place.index(bytes.len());
+            match kind {
+                0 => bytes[at] = value,
+                1 => bytes.insert(at, value),
+                2 => drop(bytes.remove(at)),
+                _ => bytes[at] = b"0123456789-/. \n"[usize::from(value % 15)],
+            }
+        }
+        match parse(Path::new("a.obj"), &bytes, &()) {
+            Ok(mesh) => {
+                let count = mesh.positions.len();
+                prop_assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < count));
+            }
+            Err(error) => prop_assert!(!error.to_string().contains('\n'), "{error}"),
+        }
+    }
+}

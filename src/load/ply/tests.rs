@@ -1,0 +1,75 @@
+mod faults;
+mod meshes;
+mod splats;
+
+use std::path::Path;
+
+use crate::{
+    load::Model,
+    scene::{Mesh, Splats},
+};
+
+fn parse(bytes: &[u8]) -> crate::Result<Model> {
+    super::parse(Path::new("a.ply"), bytes, &())
+}
+
+fn splats(bytes: &[u8]) -> Splats {
+    match parse(bytes).unwrap() {
+        Model::Splats(splats) => splats,
+        Model::Mesh(_) => panic!("a mesh"),
+    }
+}
+
+fn mesh(bytes: &[u8]) -> Mesh {
+    match parse(bytes).unwrap() {
+        Model::Mesh(mesh) => mesh,
+        Model::Splats(_) => panic!("splats"),
+    }
+}
+
+/// One value of a body.
+#[derive(Clone, Copy)]
+enum Value {
+    Char(i8),
+    UChar(u8),
+    Short(i16),
+    UShort(u16),
+    Int(i32),
+    UInt(u32),
+    Float(f32),
+    Double(f64),
+}
+
+/// The same elements in the three encodings; each inner list is one element. The header may hold `ENCODING`.
+fn encodings(header: &str, elements: &[Vec<Value>]) -> [Vec<u8>; 3] {
+    ["ascii", "binary_little_endian", "binary_big_endian"].map(|encoding| {
+        let mut file = header.replace("ENCODING", encoding).into_bytes();
+        for element in elements {
+            for value in element {
+                macro_rules! write {
+                    ($v:expr) => {
+                        match encoding {
+                            "ascii" => file.extend(format!("{} ", $v).bytes()),
+                            "binary_little_endian" => file.extend($v.to_le_bytes()),
+                            _ => file.extend($v.to_be_bytes()),
+                        }
+                    };
+                }
+                match value {
+                    Value::Char(v) => write!(v),
+                    Value::UChar(v) => write!(v),
+                    Value::Short(v) => write!(v),
+                    Value::UShort(v) => write!(v),
+                    Value::Int(v) => write!(v),
+                    Value::UInt(v) => write!(v),
+                    Value::Float(v) => write!(v),
+                    Value::Double(v) => write!(v),
+                }
+            }
+            if encoding == "ascii" {
+                file.push(b'\n');
+            }
+        }
+        file
+    })
+}
