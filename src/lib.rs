@@ -2,6 +2,7 @@
 
 pub mod error;
 pub mod geometry;
+pub mod graph;
 #[cfg(feature = "files")]
 pub mod load;
 pub mod math;

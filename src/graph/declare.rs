@@ -1,0 +1,217 @@
+//! The graph as its passes declare it: plain data and one opaque body a pass.
+
+use std::{
+    marker::PhantomData,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use super::{
+    access::Access,
+    resource::{
+        Buffer, BufferDesc, BufferState, ClearValue, Handle, Image, ImageDesc, ImageState, Origin,
+        ResourceDesc, ResourceId,
+    },
+};
+
+/// A frame in the making. `Body` is what a pass records; the graph carries it and never looks inside.
+#[derive(Debug)]
+pub struct Graph<Body> {
+    pub(super) declared: Declared,
+    /// One a pass.
+    pub(super) bodies: Vec<Body>,
+}
+
+/// All of a graph but the bodies: what the compile stages work on.
+#[derive(Debug)]
+pub(super) struct Declared {
+    id: u64,
+    pub(super) resources: Vec<Resource>,
+    pub(super) passes: Vec<Pass>,
+}
+
+#[derive(Debug)]
+pub(super) struct Resource {
+    pub(super) name: Arc<str>,
+    pub(super) desc: ResourceDesc,
+    pub(super) origin: Origin,
+    /// How many writes finished passes have declared.
+    pub(super) version: u32,
+}
+
+#[derive(Debug)]
+pub(super) struct Pass {
+    pub(super) name: String,
+    pub(super) uses: Vec<Use>,
+    pub(super) side_effect: bool,
+    /// The first handle that doesn't belong here: the resource's name and the reason.
+    pub(super) fault: Option<(Arc<str>, String)>,
+}
+
+/// One resource in one pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Use {
+    /// The resource.
+    pub resource: ResourceId,
+    /// The content it finds: how many writes were declared before. A write leaves `version + 1`.
+    pub version: u32,
+    /// How it is accessed.
+    pub access: Access,
+    /// How a write begins; `None` for a read.
+    pub start: Option<Start>,
+}
+
+/// What a write does with the content that it finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// An attachment is cleared first.
+    Clear(ClearValue),
+    /// What isn't overwritten stays, so that the pass depends on what was written before.
+    Load,
+    /// Nothing of it is needed: whatever is read later, the pass writes itself.
+    Discard,
+}
+
+impl Use {
+    /// Whether the pass needs the content that it finds.
+    pub fn needs_content(&self) -> bool {
+        matches!(self.start, None | Some(Start::Load))
+    }
+}
+
+impl<Body> Default for Graph<Body> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<Body> Graph<Body> {
+    /// A graph without resources and passes.
+    pub fn new() -> Self {
+        // Tells the handles of one graph from those of another.
+        static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+        let id = NEXT_ID.fetch_add(1, Ordering::Relaxed);
+        Self { declared: Declared { id, resources: Vec::new(), passes: Vec::new() }, bodies: Vec::new() }
+    }
+
+    /// An image that lives inside one execution. Names are unique in a graph, here and below.
+    pub fn create_image(&mut self, name: &str, desc: ImageDesc) -> Handle<Image> {
+        self.declared.add(name, ResourceDesc::Image(desc), Origin::Transient)
+    }
+
+    /// A buffer that lives inside one execution.
+    pub fn create_buffer(&mut self, name: &str, desc: BufferDesc) -> Handle<Buffer> {
+        self.declared.add(name, ResourceDesc::Buffer(desc), Origin::Transient)
+    }
+
+    /// An image of the caller's. No two imports may be the same image.
+    pub fn import_image(
+        &mut self,
+        name: &str,
+        desc: ImageDesc,
+        initial: ImageState,
+        final_: Option<ImageState>,
+    ) -> Handle<Image> {
+        let origin = Origin::Imported { initial: initial.into(), final_: final_.map(Into::into) };
+        self.declared.add(name, ResourceDesc::Image(desc), origin)
+    }
+
+    /// A buffer of the caller's. No two imports may share memory. A read by the host is a `final_` state.
+    pub fn import_buffer(
+        &mut self,
+        name: &str,
+        desc: BufferDesc,
+        initial: BufferState,
+        final_: Option<BufferState>,
+    ) -> Handle<Buffer> {
+        let origin = Origin::Imported { initial: initial.into(), final_: final_.map(Into::into) };
+        self.declared.add(name, ResourceDesc::Buffer(desc), origin)
+    }
+
+    /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
+    pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
+        let pass = Pass { name: name.to_owned(), uses: Vec::new(), side_effect: false, fault: None };
+        PassBuilder { graph: self, pass }
+    }
+}
+
+impl Declared {
+    fn add<Kind>(&mut self, name: &str, desc: ResourceDesc, origin: Origin) -> Handle<Kind> {
+        // More than 2^32 resources don't fit into memory.
+        let id = ResourceId(self.resources.len() as u32);
+        let name: Arc<str> = name.into();
+        self.resources.push(Resource { name: name.clone(), desc, origin, version: 0 });
+        Handle { graph: self.id, id, version: 0, name, kind: PhantomData }
+    }
+
+    pub(super) fn resource(&self, id: ResourceId) -> &Resource {
+        &self.resources[id.index()]
+    }
+}
+
+/// A pass in the making. It is not in the graph before [`PassBuilder::finish`]. Mistakes are told by
+/// [`Graph::compile`].
+#[derive(Debug)]
+#[must_use = "a pass is declared by `finish`"]
+pub struct PassBuilder<'a, Body> {
+    graph: &'a mut Graph<Body>,
+    pass: Pass,
+}
+
+impl<Body> PassBuilder<'_, Body> {
+    /// Reads a resource. Several reads of one image must agree on its layout.
+    pub fn read<Kind>(mut self, handle: &Handle<Kind>, access: Access) -> Self {
+        self.declare(handle, access, None);
+        self
+    }
+
+    /// Writes a resource: what is in it from now on is this pass's work.
+    pub fn write<Kind>(mut self, handle: &mut Handle<Kind>, access: Access, start: Start) -> Self {
+        self.declare(handle, access, Some(start));
+        handle.version += 1;
+        self
+    }
+
+    /// Keeps the pass even if nobody reads what it writes.
+    pub fn side_effect(mut self) -> Self {
+        self.pass.side_effect = true;
+        self
+    }
+
+    /// Puts the pass into the graph.
+    pub fn finish(self, body: Body) {
+        for usage in &self.pass.uses {
+            if usage.start.is_some() {
+                self.graph.declared.resources[usage.resource.index()].version += 1;
+            }
+        }
+        self.graph.declared.passes.push(self.pass);
+        self.graph.bodies.push(body);
+    }
+
+    fn declare<Kind>(&mut self, handle: &Handle<Kind>, access: Access, start: Option<Start>) {
+        let declared = &self.graph.declared;
+        let reason = if handle.graph != declared.id {
+            Some("the handle belongs to another graph".to_owned())
+        } else {
+            let earlier =
+                self.pass.uses.iter().filter(|u| u.resource == handle.id && u.start.is_some()).count();
+            let written = declared.resource(handle.id).version as usize + earlier;
+            (handle.version as usize != written).then(|| {
+                format!(
+                    "the handle is stale: it took part in {} write(s), of which {written} are in the graph; the \
+                     pass of the other was not finished",
+                    handle.version
+                )
+            })
+        };
+        match reason {
+            Some(reason) => {
+                self.pass.fault.get_or_insert((handle.name.clone(), reason));
+            }
+            None => self.pass.uses.push(Use { resource: handle.id, version: handle.version, access, start }),
+        }
+    }
+}
