@@ -17,7 +17,7 @@ type Pairs = BTreeSet<(u64, u64)>;
 #[derive(Clone)]
 struct Event {
     what: String,
-    /// Through which resource; `None` for the caller's and for changes of the layout.
+    /// Through which resource.
     resource: ResourceId,
     /// Events of one pass (or one caller's state) don't conflict with each other.
     moment: usize,
@@ -38,10 +38,10 @@ struct Memory {
     moment: usize,
 }
 
-/// A byte of a block, or a whole import.
+/// A stretch of bytes of a block, or a whole import.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 enum Cell {
-    Byte(usize, u64),
+    Bytes(usize, u64),
     Import(ResourceId),
 }
 
@@ -62,7 +62,7 @@ pub fn check(plan: &Plan) -> Result<(), String> {
 
 fn cells(plan: &Plan, id: ResourceId) -> Vec<Cell> {
     match plan.resource(id).slot {
-        // One cell for each stretch between the ends of slots would do; this many bytes are few enough.
+        // One for each stretch between the edges of slots, named by its first byte.
         Some(slot) => {
             let mut edges: Vec<u64> = plan
                 .resources
@@ -74,7 +74,7 @@ fn cells(plan: &Plan, id: ResourceId) -> Vec<Cell> {
                 .collect();
             edges.sort_unstable();
             edges.dedup();
-            edges.into_iter().map(|edge| Cell::Byte(slot.block, edge)).collect()
+            edges.into_iter().map(|edge| Cell::Bytes(slot.block, edge)).collect()
         }
         None => vec![Cell::Import(id)],
     }
@@ -220,7 +220,7 @@ impl Memory {
     ) -> Result<(), String> {
         let events = self.events.entry(cell).or_default();
         let access = (reads | writes).as_raw();
-        for event in events.iter().filter(|event| event.moment != self.moment || event.stage == 0) {
+        for event in events.iter().filter(|event| event.moment != self.moment) {
             if event.writes == 0 && writes.is_empty() {
                 continue;
             }
