@@ -29,6 +29,14 @@ struct Event {
     visible: Pairs,
 }
 
+impl Event {
+    /// One that nothing has waited for yet.
+    fn new(what: &str, resource: ResourceId, moment: usize, stage: u64, writes: u64) -> Self {
+        let (what, visible) = (what.to_owned(), Pairs::new());
+        Self { what, resource, moment, stage, writes, ordered_before: 0, available: false, visible }
+    }
+}
+
 #[derive(Default)]
 struct Memory {
     events: HashMap<Cell, Vec<Event>>,
@@ -100,16 +108,8 @@ impl Memory {
                     self.layouts.insert(id, initial.layout);
                     self.contents.insert(cell, (id, 0));
                     let written = writes_of(initial.access).as_raw();
-                    let event = |stage| Event {
-                        what: format!("the caller's access to {}", plan.resource(id).name),
-                        resource: id,
-                        moment: self.moment,
-                        stage,
-                        writes: written,
-                        ordered_before: 0,
-                        available: false,
-                        visible: Pairs::new(),
-                    };
+                    let what = format!("the caller's access to {}", plan.resource(id).name);
+                    let event = |stage| Event::new(&what, id, self.moment, stage, written);
                     let mut events: Vec<Event> = bits(initial.stages.as_raw()).map(event).collect();
                     if written == 0 && !initial.stages.is_empty() {
                         // Some write before the declared reads, which they have waited for.
@@ -154,15 +154,13 @@ impl Memory {
                     }
                 }
                 apply(events, barrier.src, barrier.dst, Some(barrier.resource));
+                let what = format!("the change of {name} to {new:?}");
+                let write = AccessFlags2::MEMORY_WRITE.as_raw();
                 events.push(Event {
-                    what: format!("the change of {name} to {new:?}"),
-                    resource: barrier.resource,
-                    moment: self.moment,
-                    stage: 0,
-                    writes: AccessFlags2::MEMORY_WRITE.as_raw(),
                     ordered_before: barrier.dst.stages.as_raw(),
                     available: true,
                     visible: pairs(barrier.dst.stages, barrier.dst.access.as_raw()),
+                    ..Event::new(&what, barrier.resource, self.moment, 0, write)
                 });
                 if old == ImageLayout::UNDEFINED {
                     self.contents.remove(&cell);
@@ -232,16 +230,7 @@ impl Memory {
             }
         }
         for stage in bits(stages.as_raw()) {
-            events.push(Event {
-                what: what.to_owned(),
-                resource,
-                moment: self.moment,
-                stage,
-                writes: writes.as_raw(),
-                ordered_before: 0,
-                available: false,
-                visible: Pairs::new(),
-            });
+            events.push(Event::new(what, resource, self.moment, stage, writes.as_raw()));
         }
         Ok(())
     }
