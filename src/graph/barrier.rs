@@ -16,7 +16,7 @@ use super::{
 pub struct Scope {
     /// The stages.
     pub stages: vk::PipelineStageFlags2,
-    /// Their accesses; on the waiting side's source only writes, which are made available.
+    /// Their accesses. Of what is waited for, only the writes, which become available.
     pub access: vk::AccessFlags2,
 }
 
@@ -175,11 +175,14 @@ fn former_tenants(
     lifetimes: &[(Usage, Option<Lifetime>)],
 ) -> Vec<ResourceId> {
     let (Some(slot), Some(life)) = (slots[id.index()], lifetimes[id.index()].1) else { return Vec::new() };
-    let overlapping = |(i, (other, lifetime)): (usize, (&Option<Slot>, &(Usage, Option<Lifetime>)))| {
-        let other = other.filter(|other| other.overlaps(&slot))?;
-        Some((lifetime.1?.last, ResourceId(i as u32), other))
-    };
-    let mut others: Vec<_> = slots.iter().zip(lifetimes).enumerate().filter_map(overlapping).collect();
+    let mut others: Vec<(usize, ResourceId, Slot)> = Vec::new();
+    for (i, (&other, (_, lifetime))) in slots.iter().zip(lifetimes).enumerate() {
+        if let (Some(other), Some(lifetime)) = (other, lifetime)
+            && other.overlaps(&slot)
+        {
+            others.push((lifetime.last, ResourceId(i as u32), other));
+        }
+    }
     others.sort_by_key(|&(last, id, _)| (last < life.first, last, id));
     let mut unseen = vec![(slot.offset_bytes, slot.end_bytes())];
     let mut found = Vec::new();

@@ -28,7 +28,7 @@ impl<Body> Graph<Body> {
     /// needs: only a device knows.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Graph`] for an illegal graph, with the first mistake; and whatever `needs` fails with.
+    /// [`crate::ErrorKind::Graph`] for an illegal graph, with the first mistake; and whatever `needs` fails with.
     pub fn compile(
         self,
         needs: impl FnMut(ResourceId, &ResourceDesc, Usage) -> Result<MemoryNeed>,

@@ -3,7 +3,8 @@
 //!
 //! 1. [`Graph`]: resources are created (transients, which live inside one execution) or imported (the caller's, in a
 //!    declared state), and passes say how they [`Access`] them.
-//! 2. [`Graph::compile`] turns that into a [`Plan`], stage by stage (see [`compile`](self::Graph::compile)).
+//! 2. [`Graph::compile`] turns that into a [`Plan`], stage by stage: validate, cull, order, lifetimes, alias, barriers,
+//!    load and store operations.
 //! 3. A plan is recorded into a command buffer; again and again, if wanted. It never submits and never waits.
 //!
 //! **A plan's contract.** It is executed on one queue. Its transients' memory belongs to it alone and is the same in
@@ -23,6 +24,8 @@ mod load_store;
 mod order;
 mod plan;
 mod resource;
+#[cfg(test)]
+mod tests;
 mod track;
 mod validate;
 

@@ -68,7 +68,10 @@ impl Buffer {
         let raw = create(device, desc)?;
         let buffer = Self { device: device.clone(), raw, size: desc.size, allocation: None };
         let (block, start) = memory.raw();
-        // SAFETY: the caller keeps the block until after this buffer; the offset is aligned by the graph's plan.
+        // SAFETY: the buffer was just made from this device.
+        let needed = unsafe { device.raw().get_buffer_memory_requirements(raw) };
+        memory.check_room(desc.name, offset, needed)?;
+        // SAFETY: the caller keeps the block until after this buffer; the place was checked.
         unsafe { device.raw().bind_buffer_memory(raw, block, start + offset) }
             .of_call("vkBindBufferMemory", desc.name)?;
         Ok(buffer)

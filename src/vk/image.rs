@@ -89,7 +89,10 @@ impl Image {
     pub(crate) fn placed(device: &Device, desc: ImageDesc<'_>, memory: &Memory, offset: u64) -> Result<Self> {
         let mut image = Self::unbound(device, desc)?;
         let (block, start) = memory.raw();
-        // SAFETY: the caller keeps the block until after this image; the offset is aligned by the graph's plan.
+        // SAFETY: the image was just made from this device.
+        let needed = unsafe { device.raw().get_image_memory_requirements(image.raw) };
+        memory.check_room(desc.name, offset, needed)?;
+        // SAFETY: the caller keeps the block until after this image; the place was checked.
         unsafe { device.raw().bind_image_memory(image.raw, block, start + offset) }
             .of_call("vkBindImageMemory", desc.name)?;
         image.create_view(desc)?;

@@ -7,7 +7,7 @@ use gpu_allocator::{
 };
 
 use super::{device::Device, garbage::Retired};
-use crate::error::Result;
+use crate::error::{ErrorKind, Result};
 
 /// Who touches a piece of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +61,21 @@ impl Memory {
     /// The block's size in bytes.
     pub fn size(&self) -> u64 {
         self.size
+    }
+
+    /// Refuses a place that is too small or not aligned for what is to be bound there.
+    pub(super) fn check_room(&self, name: &str, offset: u64, needed: vk::MemoryRequirements) -> Result<()> {
+        let (_, start) = self.raw();
+        let aligned = (start + offset).is_multiple_of(needed.alignment.max(1));
+        match aligned && offset + needed.size <= self.size {
+            true => Ok(()),
+            false => Err(ErrorKind::Memory {
+                object: name.to_owned(),
+                bytes: needed.size,
+                reason: format!("its place at {offset} of a block of {} bytes does not fit it", self.size),
+            }
+            .into()),
+        }
     }
 
     /// The raw memory and the block's offset in it.

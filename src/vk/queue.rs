@@ -69,6 +69,13 @@ impl Queue {
         // SAFETY: the semaphore is alive; `epoch` was submitted, or the wait never ends, which `submit` prevents.
         unsafe { self.device.raw().wait_semaphores(&info, u64::MAX) }
             .of_call("vkWaitSemaphores", "timeline")?;
+        if self.device.instance().is_validated() && epoch == self.submitted.load(Ordering::Acquire) {
+            // Layers of 1.3.239 don't follow timeline semaphores when they look for hazards across submits. The
+            // queue is idle already; this tells them.
+            let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
+            // SAFETY: the lock synchronizes the queue.
+            unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;
+        }
         // SAFETY: the timeline counts every submission of this device in order.
         unsafe { self.device.epoch_done(epoch) };
         Ok(())

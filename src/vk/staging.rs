@@ -40,7 +40,7 @@ impl Staging {
         }
     }
 
-    /// Records all copies and what makes them visible to every later command's shaders.
+    /// Records all copies and what makes them visible to the vertex and compute stages of every later command.
     ///
     /// # Safety
     /// `commands` must be recording outside of rendering; the targets are alive until it has run.
@@ -48,7 +48,7 @@ impl Staging {
         let barriers = [vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::COPY)
             .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .dst_stage_mask(vk::PipelineStageFlags2::VERTEX_SHADER | vk::PipelineStageFlags2::COMPUTE_SHADER)
             .dst_access_mask(vk::AccessFlags2::SHADER_STORAGE_READ)];
         let info = vk::DependencyInfo::default().memory_barriers(&barriers);
         let device = self.device.raw();
