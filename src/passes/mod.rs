@@ -5,6 +5,7 @@ mod constants;
 mod draws;
 mod export;
 mod finalize;
+mod floor;
 #[cfg(feature = "test-formulas")]
 mod formula;
 mod fullscreen;
@@ -19,6 +20,7 @@ use ash::vk;
 pub use constants::{ExportConstants, FinalizeConstants, FrameConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
+pub use floor::{FLOOR_POINT_BYTES, floor_frame, floor_points};
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
 pub use pipelines::Shaders;

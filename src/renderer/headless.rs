@@ -241,6 +241,18 @@ impl Targets {
     }
 }
 
+/// Records, submits and waits with the headless host's own command buffer.
+pub(super) fn submit_and_wait(
+    headless: &Headless,
+    record: impl FnOnce(vk::CommandBuffer) -> Result<()>,
+) -> Result<()> {
+    // SAFETY: every submission of this pool is waited for.
+    record(unsafe { headless.commands.begin() }?)?;
+    // SAFETY: recorded just now; waited for at once.
+    let epoch = unsafe { headless.queue.submit(headless.commands.end()?) }?;
+    headless.queue.wait(epoch)
+}
+
 fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
     bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
 }

@@ -1,10 +1,12 @@
 //! The renderer: records frames of prepared scenes into command buffers that it is given. It never submits and never
 //! waits, so that an embedding host keeps device, queue and submission to itself; [`Headless`] is such a host.
 
+mod floor;
 mod headless;
 
 use ash::vk;
 
+pub use floor::Floor;
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
 
 use crate::{

@@ -1,0 +1,6 @@
+// For the floor benchmark: depth alone.
+#version 460
+
+void main()
+{
+}

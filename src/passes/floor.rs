@@ -1,0 +1,147 @@
+//! The floor under the three passes: the same pixels through the same fixed-function stages, with nothing computed.
+//!
+//! Position and size of every point are precomputed, by the very setup that the splat passes use. Then, pass by pass:
+//! depth is written; a constant is added into sums of the same formats, with the depth test against the first; a
+//! constant fills the target. What a splat pass costs more is its own work.
+
+use ash::vk;
+
+use super::{DEPTH_FORMAT, Inputs, pipelines::GraphicsKey};
+use crate::{
+    error::Result,
+    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    shaders,
+    vk::Descriptor,
+};
+
+/// Bytes of a point: its place in clip space, its reversed depth, its size in pixels; four floats.
+pub const FLOOR_POINT_BYTES: u64 = 16;
+
+/// Invocations of a workgroup, as in `glsl/floor_points.comp.glsl`.
+const GROUP: u32 = 64;
+
+/// Declares the pass that precomputes the points of the first chunk.
+///
+/// # Errors
+/// Whatever the driver answers when a pipeline is made.
+pub fn floor_points<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    points: &mut Handle<Buffer>,
+) -> Result<()> {
+    let Some(draw) = inputs.draws.first() else { return Ok(()) };
+    let layout = &inputs.shaders.splat_layout;
+    let pipeline = inputs.shaders.compute(&shaders::FLOOR_POINTS_COMP, layout, draw.variant.clone())?;
+    let id = points.id();
+    graph.pass("floor points").write(points, Access::StorageWriteCompute, Start::Discard).finish(Box::new(
+        move |context| {
+            let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
+            let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.large_set, &given)?];
+            let (device, commands) = (context.device(), context.commands());
+            let bind_point = vk::PipelineBindPoint::COMPUTE;
+            // SAFETY: pipeline, sets and push constants have one layout.
+            unsafe {
+                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+                let constants = bytemuck::bytes_of(&draw.constants);
+                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+                device.cmd_dispatch(commands, draw.chunk.count.div_ceil(GROUP), 1, 1);
+            }
+            Ok(())
+        },
+    ));
+    Ok(())
+}
+
+/// Declares the floor's three passes over `count` precomputed points.
+///
+/// # Errors
+/// Whatever the driver answers when a pipeline is made.
+pub fn floor_frame<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    points: &Handle<Buffer>,
+    count: u32,
+    target: &mut Handle<Image>,
+    target_format: vk::Format,
+) -> Result<()> {
+    let sums = inputs.sum_format();
+    let mut depth = graph.create_image("floor depth", inputs.image(DEPTH_FORMAT));
+    let mut color = graph.create_image("floor color sums", inputs.image(sums));
+    let mut normal = graph.create_image("floor normal sums", inputs.image(sums));
+
+    let key = || GraphicsKey::new(vk::PrimitiveTopology::POINT_LIST, Vec::new());
+    let depth_key = GraphicsKey { depth: Some((vk::CompareOp::GREATER, true)), ..key() };
+    let body = draw_points(inputs, &shaders::FLOOR_DEPTH_FRAG, depth_key, points, count)?;
+    graph
+        .pass("floor depth")
+        .write(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
+        .read(points, Access::StorageReadVertex)
+        .finish(body);
+
+    let add_key = GraphicsKey {
+        color_formats: vec![sums; 2],
+        add: true,
+        depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
+        ..key()
+    };
+    let body = draw_points(inputs, &shaders::FLOOR_ADD_FRAG, add_key, points, count)?;
+    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
+    graph
+        .pass("floor add")
+        .write(&mut color, Access::ColorAttachment, zero)
+        .write(&mut normal, Access::ColorAttachment, zero)
+        .read(&depth, Access::DepthTest)
+        .read(points, Access::StorageReadVertex)
+        .finish(body);
+
+    let fill_key = GraphicsKey {
+        color_formats: vec![target_format],
+        ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, Vec::new())
+    };
+    let layout = &inputs.shaders.finalize_layout;
+    let pipeline =
+        inputs.shaders.graphics(&shaders::FULLSCREEN_VERT, &shaders::FLOOR_FILL_FRAG, layout, fill_key)?;
+    graph
+        .pass("floor fill")
+        // Reads the sums, though the shader doesn't: so that nothing is culled and they are stored.
+        .read(&color, Access::SampledFragment)
+        .read(&normal, Access::SampledFragment)
+        .write(target, Access::ColorAttachment, Start::Discard)
+        .finish(Box::new(move |context| {
+            let (device, commands) = (context.device(), context.commands());
+            // SAFETY: inside of rendering; the shaders use neither sets nor push constants.
+            unsafe {
+                device.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline.raw());
+                device.cmd_draw(commands, 3, 1, 0, 0);
+            }
+            Ok(())
+        }));
+    Ok(())
+}
+
+/// The body that draws the points.
+fn draw_points<'a>(
+    inputs: Inputs<'a>,
+    fragment: &'static shaders::Shader,
+    key: GraphicsKey,
+    points: &Handle<Buffer>,
+    count: u32,
+) -> Result<Body<'a>> {
+    let layout = &inputs.shaders.splat_layout;
+    let pipeline = inputs.shaders.graphics(&shaders::FLOOR_POINTS_VERT, fragment, layout, key)?;
+    let id = points.id();
+    Ok(Box::new(move |context| {
+        let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
+        let set = inputs.descriptors.set(&inputs.shaders.large_set, &given)?;
+        let (device, commands) = (context.device(), context.commands());
+        let bind_point = vk::PipelineBindPoint::GRAPHICS;
+        // SAFETY: inside of rendering; pipeline and set have one layout.
+        unsafe {
+            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 1, &[set], &[]);
+            device.cmd_draw(commands, count, 1, 0, 0);
+        }
+        Ok(())
+    }))
+}
