@@ -8,7 +8,7 @@
 
 // The host's mirror is `FinalizeConstants` in src/passes/constants.rs; the build compares the offsets.
 struct FinalizeConstants {
-    vec4 background; // linear, of empty pixels
+    vec4 background; // linear, of covered pixels without weight
     vec2 half_size_px;
     float focal_px;
     uint padding;
@@ -39,10 +39,7 @@ vec3 shaded(Surface surface, vec3 v)
 void main()
 {
     Surface surface = load_surface(ivec2(gl_FragCoord.xy));
-    if (!(surface.weight > 0.0)) {
-        color = push.background;
-        return;
-    }
     vec3 v = -normalize(vec3((gl_FragCoord.xy - push.half_size_px) / push.focal_px, 1.0));
-    color = vec4(shaded(surface, v), 1.0);
+    // 16-bit sums may flush the weight of a pixel that only a rim touches: 2^-24 is their smallest number.
+    color = surface.weight > 0.0 ? vec4(shaded(surface, v), 1.0) : push.background;
 }

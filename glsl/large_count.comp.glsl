@@ -1,13 +1,7 @@
-// Finds the splats whose point would exceed the device's largest: a bit a splat, a count a block. The decision is
-// made here once; the vertex stages only read it, so that no splat is drawn twice or not at all.
+// Finds the splats that are drawn as quads: larger than the device's largest point, or not regular. A bit a splat, a
+// count a block. The decision is made here once; the vertex stages only read it, so that no splat is drawn twice or
+// not at all.
 #version 460
-#define LARGE_BITS_ACCESS writeonly
-#include "inc/perturb.glsl"
-#include "inc/frame.glsl"
-#include "inc/variant.glsl"
-#include "inc/splat.glsl"
-#include "inc/adjust.glsl"
-#include "inc/box.glsl"
 #include "inc/setup.glsl"
 
 #define BLOCK 256
@@ -17,6 +11,20 @@ layout(set = 1, binding = 1, std430) writeonly buffer BlockCounts { uint block_c
 
 shared uint words[BLOCK / 32];
 
+bool is_drawn_as_quad(uint index)
+{
+    Mapping m;
+    if (!map_splat(index, m)) {
+        return false;
+    }
+    if (!is_regular(m)) {
+        return true;
+    }
+    PixelBox px;
+    // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most.
+    return pixel_box(regular_box(m), px) && square_side_px(px) > frame.point_cap_px - 1.0;
+}
+
 void main()
 {
     uint local = gl_LocalInvocationIndex;
@@ -25,9 +33,7 @@ void main()
         words[local] = 0;
     }
     barrier();
-    Setup o;
-    // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most.
-    if (index < frame.splat_count && set_up(index, o) && point_size_px(o) > frame.point_cap_px - 1.0) {
+    if (index < frame.splat_count && is_drawn_as_quad(index)) {
         atomicOr(words[local / 32], 1u << (local % 32));
     }
     barrier();

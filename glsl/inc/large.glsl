@@ -1,5 +1,5 @@
-// Splats larger than the device's largest point: which they are (a bit each), and their list in input order.
-// A block is BLOCK splats: one workgroup, BLOCK / 32 words of bits.
+// The splats that are drawn as quads ("large"): which they are (a bit each), and their list in input order. A block is
+// BLOCK splats: one workgroup, BLOCK / 32 words of bits.
 
 #define BLOCK 256
 

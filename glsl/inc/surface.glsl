@@ -9,14 +9,12 @@ struct Surface {
     vec3 normal;  // unit, view space
 };
 
-// Normals that cancel give (0, 0, -1), the one toward the viewer.
+// Normals that cancel give (0, 0, -1), the one toward the viewer. The smallest weight is 2^-24, so the square of a sum
+// that did not cancel is far above the smallest f32.
 vec3 normal_of_sum(vec3 sum)
 {
-    float largest = max(max(abs(sum.x), abs(sum.y)), abs(sum.z));
-    if (!(largest > 0.0)) {
-        return vec3(0.0, 0.0, -1.0);
-    }
-    return normalize(sum / largest); // scaled, so that tiny sums of 32 bits don't underflow when squared
+    float length2 = dot(sum, sum);
+    return length2 > 0.0 ? sum * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
 }
 
 Surface load_surface(ivec2 pixel)
@@ -24,7 +22,7 @@ Surface load_surface(ivec2 pixel)
     vec4 color_sum = texelFetch(color_sums, pixel, 0);
     Surface surface;
     surface.weight = color_sum.a;
-    surface.albedo = color_sum.a > 0.0 ? color_sum.rgb / color_sum.a : vec3(0.0);
+    surface.albedo = color_sum.a > 0.0 ? color_sum.rgb * (1.0 / color_sum.a) : vec3(0.0);
     surface.normal = normal_of_sum(texelFetch(normal_sums, pixel, 0).xyz);
     return surface;
 }

@@ -17,6 +17,12 @@ pub struct SizeBound {
     pub filter_px: f64,
 }
 
+/// Whether every splat is regular as `glsl/inc/box.glsl` has it: wholly beyond the near plane, and its depth radius at
+/// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter.
+pub fn all_regular(bound: &SizeBound) -> bool {
+    bound.nearest_z > bound.near && bound.largest_radius <= 0.45 * bound.nearest_z
+}
+
 /// An upper bound of the side of a splat's box within the image, in pixels; infinite where a splat may reach the near
 /// plane.
 ///

@@ -31,8 +31,14 @@ pub(super) fn accumulate<'a>(
     with_depth: bool,
 ) -> Result<Sums> {
     let format = inputs.sum_format();
+    let (point, quad) = match with_depth {
+        false => (&shaders::ACCUMULATE_POINTS_FRAG, &shaders::ACCUMULATE_QUADS_FRAG),
+        true => (&shaders::ACCUMULATE_DEPTH_POINTS_FRAG, &shaders::ACCUMULATE_DEPTH_QUADS_FRAG),
+    };
     let splats = SplatPass {
-        fragment: if with_depth { &shaders::ACCUMULATE_DEPTH_FRAG } else { &shaders::ACCUMULATE_FRAG },
+        points: (&shaders::ACCUMULATE_POINTS_VERT, point),
+        small_points: (&shaders::ACCUMULATE_SMALL_POINTS_VERT, point),
+        quads: (&shaders::ACCUMULATE_QUADS_VERT, quad),
         color_formats: vec![format; 2],
         depth: (vk::CompareOp::GREATER_OR_EQUAL, false),
     };

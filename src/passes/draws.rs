@@ -17,11 +17,11 @@ use crate::{
     graph::execute::PassContext,
     math::{
         kernel::coverage_r2,
-        size::{SizeBound, largest_box_px},
+        size::{SizeBound, all_regular, largest_box_px},
     },
     prepare::{Chunk, PreparedScene},
     scene::{Camera, Epsilon, Filter, Settings},
-    shaders::{self, Shader},
+    shaders::Shader,
     vk::{Descriptor, GraphicsPipeline, Limits},
 };
 
@@ -31,7 +31,8 @@ pub struct Draw<'a> {
     pub chunk: &'a Chunk,
     /// What its shaders are told.
     pub constants: FrameConstants,
-    /// Whether a splat of it may exceed the device's largest point: then large ones are listed and drawn as quads.
+    /// Whether a splat of it may exceed the device's largest point or come near the eye plane: such ones are then
+    /// listed and drawn as quads.
     pub may_be_large: bool,
     /// The specialization constants of its pipelines.
     pub(super) variant: Constants,
@@ -83,7 +84,7 @@ pub fn draws<'a>(
                 splat_count: chunk.count,
                 uniform_color: u32::from(chunk.uniform_color),
             },
-            may_be_large: largest_box_px(&bound) > f64::from(point_cap_px),
+            may_be_large: !all_regular(&bound) || largest_box_px(&bound) > f64::from(point_cap_px),
             variant: splat_constants(settings, chunk.ellipses, chunk.closed),
         }
     };
@@ -98,9 +99,15 @@ fn nearest_z(chunk: &Chunk, z_row: [f32; 4]) -> f64 {
     row.dot(center) + f64::from(z_row[3]) - row.abs().dot(half) - chunk.largest_radius
 }
 
-/// What a splat pass writes: all but the splats themselves.
+/// A vertex stage and a fragment stage.
+pub(super) type Stages = (&'static Shader, &'static Shader);
+
+/// What a splat pass is made of: its shaders for chunks whose splats all fit points; for the others its shaders for
+/// those that do, and for those that are drawn as quads; and what it writes.
 pub(super) struct SplatPass {
-    pub fragment: &'static Shader,
+    pub points: Stages,
+    pub small_points: Stages,
+    pub quads: Stages,
     pub color_formats: Vec<vk::Format>,
     pub depth: (vk::CompareOp, bool),
 }
@@ -114,20 +121,18 @@ pub(super) struct DrawPipelines {
 impl SplatPass {
     /// The pipelines of every draw, in their order.
     pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
-        let make = |vertex, topology, draw: &Draw<'_>| {
+        let make = |(vertex, fragment): Stages, topology, draw: &Draw<'_>| {
             let key = GraphicsKey {
                 color_formats: self.color_formats.clone(),
                 add: true,
                 depth: Some(self.depth),
                 ..GraphicsKey::new(topology, draw.variant.clone())
             };
-            inputs.shaders.graphics(vertex, self.fragment, &inputs.shaders.splat_layout, key)
+            inputs.shaders.graphics(vertex, fragment, &inputs.shaders.splat_layout, key)
         };
         let both = |draw: &Draw<'_>| {
-            let (points, quads) = match draw.may_be_large {
-                false => (&shaders::SPLAT_POINTS_VERT, None),
-                true => (&shaders::SPLAT_SMALL_POINTS_VERT, Some(&shaders::SPLAT_LARGE_QUADS_VERT)),
-            };
+            let points = if draw.may_be_large { self.small_points } else { self.points };
+            let quads = draw.may_be_large.then_some(self.quads);
             Ok(DrawPipelines {
                 points: make(points, vk::PrimitiveTopology::POINT_LIST, draw)?,
                 quads: quads

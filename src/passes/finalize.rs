@@ -1,4 +1,7 @@
 //! Normalization and shading: from sums to the picture.
+//!
+//! Pixels without any splat are not shaded: the target is cleared to the background, and a triangle at depth 0 (infinitely
+//! far) is drawn where the visible depth is above 0 (something is there).
 
 use ash::vk;
 
@@ -8,7 +11,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     math::srgb::linear_from_srgb,
     shaders,
     vk::Descriptor,
@@ -19,12 +22,14 @@ pub(super) fn finalize<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     sums: &Sums,
+    depth: &Handle<Image>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
     let layout = &inputs.shaders.finalize_layout;
     let key = GraphicsKey {
         color_formats: vec![target_format],
+        depth: Some((vk::CompareOp::LESS, false)),
         ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, shading_constants(inputs.settings.shading))
     };
     let pipeline =
@@ -45,7 +50,8 @@ pub(super) fn finalize<'a>(
         .pass("finalize")
         .read(&sums.color, Access::SampledFragment)
         .read(&sums.normal, Access::SampledFragment)
-        .write(target, Access::ColorAttachment, Start::Discard)
+        .read(depth, Access::DepthTest)
+        .write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(background)))
         .finish(Box::new(move |context| {
             let mut given = Vec::new();
             for (number, id) in (0..).zip(ids) {

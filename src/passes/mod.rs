@@ -95,7 +95,7 @@ pub fn opaque_frame<'a>(
     let large = list_large::list_large(graph, inputs)?;
     let depth = visibility::visibility(graph, inputs, &large)?;
     let sums = accumulate::accumulate(graph, inputs, &large, &depth, export)?;
-    finalize::finalize(graph, inputs, &sums, target, target_format)?;
+    finalize::finalize(graph, inputs, &sums, &depth, target, target_format)?;
     match export {
         true => export::export(graph, inputs, &sums, &depth).map(Some),
         false => Ok(None),

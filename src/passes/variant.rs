@@ -1,5 +1,7 @@
 //! What differs between pipelines of the same shader: the host's mirror of `glsl/inc/variant.glsl`.
 
+use std::f32::consts::LOG2_E;
+
 use crate::scene::{Backfaces, Filter, Kernel, Settings, Shading};
 
 /// Specialization constants: number and 32-bit pattern.
@@ -13,8 +15,8 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         Backfaces::Cull => true,
     };
     let (kernel, a, n) = match settings.kernel {
-        Kernel::Gaussian { sigma } => (0, 0.5 / (sigma * sigma), 1.0),
-        Kernel::PsiE { a, n, .. } => (1, a, n),
+        Kernel::Gaussian { sigma } => (0, LOG2_E * 0.5 / (sigma * sigma), 1.0),
+        Kernel::PsiE { a, n, .. } => (1, LOG2_E * a, n),
     };
     vec![
         (0, u32::from(ellipses)),

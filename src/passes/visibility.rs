@@ -20,7 +20,9 @@ pub(super) fn visibility<'a>(
     large: &[Option<LargeList>],
 ) -> Result<Handle<Image>> {
     let splats = SplatPass {
-        fragment: &shaders::VISIBILITY_FRAG,
+        points: (&shaders::VISIBILITY_POINTS_VERT, &shaders::VISIBILITY_POINTS_FRAG),
+        small_points: (&shaders::VISIBILITY_SMALL_POINTS_VERT, &shaders::VISIBILITY_POINTS_FRAG),
+        quads: (&shaders::VISIBILITY_QUADS_VERT, &shaders::VISIBILITY_QUADS_FRAG),
         color_formats: Vec::new(),
         depth: (vk::CompareOp::GREATER, true),
     };

@@ -1,13 +1,6 @@
-// Attribute accumulation as in accumulate.frag, and the depth of the surface: the weighted mean of z, summed as
+// Attribute accumulation as in accumulate.glsl, and the depth of the surface: the weighted mean of z, summed as
 // z / z_visible, which is at most 1, so that 16 bits neither overflow nor lose it. z = near / w, so the ratio is
 // w_visible / w, with w_visible the visibility pass's (shifted) depth.
-#version 460
-#extension GL_EXT_samplerless_texture_functions : require
-#include "inc/perturb.glsl"
-#include "inc/frame.glsl"
-#include "inc/variant.glsl"
-#include "inc/coverage.glsl"
-#include "inc/kernel.glsl"
 
 layout(set = 2, binding = 0) uniform texture2D visible_depth;
 
@@ -20,6 +13,6 @@ void main()
     gl_FragDepth = uvw.z;
     float weight = kernel_weight(dot(uvw.xy, uvw.xy) / (uvw.z * uvw.z));
     float w_visible = texelFetch(visible_depth, ivec2(gl_FragCoord.xy), 0).r;
-    color_sum = weight * vec4(splat_color, 1.0);
+    color_sum = weight * vec4(extra(), 1.0);
     normal_sum = weight * vec4(splat_normal, FORMULA(FORMULA_DEPTH_SUM, w_visible / uvw.z));
 }

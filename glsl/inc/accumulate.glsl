@@ -1,11 +1,5 @@
 // Attribute accumulation: weighted color and normal of every splat that is not behind the visible surface by more than
-// its epsilon. The depth test compares the splat's own, unshifted depth; blending adds.
-#version 460
-#include "inc/perturb.glsl"
-#include "inc/frame.glsl"
-#include "inc/variant.glsl"
-#include "inc/coverage.glsl"
-#include "inc/kernel.glsl"
+// its epsilon. The depth test compares the splat's own, unshifted depth; blending adds. extra() is the color.
 
 layout(location = 0) out vec4 color_sum;  // weight * linear albedo, weight
 layout(location = 1) out vec4 normal_sum; // weight * normal, 0
@@ -15,6 +9,6 @@ void main()
     vec3 uvw = covered_uvw();
     gl_FragDepth = uvw.z;
     float weight = kernel_weight(dot(uvw.xy, uvw.xy) / (uvw.z * uvw.z));
-    color_sum = weight * vec4(splat_color, 1.0);
+    color_sum = weight * vec4(extra(), 1.0);
     normal_sum = weight * vec4(splat_normal, 0.0);
 }

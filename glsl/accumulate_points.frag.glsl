@@ -1,0 +1,11 @@
+// Attribute accumulation, for points.
+#version 460
+#include "inc/perturb.glsl"
+#include "inc/frame.glsl"
+#include "inc/variant.glsl"
+#include "inc/point_coverage.glsl"
+#include "inc/kernel.glsl"
+
+layout(location = 3) flat in vec3 splat_normal; // view space, unit, toward the eye
+
+#include "inc/accumulate.glsl"

@@ -1,0 +1,21 @@
+// Attribute accumulation: one point a splat, but for those that are drawn as quads.
+#version 460
+#define LARGE_BITS_ACCESS readonly
+#include "inc/setup.glsl"
+#include "inc/emit_point.glsl"
+#include "inc/large.glsl"
+
+layout(location = 3) flat out vec3 splat_normal; // view space, unit, toward the eye
+
+void main()
+{
+    uint index = uint(gl_VertexIndex);
+    Mapping m;
+    splat_normal = vec3(0.0);
+    if (!is_large(index) && map_splat(index, m)) {
+        emit_point(m, load_color(index));
+        splat_normal = m.normal;
+    } else {
+        emit_nothing();
+    }
+}

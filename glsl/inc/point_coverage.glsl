@@ -1,0 +1,24 @@
+// Where a point's fragment lies in its splat, and whether it is covered: the "three instructions" of Guennebaud et al.
+// 2006, section 3.2. The depth w = near / z must come out bit-equal in every pass, so it is computed here only and is
+// `precise`. A regular splat lies wholly between near plane and infinity: inside the disk 0 < w <= 1 by itself.
+
+#define VARYING in
+#include "inc/point_varyings.glsl"
+
+// (uw, vw, w) at this fragment; discards it if it is not covered.
+vec3 covered_uvw()
+{
+    vec2 d = gl_FragCoord.xy - x0_w0_extra.xy;
+    precise vec3 uvw = per_x_extra.xyz * d.x + per_y_extra.xyz * d.y;
+    precise float w = uvw.z + x0_w0_extra.z;
+    // So written that a NaN fails too.
+    if (!(dot(uvw.xy, uvw.xy) <= frame.coverage_r2 * w * w)) {
+        discard;
+    }
+    return vec3(uvw.xy, w);
+}
+
+vec3 extra()
+{
+    return vec3(x0_w0_extra.w, per_x_extra.w, per_y_extra.w);
+}
