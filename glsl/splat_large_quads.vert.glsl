@@ -18,7 +18,7 @@ void main()
     Setup o;
     if (set_up(index, o)) {
         ivec2 corner = ivec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
-        vec2 corner_px = vec2(o.lo_px + corner * (o.hi_px - o.lo_px + 1));
+        vec2 corner_px = FORMULA(FORMULA_QUAD_CORNER, vec2(o.lo_px + corner * (o.hi_px - o.lo_px + 1)));
         gl_Position = vec4(2.0 * corner_px / frame.size_px - 1.0, SAFE_DEPTH, 1.0);
         emit_varyings(index, o);
     } else {

@@ -22,7 +22,7 @@ const float RIM_ROUNDING = 4e-7;
 void include_point(inout Box box, vec3 q, float size)
 {
     float rounding = RIM_ROUNDING * size / q.z;
-    vec2 x = q.xy / q.z;
+    vec2 x = FORMULA_LESS(FORMULA_NEAR_BOX, q.xy / q.z);
     vec2 slack = rounding * (1.0 + abs(x));
     box.lo = min(box.lo, x - slack);
     box.hi = max(box.hi, x + slack);
@@ -56,7 +56,7 @@ Box image_box(vec3 p, vec3 s, vec3 t, vec3 n0, vec3 n1, vec3 n2)
         float d = s.z * s.z + t.z * t.z - p.z * p.z;
         vec2 center = FORMULA(FORMULA_BOX_CENTER, (s.xy * s.z + t.xy * t.z - p.xy * p.z) / d);
         vec2 squared = n0.yx * n0.yx + n1.yx * n1.yx - n2.yx * n2.yx;
-        vec2 half_size = FORMULA(FORMULA_BOX_HALF_SIZE, sqrt(max(squared, 0.0)) / abs(d));
+        vec2 half_size = FORMULA_LESS(FORMULA_BOX_HALF_SIZE, sqrt(max(squared, 0.0)) / abs(d));
         box.lo = center - half_size;
         box.hi = center + half_size;
     } else {
@@ -74,7 +74,6 @@ Box image_box(vec3 p, vec3 s, vec3 t, vec3 n0, vec3 n1, vec3 n2)
                 include_point(box, vec3((p + s * angle.x + t * angle.y).xy, frame.near), size);
             }
         }
-        box.lo = FORMULA(FORMULA_NEAR_BOX, box.lo);
     }
     return box;
 }

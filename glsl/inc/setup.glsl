@@ -78,12 +78,11 @@ bool set_up(uint index, out Setup o)
     precise vec2 x0_px = center_inside ? FORMULA(FORMULA_EXPANSION_POINT, projected_px) : 0.5 * (lo + hi);
     precise vec3 constants;
     if (center_inside) {
-        constants = vec3(0.0, 0.0, frame.near / p.z);
+        constants = FORMULA(FORMULA_CENTER_CONSTANTS, vec3(0.0, 0.0, frame.near / p.z));
     } else {
         precise vec3 x0 = vec3((x0_px - half_px) / frame.focal_px, 1.0);
-        constants = scale * vec3(dot(n0, x0), dot(n1, x0), dot(n2, x0));
+        constants = FORMULA(FORMULA_ELSEWHERE_CONSTANTS, scale * vec3(dot(n0, x0), dot(n1, x0), dot(n2, x0)));
     }
-    constants = FORMULA(FORMULA_EXPANSION_CONSTANTS, constants);
     precise float per_px = scale / frame.focal_px;
     vec3 rows = vec3(
         FORMULA(FORMULA_INVERSE_MAPPING_U, 1.0),
