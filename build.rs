@@ -21,7 +21,10 @@ fn main() {
         Ok(paths) => paths.iter().for_each(|p| println!("cargo::rerun-if-changed={}", p.display())),
         Err(e) => return println!("cargo::error=cannot list {}: {e}", glsl.display()),
     }
-    match shader_build::build(glsl, HOST_STRUCTS) {
+    // Cargo tells a build script its package's features through the environment.
+    let macros =
+        if env::var_os("CARGO_FEATURE_TEST_FORMULAS").is_some() { &["TEST_FORMULAS"][..] } else { &[] };
+    match shader_build::build(glsl, HOST_STRUCTS, macros) {
         Ok(rust) => {
             let out = Path::new(&env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs");
             if let Err(e) = fs::write(&out, rust) {

@@ -2,6 +2,7 @@
 // 0, depth +infinity.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
+#include "inc/perturb.glsl"
 #include "inc/surface.glsl"
 
 layout(set = 0, binding = 2) uniform texture2D visible_depth;
@@ -27,5 +28,5 @@ void main()
     weight = surface.weight;
     albedo = vec4(surface.albedo, covered ? 1.0 : 0.0);
     normal = covered ? vec4(surface.normal, 1.0) : vec4(0.0);
-    depth = covered ? z_visible * (depth_sum / surface.weight) : uintBitsToFloat(0x7f800000u);
+    depth = covered ? FORMULA(FORMULA_NORMALIZED_DEPTH, z_visible * (depth_sum / surface.weight)) : uintBitsToFloat(0x7f800000u);
 }

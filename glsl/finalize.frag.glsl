@@ -3,6 +3,7 @@
 // r.v = 2 (n.l)^2 - 1. Writes linear light; an sRGB target encodes it.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
+#include "inc/perturb.glsl"
 #include "inc/variant.glsl"
 #include "inc/surface.glsl"
 
@@ -26,20 +27,20 @@ vec3 shaded(Surface surface, vec3 v)
         return 0.5 * vec3(surface.normal.x, -surface.normal.y, -surface.normal.z) + 0.5;
     }
     float n_l = max(dot(surface.normal, v), 0.0);
-    vec3 lambert = surface.albedo * (0.1 + 0.9 * n_l);
+    vec3 lambert = surface.albedo * (0.1 + FORMULA(FORMULA_DIFFUSE, 0.9 * n_l));
     if (SHADING == SHADING_LAMBERT) {
         return lambert;
     }
     float r_v = max(2.0 * n_l * n_l - 1.0, 0.0);
     float r_v_4 = r_v * r_v * r_v * r_v;
     float r_v_16 = r_v_4 * r_v_4 * r_v_4 * r_v_4;
-    return lambert + 0.2 * r_v_16 * r_v_16;
+    return lambert + FORMULA(FORMULA_SPECULAR, 0.2 * r_v_16 * r_v_16);
 }
 
 void main()
 {
     Surface surface = load_surface(ivec2(gl_FragCoord.xy));
-    vec3 v = -normalize(vec3((gl_FragCoord.xy - push.half_size_px) / push.focal_px, 1.0));
+    vec3 v = -normalize(vec3(FORMULA(FORMULA_EYE_DIRECTION, (gl_FragCoord.xy - push.half_size_px) / push.focal_px), 1.0));
     // 16-bit sums may flush the weight of a pixel that only a rim touches: 2^-24 is their smallest number.
     color = surface.weight > 0.0 ? vec4(shaded(surface, v), 1.0) : push.background;
 }

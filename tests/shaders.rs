@@ -30,7 +30,7 @@ fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
 fn errors(files: &[(&str, &str)], host_structs: &[HostStruct]) -> String {
     let folder = folder(files);
     let errors =
-        build(folder.path(), host_structs).expect_err("the build accepts a faulty shader").join("\n");
+        build(folder.path(), host_structs, &[]).expect_err("the build accepts a faulty shader").join("\n");
     errors.replace(&folder.path().display().to_string(), "glsl")
 }
 
@@ -147,7 +147,7 @@ void main() {
 fn offsets_and_sizes_are_those_of_the_glsl_rules() {
     let folder = folder(&[("a.comp.glsl", &format!("{COMPUTE}{LAYOUTS}"))]);
     let host_structs = [("Uniforms", "m::U"), ("Push", "m::P"), ("Item", "m::I"), ("Inner", "m::Inner")];
-    let rust = build(folder.path(), &host_structs).unwrap();
+    let rust = build(folder.path(), &host_structs, &[]).unwrap();
     let expected = [
         "offset_of!(m::U, projection) == 0,",
         "offset_of!(m::U, eye) == 64,",
@@ -184,7 +184,7 @@ fn two_shaders_that_disagree_about_a_struct_are_an_error() {
     let said = errors(&files, &[("Push", "m::P")]);
     assert!(said.contains("struct `Push` differs between a.comp and b.comp"), "{said}");
     // A struct that the host does not share may differ.
-    assert!(build(folder(&files).path(), &[]).is_ok());
+    assert!(build(folder(&files).path(), &[], &[]).is_ok());
 }
 
 #[test]
@@ -199,7 +199,7 @@ fn a_host_struct_that_differs_does_not_compile_and_the_member_is_named() {
         "{COMPUTE}layout(push_constant) uniform Push {{ vec2 size; float near; }} push;\nvoid main() {{}}\n"
     );
     let folder = folder(&[("a.comp.glsl", &shader)]);
-    let generated = build(folder.path(), &[("Push", "crate::Push")]).unwrap();
+    let generated = build(folder.path(), &[("Push", "crate::Push")], &[]).unwrap();
     let compile = |members: &str| {
         let rust = format!(
             "pub struct Shader {{ pub name: &'static str, pub spirv: &'static [u32] }}\n\

@@ -30,7 +30,7 @@ Box regular_box(Mapping m)
     float d = m.s.z * m.s.z + m.t.z * m.t.z - m.p.z * m.p.z;
     vec2 center = FORMULA(FORMULA_BOX_CENTER, (m.s.xy * m.s.z + m.t.xy * m.t.z - m.p.xy * m.p.z) / d);
     vec2 squared = m.n0.yx * m.n0.yx + m.n1.yx * m.n1.yx - m.n2.yx * m.n2.yx;
-    vec2 half_size = FORMULA(FORMULA_BOX_HALF_SIZE, sqrt(max(squared, 0.0)) / abs(d));
+    vec2 half_size = FORMULA_LESS(FORMULA_BOX_HALF_SIZE, sqrt(max(squared, 0.0)) / abs(d));
     return Box(center - half_size, center + half_size);
 }
 
@@ -41,7 +41,7 @@ const float RIM_ROUNDING = 4e-7;
 void include_point(inout Box box, vec3 q, float size)
 {
     float rounding = RIM_ROUNDING * size / q.z;
-    vec2 x = q.xy / q.z;
+    vec2 x = FORMULA_LESS(FORMULA_NEAR_BOX, q.xy / q.z);
     vec2 slack = rounding * (1.0 + abs(x));
     box.lo = min(box.lo, x - slack);
     box.hi = max(box.hi, x + slack);
@@ -83,7 +83,6 @@ Box near_box(Mapping m)
             include_point(box, vec3((m.p + m.s * angle.x + m.t * angle.y).xy, frame.near), size);
         }
     }
-    box.lo = FORMULA(FORMULA_NEAR_BOX, box.lo);
     return box;
 }
 

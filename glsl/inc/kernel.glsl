@@ -6,7 +6,7 @@
 float kernel_weight(float r2)
 {
     if (KERNEL == KERNEL_PSI_E) {
-        float q = pow(r2, 0.5 * KERNEL_N);
+        float q = pow(r2, FORMULA(FORMULA_KERNEL_POWER, 0.5 * KERNEL_N));
         return exp2(-FORMULA(FORMULA_KERNEL, KERNEL_A) * q / max(1.0 - q, 1e-7));
     }
     return exp2(-FORMULA(FORMULA_KERNEL, KERNEL_A) * r2);

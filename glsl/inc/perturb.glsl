@@ -1,11 +1,16 @@
 // The tests' lever: each formula of the GPU path can be falsified by 1%, so that a comparison with the oracle that
 // still passes is caught lying. Without TEST_FORMULAS (every build but the tests') nothing of it is compiled.
+//
+// FORMULA makes a value too large. FORMULA_LESS makes it too small: for those that bound what is drawn, where too much
+// is only slow and must not be seen.
 
 #ifdef TEST_FORMULAS
 layout(constant_id = 31) const uint PERTURBED_FORMULA = 0;
 #define FORMULA(number, value) ((PERTURBED_FORMULA == number) ? 1.01 * (value) : (value))
+#define FORMULA_LESS(number, value) ((PERTURBED_FORMULA == number) ? 0.99 * (value) : (value))
 #else
 #define FORMULA(number, value) (value)
+#define FORMULA_LESS(number, value) (value)
 #endif
 
 // The numbers; src/passes/formula.rs names the same.
@@ -13,7 +18,7 @@ layout(constant_id = 31) const uint PERTURBED_FORMULA = 0;
 #define FORMULA_INVERSE_MAPPING_V 2
 #define FORMULA_INVERSE_MAPPING_W 3
 #define FORMULA_EXPANSION_POINT 4
-#define FORMULA_EXPANSION_CONSTANTS 5
+#define FORMULA_CENTER_CONSTANTS 5
 #define FORMULA_BOX_CENTER 6
 #define FORMULA_BOX_HALF_SIZE 7
 #define FORMULA_NEAR_BOX 8
@@ -26,3 +31,15 @@ layout(constant_id = 31) const uint PERTURBED_FORMULA = 0;
 #define FORMULA_COLOR 15
 #define FORMULA_DEPTH_SUM 16
 #define FORMULA_VIEW_TRANSFORM 17
+#define FORMULA_ELSEWHERE_CONSTANTS 18
+#define FORMULA_COVERAGE 19
+#define FORMULA_NEAR_CUT 20
+#define FORMULA_KERNEL_POWER 21
+#define FORMULA_POINT_CENTER 22
+#define FORMULA_POINT_SIZE 23
+#define FORMULA_QUAD_CORNER 24
+#define FORMULA_NORMALIZED_COLOR 25
+#define FORMULA_NORMALIZED_DEPTH 26
+#define FORMULA_EYE_DIRECTION 27
+#define FORMULA_DIFFUSE 28
+#define FORMULA_SPECULAR 29

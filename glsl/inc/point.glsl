@@ -27,10 +27,11 @@ bool point_of(Mapping m, out Point point)
     vec2 size = vec2(px.last - px.first + 1);
     // An odd difference of the sides puts the center half a pixel off, so that the square still ends on pixel borders.
     vec2 center_px = vec2(px.first) + 0.5 * (size + mod(side - size, 2.0));
+    center_px = FORMULA(FORMULA_POINT_CENTER, center_px);
     point.clip_center = 2.0 * center_px / frame.size_px - 1.0;
-    point.size_px = ceil(side / frame.point_step_px) * frame.point_step_px;
+    point.size_px = FORMULA_LESS(FORMULA_POINT_SIZE, ceil(side / frame.point_step_px) * frame.point_step_px);
     precise vec2 x0_px = FORMULA(FORMULA_EXPANSION_POINT, projected_center_px(m));
-    precise float w0 = FORMULA(FORMULA_EXPANSION_CONSTANTS, frame.near / m.p.z);
+    precise float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near / m.p.z);
     point.x0_px = x0_px;
     point.w0 = w0;
     per_pixel(m, point.per_px_x, point.per_px_y);

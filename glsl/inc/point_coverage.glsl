@@ -12,7 +12,7 @@ vec3 covered_uvw()
     precise vec3 uvw = per_x_extra.xyz * d.x + per_y_extra.xyz * d.y;
     precise float w = uvw.z + x0_w0_extra.z;
     // So written that a NaN fails too.
-    if (!(dot(uvw.xy, uvw.xy) <= frame.coverage_r2 * w * w)) {
+    if (!(dot(uvw.xy, uvw.xy) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2) * w * w)) {
         discard;
     }
     return vec3(uvw.xy, w);

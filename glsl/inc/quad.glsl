@@ -27,7 +27,7 @@ bool quad_of(Mapping m, int corner, out Quad quad)
         return false;
     }
     ivec2 right_down = ivec2(corner & 1, corner >> 1);
-    vec2 corner_px = vec2(px.first + right_down * (px.last - px.first + 1));
+    vec2 corner_px = FORMULA(FORMULA_QUAD_CORNER, vec2(px.first + right_down * (px.last - px.first + 1)));
     quad.clip_corner = 2.0 * corner_px / frame.size_px - 1.0;
 
     vec2 projected = projected_center_px(m);
@@ -36,13 +36,13 @@ bool quad_of(Mapping m, int corner, out Quad quad)
     precise vec2 x0_px = center_inside ? FORMULA(FORMULA_EXPANSION_POINT, projected) : 0.5 * (px.lo + px.hi);
     precise vec3 constants;
     if (center_inside) {
-        constants = vec3(0.0, 0.0, frame.near / m.p.z);
+        constants = FORMULA(FORMULA_CENTER_CONSTANTS, vec3(0.0, 0.0, frame.near / m.p.z));
     } else {
         precise vec3 x0 = vec3((x0_px - 0.5 * frame.size_px) / frame.focal_px, 1.0);
-        constants = m.scale * vec3(dot(m.n0, x0), dot(m.n1, x0), dot(m.n2, x0));
+        constants = FORMULA(FORMULA_ELSEWHERE_CONSTANTS, m.scale * vec3(dot(m.n0, x0), dot(m.n1, x0), dot(m.n2, x0)));
     }
     quad.x0_px = x0_px;
-    quad.constants = FORMULA(FORMULA_EXPANSION_CONSTANTS, constants);
+    quad.constants = constants;
     per_pixel(m, quad.per_px_x, quad.per_px_y);
     return true;
 }

@@ -9,9 +9,9 @@ vec3 covered_uvw()
 {
     vec2 d = gl_FragCoord.xy - x0_w_extra.xy;
     precise vec3 uvw = vec3(uv, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
-    bool inside = dot(uvw.xy, uvw.xy) <= frame.coverage_r2 * uvw.z * uvw.z;
+    bool inside = dot(uvw.xy, uvw.xy) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2) * uvw.z * uvw.z;
     // w = near / z: above 1 in front of the near plane, not above 0 behind the eye. A NaN fails too.
-    if (!(inside && uvw.z > 0.0 && uvw.z <= 1.0)) {
+    if (!(inside && uvw.z > 0.0 && uvw.z <= FORMULA(FORMULA_NEAR_CUT, 1.0))) {
         discard;
     }
     return uvw;

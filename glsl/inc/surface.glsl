@@ -22,7 +22,7 @@ Surface load_surface(ivec2 pixel)
     vec4 color_sum = texelFetch(color_sums, pixel, 0);
     Surface surface;
     surface.weight = color_sum.a;
-    surface.albedo = color_sum.a > 0.0 ? color_sum.rgb * (1.0 / color_sum.a) : vec3(0.0);
+    surface.albedo = color_sum.a > 0.0 ? FORMULA(FORMULA_NORMALIZED_COLOR, color_sum.rgb * (1.0 / color_sum.a)) : vec3(0.0);
     surface.normal = normal_of_sum(texelFetch(normal_sums, pixel, 0).xyz);
     return surface;
 }

@@ -9,7 +9,7 @@ pub enum Formula {
     InverseMappingV,
     InverseMappingW,
     ExpansionPoint,
-    ExpansionConstants,
+    CenterConstants,
     BoxCenter,
     BoxHalfSize,
     NearBox,
@@ -22,16 +22,28 @@ pub enum Formula {
     Color,
     DepthSum,
     ViewTransform,
+    ElsewhereConstants,
+    Coverage,
+    NearCut,
+    KernelPower,
+    PointCenter,
+    PointSize,
+    QuadCorner,
+    NormalizedColor,
+    NormalizedDepth,
+    EyeDirection,
+    Diffuse,
+    Specular,
 }
 
 impl Formula {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 29] = [
         Self::InverseMappingU,
         Self::InverseMappingV,
         Self::InverseMappingW,
         Self::ExpansionPoint,
-        Self::ExpansionConstants,
+        Self::CenterConstants,
         Self::BoxCenter,
         Self::BoxHalfSize,
         Self::NearBox,
@@ -44,5 +56,17 @@ impl Formula {
         Self::Color,
         Self::DepthSum,
         Self::ViewTransform,
+        Self::ElsewhereConstants,
+        Self::Coverage,
+        Self::NearCut,
+        Self::KernelPower,
+        Self::PointCenter,
+        Self::PointSize,
+        Self::QuadCorner,
+        Self::NormalizedColor,
+        Self::NormalizedDepth,
+        Self::EyeDirection,
+        Self::Diffuse,
+        Self::Specular,
     ];
 }

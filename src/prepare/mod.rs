@@ -15,7 +15,7 @@ pub use rebase::Rebase;
 use crate::{
     error::Result,
     scene::{DefectCounts, Scene},
-    vk::{Device, Staging},
+    vk::{Device, Limits, Staging},
 };
 
 /// A scene on the device. Chunks keep the scene's order.
@@ -40,7 +40,7 @@ impl PreparedScene {
     }
 }
 
-/// Uploads a scene. Splats with a defect are left out and counted. `submit` runs one batch of uploads: our own queue,
+/// Uploads a scene, in chunks within `limits`. Splats with a defect are left out and counted. `submit` runs one batch of uploads: our own queue,
 /// or the host's, which may defer it as long as it comes before the first frame and the batch lives until then.
 /// `progress` is called with splats done and splats in all.
 ///
@@ -48,6 +48,7 @@ impl PreparedScene {
 /// Whatever the allocator, the driver or `submit` answers.
 pub fn prepare(
     device: &Device,
+    limits: &Limits,
     layout: &SplatSetLayout,
     scene: &Scene,
     submit: &mut dyn FnMut(Staging) -> Result<()>,
@@ -55,7 +56,7 @@ pub fn prepare(
 ) -> Result<PreparedScene> {
     let rebase = Rebase::of(scene);
     let total = scene.splat_count() as u64;
-    let capacity = chunk::capacity(device.facts().limits.max_storage_buffer_range);
+    let capacity = chunk::capacity(limits.max_storage_buffer_range);
     let mut prepared = PreparedScene { rebase, chunks: Vec::new(), defects: DefectCounts::default() };
     let mut done = 0;
     for object in &scene.objects {

@@ -19,12 +19,13 @@ use crate::{
     passes::{self, Draw, Exported, Inputs, Shaders},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Scene, Settings},
-    vk::{Device, Staging},
+    vk::{Device, Limits, Staging},
 };
 
 /// Draws splats on a device.
 pub struct Renderer {
     device: Device,
+    limits: Limits,
     /// Pipelines and their layouts.
     pub shaders: Shaders,
 }
@@ -46,7 +47,17 @@ impl Renderer {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, cache_folder: Option<&std::path::Path>) -> Result<Self> {
-        Ok(Self { device: device.clone(), shaders: Shaders::new(device, cache_folder)? })
+        let limits = device.facts().limits;
+        Ok(Self { device: device.clone(), limits, shaders: Shaders::new(device, cache_folder)? })
+    }
+
+    /// Stays within lower limits than the device's own: points, storage buffers and images as on another device, so
+    /// that its paths can be tried here. A limit above the device's has no effect.
+    pub fn lower_limits(&mut self, to: &Limits) {
+        let own = self.device.facts().limits;
+        self.limits.max_storage_buffer_range = own.max_storage_buffer_range.min(to.max_storage_buffer_range);
+        self.limits.point_size_range[1] = own.point_size_range[1].min(to.point_size_range[1]);
+        self.limits.max_image_side = own.max_image_side.min(to.max_image_side);
     }
 
     /// Uploads a scene; see [`prepare`].
@@ -59,7 +70,7 @@ impl Renderer {
         submit: &mut dyn FnMut(Staging) -> Result<()>,
         progress: &dyn Fn(u64, u64),
     ) -> Result<PreparedScene> {
-        prepare(&self.device, &self.shaders.splat_set, scene, submit, progress)
+        prepare(&self.device, &self.limits, &self.shaders.splat_set, scene, submit, progress)
     }
 
     /// Refuses settings and targets that this device can't do.
@@ -71,7 +82,7 @@ impl Renderer {
         camera.validate()?;
         let facts = self.device.facts();
         let [width, height] = settings.size_px;
-        let side = facts.limits.max_image_side;
+        let side = self.limits.max_image_side;
         if width > side || height > side {
             return Err(Error::option(
                 "--size",
@@ -108,7 +119,7 @@ impl Renderer {
         profile: Option<Profile>,
     ) -> Result<Plan> {
         self.check(camera, settings)?;
-        let draws = passes::draws(scene, camera, settings, &self.device.facts().limits);
+        let draws = passes::draws(scene, camera, settings, &self.limits);
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::sets_needed(&draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.

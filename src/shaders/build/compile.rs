@@ -36,13 +36,18 @@ pub fn stage(name: &str) -> Option<ShaderKind> {
 pub struct Compiler {
     compiler: shaderc::Compiler,
     glsl: PathBuf,
+    macros: Vec<String>,
 }
 
 impl Compiler {
-    /// `glsl` is where `#include "inc/…"` starts from, in whatever file it stands.
-    pub fn new(glsl: &Path) -> Result<Self, String> {
+    /// `glsl` is where `#include "inc/…"` starts from, in whatever file it stands; `macros` are defined everywhere.
+    pub fn new(glsl: &Path, macros: &[&str]) -> Result<Self, String> {
         let compiler = shaderc::Compiler::new().map_err(|e| format!("shaderc does not start: {e}"))?;
-        Ok(Self { compiler, glsl: glsl.to_owned() })
+        Ok(Self {
+            compiler,
+            glsl: glsl.to_owned(),
+            macros: macros.iter().map(|name| (*name).to_owned()).collect(),
+        })
     }
 
     /// The SPIR-V 1.6 for Vulkan 1.3 of the file at `path`.
@@ -77,6 +82,9 @@ impl Compiler {
             Optimize::Off => OptimizationLevel::Zero,
         });
         options.set_warnings_as_errors();
+        for name in &self.macros {
+            options.add_macro_definition(name, None);
+        }
         options.set_include_callback(|requested, _, _, depth| self.include(requested, depth));
         Ok(options)
     }

@@ -18,14 +18,14 @@ use layout::{StructLayout, struct_layouts};
 pub type HostStruct<'a> = (&'a str, &'a str);
 
 /// Compiles every `<pass>.<stage>.glsl` of the folder `glsl`. Answers with Rust source: one `static` a shader, the table
-/// `ALL` of all of them, and the checks of the host structs.
+/// `ALL` of all of them, and the checks of the host structs. `macros` are defined in every shader.
 ///
 /// # Errors
 ///
 /// All that is wrong with any shader, each as `path:line: error: …` where the compiler knows a line.
-pub fn build(glsl: &Path, host_structs: &[HostStruct]) -> Result<String, Vec<String>> {
+pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Result<String, Vec<String>> {
     let sources = find_shaders(glsl)?;
-    let compiler = Compiler::new(glsl).map_err(|message| vec![message])?;
+    let compiler = Compiler::new(glsl, macros).map_err(|message| vec![message])?;
     let shared: Vec<&str> = host_structs.iter().map(|(glsl_name, _)| *glsl_name).collect();
     let mut errors = Vec::new();
     let mut shaders = Vec::new();
