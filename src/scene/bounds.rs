@@ -1,4 +1,4 @@
-//! Axis-aligned boxes in world space.
+//! What lies around a scene: axis-aligned boxes and balls in world space.
 
 use glam::DVec3;
 
@@ -31,4 +31,13 @@ impl Bounds {
     pub fn radius(&self) -> f64 {
         0.5 * (self.max - self.min).length()
     }
+}
+
+/// A ball in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its middle.
+    pub center: DVec3,
+    /// At least 0.
+    pub radius: f64,
 }

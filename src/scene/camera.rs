@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Bounds;
+use super::Ball;
 use crate::error::{Error, Result};
 
 /// A pinhole camera in world space.
@@ -34,15 +34,15 @@ pub struct ViewFromWorld {
 const FIT_MARGIN: f64 = 1.05;
 
 impl Camera {
-    /// The camera that shows all of `bounds`: 45° vertical, looking along −z with +y up; the bounding sphere fits
-    /// the smaller of the two angles with 5% margin. Bounds without extent are taken as a unit ball.
-    pub fn fit(bounds: &Bounds, size_px: [u32; 2]) -> Self {
+    /// The camera that shows all of a ball: 45° vertical, looking along −z with +y up; the ball fits the smaller of the
+    /// two angles with 5% margin. A ball without extent is taken as a unit ball.
+    pub fn fit(ball: &Ball, size_px: [u32; 2]) -> Self {
         let fov_y_rad = std::f64::consts::FRAC_PI_4;
         let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
         let half_y = 0.5 * fov_y_rad;
         let half = half_y.min((half_y.tan() * aspect).atan());
-        let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 1.0 };
-        let target = bounds.center();
+        let radius = if ball.radius > 0.0 { ball.radius } else { 1.0 };
+        let target = ball.center;
         let eye = target + DVec3::Z * (FIT_MARGIN * radius / half.sin());
         Self { eye, target, up: DVec3::Y, fov_y_rad, near: None }
     }
@@ -139,15 +139,15 @@ mod tests {
             let distance = camera.eye.z;
             let half_y = (0.5 * camera.fov_y_rad).tan();
             let half_x = half_y * f64::from(size[0]) / f64::from(size[1]);
-            let seen = (unit().radius() / distance).asin().tan();
+            let seen = (unit().radius / distance).asin().tan();
             assert!(seen <= half_x.min(half_y), "{size:?}");
             assert!(seen >= 0.9 * half_x.min(half_y), "{size:?}");
         }
-        let point = Bounds::of_ball(DVec3::new(5e5, 4.6e6, 300.0), 0.0);
+        let point = Ball { center: DVec3::new(5e5, 4.6e6, 300.0), radius: 0.0 };
         Camera::fit(&point, [64, 64]).validate().unwrap();
     }
 
-    fn unit() -> Bounds {
-        Bounds::of_ball(DVec3::ZERO, 1.0)
+    fn unit() -> Ball {
+        Ball { center: DVec3::ZERO, radius: 1.0 }
     }
 }

@@ -9,7 +9,7 @@ mod mesh;
 mod settings;
 mod splats;
 
-pub use bounds::Bounds;
+pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use mesh::{Mesh, MeshColors};
 pub use settings::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Settings, Shading};
@@ -43,5 +43,12 @@ impl Scene {
     /// The box around all disks; `None` where there is no splat.
     pub fn bounds(&self) -> Option<Bounds> {
         self.objects.iter().filter_map(|object| object.splats.bounds()).reduce(Bounds::union)
+    }
+
+    /// A ball around all disks, about the middle of their box; `None` where there is no splat.
+    pub fn bounding_ball(&self) -> Option<Ball> {
+        let center = self.bounds()?.center();
+        let radii = self.objects.iter().map(|object| object.splats.radius_around(center));
+        Some(Ball { center, radius: radii.fold(0.0, f64::max) })
     }
 }

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::scene::{Bounds, Defect};
+use crate::scene::{Ball, Defect};
 
 /// Nothing but an empty pixel's depth and margin may be infinite, and nothing NaN.
 fn assert_sane(picture: &Picture) {
@@ -109,8 +109,8 @@ fn points_all_at_one_place_are_fitted_and_seen() {
     let scene = ellipses(&[disk; 5]);
     let size_px = [40, 30];
     let settings = Settings { size_px, filter: Filter::Adjust, ..settings(0) };
-    for bounds in [scene.bounds().unwrap(), Bounds::of_ball(disk.0, 0.0)] {
-        let picture = render(&scene, &Camera::fit(&bounds, size_px), &settings, &|_, _| ()).unwrap();
+    for ball in [scene.bounding_ball().unwrap(), Ball { center: disk.0, radius: 0.0 }] {
+        let picture = render(&scene, &Camera::fit(&ball, size_px), &settings, &|_, _| ()).unwrap();
         assert!(picture.pixel(20, 15).unwrap().is_covered());
         assert_sane(&picture);
     }
