@@ -31,6 +31,8 @@ pub struct Draw<'a> {
     pub chunk: &'a Chunk,
     /// What its shaders are told.
     pub constants: FrameConstants,
+    /// What no splat's box exceeds, in pixels; infinite where one may reach the near plane.
+    pub largest_box_px: f64,
     /// Whether a splat of it may exceed the device's largest point: then large ones are listed and drawn as quads.
     pub may_be_large: bool,
     /// The specialization constants of its pipelines.
@@ -65,6 +67,7 @@ pub fn draws<'a>(
             filter_px: if settings.filter == Filter::Adjust { FILTER_RADIUS_PX } else { 0.0 },
         };
         let point_cap_px = limits.point_size_range[1];
+        let largest_box_px = largest_box_px(&bound);
         Draw {
             chunk,
             constants: FrameConstants {
@@ -83,7 +86,8 @@ pub fn draws<'a>(
                 splat_count: chunk.count,
                 uniform_color: u32::from(chunk.uniform_color),
             },
-            may_be_large: largest_box_px(&bound) > f64::from(point_cap_px),
+            largest_box_px,
+            may_be_large: largest_box_px > f64::from(point_cap_px),
             variant: splat_constants(settings, chunk.ellipses, chunk.closed),
         }
     };

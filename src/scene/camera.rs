@@ -37,7 +37,11 @@ impl Camera {
     /// The camera that shows all of `bounds`: 45° vertical, looking along −z with +y up; the bounding sphere fits
     /// the smaller of the two angles with 5% margin. Bounds without extent are taken as a unit ball.
     pub fn fit(bounds: &Bounds, size_px: [u32; 2]) -> Self {
-        let fov_y_rad = std::f64::consts::FRAC_PI_4;
+        Self::fit_at(bounds, size_px, std::f64::consts::FRAC_PI_4)
+    }
+
+    /// As [`Camera::fit`], with another vertical field of view in radians, between 0 and π.
+    pub fn fit_at(bounds: &Bounds, size_px: [u32; 2], fov_y_rad: f64) -> Self {
         let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
         let half_y = 0.5 * fov_y_rad;
         let half = half_y.min((half_y.tan() * aspect).atan());
