@@ -11,6 +11,15 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
+/// A ball in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its middle.
+    pub center: DVec3,
+    /// Its radius, at least 0.
+    pub radius: f64,
+}
+
 impl Bounds {
     /// The box around a ball, which for a disk is a safe and simple choice.
     pub fn of_ball(center: DVec3, radius: f64) -> Self {
@@ -25,6 +34,11 @@ impl Bounds {
     /// The middle.
     pub fn center(&self) -> DVec3 {
         self.min + 0.5 * (self.max - self.min)
+    }
+
+    /// The ball around the box.
+    pub fn ball(&self) -> Ball {
+        Ball { center: self.center(), radius: self.radius() }
     }
 
     /// The radius of the sphere around the box; 0 for a box without extent.

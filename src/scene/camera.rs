@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Bounds;
+use super::{Ball, Bounds};
 use crate::error::{Error, Result};
 
 /// A pinhole camera in world space.
@@ -34,21 +34,23 @@ pub struct ViewFromWorld {
 const FIT_MARGIN: f64 = 1.05;
 
 impl Camera {
-    /// The camera that shows all of `bounds`: 45° vertical, looking along −z with +y up; the bounding sphere fits
-    /// the smaller of the two angles with 5% margin. Bounds without extent are taken as a unit ball.
+    /// The vertical field of view where none is given: 45°, in radians.
+    pub const DEFAULT_FOV_Y_RAD: f64 = std::f64::consts::FRAC_PI_4;
+
+    /// The camera that shows all of `bounds`, as [`Camera::fit_ball`] of the ball around it, at 45°.
     pub fn fit(bounds: &Bounds, size_px: [u32; 2]) -> Self {
-        Self::fit_at(bounds, size_px, std::f64::consts::FRAC_PI_4)
+        Self::fit_ball(&bounds.ball(), size_px, Self::DEFAULT_FOV_Y_RAD)
     }
 
-    /// As [`Camera::fit`], with another vertical field of view in radians, between 0 and π.
-    pub fn fit_at(bounds: &Bounds, size_px: [u32; 2], fov_y_rad: f64) -> Self {
+    /// The camera that shows all of a ball, looking along −z with +y up: it fits the smaller of the two angles with 5%
+    /// margin. `fov_y_rad` is the vertical one, between 0 and π. A ball without extent is taken as a unit ball.
+    pub fn fit_ball(ball: &Ball, size_px: [u32; 2], fov_y_rad: f64) -> Self {
         let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
         let half_y = 0.5 * fov_y_rad;
         let half = half_y.min((half_y.tan() * aspect).atan());
-        let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 1.0 };
-        let target = bounds.center();
-        let eye = target + DVec3::Z * (FIT_MARGIN * radius / half.sin());
-        Self { eye, target, up: DVec3::Y, fov_y_rad, near: None }
+        let radius = if ball.radius > 0.0 { ball.radius } else { 1.0 };
+        let eye = ball.center + DVec3::Z * (FIT_MARGIN * radius / half.sin());
+        Self { eye, target: ball.center, up: DVec3::Y, fov_y_rad, near: None }
     }
 
     /// The depth of the near plane in world units.

@@ -29,8 +29,12 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Draw a scene on a Vulkan device
+    #[command(long_about = format!("Draw a scene on a Vulkan device.\n\n{SCENE_HELP}"))]
+    #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
     /// Draw the same with the reference: in 64 bits on the processor, slow and obvious
+    #[command(long_about = format!("Draw the same with the reference. {REFERENCE_HELP}\n\n{SCENE_HELP}"))]
+    #[command(after_help = REFERENCE_EXAMPLES)]
     Reference(ReferenceArguments),
     /// List devices, drivers and limits, and what a device lacks
     Info(InfoArguments),
@@ -39,6 +43,9 @@ pub enum Command {
 const SCENE_HELP: &str = "Inputs are PLY files (splats or meshes) and OBJ files (meshes); a mesh becomes disks at its \
 vertices. Several inputs are one scene; none is the built-in model. Lengths are in the files' own unit; +y is up unless \
 --up says otherwise. The camera looks along -z at the whole scene unless told otherwise.";
+
+const REFERENCE_HELP: &str =
+    "It computes in 64 bits on the processor, slow and obvious, and needs no Vulkan.";
 
 const RENDER_EXAMPLES: &str = "Examples:
   surfel render
@@ -56,7 +63,6 @@ const REFERENCE_EXAMPLES: &str = "Examples:
 
 /// Options of `surfel render`.
 #[derive(Debug, Args)]
-#[command(long_about = format!("Draw a scene on a Vulkan device.\n\n{SCENE_HELP}"), after_help = RENDER_EXAMPLES)]
 pub struct RenderArguments {
     /// What is drawn, and how.
     #[command(flatten)]
@@ -86,11 +92,6 @@ pub struct RenderArguments {
 
 /// Options of `surfel reference`.
 #[derive(Debug, Args)]
-#[command(
-    long_about = format!("Draw the same with the reference: in 64 bits on the processor, slow and obvious. Needs no \
-        Vulkan.\n\n{SCENE_HELP}"),
-    after_help = REFERENCE_EXAMPLES
-)]
 pub struct ReferenceArguments {
     /// What is drawn, and how.
     #[command(flatten)]

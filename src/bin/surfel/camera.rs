@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
-    scene::{Bounds, Camera},
+    scene::{Ball, Camera},
 };
 
 use crate::arguments::CameraArguments;
@@ -65,19 +65,16 @@ impl CameraChoice {
         })
     }
 
-    /// The camera for a scene within `bounds`. Options that were not given: the target is the middle of the scene; the
+    /// The camera for a scene within a ball. Options that were not given: the target is the middle of the scene; the
     /// eye looks from +z, from so far that the scene fits; up is +y; the angle is 45°.
     ///
     /// # Errors
     /// A camera without a picture, such as an eye at the target.
-    pub fn camera(&self, bounds: &Bounds, size_px: [u32; 2]) -> Result<Camera> {
+    pub fn camera(&self, ball: &Ball, size_px: [u32; 2]) -> Result<Camera> {
         let camera = match *self {
             Self::File(camera) => camera,
             Self::Options { eye, target, up, fov_y_rad } => {
-                let fit = match fov_y_rad {
-                    Some(fov_y_rad) => Camera::fit_at(bounds, size_px, fov_y_rad),
-                    None => Camera::fit(bounds, size_px),
-                };
+                let fit = Camera::fit_ball(ball, size_px, fov_y_rad.unwrap_or(Camera::DEFAULT_FOV_Y_RAD));
                 let target = target.unwrap_or(fit.target);
                 let eye = eye.unwrap_or(target + (fit.eye - fit.target));
                 Camera { eye, target, up: up.unwrap_or(fit.up), ..fit }
@@ -166,18 +163,19 @@ mod tests {
 
     #[test]
     fn options_that_are_left_out_come_from_the_scene() {
-        let bounds = Bounds::of_ball(DVec3::new(5.0, 0.0, 0.0), 1.0);
+        let ball = Ball { center: DVec3::new(5.0, 0.0, 0.0), radius: 1.0 };
+        let fit = Camera::fit_ball(&ball, [8, 8], Camera::DEFAULT_FOV_Y_RAD);
         let none = CameraChoice::Options { eye: None, target: None, up: None, fov_y_rad: None };
-        assert_eq!(none.camera(&bounds, [8, 8]).unwrap(), Camera::fit(&bounds, [8, 8]));
+        assert_eq!(none.camera(&ball, [8, 8]).unwrap(), fit);
         let eye = Some(DVec3::new(1.0, 1.0, 1.0));
         let only_eye = CameraChoice::Options { eye, target: None, up: None, fov_y_rad: None };
-        assert_eq!(only_eye.camera(&bounds, [8, 8]).unwrap().target, bounds.center());
+        assert_eq!(only_eye.camera(&ball, [8, 8]).unwrap().target, ball.center);
         let narrow = CameraChoice::Options { eye: None, target: None, up: None, fov_y_rad: Some(0.1) };
-        let narrow = narrow.camera(&bounds, [8, 8]).unwrap();
+        let narrow = narrow.camera(&ball, [8, 8]).unwrap();
         // The same scene fits a narrow view from further away.
-        assert!(narrow.eye.z > 5.0 * Camera::fit(&bounds, [8, 8]).eye.z && narrow.fov_y_rad == 0.1);
+        assert!(narrow.eye.z > 5.0 * fit.eye.z && narrow.fov_y_rad == 0.1);
         let inside =
-            CameraChoice::Options { eye: Some(bounds.center()), target: None, up: None, fov_y_rad: None };
-        assert_eq!(inside.camera(&bounds, [8, 8]).unwrap_err().exit_code(), 1);
+            CameraChoice::Options { eye: Some(ball.center), target: None, up: None, fov_y_rad: None };
+        assert_eq!(inside.camera(&ball, [8, 8]).unwrap_err().exit_code(), 1);
     }
 }

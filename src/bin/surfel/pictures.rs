@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use surfel::{Error, Result, math::srgb::srgb_from_linear, save};
 
-use crate::outputs::PictureFormat;
+use crate::{console, outputs::PictureFormat};
 
 /// The colors of a picture, row by row from the top left.
 pub enum Colors<'a> {
@@ -14,7 +14,7 @@ pub enum Colors<'a> {
     Linear(&'a [[f32; 4]]),
 }
 
-/// Writes the picture. PNG has an alpha channel only where something can be transparent.
+/// Writes the picture and says so. PNG has an alpha channel only where something can be transparent.
 ///
 /// # Errors
 /// As [`save::png`] and [`save::exr`].
@@ -37,7 +37,10 @@ pub fn write_picture(
             let srgb: Vec<[u8; 4]> = linear.iter().map(|color| encode(*color)).collect();
             write_png(path, size_px, transparent, &srgb)
         }
-    }
+    }?;
+    let [width, height] = size_px;
+    console::say(&format!("wrote {}, {width}x{height} pixels", path.display()));
+    Ok(())
 }
 
 fn write_png(path: &Path, size_px: [u32; 2], transparent: bool, srgb: &[[u8; 4]]) -> Result<()> {

@@ -26,8 +26,8 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let camera = CameraChoice::of(&picture.camera)?;
     let format = outputs::check(picture, None)?;
     let bars = Bars::new();
-    let Loaded { scene, bounds, .. } = load_scene(&picture.inputs, &bars, &mut Steps::default())?;
-    let camera = camera.camera(&bounds, settings.size_px)?;
+    let Loaded { scene, ball, .. } = load_scene(&picture.inputs, &bars, &mut Steps::default())?;
+    let camera = camera.camera(&ball, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let drawn = reference::render(&scene, &camera, &settings, &progress);
     bars.clear();

@@ -63,8 +63,8 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let Loaded { scene, bounds, inputs } = load_scene(&picture.inputs, &bars, &mut steps)?;
-    let camera = camera.camera(&bounds, settings.size_px)?;
+    let Loaded { scene, ball, inputs } = load_scene(&picture.inputs, &bars, &mut steps)?;
+    let camera = camera.camera(&ball, settings.size_px)?;
     let prepared =
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
     bars.clear();

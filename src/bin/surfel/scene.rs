@@ -7,7 +7,7 @@ use surfel::{
     geometry::{DEFAULT_OVERLAP, MeshReport, splats_from_mesh},
     load::{Model, builtin, load},
     report::InputReport,
-    scene::{Bounds, Mesh, Object, Scene, Shapes, Splats},
+    scene::{Ball, Mesh, Object, Scene, Shapes, Splats},
 };
 
 use crate::{
@@ -15,12 +15,12 @@ use crate::{
     steps::Steps,
 };
 
-/// A scene with its bounds and where it came from.
+/// A scene with its extent and where it came from.
 pub struct Loaded {
     /// The scene; every splat of it can be drawn.
     pub scene: Scene,
-    /// The box around all disks.
-    pub bounds: Bounds,
+    /// A ball around all disks.
+    pub ball: Ball,
     /// One an object.
     pub inputs: Vec<InputReport>,
 }
@@ -47,8 +47,8 @@ pub fn load_scene(inputs: &[PathBuf], bars: &Bars, steps: &mut Steps) -> Result<
         bars.clear();
         take(loaded?);
     }
-    let bounds = scene.bounds().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
-    Ok(Loaded { scene, bounds, inputs: reports })
+    let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
+    Ok(Loaded { scene, ball, inputs: reports })
 }
 
 fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, InputReport)> {
@@ -97,7 +97,7 @@ fn splats_head(splats: &Splats) -> String {
         Shapes::Disks { .. } => "disks",
         Shapes::Ellipses { .. } => "ellipses",
     };
-    format!("{} splats, {kind}", splats.len())
+    format!("{} {kind}", splats.len())
 }
 
 fn mesh_head(mesh: &Mesh, report: &MeshReport) -> String {
@@ -144,7 +144,7 @@ mod tests {
     fn splats_that_cannot_be_drawn_are_counted_once() {
         let report =
             load_text("a.ply", &format!("{SPLATS}0 0 0 0 0 1 1\n1 0 0 0 0 1 0\n2 0 0 0 0 0 1\n")).unwrap();
-        let expected = "a.ply: 1 splats, disks; 2 splats left out: 1 normal zero or not finite, 1 radius not \
+        let expected = "a.ply: 1 disks; 2 splats left out: 1 normal zero or not finite, 1 radius not \
             above zero or not finite";
         assert_eq!(report.summary, expected);
         assert_eq!((report.splats, report.dropped), (1, 2));

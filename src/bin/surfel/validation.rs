@@ -16,7 +16,7 @@ pub fn conclude(messages: &Messages) -> Result<()> {
         *times.entry((message.vuid, message.text)).or_default() += 1;
     }
     for ((vuid, text), times) in &times {
-        console::say(&format!("validation ({times} times): {vuid}: {text}"));
+        console::say(&format!("validation ({times} times): {vuid}: {}", text.trim()));
     }
     let allowed: Vec<String> =
         messages.allowed_hits().into_iter().map(|(vuid, times)| format!("{vuid} {times} times")).collect();
