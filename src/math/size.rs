@@ -19,18 +19,18 @@ pub struct SizeBound {
 
 /// Whether every splat is regular as `glsl/inc/box.glsl` has it: wholly beyond the near plane, and its depth radius at
 /// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter.
-pub fn all_regular(bound: &SizeBound) -> bool {
+fn all_regular(bound: &SizeBound) -> bool {
     bound.nearest_z > bound.near && bound.largest_radius <= 0.45 * bound.nearest_z
 }
 
-/// An upper bound of the side of a splat's box within the image, in pixels; infinite where a splat may reach the near
-/// plane.
+/// An upper bound of the side of a splat's box within the image, in pixels; infinite where a splat may come
+/// near the eye plane.
 ///
 /// Two points of a splat at x₁, x₂ in the image plane with depths z₁, z₂: `x₁ − x₂ = ((X₁ − X₂) − x₂ (z₁ − z₂)) / z₁`,
 /// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it. The
 /// filter replaces an axis by one of its own radius, parallel to the screen: 2h more. Three pixels for rounding.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
-    if bound.nearest_z <= bound.near {
+    if !all_regular(bound) {
         return f64::INFINITY;
     }
     let half_image = 0.5 * bound.size_px[0].max(bound.size_px[1]) / bound.focal_px;

@@ -17,7 +17,7 @@ use crate::{
     graph::execute::PassContext,
     math::{
         kernel::coverage_r2,
-        size::{SizeBound, all_regular, largest_box_px},
+        size::{SizeBound, largest_box_px},
     },
     prepare::{Chunk, PreparedScene},
     scene::{Camera, Epsilon, Filter, Settings},
@@ -31,6 +31,8 @@ pub struct Draw<'a> {
     pub chunk: &'a Chunk,
     /// What its shaders are told.
     pub constants: FrameConstants,
+    /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
+    pub largest_box_px: f64,
     /// Whether a splat of it may exceed the device's largest point or come near the eye plane: such ones are then
     /// listed and drawn as quads.
     pub may_be_large: bool,
@@ -66,6 +68,7 @@ pub fn draws<'a>(
             filter_px: if settings.filter == Filter::Adjust { FILTER_RADIUS_PX } else { 0.0 },
         };
         let point_cap_px = limits.point_size_range[1];
+        let largest_box_px = largest_box_px(&bound);
         Draw {
             chunk,
             constants: FrameConstants {
@@ -84,7 +87,8 @@ pub fn draws<'a>(
                 splat_count: chunk.count,
                 uniform_color: u32::from(chunk.uniform_color),
             },
-            may_be_large: !all_regular(&bound) || largest_box_px(&bound) > f64::from(point_cap_px),
+            largest_box_px,
+            may_be_large: largest_box_px > f64::from(point_cap_px),
             variant: splat_constants(settings, chunk.ellipses, chunk.closed),
         }
     };

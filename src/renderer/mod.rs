@@ -1,11 +1,13 @@
 //! The renderer: records frames of prepared scenes into command buffers that it is given. It never submits and never
 //! waits, so that an embedding host keeps device, queue and submission to itself; [`Headless`] is such a host.
 
+mod explain;
 mod floor;
 mod headless;
 
 use ash::vk;
 
+pub use explain::{ExplainedChunk, ExplainedPass, ExplainedUse, Explanation};
 pub use floor::Floor;
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
 
@@ -16,7 +18,7 @@ use crate::{
         Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan,
         execute::{Body, Physical, Profile, Transients, execute, memory_need},
     },
-    passes::{self, Draw, Exported, Inputs, Shaders},
+    passes::{self, Exported, Inputs, Shaders},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Scene, Settings},
     vk::{Device, Limits, Staging},
@@ -73,13 +75,21 @@ impl Renderer {
         prepare(&self.device, &self.limits, &self.shaders.splat_set, scene, submit, progress)
     }
 
-    /// Refuses settings and targets that this device can't do.
+    /// Refuses a camera without a picture, and settings that this device can't do.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`].
     pub fn check(&self, camera: &Camera, settings: &Settings) -> Result<()> {
-        settings.validate()?;
         camera.validate()?;
+        self.check_settings(settings)
+    }
+
+    /// Refuses settings that this device can't do: what can be known before there is a scene.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub fn check_settings(&self, settings: &Settings) -> Result<()> {
+        settings.validate()?;
         let facts = self.device.facts();
         let [width, height] = settings.size_px;
         let side = self.limits.max_image_side;
@@ -207,17 +217,4 @@ fn bytes_per_pixel(format: vk::Format) -> u64 {
         vk::Format::R16G16B16A16_SFLOAT => 8,
         _ => 4,
     }
-}
-
-/// Why a frame has the passes and pipelines that it has, for people.
-pub fn explain(draws: &[Draw<'_>]) -> Vec<String> {
-    let large = draws.iter().filter(|draw| draw.may_be_large).count();
-    let mut lines = vec![format!("{} chunk(s) of splats", draws.len())];
-    lines.push(match large {
-        0 => "no splat can exceed the device's largest point: no list of large splats, no quads".to_owned(),
-        _ => format!(
-            "{large} chunk(s) may hold splats above the device's largest point: listed, drawn as quads"
-        ),
-    });
-    lines
 }

@@ -1,1 +1,17 @@
-//! Not yet.
+//! What a run was made of and what it cost, as plain data: serialized it is the JSON of `--timings`, printed it is a
+//! table for people.
+//!
+//! No figure is made up: what was not measured is `None` (`null` in JSON) and a sentence among the flags says why.
+
+mod floor;
+mod frames;
+mod options;
+mod run;
+mod spread;
+mod table;
+
+pub use floor::{FloorReport, FloorRow, Round};
+pub use frames::{FrameSample, FrameTimes, PassFigures};
+pub use options::{epsilon_option, kernel_option, settings_as_options};
+pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
+pub use spread::Spread;

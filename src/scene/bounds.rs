@@ -11,6 +11,15 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
+/// A ball in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its middle.
+    pub center: DVec3,
+    /// Its radius, at least 0.
+    pub radius: f64,
+}
+
 impl Bounds {
     /// The box around a ball, which for a disk is a safe and simple choice.
     pub fn of_ball(center: DVec3, radius: f64) -> Self {
@@ -31,13 +40,4 @@ impl Bounds {
     pub fn radius(&self) -> f64 {
         0.5 * (self.max - self.min).length()
     }
-}
-
-/// A ball in world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    /// Its middle.
-    pub center: DVec3,
-    /// At least 0.
-    pub radius: f64,
 }

@@ -34,17 +34,18 @@ pub struct ViewFromWorld {
 const FIT_MARGIN: f64 = 1.05;
 
 impl Camera {
-    /// The camera that shows all of a ball: 45° vertical, looking along −z with +y up; the ball fits the smaller of the
-    /// two angles with 5% margin. A ball without extent is taken as a unit ball.
-    pub fn fit(ball: &Ball, size_px: [u32; 2]) -> Self {
-        let fov_y_rad = std::f64::consts::FRAC_PI_4;
+    /// The vertical field of view where none is given: 45°, in radians.
+    pub const DEFAULT_FOV_Y_RAD: f64 = std::f64::consts::FRAC_PI_4;
+
+    /// The camera that shows all of a ball, looking along −z with +y up: it fits the smaller of the two angles with 5%
+    /// margin. `fov_y_rad` is the vertical one, between 0 and π. A ball without extent is taken as a unit ball.
+    pub fn fit(ball: &Ball, size_px: [u32; 2], fov_y_rad: f64) -> Self {
         let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
         let half_y = 0.5 * fov_y_rad;
         let half = half_y.min((half_y.tan() * aspect).atan());
         let radius = if ball.radius > 0.0 { ball.radius } else { 1.0 };
-        let target = ball.center;
-        let eye = target + DVec3::Z * (FIT_MARGIN * radius / half.sin());
-        Self { eye, target, up: DVec3::Y, fov_y_rad, near: None }
+        let eye = ball.center + DVec3::Z * (FIT_MARGIN * radius / half.sin());
+        Self { eye, target: ball.center, up: DVec3::Y, fov_y_rad, near: None }
     }
 
     /// The depth of the near plane in world units.
@@ -114,10 +115,15 @@ fn usable_up(up: DVec3, forward: DVec3) -> DVec3 {
 mod tests {
     use super::*;
 
+    const FOV: f64 = Camera::DEFAULT_FOV_Y_RAD;
+
     #[test]
     fn view_axes_are_right_down_forward() {
-        let camera =
-            Camera { eye: DVec3::new(0.0, 0.0, 5.0), target: DVec3::ZERO, ..Camera::fit(&unit(), [1, 1]) };
+        let camera = Camera {
+            eye: DVec3::new(0.0, 0.0, 5.0),
+            target: DVec3::ZERO,
+            ..Camera::fit(&unit(), [1, 1], FOV)
+        };
         let view = camera.view_from_world();
         assert!(view.point(DVec3::X).distance(DVec3::new(1.0, 0.0, 5.0)) < 1e-15);
         assert!(view.point(DVec3::Y).distance(DVec3::new(0.0, -1.0, 5.0)) < 1e-15);
@@ -135,7 +141,7 @@ mod tests {
     #[test]
     fn a_fit_shows_the_bounding_sphere_in_both_directions_and_survives_a_point() {
         for size in [[200, 100], [100, 200], [1, 1]] {
-            let camera = Camera::fit(&unit(), size);
+            let camera = Camera::fit(&unit(), size, FOV);
             let distance = camera.eye.z;
             let half_y = (0.5 * camera.fov_y_rad).tan();
             let half_x = half_y * f64::from(size[0]) / f64::from(size[1]);
@@ -144,7 +150,7 @@ mod tests {
             assert!(seen >= 0.9 * half_x.min(half_y), "{size:?}");
         }
         let point = Ball { center: DVec3::new(5e5, 4.6e6, 300.0), radius: 0.0 };
-        Camera::fit(&point, [64, 64]).validate().unwrap();
+        Camera::fit(&point, [64, 64], FOV).validate().unwrap();
     }
 
     fn unit() -> Ball {

@@ -45,10 +45,43 @@ impl Scene {
         self.objects.iter().filter_map(|object| object.splats.bounds()).reduce(Bounds::union)
     }
 
-    /// A ball around all disks, about the middle of their box; `None` where there is no splat.
-    pub fn bounding_ball(&self) -> Option<Ball> {
+    /// The smallest ball around all disks that has its center in the middle of [`Scene::bounds`]: less than the ball
+    /// around that box, for a round thing by √3. `None` where there is no splat.
+    pub fn ball(&self) -> Option<Ball> {
         let center = self.bounds()?.center();
-        let radii = self.objects.iter().map(|object| object.splats.radius_around(center));
-        Some(Ball { center, radius: radii.fold(0.0, f64::max) })
+        let reach = |splats: &Splats| {
+            let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
+            drawn.map(|i| splats.positions[i].distance(center) + splats.major_radius(i)).fold(0.0, f64::max)
+        };
+        let radius = self.objects.iter().map(|object| reach(&object.splats)).fold(0.0, f64::max);
+        Some(Ball { center, radius })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3};
+
+    #[test]
+    fn the_ball_holds_every_disk_that_can_be_drawn_and_touches_one() {
+        let disks = |centers: &[[f64; 3]], radius: f32| Object {
+            name: String::new(),
+            closed: false,
+            splats: Splats {
+                positions: centers.iter().map(|center| DVec3::from(*center)).collect(),
+                shapes: Shapes::Disks {
+                    normals: vec![Vec3::Z; centers.len()],
+                    radii: vec![radius; centers.len()],
+                },
+                colors: Colors::Uniform([1.0; 4]),
+            },
+        };
+        let ends = [[2.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, -2.0, 0.0]];
+        let defective = disks(&[[f64::NAN, 0.0, 0.0], [9.0, f64::INFINITY, 0.0]], 1.0);
+        let scene = Scene { objects: vec![disks(&ends, 0.5), defective, disks(&[[0.0; 3]], 0.5)] };
+        assert_eq!(scene.ball(), Some(Ball { center: DVec3::ZERO, radius: 2.5 }));
+        assert!(scene.bounds().unwrap().radius() > 3.5);
+        assert_eq!(Scene::default().ball(), None);
     }
 }

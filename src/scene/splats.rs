@@ -163,16 +163,6 @@ impl Splats {
     }
 }
 
-impl Splats {
-    /// The radius of the ball around `center` that holds all disks; splats with a [`Defect`] are left out.
-    pub fn radius_around(&self, center: DVec3) -> f64 {
-        (0..self.len())
-            .filter(|&i| self.defect(i).is_none())
-            .map(|i| self.positions[i].distance(center) + self.major_radius(i))
-            .fold(0.0, f64::max)
-    }
-}
-
 impl DefectCounts {
     /// All splats with a defect.
     pub fn total(&self) -> usize {

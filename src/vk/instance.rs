@@ -10,7 +10,7 @@ use super::{
 };
 use crate::error::{ErrorKind, Result};
 
-const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// Whether the validation layer watches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

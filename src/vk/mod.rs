@@ -18,6 +18,7 @@ mod graphics_pipeline;
 mod image;
 mod instance;
 mod layout;
+mod loader;
 mod memory;
 mod messages;
 mod pipeline_cache;
@@ -38,6 +39,7 @@ pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelin
 pub use image::{Image, ImageDesc};
 pub use instance::{Instance, Validation, arm_validation_across_submits};
 pub use layout::PipelineLayout;
+pub use loader::{LoaderFacts, loader_facts};
 pub use memory::{Memory, MemoryUse};
 pub use messages::{Message, Messages};
 pub use pipeline_cache::PipelineCache;

@@ -1,2 +1,51 @@
-//! x
-fn main() {}
+//! The command-line program: one file a subcommand; what they share is in files of its own.
+
+mod allocator;
+mod arguments;
+mod bench;
+mod cache;
+mod camera;
+mod console;
+mod device;
+mod explain;
+mod info;
+mod json;
+mod measure;
+mod outputs;
+mod parse;
+mod pictures;
+mod reference;
+mod render;
+mod scene;
+mod steps;
+mod usage;
+mod validation;
+
+use std::process::ExitCode;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    allocator::keep_freed_memory();
+    if std::env::args_os().any(|argument| argument == "--validate") {
+        // SAFETY: first thing in `main`, there is no other thread yet.
+        unsafe { surfel::vk::arm_validation_across_submits() };
+    }
+    let arguments: Arguments = match usage::parse() {
+        Ok(arguments) => arguments,
+        Err(exit) => return exit,
+    };
+    let done = match &arguments.command {
+        Command::Render(arguments) => render::run(arguments),
+        Command::Reference(arguments) => reference::run(arguments),
+        Command::Bench(arguments) => bench::run(arguments),
+        Command::Info(arguments) => info::run(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            console::fail(&error.to_string());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

@@ -109,8 +109,10 @@ fn points_all_at_one_place_are_fitted_and_seen() {
     let scene = ellipses(&[disk; 5]);
     let size_px = [40, 30];
     let settings = Settings { size_px, filter: Filter::Adjust, ..settings(0) };
-    for ball in [scene.bounding_ball().unwrap(), Ball { center: disk.0, radius: 0.0 }] {
-        let picture = render(&scene, &Camera::fit(&ball, size_px), &settings, &|_, _| ()).unwrap();
+    for ball in [scene.ball().unwrap(), Ball { center: disk.0, radius: 0.0 }] {
+        let picture =
+            render(&scene, &Camera::fit(&ball, size_px, Camera::DEFAULT_FOV_Y_RAD), &settings, &|_, _| ())
+                .unwrap();
         assert!(picture.pixel(20, 15).unwrap().is_covered());
         assert_sane(&picture);
     }

@@ -1,0 +1,181 @@
+//! The camera: from a file, from options, or fitted to the scene.
+
+use std::{fs, path::Path};
+
+use glam::DVec3;
+use serde::Deserialize;
+use surfel::{
+    Error, ErrorKind, Result,
+    scene::{Ball, Camera},
+};
+
+use crate::arguments::CameraArguments;
+
+/// More than any camera file holds: what is larger is something else.
+const MAX_FILE_BYTES: u64 = 1 << 16;
+
+/// A camera file. Angles in degrees, points in world space.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraFile {
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    fov_deg: f64,
+    near: Option<f64>,
+}
+
+/// What is known of the camera before there is a scene.
+pub enum CameraChoice {
+    /// All of it, from a file.
+    File(Camera),
+    /// What the options say; the rest comes from the scene.
+    Options {
+        /// Where the eye is.
+        eye: Option<DVec3>,
+        /// What it looks at.
+        target: Option<DVec3>,
+        /// What is up.
+        up: Option<DVec3>,
+        /// The vertical field of view in radians.
+        fov_y_rad: Option<f64>,
+    },
+}
+
+impl CameraChoice {
+    /// Reads the camera file, if one is named.
+    ///
+    /// # Errors
+    /// A file that can't be read or is no camera, with its line; an angle out of range.
+    pub fn of(arguments: &CameraArguments) -> Result<Self> {
+        if let Some(path) = &arguments.camera {
+            return read(path).map(Self::File);
+        }
+        if let Some(degrees) = arguments.fov
+            && !(degrees > 0.0 && degrees < 180.0)
+        {
+            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 0 and 180")));
+        }
+        let vector = |given: Option<[f64; 3]>| given.map(DVec3::from);
+        Ok(Self::Options {
+            eye: vector(arguments.eye),
+            target: vector(arguments.target),
+            up: vector(arguments.up),
+            fov_y_rad: arguments.fov.map(f64::to_radians),
+        })
+    }
+
+    /// The camera for a scene within a ball. Options that were not given: the target is the middle of the scene; the
+    /// eye looks from +z, from so far that the scene fits; up is +y; the angle is 45°.
+    ///
+    /// # Errors
+    /// A camera without a picture, such as an eye at the target.
+    pub fn camera(&self, ball: &Ball, size_px: [u32; 2]) -> Result<Camera> {
+        let camera = match *self {
+            Self::File(camera) => camera,
+            Self::Options { eye, target, up, fov_y_rad } => {
+                let fit = Camera::fit(ball, size_px, fov_y_rad.unwrap_or(Camera::DEFAULT_FOV_Y_RAD));
+                let target = target.unwrap_or(fit.target);
+                let eye = eye.unwrap_or(target + (fit.eye - fit.target));
+                Camera { eye, target, up: up.unwrap_or(fit.up), ..fit }
+            }
+        };
+        camera.validate()?;
+        Ok(camera)
+    }
+}
+
+fn read(path: &Path) -> Result<Camera> {
+    let metadata = fs::metadata(path).map_err(|e| Error::file(path, "read", e))?;
+    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
+        return Err(Error::input(path, "", "not a camera file; see surfel render --help"));
+    }
+    let text = fs::read(path).map_err(|e| Error::file(path, "read", e))?;
+    let file: CameraFile = serde_json::from_slice(&text).map_err(|e| {
+        let (line, column) = (e.line(), e.column());
+        let problem = e.to_string();
+        let problem = problem.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&problem);
+        Error::input(path, format!("line {line}, column {column}"), problem)
+    })?;
+    let camera = Camera {
+        eye: file.eye.into(),
+        target: file.target.into(),
+        up: file.up.into(),
+        fov_y_rad: file.fov_deg.to_radians(),
+        near: file.near,
+    };
+    camera.validate().map_err(|error| match error.kind() {
+        ErrorKind::Option { option, problem } => {
+            Error::input(path, if option == "--fov" { "fov_deg" } else { "" }, problem.as_str())
+        }
+        _ => error,
+    })?;
+    Ok(camera)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> std::result::Result<Camera, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cam.json");
+        fs::write(&path, text).unwrap();
+        read(&path).map_err(|e| {
+            assert_eq!(e.exit_code(), 1);
+            e.to_string().replace(&path.display().to_string(), "cam.json")
+        })
+    }
+
+    #[test]
+    fn a_camera_file_is_read_with_and_without_near() {
+        let text = r#"{"eye":[1,2,3], "target":[0,0,0], "up":[0,1,0], "fov_deg":90"#;
+        let camera = parsed(&format!("{text}}}")).unwrap();
+        assert_eq!((camera.eye, camera.near), (DVec3::new(1.0, 2.0, 3.0), None));
+        assert!((camera.fov_y_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+        assert_eq!(parsed(&format!("{text}, \"near\":0.5}}")).unwrap().near, Some(0.5));
+    }
+
+    #[test]
+    fn faults_are_named_with_their_place() {
+        let near = |near: &str| {
+            format!(r#"{{"eye":[1,2,3], "target":[0,0,0], "up":[0,1,0], "fov_deg":45, "near":{near}}}"#)
+        };
+        let cases = [
+            (
+                "{\n\"eye\": [1,2],\n}",
+                "cam.json: line 2, column 12: invalid length 2, expected an array of length 3",
+            ),
+            ("{\n\"eyes\": 1}", "cam.json: line 2, column 6: unknown field `eyes`, expected one of"),
+            ("{}", "cam.json: line 1, column 2: missing field `eye`"),
+            ("", "cam.json: line 1, column 0: EOF while parsing a value"),
+            (&near("0"), "cam.json: near must be above zero"),
+            (&near("1e400"), "cam.json: line 1, column 81: number out of range"),
+            (&near("1").replace("45", "180"), "cam.json: fov_deg: 180: expected degrees between 0 and 180"),
+            (&near("1").replace("1,2,3", "0,0,0"), "cam.json: eye and target must be two different points"),
+            (&" ".repeat(100_000), "cam.json: not a camera file"),
+        ];
+        for (text, expected) in cases {
+            let error = parsed(text).unwrap_err();
+            assert!(error.starts_with(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn options_that_are_left_out_come_from_the_scene() {
+        let ball = Ball { center: DVec3::new(5.0, 0.0, 0.0), radius: 1.0 };
+        let fit = Camera::fit(&ball, [8, 8], Camera::DEFAULT_FOV_Y_RAD);
+        let none = CameraChoice::Options { eye: None, target: None, up: None, fov_y_rad: None };
+        assert_eq!(none.camera(&ball, [8, 8]).unwrap(), fit);
+        let eye = Some(DVec3::new(1.0, 1.0, 1.0));
+        let only_eye = CameraChoice::Options { eye, target: None, up: None, fov_y_rad: None };
+        assert_eq!(only_eye.camera(&ball, [8, 8]).unwrap().target, ball.center);
+        let narrow = CameraChoice::Options { eye: None, target: None, up: None, fov_y_rad: Some(0.1) };
+        let narrow = narrow.camera(&ball, [8, 8]).unwrap();
+        // The same scene fits a narrow view from further away.
+        assert!(narrow.eye.z > 5.0 * fit.eye.z && narrow.fov_y_rad == 0.1);
+        let inside =
+            CameraChoice::Options { eye: Some(ball.center), target: None, up: None, fov_y_rad: None };
+        assert_eq!(inside.camera(&ball, [8, 8]).unwrap_err().exit_code(), 1);
+    }
+}

@@ -1,0 +1,87 @@
+//! What the program says: results to the standard output, all else to the standard error, and bars for long steps.
+
+use std::{
+    io::{self, Write as _},
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use surfel::Progress;
+
+/// Prints a result. A reader that has left, as in `surfel info | head -1`, is no failure.
+pub fn print(text: &str) {
+    let _ = write!(io::stdout(), "{text}");
+}
+
+/// Tells something that is no result.
+pub fn say(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Tells why the program fails: one line, whatever is in the text.
+pub fn fail(text: &str) {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    say(&format!("surfel: {line}"));
+}
+
+/// One progress bar at a time, on the standard error; none where that is not a terminal.
+#[derive(Default)]
+pub struct Bars {
+    /// The running task's name and its bar.
+    running: Mutex<Option<(String, ProgressBar)>>,
+}
+
+impl Bars {
+    /// No bar yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Removes the bar of a task that did not come to its end.
+    pub fn clear(&self) {
+        if let Some((_, bar)) = self.lock().take() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<(String, ProgressBar)>> {
+        // A panic of another thread leaves a bar behind, which is as good as any.
+        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Progress for Bars {
+    fn step(&self, task: &str, done: u64, total: u64) {
+        let mut running = self.lock();
+        if running.as_ref().is_none_or(|(name, _)| name != task) {
+            if let Some((_, bar)) = running.take() {
+                bar.finish_and_clear();
+            }
+            if done >= total {
+                return;
+            }
+            let bar = ProgressBar::new(total);
+            // The template is a constant that parses; the plain bar is what is left otherwise.
+            if let Ok(style) = ProgressStyle::with_template("{msg:40!} [{bar:30}] {percent:3}%") {
+                bar.set_style(style.progress_chars("=> "));
+            }
+            bar.set_message(task.to_owned());
+            *running = Some((task.to_owned(), bar));
+        }
+        if let Some((_, bar)) = running.as_ref() {
+            bar.set_position(done);
+        }
+        if done >= total
+            && let Some((_, bar)) = running.take()
+        {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn note(&self, text: &str) {
+        match self.lock().as_ref() {
+            Some((_, bar)) => bar.suspend(|| say(text)),
+            None => say(text),
+        }
+    }
+}

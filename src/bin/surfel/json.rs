@@ -1,0 +1,15 @@
+//! JSON texts.
+
+use std::io;
+
+use serde::Serialize;
+use surfel::{Error, Result};
+
+/// As JSON, indented, with a line end. Numbers that are not finite become `null`.
+///
+/// # Errors
+/// None for plain structures; a map whose keys are no texts.
+pub fn to_json(value: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(value);
+    text.map(|text| text + "\n").map_err(|e| Error::file("JSON", "write", io::Error::other(e)))
+}

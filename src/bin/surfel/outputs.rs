@@ -1,0 +1,99 @@
+//! Where results go: checked before the long work, so that it is not done in vain.
+
+use std::{
+    ffi::OsStr,
+    fs::{self, OpenOptions},
+    io,
+    path::{Path, PathBuf},
+    process,
+};
+
+use surfel::{Error, Result};
+
+use crate::arguments::PictureArguments;
+
+/// The format of the picture, from its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// 8-bit sRGB.
+    Png,
+    /// Linear 32-bit floats.
+    Exr,
+}
+
+/// Checks that everything asked for can be written, and gives the picture's format.
+///
+/// # Errors
+/// A picture whose format is unknown; a folder that is missing or can't be written to; a folder in a file's place; a
+/// file that is also an input or written twice.
+pub fn check(arguments: &PictureArguments, timings: Option<&Path>) -> Result<PictureFormat> {
+    let format = picture_format(&arguments.output)?;
+    let files: Vec<&Path> = [Some(arguments.output.as_path()), timings].into_iter().flatten().collect();
+    for file in &files {
+        check_file(file)?;
+    }
+    if let Some(folder) = &arguments.dump {
+        check_folder(folder)?;
+    }
+    let inputs = arguments.inputs.iter().chain(&arguments.camera.camera);
+    let mut taken: Vec<PathBuf> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
+    for file in files {
+        let place = place_of(file);
+        if taken.contains(&place) {
+            return Err(Error::option(file.display().to_string(), "is an input, or written twice"));
+        }
+        taken.push(place);
+    }
+    Ok(format)
+}
+
+fn picture_format(path: &Path) -> Result<PictureFormat> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some("png") => Ok(PictureFormat::Png),
+        Some("exr") => Ok(PictureFormat::Exr),
+        _ => Err(Error::option("--output", format!("{}: expected a name in .png or .exr", path.display()))),
+    }
+}
+
+/// A file that can be created or replaced.
+fn check_file(path: &Path) -> Result<()> {
+    let fail = |e: io::Error| Error::file(path, "write", e);
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => return Err(fail(io::ErrorKind::IsADirectory.into())),
+        Ok(metadata) if !metadata.is_file() => return Err(fail(io::Error::other("not a regular file"))),
+        _ => {}
+    }
+    probe(folder_of(path)).map_err(fail)
+}
+
+/// A folder that can be written to, or created.
+fn check_folder(path: &Path) -> Result<()> {
+    let fail = |e: io::Error| Error::file(path, "write", e);
+    match path.ancestors().find(|ancestor| named(ancestor).exists()) {
+        Some(there) => probe(named(there)).map_err(fail),
+        None => Err(fail(io::ErrorKind::NotFound.into())),
+    }
+}
+
+/// Whether files can be created in a folder: permission bits don't tell (root, read-only file systems), trying does.
+fn probe(folder: &Path) -> io::Result<()> {
+    let path = folder.join(format!(".surfel-{}.tmp", process::id()));
+    OpenOptions::new().write(true).create_new(true).open(&path)?;
+    fs::remove_file(&path)
+}
+
+fn folder_of(file: &Path) -> &Path {
+    named(file.parent().unwrap_or(Path::new("")))
+}
+
+/// The empty path is the current folder.
+fn named(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
+}
+
+/// The one name of a file that need not exist yet; a link is followed.
+fn place_of(file: &Path) -> PathBuf {
+    let folder = folder_of(file).canonicalize().unwrap_or_else(|_| folder_of(file).to_owned());
+    file.canonicalize().unwrap_or_else(|_| folder.join(file.file_name().unwrap_or(OsStr::new(""))))
+}

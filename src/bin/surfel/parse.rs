@@ -1,0 +1,96 @@
+//! The values of options, as text. Whether they are in range is for the library to say, see `Settings::validate`.
+
+use surfel::scene::{Epsilon, Kernel};
+
+/// `1024x768`.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides.ok_or_else(|| "expected width x height in pixels, such as 1024x768".to_owned())
+}
+
+/// `0.5,1,-2`.
+pub fn triple(text: &str) -> Result<[f64; 3], String> {
+    numbers(text).ok_or_else(|| "expected three numbers with commas between, such as 0,0.5,-2".to_owned())
+}
+
+/// `1r`: multiples of a splat's radius; or `0.02`: a length.
+pub fn epsilon(text: &str) -> Result<Epsilon, String> {
+    let parsed = match text.strip_suffix('r') {
+        Some(radii) => radii.parse().map(Epsilon::Radii),
+        None => text.parse().map(Epsilon::Length),
+    };
+    parsed.map_err(|_| {
+        "expected multiples of a splat's radius, such as 1r, or a length, such as 0.02".to_owned()
+    })
+}
+
+/// `gaussian:S` or `psi_e:A,B,N`.
+pub fn kernel(text: &str) -> Result<Kernel, String> {
+    let parsed = text.split_once(':').and_then(|(name, parameters)| match name {
+        "gaussian" => parameters.parse().ok().map(|sigma| Kernel::Gaussian { sigma }),
+        "psi_e" => numbers(parameters).map(|[a, b, n]| Kernel::PsiE { a, b, n }),
+        _ => None,
+    });
+    parsed
+        .ok_or_else(|| "expected gaussian:S or psi_e:A,B,N, such as gaussian:0.5 or psi_e:6,1.5,3".to_owned())
+}
+
+/// The outer `Option` of the background's value would be taken for the option's own absence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Background(pub Option<[f32; 3]>);
+
+/// `1,1,1` or `none`.
+pub fn background(text: &str) -> Result<Background, String> {
+    match text {
+        "none" => Ok(Background(None)),
+        _ => numbers(text)
+            .map(|color| Background(Some(color)))
+            .ok_or_else(|| "expected red,green,blue from 0 to 1, such as 1,1,1, or none".to_owned()),
+    }
+}
+
+/// Three numbers with commas between.
+fn numbers<T: std::str::FromStr>(text: &str) -> Option<[T; 3]> {
+    let numbers: Vec<T> = text.split(',').map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use surfel::report::{epsilon_option, kernel_option};
+
+    #[test]
+    fn what_a_report_prints_can_be_given_again() {
+        for value in [Kernel::Gaussian { sigma: 0.1 }, Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }] {
+            assert_eq!(kernel(&kernel_option(value)), Ok(value));
+        }
+        for value in [Epsilon::Radii(1.0), Epsilon::Length(0.1), Epsilon::Length(1e-300)] {
+            assert_eq!(epsilon(&epsilon_option(value)), Ok(value));
+        }
+    }
+
+    #[test]
+    fn values_are_read() {
+        assert_eq!(size("1024x768"), Ok([1024, 768]));
+        assert_eq!(triple("-1, 2.5,3e-2"), Ok([-1.0, 2.5, 0.03]));
+        assert_eq!(background("none"), Ok(Background(None)));
+        assert_eq!(background("1,0.5,0"), Ok(Background(Some([1.0, 0.5, 0.0]))));
+    }
+
+    #[test]
+    fn what_is_no_value_is_refused() {
+        for text in ["", "5", "5x", "x5", "-5x5", "5x5x5", "5.5x5", "99999999999x1"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+        for text in ["", "1,2", "1,2,3,4", "1,,2", "a,b,c"] {
+            assert!(triple(text).is_err() && background(text).is_err(), "{text}");
+        }
+        for text in ["", "r", "1rr", "one", "1 r"] {
+            assert!(epsilon(text).is_err(), "{text}");
+        }
+        for text in ["", "gaussian", "gaussian:", "gaussian:a", "psi_e:1,2", "box:1"] {
+            assert!(kernel(text).is_err(), "{text}");
+        }
+    }
+}

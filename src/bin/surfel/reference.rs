@@ -1,0 +1,58 @@
+//! `surfel reference`: the same scene with the oracle.
+
+use surfel::{
+    Progress as _, Result,
+    reference::{self, Picture, Pixel},
+};
+
+use crate::{
+    arguments::ReferenceArguments,
+    camera::CameraChoice,
+    console::Bars,
+    outputs,
+    pictures::{self, Colors, Dump},
+    scene::{Loaded, load_scene},
+    steps::Steps,
+};
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Whatever goes wrong; what can be known before the long work is found before it.
+pub fn run(arguments: &ReferenceArguments) -> Result<()> {
+    let picture = &arguments.picture;
+    let settings = picture.settings();
+    settings.validate()?;
+    let camera = CameraChoice::of(&picture.camera)?;
+    let format = outputs::check(picture, None)?;
+    let bars = Bars::new();
+    let Loaded { scene, ball, .. } = load_scene(&picture.inputs, &bars, &mut Steps::default())?;
+    let camera = camera.camera(&ball, settings.size_px)?;
+    let progress = |done, total| bars.step("reference, row by row", done, total);
+    let drawn = reference::render(&scene, &camera, &settings, &progress);
+    bars.clear();
+    let dump = dump(&drawn?);
+    let transparent = settings.background.is_none();
+    pictures::write_picture(&picture.output, format, dump.size_px, transparent, Colors::Linear(&dump.color))?;
+    match &picture.dump {
+        Some(folder) => dump.write(folder),
+        None => Ok(()),
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "files hold 32-bit floats")]
+fn dump(picture: &Picture) -> Dump {
+    let pixels = &picture.pixels;
+    let one = |value: fn(&Pixel) -> f64| pixels.iter().map(|pixel| value(pixel) as f32).collect();
+    let three = |value: fn(&Pixel) -> [f64; 3]| {
+        pixels.iter().map(|pixel| value(pixel).map(|component| component as f32)).collect()
+    };
+    Dump {
+        size_px: picture.size_px,
+        weight: one(|pixel| pixel.weight),
+        albedo: three(|pixel| pixel.albedo),
+        normal: three(|pixel| pixel.normal),
+        depth: one(|pixel| pixel.depth),
+        color: pixels.iter().map(|pixel| pixel.color.map(|component| component as f32)).collect(),
+    }
+}

@@ -1,0 +1,145 @@
+//! `surfel render`: a scene on a Vulkan device.
+
+use surfel::{
+    Progress as _, Result,
+    renderer::{Headless, HeadlessOptions, Wanted},
+    report::{RunReport, SceneReport, settings_as_options},
+    save,
+    scene::Settings,
+    vk::Validation,
+};
+
+use crate::{
+    arguments::RenderArguments,
+    cache,
+    camera::CameraChoice,
+    console::{self, Bars},
+    device::device_report,
+    explain,
+    json::to_json,
+    measure::{self, View},
+    outputs::{self, PictureFormat},
+    pictures::{self, Colors, Dump},
+    scene::{Loaded, load_scene},
+    steps::Steps,
+    validation,
+};
+
+/// Frames timed where only `--timings` is given.
+const DEFAULT_TIMED_FRAMES: u32 = 10;
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Whatever goes wrong; what can be known before the long work is found before it.
+pub fn run(arguments: &RenderArguments) -> Result<()> {
+    let settings = arguments.picture.settings();
+    settings.validate()?;
+    let camera = CameraChoice::of(&arguments.picture.camera)?;
+    let format = outputs::check(&arguments.picture, arguments.timings.as_deref())?;
+    let mut steps = Steps::default();
+    let options = HeadlessOptions {
+        validation: if arguments.validate { Validation::On } else { Validation::Off },
+        device: arguments.device.clone(),
+        cache_folder: cache::folder(),
+    };
+    let headless = steps.time("open the device", || Headless::new(&options))?;
+    let messages = headless.device().instance().messages();
+    let done = headless
+        .renderer
+        .check_settings(&settings)
+        .and_then(|()| draw(headless, arguments, &settings, &camera, format, steps));
+    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
+    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
+    done.and(said)
+}
+
+fn draw(
+    mut headless: Headless,
+    arguments: &RenderArguments,
+    settings: &Settings,
+    camera: &CameraChoice,
+    format: PictureFormat,
+    mut steps: Steps,
+) -> Result<()> {
+    let picture = &arguments.picture;
+    let bars = Bars::new();
+    let Loaded { scene, ball, inputs } = load_scene(&picture.inputs, &bars, &mut steps)?;
+    let camera = camera.camera(&ball, settings.size_px)?;
+    let prepared =
+        steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
+    bars.clear();
+    let prepared = prepared?;
+    let view = View { scene: &prepared, camera: &camera, settings };
+
+    let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));
+    if let Some(frames) = frames {
+        let (times, transient_bytes) = measure::frame_times(&mut headless, view, frames, &mut steps)?;
+        let report = RunReport {
+            surfel: env!("CARGO_PKG_VERSION").to_owned(),
+            device: device_report(headless.device().facts()),
+            settings: settings_as_options(settings),
+            camera: (&camera).into(),
+            scene: SceneReport {
+                dropped: inputs.iter().map(|input| input.dropped as u64).sum(),
+                inputs,
+                splats: prepared.splat_count(),
+                splat_bytes: prepared.bytes(),
+                transient_bytes,
+            },
+            steps: std::mem::take(&mut steps.0),
+            frames: times,
+        };
+        console::print(&report.to_string());
+        if let Some(path) = &arguments.timings {
+            save::text(path, &to_json(&report)?)?;
+        }
+    }
+
+    write(&mut headless, arguments, view, format, &mut steps)?;
+    // A lost cache costs the next run some time, that is all.
+    let _ = headless.renderer.shaders.save_cache();
+    Ok(())
+}
+
+/// Draws and writes the picture, and the surface where it is asked for.
+fn write(
+    headless: &mut Headless,
+    arguments: &RenderArguments,
+    view: View<'_>,
+    format: PictureFormat,
+    steps: &mut Steps,
+) -> Result<()> {
+    let picture = &arguments.picture;
+    let wanted = Wanted { picture: true, linear: format == PictureFormat::Exr, ..Wanted::default() };
+    let frame = measure::first_frame(headless, view, wanted, steps)?;
+    let colors = match format {
+        PictureFormat::Png => Colors::Srgb(&frame.srgb),
+        PictureFormat::Exr => Colors::Linear(&frame.linear),
+    };
+    let transparent = view.settings.background.is_none();
+    pictures::write_picture(&picture.output, format, frame.size_px, transparent, colors)?;
+    if let Some(folder) = &picture.dump {
+        dump(headless, view)?.write(folder)?;
+    }
+    if arguments.explain {
+        let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
+        console::print(&explain::text(&explanation));
+    }
+    Ok(())
+}
+
+/// The surface, in a frame of its own: the picture is the same with and without it.
+fn dump(headless: &mut Headless, view: View<'_>) -> Result<Dump> {
+    let wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
+    let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
+    let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+    Ok(Dump {
+        size_px: frame.size_px,
+        albedo: three(&frame.albedo),
+        normal: three(&frame.normal),
+        weight: frame.weight,
+        depth: frame.depth,
+        color: frame.linear,
+    })
+}

@@ -1,0 +1,141 @@
+//! Why a frame has the passes, pipelines and memory that it has.
+
+use super::Renderer;
+use crate::{
+    graph::{Access, PassKind, Plan, ResourceDesc},
+    passes,
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+};
+
+/// What a scene, a camera and settings made of a frame, and why. Lengths are in pixels, memory in bytes.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// The pieces of the scene.
+    pub chunks: Vec<ExplainedChunk>,
+    /// The device's largest point: larger splats are listed and drawn as quads.
+    pub point_cap_px: f32,
+    /// The passes, in order.
+    pub passes: Vec<ExplainedPass>,
+    /// Passes that were declared and left out, because nobody reads their results.
+    pub culled: Vec<String>,
+    /// All pipelines made so far.
+    pub pipelines: Vec<String>,
+    /// Device memory of the splat buffers.
+    pub splat_bytes: u64,
+    /// Device memory of the frame's transients, as they share it.
+    pub transient_bytes: u64,
+    /// What the transients would take without sharing.
+    pub unshared_bytes: u64,
+}
+
+/// A piece of the scene.
+#[derive(Clone, Debug)]
+pub struct ExplainedChunk {
+    /// How many splats.
+    pub splats: u32,
+    /// They carry tangent vectors.
+    pub ellipses: bool,
+    /// They sample a closed surface.
+    pub closed: bool,
+    /// One color for all: no color buffer.
+    pub uniform_color: bool,
+    /// Device memory.
+    pub bytes: u64,
+    /// What no splat's box exceeds, as proved from the chunk's bounds; infinite where one may reach the near plane.
+    pub largest_box_px: f64,
+    /// That is above the device's largest point, so large splats are listed and drawn as quads.
+    pub may_be_large: bool,
+}
+
+/// A pass.
+#[derive(Clone, Debug)]
+pub struct ExplainedPass {
+    /// Its name.
+    pub name: String,
+    /// What it records.
+    pub kind: PassKind,
+    /// Why the frame has it.
+    pub why: &'static str,
+    /// What it works on.
+    pub uses: Vec<ExplainedUse>,
+}
+
+/// A resource of a pass.
+#[derive(Clone, Debug)]
+pub struct ExplainedUse {
+    /// The resource's name.
+    pub name: String,
+    /// An image's format, or a buffer's size.
+    pub what: String,
+    /// How it is accessed.
+    pub access: Access,
+}
+
+impl Renderer {
+    /// Explains the frame that was recorded as `plan`.
+    pub fn explain(
+        &self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        plan: &Plan,
+    ) -> Explanation {
+        let limits = &self.device.facts().limits;
+        let draws = passes::draws(scene, camera, settings, limits);
+        let chunks = draws.iter().map(|draw| ExplainedChunk {
+            splats: draw.chunk.count,
+            ellipses: draw.chunk.ellipses,
+            closed: draw.chunk.closed,
+            uniform_color: draw.chunk.uniform_color,
+            bytes: draw.chunk.bytes(),
+            largest_box_px: draw.largest_box_px,
+            may_be_large: draw.may_be_large,
+        });
+        Explanation {
+            chunks: chunks.collect(),
+            point_cap_px: limits.point_size_range[1],
+            passes: explain_passes(plan),
+            culled: plan.culled.iter().map(|pass| pass.name.clone()).collect(),
+            pipelines: self.shaders.pipeline_names(),
+            splat_bytes: scene.bytes(),
+            transient_bytes: plan.blocks.iter().map(|block| block.size_bytes).sum(),
+            unshared_bytes: plan.resources.iter().filter_map(|r| r.slot).map(|slot| slot.size_bytes).sum(),
+        }
+    }
+}
+
+fn explain_passes(plan: &Plan) -> Vec<ExplainedPass> {
+    let passes = plan.passes.iter().map(|pass| {
+        let uses = pass.uses.iter().map(|usage| {
+            let resource = plan.resource(usage.resource);
+            let what = match resource.desc {
+                ResourceDesc::Image(desc) => format!("{:?}", desc.format),
+                ResourceDesc::Buffer(desc) => format!("{} bytes", desc.size_bytes),
+            };
+            ExplainedUse { name: resource.name.clone(), what, access: usage.access }
+        });
+        ExplainedPass {
+            name: pass.name.clone(),
+            kind: pass.kind,
+            why: reason(&pass.name),
+            uses: uses.collect(),
+        }
+    });
+    passes.collect()
+}
+
+/// Why a frame has the pass of this name.
+fn reason(pass: &str) -> &'static str {
+    match pass {
+        "visibility" => "every scene: the depth of the nearest surface, shifted by epsilon",
+        "accumulate" => "every scene: sums of weights, colors and normals of the nearest surface",
+        "finalize" => "every scene: normalizes and shades the sums",
+        "export" => "the surface itself was asked for",
+        "count large splats" | "scan large splats" | "list large splats" => {
+            "a splat may exceed the device's largest point"
+        }
+        name if name.starts_with("read back") => "the host reads it",
+        _ => "",
+    }
+}

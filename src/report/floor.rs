@@ -1,0 +1,145 @@
+//! The three passes against the floor under them; see [`crate::passes::floor_frame`].
+
+use std::{collections::BTreeMap, fmt};
+
+use serde::Serialize;
+
+use super::{CameraReport, DeviceReport, SceneReport, Spread};
+
+/// How many times the floor a pass, or the frame, takes.
+#[derive(Clone, Debug, Serialize)]
+pub struct FloorReport {
+    /// The version of surfel.
+    pub surfel: String,
+    /// What it ran on.
+    pub device: DeviceReport,
+    /// The settings by the names of their options.
+    pub settings: BTreeMap<&'static str, String>,
+    /// The camera.
+    pub camera: CameraReport,
+    /// What was drawn.
+    pub scene: SceneReport,
+    /// Points of the floor: all splats, those that are not drawn outside of the clip volume.
+    pub floor_points: u32,
+    /// Points of the strict floor: only the splats that are drawn.
+    pub strict_points: u32,
+    /// Rounds of a frame, its floor and its strict floor, in turn.
+    pub rounds: u32,
+    /// Each pass, then the frame.
+    pub rows: Vec<FloorRow>,
+}
+
+/// A pass or the whole frame against its floor.
+#[derive(Clone, Debug, Serialize)]
+pub struct FloorRow {
+    /// The pass; `frame` for all of them.
+    pub name: String,
+    /// Its milliseconds.
+    pub ms: Option<Spread>,
+    /// The floor's.
+    pub floor_ms: Option<Spread>,
+    /// The strict floor's.
+    pub strict_floor_ms: Option<Spread>,
+    /// Times the floor, round by round.
+    pub ratio: Option<Spread>,
+    /// Times the strict floor, round by round.
+    pub strict_ratio: Option<Spread>,
+    /// Fragments in one frame; `None` where not counted.
+    pub fragments: Option<u64>,
+    /// The floor's fragments in one frame.
+    pub floor_fragments: Option<u64>,
+}
+
+/// Milliseconds of the passes of one round, in order: the frame's, its floor's, its strict floor's.
+pub type Round = [Vec<f64>; 3];
+
+impl FloorRow {
+    /// The rows of all passes and of the frame. `fragments` are those of frame and floor, pass by pass.
+    pub fn rows(names: &[String], rounds: &[Round], fragments: [&[Option<u64>]; 2]) -> Vec<Self> {
+        let row = |name: &str, figure: &dyn Fn(&[f64]) -> Option<f64>, counts: [Option<u64>; 2]| {
+            let of = |kind: usize| Spread::of(rounds.iter().filter_map(|round| figure(&round[kind])));
+            let ratio = |kind: usize| {
+                let ratios = rounds.iter().filter_map(|round| {
+                    figure(&round[0]).zip(figure(&round[kind])).map(|(own, floor)| own / floor)
+                });
+                Spread::of(ratios)
+            };
+            Self {
+                name: name.to_owned(),
+                ms: of(0),
+                floor_ms: of(1),
+                strict_floor_ms: of(2),
+                ratio: ratio(1),
+                strict_ratio: ratio(2),
+                fragments: counts[0],
+                floor_fragments: counts[1],
+            }
+        };
+        let count = |kind: usize, i: usize| fragments[kind].get(i).copied().flatten();
+        let mut rows: Vec<_> = names
+            .iter()
+            .enumerate()
+            .map(|(i, name)| row(name, &|ms| ms.get(i).copied(), [count(0, i), count(1, i)]))
+            .collect();
+        let total = |kind: usize| fragments[kind].iter().copied().sum();
+        rows.push(row("frame", &|ms| Some(ms.iter().sum()), [total(0), total(1)]));
+        rows
+    }
+}
+
+impl fmt::Display for FloorReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{} ({}), {} rounds", self.device.name, self.device.driver, self.rounds)?;
+        writeln!(
+            f,
+            "{} splats; the floor draws {} points, the strict floor the {} that are seen",
+            self.scene.splats, self.floor_points, self.strict_points
+        )?;
+        writeln!(
+            f,
+            "{:12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>11} {:>11}",
+            "", "ms", "floor", "strict", "x floor", "x strict", "fragments", "floor's"
+        )?;
+        for row in &self.rows {
+            let median = |spread: &Option<Spread>, digits: usize| match spread {
+                Some(spread) => format!("{:.digits$}", spread.median),
+                None => "-".to_owned(),
+            };
+            let count = |count: Option<u64>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
+            writeln!(
+                f,
+                "{:12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>11} {:>11}",
+                row.name,
+                median(&row.ms, 1),
+                median(&row.floor_ms, 1),
+                median(&row.strict_floor_ms, 1),
+                median(&row.ratio, 2),
+                median(&row.strict_ratio, 2),
+                count(row.fragments),
+                count(row.floor_fragments),
+            )?;
+        }
+        write!(f, "medians; a ratio is the median of the rounds' own ratios")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratios_are_taken_round_by_round() {
+        // A machine that slows down threefold between the rounds changes no ratio.
+        let rounds = [
+            [vec![2.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0]],
+            [vec![6.0, 12.0], vec![3.0, 12.0], vec![3.0, 6.0]],
+        ];
+        let names = ["a".to_owned(), "b".to_owned()];
+        let rows = FloorRow::rows(&names, &rounds, [&[Some(5), Some(7)], &[Some(5), None]]);
+        let same = |value| Some(Spread { median: value, min: value, max: value });
+        assert_eq!((rows[0].ratio, rows[1].ratio, rows[2].ratio), (same(2.0), same(1.0), same(6.0 / 5.0)));
+        assert_eq!(rows[2].strict_ratio, same(2.0));
+        assert_eq!((rows[2].fragments, rows[2].floor_fragments), (Some(12), None));
+        assert_eq!(rows[2].name, "frame");
+    }
+}

@@ -1,0 +1,181 @@
+//! The times of several frames of the same passes, and where they contradict each other.
+
+use serde::Serialize;
+
+use super::Spread;
+
+/// How far the sum of the passes may be from the frame's time before it is flagged, as a part of that time.
+const TOLERANCE: f64 = 0.05;
+
+/// What one frame took.
+#[derive(Clone, Debug)]
+pub struct FrameSample {
+    /// Milliseconds of each pass, in the frame's order; `None` where not measured.
+    pub passes_ms: Vec<Option<f64>>,
+    /// Milliseconds from the first timestamp to the last; `None` where not measured.
+    pub span_ms: Option<f64>,
+    /// Milliseconds from the submission to the end of the wait for it.
+    pub wall_ms: f64,
+}
+
+impl FrameSample {
+    /// The passes together; `None` where one is missing.
+    fn sum_ms(&self) -> Option<f64> {
+        self.passes_ms.iter().copied().sum()
+    }
+}
+
+/// What one pass costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct PassFigures {
+    /// The pass.
+    pub name: String,
+    /// Its milliseconds; `None` where not measured.
+    pub ms: Option<Spread>,
+    /// Invocations of the vertex stage in one frame; `None` where not counted.
+    pub vertices: Option<u64>,
+    /// Invocations of the fragment stage in one frame; `None` where not counted.
+    pub fragments: Option<u64>,
+}
+
+/// What a frame costs, over several frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct FrameTimes {
+    /// Frames drawn before the timed ones, so that caches are warm.
+    pub warm_up_frames: u32,
+    /// Frames timed.
+    pub timed_frames: u32,
+    /// Each pass, in the frame's order.
+    pub passes: Vec<PassFigures>,
+    /// The passes of a frame together, in milliseconds; `None` where not measured.
+    pub sum_of_passes_ms: Option<Spread>,
+    /// From a frame's first timestamp to its last, in milliseconds; `None` where not measured.
+    pub first_to_last_timestamp_ms: Option<Spread>,
+    /// From the submission to the end of the wait for it, in milliseconds.
+    pub submit_to_wait_ms: Option<Spread>,
+    /// What a reader of these figures has to know, a sentence each.
+    pub flags: Vec<String>,
+}
+
+impl FrameTimes {
+    /// Of frames with these passes. `counts` are vertices and fragments of each pass, where they were counted.
+    pub fn of(
+        names: &[String],
+        warm_up_frames: u32,
+        samples: &[FrameSample],
+        counts: &[Option<[u64; 2]>],
+    ) -> Self {
+        let pass = |(i, name): (usize, &String)| {
+            let measured: Option<Vec<f64>> =
+                samples.iter().map(|sample| sample.passes_ms.get(i).copied().flatten()).collect();
+            let counted = counts.get(i).copied().flatten();
+            PassFigures {
+                name: name.clone(),
+                ms: measured.and_then(Spread::of),
+                vertices: counted.map(|[vertices, _]| vertices),
+                fragments: counted.map(|[_, fragments]| fragments),
+            }
+        };
+        let passes: Vec<_> = names.iter().enumerate().map(pass).collect();
+        let all = |figure: fn(&FrameSample) -> Option<f64>| -> Option<Spread> {
+            samples.iter().map(figure).collect::<Option<Vec<f64>>>().and_then(Spread::of)
+        };
+        Self {
+            warm_up_frames,
+            timed_frames: u32::try_from(samples.len()).unwrap_or(u32::MAX),
+            sum_of_passes_ms: all(FrameSample::sum_ms),
+            first_to_last_timestamp_ms: all(|sample| sample.span_ms),
+            submit_to_wait_ms: all(|sample| Some(sample.wall_ms)),
+            flags: flags(samples, &passes),
+            passes,
+        }
+    }
+}
+
+/// All that is odd about the measurements.
+fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
+    let mut flags = Vec::new();
+    if samples.is_empty() {
+        flags.push("no frame was timed".to_owned());
+    } else if passes.iter().any(|pass| pass.ms.is_none()) {
+        flags.push("passes were not timed: the device's queue has no timestamps, or lost one".to_owned());
+    }
+    if passes.iter().any(|pass| pass.fragments.is_none()) {
+        flags.push(
+            "vertices and fragments were not counted: the device can't (pipelineStatisticsQuery)".to_owned(),
+        );
+    }
+    type Whole = fn(&FrameSample) -> Option<f64>;
+    let against: [(&str, Whole); 2] = [
+        ("the time from the first to the last timestamp", |sample| sample.span_ms),
+        ("the time from submission to the end of the wait", |sample| Some(sample.wall_ms)),
+    ];
+    for (what, whole) in against {
+        let difference = |sample: &FrameSample| {
+            let (sum, whole) = sample.sum_ms().zip(whole(sample))?;
+            (whole > 0.0).then(|| (sum - whole) / whole)
+        };
+        let Some(median) = Spread::of(samples.iter().filter_map(difference)).map(|spread| spread.median)
+        else {
+            continue;
+        };
+        if median.abs() > TOLERANCE {
+            let (percent, side) = (100.0 * median.abs(), if median < 0.0 { "below" } else { "above" });
+            flags.push(format!(
+                "the sum of the passes is {percent:.1}% {side} {what} (median over {} frames; up to 5% is fine)",
+                samples.len()
+            ));
+        }
+    }
+    flags
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(passes_ms: [f64; 2], span_ms: f64, wall_ms: f64) -> FrameSample {
+        FrameSample { passes_ms: passes_ms.map(Some).to_vec(), span_ms: Some(span_ms), wall_ms }
+    }
+
+    fn times(samples: &[FrameSample]) -> FrameTimes {
+        FrameTimes::of(&["a".to_owned(), "b".to_owned()], 2, samples, &[Some([3, 4]), Some([5, 6])])
+    }
+
+    #[test]
+    fn figures_are_taken_per_pass_and_per_frame() {
+        let samples = [sample([1.0, 10.0], 11.0, 11.2), sample([2.0, 8.0], 10.1, 10.2)];
+        let times = times(&samples);
+        assert_eq!(times.passes[1].ms, Some(Spread { median: 9.0, min: 8.0, max: 10.0 }));
+        assert_eq!((times.passes[1].vertices, times.passes[1].fragments), (Some(5), Some(6)));
+        assert_eq!(times.sum_of_passes_ms, Some(Spread { median: 10.5, min: 10.0, max: 11.0 }));
+        assert_eq!(times.timed_frames, 2);
+        assert!(times.flags.is_empty(), "{:?}", times.flags);
+    }
+
+    #[test]
+    fn contradictions_beyond_five_percent_are_flagged_one_by_one() {
+        let span = times(&[sample([5.0, 5.0], 10.6, 10.1)]).flags;
+        assert_eq!(span.len(), 1);
+        assert!(span[0].contains("5.7% below the time from the first to the last timestamp"), "{span:?}");
+        let wall = times(&[sample([5.0, 5.0], 10.0, 9.0)]).flags;
+        assert_eq!(wall.len(), 1);
+        assert!(wall[0].contains("11.1% above the time from submission"), "{wall:?}");
+        assert!(times(&[sample([5.0, 5.0], 10.5, 10.5)]).flags.is_empty());
+        // One slow frame among many is no contradiction of the figures, which are medians.
+        let outlier =
+            [sample([5.0, 5.0], 10.0, 10.0), sample([5.0, 5.0], 10.0, 30.0), sample([5.0, 5.0], 10.0, 10.0)];
+        assert!(times(&outlier).flags.is_empty());
+    }
+
+    #[test]
+    fn what_was_not_measured_has_no_figure_and_a_reason() {
+        let untimed = FrameSample { passes_ms: vec![None, None], span_ms: None, wall_ms: 3.0 };
+        let times = FrameTimes::of(&["a".to_owned(), "b".to_owned()], 0, &[untimed], &[None, None]);
+        assert_eq!((times.sum_of_passes_ms, times.first_to_last_timestamp_ms), (None, None));
+        assert!(times.submit_to_wait_ms.is_some() && times.passes[0].ms.is_none());
+        assert_eq!(times.flags.len(), 2);
+        assert!(times.flags[0].contains("timestamps") && times.flags[1].contains("pipelineStatisticsQuery"));
+        assert_eq!(FrameTimes::of(&[], 0, &[], &[]).flags, ["no frame was timed"]);
+    }
+}

@@ -1,0 +1,59 @@
+//! Settings as they are given on the command line, so that a report can be repeated.
+
+use std::collections::BTreeMap;
+
+use crate::scene::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Settings, Shading};
+
+/// Every setting by the name of its option, without the dashes.
+pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String> {
+    let [width, height] = settings.size_px;
+    let filter = match settings.filter {
+        Filter::Adjust => "adjust",
+        Filter::None => "none",
+    };
+    let accumulate = match settings.accumulate {
+        Accumulate::F16 => "f16",
+        Accumulate::F32 => "f32",
+    };
+    let backfaces = match settings.backfaces {
+        Backfaces::Auto => "auto",
+        Backfaces::Flip => "flip",
+        Backfaces::Cull => "cull",
+    };
+    let shading = match settings.shading {
+        Shading::Phong => "phong",
+        Shading::Lambert => "lambert",
+        Shading::Normals => "normals",
+        Shading::Albedo => "albedo",
+    };
+    let background = match settings.background {
+        Some([red, green, blue]) => format!("{red},{green},{blue}"),
+        None => "none".to_owned(),
+    };
+    BTreeMap::from([
+        ("size", format!("{width}x{height}")),
+        ("filter", filter.to_owned()),
+        ("kernel", kernel_option(settings.kernel)),
+        ("accumulate", accumulate.to_owned()),
+        ("epsilon", epsilon_option(settings.epsilon)),
+        ("backfaces", backfaces.to_owned()),
+        ("shading", shading.to_owned()),
+        ("background", background),
+    ])
+}
+
+/// The value of `--kernel`.
+pub fn kernel_option(kernel: Kernel) -> String {
+    match kernel {
+        Kernel::Gaussian { sigma } => format!("gaussian:{sigma}"),
+        Kernel::PsiE { a, b, n } => format!("psi_e:{a},{b},{n}"),
+    }
+}
+
+/// The value of `--epsilon`.
+pub fn epsilon_option(epsilon: Epsilon) -> String {
+    match epsilon {
+        Epsilon::Radii(radii) => format!("{radii}r"),
+        Epsilon::Length(length) => format!("{length}"),
+    }
+}

@@ -1,0 +1,110 @@
+//! One run of the renderer: on what, of what, and what it cost.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::FrameTimes;
+use crate::scene::Camera;
+
+/// Everything that is needed to understand, repeat and compare a measurement.
+#[derive(Clone, Debug, Serialize)]
+pub struct RunReport {
+    /// The version of surfel.
+    pub surfel: String,
+    /// What it ran on.
+    pub device: DeviceReport,
+    /// The settings by the names of their options.
+    pub settings: BTreeMap<&'static str, String>,
+    /// The camera.
+    pub camera: CameraReport,
+    /// What was drawn.
+    pub scene: SceneReport,
+    /// What came before the frames, in order of time.
+    pub steps: Vec<Step>,
+    /// The frames.
+    pub frames: FrameTimes,
+}
+
+/// A device and its driver.
+#[derive(Clone, Debug, Serialize)]
+pub struct DeviceReport {
+    /// The device's name.
+    pub name: String,
+    /// The driver's name and version.
+    pub driver: String,
+    /// The Vulkan version that it offers, such as `1.3.230`.
+    pub api_version: String,
+    /// Nanoseconds of a timestamp's tick.
+    pub timestamp_period_ns: f64,
+    /// Valid bits of a timestamp; 0 where there are none.
+    pub timestamp_valid_bits: u32,
+}
+
+/// A camera with the names and units of a camera file.
+#[derive(Clone, Debug, Serialize)]
+pub struct CameraReport {
+    /// Where the eye is, world space.
+    pub eye: [f64; 3],
+    /// What it looks at, world space.
+    pub target: [f64; 3],
+    /// What is up, world space.
+    pub up: [f64; 3],
+    /// The vertical field of view in degrees.
+    pub fov_deg: f64,
+    /// The depth of the near plane in world units.
+    pub near: f64,
+}
+
+/// What was drawn.
+#[derive(Clone, Debug, Serialize)]
+pub struct SceneReport {
+    /// Where it came from.
+    pub inputs: Vec<InputReport>,
+    /// Splats drawn.
+    pub splats: u64,
+    /// Splats left out because they can't be drawn.
+    pub dropped: u64,
+    /// Bytes of device memory in splat buffers.
+    pub splat_bytes: u64,
+    /// Bytes of device memory that a frame's own images and buffers share.
+    pub transient_bytes: u64,
+}
+
+/// One input.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct InputReport {
+    /// The file's name, or that of the built-in model.
+    pub name: String,
+    /// Vertices, where it is a mesh.
+    pub vertices: Option<usize>,
+    /// Triangles, where it is a mesh.
+    pub triangles: Option<usize>,
+    /// Splats that can be drawn.
+    pub splats: usize,
+    /// Splats that can't, and were left out.
+    pub dropped: usize,
+    /// The same and what was done with it, in words.
+    pub summary: String,
+}
+
+/// Something that is done once before the frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct Step {
+    /// What.
+    pub name: String,
+    /// How long it took, in seconds of the wall clock.
+    pub secs: f64,
+}
+
+impl From<&Camera> for CameraReport {
+    fn from(camera: &Camera) -> Self {
+        Self {
+            eye: camera.eye.into(),
+            target: camera.target.into(),
+            up: camera.up.into(),
+            fov_deg: camera.fov_y_rad.to_degrees(),
+            near: camera.near(),
+        }
+    }
+}
