@@ -1,7 +1,7 @@
 //! `surfel bench`: tables of what things cost.
 
 use surfel::{
-    Error, Result,
+    Error, Progress as _, Result,
     graph::execute::{FrameProfile, Profile},
     renderer::{Floor, Headless, HeadlessOptions, Wanted},
     report::{FloorReport, FloorRow, SceneReport, settings_as_options},
@@ -46,7 +46,7 @@ fn floor(arguments: &BenchArguments) -> Result<()> {
     let bars = Bars::new();
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
     let Loaded { scene, ball, inputs } = load_scene(&inputs, &bars, &mut Steps::default())?;
-    let camera = Camera::fit(&ball, settings.size_px);
+    let camera = Camera::fit(&ball, settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
     let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
     let mut floor = Floor::new(&headless, &prepared, &camera, &settings, false)?;
     let mut strict = Floor::new(&headless, &prepared, &camera, &settings, true)?;
