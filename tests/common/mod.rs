@@ -5,6 +5,7 @@
 
 pub mod compare;
 pub mod scenes;
+pub mod watched;
 
 use std::sync::Once;
 
