@@ -77,7 +77,7 @@ impl Chunk {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
             let desc = BufferDesc { name: &name, size: bytes.len() as u64, usage };
             let buffer = Buffer::new(device, desc, MemoryUse::Device)?;
-            staging.push(&buffer, bytes);
+            staging.push(&buffer, bytes)?;
             Ok::<_, crate::error::Error>(buffer)
         };
         let buffers = [buffer(contents[0])?, buffer(contents[1])?];

@@ -9,7 +9,7 @@ use super::{
     memory::{Memory, MemoryUse},
     result::VkResultExt,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// What a buffer is.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +34,7 @@ impl Buffer {
     /// A buffer with memory of its own.
     ///
     /// # Errors
-    /// Whatever the driver or the allocator answers.
+    /// [`crate::ErrorKind::Option`] for a size of 0; whatever the driver or the allocator answers.
     pub fn new(device: &Device, desc: BufferDesc<'_>, memory: MemoryUse) -> Result<Self> {
         let raw = create(device, desc)?;
         // From here on a failure must not leak the handle: the owner exists before the memory does.
@@ -109,8 +109,11 @@ impl Drop for Buffer {
 }
 
 fn create(device: &Device, desc: BufferDesc<'_>) -> Result<vk::Buffer> {
+    if desc.size == 0 {
+        return Err(Error::option(desc.name, "a buffer of 0 bytes: at least 1"));
+    }
     let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
-    // SAFETY: the device is alive; sizes are above 0 by the description's contract.
+    // SAFETY: the device is alive; the size is above 0.
     let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
     device.set_name(raw, desc.name);
     Ok(raw)

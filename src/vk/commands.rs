@@ -1,9 +1,11 @@
 //! Command pools, each with one command buffer that is recorded again and again.
 
+use std::cell::Cell;
+
 use ash::vk;
 
 use super::{device::Device, garbage::Retired, result::VkResultExt};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// A pool and its one command buffer.
 pub struct CommandPool {
@@ -11,6 +13,8 @@ pub struct CommandPool {
     raw: vk::CommandPool,
     buffer: vk::CommandBuffer,
     name: String,
+    // A cell, so that the pool is not `Sync`: Vulkan wants its calls one at a time.
+    recording: Cell<bool>,
 }
 
 impl CommandPool {
@@ -25,8 +29,14 @@ impl CommandPool {
         // SAFETY: the device is alive.
         let raw =
             unsafe { device.raw().create_command_pool(&info, None) }.of_call("vkCreateCommandPool", name)?;
-        let mut pool =
-            Self { device: device.clone(), raw, buffer: vk::CommandBuffer::null(), name: name.to_owned() };
+        // From here on a failure must not leak the handle.
+        let mut pool = Self {
+            device: device.clone(),
+            raw,
+            buffer: vk::CommandBuffer::null(),
+            name: name.to_owned(),
+            recording: Cell::new(false),
+        };
         device.set_name(raw, name);
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(raw)
@@ -54,15 +64,19 @@ impl CommandPool {
         // SAFETY: the buffer was just reset.
         unsafe { self.device.raw().begin_command_buffer(self.buffer, &info) }
             .of_call("vkBeginCommandBuffer", &self.name)?;
+        self.recording.set(true);
         Ok(self.buffer)
     }
 
     /// Ends recording.
     ///
     /// # Errors
-    /// Whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] if it was not begun; whatever the driver answers.
     pub fn end(&self) -> Result<vk::CommandBuffer> {
-        // SAFETY: the buffer is recording, or the driver says so.
+        if !self.recording.replace(false) {
+            return Err(Error::option(self.name.clone(), "its recording ends without having begun"));
+        }
+        // SAFETY: the buffer is recording.
         unsafe { self.device.raw().end_command_buffer(self.buffer) }
             .of_call("vkEndCommandBuffer", &self.name)?;
         Ok(self.buffer)

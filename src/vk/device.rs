@@ -4,7 +4,7 @@ use std::{
     ffi::CString,
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicU64, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
     },
 };
 
@@ -57,6 +57,8 @@ struct Shared {
     epoch: AtomicU64,
     // `None` only while `drop` runs. Locked together, so that there is one order of locks.
     memory: Mutex<Option<(Allocator, Garbage)>>,
+    /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
+    queue_taken: AtomicBool,
     owned: bool,
 }
 
@@ -106,15 +108,14 @@ impl Device {
     /// commands recorded by them must have finished.
     ///
     /// # Errors
-    /// [`ErrorKind::NoDevice`] if the device lacks what we need.
+    /// [`ErrorKind::NoDevice`] if the device, or the queue's family, lacks what we need.
     pub unsafe fn borrow(instance: &Instance, host: BorrowedDevice) -> Result<Self> {
         // SAFETY: this function's contract.
-        let mut facts = unsafe { facts(instance.raw(), host.physical) };
+        let mut facts = unsafe { facts(instance.raw(), host.physical, Some(host.queue_family)) };
         let refusals = facts.refusals();
         if !refusals.is_empty() {
             return Err(ErrorKind::NoDevice { reasons: refusals }.into());
         }
-        facts.queue_family = Some(host.queue_family);
         facts.large_points = host.features.large_points;
         facts.pipeline_statistics = host.features.pipeline_statistics;
         if !host.features.large_points {
@@ -158,6 +159,7 @@ impl Device {
             names,
             epoch: AtomicU64::new(1),
             memory: Mutex::new(Some((allocator, Garbage::default()))),
+            queue_taken: AtomicBool::new(!owned),
             owned,
         })))
     }
@@ -193,7 +195,7 @@ impl Device {
     }
 
     /// Gives an object its debug name.
-    pub fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
+    pub(crate) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
         if let Some(names) = &self.0.names {
             let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
             let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&text);
@@ -204,7 +206,7 @@ impl Device {
     }
 
     /// Begins a debug label in a command buffer; nothing without the debug extension.
-    pub fn begin_label(&self, commands: vk::CommandBuffer, name: &str) {
+    pub(crate) fn begin_label(&self, commands: vk::CommandBuffer, name: &str) {
         if let Some(names) = &self.0.names {
             let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
             let label = vk::DebugUtilsLabelEXT::default().label_name(&text);
@@ -214,7 +216,7 @@ impl Device {
     }
 
     /// Ends the label begun last.
-    pub fn end_label(&self, commands: vk::CommandBuffer) {
+    pub(crate) fn end_label(&self, commands: vk::CommandBuffer) {
         if let Some(names) = &self.0.names {
             // SAFETY: as in `begin_label`, which came before.
             unsafe { names.cmd_end_debug_utils_label(commands) };
@@ -244,6 +246,16 @@ impl Device {
             let report = allocator.generate_report();
             (report.total_allocated_bytes, report.allocations.len())
         })
+    }
+
+    /// Whether the queue was free; it is taken now.
+    pub(super) fn take_queue(&self) -> bool {
+        !self.0.queue_taken.swap(true, Ordering::AcqRel)
+    }
+
+    /// Frees the queue for another owner.
+    pub(super) fn free_queue(&self) {
+        self.0.queue_taken.store(false, Ordering::Release);
     }
 
     pub(super) fn allocate(&self, desc: &AllocationCreateDesc<'_>) -> Result<Allocation> {

@@ -18,14 +18,18 @@ pub fn all_facts(instance: &Instance) -> Result<Vec<(vk::PhysicalDevice, DeviceF
     let devices =
         unsafe { instance.raw().enumerate_physical_devices() }.of_call("vkEnumeratePhysicalDevices", "")?;
     // SAFETY: each device was just enumerated from this instance.
-    Ok(devices.into_iter().map(|device| (device, unsafe { facts(instance.raw(), device) })).collect())
+    Ok(devices.into_iter().map(|device| (device, unsafe { facts(instance.raw(), device, None) })).collect())
 }
 
-/// The facts of one device.
+/// The facts of one device. `family` is that of the queue to be used; `None` takes the first that will do.
 ///
 /// # Safety
 /// `device` must belong to `instance`, and both must be alive.
-pub(super) unsafe fn facts(instance: &ash::Instance, device: vk::PhysicalDevice) -> DeviceFacts {
+pub(super) unsafe fn facts(
+    instance: &ash::Instance,
+    device: vk::PhysicalDevice,
+    family: Option<u32>,
+) -> DeviceFacts {
     // SAFETY: this function's contract, here and in the calls below.
     let properties = unsafe { instance.get_physical_device_properties(device) };
     let version = properties.api_version;
@@ -53,7 +57,8 @@ pub(super) unsafe fn facts(instance: &ash::Instance, device: vk::PhysicalDevice)
     // SAFETY: as above.
     let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
     let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
-    let queue_family = families.iter().position(|family| family.queue_flags.contains(wanted));
+    let allowed = |index: usize| family.is_none_or(|family| family as usize == index);
+    let queue_family = (0..families.len()).find(|&i| allowed(i) && families[i].queue_flags.contains(wanted));
     // SAFETY: as above.
     let format = |format| unsafe {
         instance.get_physical_device_format_properties(device, format).optimal_tiling_features

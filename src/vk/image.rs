@@ -9,7 +9,7 @@ use super::{
     memory::{Memory, MemoryUse},
     result::VkResultExt,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// What an image is: two-dimensional, one mip level, one layer, one sample, optimal tiling.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ impl Image {
     /// An image with device memory of its own.
     ///
     /// # Errors
-    /// Whatever the driver or the allocator answers.
+    /// [`crate::ErrorKind::Option`] for a size that the device doesn't have; whatever the driver or the allocator answers.
     pub fn new(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
         let mut image = Self::unbound(device, desc)?;
         // SAFETY: the image was just made from this device.
@@ -121,7 +121,14 @@ impl Image {
 
     /// The image without memory and view: an owner already, so that no failure after it leaks the handle.
     fn unbound(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
-        // SAFETY: the device is alive; the description is checked by the device's validation only.
+        let vk::Extent2D { width, height } = desc.extent;
+        let side = device.facts().limits.max_image_side;
+        if ![width, height].iter().all(|side_px| (1..=side).contains(side_px)) {
+            let problem = format!("an image of {width}x{height} pixels: the device has 1 to {side} a side");
+            return Err(Error::option(desc.name, problem));
+        }
+        // SAFETY: the device is alive; the size is within its limits; formats and usages are those that
+        // `DeviceFacts` asks for or Vulkan demands of every device.
         let raw = unsafe { device.raw().create_image(&desc.create_info(), None) }
             .of_call("vkCreateImage", desc.name)?;
         device.set_name(raw, desc.name);

@@ -3,6 +3,7 @@
 use std::{
     io::Write,
     path::{Path, PathBuf},
+    sync::atomic::{AtomicU64, Ordering},
 };
 
 use ash::vk;
@@ -61,7 +62,10 @@ impl PipelineCache {
             if let Some(folder) = file.parent() {
                 std::fs::create_dir_all(folder)?;
             }
-            let unfinished = file.with_extension(format!("{}.tmp", std::process::id()));
+            // Several caches of a process may be saved at once.
+            static NEXT: AtomicU64 = AtomicU64::new(0);
+            let number = NEXT.fetch_add(1, Ordering::Relaxed);
+            let unfinished = file.with_extension(format!("{}.{number}.tmp", std::process::id()));
             let written = std::fs::File::create(&unfinished)
                 .and_then(|mut out| out.write_all(&data))
                 .and_then(|()| std::fs::rename(&unfinished, file));

@@ -8,7 +8,7 @@ use std::sync::{
 use ash::vk;
 
 use super::{commands::CommandPool, device::Device, garbage::Retired, result::VkResultExt};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// The one queue of an owned device. An embedding host has its own and needs none of this.
 pub struct Queue {
@@ -19,11 +19,21 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// The first queue of the device's family. At most one `Queue` may exist for a device at a time.
+    /// The first queue of the device's family. At most one `Queue` may exist for a device at a time: its lock is what
+    /// keeps submissions apart, and its timeline what tells which epochs are done.
     ///
     /// # Errors
-    /// Whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] for a borrowed device, whose queue is the host's, and for a second `Queue`;
+    /// whatever the driver answers.
     pub fn new(device: &Device) -> Result<Self> {
+        if !device.take_queue() {
+            let problem = "the device's queue belongs to its host, or to another owner already";
+            return Err(Error::option("queue", problem));
+        }
+        Self::with_timeline(device).inspect_err(|_| device.free_queue())
+    }
+
+    fn with_timeline(device: &Device) -> Result<Self> {
         // SAFETY: the device was made with one queue of this family.
         let raw = unsafe { device.raw().get_device_queue(device.queue_family(), 0) };
         device.set_name(raw, "queue");
@@ -62,11 +72,17 @@ impl Queue {
     /// Waits until an epoch is done, then destroys what was dropped up to it.
     ///
     /// # Errors
-    /// Whatever the driver answers, such as a lost device.
+    /// [`crate::ErrorKind::Option`] for an epoch that was not submitted; whatever the driver answers, such as a lost
+    /// device.
     pub fn wait(&self, epoch: u64) -> Result<()> {
+        let submitted = self.submitted.load(Ordering::Acquire);
+        if epoch > submitted {
+            let problem = format!("{epoch} is not submitted yet, {submitted} was the last");
+            return Err(Error::option("epoch", problem));
+        }
         let (semaphores, values) = ([self.timeline], [epoch]);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
-        // SAFETY: the semaphore is alive; `epoch` was submitted, or the wait never ends, which `submit` prevents.
+        // SAFETY: the semaphore is alive. Its values reach `epoch`, for that or a later one was submitted.
         unsafe { self.device.raw().wait_semaphores(&info, u64::MAX) }
             .of_call("vkWaitSemaphores", "timeline")?;
         if self.device.instance().is_validated() && epoch == self.submitted.load(Ordering::Acquire) {
@@ -78,6 +94,24 @@ impl Queue {
         }
         // SAFETY: the timeline counts every submission of this device in order.
         unsafe { self.device.epoch_done(epoch) };
+        Ok(())
+    }
+
+    /// Waits for all that was submitted, then destroys all that was dropped so far: a device without a next frame
+    /// would keep it.
+    ///
+    /// # Safety
+    /// Nothing that was dropped is used by commands that are recorded and not submitted yet.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    pub unsafe fn wait_idle(&self) -> Result<()> {
+        self.wait(self.submitted.load(Ordering::Acquire))?;
+        let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: the lock synchronizes the queue.
+        unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;
+        // SAFETY: under the lock nothing was submitted since; the rest is this function's contract.
+        unsafe { self.device.epoch_done(self.device.end_epoch()) };
         Ok(())
     }
 
@@ -101,5 +135,6 @@ impl Drop for Queue {
         // recorded is never "done" without another submission: so wait here for the last one.
         let _ = self.wait(self.submitted.load(Ordering::Acquire));
         self.device.retire(Retired::Semaphore(self.timeline));
+        self.device.free_queue();
     }
 }

@@ -7,7 +7,7 @@ use super::{
     device::Device,
     memory::MemoryUse,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// One batch of uploads. Fill it, record it, and keep it until the submission has finished (or drop it any time
 /// after the submission: the memory waits for its epoch).
@@ -29,15 +29,25 @@ impl Staging {
         Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new() })
     }
 
-    /// Adds bytes for the start of `target`, whose usage includes `TRANSFER_DST`. The batch must have room.
-    pub fn push(&mut self, target: &Buffer, bytes: &[u8]) {
+    /// Adds bytes for the start of `target`, whose usage includes `TRANSFER_DST`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] if the batch or the target has no room for them.
+    pub fn push(&mut self, target: &Buffer, bytes: &[u8]) -> Result<()> {
         let begin = self.used;
-        self.buffer.bytes_mut()[begin..begin + bytes.len()].copy_from_slice(bytes);
+        let room = self.buffer.bytes_mut().get_mut(begin..begin + bytes.len());
+        let fits = bytes.len() as u64 <= target.size();
+        let Some(room) = room.filter(|_| fits) else {
+            let problem = format!("no room for {} bytes after {begin}, or in their target", bytes.len());
+            return Err(Error::option("upload", problem));
+        };
+        room.copy_from_slice(bytes);
         self.used += bytes.len();
         let region = vk::BufferCopy::default().src_offset(begin as u64).size(bytes.len() as u64);
         if !bytes.is_empty() {
             self.copies.push((target.raw(), region));
         }
+        Ok(())
     }
 
     /// Records all copies and what makes them visible to the vertex and compute stages of every later command.

@@ -4,7 +4,9 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub mod compare;
+pub mod host;
 pub mod scenes;
+pub mod watched;
 
 use std::sync::Once;
 

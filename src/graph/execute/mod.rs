@@ -96,7 +96,8 @@ impl PassContext<'_> {
 /// Records every pass of a compiled graph: its barriers, its debug label, its queries, its rendering, its body.
 ///
 /// # Errors
-/// [`ErrorKind::Graph`] if an import is missing; whatever a body answers.
+/// [`ErrorKind::Graph`] if an import is missing or of the wrong kind, before anything is recorded; whatever a body
+/// answers: then the command buffer is well-formed, but must not be submitted, for later passes are missing.
 ///
 /// # Safety
 /// `commands` must be recording, outside of rendering, and be submitted to the queue of the device's family, after
@@ -113,8 +114,12 @@ pub unsafe fn execute(
     let Compiled { plan, bodies } = compiled;
     let mut physical = transients.physical(plan.resources.len());
     for (id, object) in imports {
-        physical[id.index()] = Some(*object);
+        if let Some(place) = physical.get_mut(id.index()) {
+            *place = Some(*object);
+        }
     }
+    // Before the first command: what fails later would leave labels and queries open.
+    check_objects(&plan, &physical)?;
     let recorder = Recorder { device, commands, plan: &plan, physical: &physical };
     if let Some(profiler) = &mut profiler {
         // SAFETY: this function's contract.
@@ -147,6 +152,23 @@ pub unsafe fn execute(
     let last = Batch { memory: None, resources: plan.final_barriers.clone() };
     // SAFETY: this function's contract.
     unsafe { recorder.barriers(&last) }
+}
+
+/// Refuses a plan of which a resource in use has no object, or one of another kind.
+fn check_objects(plan: &Plan, physical: &[Option<Physical>]) -> Result<()> {
+    for (resource, object) in plan.resources.iter().zip(physical) {
+        let reason = match (object, resource.desc) {
+            (Some(Physical::Image(..)), ResourceDesc::Image(_))
+            | (Some(Physical::Buffer(_)), ResourceDesc::Buffer(_)) => continue,
+            (None, _) if resource.lifetime.is_none() => continue,
+            (None, _) => "has no Vulkan object: an import was not given",
+            (Some(Physical::Image(..)), ResourceDesc::Buffer(_)) => "is a buffer, and an image was given",
+            (Some(Physical::Buffer(_)), ResourceDesc::Image(_)) => "is an image, and a buffer was given",
+        };
+        let (pass, resource) = (String::new(), resource.name.clone());
+        return Err(ErrorKind::Graph { pass, resource, reason: reason.to_owned() }.into());
+    }
+    Ok(())
 }
 
 struct Recorder<'a> {
