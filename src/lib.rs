@@ -1,4 +1,35 @@
 //! A Vulkan-native splat renderer whose every method carries a measured cost and a measured error.
+//!
+//! ```text
+//!  load ──> scene ──> prepare ──> graph ──> passes ──> frame ──> report
+//!  files    plain     buffers     order,    shaders    targets   figures
+//!           data                  barriers
+//!                 └─> reference: the same picture in f64, slow and obvious
+//! ```
+//!
+//! A [`scene::Scene`] of [`scene::Splats`] is uploaded once ([`renderer::Renderer::prepare`]) and then recorded into a
+//! command buffer that the caller gives, as often as wanted ([`renderer::Renderer::record`]). The library never submits
+//! and never waits; [`renderer::Headless`] is a small host that does, and gives pictures back:
+//!
+//! ```no_run
+//! use surfel::{Headless, HeadlessOptions, Scene, Settings, Validation, Wanted, Camera};
+//!
+//! # fn main() -> surfel::Result<()> {
+//! # let scene = Scene::default();
+//! # let camera: Camera = todo!();
+//! let options = HeadlessOptions { validation: Validation::Off, device: None, cache_folder: None };
+//! let mut headless = Headless::new(&options)?;
+//! let prepared = headless.prepare(&scene, &|_done, _total| {})?;
+//! let wanted = Wanted { picture: true, ..Wanted::default() };
+//! let frame = headless.render(&prepared, &camera, &Settings::default(), wanted)?;
+//! assert_eq!(frame.srgb.len(), 1024 * 1024);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! **Conventions.** World space is the file's, `f64`. View space: eye at the origin, x right, y down, z forward; the image
+//! plane is z = 1. Depth is reversed and infinite, near / z. Colors are linear inside, sRGB in files. Pixel centers lie at
+//! half integers.
 
 pub mod error;
 pub mod frame;
@@ -21,3 +52,6 @@ pub mod vk;
 
 pub use error::{Error, ErrorKind, Result};
 pub use progress::Progress;
+pub use renderer::{Headless, HeadlessOptions, Renderer, Wanted};
+pub use scene::{Camera, Scene, Settings};
+pub use vk::Validation;
