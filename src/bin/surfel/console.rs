@@ -20,7 +20,8 @@ pub fn say(text: &str) {
 
 /// Tells why the program fails: one line, whatever is in the text.
 pub fn fail(text: &str) {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    let line = lines.join(" ");
     say(&format!("surfel: {line}"));
 }
 
