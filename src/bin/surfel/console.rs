@@ -63,7 +63,7 @@ impl Progress for Bars {
             }
             let bar = ProgressBar::new(total);
             // The template is a constant that parses; the plain bar is what is left otherwise.
-            if let Ok(style) = ProgressStyle::with_template("{msg:40!} [{bar:30}] {percent:3}%") {
+            if let Ok(style) = ProgressStyle::with_template("{msg:40!} [{bar:30}] {percent:>3}%") {
                 bar.set_style(style.progress_chars("=> "));
             }
             bar.set_message(task.to_owned());
