@@ -18,6 +18,9 @@ pub struct FrameSample {
     pub wall_ms: f64,
 }
 
+/// A figure of one frame; `None` where not measured.
+type Figure = fn(&FrameSample) -> Option<f64>;
+
 impl FrameSample {
     /// The passes together; `None` where one is missing.
     fn sum_ms(&self) -> Option<f64> {
@@ -77,7 +80,7 @@ impl FrameTimes {
             }
         };
         let passes: Vec<_> = names.iter().enumerate().map(pass).collect();
-        let all = |figure: fn(&FrameSample) -> Option<f64>| -> Option<Spread> {
+        let all = |figure: Figure| -> Option<Spread> {
             samples.iter().map(figure).collect::<Option<Vec<f64>>>().and_then(Spread::of)
         };
         Self {
@@ -105,8 +108,7 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
             "vertices and fragments were not counted: the device can't (pipelineStatisticsQuery)".to_owned(),
         );
     }
-    type Whole = fn(&FrameSample) -> Option<f64>;
-    let against: [(&str, Whole); 2] = [
+    let against: [(&str, Figure); 2] = [
         ("the time from the first to the last timestamp", |sample| sample.span_ms),
         ("the time from submission to the end of the wait", |sample| Some(sample.wall_ms)),
     ];

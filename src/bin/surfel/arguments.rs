@@ -229,7 +229,7 @@ pub struct StyleArguments {
     /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r,
     /// or a length
     #[arg(long, value_name = "1r|LENGTH", default_value = "1r", value_parser = parse::epsilon)]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(allow_hyphen_values = true)]
     pub epsilon: Epsilon,
 
     /// Splats that face away: auto leaves them out where the surface is closed and turns them elsewhere

@@ -20,7 +20,8 @@ pub fn say(text: &str) {
 
 /// Tells why the program fails: one line, whatever is in the text.
 pub fn fail(text: &str) {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    let line = lines.join(" ");
     say(&format!("surfel: {line}"));
 }
 
@@ -62,7 +63,7 @@ impl Progress for Bars {
             }
             let bar = ProgressBar::new(total);
             // The template is a constant that parses; the plain bar is what is left otherwise.
-            if let Ok(style) = ProgressStyle::with_template("{msg:40!} [{bar:30}] {percent:3}%") {
+            if let Ok(style) = ProgressStyle::with_template("{msg:40!} [{bar:30}] {percent:>3}%") {
                 bar.set_style(style.progress_chars("=> "));
             }
             bar.set_message(task.to_owned());

@@ -27,25 +27,7 @@ pub struct View<'a> {
     pub settings: &'a Settings,
 }
 
-/// Draws, and splits the time of the very first frame into what the host did and what the device did.
-///
-/// # Errors
-/// As [`Headless::render`].
-pub fn first_frame(
-    headless: &mut Headless,
-    view: View<'_>,
-    wanted: Wanted,
-    steps: &mut Steps,
-) -> Result<Frame> {
-    let start = Instant::now();
-    let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
-    let secs = start.elapsed().as_secs_f64();
-    steps.add("make pipelines, record the first frame", secs - frame.wall_secs);
-    steps.add("first frame, submission to end of wait", frame.wall_secs);
-    Ok(frame)
-}
-
-/// Warms up, times `frames` frames, and counts vertices and fragments in one more, because counting may cost time.
+/// Warms up, with the very first frame split into what host and device did, times `frames` frames, and counts vertices and fragments in one more, because counting may cost time.
 ///
 /// # Errors
 /// As [`Headless::render`].
@@ -59,7 +41,11 @@ pub fn frame_times(
     let counted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
     let draw =
         |headless: &mut Headless, wanted| headless.render(view.scene, view.camera, view.settings, wanted);
-    let first = first_frame(headless, view, timed, steps)?;
+    let start = Instant::now();
+    let first = draw(headless, timed)?;
+    let host_secs = start.elapsed().as_secs_f64() - first.wall_secs;
+    steps.add("make pipelines, record the first frame", host_secs);
+    steps.add("first frame, submission to end of wait", first.wall_secs);
     for _ in 1..WARM_UP_FRAMES {
         draw(headless, timed)?;
     }

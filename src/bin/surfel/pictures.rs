@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn colors_are_encoded_to_the_nearest_byte() {
-        assert_eq!(encode([0.0, 1.0, 0.214_041, 0.5]), [0, 255, 128, 128]);
+        assert_eq!(encode([0.0, 1.0, 0.215_861, 0.5]), [0, 255, 128, 128]);
         assert_eq!(encode([-1.0, 2.0, f32::NAN, 1.0]), [0, 255, 0, 255]);
     }
 }

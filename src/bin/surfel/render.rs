@@ -87,7 +87,7 @@ fn draw(
                 splat_bytes: prepared.bytes(),
                 transient_bytes,
             },
-            steps: std::mem::take(&mut steps.0),
+            steps: steps.0,
             frames: times,
         };
         console::print(&report.to_string());
@@ -96,7 +96,7 @@ fn draw(
         }
     }
 
-    write(&mut headless, arguments, view, format, &mut steps)?;
+    write(&mut headless, arguments, view, format)?;
     // A lost cache costs the next run some time, that is all.
     let _ = headless.renderer.shaders.save_cache();
     Ok(())
@@ -108,11 +108,10 @@ fn write(
     arguments: &RenderArguments,
     view: View<'_>,
     format: PictureFormat,
-    steps: &mut Steps,
 ) -> Result<()> {
     let picture = &arguments.picture;
     let wanted = Wanted { picture: true, linear: format == PictureFormat::Exr, ..Wanted::default() };
-    let frame = measure::first_frame(headless, view, wanted, steps)?;
+    let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
     let colors = match format {
         PictureFormat::Png => Colors::Srgb(&frame.srgb),
         PictureFormat::Exr => Colors::Linear(&frame.linear),

@@ -1,0 +1,71 @@
+//! Runs the program in a folder of its own.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+/// A folder that goes away with its content.
+pub struct Folder(tempfile::TempDir);
+
+impl Folder {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    /// All that is in it, hidden or not, in order.
+    pub fn names(&self) -> Vec<String> {
+        names(self.0.path())
+    }
+
+    pub fn names_in(&self, folder: &str) -> Vec<String> {
+        names(&self.path(folder))
+    }
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// How the program ended, and what it said.
+pub struct Run {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+pub fn surfel(folder: &Folder, arguments: &[&str]) -> Run {
+    surfel_with(folder, arguments, &[])
+}
+
+/// With these environment variables.
+pub fn surfel_with(folder: &Folder, arguments: &[&str], environment: &[(&str, &str)]) -> Run {
+    let output = Command::new(env!("CARGO_BIN_EXE_surfel"))
+        .args(arguments)
+        .current_dir(folder.0.path())
+        .stdin(Stdio::null())
+        // Tests don't fill the user's cache.
+        .env_remove("XDG_CACHE_HOME")
+        .env_remove("HOME")
+        .envs(environment.iter().copied())
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    Run {
+        code: output.status.code().expect("the program was killed"),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    }
+}
