@@ -16,11 +16,11 @@ use crate::{
     error::Result,
     graph::execute::PassContext,
     math::{
-        kernel::coverage_r2,
+        kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
         size::{SizeBound, largest_box_px},
     },
     prepare::{Chunk, PreparedScene},
-    scene::{Camera, Epsilon, Filter, Settings},
+    scene::{Camera, Epsilon, Filter, Kernel, Settings},
     shaders::Shader,
     vk::{Descriptor, GraphicsPipeline, Limits},
 };
@@ -58,6 +58,10 @@ pub fn draws<'a>(
         Epsilon::Radii(radii) => (radii, 0.0),
         Epsilon::Length(length) => (0.0, length * rebase.scale),
     };
+    let coverage_r2 = match settings.kernel {
+        Kernel::Gaussian { sigma } => gaussian_coverage_r2(sigma.into()),
+        Kernel::PsiE { a, n, .. } => psi_e_coverage_r2(a.into(), n.into()),
+    };
     let draw = |chunk: &'a Chunk| {
         let bound = SizeBound {
             nearest_z: nearest_z(chunk, view_from_local_z),
@@ -81,7 +85,7 @@ pub fn draws<'a>(
                 filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
                 epsilon_radii: epsilon_radii as f32,
                 epsilon_length: epsilon_length as f32,
-                coverage_r2: coverage_r2(settings.kernel) as f32,
+                coverage_r2: coverage_r2 as f32,
                 point_cap_px,
                 point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
                 splat_count: chunk.count,

@@ -12,7 +12,7 @@ fn refusal(
     let mut list = graph.create_buffer("list", buffer());
     declare(&mut graph, &mut color, &mut depth, &mut list);
     let error = graph.compile(need).map(|compiled| compiled.plan.to_string()).unwrap_err();
-    assert!(matches!(error.kind(), crate::ErrorKind::Graph { .. }));
+    assert!(matches!(error.kind(), crate::error::ErrorKind::Graph { .. }));
     error.to_string().strip_prefix("illegal render graph: ").unwrap().to_owned()
 }
 

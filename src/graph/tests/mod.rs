@@ -27,7 +27,7 @@ pub(super) fn buffer() -> BufferDesc {
 }
 
 /// A device on which a pixel takes four bytes.
-pub(super) fn need(_: ResourceId, desc: &ResourceDesc, _: Usage) -> crate::Result<MemoryNeed> {
+pub(super) fn need(_: ResourceId, desc: &ResourceDesc, _: Usage) -> crate::error::Result<MemoryNeed> {
     let size_bytes = match desc {
         ResourceDesc::Image(desc) => u64::from(desc.extent.width) * u64::from(desc.extent.height) * 4,
         ResourceDesc::Buffer(desc) => desc.size_bytes,

@@ -9,7 +9,7 @@ use crate::{
     scene::{Mesh, Splats},
 };
 
-fn parse(bytes: &[u8]) -> crate::Result<Model> {
+fn parse(bytes: &[u8]) -> crate::error::Result<Model> {
     super::parse(Path::new("a.ply"), bytes, &())
 }
 
