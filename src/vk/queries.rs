@@ -49,7 +49,8 @@ impl Timestamps {
     /// # Safety
     /// `commands` must be recording; `index` is below [`Timestamps::count`] and was reset since its last write.
     pub unsafe fn write(&self, commands: vk::CommandBuffer, index: u32) {
-        let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+        // Of a timestamp the same as ALL_COMMANDS, at which the validation layer's best practices warn everywhere.
+        let stage = vk::PipelineStageFlags2::BOTTOM_OF_PIPE;
         // SAFETY: this function's contract.
         unsafe { self.pool.device.raw().cmd_write_timestamp2(commands, stage, self.pool.raw, index) };
     }
