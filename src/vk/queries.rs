@@ -73,7 +73,7 @@ impl Timestamps {
 
 fn seconds_between(begin: u64, end: u64, valid_bits: u32, period_ns: f64) -> f64 {
     let mask = if valid_bits >= 64 { u64::MAX } else { (1 << valid_bits) - 1 };
-    (end.wrapping_sub(begin) & mask) as f64 * period_ns * 1e-9
+    (end.wrapping_sub(begin) & mask) as f64 * period_ns / 1e9
 }
 
 /// A pool of counts of vertices and fragments.
