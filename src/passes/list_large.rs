@@ -156,7 +156,7 @@ impl<'a> Dispatches<'a> {
         for (draw, ids) in inputs.draws.iter().zip(ids) {
             if let Some(ids) = ids {
                 let constants = if set_up { draw.variant.clone() } else { Vec::new() };
-                let pipeline = inputs.shaders.compute(shader, &inputs.shaders.splat_layout, constants)?;
+                let pipeline = inputs.shaders.compute(shader, &inputs.shaders.list_layout, constants)?;
                 chunks.push((draw, *ids, pipeline));
             }
         }
@@ -171,7 +171,7 @@ impl<'a> Dispatches<'a> {
     ) -> Result<()> {
         let (device, commands) = (context.device(), context.commands());
         let shaders = self.inputs.shaders;
-        let layout = &shaders.splat_layout;
+        let layout = &shaders.list_layout;
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         for (draw, ids, pipeline) in &self.chunks {
             let mut given = Vec::new();

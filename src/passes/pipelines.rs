@@ -36,6 +36,9 @@ pub struct Shaders {
     /// Set 0 of export: the sums and the visible depth.
     pub(super) surface_set: SetLayout,
     pub(super) splat_layout: PipelineLayout,
+    /// The sets and constants of the splat passes for compute alone. lavapipe of Mesa 22.3 crashes where a query of
+    /// counts begins after constants were pushed for the stages of a graphics pipeline and before one was bound.
+    pub(super) list_layout: PipelineLayout,
     pub(super) finalize_layout: PipelineLayout,
     pub(super) export_layout: PipelineLayout,
     /// The formula that is made wrong; for tests of the tests.
@@ -82,7 +85,14 @@ impl Shaders {
             "splat passes",
             &[splat_set.set(), &large_set, &depth_set],
             size_of::<constants::FrameConstants>() as u32,
-            vertex | fragment | compute,
+            vertex | fragment,
+        )?;
+        let list_layout = PipelineLayout::new(
+            device,
+            "lists of large splats",
+            &[splat_set.set(), &large_set],
+            size_of::<constants::FrameConstants>() as u32,
+            compute,
         )?;
         let finalize_layout = PipelineLayout::new(
             device,
@@ -109,6 +119,7 @@ impl Shaders {
             sums_set,
             surface_set,
             splat_layout,
+            list_layout,
             finalize_layout,
             export_layout,
             #[cfg(feature = "test-formulas")]

@@ -12,6 +12,7 @@ use ash::{ext, vk};
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, AllocatorCreateDesc};
 
 use super::{
+    borrowed::{BorrowedDevice, EnabledFeatures},
     choose::{DeviceFacts, choose},
     facts::{all_facts, facts},
     garbage::{Garbage, Retired},
@@ -19,27 +20,6 @@ use super::{
     result::VkResultExt,
 };
 use crate::error::{Error, ErrorKind, Result};
-
-/// Optional features that are enabled on a device.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct EnabledFeatures {
-    /// Points above one pixel.
-    pub large_points: bool,
-    /// Counts of vertices and fragments.
-    pub pipeline_statistics: bool,
-}
-
-/// A host's device, for [`Device::borrow`].
-pub struct BorrowedDevice {
-    /// The physical device.
-    pub physical: vk::PhysicalDevice,
-    /// The logical device.
-    pub raw: ash::Device,
-    /// The family of the queue to which the host submits what we record; graphics and compute.
-    pub queue_family: u32,
-    /// The optional features that the host enabled.
-    pub features: EnabledFeatures,
-}
 
 /// A logical device; clones share it. See [the module](super) for how things die.
 #[derive(Clone)]

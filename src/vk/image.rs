@@ -104,7 +104,7 @@ impl Image {
         self.raw
     }
 
-    /// The view of the whole image.
+    /// The view of the whole image; null for one that is only copied, which Vulkan gives no view.
     pub fn view(&self) -> vk::ImageView {
         self.view
     }
@@ -143,6 +143,10 @@ impl Image {
     }
 
     fn create_view(&mut self, desc: ImageDesc<'_>) -> Result<()> {
+        let copied = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
+        if copied.contains(desc.usage) {
+            return Ok(());
+        }
         let range =
             vk::ImageSubresourceRange::default().aspect_mask(desc.aspect()).level_count(1).layer_count(1);
         let info = vk::ImageViewCreateInfo::default()

@@ -6,6 +6,7 @@
 //! else works on both alike.
 
 mod allow_list;
+mod borrowed;
 mod buffer;
 mod choose;
 mod commands;
@@ -28,12 +29,13 @@ mod result;
 mod staging;
 
 pub use allow_list::{ALLOWED, Allowed};
+pub use borrowed::{BorrowedDevice, EnabledFeatures};
 pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
 pub use commands::CommandPool;
 pub use compute_pipeline::{ComputePipeline, ComputePipelineDesc};
 pub use descriptors::{Binding, Descriptor, DescriptorPool, SetLayout};
-pub use device::{BorrowedDevice, Device, EnabledFeatures};
+pub use device::Device;
 pub use facts::all_facts;
 pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
 pub use image::{Image, ImageDesc};

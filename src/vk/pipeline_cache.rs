@@ -39,7 +39,12 @@ impl PipelineCache {
             // SAFETY: the data has the header of this very driver and device.
             unsafe { device.raw().create_pipeline_cache(&info, None) }
         };
-        let raw = create(data).or_else(|_| create(&[])).of_call("vkCreatePipelineCache", NAME)?;
+        let made = match create(data) {
+            // The driver may refuse what it finds behind the header: then the cache starts empty.
+            Err(_) if !data.is_empty() => create(&[]),
+            other => other,
+        };
+        let raw = made.of_call("vkCreatePipelineCache", NAME)?;
         device.set_name(raw, NAME);
         Ok(Self { device: device.clone(), raw, file })
     }

@@ -4,6 +4,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub mod compare;
+pub mod faults;
 pub mod host;
 pub mod scenes;
 pub mod watched;

@@ -125,26 +125,26 @@ pub unsafe fn execute(
         // SAFETY: this function's contract.
         unsafe { profiler.begin_frame(commands, plan.passes.iter().map(|pass| pass.name.as_str())) };
     }
+    let profiler = profiler.as_deref();
     for ((index, pass), body) in (0..).zip(&plan.passes).zip(bodies) {
+        let draws = pass.rendering.is_some();
         device.begin_label(commands, &pass.name);
         // SAFETY: this function's contract, here and below.
         unsafe {
-            if let Some(profiler) = &profiler {
-                profiler.begin_pass(commands, index);
-            }
+            profiler.inspect(|profiler| profiler.begin_pass(commands, index));
             recorder.barriers(&pass.barriers)?;
             recorder.begin_rendering(pass)?;
+            profiler.filter(|_| draws).inspect(|profiler| profiler.begin_draws(commands, index));
         }
         let done = body(&PassContext { device, commands, physical: &physical, pass });
         // Also after a body that failed, so that the command buffer stays well-formed.
         // SAFETY: as above.
         unsafe {
-            if pass.rendering.is_some() {
+            profiler.filter(|_| draws).inspect(|profiler| profiler.end_draws(commands, index));
+            if draws {
                 device.raw().cmd_end_rendering(commands);
             }
-            if let Some(profiler) = &profiler {
-                profiler.end_pass(commands, index);
-            }
+            profiler.inspect(|profiler| profiler.end_pass(commands, index));
         }
         device.end_label(commands);
         done?;

@@ -50,7 +50,7 @@ pub struct PassProfile {
     pub name: String,
     /// Its time; `None` where not measured.
     pub secs: Option<f64>,
-    /// Its counts; `None` where not measured.
+    /// Its counts; `None` where not measured, and for a pass that doesn't draw.
     pub counts: Option<PassCounts>,
 }
 
@@ -125,32 +125,40 @@ impl Profiler {
     }
 
     /// # Safety
-    /// As [`Profiler::begin_frame`], after it; once for each pass, in order.
+    /// As [`Profiler::begin_frame`], after it; once for each pass, in order, before its barriers.
     pub(super) unsafe fn begin_pass(&self, commands: vk::CommandBuffer, pass: u32) {
-        if pass < MAX_PASSES {
+        if let (Queries::Times(timestamps), true) = (&self.queries, pass < MAX_PASSES) {
             // SAFETY: this function's contract.
-            unsafe {
-                match &self.queries {
-                    Queries::Times(timestamps) => timestamps.write(commands, 2 * pass),
-                    Queries::Counts(statistics) => statistics.begin(commands, pass),
-                    Queries::Nothing => {}
-                }
-            }
+            unsafe { timestamps.write(commands, 2 * pass) };
+        }
+    }
+
+    /// Counts begin inside of rendering: only passes that draw have them, and nothing else shall be counted.
+    ///
+    /// # Safety
+    /// After [`Profiler::begin_pass`]; `commands` is inside of the pass's rendering.
+    pub(super) unsafe fn begin_draws(&self, commands: vk::CommandBuffer, pass: u32) {
+        if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {
+            // SAFETY: this function's contract.
+            unsafe { statistics.begin(commands, pass) };
         }
     }
 
     /// # Safety
-    /// As [`Profiler::begin_pass`], after it.
-    pub(super) unsafe fn end_pass(&self, commands: vk::CommandBuffer, pass: u32) {
-        if pass < MAX_PASSES {
+    /// After [`Profiler::begin_draws`], in the same rendering.
+    pub(super) unsafe fn end_draws(&self, commands: vk::CommandBuffer, pass: u32) {
+        if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {
             // SAFETY: this function's contract.
-            unsafe {
-                match &self.queries {
-                    Queries::Times(timestamps) => timestamps.write(commands, 2 * pass + 1),
-                    Queries::Counts(statistics) => statistics.end(commands, pass),
-                    Queries::Nothing => {}
-                }
-            }
+            unsafe { statistics.end(commands, pass) };
+        }
+    }
+
+    /// # Safety
+    /// After [`Profiler::begin_pass`] and the pass's last command.
+    pub(super) unsafe fn end_pass(&self, commands: vk::CommandBuffer, pass: u32) {
+        if let (Queries::Times(timestamps), true) = (&self.queries, pass < MAX_PASSES) {
+            // SAFETY: this function's contract.
+            unsafe { timestamps.write(commands, 2 * pass + 1) };
         }
     }
 }
