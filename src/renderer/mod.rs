@@ -114,8 +114,8 @@ impl Renderer {
     /// # Safety
     /// `commands` must be recording, outside of rendering, and be submitted to the device's queue. `scene`, the
     /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
-    /// recorded before in this slot must have finished. The target is `settings.size_px` large and in its initial
-    /// state; the host may read `readbacks` after its own wait.
+    /// recorded before in this slot must have finished. The target is what it says and in its initial state; the host
+    /// may read `readbacks` after its own wait.
     #[allow(clippy::too_many_arguments, reason = "each is a different thing, named at the call")]
     pub unsafe fn record(
         &self,
@@ -129,6 +129,12 @@ impl Renderer {
         profile: Option<Profile>,
     ) -> Result<Plan> {
         self.check(camera, settings)?;
+        let [width, height] = settings.size_px;
+        if target.extent != (vk::Extent2D { width, height }) {
+            let vk::Extent2D { width: w, height: h } = target.extent;
+            let problem = format!("{w}x{h} pixels, but the settings say {width}x{height}");
+            return Err(Error::option("target", problem));
+        }
         let draws = passes::draws(scene, camera, settings, &self.limits);
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::sets_needed(&draws), profile) }?;
