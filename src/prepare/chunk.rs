@@ -6,7 +6,10 @@ use glam::DVec3;
 use super::pack::{Packed, shape_bytes};
 use crate::{
     error::Result,
-    vk::{Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, SetLayout, Staging},
+    vk::{
+        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, SealedPool, SetLayout,
+        Staging,
+    },
 };
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
@@ -54,7 +57,7 @@ pub struct Chunk {
     pub largest_radius: f64,
     set: vk::DescriptorSet,
     // Never read again, but the set names them; dropped after the pool.
-    _pool: DescriptorPool,
+    _pool: SealedPool,
     buffers: [Buffer; 2],
 }
 
@@ -92,7 +95,7 @@ impl Chunk {
             bounds: packed.bounds,
             largest_radius: packed.largest_radius,
             set,
-            _pool: pool,
+            _pool: pool.seal(),
             buffers,
         };
         Ok((chunk, staging))

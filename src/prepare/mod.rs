@@ -77,3 +77,13 @@ pub fn prepare(
     }
     Ok(prepared)
 }
+
+#[cfg(test)]
+mod tests {
+    /// A host may draw one scene from several threads. Fails to compile where that is not so.
+    #[test]
+    fn a_scene_is_shared_between_threads() {
+        fn shared<T: Send + Sync>() {}
+        shared::<super::PreparedScene>();
+    }
+}

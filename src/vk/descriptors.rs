@@ -76,6 +76,12 @@ pub struct DescriptorPool {
     _not_sync: std::marker::PhantomData<std::cell::Cell<()>>,
 }
 
+/// A pool from which no further set is taken: it only keeps its sets alive, and so may be shared between threads.
+pub struct SealedPool {
+    device: Device,
+    raw: vk::DescriptorPool,
+}
+
 impl DescriptorPool {
     /// A pool for up to `sets` sets with up to `buffers` storage buffers and `images` sampled images in all.
     ///
@@ -142,6 +148,19 @@ impl DescriptorPool {
         // SAFETY: this function's contract.
         unsafe { self.device.raw().reset_descriptor_pool(self.raw, vk::DescriptorPoolResetFlags::empty()) }
             .of_call("vkResetDescriptorPool", &self.name)
+    }
+}
+
+impl DescriptorPool {
+    /// Takes no further set from the pool.
+    pub fn seal(mut self) -> SealedPool {
+        SealedPool { device: self.device.clone(), raw: std::mem::take(&mut self.raw) }
+    }
+}
+
+impl Drop for SealedPool {
+    fn drop(&mut self) {
+        self.device.retire(Retired::DescriptorPool(self.raw));
     }
 }
 

@@ -34,7 +34,7 @@ pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
 pub use commands::CommandPool;
 pub use compute_pipeline::{ComputePipeline, ComputePipelineDesc};
-pub use descriptors::{Binding, Descriptor, DescriptorPool, SetLayout};
+pub use descriptors::{Binding, Descriptor, DescriptorPool, SealedPool, SetLayout};
 pub use device::Device;
 pub use facts::all_facts;
 pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
