@@ -100,6 +100,25 @@ fn n02_disks_through_the_eye_and_around_it_agree() {
     assert_validation_is_silent(&headless);
 }
 
+/// The center of such a disk projects to infinity: what its fragments get must not depend on where.
+#[test]
+fn n02_a_center_in_the_plane_of_the_eye_agrees() {
+    let mut headless = shared();
+    for depth in [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-4, 1e-3] {
+        for turn in [0.1, 1.7, 3.3, 4.9] {
+            let around = DQuat::from_rotation_z(turn);
+            let mut builder = Builder::default();
+            let center = around * DVec3::new(0.4, 0.05, 0.0) + DVec3::Z * (3.0 - depth);
+            let normal = around * DVec3::new(1.0, 0.2, -0.3).normalize();
+            builder.disk(center, normal, 2.0, GRAY);
+            let mut hard = hard("center beside the eye", builder, of_size(128));
+            hard.camera.near = Some(1e-4);
+            assert_agrees(&mut headless, &hard, 1000);
+        }
+    }
+    assert_validation_is_silent(&headless);
+}
+
 #[test]
 fn n03_boxes_come_from_the_contour_not_from_the_center() {
     let mut headless = shared();
