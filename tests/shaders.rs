@@ -226,3 +226,55 @@ fn a_host_struct_that_differs_does_not_compile_and_the_member_is_named() {
         assert!(!compiles && said.contains(message), "{members}: {said}");
     }
 }
+
+/// The constants that a shader's pipelines may specialize (SPIR-V 1.6: opcode 71, decoration 1).
+fn specialization_ids(spirv: &[u32]) -> Vec<u32> {
+    let mut ids = Vec::new();
+    let mut rest = &spirv[5..];
+    while let Some(first) = rest.first() {
+        let (instruction, next) = rest.split_at((first >> 16) as usize);
+        if let [first, _, 1, id] = instruction
+            && first & 0xffff == 71
+        {
+            ids.push(*id);
+        }
+        rest = next;
+    }
+    ids
+}
+
+#[test]
+fn shaders_can_be_falsified_in_tests_and_nowhere_else() {
+    const LEVER: u32 = 31;
+    let here = |shader: &&&shaders::Shader| specialization_ids(shader.spirv).contains(&LEVER);
+    assert!(shaders::ALL.iter().filter(here).count() > 5, "tests are built without the lever");
+
+    // As every other build makes them: without the macro.
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let shipped = build(&root.join("glsl"), &[], &[]).unwrap();
+    let mut variants = 0;
+    for table in shipped.split("spirv: &[").skip(1) {
+        let words = table.split(']').next().unwrap().split(',');
+        let words: Vec<u32> =
+            words.map(|word| u32::from_str_radix(word.strip_prefix("0x").unwrap(), 16).unwrap()).collect();
+        let ids = specialization_ids(&words);
+        assert!(!ids.contains(&LEVER), "{ids:?}");
+        variants += ids.len();
+    }
+    assert!(variants > 0, "the search finds nothing");
+
+    // And no other build has the feature that defines the macro.
+    let tree = |edges: &[&str]| {
+        let output = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()))
+            .args(["tree", "--offline", "--depth", "0", "--format", "{f}"])
+            .args(edges)
+            .current_dir(root)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    assert!(tree(&[]).contains("test-formulas"));
+    let shipped = tree(&["--edges", "no-dev"]);
+    assert!(shipped.contains("default") && !shipped.contains("test-formulas"), "{shipped}");
+}

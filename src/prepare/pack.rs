@@ -30,6 +30,10 @@ pub struct Packed {
     pub defects: DefectCounts,
 }
 
+/// The length to which shorter tangent vectors are brought, local space: 2⁻⁹⁰. Devices may flush denormal numbers to
+/// zero, and a vector that is zero has no direction for the normal. Nothing so short is seen as more than a point.
+const SHORTEST_TANGENT: f64 = 1.0 / (1_u128 << 90) as f64;
+
 /// Bytes of a splat's shape.
 pub fn shape_bytes(ellipses: bool) -> usize {
     if ellipses { 48 } else { 32 }
@@ -67,8 +71,11 @@ pub fn pack(splats: &Splats, range: Range<usize>, rebase: &Rebase) -> Packed {
                 packed.shapes.push(normals[i].as_dvec3().normalize().as_vec3().extend(0.0).into());
             }
             Shapes::Ellipses { s, t } => {
-                let local =
-                    |v: Vec3| -> [f32; 4] { (v.as_dvec3() * rebase.scale).as_vec3().extend(0.0).into() };
+                let local = |v: Vec3| -> [f32; 4] {
+                    let v = v.as_dvec3() * rebase.scale;
+                    let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
+                    v.as_vec3().extend(0.0).into()
+                };
                 packed.shapes.extend([local(s[i]), local(t[i])]);
             }
         }
@@ -82,6 +89,26 @@ pub fn pack(splats: &Splats, range: Range<usize>, rebase: &Rebase) -> Packed {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tangents_that_a_device_would_flush_to_zero_keep_their_direction() {
+        let splats = Splats {
+            positions: vec![DVec3::ZERO; 2],
+            shapes: Shapes::Ellipses {
+                s: vec![Vec3::X, Vec3::new(3e-39, 4e-39, 0.0)],
+                t: vec![Vec3::Y * 1e-44, Vec3::Z * 1e-38],
+            },
+            colors: Colors::Uniform([1.0; 4]),
+        };
+        let packed = pack(&splats, 0..2, &Rebase { origin: DVec3::ZERO, scale: 1e-3 });
+        let unit = SHORTEST_TANGENT as f32;
+        let expected = [[1e-3, 0.0, 0.0], [0.0, unit, 0.0], [0.6 * unit, 0.8 * unit, 0.0], [0.0, 0.0, unit]];
+        for (i, expected) in [1, 2, 4, 5].into_iter().zip(expected) {
+            let got = Vec3::from_slice(&packed.shapes[i][..3]);
+            let expected = Vec3::from(expected);
+            assert!((got - expected).length() <= 1e-6 * expected.length(), "{got}, expected {expected}");
+        }
+    }
 
     #[test]
     fn defective_splats_leave_no_trace_and_normals_of_any_length_become_unit() {

@@ -15,7 +15,7 @@ pub struct Errors {
     pub compared: usize,
     /// Compared pixels covered in one and empty in the other.
     pub coverage: usize,
-    /// Σw, relative.
+    /// Σw, relative to itself or to [`SMALL_WEIGHT`], whichever is larger.
     pub weight: f64,
     /// Linear albedo, absolute.
     pub albedo: f64,
@@ -23,6 +23,8 @@ pub struct Errors {
     pub depth: f64,
     /// Degrees between normals.
     pub normal_deg: f64,
+    /// Shaded color, linear, absolute; only where the frame has it.
+    pub color: f64,
     /// NaN or infinite values in covered pixels.
     pub not_finite: usize,
 }
@@ -30,7 +32,8 @@ pub struct Errors {
 /// The tolerances of 32-bit accumulation. f32 carries 6e-8 a step; the setup's few dozen steps, magnified by the
 /// kernel's slope (4 at the rim) and by a splat's small axis in pixels, stay within 1e-3 of the weight; see the rim
 /// exemption for what is beyond. Albedo and normal are means of the splats', so that only differences of weights
-/// enter: 1/1024 and 0.1°. Depth is linear on the screen: 1e-4.
+/// enter: 1/1024 and 0.1°. Depth is linear on the screen: 1e-4. The shaded color is as good as the albedo, but for
+/// highlights, whose slope is at most 1.4 a radian, on the normals of thin splats: 1/1024 covers 0.04° of them.
 pub const F32: Errors = Errors {
     covered: 0,
     exempt_epsilon: 0,
@@ -41,8 +44,15 @@ pub const F32: Errors = Errors {
     albedo: 1.0 / 1024.0,
     depth: 1e-4,
     normal_deg: 0.1,
+    color: 1.0 / 1024.0,
     not_finite: 0,
 };
+
+/// e⁻², the default kernel's smallest weight. Kernels that fall to 2⁻²⁴ are steep at their end: d ln w / d r² is 116 for
+/// ψ_E(6, 1.5, 3) and 50 for a Gaussian of σ = 0.1, where the default has 2. The same rounding of r² is there a
+/// larger part of a weight, but of a weight that counts for nothing beside any other; in absolute terms ψ_E is as steep
+/// as the default, |dw / d r²| ≤ 2.7 against 2.
+const SMALL_WEIGHT: f64 = 0.135;
 
 /// How near to the ε-threshold a fragment exempts its pixel, relative.
 const EPSILON_MARGIN: f64 = 1e-4;
@@ -59,6 +69,10 @@ pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
         errors.covered += 1;
         let values = frame.albedo[i].iter().chain(&frame.normal[i]).chain([&frame.weight[i]]);
         errors.not_finite += values.filter(|value| !value.is_finite()).count();
+        errors.not_finite += usize::from(covered && !frame.depth[i].is_finite());
+        if let Some(color) = frame.linear.get(i) {
+            errors.not_finite += color.iter().filter(|value| !value.is_finite()).count();
+        }
         if expected.rim {
             errors.exempt_rim += 1;
             continue;
@@ -76,9 +90,15 @@ pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
             // A NaN is the worst of all.
             *worst = if value.is_nan() { f64::INFINITY } else { worst.max(value) };
         };
-        worst(&mut errors.weight, (f64::from(frame.weight[i]) / expected.weight - 1.0).abs());
+        let weight_scale = expected.weight.max(SMALL_WEIGHT);
+        worst(&mut errors.weight, (f64::from(frame.weight[i]) - expected.weight).abs() / weight_scale);
         for c in 0..3 {
             worst(&mut errors.albedo, (f64::from(frame.albedo[i][c]) - expected.albedo[c]).abs());
+        }
+        if let Some(color) = frame.linear.get(i) {
+            for (got, expected) in color.iter().zip(expected.color) {
+                worst(&mut errors.color, (f64::from(*got) - expected).abs());
+            }
         }
         worst(&mut errors.depth, (f64::from(frame.depth[i]) / expected.depth - 1.0).abs());
         worst(&mut errors.normal_deg, degrees_between(frame.normal[i], expected.normal));
@@ -93,6 +113,23 @@ fn degrees_between(a: [f32; 4], b: [f64; 3]) -> f64 {
 }
 
 impl Errors {
+    /// These limits times `factor`, for a reason that the caller states.
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            weight: factor * self.weight,
+            albedo: factor * self.albedo,
+            depth: factor * self.depth,
+            normal_deg: factor * self.normal_deg,
+            color: factor * self.color,
+            ..self
+        }
+    }
+
+    /// The same limits for a picture with fewer pixels to compare.
+    pub fn of_at_least(self, compared: usize) -> Self {
+        Self { compared, ..self }
+    }
+
     /// What exceeds the tolerances, in words; empty where nothing does.
     pub fn beyond(&self, limit: &Self) -> Vec<String> {
         let mut beyond = Vec::new();
@@ -105,6 +142,7 @@ impl Errors {
         check("albedo", self.albedo, limit.albedo);
         check("depth", self.depth, limit.depth);
         check("normal (degrees)", self.normal_deg, limit.normal_deg);
+        check("color", self.color, limit.color);
         check("pixels covered in one only", self.coverage as f64, limit.coverage as f64);
         check("values not finite", self.not_finite as f64, limit.not_finite as f64);
         check("compared pixels missing", limit.compared as f64, self.compared as f64);
@@ -116,7 +154,7 @@ impl Errors {
         let share = |part: usize| 100.0 * part as f64 / self.covered.max(1) as f64;
         format!(
             "{name:36} {:6} px, exempt {:5.2}% eps {:5.2}% rim | weight {:.1e} albedo {:.1e} depth {:.1e} \
-             normal {:.1e} deg, coverage {}",
+             normal {:.1e} deg color {:.1e}, coverage {}",
             self.compared,
             share(self.exempt_epsilon),
             share(self.exempt_rim),
@@ -124,6 +162,7 @@ impl Errors {
             self.albedo,
             self.depth,
             self.normal_deg,
+            self.color,
             self.coverage,
         )
     }

@@ -3,18 +3,25 @@
 
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod builder;
 pub mod compare;
 pub mod faults;
 pub mod host;
 pub mod scenes;
 pub mod watched;
 
-use std::sync::Once;
+use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
 
+use compare::Errors;
+use scenes::Hard;
 use surfel::{
-    renderer::{Headless, HeadlessOptions},
-    vk::{Validation, arm_validation_across_submits},
+    reference::{self, Picture},
+    renderer::{Frame, Headless, HeadlessOptions, Wanted},
+    vk::{Limits, Validation, arm_validation_across_submits},
 };
+
+/// The surface as data and the shaded picture in linear light.
+pub const ALL: Wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
 
 /// Makes every instance of this process validate across submits.
 pub fn arm() {
@@ -45,4 +52,61 @@ pub fn assert_validation_is_silent(headless: &Headless) {
     }
     let said = messages.all();
     assert!(said.is_empty(), "{} validation messages, the first: {:#?}", said.len(), said[0]);
+}
+
+/// One renderer for all tests of a program, one test at a time: its pipelines are made once.
+pub fn shared() -> MutexGuard<'static, Headless> {
+    static SHARED: OnceLock<Mutex<Headless>> = OnceLock::new();
+    // A test that failed leaves the renderer between two frames: it can go on.
+    SHARED.get_or_init(|| Mutex::new(headless())).lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Uploads and renders one frame, with all that can be read back.
+pub fn render(headless: &mut Headless, hard: &Hard) -> Frame {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    headless.render(&prepared, &hard.camera, &hard.settings, ALL).unwrap()
+}
+
+/// Renders on both sides, prints the row of errors.
+pub fn against_oracle(headless: &mut Headless, hard: &Hard) -> (Frame, Picture, Errors) {
+    let frame = render(headless, hard);
+    let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let errors = compare::compare(&frame, &oracle);
+    println!("{}", errors.row(hard.name));
+    (frame, oracle, errors)
+}
+
+/// Fails where a frame differs from the oracle by more than the tolerances of 32 bits.
+pub fn assert_agrees(headless: &mut Headless, hard: &Hard, at_least_px: usize) -> (Frame, Picture) {
+    let (frame, oracle, errors) = against_oracle(headless, hard);
+    let beyond = errors.beyond(&compare::F32.of_at_least(at_least_px));
+    assert!(beyond.is_empty(), "{}: {beyond:#?}", hard.name);
+    (frame, oracle)
+}
+
+/// Runs `f` with limits lower than the device's.
+pub fn with_limits<T>(
+    headless: &mut Headless,
+    lower: impl FnOnce(&mut Limits),
+    f: impl FnOnce(&mut Headless) -> T,
+) -> T {
+    let own = headless.device().facts().limits;
+    let mut limits = own;
+    lower(&mut limits);
+    headless.renderer.lower_limits(&limits);
+    let result = f(headless);
+    headless.renderer.lower_limits(&own);
+    result
+}
+
+/// Whether two frames are the same bit by bit.
+pub fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
+    let bits = |frame: &Frame| -> Vec<u32> {
+        let vectors = frame.albedo.iter().chain(&frame.normal).chain(&frame.linear).flatten();
+        vectors.chain(&frame.weight).chain(&frame.depth).map(|value| value.to_bits()).collect()
+    };
+    let (a, b) = (bits(a), bits(b));
+    assert_eq!(a.len(), b.len(), "{what}");
+    let different = a.iter().zip(&b).filter(|(a, b)| a != b).count();
+    assert_eq!(different, 0, "{what}: {different} of {} values differ", a.len());
 }

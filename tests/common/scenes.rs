@@ -1,103 +1,20 @@
 //! Scenes that are hard in one known way each, with the camera that shows it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
-use glam::{DQuat, DVec3, Vec3};
-use surfel::scene::{Camera, Colors, Filter, Object, Scene, Settings, Shapes, Splats};
+use glam::{DQuat, DVec3};
+use surfel::scene::{Camera, Filter, Object, Scene, Settings};
+
+use super::builder::{Builder, Random, camera, settings, unfiltered};
 
 /// A scene, its camera, and how it is to be rendered.
+#[derive(Clone)]
 pub struct Hard {
     /// What is hard about it.
     pub name: &'static str,
     pub scene: Scene,
     pub camera: Camera,
     pub settings: Settings,
-}
-
-/// A reproducible sequence (SplitMix64, Steele, Lea, Flood 2014): no test depends on a library's generator.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * self.unit()
-    }
-
-    pub fn direction(&mut self) -> DVec3 {
-        let z = self.between(-1.0, 1.0);
-        let (sin, cos) = self.between(0.0, TAU).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * cos, r * sin, z)
-    }
-
-    pub fn color(&mut self) -> [f32; 4] {
-        [self.unit() as f32, self.unit() as f32, self.unit() as f32, 1.0]
-    }
-}
-
-/// Splats one by one.
-#[derive(Default)]
-pub struct Builder {
-    positions: Vec<DVec3>,
-    s: Vec<Vec3>,
-    t: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    radii: Vec<f32>,
-    colors: Vec<[f32; 4]>,
-}
-
-impl Builder {
-    pub fn disk(&mut self, position: DVec3, normal: DVec3, radius: f64, color: [f32; 4]) {
-        self.positions.push(position);
-        self.normals.push(normal.as_vec3());
-        self.radii.push(radius as f32);
-        self.colors.push(color);
-    }
-
-    pub fn ellipse(&mut self, position: DVec3, s: DVec3, t: DVec3, color: [f32; 4]) {
-        self.positions.push(position);
-        self.s.push(s.as_vec3());
-        self.t.push(t.as_vec3());
-        self.colors.push(color);
-    }
-
-    pub fn object(self, closed: bool) -> Object {
-        let shapes = match self.s.is_empty() {
-            true => Shapes::Disks { normals: self.normals, radii: self.radii },
-            false => Shapes::Ellipses { s: self.s, t: self.t },
-        };
-        let splats = Splats { positions: self.positions, shapes, colors: Colors::PerSplat(self.colors) };
-        Object { name: "test".to_owned(), splats, closed }
-    }
-
-    pub fn scene(self, closed: bool) -> Scene {
-        Scene { objects: vec![self.object(closed)] }
-    }
-}
-
-pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
-    Camera {
-        eye: eye.into(),
-        target: target.into(),
-        up: DVec3::Y,
-        fov_y_rad: 45.0_f64.to_radians(),
-        near: None,
-    }
-}
-
-pub fn settings() -> Settings {
-    Settings { size_px: [256, 256], accumulate: surfel::scene::Accumulate::F32, ..Settings::default() }
-}
-
-fn unfiltered() -> Settings {
-    Settings { filter: Filter::None, ..settings() }
 }
 
 /// A closed sphere of `count` disks around `center` (golden-angle spiral), colored by position.
@@ -126,6 +43,7 @@ pub fn all() -> Vec<Hard> {
         random_ellipses(Filter::None),
         edge_on(),
         ground(),
+        cut_by_the_near_plane(),
         larger_than_the_screen(),
         centers_off_screen(),
         subpixel_unfiltered(),
@@ -136,7 +54,7 @@ pub fn all() -> Vec<Hard> {
     ]
 }
 
-fn sphere_of_disks() -> Hard {
+pub fn sphere_of_disks() -> Hard {
     let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)] };
     Hard { name: "sphere of disks", scene, camera: camera([0.0, 0.0, 3.2], [0.0; 3]), settings: settings() }
 }
@@ -150,7 +68,7 @@ fn far_from_the_origin() -> Hard {
     Hard { name: "sphere far from the origin", scene, camera, settings: settings() }
 }
 
-fn random_ellipses(filter: Filter) -> Hard {
+pub fn random_ellipses(filter: Filter) -> Hard {
     let mut random = Random(1);
     let mut builder = Builder::default();
     for _ in 0..600 {
@@ -180,7 +98,7 @@ fn random_ellipses(filter: Filter) -> Hard {
 }
 
 /// Disks seen within 1° of grazing.
-fn edge_on() -> Hard {
+pub fn edge_on() -> Hard {
     let mut random = Random(2);
     let mut builder = Builder::default();
     let eye = DVec3::new(0.0, 0.0, 3.0);
@@ -204,7 +122,7 @@ fn edge_on() -> Hard {
 }
 
 /// A disk that passes under and behind the eye, and a second that cuts through the eye's own height further on.
-fn ground() -> Hard {
+pub fn ground() -> Hard {
     let mut builder = Builder::default();
     builder.disk(DVec3::new(0.0, 0.0, -2.0), DVec3::Y, 40.0, [0.2, 0.6, 0.3, 1.0]);
     builder.disk(
@@ -263,6 +181,22 @@ fn centers_off_screen() -> Hard {
     }
 }
 
+/// Disks that the near plane cuts, within the view: some face it, some are nearly edge-on to it, most centers are
+/// before it. The plane is far out, so that the cuts' places matter.
+pub fn cut_by_the_near_plane() -> Hard {
+    let mut builder = Builder::default();
+    let mut random = Random(8);
+    for _ in 0..40 {
+        let position =
+            DVec3::new(random.between(-0.4, 0.4), random.between(-0.4, 0.4), random.between(1.8, 2.3));
+        let color = random.color();
+        builder.disk(position.as_vec3().as_dvec3(), random.direction(), random.between(0.1, 0.6), color);
+    }
+    let mut camera = camera([0.0, 0.0, 3.0], [0.0; 3]);
+    camera.near = Some(1.0);
+    Hard { name: "disks cut by the near plane", scene: builder.scene(false), camera, settings: unfiltered() }
+}
+
 /// Disks of 0.25 to 0.7 pixels: a pixel sees one only if its center is hit.
 fn subpixel_unfiltered() -> Hard {
     Hard { settings: unfiltered(), ..subpixel("subpixel disks, unfiltered", 0.25, 0.7) }
@@ -278,7 +212,8 @@ fn subpixel(name: &'static str, from_px: f64, to_px: f64) -> Hard {
     let mut random = Random(5);
     let pixel = (45.0_f64 / 2.0).to_radians().tan() * 3.0 / 128.0;
     for _ in 0..8000 {
-        let position = DVec3::new(random.between(-1.2, 1.2), random.between(-1.2, 1.2), 0.0);
+        let position =
+            DVec3::new(random.between(-1.2, 1.2), random.between(-1.2, 1.2), random.between(-0.2, 0.2));
         let normal = (DVec3::Z + 0.7 * random.direction()).normalize();
         let radius = pixel * from_px * (to_px / from_px).powf(random.unit());
         let color = random.color();
@@ -292,7 +227,7 @@ fn subpixel(name: &'static str, from_px: f64, to_px: f64) -> Hard {
     }
 }
 
-fn coincident() -> Hard {
+pub fn coincident() -> Hard {
     let mut builder = Builder::default();
     let mut random = Random(6);
     for _ in 0..3000 {
@@ -307,7 +242,7 @@ fn coincident() -> Hard {
     }
 }
 
-/// Every defect among good disks.
+/// Every defect among good disks and good ellipses.
 fn degenerate() -> Hard {
     let mut builder = Builder::default();
     let mut random = Random(7);
@@ -326,9 +261,25 @@ fn degenerate() -> Hard {
             _ => builder.disk(p, n, 0.1, color),
         }
     }
+    let mut ellipses = Builder::default();
+    for i in 0..200 {
+        let p = DVec3::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), random.between(-0.2, 0.2));
+        let p = p.as_vec3().as_dvec3();
+        let s = 0.1 * random.direction();
+        let t = 0.5 * s.cross(random.direction());
+        let color = random.color();
+        match i % 8 {
+            0 => ellipses.ellipse(p, s, 2.0 * s, color),
+            1 => ellipses.ellipse(p, s, DVec3::ZERO, color),
+            2 => ellipses.ellipse(p, s, DVec3::new(0.0, nan, 0.1), color),
+            3 => ellipses.ellipse(p, DVec3::new(0.0, f64::INFINITY, 0.1), t, color),
+            4 => ellipses.ellipse(p, s, t, [0.5, f32::NAN, 0.5, 1.0]),
+            _ => ellipses.ellipse(p, s, t, color),
+        }
+    }
     Hard {
-        name: "degenerate disks among good ones",
-        scene: builder.scene(false),
+        name: "degenerate splats among good ones",
+        scene: Scene { objects: vec![builder.object(false), ellipses.object(false)] },
         camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
         settings: settings(),
     }

@@ -1,0 +1,92 @@
+//! What scenes are made of: random numbers that repeat, splats one by one, camera and settings.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec3, Vec3};
+use surfel::scene::{Accumulate, Camera, Colors, Filter, Object, Scene, Settings, Shapes, Splats};
+
+/// A reproducible sequence (SplitMix64, Steele, Lea, Flood 2014): no test depends on a library's generator.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * self.unit()
+    }
+
+    pub fn direction(&mut self) -> DVec3 {
+        let z = self.between(-1.0, 1.0);
+        let (sin, cos) = self.between(0.0, TAU).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * cos, r * sin, z)
+    }
+
+    pub fn color(&mut self) -> [f32; 4] {
+        [self.unit() as f32, self.unit() as f32, self.unit() as f32, 1.0]
+    }
+}
+
+/// Splats one by one.
+#[derive(Default)]
+pub struct Builder {
+    positions: Vec<DVec3>,
+    s: Vec<Vec3>,
+    t: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    radii: Vec<f32>,
+    colors: Vec<[f32; 4]>,
+}
+
+impl Builder {
+    pub fn disk(&mut self, position: DVec3, normal: DVec3, radius: f64, color: [f32; 4]) {
+        self.positions.push(position);
+        self.normals.push(normal.as_vec3());
+        self.radii.push(radius as f32);
+        self.colors.push(color);
+    }
+
+    pub fn ellipse(&mut self, position: DVec3, s: DVec3, t: DVec3, color: [f32; 4]) {
+        self.positions.push(position);
+        self.s.push(s.as_vec3());
+        self.t.push(t.as_vec3());
+        self.colors.push(color);
+    }
+
+    pub fn object(self, closed: bool) -> Object {
+        let shapes = match self.s.is_empty() {
+            true => Shapes::Disks { normals: self.normals, radii: self.radii },
+            false => Shapes::Ellipses { s: self.s, t: self.t },
+        };
+        let splats = Splats { positions: self.positions, shapes, colors: Colors::PerSplat(self.colors) };
+        Object { name: "test".to_owned(), splats, closed }
+    }
+
+    pub fn scene(self, closed: bool) -> Scene {
+        Scene { objects: vec![self.object(closed)] }
+    }
+}
+
+pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
+    Camera {
+        eye: eye.into(),
+        target: target.into(),
+        up: DVec3::Y,
+        fov_y_rad: 45.0_f64.to_radians(),
+        near: None,
+    }
+}
+
+pub fn settings() -> Settings {
+    Settings { size_px: [256, 256], accumulate: Accumulate::F32, ..Settings::default() }
+}
+
+pub fn unfiltered() -> Settings {
+    Settings { filter: Filter::None, ..settings() }
+}

@@ -1,0 +1,72 @@
+//! Each formula of the GPU path, made wrong by 1%, must be seen by the comparison with the oracle: a comparison that
+//! lets one pass tests nothing of it. Levers: `glsl/inc/perturb.glsl`.
+
+mod common;
+
+use common::{
+    assert_validation_is_silent,
+    compare::{F32, compare},
+    headless, render,
+    scenes::{self, Hard},
+    with_limits,
+};
+use surfel::{
+    passes::Formula,
+    reference::{self, Picture},
+    scene::{Filter, Kernel, Settings},
+};
+
+/// The scenes of the comparison, those that see most formulas first.
+fn scenes() -> Vec<(Hard, Picture)> {
+    let sphere = scenes::sphere_of_disks();
+    let psi_e = Settings { kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }, ..sphere.settings.clone() };
+    let mut all = vec![
+        sphere.clone(),
+        Hard { name: "sphere of disks, psi_e", settings: psi_e, ..sphere },
+        scenes::random_ellipses(Filter::Adjust),
+        scenes::random_ellipses(Filter::None),
+        scenes::cut_by_the_near_plane(),
+    ];
+    let seen: Vec<_> = all.iter().map(|hard| hard.name).collect();
+    all.extend(scenes::all().into_iter().filter(|hard| !seen.contains(&hard.name)));
+    let oracle =
+        |hard: &Hard| reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    all.into_iter().map(|hard| (oracle(&hard), hard)).map(|(oracle, hard)| (hard, oracle)).collect()
+}
+
+#[test]
+fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
+    let mut headless = headless();
+    let scenes = scenes();
+    for (hard, oracle) in &scenes {
+        let errors = compare(&render(&mut headless, hard), oracle);
+        assert!(errors.beyond(&F32).is_empty(), "{} differs already: {}", hard.name, errors.row(hard.name));
+    }
+    // As this device draws them, and all as quads, which have formulas of their own in the same places.
+    let own_px = headless.device().facts().limits.point_size_range[1];
+    let mut unseen = Vec::new();
+    for (way, cap_px) in [("points", own_px), ("quads", 0.0)] {
+        for formula in Formula::ALL {
+            if way == "quads" && matches!(formula, Formula::PointCenter | Formula::PointSize) {
+                continue;
+            }
+            headless.renderer.shaders.perturbed = Some(formula);
+            let caught = scenes.iter().find_map(|(hard, oracle)| {
+                let frame = with_limits(
+                    &mut headless,
+                    |limits| limits.point_size_range[1] = cap_px,
+                    |headless| render(headless, hard),
+                );
+                let beyond = compare(&frame, oracle).beyond(&F32);
+                (!beyond.is_empty()).then(|| format!("{}: {}", hard.name, beyond.join(", ")))
+            });
+            let name = format!("{formula:?}");
+            println!("{way} {name:20} {}", caught.as_deref().unwrap_or("SEEN BY NOTHING"));
+            if caught.is_none() {
+                unseen.push((way, formula));
+            }
+        }
+    }
+    assert_validation_is_silent(&headless);
+    assert!(unseen.is_empty(), "{unseen:?}");
+}
