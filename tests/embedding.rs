@@ -6,7 +6,7 @@ mod in_flight;
 #[path = "embedding/no_waits.rs"]
 mod no_waits;
 
-use common::{headless, host::Host, scenes};
+use common::{builder, headless, host::Host, scenes};
 use glam::DVec3;
 use in_flight::InFlight;
 use no_waits::{SUBMISSIONS_AND_WAITS, without_submission_and_waits};
@@ -26,11 +26,11 @@ fn scene() -> Scene {
 /// The scene from another side for each frame.
 fn camera(frame: usize) -> Camera {
     let angle = 0.4 * frame as f64;
-    scenes::camera([3.2 * angle.sin(), 0.3, 3.2 * angle.cos()], [0.0; 3])
+    builder::camera([3.2 * angle.sin(), 0.3, 3.2 * angle.cos()], [0.0; 3])
 }
 
 fn settings() -> Settings {
-    Settings { size_px: [200, 150], ..scenes::settings() }
+    Settings { size_px: [200, 150], ..builder::settings() }
 }
 
 /// The same frame from our own host.

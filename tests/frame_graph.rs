@@ -9,7 +9,7 @@ mod common;
 
 use std::path::PathBuf;
 
-use common::{assert_validation_is_silent, headless, scenes};
+use common::{assert_validation_is_silent, builder, headless, scenes};
 use glam::DVec3;
 use surfel::{
     graph::{Plan, execute::Profile},
@@ -23,18 +23,18 @@ fn sphere(count: usize) -> Scene {
 
 /// A sphere before a disk larger than any point.
 fn with_a_large_disk() -> Scene {
-    let mut builder = scenes::Builder::default();
+    let mut builder = builder::Builder::default();
     builder.disk(DVec3::new(0.0, 0.0, -1.0), DVec3::Z, 300.0, [0.5, 0.5, 0.5, 1.0]);
     Scene { objects: vec![builder.object(false), scenes::sphere(500, DVec3::ZERO)] }
 }
 
 fn camera() -> surfel::scene::Camera {
-    scenes::camera([0.0, 0.0, 3.2], [0.0; 3])
+    builder::camera([0.0, 0.0, 3.2], [0.0; 3])
 }
 
 fn plan(headless: &mut Headless, scene: &Scene, wanted: Wanted) -> Plan {
     let prepared = headless.prepare(scene, &|_, _| {}).unwrap();
-    headless.render(&prepared, &camera(), &scenes::settings(), wanted).unwrap().plan
+    headless.render(&prepared, &camera(), &builder::settings(), wanted).unwrap().plan
 }
 
 fn names(plan: &Plan) -> Vec<&str> {
@@ -126,7 +126,7 @@ fn the_passes_times_add_up_to_the_frame() {
         return;
     }
     let scene = headless.prepare(&sphere(50_000), &|_, _| {}).unwrap();
-    let settings = Settings { size_px: [512, 512], ..scenes::settings() };
+    let settings = Settings { size_px: [512, 512], ..builder::settings() };
     let wanted = Wanted { profile: Some(Profile::Times), ..Wanted::default() };
     let (mut sum_of_span, mut span_of_wall, mut wall_ms) = (Vec::new(), Vec::new(), Vec::new());
     for frame in 0..24 {
@@ -160,7 +160,7 @@ fn fragments_are_counted_in_passes_that_draw() {
         return;
     }
     let scene = headless.prepare(&with_a_large_disk(), &|_, _| {}).unwrap();
-    let settings = scenes::settings();
+    let settings = builder::settings();
     let wanted = Wanted { picture: true, profile: Some(Profile::Counts), ..Wanted::default() };
     let profile = headless.render(&scene, &camera(), &settings, wanted).unwrap().profile.unwrap();
     let pixels = settings.size_px.map(u64::from).iter().product::<u64>();

@@ -8,9 +8,9 @@ mod everything;
 
 use ash::vk;
 use common::{
+    builder::{self, Random},
     faults,
     host::Host,
-    scenes::{self, Random},
     watched::Watched,
 };
 use everything::{FORMAT, SIZE_PX, everything, pixels, scene, settings};
@@ -152,7 +152,7 @@ fn set_up_and_record(device: &surfel::vk::Device) -> Result<(), Error> {
     let target = HeadlessTarget::new(device, FORMAT, SIZE_PX)?;
     let picture = pixels(device, "picture", 4)?;
     let readbacks = Readbacks { target: Some(picture.raw()), surface: None };
-    let camera = scenes::camera([0.0, 0.0, 3.2], [0.0; 3]);
+    let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
     let (target, settings) = (target.target(), settings());
     // SAFETY: recording; never submitted.
     unsafe {

@@ -38,12 +38,15 @@ impl Camera {
     pub const DEFAULT_FOV_Y_RAD: f64 = std::f64::consts::FRAC_PI_4;
 
     /// The camera that shows all of a ball, looking along −z with +y up: it fits the smaller of the two angles with 5%
-    /// margin. `fov_y_rad` is the vertical one, between 0 and π. A ball without extent is taken as a unit ball.
+    /// margin. `fov_y_rad` is the vertical one, between 0 and π. A ball without extent (in f64, at its
+    /// place) is taken as a unit ball.
     pub fn fit(ball: &Ball, size_px: [u32; 2], fov_y_rad: f64) -> Self {
         let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
         let half_y = 0.5 * fov_y_rad;
         let half = half_y.min((half_y.tan() * aspect).atan());
-        let radius = if ball.radius > 0.0 { ball.radius } else { 1.0 };
+        // Below a few steps of f64 at its place a ball can't be told from its center, nor the eye from the target.
+        let smallest = 16.0 * f64::EPSILON * ball.center.abs().max_element();
+        let radius = if ball.radius > smallest { ball.radius } else { 1.0 };
         let eye = ball.center + DVec3::Z * (FIT_MARGIN * radius / half.sin());
         Self { eye, target: ball.center, up: DVec3::Y, fov_y_rad, near: None }
     }

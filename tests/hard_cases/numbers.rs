@@ -32,7 +32,7 @@ fn n10_one_point_and_points_at_one_place_are_fitted_and_drawn() {
             let mut builder = Builder::default();
             (0..count).for_each(|_| builder.disk(place, DVec3::Z, radius, GRAY));
             let scene = builder.scene(false);
-            let camera = Camera::fit(&scene.bounds().unwrap(), [64, 64]);
+            let camera = Camera::fit(&scene.ball().unwrap(), [64, 64], Camera::DEFAULT_FOV_Y_RAD);
             let hard = Hard { name: "one place", scene, camera, settings: of_size(64) };
             let (frame, _) = assert_agrees(&mut headless, &hard, 1);
             assert_finite(&frame, "one place");

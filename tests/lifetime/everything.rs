@@ -18,18 +18,18 @@ use surfel::{
     },
 };
 
-use crate::common::{scenes, watched::Watched};
+use crate::common::{builder, scenes, watched::Watched};
 
 pub const SIZE_PX: [u32; 2] = [96, 64];
 pub const FORMAT: vk::Format = vk::Format::R8G8B8A8_SRGB;
 
 pub fn settings() -> Settings {
-    Settings { size_px: SIZE_PX, ..scenes::settings() }
+    Settings { size_px: SIZE_PX, ..builder::settings() }
 }
 
 /// A scene with large splats: every pass and every buffer that there is.
 pub fn scene() -> surfel::scene::Scene {
-    let mut builder = scenes::Builder::default();
+    let mut builder = builder::Builder::default();
     builder.disk(DVec3::new(0.0, 0.0, -1.0), DVec3::Z, 300.0, [0.5; 4]);
     let mut objects = vec![builder.object(false)];
     objects.push(scenes::sphere(500, DVec3::ZERO));
@@ -127,7 +127,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     unsafe {
         let buffer = commands.begin().unwrap();
         staging.record(buffer);
-        let camera = scenes::camera([0.0, 0.0, 3.2], [0.0; 3]);
+        let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
         let (target, settings) = (target.target(), settings());
         let plan = renderer
             .record(buffer, &mut slot, &prepared, &camera, &settings, &target, readbacks, Some(profile))
