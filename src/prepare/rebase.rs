@@ -9,7 +9,9 @@ use crate::scene::{Camera, Scene};
 pub struct Rebase {
     /// A world point near the scene's middle.
     pub origin: DVec3,
-    /// A power of two, such that the scene's radius is 0.5 to 1 in local space.
+    /// A power of two, such that the scene's radius is 0.5 to 1 in local space; less for a scene that is smaller than
+    /// 2⁻⁴⁰ of its distance from the world's origin. Products of lengths stay within f32 while the eye is less than about
+    /// 1e11 of the scene's radii away.
     pub scale: f64,
 }
 
@@ -21,7 +23,10 @@ impl Rebase {
     /// The local space of a scene; the world itself for one without splats or extent.
     pub fn of(scene: &Scene) -> Self {
         let Some(bounds) = scene.bounds() else { return Self { origin: DVec3::ZERO, scale: 1.0 } };
-        let radius = bounds.radius();
+        // Splats closer together than that are hardly told apart by f64 at their place. Without this bound a camera that
+        // was fitted to what it can see would be beyond f32's squares away, in units of the scene's radius.
+        let smallest = bounds.center().abs().max_element() * 2.0_f64.powi(-40);
+        let radius = bounds.radius().max(smallest);
         let exponent = if radius > 0.0 { radius.log2().ceil() } else { 0.0 };
         // Within f64's own exponents, also for the reciprocal.
         let unit = exponent.clamp(-1000.0, 1000.0).exp2();
