@@ -8,7 +8,7 @@ void main()
 {
     vec3 uvw = covered_uvw();
     gl_FragDepth = uvw.z;
-    float weight = kernel_weight(dot(uvw.xy, uvw.xy) / (uvw.z * uvw.z));
+    float weight = kernel_weight(dot(uvw.xy, uvw.xy));
     color_sum = weight * vec4(extra(), 1.0);
     normal_sum = weight * vec4(splat_normal, 0.0);
 }

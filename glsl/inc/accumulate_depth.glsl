@@ -11,7 +11,7 @@ void main()
 {
     vec3 uvw = covered_uvw();
     gl_FragDepth = uvw.z;
-    float weight = kernel_weight(dot(uvw.xy, uvw.xy) / (uvw.z * uvw.z));
+    float weight = kernel_weight(dot(uvw.xy, uvw.xy));
     float w_visible = texelFetch(visible_depth, ivec2(gl_FragCoord.xy), 0).r;
     color_sum = weight * vec4(extra(), 1.0);
     normal_sum = weight * vec4(splat_normal, FORMULA(FORMULA_DEPTH_SUM, w_visible / uvw.z));

@@ -1,24 +1,26 @@
 // What every splat pass is told of the frame, as push constants. The host's mirror is `FrameConstants` in
 // src/passes/constants.rs; the build compares the offsets.
 //
-// Local space: the world, moved by the scene's f64 origin and scaled by a power of two so that the scene's radius is
-// about 1. View space: eye at the origin, x right, y down, z forward, in the same unit. Image plane: z = 1.
+// Local space: the world, moved by the chunk's f64 origin and scaled by a power of two so that most splats are within
+// about 1. View space: eye at the origin, x right, y down, z forward, in a unit of which the eye's distance is about 1
+// (another power of two for each chunk; near / z and pixels don't depend on it). Image plane: z = 1.
 
 struct FrameConstants {
-    vec4 view_from_local_x; // row of the rotation, then the translation
+    vec4 view_from_local_x; // row of the rotation, then the translation, view unit
     vec4 view_from_local_y;
     vec4 view_from_local_z;
     vec2 size_px;
     float focal_px;         // image-plane unit in pixels
-    float near;             // depth of the near plane, local unit
+    float near;             // depth of the near plane, view unit
     float filter_radius;    // h = sqrt(2) pixels, image-plane unit
     float epsilon_radii;    // epsilon as a multiple of the splat's larger radius ...
-    float epsilon_length;   // ... plus a length, local unit; one of the two is 0
+    float epsilon_length;   // ... plus a length, view unit; one of the two is 0
     float coverage_r2;      // the largest u^2 + v^2 that covers; 1 but for kernels that fall below 2^-24 earlier
     float point_cap_px;     // the largest point of the device
     float point_step_px;    // the step of point sizes
     uint splat_count;       // of this chunk
     uint uniform_color;     // 1: all splats of this chunk have color 0
+    float view_from_local_scale; // what local lengths are multiplied by: a power of two
 };
 
 layout(push_constant, std430) uniform Frame { FrameConstants frame; };

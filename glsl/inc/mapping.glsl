@@ -26,6 +26,9 @@ struct Mapping {
 // |det| / (|s x t| |p|) below which the sign of det is rounding noise: the splat is seen edge-on and has no area.
 const float EDGE_ON = 2.4e-7; // 4 * 2^-24
 
+// A shift of less than a few steps of f32 would do nothing: seen from very far, a surface would hide itself in part.
+const float LEAST_SHIFT = 1e-6;
+
 // False where nothing of the splat can be seen.
 bool map_splat(uint index, out Mapping m)
 {
@@ -64,7 +67,8 @@ bool map_splat(uint index, out Mapping m)
     m.scale = scale;
 
     float epsilon = frame.epsilon_radii * splat.radius + frame.epsilon_length;
-    float shift = epsilon > 0.0 ? 1.0 + FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)) : 1.0;
+    float relative = epsilon > 0.0 ? max(FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)), LEAST_SHIFT) : 0.0;
+    float shift = 1.0 + relative;
     m.inverse_shift = 1.0 / shift;
     return true;
 }

@@ -5,17 +5,18 @@
 #define VARYING in
 #include "inc/point_varyings.glsl"
 
-// (uw, vw, w) at this fragment; discards it if it is not covered.
+// (u, v, w) at this fragment; discards it if it is not covered.
 vec3 covered_uvw()
 {
     vec2 d = gl_FragCoord.xy - x0_w0_extra.xy;
     precise vec3 uvw = per_x_extra.xyz * d.x + per_y_extra.xyz * d.y;
     precise float w = uvw.z + x0_w0_extra.z;
-    // So written that a NaN fails too.
-    if (!(dot(uvw.xy, uvw.xy) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2) * w * w)) {
+    // Divided first: the square of a small w would underflow. So written that a NaN fails too.
+    vec2 uv = uvw.xy / w;
+    if (!(dot(uv, uv) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2))) {
         discard;
     }
-    return vec3(uvw.xy, w);
+    return vec3(uv, w);
 }
 
 vec3 extra()

@@ -4,17 +4,19 @@
 #define VARYING in
 #include "inc/quad_varyings.glsl"
 
-// (uw, vw, w) at this fragment; discards it if it is not covered or lies in front of the near plane.
+// (u, v, w) at this fragment; discards it if it is not covered or lies in front of the near plane.
 vec3 covered_uvw()
 {
     vec2 d = gl_FragCoord.xy - x0_w_extra.xy;
     precise vec3 uvw = vec3(uv, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
-    bool inside = dot(uvw.xy, uvw.xy) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2) * uvw.z * uvw.z;
+    // Divided first: the square of a small w would underflow.
+    vec2 own_uv = uvw.xy / uvw.z;
+    bool inside = dot(own_uv, own_uv) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2);
     // w = near / z: above 1 in front of the near plane, not above 0 behind the eye. A NaN fails too.
     if (!(inside && uvw.z > 0.0 && uvw.z <= FORMULA(FORMULA_NEAR_CUT, 1.0))) {
         discard;
     }
-    return uvw;
+    return vec3(own_uv, uvw.z);
 }
 
 vec3 extra()

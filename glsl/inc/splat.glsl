@@ -37,22 +37,23 @@ vec3 safe_normalize(vec3 v)
 Splat load_splat(uint index)
 {
     precise Splat splat;
+    float scale = frame.view_from_local_scale;
     vec3 translation = vec3(frame.view_from_local_x.w, frame.view_from_local_y.w, frame.view_from_local_z.w);
     if (ELLIPSES) {
         vec4 position_radius = shapes[3 * index];
-        splat.p = FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
-        splat.s = FORMULA(FORMULA_TANGENT_FRAME, rotated(shapes[3 * index + 1].xyz));
-        splat.t = rotated(shapes[3 * index + 2].xyz);
+        splat.p = scale * FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
+        splat.s = scale * FORMULA(FORMULA_TANGENT_FRAME, rotated(shapes[3 * index + 1].xyz));
+        splat.t = scale * rotated(shapes[3 * index + 2].xyz);
         splat.normal = safe_normalize(cross(safe_normalize(splat.s), safe_normalize(splat.t)));
-        splat.radius = position_radius.w;
+        splat.radius = scale * position_radius.w;
     } else {
         vec4 position_radius = shapes[2 * index];
         vec3 n = rotated(shapes[2 * index + 1].xyz);
         float side = n.z >= 0.0 ? 1.0 : -1.0;
         precise float a = -1.0 / (side + n.z);
         precise float b = n.x * n.y * a;
-        splat.p = FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
-        splat.radius = position_radius.w;
+        splat.p = scale * FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
+        splat.radius = scale * position_radius.w;
         splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
         splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
         splat.normal = n;

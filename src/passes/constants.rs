@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct FrameConstants {
-    /// Row of the rotation from local to view space, then the translation.
+    /// Row of the rotation from local to view space, then the translation, view unit.
     pub view_from_local_x: [f32; 4],
     /// As above.
     pub view_from_local_y: [f32; 4],
@@ -16,13 +16,13 @@ pub struct FrameConstants {
     pub size_px: [f32; 2],
     /// An image-plane unit in pixels.
     pub focal_px: f32,
-    /// Depth of the near plane, local unit.
+    /// Depth of the near plane, view unit.
     pub near: f32,
     /// √2 pixels, image-plane unit.
     pub filter_radius: f32,
     /// ε as a multiple of the splat's larger radius.
     pub epsilon_radii: f32,
-    /// ε as a length, local unit.
+    /// ε as a length, view unit.
     pub epsilon_length: f32,
     /// The largest u² + v² that covers.
     pub coverage_r2: f32,
@@ -34,6 +34,8 @@ pub struct FrameConstants {
     pub splat_count: u32,
     /// 1: all splats of the chunk have color 0.
     pub uniform_color: u32,
+    /// What local lengths are multiplied by in view space: a power of two.
+    pub view_from_local_scale: f32,
 }
 
 /// What finalization is told; see `glsl/finalize.frag.glsl`.

@@ -19,7 +19,7 @@ use crate::{
         kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
         size::{SizeBound, largest_box_px},
     },
-    prepare::{Chunk, PreparedScene},
+    prepare::{Chunk, PreparedScene, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Kernel, Settings},
     shaders::Shader,
     vk::{Descriptor, GraphicsPipeline, Limits},
@@ -43,6 +43,10 @@ pub struct Draw<'a> {
 /// The low-pass filter's radius: √2 pixels (Guennebaud et al. 2006, section 4.1).
 const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
 
+/// Where ε stops to grow, in radii and in view units, of which the eye is about 1 away: everything belongs to the nearest
+/// surface long before, and f32 ends at 3e38.
+const LARGEST_EPSILON: f64 = 1e30;
+
 /// All chunks as seen from a camera.
 pub fn draws<'a>(
     scene: &'a PreparedScene,
@@ -50,22 +54,21 @@ pub fn draws<'a>(
     settings: &Settings,
     limits: &Limits,
 ) -> Vec<Draw<'a>> {
-    let rebase = &scene.rebase;
-    let [view_from_local_x, view_from_local_y, view_from_local_z] = rebase.view_from_local(camera);
     let focal_px = camera.focal_px(settings.size_px[1]);
-    let near = camera.near() * rebase.scale;
-    let (epsilon_radii, epsilon_length) = match settings.epsilon {
-        Epsilon::Radii(radii) => (radii, 0.0),
-        Epsilon::Length(length) => (0.0, length * rebase.scale),
-    };
     let coverage_r2 = match settings.kernel {
         Kernel::Gaussian { sigma } => gaussian_coverage_r2(sigma.into()),
         Kernel::PsiE { a, n, .. } => psi_e_coverage_r2(a.into(), n.into()),
     };
     let draw = |chunk: &'a Chunk| {
+        let view = chunk.rebase.view_from_local(camera);
+        let near = camera.near() * view.view_from_world_scale;
+        let (epsilon_radii, epsilon_length) = match settings.epsilon {
+            Epsilon::Radii(radii) => (radii, 0.0),
+            Epsilon::Length(length) => (0.0, length * view.view_from_world_scale),
+        };
         let bound = SizeBound {
-            nearest_z: nearest_z(chunk, view_from_local_z),
-            largest_radius: chunk.largest_radius,
+            nearest_z: nearest_z(chunk, &view),
+            largest_radius: chunk.largest_radius * view.view_from_local_scale,
             near,
             focal_px,
             size_px: settings.size_px.map(f64::from),
@@ -76,20 +79,21 @@ pub fn draws<'a>(
         Draw {
             chunk,
             constants: FrameConstants {
-                view_from_local_x,
-                view_from_local_y,
-                view_from_local_z,
+                view_from_local_x: view.rows[0],
+                view_from_local_y: view.rows[1],
+                view_from_local_z: view.rows[2],
                 size_px: settings.size_px.map(|side| side as f32),
                 focal_px: focal_px as f32,
                 near: near as f32,
                 filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
-                epsilon_radii: epsilon_radii as f32,
-                epsilon_length: epsilon_length as f32,
+                epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
+                epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
                 coverage_r2: coverage_r2 as f32,
                 point_cap_px,
                 point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
                 splat_count: chunk.count,
                 uniform_color: u32::from(chunk.uniform_color),
+                view_from_local_scale: view.view_from_local_scale as f32,
             },
             largest_box_px,
             may_be_large: largest_box_px > f64::from(point_cap_px),
@@ -99,12 +103,14 @@ pub fn draws<'a>(
     scene.chunks.iter().map(draw).collect()
 }
 
-/// The smallest depth of any point of the chunk's splats: of the box of centers, less the largest radius.
-fn nearest_z(chunk: &Chunk, z_row: [f32; 4]) -> f64 {
-    let row = DVec3::new(z_row[0].into(), z_row[1].into(), z_row[2].into());
+/// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius.
+fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
+    let [x, y, z, translation] = view.rows[2].map(f64::from);
+    let row = DVec3::new(x, y, z);
     let [lo, hi] = chunk.bounds;
     let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
-    row.dot(center) + f64::from(z_row[3]) - row.abs().dot(half) - chunk.largest_radius
+    let local = row.dot(center) - row.abs().dot(half) - chunk.largest_radius;
+    local * view.view_from_local_scale + translation
 }
 
 /// A vertex stage and a fragment stage.

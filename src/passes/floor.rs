@@ -30,7 +30,7 @@ pub fn floor_points<'a>(
     points: &mut Handle<Buffer>,
 ) -> Result<()> {
     let Some(draw) = inputs.draws.first() else { return Ok(()) };
-    let layout = &inputs.shaders.splat_layout;
+    let layout = &inputs.shaders.list_layout;
     let pipeline = inputs.shaders.compute(&shaders::FLOOR_POINTS_COMP, layout, draw.variant.clone())?;
     let id = points.id();
     graph.pass("floor points").write(points, Access::StorageWriteCompute, Start::Discard).finish(Box::new(

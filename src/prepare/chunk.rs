@@ -3,7 +3,10 @@
 use ash::vk;
 use glam::DVec3;
 
-use super::pack::{Packed, shape_bytes};
+use super::{
+    pack::{Packed, shape_bytes},
+    rebase::Rebase,
+};
 use crate::{
     error::Result,
     vk::{
@@ -43,6 +46,8 @@ impl SplatSetLayout {
 
 /// Splats of one object in buffers of their own.
 pub struct Chunk {
+    /// Its local space.
+    pub rebase: Rebase,
     /// How many splats.
     pub count: u32,
     /// Whether they carry tangent vectors.
@@ -88,6 +93,7 @@ impl Chunk {
         let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
         let set = pool.set(layout.set(), &given)?;
         let chunk = Self {
+            rebase: packed.rebase,
             count: packed.count,
             ellipses: packed.ellipses,
             closed,

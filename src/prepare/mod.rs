@@ -1,16 +1,15 @@
 //! From a scene to GPU buffers: what is done once, before any frame.
 //!
-//! World coordinates are `f64`; shaders have `f32`. So the scene is *rebased*: moved by an origin near its middle and
-//! scaled by a power of two such that its radius is about 1. Both are exact; what is left is one rounding of each
-//! coordinate to `f32`, 6e-8 of the scene's size. The scale keeps products of lengths far from over- and underflow
-//! whatever the file's unit is.
+//! World coordinates are `f64`; shaders have `f32`. So each chunk is *rebased*: moved by an origin in its thick and scaled
+//! by a power of two. Both are exact; what is left is one rounding of each coordinate to `f32`, 6e-8 of its distance from
+//! that origin.
 
 mod chunk;
 mod pack;
 mod rebase;
 
 pub use chunk::{Chunk, SplatSetLayout};
-pub use rebase::Rebase;
+pub use rebase::{Rebase, ViewFromLocal};
 
 use crate::{
     error::Result,
@@ -20,8 +19,6 @@ use crate::{
 
 /// A scene on the device. Chunks keep the scene's order.
 pub struct PreparedScene {
-    /// From world to local space.
-    pub rebase: Rebase,
     /// Pieces of objects, each within the device's limits.
     pub chunks: Vec<Chunk>,
     /// What was left out, in all objects together.
@@ -54,17 +51,17 @@ pub fn prepare(
     submit: &mut dyn FnMut(Staging) -> Result<()>,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
-    let rebase = Rebase::of(scene);
     let total = scene.splat_count() as u64;
     let capacity = chunk::capacity(limits.max_storage_buffer_range);
-    let mut prepared = PreparedScene { rebase, chunks: Vec::new(), defects: DefectCounts::default() };
+    let mut prepared = PreparedScene { chunks: Vec::new(), defects: DefectCounts::default() };
     let mut done = 0;
     for object in &scene.objects {
         let splats = &object.splats;
         for first in (0..splats.len()).step_by(capacity) {
             let range = first..splats.len().min(first + capacity);
             done += range.len() as u64;
-            let packed = pack::pack(splats, range, &rebase);
+            let rebase = Rebase::of(splats, range.clone());
+            let packed = pack::pack(splats, range, rebase);
             prepared.defects.merge(&packed.defects);
             if packed.count > 0 {
                 let number = prepared.chunks.len();

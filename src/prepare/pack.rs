@@ -12,6 +12,8 @@ use crate::scene::{Colors, DefectCounts, Shapes, Splats};
 
 /// Splats as bytes for the GPU.
 pub struct Packed {
+    /// Their local space.
+    pub rebase: Rebase,
     /// How many.
     pub count: u32,
     /// Whether they carry tangent vectors.
@@ -40,10 +42,11 @@ pub fn shape_bytes(ellipses: bool) -> usize {
 }
 
 /// Packs the splats of a range, without those that have a defect.
-pub fn pack(splats: &Splats, range: Range<usize>, rebase: &Rebase) -> Packed {
+pub fn pack(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Packed {
     let ellipses = matches!(splats.shapes, Shapes::Ellipses { .. });
     let uniform_color = matches!(splats.colors, Colors::Uniform(_));
     let mut packed = Packed {
+        rebase,
         count: 0,
         ellipses,
         uniform_color,
@@ -100,7 +103,7 @@ mod tests {
             },
             colors: Colors::Uniform([1.0; 4]),
         };
-        let packed = pack(&splats, 0..2, &Rebase { origin: DVec3::ZERO, scale: 1e-3 });
+        let packed = pack(&splats, 0..2, Rebase { origin: DVec3::ZERO, scale: 1e-3 });
         let unit = SHORTEST_TANGENT as f32;
         let expected = [[1e-3, 0.0, 0.0], [0.0, unit, 0.0], [0.6 * unit, 0.8 * unit, 0.0], [0.0, 0.0, unit]];
         for (i, expected) in [1, 2, 4, 5].into_iter().zip(expected) {
@@ -122,7 +125,7 @@ mod tests {
             colors: Colors::Uniform([0.0, 0.5, 1.0, 1.0]),
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
-        let packed = pack(&splats, 0..5, &rebase);
+        let packed = pack(&splats, 0..5, rebase);
         assert_eq!((packed.count, packed.defects.total(), packed.largest_radius), (3, 2, 1.5));
         assert_eq!(packed.colors, [[0, 32768, 65535, 65535]]);
         for (i, radius) in [0.5, 1.0, 1.5].into_iter().enumerate() {

@@ -1,39 +1,65 @@
-//! The local space of a scene.
+//! The local space of a chunk, and its view space in a frame.
+
+use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Splats};
 
 /// `local = (world − origin) · scale`.
+///
+/// The origin is where most splats are, not the middle of their box: one stray point a thousand kilometres off, as
+/// scanners leave them at (0, 0, 0), must not cost all others their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rebase {
-    /// A world point near the scene's middle.
+    /// A world point in the thick of the chunk.
     pub origin: DVec3,
-    /// A power of two, such that the scene's radius is 0.5 to 1 in local space; less for a scene that is smaller than
-    /// 2⁻⁴⁰ of its distance from the world's origin. Products of lengths stay within f32 while the eye is less than about
-    /// 1e11 of the scene's radii away.
+    /// A power of two, such that half of the splats are within about 1 of the origin in local space.
     pub scale: f64,
 }
 
-/// The origin is a multiple of this part of the scene's radius, so that a scene and its copy at a representable offset
-/// have the same local coordinates, bit by bit.
+/// The motion from local to view space in a frame. View space has a unit of its own for each chunk, a power of two times
+/// the world's, such that the eye's distance (or the chunk's size, if that is larger) is about 1: products of lengths stay
+/// far from over- and underflow whatever the file's unit is. Nothing that chunks share depends on the unit: `near / z`
+/// and pixels are ratios.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewFromLocal {
+    /// The rows of the rotation, each with its component of the translation.
+    pub rows: [[f32; 4]; 3],
+    /// What local lengths are multiplied by.
+    pub view_from_local_scale: f64,
+    /// What world lengths are multiplied by.
+    pub view_from_world_scale: f64,
+}
+
+/// The origin is a multiple of this part of the local unit, so that a scene and its copy at a representable offset have
+/// the same local coordinates, bit by bit.
 const ORIGIN_STEP: f64 = 1.0 / 1024.0;
 
+/// At most so many splats are looked at, evenly spread over the chunk.
+const SAMPLES: usize = 1 << 16;
+
 impl Rebase {
-    /// The local space of a scene; the world itself for one without splats or extent.
-    pub fn of(scene: &Scene) -> Self {
-        let Some(bounds) = scene.bounds() else { return Self { origin: DVec3::ZERO, scale: 1.0 } };
-        // Splats closer together than that are hardly told apart by f64 at their place. Without this bound a camera that
-        // was fitted to what it can see would be beyond f32's squares away, in units of the scene's radius.
-        let smallest = bounds.center().abs().max_element() * 2.0_f64.powi(-40);
-        let radius = bounds.radius().max(smallest);
-        let exponent = if radius > 0.0 { radius.log2().ceil() } else { 0.0 };
-        // Within f64's own exponents, also for the reciprocal.
-        let unit = exponent.clamp(-1000.0, 1000.0).exp2();
+    /// The local space of some splats; the world itself where none can be drawn.
+    pub fn of(splats: &Splats, range: Range<usize>) -> Self {
+        let stride = range.len().div_ceil(SAMPLES).max(1);
+        let sampled: Vec<usize> = range.step_by(stride).filter(|&i| splats.defect(i).is_none()).collect();
+        let median = |value: &dyn Fn(usize) -> f64| {
+            let mut values: Vec<f64> = sampled.iter().map(|&i| value(i)).collect();
+            let middle = values.len() / 2;
+            (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+        };
+        let axis = |axis: usize| median(&|i| splats.positions[i][axis]);
+        let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
+            return Self { origin: DVec3::ZERO, scale: 1.0 };
+        };
+        let middle = DVec3::new(x, y, z);
+        // For splats at one place the radius is the only length there is.
+        let size = median(&|i| splats.positions[i].distance(middle).max(splats.major_radius(i)));
+        let unit = power_of_two_above(size.unwrap_or(1.0));
         let step = unit * ORIGIN_STEP;
-        let origin = (bounds.center() / step).round() * step;
-        let origin = if origin.is_finite() { origin } else { bounds.center() };
-        Self { origin, scale: unit.recip() }
+        let rounded = (middle / step).round() * step;
+        Self { origin: if rounded.is_finite() { rounded } else { middle }, scale: unit.recip() }
     }
 
     /// A world point in local space.
@@ -41,47 +67,82 @@ impl Rebase {
         (world - self.origin) * self.scale
     }
 
-    /// The rows of view-from-local: rotation and translation.
-    pub fn view_from_local(&self, camera: &Camera) -> [[f32; 4]; 3] {
+    /// The motion into the view space of a camera.
+    pub fn view_from_local(&self, camera: &Camera) -> ViewFromLocal {
         let view = camera.view_from_world();
-        let translation = view.point(self.origin) * self.scale;
+        let origin_in_view = view.point(self.origin);
+        let unit = power_of_two_above(origin_in_view.length().max(self.scale.recip()));
+        let view_from_world_scale = unit.recip();
+        let translation = origin_in_view * view_from_world_scale;
         let row = |i: usize| {
             let axis = view.rotation.row(i).as_vec3();
             [axis.x, axis.y, axis.z, translation[i] as f32]
         };
-        [row(0), row(1), row(2)]
+        ViewFromLocal {
+            rows: [row(0), row(1), row(2)],
+            view_from_local_scale: view_from_world_scale / self.scale,
+            view_from_world_scale,
+        }
     }
+}
+
+/// The smallest power of two that is not below a length, within f64's own exponents, also for its reciprocal.
+fn power_of_two_above(length: f64) -> f64 {
+    if length > 0.0 { length.log2().ceil().clamp(-1000.0, 1000.0).exp2() } else { 1.0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Colors, Object, Shapes, Splats};
+    use crate::scene::{Colors, Shapes};
 
-    fn scene_at(offset: DVec3, size: f64) -> Scene {
-        let positions = [DVec3::ZERO, DVec3::new(0.75, 0.125, -0.5)].map(|p| p * size + offset).to_vec();
-        let shapes = Shapes::Disks { normals: vec![glam::Vec3::Z; 2], radii: vec![0.25 * size as f32; 2] };
-        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
-        Scene { objects: vec![Object { name: String::new(), splats, closed: false }] }
+    fn splats(positions: Vec<DVec3>, radius: f64) -> Splats {
+        let count = positions.len();
+        let shapes = Shapes::Disks { normals: vec![glam::Vec3::Z; count], radii: vec![radius as f32; count] };
+        Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) }
+    }
+
+    fn three_at(offset: DVec3, size: f64) -> Splats {
+        let places = [DVec3::ZERO, DVec3::new(0.75, 0.125, -0.5), DVec3::new(-0.5, 0.25, 0.5)];
+        splats(places.map(|p| p * size + offset).to_vec(), 0.25 * size)
     }
 
     #[test]
     fn far_from_the_origin_local_coordinates_are_the_same_bit_by_bit() {
         let local = |offset: DVec3| {
-            let scene = scene_at(offset, 1.0);
-            let rebase = Rebase::of(&scene);
-            scene.objects[0].splats.positions.iter().map(|p| rebase.point(*p).as_vec3()).collect::<Vec<_>>()
+            let splats = three_at(offset, 1.0);
+            let rebase = Rebase::of(&splats, 0..3);
+            splats.positions.iter().map(|p| rebase.point(*p).as_vec3()).collect::<Vec<_>>()
         };
         assert_eq!(local(DVec3::ZERO), local(DVec3::new(500_000.0, 4_600_000.0, 300.0)));
     }
 
     #[test]
-    fn the_radius_is_about_one_in_every_unit() {
+    fn a_stray_point_costs_the_others_nothing() {
+        let place = DVec3::new(500_000.0, 4_600_000.0, 300.0);
+        let mut positions: Vec<DVec3> = (0..101).map(|i| place + 1e-5 * f64::from(i) * DVec3::X).collect();
+        positions.push(DVec3::ZERO);
+        let rebase = Rebase::of(&splats(positions.clone(), 1e-5), 0..102);
+        for pair in positions[..101].windows(2) {
+            let step = rebase.point(pair[1]).as_vec3() - rebase.point(pair[0]).as_vec3();
+            // One part in a million of a step: f64 at 5e5 holds 6e-11, which is the rest.
+            assert!((f64::from(step.x) / (1e-5 * rebase.scale) - 1.0).abs() < 2e-5, "{step}");
+        }
+    }
+
+    #[test]
+    fn lengths_are_about_one_in_every_unit_of_the_world_and_at_every_distance() {
         for size in [1e-30, 1e-3, 1.0, 1e6, 1e30] {
-            let scene = scene_at(DVec3::ZERO, size);
-            let rebase = Rebase::of(&scene);
-            let radius = scene.bounds().unwrap().radius() * rebase.scale;
-            assert!((0.5..=1.0).contains(&radius), "{size}: {radius}");
+            let rebase = Rebase::of(&three_at(DVec3::ZERO, size), 0..3);
+            assert!((0.25..=1.0).contains(&(0.6 * size * rebase.scale)), "{size}: {rebase:?}");
+            for distance in [1e-3, 1.0, 1e15] {
+                let eye = rebase.origin + DVec3::Z * distance * size;
+                let camera = Camera { eye, target: rebase.origin, up: DVec3::Y, fov_y_rad: 1.0, near: None };
+                let view = rebase.view_from_local(&camera);
+                let z = f64::from(view.rows[2][3]);
+                assert!((distance * size * view.view_from_world_scale / z - 1.0).abs() < 1e-6);
+                assert!(z <= 1.0 && (z > 0.5 || view.view_from_local_scale >= 0.5), "{size} {distance}: {z}");
+            }
         }
     }
 }
