@@ -9,14 +9,14 @@
 //! | N5 center off-screen, disk visible | `shape.rs`; `oracle.rs`: "centers off-screen" |
 //! | N6 points above the device's limit | `large.rs` |
 //! | N7 subpixel splats | `shape.rs` |
-//! | N8 depth range 1e7 | `depth.rs` |
-//! | N9 far from the origin | `depth.rs` |
+//! | N8 depth range 1e7 | `depth.rs`; beyond f32's squares: `range.rs` |
+//! | N9 far from the origin | `depth.rs`; with a stray point: `range.rs` |
 //! | N10 no extent | `numbers.rs` |
 //! | N11 odd normals | `numbers.rs` |
 //! | N12 NaN and infinity | `numbers.rs`; `oracle.rs`: "degenerate" |
 //! | N13 sums of 16 bits | `f16.rs` |
 //! | N14 pixels covered by rims alone | `numbers.rs` |
-//! | N15 ε: parallel sheets | `depth.rs` |
+//! | N15 ε: parallel sheets | `depth.rs`; below a step of f32: `range.rs` |
 //! | N16 depth of a tilted splat | `depth.rs` |
 //! | N17 equal depths in peeling | cannot occur: layers are not peeled |
 //! | N18 order and repetition | `large.rs` |
@@ -39,6 +39,7 @@ mod common;
 mod depth;
 mod large;
 mod numbers;
+mod range;
 mod shape;
 
 use common::{

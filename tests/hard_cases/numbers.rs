@@ -18,7 +18,7 @@ use super::{
     hard, of_size,
 };
 
-fn assert_finite(frame: &Frame, what: &str) {
+pub(super) fn assert_finite(frame: &Frame, what: &str) {
     let vectors = frame.albedo.iter().chain(&frame.normal).chain(&frame.linear).flatten();
     assert!(vectors.chain(&frame.weight).all(|value| value.is_finite()), "{what}");
     assert!(frame.depth.iter().zip(&frame.weight).all(|(z, w)| z.is_finite() == (*w > 0.0)), "{what}");

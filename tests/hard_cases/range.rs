@@ -1,0 +1,102 @@
+//! Scenes whose lengths are far apart: no digit is lost to a stray point, no product to the range of f32.
+
+use glam::DVec3;
+use surfel::scene::{Camera, Epsilon};
+
+use super::{
+    common::{
+        assert_agrees, assert_validation_is_silent,
+        builder::{Builder, camera},
+        render,
+        scenes::{self, Hard},
+        shared,
+    },
+    numbers::assert_finite,
+};
+
+/// A scan of a centimetre in UTM metres, and one stray point at the origin, as scanners leave them: it costs nothing.
+#[test]
+fn n09_a_stray_point_far_away_takes_no_digit_from_the_others() {
+    let mut headless = shared();
+    let place = DVec3::new(500_000.0, 4_600_000.0, 300.0);
+    for size in [1.0, 0.01] {
+        let sphere = scenes::sphere(3000, DVec3::ZERO).splats;
+        let mut builder = Builder::default();
+        for (i, position) in sphere.positions.iter().enumerate() {
+            let color = sphere.color(i);
+            builder.disk(place + size * *position, *position, size * sphere.major_radius(i), color);
+        }
+        builder.disk(DVec3::ZERO, DVec3::Z, 0.1, [1.0; 4]);
+        let mut camera = camera([0.0, 0.0, 3.2 * size], [0.0; 3]);
+        camera.eye += place;
+        camera.target += place;
+        let hard =
+            Hard { name: "stray point", scene: builder.scene(true), camera, ..scenes::sphere_of_disks() };
+        assert_agrees(&mut headless, &hard, 30_000);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// near / z below the square root of f32's smallest number: nothing may become NaN, nothing may vanish.
+#[test]
+fn n08_a_near_plane_at_the_end_of_f32_still_agrees() {
+    let mut headless = shared();
+    for near in [1e-15, 1e-20, 1e-30] {
+        let base = scenes::sphere_of_disks();
+        let hard = Hard { name: "tiny near", camera: Camera { near: Some(near), ..base.camera }, ..base };
+        let (frame, _) = assert_agrees(&mut headless, &hard, 30_000);
+        assert_finite(&frame, "tiny near");
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// Seen from so far that ε is less than a step of f32, a surface still holds together: every pixel has the weights of
+/// all that overlap there, not of the frontmost alone.
+#[test]
+fn n15_seen_from_very_far_a_surface_does_not_hide_itself() {
+    let mut headless = shared();
+    let base = scenes::sphere_of_disks();
+    let seen_from = |headless: &mut _, distance: f64| {
+        let camera = Camera {
+            eye: DVec3::Z * distance,
+            fov_y_rad: 2.0 * (0.4 * 3.2 / distance).atan(),
+            near: Some(0.1 * distance),
+            ..base.camera
+        };
+        let hard =
+            Hard { name: "far eye", scene: base.scene.clone(), camera, settings: base.settings.clone() };
+        let frame = render(headless, &hard);
+        let covered = frame.weight.iter().filter(|weight| **weight > 0.0).count();
+        frame.weight.iter().map(|weight| f64::from(*weight)).sum::<f64>() / covered as f64
+    };
+    let near = seen_from(&mut headless, 1e3);
+    for distance in [1e6, 1e8, 1e10] {
+        let far = seen_from(&mut headless, distance);
+        println!("mean weight at 1e3: {near:.3}, at {distance:e}: {far:.3}");
+        // Beyond 1e6 a step of f32 is as deep as the sphere, so that front and back are one surface: at least as much.
+        assert!(far > 0.98 * near, "{distance:e}: {far} {near}");
+    }
+    assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn an_epsilon_beyond_f32_takes_all_as_one_surface() {
+    let mut headless = shared();
+    for epsilon in [Epsilon::Length(1e39), Epsilon::Length(1e300), Epsilon::Radii(1e39)] {
+        let mut hard = scenes::sphere_of_disks();
+        hard.settings.epsilon = epsilon;
+        assert_agrees(&mut headless, &hard, 30_000);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn an_eye_almost_at_its_target_agrees() {
+    let mut headless = shared();
+    let mut hard = scenes::sphere_of_disks();
+    hard.camera.target = hard.camera.eye - 1e-14 * DVec3::Z;
+    assert_ne!(hard.camera.eye, hard.camera.target);
+    let (frame, _) = assert_agrees(&mut headless, &hard, 30_000);
+    assert_finite(&frame, "eye at target");
+    assert_validation_is_silent(&headless);
+}
