@@ -264,3 +264,49 @@ fn splats(lines: &str) -> String {
     let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     format!("ply\nformat ascii 1.0\nelement vertex {count}\n{floats}{colors}end_header\n{lines}")
 }
+
+#[test]
+fn the_floor_is_measured_in_turn_with_the_passes() {
+    let folder = Folder::new();
+    let words =
+        ["bench", "floor", "--size", "128x128", "--frames", "3", "--json", "floor.json", "--validate"];
+    let run = surfel(&folder, &words);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("x floor") && run.stdout.ends_with('\n'), "{}", run.stdout);
+    let report: Value = serde_json::from_slice(&fs::read(folder.path("floor.json")).unwrap()).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    let names: Vec<_> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["visibility", "accumulate", "finalize", "frame"]);
+    for row in rows {
+        assert!(row["ratio"]["median"].as_f64().unwrap() > 0.0, "{row}");
+        assert_eq!(row["fragments"], row["floor_fragments"], "{row}");
+    }
+    assert!(report["strict_points"].as_u64() < report["floor_points"].as_u64());
+    let refused = surfel(&folder, &["bench", "floor", "--json", "no/such/folder/x.json"]);
+    assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
+}
+
+#[test]
+fn passes_without_draws_are_no_reason_for_a_flag() {
+    let folder = Folder::new();
+    // So near that large splats are listed in compute passes.
+    let words = [
+        "render",
+        "--size",
+        "64x64",
+        "--eye",
+        "0,0,0.2",
+        "--target",
+        "0,0,3",
+        "--timings",
+        "t.json",
+        "--frames",
+        "2",
+    ];
+    let run = surfel(&folder, &words);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let report: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
+    let passes = report["frames"]["passes"].as_array().unwrap();
+    assert!(passes.iter().any(|pass| pass["name"] == "count large splats" && pass["fragments"].is_null()));
+    assert!(!report["frames"]["flags"].to_string().contains("not counted"), "{}", report["frames"]["flags"]);
+}

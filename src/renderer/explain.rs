@@ -133,7 +133,7 @@ fn reason(pass: &str) -> &'static str {
         "finalize" => "every scene: normalizes and shades the sums",
         "export" => "the surface itself was asked for",
         "count large splats" | "scan large splats" | "list large splats" => {
-            "a splat may exceed the device's largest point"
+            "a splat may exceed the device's largest point, or come near the eye plane"
         }
         name if name.starts_with("read back") => "the host reads it",
         _ => "",

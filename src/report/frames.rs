@@ -103,7 +103,8 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
     } else if passes.iter().any(|pass| pass.ms.is_none()) {
         flags.push("passes were not timed: the device's queue has no timestamps, or lost one".to_owned());
     }
-    if passes.iter().any(|pass| pass.fragments.is_none()) {
+    // Passes without draws, such as dispatches and copies, have nothing to count.
+    if passes.iter().all(|pass| pass.fragments.is_none()) {
         flags.push(
             "vertices and fragments were not counted: the device can't (pipelineStatisticsQuery)".to_owned(),
         );

@@ -196,3 +196,25 @@ fn a_device_of_another_name() {
         &["--device: 'no such device' is none of: 0 "],
     );
 }
+
+#[test]
+fn a_dump_that_would_replace_the_picture_or_the_timings() {
+    let folder = folder();
+    let picture = ["render", "--size", "8x8", "--dump", "d", "-o", "d/final.exr"];
+    std::fs::create_dir(folder.path("d")).unwrap();
+    refused(&folder, &picture, 1, &["final.exr", "written twice"]);
+    let timings = ["render", "--size", "8x8", "--dump", "d", "--timings", "d/weight.exr"];
+    refused(&folder, &timings, 1, &["weight.exr", "written twice"]);
+    std::fs::create_dir(folder.path("d/depth.exr")).unwrap();
+    refused(&folder, &["render", "--size", "8x8", "--dump", "d"], 1, &["depth.exr"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_standard_output_that_is_full() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let run =
+        std::process::Command::new(env!("CARGO_BIN_EXE_surfel")).arg("info").stdout(full).output().unwrap();
+    assert_eq!(run.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&run.stderr).starts_with("surfel: standard output: cannot write"));
+}

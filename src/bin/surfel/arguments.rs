@@ -136,6 +136,10 @@ pub struct BenchArguments {
     /// Write the table and all that explains it as JSON
     #[arg(long, value_name = "FILE.json")]
     pub json: Option<PathBuf>,
+
+    /// Have the Vulkan validation layer watch, which makes the times worthless
+    #[arg(long)]
+    pub validate: bool,
 }
 
 /// What can be measured.

@@ -16,8 +16,10 @@ use crate::{
     console::{self, Bars},
     device::device_report,
     json::to_json,
+    outputs,
     scene::{Loaded, load_scene},
     steps::Steps,
+    validation,
 };
 
 /// Rounds that are not counted: pipelines, transients, caches.
@@ -38,8 +40,9 @@ fn floor(arguments: &BenchArguments) -> Result<()> {
     let settings =
         Settings { size_px: arguments.size, accumulate: arguments.accumulate, ..Settings::default() };
     settings.validate()?;
+    arguments.json.as_deref().map(outputs::check_file).transpose()?;
     let mut headless = Headless::new(&HeadlessOptions {
-        validation: Validation::Off,
+        validation: if arguments.validate { Validation::On } else { Validation::Off },
         device: arguments.device.clone(),
         cache_folder: cache::folder(),
     })?;
@@ -90,10 +93,13 @@ fn floor(arguments: &BenchArguments) -> Result<()> {
         rounds: arguments.frames,
         rows: FloorRow::rows(&names, &rounds, [&fragments[0], &fragments[1]]),
     };
-    console::print(&report.to_string());
-    match &arguments.json {
-        Some(path) => save::text(path, &to_json(&report)?),
-        None => Ok(()),
+    console::print(&report.to_string())?;
+    if let Some(path) = &arguments.json {
+        save::text(path, &to_json(&report)?)?;
+    }
+    match arguments.validate {
+        true => validation::conclude(&headless.device().instance().messages()),
+        false => Ok(()),
     }
 }
 

@@ -6,11 +6,21 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
-use surfel::Progress;
+use surfel::{Error, Progress, Result};
 
-/// Prints a result. A reader that has left, as in `surfel info | head -1`, is no failure.
-pub fn print(text: &str) {
-    let _ = write!(io::stdout(), "{text}");
+/// Prints a result and ends its last line. A reader that has left, as in `surfel info | head -1`, is no failure.
+///
+/// # Errors
+/// The standard output can't be written to, such as a full disk.
+pub fn print(text: &str) -> Result<()> {
+    let mut out = io::stdout().lock();
+    let end = if text.ends_with('\n') { "" } else { "\n" };
+    match write!(out, "{text}{end}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::file("standard output", "write", error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Tells something that is no result.

@@ -65,7 +65,6 @@ pub fn run(arguments: &InfoArguments) -> Result<()> {
         true => console::print(&to_json(&info)?),
         false => console::print(&text(&info)),
     }
-    Ok(())
 }
 
 fn info(loader: &LoaderFacts, facts: &[DeviceFacts], chosen: Option<usize>) -> Info {

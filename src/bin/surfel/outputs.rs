@@ -21,6 +21,9 @@ pub enum PictureFormat {
     Exr,
 }
 
+/// The files of `--dump`.
+pub const DUMPED: [&str; 5] = ["weight.exr", "albedo.exr", "normal.exr", "depth.exr", "final.exr"];
+
 /// Checks that everything asked for can be written, and gives the picture's format.
 ///
 /// # Errors
@@ -37,7 +40,14 @@ pub fn check(arguments: &PictureArguments, timings: Option<&Path>) -> Result<Pic
     }
     let inputs = arguments.inputs.iter().chain(&arguments.camera.camera);
     let mut taken: Vec<PathBuf> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
-    for file in files {
+    let dumped = arguments.dump.iter().flat_map(|folder| DUMPED.map(|name| folder.join(name)));
+    let dumped: Vec<PathBuf> = dumped.collect();
+    for file in &dumped {
+        if file.is_dir() {
+            return Err(Error::file(file, "write", io::ErrorKind::IsADirectory.into()));
+        }
+    }
+    for file in files.into_iter().chain(dumped.iter().map(PathBuf::as_path)) {
         let place = place_of(file);
         if taken.contains(&place) {
             return Err(Error::option(file.display().to_string(), "is an input, or written twice"));
@@ -57,7 +67,7 @@ fn picture_format(path: &Path) -> Result<PictureFormat> {
 }
 
 /// A file that can be created or replaced.
-fn check_file(path: &Path) -> Result<()> {
+pub fn check_file(path: &Path) -> Result<()> {
     let fail = |e: io::Error| Error::file(path, "write", e);
     match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => return Err(fail(io::ErrorKind::IsADirectory.into())),

@@ -90,7 +90,7 @@ fn draw(
             steps: steps.0,
             frames: times,
         };
-        console::print(&report.to_string());
+        console::print(&report.to_string())?;
         if let Some(path) = &arguments.timings {
             save::text(path, &to_json(&report)?)?;
         }
@@ -123,7 +123,7 @@ fn write(
     }
     if arguments.explain {
         let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
-        console::print(&explain::text(&explanation));
+        console::print(&explain::text(&explanation))?;
     }
     Ok(())
 }

@@ -66,7 +66,7 @@ fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, I
         }
     };
     match report.splats {
-        0 => Err(Error::input(path, "", format!("no splat can be drawn ({} left out)", report.dropped))),
+        0 => Err(Error::input(path, "", format!("no splat can be drawn ({})", report.summary))),
         _ => Ok((object, report)),
     }
 }
@@ -149,6 +149,8 @@ mod tests {
         assert_eq!(report.summary, expected);
         assert_eq!((report.splats, report.dropped), (1, 2));
         let none = load_text("a.ply", &format!("{SPLATS}0 0 0 0 0 1 0\n1 0 0 0 0 1 0\n2 0 0 0 0 0 1\n"));
-        assert!(none.unwrap_err().ends_with("a.ply: no splat can be drawn (3 left out)"));
+        assert!(
+            none.unwrap_err().contains("a.ply: no splat can be drawn (a.ply: 0 disks; 3 splats left out: ")
+        );
     }
 }

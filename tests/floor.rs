@@ -1,0 +1,37 @@
+//! The floor is what it says: the same points, the same fragments, the same formats.
+
+mod common;
+
+use common::{assert_validation_is_silent, headless, scenes};
+use surfel::{
+    graph::execute::{FrameProfile, Profile},
+    renderer::{Floor, Wanted},
+};
+
+fn fragments(profile: &FrameProfile) -> Vec<u64> {
+    profile.passes.iter().map(|pass| pass.counts.expect("counted").fragments).collect()
+}
+
+#[test]
+fn the_floor_draws_the_fragments_of_the_passes_and_the_strict_floor_fewer_points() {
+    let mut headless = headless();
+    let hard = scenes::sphere_of_disks();
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+    for size_px in [[256, 256], [300, 200]] {
+        let settings = surfel::Settings { size_px, ..hard.settings.clone() };
+        let frame = headless.render(&prepared, &hard.camera, &settings, wanted).unwrap();
+        let own = fragments(&frame.profile.unwrap());
+        for (survivors, is_fewer) in [(false, false), (true, true)] {
+            let mut floor = Floor::new(&headless, &prepared, &hard.camera, &settings, survivors).unwrap();
+            let counted = fragments(&floor.frame(&headless, Profile::Counts).unwrap());
+            println!("{size_px:?}: {} points; fragments {own:?}, the floor's {counted:?}", floor.count());
+            assert_eq!(counted, own);
+            // A closed sphere: about half of its splats face away.
+            assert_eq!(u64::from(floor.count()) < prepared.splat_count(), is_fewer);
+            let times = floor.frame(&headless, Profile::Times).unwrap();
+            assert!(times.passes.iter().all(|pass| pass.secs.is_some_and(|secs| secs > 0.0)));
+        }
+    }
+    assert_validation_is_silent(&headless);
+}
