@@ -104,7 +104,7 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
         flags.push("passes were not timed: the device's queue has no timestamps, or lost one".to_owned());
     }
     // Passes without draws, such as dispatches and copies, have nothing to count.
-    if passes.iter().all(|pass| pass.fragments.is_none()) {
+    if !passes.is_empty() && passes.iter().all(|pass| pass.fragments.is_none()) {
         flags.push(
             "vertices and fragments were not counted: the device can't (pipelineStatisticsQuery)".to_owned(),
         );
