@@ -16,12 +16,14 @@
 //!
 //! # fn main() -> surfel::Result<()> {
 //! # let scene = Scene::default();
-//! # let camera: Camera = todo!();
+//! # let ball = surfel::scene::Ball { center: glam::DVec3::ZERO, radius: 1.0 };
+//! let settings = Settings::default();
+//! let camera = Camera::fit(&ball, settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
 //! let options = HeadlessOptions { validation: Validation::Off, device: None, cache_folder: None };
 //! let mut headless = Headless::new(&options)?;
 //! let prepared = headless.prepare(&scene, &|_done, _total| {})?;
 //! let wanted = Wanted { picture: true, ..Wanted::default() };
-//! let frame = headless.render(&prepared, &camera, &Settings::default(), wanted)?;
+//! let frame = headless.render(&prepared, &camera, &settings, wanted)?;
 //! assert_eq!(frame.srgb.len(), 1024 * 1024);
 //! # Ok(())
 //! # }
