@@ -9,7 +9,7 @@ use surfel::{
     scene::{Ball, Camera},
 };
 
-use crate::arguments::CameraArguments;
+use crate::picture_arguments::CameraArguments;
 
 /// More than any camera file holds: what is larger is something else.
 const MAX_FILE_BYTES: u64 = 1 << 16;

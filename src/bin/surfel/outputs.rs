@@ -10,7 +10,7 @@ use std::{
 
 use surfel::{Error, Result};
 
-use crate::arguments::PictureArguments;
+use crate::picture_arguments::PictureArguments;
 
 /// The format of the picture, from its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

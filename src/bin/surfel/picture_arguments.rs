@@ -1,0 +1,198 @@
+//! The options that say what is drawn, from where and how: the same for every way of drawing.
+
+use std::path::PathBuf;
+
+use clap::{
+    Args,
+    builder::{PossibleValuesParser, TypedValueParser},
+};
+use surfel::scene::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Settings, Shading};
+
+use crate::parse::{self, Background};
+
+/// What is drawn, from where and how: the same for every way of drawing.
+#[derive(Debug, Args)]
+pub struct PictureArguments {
+    /// PLY or OBJ files; none is the built-in model
+    #[arg(value_name = "INPUT")]
+    pub inputs: Vec<PathBuf>,
+
+    /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats
+    #[arg(short, long, value_name = "FILE", default_value = "surfel.png")]
+    pub output: PathBuf,
+
+    /// Also write weight, albedo, normal, depth and final .exr into this folder, linear 32-bit floats
+    #[arg(long, value_name = "DIR")]
+    pub dump: Option<PathBuf>,
+
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse::size)]
+    pub size: [u32; 2],
+
+    /// From where.
+    #[command(flatten)]
+    pub camera: CameraArguments,
+
+    /// How.
+    #[command(flatten)]
+    pub style: StyleArguments,
+}
+
+/// From where.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Camera")]
+pub struct CameraArguments {
+    /// Read the camera from this file
+    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov"])]
+    pub camera: Option<PathBuf>,
+
+    /// Where the eye is [default: on +z from the target, so far that the scene fits]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
+    pub eye: Option<[f64; 3]>,
+
+    /// What the middle of the picture shows [default: the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
+    pub target: Option<[f64; 3]>,
+
+    /// What is up [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
+    pub up: Option<[f64; 3]>,
+
+    /// The vertical field of view in degrees [default: 45]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub fov: Option<f64>,
+}
+
+/// How a surface is drawn.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Method")]
+pub struct StyleArguments {
+    /// How splats become fragments: perspective-correct, at the exact depth
+    #[arg(long, value_name = "NAME", default_value = "perspective", value_parser = ["perspective"])]
+    pub rasterizer: String,
+
+    /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), or none
+    #[arg(long, value_name = "NAME", default_value = "adjust", value_parser = choice(FILTERS))]
+    pub filter: Filter,
+
+    /// The weight within a splat: gaussian:S (S in radii) or psi_e:A,B,N
+    #[arg(long, value_name = "KERNEL", default_value = "gaussian:0.5", value_parser = parse::kernel)]
+    pub kernel: Kernel,
+
+    /// The precision of the sums; the reference sums in 64 bits whatever is given here
+    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(ACCUMULATES))]
+    pub accumulate: Accumulate,
+
+    /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r,
+    /// or a length
+    #[arg(long, value_name = "1r|LENGTH", default_value = "1r", value_parser = parse::epsilon)]
+    #[arg(allow_hyphen_values = true)]
+    pub epsilon: Epsilon,
+
+    /// Splats that face away: auto leaves them out where the surface is closed and turns them elsewhere
+    #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(BACKFACES))]
+    pub backfaces: Backfaces,
+
+    /// How the surface is colored, with one light at the eye
+    #[arg(long, value_name = "NAME", default_value = "phong", value_parser = choice(SHADINGS))]
+    pub shading: Shading,
+
+    /// The color of empty pixels, sRGB from 0 to 1; none leaves them transparent
+    #[arg(long, value_name = "R,G,B|none", default_value = "1,1,1", value_parser = parse::background)]
+    #[arg(allow_hyphen_values = true)]
+    pub background: Background,
+}
+
+const FILTERS: &[(&str, Filter)] = &[("adjust", Filter::Adjust), ("none", Filter::None)];
+/// The values of `--accumulate`.
+pub const ACCUMULATES: &[(&str, Accumulate)] = &[("f16", Accumulate::F16), ("f32", Accumulate::F32)];
+const BACKFACES: &[(&str, Backfaces)] =
+    &[("auto", Backfaces::Auto), ("flip", Backfaces::Flip), ("cull", Backfaces::Cull)];
+const SHADINGS: &[(&str, Shading)] = &[
+    ("phong", Shading::Phong),
+    ("lambert", Shading::Lambert),
+    ("normals", Shading::Normals),
+    ("albedo", Shading::Albedo),
+];
+
+/// Takes one of these names.
+pub fn choice<T: Copy + Send + Sync + 'static>(
+    values: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(values.iter().map(|(name, _)| *name)).try_map(move |given| {
+        let found = values.iter().find(|(name, _)| *name == given);
+        found.map(|(_, value)| *value).ok_or("none of the possible values")
+    })
+}
+
+impl PictureArguments {
+    /// The settings, not yet checked.
+    pub fn settings(&self) -> Settings {
+        let style = &self.style;
+        Settings {
+            size_px: self.size,
+            filter: style.filter,
+            kernel: style.kernel,
+            accumulate: style.accumulate,
+            epsilon: style.epsilon,
+            backfaces: style.backfaces,
+            shading: style.shading,
+            background: style.background.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arguments::{Arguments, Command};
+    use clap::Parser as _;
+
+    fn render(words: &[&str]) -> PictureArguments {
+        let words = ["surfel", "render"].iter().chain(words);
+        match Arguments::try_parse_from(words).unwrap().command {
+            Command::Render(arguments) => arguments.picture,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_defaults_of_the_command_line_are_those_of_the_library() {
+        assert_eq!(render(&[]).settings(), Settings::default());
+    }
+
+    #[test]
+    fn what_a_report_prints_can_be_given_again() {
+        let settings = Settings {
+            size_px: [7, 9],
+            filter: Filter::None,
+            kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
+            accumulate: Accumulate::F32,
+            epsilon: Epsilon::Length(0.25),
+            backfaces: Backfaces::Cull,
+            shading: Shading::Normals,
+            background: None,
+        };
+        let others = Settings {
+            backfaces: Backfaces::Flip,
+            shading: Shading::Albedo,
+            background: Some([0.5, 0.25, 0.0]),
+            ..settings.clone()
+        };
+        let lambert = Settings { shading: Shading::Lambert, ..Settings::default() };
+        for settings in [settings, others, lambert] {
+            let words: Vec<String> = surfel::report::settings_as_options(&settings)
+                .into_iter()
+                .flat_map(|(name, value)| [format!("--{name}"), value])
+                .collect();
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            assert_eq!(render(&words).settings(), settings);
+        }
+    }
+
+    #[test]
+    fn negative_coordinates_are_no_options() {
+        let camera = render(&["--eye", "-1,2,-3", "--up", "-0.5,0,1"]).camera;
+        assert_eq!((camera.eye, camera.up), (Some([-1.0, 2.0, -3.0]), Some([-0.5, 0.0, 1.0])));
+    }
+}

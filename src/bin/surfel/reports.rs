@@ -1,0 +1,30 @@
+//! What reports say of devices and scenes.
+
+use surfel::{
+    prepare::PreparedScene,
+    report::{DeviceReport, InputReport, SceneReport},
+    vk::DeviceFacts,
+};
+
+/// What a report says of a device.
+pub fn device_report(facts: &DeviceFacts) -> DeviceReport {
+    let [major, minor, patch] = facts.api_version;
+    DeviceReport {
+        name: facts.name.clone(),
+        driver: facts.driver.clone(),
+        api_version: format!("{major}.{minor}.{patch}"),
+        timestamp_period_ns: facts.limits.timestamp_period_ns.into(),
+        timestamp_valid_bits: facts.limits.timestamp_valid_bits,
+    }
+}
+
+/// What a report says of a scene.
+pub fn scene_report(inputs: Vec<InputReport>, prepared: &PreparedScene, transient_bytes: u64) -> SceneReport {
+    SceneReport {
+        dropped: inputs.iter().map(|input| input.dropped as u64).sum(),
+        inputs,
+        splats: prepared.splat_count(),
+        splat_bytes: prepared.bytes(),
+        transient_bytes,
+    }
+}
