@@ -65,6 +65,7 @@ pub(super) unsafe fn facts(
     };
     let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND | vk::FormatFeatureFlags::SAMPLED_IMAGE;
     let depth = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT | vk::FormatFeatureFlags::SAMPLED_IMAGE;
+    let limits = properties.limits;
     let needed = [
         (features12.timeline_semaphore == vk::TRUE, "timelineSemaphore"),
         (features13.synchronization2 == vk::TRUE, "synchronization2"),
@@ -75,8 +76,13 @@ pub(super) unsafe fn facts(
             format(vk::Format::R16G16B16A16_SFLOAT).contains(blended),
             "R16G16B16A16_SFLOAT attachments that can be blended and sampled",
         ),
+        // Vulkan promises 128 and 4: see glsl/large_count.comp.glsl and the sets of the splat passes.
+        (
+            limits.max_compute_work_group_invocations >= 256 && limits.max_compute_work_group_size[0] >= 256,
+            "compute workgroups of 256",
+        ),
+        (limits.max_per_stage_descriptor_storage_buffers >= 6, "6 storage buffers in a stage"),
     ];
-    let limits = properties.limits;
     DeviceFacts {
         name,
         kind: kind(properties.device_type),
