@@ -22,11 +22,13 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = load_surface(pixel);
-    bool covered = surface.weight > 0.0;
+    float w_visible = texelFetch(visible_depth, pixel, 0).r;
+    // Without a visible depth only a hair of a rim was accumulated: see visibility.glsl.
+    bool covered = surface.weight > 0.0 && w_visible > 0.0;
     float depth_sum = texelFetch(normal_sums, pixel, 0).w; // of weight * z / z_visible
-    float z_visible = push.near / texelFetch(visible_depth, pixel, 0).r;
-    weight = surface.weight;
-    albedo = vec4(surface.albedo, covered ? 1.0 : 0.0);
+    float z_visible = push.near / w_visible;
+    weight = covered ? surface.weight : 0.0;
+    albedo = covered ? vec4(surface.albedo, 1.0) : vec4(0.0);
     normal = covered ? vec4(surface.normal, 1.0) : vec4(0.0);
     depth = covered ? FORMULA(FORMULA_NORMALIZED_DEPTH, z_visible * (depth_sum / surface.weight)) : uintBitsToFloat(0x7f800000u);
 }

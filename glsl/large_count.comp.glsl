@@ -21,8 +21,10 @@ bool is_drawn_as_quad(uint index)
         return true;
     }
     PixelBox px;
-    // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most.
-    return pixel_box(regular_box(m), px) && square_side_px(px) > frame.point_cap_px - 1.0;
+    // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most. Also
+    // for a box that holds no pixel's center here: a sliver may hold some there.
+    pixel_box(regular_box(m), px);
+    return square_side_px(px) > frame.point_cap_px - 1.0;
 }
 
 void main()

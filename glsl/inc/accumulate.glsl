@@ -6,7 +6,7 @@ layout(location = 1) out vec4 normal_sum; // weight * normal, 0
 
 void main()
 {
-    vec3 uvw = covered_uvw();
+    vec3 uvw = covered_uvw(frame.coverage_r2);
     gl_FragDepth = uvw.z;
     float weight = kernel_weight(dot(uvw.xy, uvw.xy));
     color_sum = weight * vec4(extra(), 1.0);

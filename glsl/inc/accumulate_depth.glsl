@@ -9,7 +9,7 @@ layout(location = 1) out vec4 normal_sum; // weight * normal, weight * z / z_vis
 
 void main()
 {
-    vec3 uvw = covered_uvw();
+    vec3 uvw = covered_uvw(frame.coverage_r2);
     gl_FragDepth = uvw.z;
     float weight = kernel_weight(dot(uvw.xy, uvw.xy));
     float w_visible = texelFetch(visible_depth, ivec2(gl_FragCoord.xy), 0).r;

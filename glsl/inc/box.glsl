@@ -94,7 +94,7 @@ struct PixelBox {
     ivec2 last; // inclusive
 };
 
-// The box is enlarged by this much, which exceeds its own rounding. Pixels are counted by their centers, so points and
+// The box is enlarged by more than its own rounding (4e-6 of a coordinate, with room for inexact division). Pixels are counted by their centers, so points and
 // quads end on pixel borders, half a pixel from the nearest center: no subpixel rounding of theirs can lose one.
 const float BOX_MARGIN_PX = 1.0 / 256.0;
 
@@ -102,8 +102,9 @@ const float BOX_MARGIN_PX = 1.0 / 256.0;
 bool pixel_box(Box box, out PixelBox px)
 {
     vec2 half_px = 0.5 * frame.size_px;
-    px.lo = clamp(box.lo * frame.focal_px + (half_px - BOX_MARGIN_PX), vec2(0.0), frame.size_px);
-    px.hi = clamp(box.hi * frame.focal_px + (half_px + BOX_MARGIN_PX), vec2(0.0), frame.size_px);
+    float margin_px = max(BOX_MARGIN_PX, 4e-6 * max(frame.size_px.x, frame.size_px.y));
+    px.lo = clamp(box.lo * frame.focal_px + (half_px - margin_px), vec2(0.0), frame.size_px);
+    px.hi = clamp(box.hi * frame.focal_px + (half_px + margin_px), vec2(0.0), frame.size_px);
     px.first = ivec2(ceil(px.lo - 0.5));
     px.last = ivec2(floor(px.hi - 0.5));
     return all(lessThanEqual(px.first, px.last));

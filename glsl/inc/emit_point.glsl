@@ -13,17 +13,16 @@ void emit_nothing()
     per_y_extra = vec4(0.0);
 }
 
-bool emit_point(Mapping m, vec3 extra)
+void emit_point(Mapping m, vec3 extra)
 {
     Point point;
     if (!point_of(m, point)) {
         emit_nothing();
-        return false;
+        return;
     }
     gl_Position = vec4(point.clip_center, SAFE_DEPTH, 1.0);
     gl_PointSize = point.size_px;
     x0_w0_extra = vec4(point.x0_px, point.w0, extra.x);
     per_x_extra = vec4(point.per_px_x, extra.y);
     per_y_extra = vec4(point.per_px_y, extra.z);
-    return true;
 }

@@ -12,7 +12,7 @@ void emit_nothing()
     x0_w_extra = vec4(0.0);
     per_x_extra = vec4(0.0);
     per_y_extra = vec4(0.0);
-    uv = vec2(0.0);
+    uvw_xy = vec2(0.0);
 }
 
 void emit_quad(Mapping m, vec3 extra)
@@ -26,5 +26,5 @@ void emit_quad(Mapping m, vec3 extra)
     x0_w_extra = vec4(quad.x0_px, quad.constants.z, extra.x);
     per_x_extra = vec4(quad.per_px_x, extra.y);
     per_y_extra = vec4(quad.per_px_y, extra.z);
-    uv = quad.constants.xy;
+    uvw_xy = quad.constants.xy;
 }

@@ -68,8 +68,8 @@ bool map_splat(uint index, out Mapping m)
 
     float epsilon = frame.epsilon_radii * splat.radius + frame.epsilon_length;
     float relative = epsilon > 0.0 ? max(FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)), LEAST_SHIFT) : 0.0;
-    float shift = 1.0 + relative;
-    m.inverse_shift = 1.0 / shift;
+    // Exactly 1 without epsilon: a division need not be.
+    m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;
     return true;
 }
 

@@ -7,6 +7,8 @@
 // The sprite is the square of pixels around the box. Vulkan clips a point by its center, so the square may stick out of
 // the viewport but its center may not: along its shorter side the box stays centered, up to half a pixel.
 
+const float INSIDE = 1.0 - 2.4e-7;
+
 struct Point {
     vec2 clip_center;
     float size_px;
@@ -28,7 +30,8 @@ bool point_of(Mapping m, out Point point)
     // An odd difference of the sides puts the center half a pixel off, so that the square still ends on pixel borders.
     vec2 center_px = vec2(px.first) + 0.5 * (size + mod(side - size, 2.0));
     center_px = FORMULA(FORMULA_POINT_CENTER, center_px);
-    point.clip_center = 2.0 * center_px / frame.size_px - 1.0;
+    // A center on the very edge must not be rounded out of the clip volume: 2^-22 is 0.002 pixels of 16384.
+    point.clip_center = clamp(2.0 * center_px / frame.size_px - 1.0, -INSIDE, INSIDE);
     point.size_px = FORMULA_LESS(FORMULA_POINT_SIZE, ceil(side / frame.point_step_px) * frame.point_step_px);
     precise vec2 x0_px = FORMULA(FORMULA_EXPANSION_POINT, projected_center_px(m));
     precise float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near / m.p.z);

@@ -4,19 +4,19 @@
 #define VARYING in
 #include "inc/quad_varyings.glsl"
 
-// (u, v, w) at this fragment; discards it if it is not covered or lies in front of the near plane.
-vec3 covered_uvw()
+// (u, v, w) at this fragment; discards it if u^2 + v^2 is above the limit or it lies in front of the near plane.
+vec3 covered_uvw(float limit_r2)
 {
     vec2 d = gl_FragCoord.xy - x0_w_extra.xy;
-    precise vec3 uvw = vec3(uv, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
+    precise vec3 uvw = vec3(uvw_xy, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
     // Divided first: the square of a small w would underflow.
-    vec2 own_uv = uvw.xy / uvw.z;
-    bool inside = dot(own_uv, own_uv) <= FORMULA(FORMULA_COVERAGE, frame.coverage_r2);
+    vec2 uv = uvw.xy / uvw.z;
+    bool inside = dot(uv, uv) <= FORMULA(FORMULA_COVERAGE, limit_r2);
     // w = near / z: above 1 in front of the near plane, not above 0 behind the eye. A NaN fails too.
     if (!(inside && uvw.z > 0.0 && uvw.z <= FORMULA(FORMULA_NEAR_CUT, 1.0))) {
         discard;
     }
-    return vec3(own_uv, uvw.z);
+    return vec3(uv, uvw.z);
 }
 
 vec3 extra()

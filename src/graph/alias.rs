@@ -69,6 +69,10 @@ impl Slot {
     }
 }
 
+/// Where a block ends to grow: what every device can allocate at once (Vulkan 1.3, `maxMemoryAllocationSize`). A tenant
+/// that is larger has a block of its own.
+const BLOCK_BYTES: u64 = 1 << 30;
+
 /// One that was asked for and is to be placed.
 struct Tenant {
     id: ResourceId,
@@ -108,18 +112,23 @@ pub(super) fn alias(
     let mut slots: Vec<Option<Slot>> = vec![None; graph.resources.len()];
     for Tenant { id, class, lifetime, need } in tenants {
         let fits = |block: &Block| block.class == class && block.type_bits & need.type_bits != 0;
-        let block = blocks.iter().position(fits).unwrap_or_else(|| {
-            let MemoryNeed { alignment_bytes, type_bits, .. } = need;
+        let place = |block: usize| {
+            let alive = |(slot, other): (&Option<Slot>, &(Usage, Option<Lifetime>))| {
+                slot.filter(|slot| {
+                    slot.block == block && other.1.is_some_and(|other| other.overlaps(lifetime))
+                })
+            };
+            first_fit(block, &need, slots.iter().zip(lifetimes).filter_map(alive).collect())
+        };
+        let candidates = blocks.iter().enumerate().filter(|(_, block)| fits(block));
+        let roomy = candidates.filter_map(|(block, _)| place(block));
+        let found = { roomy }.find(|slot| slot.end_bytes() <= BLOCK_BYTES);
+        let slot = found.unwrap_or_else(|| {
+            let MemoryNeed { size_bytes, alignment_bytes, type_bits } = need;
             blocks.push(Block { class, size_bytes: 0, alignment_bytes, type_bits });
-            blocks.len() - 1
+            Slot { block: blocks.len() - 1, offset_bytes: 0, size_bytes }
         });
-        let alive = |(slot, other): (&Option<Slot>, &(Usage, Option<Lifetime>))| {
-            slot.filter(|slot| slot.block == block && other.1.is_some_and(|other| other.overlaps(lifetime)))
-        };
-        let taken: Vec<Slot> = slots.iter().zip(lifetimes).filter_map(alive).collect();
-        let Some(slot) = first_fit(block, &need, taken) else {
-            return refuse(&graph.resource(id).name, "its place in memory is beyond 2^64 bytes");
-        };
+        let block = slot.block;
         let block = &mut blocks[block];
         block.size_bytes = block.size_bytes.max(slot.end_bytes());
         block.alignment_bytes = block.alignment_bytes.max(need.alignment_bytes);

@@ -61,7 +61,8 @@ pub fn draws<'a>(
     };
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
-        let near = camera.near() * view.view_from_world_scale;
+        // Nearer than that f32 ends; the eye is about 1 away.
+        let near = (camera.near() * view.view_from_world_scale).max(1e-37);
         let (epsilon_radii, epsilon_length) = match settings.epsilon {
             Epsilon::Radii(radii) => (radii, 0.0),
             Epsilon::Length(length) => (0.0, length * view.view_from_world_scale),

@@ -18,7 +18,7 @@ use crate::{
 pub const FLOOR_POINT_BYTES: u64 = 16;
 
 /// Invocations of a workgroup, as in `glsl/floor_points.comp.glsl`.
-const GROUP: u32 = 64;
+const GROUP: u32 = 256;
 
 /// Declares the pass that precomputes the points of the first chunk.
 ///

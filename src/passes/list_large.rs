@@ -1,4 +1,4 @@
-//! The splats that exceed the device's largest point: found, counted and listed on the GPU, in input order.
+//! The splats that are drawn as quads, because they exceed the device's largest point or come near the eye plane: found, counted and listed on the GPU, in input order.
 
 use std::sync::Arc;
 

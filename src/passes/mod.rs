@@ -81,7 +81,7 @@ pub fn sets_needed(draws: &[Draw<'_>]) -> [u32; 3] {
 }
 
 /// The frame of an opaque scene: visibility, accumulation, finalization; before them the list of large splats, only
-/// where a splat may exceed the device's largest point; after them the surface as data, only where it is asked for.
+/// where a splat may exceed the device's largest point or come near the eye plane; after them the surface as data, only where it is asked for.
 ///
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.

@@ -1,11 +1,14 @@
 //! What differs between pipelines of the same shader: the host's mirror of `glsl/inc/variant.glsl`.
 
-use std::f32::consts::LOG2_E;
+use std::f64::consts::LOG2_E;
 
 use crate::scene::{Backfaces, Filter, Kernel, Settings, Shading};
 
 /// Specialization constants: number and 32-bit pattern.
 pub type Constants = Vec<(u32, u32)>;
+
+/// Where a kernel is as steep as f32 lets it be: infinity times a radius of 0 would be NaN.
+const STEEPEST: f64 = 1e30;
 
 /// The constants of the splat passes for one kind of chunk.
 pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
@@ -15,15 +18,15 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         Backfaces::Cull => true,
     };
     let (kernel, a, n) = match settings.kernel {
-        Kernel::Gaussian { sigma } => (0, LOG2_E * 0.5 / (sigma * sigma), 1.0),
-        Kernel::PsiE { a, n, .. } => (1, LOG2_E * a, n),
+        Kernel::Gaussian { sigma } => (0, LOG2_E * 0.5 / f64::from(sigma).powi(2), 1.0),
+        Kernel::PsiE { a, n, .. } => (1, LOG2_E * f64::from(a), n),
     };
     vec![
         (0, u32::from(ellipses)),
         (1, u32::from(cull)),
         (2, u32::from(settings.filter == Filter::Adjust)),
         (3, kernel),
-        (4, a.to_bits()),
+        (4, (a.min(STEEPEST) as f32).to_bits()),
         (5, n.to_bits()),
     ]
 }

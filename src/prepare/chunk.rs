@@ -61,8 +61,8 @@ pub struct Chunk {
     /// The largest major radius, local space.
     pub largest_radius: f64,
     set: vk::DescriptorSet,
-    // Never read again, but the set names them; dropped after the pool.
     _pool: SealedPool,
+    /// Never read again, but the set names them.
     buffers: [Buffer; 2],
 }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3};
 
 use super::rebase::Rebase;
-use crate::scene::{Colors, DefectCounts, Shapes, Splats};
+use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
 
 /// Splats as bytes for the GPU.
 pub struct Packed {
@@ -57,13 +57,15 @@ pub fn pack(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Packed {
         defects: DefectCounts::default(),
     };
     for i in range {
-        let defect = splats.defect(i);
+        let position = rebase.point(splats.positions[i]);
+        let radius = splats.major_radius(i) * rebase.scale;
+        // Beyond f32 from where the others are: no shader may meet an infinity.
+        let beyond = || !position.as_vec3().is_finite() || !(radius as f32).is_finite();
+        let defect = splats.defect(i).or_else(|| beyond().then_some(Defect::Position));
         packed.defects.add(defect);
         if defect.is_some() {
             continue;
         }
-        let position = rebase.point(splats.positions[i]);
-        let radius = splats.major_radius(i) * rebase.scale;
         packed.bounds = [packed.bounds[0].min(position), packed.bounds[1].max(position)];
         packed.largest_radius = packed.largest_radius.max(radius);
         packed.count += 1;
@@ -111,6 +113,17 @@ mod tests {
             let expected = Vec3::from(expected);
             assert!((got - expected).length() <= 1e-6 * expected.length(), "{got}, expected {expected}");
         }
+    }
+
+    #[test]
+    fn what_is_beyond_f32_from_the_others_is_left_out_and_counted() {
+        let mut positions = vec![DVec3::ZERO; 9];
+        positions.push(DVec3::splat(1e60));
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; 10], radii: vec![1.0; 10] };
+        let splats = Splats { positions, shapes, colors: Colors::Uniform([0.5; 4]) };
+        let packed = pack(&splats, 0..10, Rebase::of(&splats, 0..10));
+        assert_eq!((packed.count, packed.defects.of(Defect::Position)), (9, 1));
+        assert!(packed.bounds.iter().all(|corner| corner.as_vec3().is_finite()));
     }
 
     #[test]

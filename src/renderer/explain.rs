@@ -81,7 +81,7 @@ impl Renderer {
         settings: &Settings,
         plan: &Plan,
     ) -> Explanation {
-        let limits = &self.device.facts().limits;
+        let limits = &self.limits;
         let draws = passes::draws(scene, camera, settings, limits);
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,

@@ -42,7 +42,7 @@ impl<'a> Floor<'a> {
         survivors: bool,
     ) -> Result<Self> {
         let device = headless.device();
-        let draws = passes::draws(scene, camera, settings, &device.facts().limits);
+        let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
         let [draw] = draws.as_slice() else {
             return Err(Error::option("bench floor", "the floor is measured with one object of one chunk"));
         };
@@ -98,7 +98,7 @@ impl<'a> Floor<'a> {
 
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {
         let device = headless.device();
-        let draws = passes::draws(self.scene, &self.camera, &self.settings, &device.facts().limits);
+        let draws = passes::draws(self.scene, &self.camera, &self.settings, &headless.renderer.limits);
         // SAFETY: every frame is waited for.
         unsafe { self.slot.begin([3, 12, 0], profile) }?;
         let (descriptors, transients, profiler) = self.slot.parts()?;

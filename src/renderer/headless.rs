@@ -155,7 +155,9 @@ impl Headless {
             Some(targets) => targets,
             none => none.insert(Targets::new(&self.device, settings.size_px, wanted)?),
         };
-        // SAFETY: the frame before was waited for.
+        // Once more, in case that the wait for the frame before failed.
+        self.queue.wait_submitted()?;
+        // SAFETY: every submission was waited for.
         let commands = unsafe { self.commands.begin() }?;
         // SAFETY: recording; all that the frame uses is alive until the wait below; the same for the slot.
         let plan = unsafe {
@@ -246,7 +248,8 @@ pub(super) fn submit_and_wait(
     headless: &Headless,
     record: impl FnOnce(vk::CommandBuffer) -> Result<()>,
 ) -> Result<()> {
-    // SAFETY: every submission of this pool is waited for.
+    headless.queue.wait_submitted()?;
+    // SAFETY: every submission was waited for.
     record(unsafe { headless.commands.begin() }?)?;
     // SAFETY: recorded just now; waited for at once.
     let epoch = unsafe { headless.queue.submit(headless.commands.end()?) }?;

@@ -15,7 +15,7 @@ pub struct Camera {
     /// What is up in the image; need not be orthogonal to the view. Where it is parallel to the view, the nearest
     /// other axis takes its place.
     pub up: DVec3,
-    /// The vertical field of view in radians, between 0 and π.
+    /// The vertical field of view in radians, between 1e-12 and π.
     pub fov_y_rad: f64,
     /// The depth of the near plane in world units; `None` is 1e-6 of the distance from eye to target.
     pub near: Option<f64>,
@@ -29,6 +29,9 @@ pub struct ViewFromWorld {
     /// The eye in world space.
     pub eye: DVec3,
 }
+
+/// Below that an image-plane unit has more pixels than f32 can tell apart.
+const SMALLEST_FOV_RAD: f64 = 1e-12;
 
 /// How much wider than the bounding sphere the fitted view is.
 const FIT_MARGIN: f64 = 1.05;
@@ -85,9 +88,9 @@ impl Camera {
         if !(distance > 0.0 && distance.is_finite()) {
             return Err(Error::option("camera", "eye and target must be two different points"));
         }
-        if !(self.fov_y_rad > 0.0 && self.fov_y_rad < std::f64::consts::PI) {
+        if !(self.fov_y_rad >= SMALLEST_FOV_RAD && self.fov_y_rad < std::f64::consts::PI) {
             let degrees = self.fov_y_rad.to_degrees();
-            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 0 and 180")));
+            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 1e-10 and 180")));
         }
         if !(self.near() > 0.0 && self.near().is_finite()) {
             return Err(Error::option("camera", "near must be above zero"));

@@ -112,8 +112,13 @@ fn create(device: &Device, desc: BufferDesc<'_>) -> Result<vk::Buffer> {
     if desc.size == 0 {
         return Err(Error::option(desc.name, "a buffer of 0 bytes: at least 1"));
     }
+    let largest = device.facts().limits.max_buffer_size;
+    if desc.size > largest {
+        let problem = format!("a buffer of {} bytes: the device makes at most {largest}", desc.size);
+        return Err(Error::option(desc.name, problem));
+    }
     let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
-    // SAFETY: the device is alive; the size is above 0.
+    // SAFETY: the device is alive; the size is above 0 and within the device's.
     let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
     device.set_name(raw, desc.name);
     Ok(raw)

@@ -53,6 +53,8 @@ pub struct Limits {
     pub point_size_range: [f32; 2],
     /// The step of point sizes, in pixels.
     pub point_size_granularity: f32,
+    /// The largest buffer in bytes.
+    pub max_buffer_size: u64,
     /// The largest side of a 2D image that is a render target, in pixels.
     pub max_image_side: u32,
     /// Nanoseconds of a timestamp's tick.
@@ -151,6 +153,7 @@ mod tests {
                 max_storage_buffer_range: 1 << 27,
                 point_size_range: [1.0, 255.0],
                 point_size_granularity: 0.125,
+                max_buffer_size: 1 << 30,
                 max_image_side: 16384,
                 timestamp_period_ns: 1.0,
                 timestamp_valid_bits: 64,

@@ -65,7 +65,8 @@ impl Device {
         let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
             .synchronization2(true)
             .dynamic_rendering(true)
-            .maintenance4(true);
+            .maintenance4(true)
+            .shader_terminate_invocation(true);
         let queues =
             [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
         let info = vk::DeviceCreateInfo::default()
@@ -84,7 +85,7 @@ impl Device {
     /// # Safety
     /// All handles must belong together and to `instance`, and stay alive until every object made from this device
     /// is dropped. The host must have enabled `timelineSemaphore`, `synchronization2`, `dynamicRendering`,
-    /// `maintenance4` and what `features` says. Before the last of our objects is dropped, all submissions of
+    /// `maintenance4`, `shaderTerminateInvocation` and what `features` says. Before the last of our objects is dropped, all submissions of
     /// commands recorded by them must have finished.
     ///
     /// # Errors

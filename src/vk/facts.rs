@@ -39,11 +39,15 @@ pub(super) unsafe fn facts(
     // Before 1.2 the extended structures below don't exist; such a device is refused by its version alone.
     let modern = version >= vk::API_VERSION_1_2;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut maintenance4 = vk::PhysicalDeviceMaintenance4Properties::default();
     let mut features12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut features13 = vk::PhysicalDeviceVulkan13Features::default();
     let mut features = vk::PhysicalDeviceFeatures2::default();
     if modern {
         let mut extended = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        if version >= vk::API_VERSION_1_3 {
+            extended = extended.push_next(&mut maintenance4);
+        }
         // SAFETY: as above; the chain lives until the call returns.
         unsafe { instance.get_physical_device_properties2(device, &mut extended) };
         features = features.push_next(&mut features12);
@@ -71,6 +75,7 @@ pub(super) unsafe fn facts(
         (features13.synchronization2 == vk::TRUE, "synchronization2"),
         (features13.dynamic_rendering == vk::TRUE, "dynamicRendering"),
         (features13.maintenance4 == vk::TRUE, "maintenance4"),
+        (features13.shader_terminate_invocation == vk::TRUE, "shaderTerminateInvocation"),
         (format(vk::Format::D32_SFLOAT).contains(depth), "D32_SFLOAT depth attachments that can be sampled"),
         (
             format(vk::Format::R16G16B16A16_SFLOAT).contains(blended),
@@ -103,6 +108,7 @@ pub(super) unsafe fn facts(
                 false => [1.0, 1.0],
             },
             point_size_granularity: limits.point_size_granularity,
+            max_buffer_size: maintenance4.max_buffer_size,
             max_image_side: limits
                 .max_image_dimension2_d
                 .min(limits.max_framebuffer_width)

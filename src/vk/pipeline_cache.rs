@@ -20,7 +20,7 @@ pub struct PipelineCache {
 
 impl PipelineCache {
     /// Opens the cache of this device and driver in `folder`; `None` keeps it in memory only. A file that is
-    /// missing, cut or of another driver counts as absent: the cache then starts empty.
+    /// missing, without a whole header or of another driver counts as absent: the cache then starts empty.
     ///
     /// # Errors
     /// Whatever the driver answers.

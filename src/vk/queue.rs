@@ -115,6 +115,17 @@ impl Queue {
         Ok(())
     }
 
+    /// Waits for all that was submitted so far; at once where that is done.
+    ///
+    /// # Errors
+    /// As [`Queue::wait`].
+    pub fn wait_submitted(&self) -> Result<()> {
+        match self.submitted.load(Ordering::Acquire) {
+            0 => Ok(()),
+            epoch => self.wait(epoch),
+        }
+    }
+
     /// Records, submits and waits: for work that is done once.
     ///
     /// # Errors

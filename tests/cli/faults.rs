@@ -109,7 +109,7 @@ fn values_that_cannot_be() {
         ("--kernel", "gaussian:NaN", ["--kernel", "NaN"]),
         ("--epsilon", "-1r", ["--epsilon", "at least 0"]),
         ("--background", "0,0,2", ["--background", "0 to 1"]),
-        ("--fov", "180", ["--fov", "between 0 and 180"]),
+        ("--fov", "180", ["--fov", "between 1e-10 and 180"]),
         ("--eye", "1,2", ["--eye", "three numbers"]),
         ("--frames", "0", ["--frames", "1..="]),
     ] {

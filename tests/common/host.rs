@@ -74,7 +74,8 @@ impl Host {
             let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
                 .synchronization2(true)
                 .dynamic_rendering(true)
-                .maintenance4(true);
+                .maintenance4(true)
+                .shader_terminate_invocation(true);
             let queues = [vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(queue_family)
                 .queue_priorities(&[1.0])];

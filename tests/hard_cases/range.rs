@@ -1,12 +1,12 @@
 //! Scenes whose lengths are far apart: no digit is lost to a stray point, no product to the range of f32.
 
 use glam::DVec3;
-use surfel::scene::{Camera, Epsilon};
+use surfel::scene::{Camera, Epsilon, Kernel, Settings};
 
 use super::{
     common::{
         assert_agrees, assert_validation_is_silent,
-        builder::{Builder, camera},
+        builder::{self, Builder, camera},
         render,
         scenes::{self, Hard},
         shared,
@@ -98,5 +98,29 @@ fn an_eye_almost_at_its_target_agrees() {
     assert_ne!(hard.camera.eye, hard.camera.target);
     let (frame, _) = assert_agrees(&mut headless, &hard, 30_000);
     assert_finite(&frame, "eye at target");
+    assert_validation_is_silent(&headless);
+}
+
+/// A pixel's center on a splat's own center, and a kernel steeper than f32: infinity times 0 must not come about.
+#[test]
+fn n14_kernels_steeper_than_f32_leave_no_nan() {
+    let mut headless = shared();
+    for kernel in [
+        Kernel::Gaussian { sigma: 1e-20 },
+        Kernel::Gaussian { sigma: 1e-25 },
+        Kernel::PsiE { a: 3e38, b: 1.5, n: 3.0 },
+    ] {
+        let mut builder = Builder::default();
+        builder.disk(DVec3::ZERO, DVec3::Z, 1.0, [0.5, 0.25, 1.0, 1.0]);
+        let settings = Settings { size_px: [65, 65], kernel, ..builder::settings() };
+        let camera = camera([0.0, 0.0, 3.2], [0.0; 3]);
+        let frame = render(
+            &mut headless,
+            &Hard { name: "steep kernel", scene: builder.scene(false), camera, settings },
+        );
+        assert_finite(&frame, "steep kernel");
+        let covered = frame.weight.iter().filter(|weight| **weight > 0.0).count();
+        assert_eq!((covered, frame.weight[32 * 65 + 32]), (1, 1.0), "{kernel:?}");
+    }
     assert_validation_is_silent(&headless);
 }

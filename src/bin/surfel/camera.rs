@@ -54,7 +54,7 @@ impl CameraChoice {
         if let Some(degrees) = arguments.fov
             && !(degrees > 0.0 && degrees < 180.0)
         {
-            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 0 and 180")));
+            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 1e-10 and 180")));
         }
         let vector = |given: Option<[f64; 3]>| given.map(DVec3::from);
         Ok(Self::Options {
@@ -151,7 +151,10 @@ mod tests {
             ("", "cam.json: line 1, column 0: EOF while parsing a value"),
             (&near("0"), "cam.json: near must be above zero"),
             (&near("1e400"), "cam.json: line 1, column 74: number out of range"),
-            (&near("1").replace("45", "180"), "cam.json: fov_deg: 180: expected degrees between 0 and 180"),
+            (
+                &near("1").replace("45", "180"),
+                "cam.json: fov_deg: 180: expected degrees between 1e-10 and 180",
+            ),
             (&near("1").replace("1,2,3", "0,0,0"), "cam.json: eye and target must be two different points"),
             (&" ".repeat(100_000), "cam.json: not a camera file"),
         ];

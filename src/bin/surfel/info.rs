@@ -186,6 +186,7 @@ mod tests {
                 max_storage_buffer_range: 1 << 27,
                 point_size_range: [1.0, 255.0],
                 point_size_granularity: 0.125,
+                max_buffer_size: 1 << 30,
                 max_image_side: 16384,
                 timestamp_period_ns: 1.0,
                 timestamp_valid_bits: 0,

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{
-    super::{Block, ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Slot, Usage},
+    super::{Block, ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Slot, Usage, Use},
     Physical,
 };
 use crate::{
@@ -38,7 +38,7 @@ pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Memory
     }
 }
 
-/// The transients of one plan; reusable for every plan that asks for the same ones.
+/// The transients of one plan; reusable for every plan that has the same ones and accesses them alike.
 pub struct Transients {
     // Dropped, and so destroyed, before the memory that they are bound to.
     objects: Vec<Option<Object>>,
@@ -56,13 +56,16 @@ enum Object {
 struct Key {
     resources: Vec<Option<(ResourceDesc, Usage, Slot)>>,
     blocks: Vec<Block>,
+    /// The first accesses wait for the last ones of the execution before, taken to be the same.
+    uses: Vec<Vec<Use>>,
 }
 
 impl Key {
     fn of(plan: &Plan) -> Self {
         let resources = plan.resources.iter();
         let resources = resources.map(|r| r.slot.map(|slot| (r.desc, r.usage, slot))).collect();
-        Self { resources, blocks: plan.blocks.clone() }
+        let uses = plan.passes.iter().map(|pass| pass.uses.clone()).collect();
+        Self { resources, blocks: plan.blocks.clone(), uses }
     }
 }
 

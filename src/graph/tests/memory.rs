@@ -99,17 +99,11 @@ fn offsets_are_aligned() {
 }
 
 #[test]
-fn what_no_device_can_hold_is_refused() {
-    let cases = [
-        (
-            MemoryNeed { size_bytes: 1, alignment_bytes: 1, type_bits: 0 },
-            "the device has no memory type for it",
-        ),
-        (
-            MemoryNeed { size_bytes: u64::MAX, alignment_bytes: 2, type_bits: 1 },
-            "its place in memory is beyond 2^64 bytes",
-        ),
-    ];
+fn what_no_device_can_hold_is_refused_and_what_is_huge_has_a_block_of_its_own() {
+    let cases = [(
+        MemoryNeed { size_bytes: 1, alignment_bytes: 1, type_bits: 0 },
+        "the device has no memory type for it",
+    )];
     for (bad, reason) in cases {
         let mut graph = Graph::new();
         let [mut x, mut y] = ["x", "y"].map(|name| graph.create_buffer(name, buffer()));
@@ -117,5 +111,14 @@ fn what_no_device_can_hold_is_refused() {
         pass.write(&mut y, Access::TransferWrite, Start::Discard).side_effect().finish(());
         let error = graph.compile(|_, _, _| Ok(bad)).unwrap_err().to_string();
         assert!(error.starts_with("illegal render graph: resource '") && error.ends_with(reason), "{error}");
+    }
+    for (size_bytes, blocks) in [(u64::MAX, 2), (1 << 30, 2), (1 << 29, 1)] {
+        let mut graph = Graph::new();
+        let [mut x, mut y] = ["x", "y"].map(|name| graph.create_buffer(name, buffer()));
+        let pass = graph.pass("both").write(&mut x, Access::TransferWrite, Start::Discard);
+        pass.write(&mut y, Access::TransferWrite, Start::Discard).side_effect().finish(());
+        let need = MemoryNeed { size_bytes, alignment_bytes: 2, type_bits: 1 };
+        let plan = graph.compile(|_, _, _| Ok(need)).unwrap().plan;
+        assert_eq!(plan.blocks.len(), blocks, "{size_bytes}");
     }
 }
