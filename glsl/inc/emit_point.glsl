@@ -1,6 +1,7 @@
 // Emits a point with the pass's extra varyings; nothing where it covers no pixel's center.
 
-#define VARYING out
+// The same expressions must give the same bits in both passes, which are different pipelines (Vulkan 1.3, "Invariance").
+#define VARYING invariant out
 #include "inc/point_varyings.glsl"
 #include "inc/point.glsl"
 

@@ -50,10 +50,10 @@ bool map_splat(uint index, out Mapping m)
         return false; // wholly behind the near plane
     }
 
-    precise vec3 n0 = cross(t, p);
-    precise vec3 n1 = cross(p, s);
-    precise vec3 n2 = cross(s, t);
-    precise float det = dot(n2, p);
+    precise vec3 n0 = precise_cross(t, p);
+    precise vec3 n1 = precise_cross(p, s);
+    precise vec3 n2 = precise_cross(s, t);
+    precise float det = precise_dot(n2, p);
     if (!(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)))) {
         return false;
     }

@@ -16,12 +16,25 @@ struct Splat {
     float radius; // the larger one
 };
 
+// Written out, because the compiler marks no built-in function as exact: depth depends on these.
+float precise_dot(vec3 a, vec3 b)
+{
+    precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+    return sum;
+}
+
+vec3 precise_cross(vec3 a, vec3 b)
+{
+    precise vec3 product = a.yzx * b.zxy - a.zxy * b.yzx;
+    return product;
+}
+
 vec3 rotated(vec3 v)
 {
     precise vec3 view = vec3(
-        dot(frame.view_from_local_x.xyz, v),
-        dot(frame.view_from_local_y.xyz, v),
-        dot(frame.view_from_local_z.xyz, v));
+        precise_dot(frame.view_from_local_x.xyz, v),
+        precise_dot(frame.view_from_local_y.xyz, v),
+        precise_dot(frame.view_from_local_z.xyz, v));
     return view;
 }
 
