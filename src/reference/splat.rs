@@ -83,7 +83,7 @@ fn prepare_one(
     let (s, t) = match settings.filter {
         // The projection at a center behind the near plane has no meaning: such a splat is drawn as it is.
         Filter::Adjust if center.z > view.near => adjust(center, s, t, view.filter_radius()),
-        Filter::Adjust | Filter::None => (s, t),
+        _ => (s, t),
     };
 
     let plane_normal = s.cross(t).normalize();

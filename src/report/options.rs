@@ -2,19 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::scene::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Settings, Shading};
+use crate::scene::{Backfaces, Epsilon, Kernel, Settings, Shading};
 
 /// Every setting by the name of its option, without the dashes.
 pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String> {
     let [width, height] = settings.size_px;
-    let filter = match settings.filter {
-        Filter::Adjust => "adjust",
-        Filter::None => "none",
-    };
-    let accumulate = match settings.accumulate {
-        Accumulate::F16 => "f16",
-        Accumulate::F32 => "f32",
-    };
     let backfaces = match settings.backfaces {
         Backfaces::Auto => "auto",
         Backfaces::Flip => "flip",
@@ -32,9 +24,13 @@ pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String
     };
     BTreeMap::from([
         ("size", format!("{width}x{height}")),
-        ("filter", filter.to_owned()),
+        ("rasterizer", settings.rasterizer.name().to_owned()),
+        ("filter", settings.filter.name().to_owned()),
+        ("filter-weight", settings.filter_weight.name().to_owned()),
         ("kernel", kernel_option(settings.kernel)),
-        ("accumulate", accumulate.to_owned()),
+        ("kernel-eval", settings.kernel_eval.name().to_owned()),
+        ("early-depth", if settings.early_depth { "on" } else { "off" }.to_owned()),
+        ("accumulate", settings.accumulate.name().to_owned()),
         ("epsilon", epsilon_option(settings.epsilon)),
         ("backfaces", backfaces.to_owned()),
         ("shading", shading.to_owned()),

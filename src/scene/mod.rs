@@ -6,13 +6,15 @@
 mod bounds;
 mod camera;
 mod mesh;
+mod methods;
 mod settings;
 mod splats;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use mesh::{Mesh, MeshColors};
-pub use settings::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Settings, Shading};
+pub use methods::{Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, Rasterizer};
+pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats};
 
 /// One thing in a scene: splats and how they are to be treated.

@@ -1,5 +1,6 @@
 //! How a scene is rendered. The default of each setting is the first value of its option in the manual.
 
+use super::methods::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer};
 use crate::error::{Error, Result};
 
 /// Every choice that changes the picture, apart from scene and camera.
@@ -7,10 +8,19 @@ use crate::error::{Error, Result};
 pub struct Settings {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
+    /// How a splat becomes fragments.
+    pub rasterizer: Rasterizer,
     /// The screen-space low-pass filter.
     pub filter: Filter,
+    /// What a splat weighs that the filter has enlarged.
+    pub filter_weight: FilterWeight,
     /// The reconstruction kernel.
     pub kernel: Kernel,
+    /// How the kernel is evaluated.
+    pub kernel_eval: KernelEval,
+    /// Whether the device is told a bound of each splat's depth, by which it may leave out hidden fragments before they
+    /// are shaded. The picture is the same.
+    pub early_depth: bool,
     /// The precision of the sums.
     pub accumulate: Accumulate,
     /// The depth within which splats are one surface.
@@ -27,9 +37,13 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             size_px: [1024, 1024],
-            filter: Filter::Adjust,
+            rasterizer: Rasterizer::default(),
+            filter: Filter::default(),
+            filter_weight: FilterWeight::default(),
             kernel: Kernel::default(),
-            accumulate: Accumulate::F16,
+            kernel_eval: KernelEval::default(),
+            early_depth: false,
+            accumulate: Accumulate::default(),
             epsilon: Epsilon::Radii(1.0),
             backfaces: Backfaces::Auto,
             shading: Shading::Phong,
@@ -46,7 +60,8 @@ impl Settings {
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] for a side outside 1–65536 pixels, kernel parameters that are not finite and
-    /// above 0, an ε that is not finite and at least 0, a background outside 0–1.
+    /// above 0, an ε that is not finite and at least 0, a background outside 0–1; for a filter that the rasterizer or
+    /// the kernel rules out, and a weight by area without an adjusting filter.
     pub fn validate(&self) -> Result<()> {
         let [width, height] = self.size_px;
         if !self.size_px.iter().all(|side| (1..=MAX_SIDE_PX).contains(side)) {
@@ -54,6 +69,16 @@ impl Settings {
             return Err(Error::option("--size", problem));
         }
         self.kernel.validate()?;
+        self.filter.check(self.rasterizer)?;
+        if self.filter == Filter::Ewa && !matches!(self.kernel, Kernel::Gaussian { .. }) {
+            let problem = "ewa: adds covariances, which psi_e has none of; expected --kernel gaussian:S";
+            return Err(Error::option("--filter", problem));
+        }
+        if self.filter_weight == FilterWeight::Area && !self.filter.adjusts() {
+            let problem =
+                format!("area with --filter {}: expected adjust or adjust-paper", self.filter.name());
+            return Err(Error::option("--filter-weight", problem));
+        }
         let (Epsilon::Radii(epsilon) | Epsilon::Length(epsilon)) = self.epsilon;
         if !(epsilon >= 0.0 && epsilon.is_finite()) {
             return Err(Error::option(
@@ -70,17 +95,19 @@ impl Settings {
         }
         Ok(())
     }
-}
 
-/// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Filter {
-    /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, so
-    /// that it is exact for ellipses too.
-    #[default]
-    Adjust,
-    /// No filter: a splat that misses every pixel center is not seen.
-    None,
+    /// Refuses a filter that an object's splats rule out.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where `object` has elliptic splats.
+    pub fn check_object(&self, object: &str, ellipses: bool) -> Result<()> {
+        if self.filter == Filter::AdjustPaper && ellipses {
+            let problem =
+                format!("adjust-paper: {object} has elliptic splats, it holds for disks; use adjust");
+            return Err(Error::option("--filter", problem));
+        }
+        Ok(())
+    }
 }
 
 /// The reconstruction kernel over the splat's own `r = √(u²+v²)`; zero beyond `r = 1`.
@@ -125,16 +152,6 @@ impl Default for Kernel {
     fn default() -> Self {
         Self::Gaussian { sigma: 0.5 }
     }
-}
-
-/// The precision of the sums of weights, colors and normals.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Accumulate {
-    /// 16-bit floats: a sum of unit weights stalls at 2048.
-    #[default]
-    F16,
-    /// 32-bit floats.
-    F32,
 }
 
 /// The depth ε within which a fragment belongs to the nearest surface of its pixel.
@@ -205,6 +222,12 @@ mod tests {
             ("--kernel", psi_e(f32::INFINITY, 1.0, 1.0)),
             ("--kernel", psi_e(1.0, 0.0, 1.0)),
             ("--kernel", psi_e(1.0, 1.0, f32::NAN)),
+            ("--filter", Settings { filter: Filter::Ewa, ..psi_e(6.0, 1.5, 3.0) }),
+            ("--filter", Settings { filter: Filter::Ewa, rasterizer: Rasterizer::Raycast, ..good() }),
+            (
+                "--filter-weight",
+                Settings { filter_weight: FilterWeight::Area, filter: Filter::Max, ..good() },
+            ),
             ("--epsilon", Settings { epsilon: Epsilon::Radii(-1e-9), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::NAN), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::INFINITY), ..good() }),

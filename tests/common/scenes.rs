@@ -87,7 +87,7 @@ pub fn random_ellipses(filter: Filter) -> Hard {
     }
     let name = match filter {
         Filter::Adjust => "random ellipses of aspect up to 20",
-        Filter::None => "random ellipses, unfiltered",
+        _ => "random ellipses, unfiltered",
     };
     Hard {
         name,

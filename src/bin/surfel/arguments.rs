@@ -7,7 +7,7 @@ use surfel::scene::Accumulate;
 
 use crate::{
     parse,
-    picture_arguments::{ACCUMULATES, PictureArguments, choice},
+    picture_arguments::{PictureArguments, choice},
 };
 
 /// Draws surfaces made of splats (oriented disks, surfels) with Vulkan.
@@ -121,7 +121,7 @@ pub struct BenchArguments {
     pub size: [u32; 2],
 
     /// The precision of the sums
-    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(ACCUMULATES))]
+    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
     pub accumulate: Accumulate,
 
     /// Rounds that are counted, after three to warm up

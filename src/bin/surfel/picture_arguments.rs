@@ -6,7 +6,9 @@ use clap::{
     Args,
     builder::{PossibleValuesParser, TypedValueParser},
 };
-use surfel::scene::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Settings, Shading};
+use surfel::scene::{
+    Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, Shading,
+};
 
 use crate::parse::{self, Background};
 
@@ -67,20 +69,36 @@ pub struct CameraArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Method")]
 pub struct StyleArguments {
-    /// How splats become fragments: perspective-correct, at the exact depth
-    #[arg(long, value_name = "NAME", default_value = "perspective", value_parser = ["perspective"])]
-    pub rasterizer: String,
+    /// How splats become fragments: perspective-correct at the exact depth (as points, in the paper's form, by ray
+    /// casting, with ray casting's approximate point size, as triangles, as quads), or by an affine map that is exact at
+    /// the center or at the contour
+    #[arg(long, value_name = "NAME", default_value = "perspective", value_parser = choice(Rasterizer::NAMES))]
+    pub rasterizer: Rasterizer,
 
-    /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), or none
-    #[arg(long, value_name = "NAME", default_value = "adjust", value_parser = choice(FILTERS))]
+    /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), none, the paper's adjustment
+    /// (disks only), the maximum of kernel and low-pass filter, or full EWA (Gaussian kernels only)
+    #[arg(long, value_name = "NAME", default_value = "adjust", value_parser = choice(Filter::NAMES))]
     pub filter: Filter,
+
+    /// What a splat weighs that the filter adjust has enlarged: as much as any, or its old area over its new one
+    #[arg(long, value_name = "HOW", default_value = "unit", value_parser = choice(FilterWeight::NAMES))]
+    pub filter_weight: FilterWeight,
 
     /// The weight within a splat: gaussian:S (S in radii) or psi_e:A,B,N
     #[arg(long, value_name = "KERNEL", default_value = "gaussian:0.5", value_parser = parse::kernel)]
     pub kernel: Kernel,
 
+    /// How the kernel is evaluated: by arithmetic, or from a texture; the reference computes whatever is given here
+    #[arg(long, value_name = "HOW", default_value = "analytic", value_parser = choice(KernelEval::NAMES))]
+    pub kernel_eval: KernelEval,
+
+    /// Tell the device a bound of each splat's depth, so that it may skip hidden fragments; the picture is the same
+    #[arg(long, value_name = "on|off", default_value = "off", value_parser = choice(ON_OFF))]
+    #[arg(action = clap::ArgAction::Set)]
+    pub early_depth: bool,
+
     /// The precision of the sums; the reference sums in 64 bits whatever is given here
-    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(ACCUMULATES))]
+    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
     pub accumulate: Accumulate,
 
     /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r,
@@ -103,9 +121,7 @@ pub struct StyleArguments {
     pub background: Background,
 }
 
-const FILTERS: &[(&str, Filter)] = &[("adjust", Filter::Adjust), ("none", Filter::None)];
-/// The values of `--accumulate`.
-pub const ACCUMULATES: &[(&str, Accumulate)] = &[("f16", Accumulate::F16), ("f32", Accumulate::F32)];
+const ON_OFF: &[(&str, bool)] = &[("off", false), ("on", true)];
 const BACKFACES: &[(&str, Backfaces)] =
     &[("auto", Backfaces::Auto), ("flip", Backfaces::Flip), ("cull", Backfaces::Cull)];
 const SHADINGS: &[(&str, Shading)] = &[
@@ -131,8 +147,12 @@ impl PictureArguments {
         let style = &self.style;
         Settings {
             size_px: self.size,
+            rasterizer: style.rasterizer,
             filter: style.filter,
+            filter_weight: style.filter_weight,
             kernel: style.kernel,
+            kernel_eval: style.kernel_eval,
+            early_depth: style.early_depth,
             accumulate: style.accumulate,
             epsilon: style.epsilon,
             backfaces: style.backfaces,
@@ -165,8 +185,12 @@ mod tests {
     fn what_a_report_prints_can_be_given_again() {
         let settings = Settings {
             size_px: [7, 9],
-            filter: Filter::None,
+            rasterizer: Rasterizer::AffineContour,
+            filter: Filter::AdjustPaper,
+            filter_weight: FilterWeight::Area,
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
+            kernel_eval: KernelEval::Texture,
+            early_depth: true,
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,

@@ -78,7 +78,11 @@ mod tests {
              surfel render --help)"
         );
         let several = refusal(&["render", "--filter", "blur"]);
-        assert!(several.contains("[possible values: adjust, none]") && !several.contains('\n'), "{several}");
+        assert!(
+            several.contains("[possible values: adjust, none, adjust-paper, max, ewa]")
+                && !several.contains('\n'),
+            "{several}"
+        );
         assert!(refusal(&["paint"]).ends_with("(see surfel --help)"));
         let both = refusal(&["reference", "--camera", "a.json", "--fov", "3"]);
         assert!(

@@ -1,0 +1,178 @@
+//! The methods that the papers compare: how a splat becomes fragments, how it is filtered, how its weight is found.
+
+use crate::error::{Error, Result};
+
+/// Defines an enum whose values have the names that the command line and the reports use.
+macro_rules! named {
+    ($(#[$doc:meta])* $name:ident { $($(#[$value_doc:meta])* $value:ident = $text:literal,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $name {
+            $($(#[$value_doc])* $value,)+
+        }
+
+        impl $name {
+            /// Every value with its name on the command line, the default first.
+            pub const NAMES: &'static [(&'static str, Self)] = &[$(($text, Self::$value)),+];
+
+            /// The value's name on the command line.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$value => $text,)+
+                }
+            }
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self::NAMES[0].1
+            }
+        }
+    };
+}
+
+named! {
+    /// How a splat becomes fragments. All but the affine ones and [`Self::RaycastApproximate`] draw the same picture.
+    Rasterizer {
+        /// The inverse projective map, expanded about the projected center (Guennebaud et al. 2006, section 3).
+        Perspective = "perspective",
+        /// The same map in the paper's own form, `N (x, y, 1)`: less exact in 32 bits.
+        PerspectivePaper = "perspective-paper",
+        /// The ray of each fragment meets the splat's plane (Botsch, Hornung, Zwicker, Kobbelt 2005).
+        Raycast = "raycast",
+        /// As `Raycast` with that paper's point size, the radius seen at the center's depth: tilted splats off the axis
+        /// are chopped.
+        RaycastApproximate = "raycast-approximate",
+        /// An affine map that is exact at the center (Guennebaud, Paulin 2003).
+        AffineCenter = "affine-center",
+        /// An affine map that keeps the contour (Zwicker, Räsänen, Botsch, Dachsbacher, Pauly 2004).
+        AffineContour = "affine-contour",
+        /// One triangle around each splat with the kernel upon it (Pajarola, Sainz, Guidotti 2003, section 5.2).
+        Triangle = "triangle",
+        /// `Perspective` with a quad in place of each point.
+        Quad = "quad",
+    }
+}
+
+named! {
+    /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
+    Filter {
+        /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, so
+        /// that it is exact for ellipses too.
+        Adjust = "adjust",
+        /// No filter: a splat that misses every pixel center is not seen.
+        None = "none",
+        /// Tangent adjustment as the paper has it (equations 8 to 10): for disks alone, and thinner than the filter
+        /// where the projected tangents are not orthogonal.
+        AdjustPaper = "adjust-paper",
+        /// The larger one of kernel and low-pass filter, for each fragment (Botsch et al. 2005).
+        Max = "max",
+        /// The elliptical weighted average: covariances of kernel and low-pass filter added (Zwicker, Pfister, van Baar,
+        /// Gross 2001). For Gaussian kernels; it brings its own affine map.
+        Ewa = "ewa",
+    }
+}
+
+named! {
+    /// What a splat weighs that tangent adjustment has enlarged.
+    FilterWeight {
+        /// As much as any other.
+        Unit = "unit",
+        /// Its old area over its new one, on the screen, but at least 2⁻¹² ([`LEAST_SHARE`]).
+        Area = "area",
+    }
+}
+
+named! {
+    /// How a fragment's weight is found.
+    KernelEval {
+        /// By arithmetic.
+        Analytic = "analytic",
+        /// From a texture that a projective fetch reads (Guennebaud et al. 2006, section 3.2).
+        Texture = "texture",
+    }
+}
+
+named! {
+    /// The precision of the sums of weights, colors and normals.
+    Accumulate {
+        /// 16-bit floats: a sum of unit weights stalls at 2048.
+        F16 = "f16",
+        /// 32-bit floats.
+        F32 = "f32",
+    }
+}
+
+/// The smallest share of its weight that a filter leaves to a splat: 2⁻¹². Normalization by area or determinant would
+/// let the smallest splats fall below what 16-bit sums can hold, and leave holes.
+pub const LEAST_SHARE: f64 = 1.0 / 4096.0;
+
+impl Rasterizer {
+    /// Whether its map from image to splat is affine.
+    pub fn is_affine(self) -> bool {
+        matches!(self, Self::AffineCenter | Self::AffineContour)
+    }
+}
+
+impl Filter {
+    /// Whether this filter exists for this rasterizer.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`] for `ewa`, whose map is affine, with a rasterizer that stands for another
+    /// map, and for what would have to leave a triangle.
+    pub(super) fn check(self, rasterizer: Rasterizer) -> Result<()> {
+        use Rasterizer::{PerspectivePaper, Raycast, RaycastApproximate, Triangle};
+        let problem = match (self, rasterizer) {
+            (Self::Ewa, PerspectivePaper | Raycast | RaycastApproximate | Triangle) => {
+                "brings its own affine map; expected perspective, quad, affine-center or affine-contour"
+            }
+            (Self::Max, Triangle) => "reaches beyond the triangle; expected another rasterizer or filter",
+            _ => return Ok(()),
+        };
+        let name = rasterizer.name();
+        Err(Error::option("--filter", format!("{} with --rasterizer {name}: {problem}", self.name())))
+    }
+
+    /// Whether it is one of the two that adjust tangents.
+    pub fn adjusts(self) -> bool {
+        matches!(self, Self::Adjust | Self::AdjustPaper)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_value_is_listed_once_and_the_default_comes_first() {
+        assert_eq!(Rasterizer::default(), Rasterizer::Perspective);
+        assert_eq!(Filter::default(), Filter::Adjust);
+        assert_eq!(FilterWeight::default(), FilterWeight::Unit);
+        assert_eq!(KernelEval::default(), KernelEval::Analytic);
+        assert_eq!(Accumulate::default(), Accumulate::F16);
+        for (name, value) in Rasterizer::NAMES {
+            assert_eq!(*name, value.name());
+        }
+    }
+
+    #[test]
+    fn filters_without_meaning_for_a_rasterizer_are_refused() {
+        for (_, rasterizer) in Rasterizer::NAMES {
+            for (_, filter) in Filter::NAMES {
+                let error = filter.check(*rasterizer).err().map(|error| error.to_string());
+                let refused = match filter {
+                    Filter::Ewa => matches!(
+                        rasterizer,
+                        Rasterizer::PerspectivePaper
+                            | Rasterizer::Raycast
+                            | Rasterizer::RaycastApproximate
+                            | Rasterizer::Triangle
+                    ),
+                    Filter::Max => *rasterizer == Rasterizer::Triangle,
+                    _ => false,
+                };
+                assert_eq!(error.is_some(), refused, "{filter:?} with {rasterizer:?}: {error:?}");
+            }
+        }
+    }
+}
