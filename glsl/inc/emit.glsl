@@ -19,8 +19,6 @@
 layout(set = 1, binding = 2, std430) readonly buffer LargeList { uint large_list[]; };
 #endif
 
-invariant gl_Position;
-
 // The splat of this vertex.
 uint splat_index()
 {
@@ -124,7 +122,10 @@ void emit(Mapping m, vec3 extra, float depth_factor)
     vec2 uv = triangle_corner(m, gl_VertexIndex % 3);
     precise vec3 q = m.p + m.s * uv.x + m.t * uv.y;
     precise float z = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near) * depth_factor;
-    gl_Position = vec4(2.0 * frame.focal_px * q.xy / frame.size_px, z, q.z);
+    // Depth is this position's: bit-equal in both passes but for the factor. (gl_Position itself can't be `invariant`: Mesa
+    // 22.3 warns of it.)
+    precise vec2 xy = 2.0 * frame.focal_px / frame.size_px * q.xy;
+    gl_Position = vec4(xy, z, q.z);
     triangle_uv = uv;
     triangle_extra = extra;
 #else
