@@ -139,12 +139,13 @@ fn early_depth_changes_no_bit() {
 #[test]
 fn kernels_from_a_texture_are_as_exact_as_its_texels_allow() {
     let mut headless = shared();
-    let texel = 2.0 / 255.0;
-    for (kernel, curvature) in [
+    let texel = 2.0 / 255.0_f64;
+    let kernels: [(Kernel, f64); 3] = [
         (Kernel::Gaussian { sigma: 0.5 }, 8.0),
         (Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }, 60.0),
         (Kernel::Gaussian { sigma: 0.1 }, 200.0),
-    ] {
+    ];
+    for (kernel, curvature) in kernels {
         let interpolation = texel * texel / 8.0 * curvature;
         // `compare` divides by the weight or 0.135, whichever is larger; a device may filter with 8 bits of fraction.
         let weight =
