@@ -46,6 +46,9 @@ bool is_drawn_elsewhere(uint index)
 // is at most its center's times 1 + depth radius / (p_z - depth radius); affine and stretched maps stay below.
 float nearest_depth(Mapping m)
 {
+    if (!EARLY_DEPTH) {
+        return 0.5; // only has to be inside the clip volume
+    }
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
     return m.regular ? min(FORMULA_LESS(FORMULA_NEAREST_DEPTH, frame.near / (m.p.z - depth_radius) * 1.00001), 1.0) : 1.0;
 }
