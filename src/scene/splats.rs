@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::Bounds;
+use crate::math::srgb::linear_from_srgb;
 
 /// Oriented elliptical disks in world space. All arrays have one entry a splat.
 #[derive(Clone, Debug)]
@@ -43,6 +44,17 @@ pub enum Colors {
     /// One each.
     PerSplat(Vec<[f32; 4]>),
 }
+
+impl Colors {
+    /// Those of a surface that has none: the sRGB value 204/255, opaque.
+    pub fn unknown() -> Self {
+        let gray = linear_from_srgb(UNKNOWN_SRGB);
+        Self::Uniform([gray, gray, gray, 1.0])
+    }
+}
+
+/// The albedo of surfaces without colors, as an sRGB value.
+pub const UNKNOWN_SRGB: f32 = 204.0 / 255.0;
 
 /// Why a splat can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
