@@ -89,6 +89,20 @@ impl Splats {
         self.positions.is_empty()
     }
 
+    /// Bytes of memory that the splats themselves need: with disks 24 for a position, 12 for a normal, 4 for a radius;
+    /// with ellipses 24 and twice 12; 16 more for a color of its own.
+    pub fn bytes(&self) -> u64 {
+        let shape = match &self.shapes {
+            Shapes::Disks { .. } => size_of::<(Vec3, f32)>(),
+            Shapes::Ellipses { .. } => 2 * size_of::<Vec3>(),
+        };
+        let color = match &self.colors {
+            Colors::Uniform(_) => 0,
+            Colors::PerSplat(_) => size_of::<[f32; 4]>(),
+        };
+        self.len() as u64 * (size_of::<DVec3>() + shape + color) as u64
+    }
+
     /// Color and alpha of splat `i`.
     pub fn color(&self, i: usize) -> [f32; 4] {
         match &self.colors {

@@ -229,6 +229,11 @@ impl Device {
         })
     }
 
+    /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks.
+    pub fn memory_held(&self) -> u64 {
+        self.memory().as_ref().map_or(0, |(allocator, _)| allocator.capacity())
+    }
+
     /// Whether the queue was free; it is taken now.
     pub(super) fn take_queue(&self) -> bool {
         !self.0.queue_taken.swap(true, Ordering::AcqRel)
