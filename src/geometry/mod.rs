@@ -6,6 +6,8 @@ mod normals;
 mod radii;
 mod resample;
 mod surface;
+#[cfg(test)]
+mod test_meshes;
 mod topology;
 
 pub use mesh_splats::{DEFAULT_OVERLAP, splats_from_mesh};

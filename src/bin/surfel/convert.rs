@@ -7,14 +7,14 @@ use surfel::{
     geometry::resample,
     load::{Model, load},
     save,
-    scene::{Object, Shapes},
+    scene::Object,
 };
 
 use crate::{
     arguments::ConvertArguments,
     console::{self, Bars},
     outputs,
-    scene::{finish, load_object, mesh_head},
+    scene::{finish, kind, load_object, mesh_head},
     steps::Steps,
 };
 
@@ -35,10 +35,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     let written = save::splats(&arguments.output, &object.splats, object.closed, &bars);
     bars.clear();
     let written = written?;
-    let kind = match object.splats.shapes {
-        Shapes::Disks { .. } => "disks",
-        Shapes::Ellipses { .. } => "ellipses",
-    };
+    let kind = kind(&object.splats);
     let positions = if written.double_positions { ", 64-bit positions" } else { "" };
     let closed = if object.closed { ", marked as closed" } else { "" };
     let (count, bytes) = (object.splats.len(), written.bytes);

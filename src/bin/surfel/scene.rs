@@ -79,7 +79,7 @@ pub fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Objec
 pub fn finish(mut object: Object, head: String, mesh: Option<[usize; 2]>) -> (Object, InputReport) {
     let defects = object.splats.drop_defective();
     let mut summary = match head.is_empty() {
-        true => format!("{}: {}", object.name, splats_head(&object.splats)),
+        true => format!("{}: {}", object.name, splats_head(&object)),
         false => format!("{}: {head}", object.name),
     };
     if defects.total() > 0 {
@@ -96,12 +96,18 @@ pub fn finish(mut object: Object, head: String, mesh: Option<[usize; 2]>) -> (Ob
     (object, report)
 }
 
-fn splats_head(splats: &Splats) -> String {
-    let kind = match splats.shapes {
+/// A file of splats in words.
+fn splats_head(object: &Object) -> String {
+    let closed = if object.closed { ", closed" } else { "" };
+    format!("{} {}{closed}", object.splats.len(), kind(&object.splats))
+}
+
+/// What splats are, in the plural.
+pub fn kind(splats: &Splats) -> &'static str {
+    match splats.shapes {
         Shapes::Disks { .. } => "disks",
         Shapes::Ellipses { .. } => "ellipses",
-    };
-    format!("{} {kind}", splats.len())
+    }
 }
 
 /// A mesh in words.
