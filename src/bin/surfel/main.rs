@@ -6,6 +6,7 @@ mod bench;
 mod cache;
 mod camera;
 mod console;
+mod convert;
 mod explain;
 mod info;
 mod json;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
     let done = match &arguments.command {
         Command::Render(arguments) => render::run(arguments),
         Command::Reference(arguments) => reference::run(arguments),
+        Command::Convert(arguments) => convert::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
