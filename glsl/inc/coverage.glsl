@@ -15,6 +15,12 @@ struct Covered {
     float w; // depth
 };
 
+// From the middle of the image: exact, both are multiples of a half.
+vec2 at_px()
+{
+    return gl_FragCoord.xy - 0.5 * frame.size_px;
+}
+
 #if defined(TRIANGLES)
 
 // Discards the fragment if u^2 + v^2 is above the limit.
@@ -38,7 +44,7 @@ vec3 extra()
 // The ray of the fragment meets the splat's plane n . q = n . p (Botsch et al. 2005): 1 / z is linear along the image.
 vec3 evaluate()
 {
-    precise vec3 ray = vec3((gl_FragCoord.xy - 0.5 * frame.size_px) / frame.focal_px, 1.0);
+    precise vec3 ray = vec3(at_px() / frame.focal_px, 1.0);
     precise float inverse_z = ray_plane_extra.x * ray.x + ray_plane_extra.y * ray.y + ray_plane_extra.z;
     vec3 q = ray / inverse_z - ray_center_extra.xyz;
     precise float w = FORMULA(FORMULA_RAY_DEPTH, frame.near * inverse_z);
@@ -47,8 +53,8 @@ vec3 evaluate()
 
 vec2 from_center_px()
 {
-    vec2 center_px = ray_center_extra.xy / ray_center_extra.z * frame.focal_px + 0.5 * frame.size_px;
-    return gl_FragCoord.xy - center_px;
+    vec2 center_px = ray_center_extra.xy / ray_center_extra.z * frame.focal_px;
+    return at_px() - center_px;
 }
 
 // From the projected center, in pixels, and the depth there; 0 without a low-pass filter.
@@ -69,8 +75,8 @@ vec3 evaluate()
 {
 #if defined(PLAIN)
     const bool about_middle = RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER;
-    vec2 x0_px = about_middle ? 0.5 * frame.size_px : x0_w_extra.xy;
-    vec2 d = gl_FragCoord.xy - x0_px;
+    vec2 x0_px = about_middle ? vec2(0.0) : x0_w_extra.xy;
+    precise vec2 d = at_px() - x0_px;
     precise vec3 uvw = per_x_extra.xyz * d.x + per_y_extra.xyz * d.y;
     if (about_middle) {
         uvw += x0_w_extra.xyz;
@@ -79,7 +85,7 @@ vec3 evaluate()
     }
     bool affine = AFFINE;
 #else
-    vec2 d = gl_FragCoord.xy - x0_w_extra.xy;
+    precise vec2 d = at_px() - x0_w_extra.xy;
     precise vec3 uvw = vec3(uv_affine.xy, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
     bool affine = (AFFINE || FILTER == FILTER_MAX) && uv_affine.z != 0.0;
 #endif
@@ -90,9 +96,9 @@ vec3 evaluate()
 vec3 low_pass()
 {
 #if defined(CENTER)
-    return vec3(gl_FragCoord.xy - center_low_pass.xy, center_low_pass.z);
+    return vec3(at_px() - center_low_pass.xy, center_low_pass.z);
 #else
-    return vec3(gl_FragCoord.xy - x0_w_extra.xy, x0_w_extra.z); // expanded about the center
+    return vec3(at_px() - x0_w_extra.xy, x0_w_extra.z); // expanded about the center
 #endif
 }
 

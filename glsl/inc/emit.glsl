@@ -87,7 +87,8 @@ void hand_over(Mapping m, vec3 extra)
     precise float n2 = precise_dot(m.n2, m.n2);
     precise vec3 u_axis = precise_cross(m.t, m.n2) / n2;
     precise vec3 v_axis = precise_cross(m.n2, m.s) / n2;
-    precise vec3 plane = m.n2 * (m.scale / frame.near);
+    // Not by m.scale: n . p of this very n, so that the plane holds the center.
+    precise vec3 plane = m.n2 / precise_dot(m.n2, m.p);
     if (m.edge_on) {
         plane = vec3(0.0); // its rays meet nothing
     }

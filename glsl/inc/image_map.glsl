@@ -21,7 +21,7 @@
 // minutes and gigabytes to follow `precise` through functions that answer with structs.
 
 struct ImageMap {
-    vec2 x0_px;
+    vec2 x0_px;   // from the middle of the image
     vec3 at_x0;   // (uw, vw, w), or (u, v, w) where the map is affine
     vec3 along_x; // their change per pixel
     vec3 along_y;
@@ -43,7 +43,9 @@ ImageMap projective_map(Mapping m, vec2 x0_px, vec3 at_x0)
 // Expanded about a point that is not the center.
 ImageMap projective_map_about(Mapping m, vec2 x0_px)
 {
-    vec3 x0 = vec3((x0_px - 0.5 * frame.size_px) / frame.focal_px, 1.0);
+    vec3 x0 = vec3(x0_px / frame.focal_px, 1.0);
+    // Here w comes from n2 too: it must be wrong by the same factor as its own scale, which then cancels.
+    m.scale = frame.near / precise_dot(m.n2, m.p);
     vec3 at_x0 = m.scale * vec3(precise_dot(m.n0, x0), precise_dot(m.n1, x0), precise_dot(m.n2, x0));
     return projective_map(m, x0_px, FORMULA(FORMULA_ELSEWHERE_CONSTANTS, at_x0));
 }
@@ -112,7 +114,7 @@ ImageMap affine_contour_map(Mapping m)
     float v_x = -v_y * contour.xy / contour.xx;
     vec2 gradient = m.scale * m.n2.xy;
     ImageMap map;
-    map.x0_px = FORMULA(FORMULA_EXPANSION_POINT, contour.e * frame.focal_px + 0.5 * frame.size_px);
+    map.x0_px = FORMULA(FORMULA_EXPANSION_POINT, contour.e * frame.focal_px);
     map.at_x0 = vec3(0.0, 0.0, depth_at_middle(m, contour.e, gradient));
     float per_px = 1.0 / frame.focal_px;
     vec3 x = per_px * vec3(FORMULA(FORMULA_AFFINE_MAP, 1.0 / root_xx), v_x, gradient.x);
@@ -177,7 +179,7 @@ Stretched stretched(Mapping m)
 ImageMap ewa_map(Stretched ewa)
 {
     ImageMap map;
-    map.x0_px = FORMULA(FORMULA_EXPANSION_POINT, ewa.middle * frame.focal_px + 0.5 * frame.size_px);
+    map.x0_px = FORMULA(FORMULA_EXPANSION_POINT, ewa.middle * frame.focal_px);
     map.at_x0 = vec3(0.0, 0.0, ewa.w);
     vec2 per_px = FORMULA(FORMULA_AFFINE_MAP, 1.0 / (ewa.half_axes * frame.focal_px));
     vec2 x = per_px * vec2(ewa.direction.x, -ewa.direction.y);
@@ -200,7 +202,7 @@ ImageMap regular_map(Mapping m)
         return projective_map_about_center(m);
     }
     switch (RASTERIZER) {
-    case RASTERIZER_PERSPECTIVE_PAPER: return projective_map_about(m, 0.5 * frame.size_px);
+    case RASTERIZER_PERSPECTIVE_PAPER: return projective_map_about(m, vec2(0.0));
     case RASTERIZER_AFFINE_CENTER: return affine_center_map(m);
     case RASTERIZER_AFFINE_CONTOUR: return affine_contour_map(m);
     default: return projective_map_about_center(m);

@@ -18,7 +18,7 @@ struct Mapping {
     vec3 n0;             // t x p, p x s, s x t: the rows of adj(M)
     vec3 n1;
     vec3 n2;
-    float scale;         // near / det
+    float scale;         // near / det; det as exact as the splat itself, also where it is seen edge-on
     float inverse_shift; // 1 / f
     vec3 normal;         // unit, view space, turned to the eye
     float share;         // of its weight that the filter leaves to the splat
@@ -67,7 +67,9 @@ bool map_splat(uint index, out Mapping m)
     precise vec3 n0 = precise_cross(t, p);
     precise vec3 n1 = precise_cross(p, s);
     precise vec3 n2 = precise_cross(s, t);
-    precise float det = precise_dot(n2, p);
+    // Where a filter changed s and t, the splat is not edge-on any more.
+    bool changed = any(notEqual(s, splat.s)) || any(notEqual(t, splat.t));
+    precise float det = changed ? precise_dot(n2, p) : splat.det;
     m.edge_on = !(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)));
     if (m.edge_on && !(FILTER == FILTER_MAX && p.z > frame.near) && !(FILTER == FILTER_EWA && m.regular)) {
         return false;
@@ -88,9 +90,10 @@ bool map_splat(uint index, out Mapping m)
     return true;
 }
 
-// The projected center in pixels; only for centers in front of the eye.
+// The projected center in pixels from the middle of the image: from a corner it would lose the digits that a thin splat in
+// the middle needs. Only for centers in front of the eye.
 vec2 projected_center_px(Mapping m)
 {
-    precise vec2 center = m.p.xy / m.p.z * frame.focal_px + 0.5 * frame.size_px;
+    precise vec2 center = m.p.xy / m.p.z * frame.focal_px;
     return center;
 }

@@ -22,21 +22,22 @@ bool quad_of(Mapping m, int corner, out Quad quad)
     return true;
 }
 
-// (uw, vw, w) is expanded about the projected center if that lies inside the box, else about the box's middle: the center
-// of a splat near the eye plane projects far away or not at all.
+// (uw, vw, w) is expanded about the projected center if the splat is regular, as a point's is, or if that lies inside the
+// box; else about the box's middle: the center of a splat near the eye plane projects far away or not at all.
 ImageMap quad_map(Mapping m, Quad quad)
 {
     if (m.regular && AFFINE || m.edge_on) {
         return regular_map(m);
     }
     if (RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER) {
-        return projective_map_about(m, 0.5 * frame.size_px);
+        return projective_map_about(m, vec2(0.0));
     }
     vec2 center = projected_center_px(m);
-    bool center_inside = m.p.z > frame.near && all(greaterThanEqual(center, quad.lo))
-        && all(lessThanEqual(center, quad.hi));
-    if (center_inside) {
+    vec2 middle_px = 0.5 * frame.size_px;
+    bool center_inside = m.p.z > frame.near && all(greaterThanEqual(center, quad.lo - middle_px))
+        && all(lessThanEqual(center, quad.hi - middle_px));
+    if (m.regular || center_inside) {
         return projective_map_about_center(m);
     }
-    return projective_map_about(m, 0.5 * (quad.lo + quad.hi));
+    return projective_map_about(m, 0.5 * (quad.lo + quad.hi) - middle_px);
 }

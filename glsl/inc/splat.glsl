@@ -14,6 +14,7 @@ struct Splat {
     vec3 t;
     vec3 normal;  // unit, to the side from which the surface is seen
     float radius; // the larger one
+    float det;    // (s x t) . p, with all its digits also where the splat is seen edge-on
 };
 
 // Written out, because the compiler marks no built-in function as exact: depth depends on these.
@@ -47,6 +48,54 @@ vec3 safe_normalize(vec3 v)
     return unit;
 }
 
+// The upper 12 of a float's 24 bits: products of two such are exact.
+vec3 upper_half(vec3 v)
+{
+    return uintBitsToFloat(floatBitsToUint(v) & 0xfffff000u);
+}
+
+// a . b + a . b_low, rounded about once: the products in halves (Dekker, "A floating-point technique for extending the
+// available precision", Numer. Math. 18, 1971), their sum with what each addition loses (Knuth's two-sum).
+float exact_dot(vec3 a, vec3 b, vec3 b_low)
+{
+    precise vec3 a1 = upper_half(a);
+    precise vec3 b1 = upper_half(b);
+    precise vec3 a2 = a - a1;
+    precise vec3 b2 = b - b1;
+    precise vec3 big = a1 * b1;
+    precise vec3 small = a1 * b2 + a2 * b1 + (a2 * b2 + a * b_low);
+    precise float xy = big.x + big.y;
+    precise float y = xy - big.x;
+    precise float lost_xy = (big.x - (xy - y)) + (big.y - y);
+    precise float xyz = xy + big.z;
+    precise float z = xyz - xy;
+    precise float lost_xyz = (xy - (xyz - z)) + (big.z - z);
+    precise float sum = xyz + (lost_xy + lost_xyz + (small.x + small.y + small.z));
+    return sum;
+}
+
+// a x b, each component rounded about once.
+vec3 exact_cross(vec3 a, vec3 b)
+{
+    return vec3(
+        exact_dot(vec3(a.y, -a.z, 0.0), vec3(b.z, b.y, 0.0), vec3(0.0)),
+        exact_dot(vec3(a.z, -a.x, 0.0), vec3(b.x, b.z, 0.0), vec3(0.0)),
+        exact_dot(vec3(a.x, -a.y, 0.0), vec3(b.y, b.x, 0.0), vec3(0.0)));
+}
+
+// n . p of a local normal and a local position, the eye at the origin. Not in view space: there the rotation's rounding,
+// 1e-7, is 1e-3 of the cosine of 89.99 degrees.
+float normal_dot_center(vec3 n, vec3 position)
+{
+    vec3 origin = vec3(frame.origin_from_eye[0], frame.origin_from_eye[1], frame.origin_from_eye[2]);
+    vec3 origin_low = vec3(frame.origin_from_eye[3], frame.origin_from_eye[4], frame.origin_from_eye[5]);
+    precise vec3 moved = frame.view_from_local_scale * position; // exact, a power of two
+    precise vec3 p = moved + origin;
+    precise vec3 part = p - moved;
+    precise vec3 lost = (moved - (p - part)) + (origin - part) + origin_low;
+    return exact_dot(n, p, lost);
+}
+
 Splat load_splat(uint index)
 {
     precise Splat splat;
@@ -59,6 +108,8 @@ Splat load_splat(uint index)
         splat.t = scale * rotated(shapes[3 * index + 2].xyz);
         splat.normal = safe_normalize(cross(safe_normalize(splat.s), safe_normalize(splat.t)));
         splat.radius = scale * position_radius.w;
+        vec3 n_local = exact_cross(scale * shapes[3 * index + 1].xyz, scale * shapes[3 * index + 2].xyz);
+        splat.det = normal_dot_center(n_local, position_radius.xyz);
     } else {
         vec4 position_radius = shapes[2 * index];
         vec3 n = rotated(shapes[2 * index + 1].xyz);
@@ -70,6 +121,7 @@ Splat load_splat(uint index)
         splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
         splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
         splat.normal = n;
+        splat.det = splat.radius * splat.radius * normal_dot_center(shapes[2 * index + 1].xyz, position_radius.xyz);
     }
     return splat;
 }

@@ -36,6 +36,9 @@ pub struct FrameConstants {
     pub uniform_color: u32,
     /// What local lengths are multiplied by in view space: a power of two.
     pub view_from_local_scale: f32,
+    /// The local origin seen from the eye, in local space's axes and the view unit: x, y, z in f32, then what f32 left of
+    /// each.
+    pub origin_from_eye: [f32; 6],
 }
 
 /// What finalization is told; see `glsl/finalize.frag.glsl`.

@@ -96,6 +96,7 @@ pub fn draws<'a>(
                 splat_count: chunk.count,
                 uniform_color: u32::from(chunk.uniform_color),
                 view_from_local_scale: view.view_from_local_scale as f32,
+                origin_from_eye: in_two_parts(view.origin_from_eye),
             },
             largest_box_px,
             may_be_large: match primitive {
@@ -107,6 +108,13 @@ pub fn draws<'a>(
         }
     };
     scene.chunks.iter().map(draw).collect()
+}
+
+/// A vector in f32, and what that leaves of it.
+fn in_two_parts(v: DVec3) -> [f32; 6] {
+    let high = v.as_vec3();
+    let low = (v - high.as_dvec3()).as_vec3();
+    [high.x, high.y, high.z, low.x, low.y, low.z]
 }
 
 /// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius.

@@ -30,6 +30,8 @@ pub struct ViewFromLocal {
     pub view_from_local_scale: f64,
     /// What world lengths are multiplied by.
     pub view_from_world_scale: f64,
+    /// The local origin seen from the eye, not rotated, in the view's unit.
+    pub origin_from_eye: DVec3,
 }
 
 /// The origin is a multiple of this part of the local unit, so that a scene and its copy at a representable offset have
@@ -82,6 +84,7 @@ impl Rebase {
             rows: [row(0), row(1), row(2)],
             view_from_local_scale: view_from_world_scale / self.scale,
             view_from_world_scale,
+            origin_from_eye: (self.origin - camera.eye) * view_from_world_scale,
         }
     }
 }
