@@ -12,11 +12,11 @@
 float adjust_tangents(vec3 p, inout vec3 s, inout vec3 t)
 {
     Principal axes = principal_axes(p, s, t);
-    precise float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
+    float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
     if (abs(axes.minor) >= h) {
         return 1.0;
     }
-    precise vec3 long_axis = s * axes.cosine + t * axes.sine;
+    vec3 long_axis = s * axes.cosine + t * axes.sine;
     s = axes.major < h ? vec3(axes.direction * (h * p.z), 0.0) : long_axis;
     t = vec3(vec2(-axes.direction.y, axes.direction.x) * (h * p.z), 0.0);
     return FORMULA(FORMULA_SHARE, max(axes.major * abs(axes.minor) / (max(axes.major, h) * h), LEAST_SHARE));

@@ -84,11 +84,11 @@ void emit_nothing()
 void hand_over(Mapping m, vec3 extra)
 {
     // Dual to s and t in the splat's plane: u_axis . s = 1, u_axis . t = 0.
-    precise float n2 = precise_dot(m.n2, m.n2);
-    precise vec3 u_axis = precise_cross(m.t, m.n2) / n2;
-    precise vec3 v_axis = precise_cross(m.n2, m.s) / n2;
+    float n2 = precise_dot(m.n2, m.n2);
+    vec3 u_axis = precise_cross(m.t, m.n2) / n2;
+    vec3 v_axis = precise_cross(m.n2, m.s) / n2;
     // Not by m.scale: n . p of this very n, so that the plane holds the center.
-    precise vec3 plane = m.n2 / precise_dot(m.n2, m.p);
+    vec3 plane = m.n2 / precise_dot(m.n2, m.p);
     if (m.edge_on) {
         plane = vec3(0.0); // its rays meet nothing
     }
@@ -128,11 +128,11 @@ void emit(Mapping m, vec3 extra, float depth_factor)
 {
 #if defined(TRIANGLES) || defined(SMALL_TRIANGLES)
     vec2 uv = triangle_corner(m, gl_VertexIndex % 3);
-    precise vec3 q = m.p + m.s * uv.x + m.t * uv.y;
-    precise float z = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near) * depth_factor;
+    vec3 q = m.p + m.s * uv.x + m.t * uv.y;
+    float z = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near) * depth_factor;
     // Depth is this position's: bit-equal in both passes but for the factor. (gl_Position itself can't be `invariant`: Mesa
     // 22.3 warns of it.)
-    precise vec2 xy = 2.0 * frame.focal_px / frame.size_px * q.xy;
+    vec2 xy = 2.0 * frame.focal_px / frame.size_px * q.xy;
     gl_Position = vec4(xy, z, q.z);
     triangle_uv = uv;
     triangle_extra = extra;

@@ -16,9 +16,6 @@
 //                    never leaves the disk's own range.
 //
 // Limits: the affine ones are for regular splats; others are mapped projectively.
-//
-// Nothing here is `precise`: the outputs are `invariant`, which makes them bit-equal in both passes, and glslang takes
-// minutes and gigabytes to follow `precise` through functions that answer with structs.
 
 struct ImageMap {
     vec2 x0_px;   // from the middle of the image

@@ -8,8 +8,8 @@
 // Visibility shifts the splat along its projectors by f = 1 + epsilon / max(p_z, epsilon): the image is the same,
 // the depth w / f stays linear.
 //
-// Everything that depth depends on is `precise`: the passes must find bit-equal depths, or the nearest surface would
-// hide itself.
+// Both passes must find bit-equal depths, or the nearest surface would hide itself: the build forbids contraction in all
+// vertex and compute stages (src/shaders/build/exact.rs), and what they hand over is `invariant`.
 
 struct Mapping {
     vec3 p;              // center and tangent vectors after the filter, view space
@@ -41,9 +41,9 @@ const float LEAST_SHIFT = 1e-6;
 bool map_splat(uint index, out Mapping m)
 {
     Splat splat = load_splat(index);
-    precise vec3 p = splat.p;
-    precise vec3 s = splat.s;
-    precise vec3 t = splat.t;
+    vec3 p = splat.p;
+    vec3 s = splat.s;
+    vec3 t = splat.t;
     bool faces_away = dot(splat.normal, p) > 0.0;
     if (CULL_BACKFACES && faces_away) {
         return false;
@@ -64,17 +64,17 @@ bool map_splat(uint index, out Mapping m)
     }
     m.regular = p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
 
-    precise vec3 n0 = precise_cross(t, p);
-    precise vec3 n1 = precise_cross(p, s);
-    precise vec3 n2 = precise_cross(s, t);
+    vec3 n0 = precise_cross(t, p);
+    vec3 n1 = precise_cross(p, s);
+    vec3 n2 = precise_cross(s, t);
     // Where a filter changed s and t, the splat is not edge-on any more.
     bool changed = any(notEqual(s, splat.s)) || any(notEqual(t, splat.t));
-    precise float det = changed ? precise_dot(n2, p) : splat.det;
+    float det = changed ? precise_dot(n2, p) : splat.det;
     m.edge_on = !(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)));
     if (m.edge_on && !(FILTER == FILTER_MAX && p.z > frame.near) && !(FILTER == FILTER_EWA && m.regular)) {
         return false;
     }
-    precise float scale = frame.near / det;
+    float scale = frame.near / det;
     m.p = p;
     m.s = s;
     m.t = t;
@@ -94,6 +94,6 @@ bool map_splat(uint index, out Mapping m)
 // the middle needs. Only for centers in front of the eye.
 vec2 projected_center_px(Mapping m)
 {
-    precise vec2 center = m.p.xy / m.p.z * frame.focal_px;
+    vec2 center = m.p.xy / m.p.z * frame.focal_px;
     return center;
 }

@@ -14,20 +14,20 @@ struct Principal {
 
 Principal principal_axes(vec3 p, vec3 s, vec3 t)
 {
-    precise vec2 c = p.xy / p.z;
-    precise vec2 a = (s.xy - c * s.z) / p.z;
-    precise vec2 b = (t.xy - c * t.z) / p.z;
-    precise float aa = dot(a, a);
-    precise float bb = dot(b, b);
-    precise float ab = dot(a, b);
-    precise float difference = aa - bb;
-    precise float spread = sqrt(difference * difference + 4.0 * ab * ab);
+    vec2 c = p.xy / p.z;
+    vec2 a = (s.xy - c * s.z) / p.z;
+    vec2 b = (t.xy - c * t.z) / p.z;
+    float aa = dot(a, a);
+    float bb = dot(b, b);
+    float ab = dot(a, b);
+    float difference = aa - bb;
+    float spread = sqrt(difference * difference + 4.0 * ab * ab);
     // cos and sin of theta from cos 2 theta and sin 2 theta, the larger one by a square root, the other by division.
-    precise float cosine = 1.0;
-    precise float sine = 0.0;
+    float cosine = 1.0;
+    float sine = 0.0;
     if (spread > 0.0) {
-        precise float half_sin = 0.5 * FORMULA(FORMULA_FILTER_ROTATION, 2.0 * ab / spread);
-        precise float larger = sqrt(0.5 + 0.5 * abs(difference) / spread);
+        float half_sin = 0.5 * FORMULA(FORMULA_FILTER_ROTATION, 2.0 * ab / spread);
+        float larger = sqrt(0.5 + 0.5 * abs(difference) / spread);
         if (difference >= 0.0) {
             cosine = larger;
             sine = half_sin / larger;
@@ -36,9 +36,9 @@ Principal principal_axes(vec3 p, vec3 s, vec3 t)
             cosine = abs(half_sin) / larger;
         }
     }
-    precise vec2 axis = a * cosine + b * sine;
-    precise float major = sqrt(dot(axis, axis));
-    precise float area = a.x * b.y - a.y * b.x;
+    vec2 axis = a * cosine + b * sine;
+    float major = sqrt(dot(axis, axis));
+    float area = a.x * b.y - a.y * b.x;
     Principal principal;
     principal.major = major;
     principal.minor = major > 0.0 ? area / major : 0.0;

@@ -20,19 +20,19 @@ struct Splat {
 // Written out, because the compiler marks no built-in function as exact: depth depends on these.
 float precise_dot(vec3 a, vec3 b)
 {
-    precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+    float sum = a.x * b.x + a.y * b.y + a.z * b.z;
     return sum;
 }
 
 vec3 precise_cross(vec3 a, vec3 b)
 {
-    precise vec3 product = a.yzx * b.zxy - a.zxy * b.yzx;
+    vec3 product = a.yzx * b.zxy - a.zxy * b.yzx;
     return product;
 }
 
 vec3 rotated(vec3 v)
 {
-    precise vec3 view = vec3(
+    vec3 view = vec3(
         precise_dot(frame.view_from_local_x.xyz, v),
         precise_dot(frame.view_from_local_y.xyz, v),
         precise_dot(frame.view_from_local_z.xyz, v));
@@ -42,9 +42,9 @@ vec3 rotated(vec3 v)
 // Scaled by the largest component first, so that nothing under- or overflows on the way.
 vec3 safe_normalize(vec3 v)
 {
-    precise vec3 a = abs(v);
-    precise vec3 scaled = v / max(max(a.x, a.y), a.z);
-    precise vec3 unit = scaled / sqrt(dot(scaled, scaled));
+    vec3 a = abs(v);
+    vec3 scaled = v / max(max(a.x, a.y), a.z);
+    vec3 unit = scaled / sqrt(dot(scaled, scaled));
     return unit;
 }
 
@@ -58,19 +58,19 @@ vec3 upper_half(vec3 v)
 // available precision", Numer. Math. 18, 1971), their sum with what each addition loses (Knuth's two-sum).
 float exact_dot(vec3 a, vec3 b, vec3 b_low)
 {
-    precise vec3 a1 = upper_half(a);
-    precise vec3 b1 = upper_half(b);
-    precise vec3 a2 = a - a1;
-    precise vec3 b2 = b - b1;
-    precise vec3 big = a1 * b1;
-    precise vec3 small = a1 * b2 + a2 * b1 + (a2 * b2 + a * b_low);
-    precise float xy = big.x + big.y;
-    precise float y = xy - big.x;
-    precise float lost_xy = (big.x - (xy - y)) + (big.y - y);
-    precise float xyz = xy + big.z;
-    precise float z = xyz - xy;
-    precise float lost_xyz = (xy - (xyz - z)) + (big.z - z);
-    precise float sum = xyz + (lost_xy + lost_xyz + (small.x + small.y + small.z));
+    vec3 a1 = upper_half(a);
+    vec3 b1 = upper_half(b);
+    vec3 a2 = a - a1;
+    vec3 b2 = b - b1;
+    vec3 big = a1 * b1;
+    vec3 small = a1 * b2 + a2 * b1 + (a2 * b2 + a * b_low);
+    float xy = big.x + big.y;
+    float y = xy - big.x;
+    float lost_xy = (big.x - (xy - y)) + (big.y - y);
+    float xyz = xy + big.z;
+    float z = xyz - xy;
+    float lost_xyz = (xy - (xyz - z)) + (big.z - z);
+    float sum = xyz + (lost_xy + lost_xyz + (small.x + small.y + small.z));
     return sum;
 }
 
@@ -89,16 +89,16 @@ float normal_dot_center(vec3 n, vec3 position)
 {
     vec3 origin = vec3(frame.origin_from_eye[0], frame.origin_from_eye[1], frame.origin_from_eye[2]);
     vec3 origin_low = vec3(frame.origin_from_eye[3], frame.origin_from_eye[4], frame.origin_from_eye[5]);
-    precise vec3 moved = frame.view_from_local_scale * position; // exact, a power of two
-    precise vec3 p = moved + origin;
-    precise vec3 part = p - moved;
-    precise vec3 lost = (moved - (p - part)) + (origin - part) + origin_low;
+    vec3 moved = frame.view_from_local_scale * position; // exact, a power of two
+    vec3 p = moved + origin;
+    vec3 part = p - moved;
+    vec3 lost = (moved - (p - part)) + (origin - part) + origin_low;
     return exact_dot(n, p, lost);
 }
 
 Splat load_splat(uint index)
 {
-    precise Splat splat;
+    Splat splat;
     float scale = frame.view_from_local_scale;
     vec3 translation = vec3(frame.view_from_local_x.w, frame.view_from_local_y.w, frame.view_from_local_z.w);
     if (ELLIPSES) {
@@ -114,8 +114,8 @@ Splat load_splat(uint index)
         vec4 position_radius = shapes[2 * index];
         vec3 n = rotated(shapes[2 * index + 1].xyz);
         float side = n.z >= 0.0 ? 1.0 : -1.0;
-        precise float a = -1.0 / (side + n.z);
-        precise float b = n.x * n.y * a;
+        float a = -1.0 / (side + n.z);
+        float b = n.x * n.y * a;
         splat.p = scale * FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
         splat.radius = scale * position_radius.w;
         splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));

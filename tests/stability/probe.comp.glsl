@@ -36,7 +36,7 @@ layout(set = 1, binding = 1, std430) writeonly buffer Answers { Answer answers[]
 
 vec2 uv_of(vec3 at_x0, vec3 along_x, vec3 along_y, vec2 d)
 {
-    precise vec3 uvw = at_x0 + (along_x * d.x + along_y * d.y);
+    vec3 uvw = at_x0 + (along_x * d.x + along_y * d.y);
     return uvw.xy / uvw.z;
 }
 

@@ -1,6 +1,7 @@
 //! From `glsl/` to SPIR-V in Rust's hands. Part of `build.rs` and of the test `tests/shaders.rs`; not of the library.
 
 mod compile;
+mod exact;
 mod layout;
 mod permutations;
 mod spirv;
@@ -42,6 +43,11 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
         for (number, words) in permutations::permutations(&source).into_iter().enumerate() {
             let name = permutations::name(&file, &words);
             let result = compiler.spirv(&path, &words, Optimize::Performance).and_then(|optimized| {
+                // Both splat passes must place a splat alike, to the last bit. Fragments say `precise` where they need it.
+                let optimized = match name.ends_with(".frag") {
+                    true => optimized,
+                    false => exact::exact(&optimized).map_err(|e| format!("{}: error: {e}", path.display()))?,
+                };
                 // What a file shares with the host is the same in all of its permutations.
                 if number > 0 {
                     return Ok((optimized, Vec::new()));

@@ -29,7 +29,7 @@ pub mod decoration {
 }
 
 const MAGIC: u32 = 0x0723_0203;
-const HEADER_WORDS: usize = 5;
+pub const HEADER_WORDS: usize = 5;
 
 /// An instruction: the opcode and the words after it.
 pub struct Instruction<'a> {
