@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::kernel::{limit_r2, weight};
+use super::kernel::limit_r2;
 use super::picture::Pixel;
 use super::search_box::SearchBox;
 use super::shade::shade;
@@ -60,9 +60,10 @@ fn nearest_surface(frame: &Frame, rows: &Range<u32>, pixels: usize) -> Vec<Neare
     let mut nearest = vec![Nearest { z_shifted: f64::INFINITY, splat: usize::MAX }; pixels];
     for_each_candidate(frame, rows, |splat_index, pixel, column, row| {
         let splat = &frame.splats[splat_index];
-        let Some(hit) = splat.hit(frame.view.ray(column, row), frame.view.near) else { return };
-        let z_shifted = hit.z * splat.shift;
-        if weight(frame.settings.kernel, hit.r2) > 0.0 && z_shifted < nearest[pixel].z_shifted {
+        let ray = frame.view.ray(column, row);
+        let Some(fragment) = splat.fragment(ray, frame.view.near, frame.settings.kernel) else { return };
+        let z_shifted = fragment.z * splat.shift;
+        if z_shifted < nearest[pixel].z_shifted {
             nearest[pixel] = Nearest { z_shifted, splat: splat_index };
         }
     });
@@ -77,29 +78,26 @@ fn accumulate(frame: &Frame, rows: &Range<u32>, nearest: &[Nearest], pixels: &mu
     for_each_candidate(frame, rows, |splat_index, i, column, row| {
         let splat = &frame.splats[splat_index];
         let ray = view.ray(column, row);
-        let Some(hit) = splat.hit(ray, view.near) else { return };
         let (nearest, pixel) = (&nearest[i], &mut pixels[i]);
 
         let [x_px, y_px] = view.offset_px(column, row);
-        let margin = splat.r2_margin(ray, hit.z, x_px.hypot(y_px), view);
-        if (hit.r2 - limit_r2).abs() <= margin && hit.z <= nearest.z_shifted * (1.0 + margin) {
+        if let Some(rim) = splat.rim(ray, x_px.hypot(y_px), limit_r2, view)
+            && rim.z <= nearest.z_shifted * (1.0 + rim.margin)
+        {
             pixel.rim = true;
         }
-        let weight = weight(frame.settings.kernel, hit.r2);
-        if weight == 0.0 {
-            return;
-        }
+        let Some(fragment) = splat.fragment(ray, view.near, frame.settings.kernel) else { return };
         if splat_index != nearest.splat {
-            let margin = (hit.z - nearest.z_shifted).abs() / nearest.z_shifted;
+            let margin = (fragment.z - nearest.z_shifted).abs() / nearest.z_shifted;
             pixel.epsilon_margin = pixel.epsilon_margin.min(margin);
         }
-        if hit.z <= nearest.z_shifted {
+        if fragment.z <= nearest.z_shifted {
             let sums = &mut all[i];
-            sums.weight += weight;
-            sums.albedo += weight * splat.albedo;
-            sums.normal += weight * splat.normal;
-            sums.z += weight * hit.z;
-            sums.alpha += weight * splat.alpha;
+            sums.weight += fragment.weight;
+            sums.albedo += fragment.weight * splat.albedo;
+            sums.normal += fragment.weight * splat.normal;
+            sums.z += fragment.weight * fragment.z;
+            sums.alpha += fragment.weight * splat.alpha;
         }
     });
     all

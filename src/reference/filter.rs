@@ -6,6 +6,8 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::scene::LEAST_SHARE;
+
 /// The image-plane motion of a view-space point `at` that moves along `v`: the Jacobian of `(X/Z, Y/Z)`.
 pub(super) fn projected(at: DVec3, v: DVec3) -> DVec2 {
     (v.truncate() - at.truncate() / at.z * v.z) / at.z
@@ -22,16 +24,28 @@ pub(super) fn minor_axis(a: DVec2, b: DVec2) -> f64 {
     if major > 0.0 { a.perp_dot(b).abs() / major } else { 0.0 }
 }
 
-/// The tangent vectors that are drawn in place of `s` and `t`: none of the ellipse's projected semi-axes is shorter
-/// than `h` (image-plane units). All in view space; `center.z` must be above 0.
-pub(super) fn adjust(center: DVec3, s: DVec3, t: DVec3, h: f64) -> (DVec3, DVec3) {
-    // The rotation that makes the projections orthogonal and the first one the longer. It moves the rim along
-    // itself: the disk stays.
+/// `s` and `t` after the rotation of the parametrization that makes their projections orthogonal, the first one the
+/// longer. It moves the rim along itself: the disk stays.
+pub(super) fn orthogonalized(center: DVec3, s: DVec3, t: DVec3) -> (DVec3, DVec3) {
     let (a, b) = (projected(center, s), projected(center, t));
     let theta_rad = 0.5 * (2.0 * a.dot(b)).atan2(a.length_squared() - b.length_squared());
     let (sin, cos) = theta_rad.sin_cos();
-    let (s, t) = (cos * s + sin * t, cos * t - sin * s);
+    (cos * s + sin * t, cos * t - sin * s)
+}
 
+/// The share of its weight that an adjusted splat keeps under a weight by area: the projected area of `old` over that
+/// of `new` (tangent vectors, at the center), at most 1 and at least [`LEAST_SHARE`].
+pub(super) fn area_share(center: DVec3, old: (DVec3, DVec3), new: (DVec3, DVec3)) -> f64 {
+    let area = |(s, t)| projected(center, s).perp_dot(projected(center, t)).abs();
+    let share = area(old) / area(new);
+    // Written so that 0/0 is the least share.
+    if share >= LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
+}
+
+/// The tangent vectors that are drawn in place of `s` and `t`: none of the ellipse's projected semi-axes is shorter
+/// than `h` (image-plane units). All in view space; `center.z` must be above 0.
+pub(super) fn adjust(center: DVec3, s: DVec3, t: DVec3, h: f64) -> (DVec3, DVec3) {
+    let (s, t) = orthogonalized(center, s, t);
     let (a, b) = (projected(center, s), projected(center, t));
     let long = a.try_normalize().unwrap_or(DVec2::X);
     // The short axis' own direction but for the sign, which the symmetric disk does not show; it exists even
@@ -71,13 +85,13 @@ mod tests {
         let mut random = Random(1);
         let h = 0.01;
         let mut clamped = [0; 3];
-        for case in 0..2000 {
+        for case in 0..4000 {
             let center =
                 DVec3::new(random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.within(0.5, 8.0));
             let first = random.direction();
             let second = first.cross(random.direction()).normalize();
             let size = center.z * h * 10.0_f64.powf(random.within(-2.0, 1.5));
-            let aspect = random.within(1.0, 20.0);
+            let aspect = random.within(1.0, 50.0);
             let mix_rad = random.within(0.0, 6.3);
             // Tangent vectors that are not the ellipse's axes, and not orthogonal.
             let (major, minor) = (first * size, second * (size / aspect));

@@ -1,12 +1,25 @@
-//! The ray of a pixel against the plane of a splat.
+//! From a pixel to a splat: the depth and the splat's own radius there.
 
 use glam::DVec3;
 
+use super::affine::ImageEllipse;
+use super::ewa::Stretched;
 use super::filter::{minor_axis, projected};
 use super::splat::DrawnSplat;
 use super::view::View;
 
-/// Where a ray meets a splat's plane, inside the disk or not.
+/// How the image is mapped onto a splat.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Map {
+    /// The ray of the pixel meets the plane: exact.
+    Projective,
+    /// An ellipse in the image; the depth is that of the plane.
+    Affine(ImageEllipse),
+    /// The same with the low-pass filter added, and depths of its own.
+    Stretched(Stretched),
+}
+
+/// Where a pixel lies on a splat, inside the disk or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
     /// View-space depth, at or beyond the near plane.
@@ -16,17 +29,33 @@ pub(super) struct Hit {
 }
 
 impl DrawnSplat {
-    /// Solves `[s t p] (u, v, 1)ᵀ = z (x, y, 1)ᵀ` (Guennebaud et al. 2006, eq. 3): the plane first, then u and v in
-    /// it. `None` where the plane is met before the near plane, behind the eye, or nowhere.
+    /// `None` where the depth is before the near plane, behind the eye, or nowhere.
     pub fn hit(&self, ray: DVec3, near: f64) -> Option<Hit> {
-        let z = self.plane_normal.dot(self.center) / self.plane_normal.dot(ray);
-        // 0/0 of a plane that holds the ray is NaN and must not pass.
-        if !(z >= near && z.is_finite()) {
-            return None;
+        match &self.map {
+            Map::Projective => self.plane_hit(ray, near),
+            Map::Affine(ellipse) => {
+                let r2 = ellipse.uv(ray.truncate()).length_squared();
+                // An ellipse without width is not even near a pixel.
+                let hit = Hit { z: self.plane_depth(ray, near)?, r2 };
+                r2.is_finite().then_some(hit)
+            }
+            Map::Stretched(stretched) => stretched.hit(ray.truncate(), near),
         }
+    }
+
+    /// Solves `[s t p] (u, v, 1)ᵀ = z (x, y, 1)ᵀ` (Guennebaud et al. 2006, eq. 3): the plane first, then u and v in it.
+    fn plane_hit(&self, ray: DVec3, near: f64) -> Option<Hit> {
+        let z = self.plane_depth(ray, near)?;
         let q = z * ray - self.center;
         let (u, v) = (self.u_axis.dot(q), self.v_axis.dot(q));
         Some(Hit { z, r2: u * u + v * v })
+    }
+
+    /// The depth at which the ray meets the plane.
+    fn plane_depth(&self, ray: DVec3, near: f64) -> Option<f64> {
+        let z = self.plane_normal.dot(self.center) / self.plane_normal.dot(ray);
+        // 0/0 of a plane that holds the ray is NaN and must not pass.
+        (z >= near && z.is_finite()).then_some(z)
     }
 
     /// How far `r²` may be off in an evaluation with 24 bits, at `distance_px` from the middle of the image:

@@ -5,18 +5,30 @@
 //! even the `math` folder.
 //!
 //! A splat is looked for in a box that is far larger than it (`search_box`). In each pixel the ray meets the
-//! splat's plane (`intersect`), the kernel gives a weight (`kernel`); the nearest shifted depth is found first,
-//! then the fragments at or before it are summed, normalized and shaded (`band`, `shade`).
+//! splat's plane (`intersect`), the kernel gives a weight (`kernel`, `fragment`); the nearest shifted depth is found
+//! first, then the fragments at or before it are summed, normalized and shaded (`band`, `shade`).
+//!
+//! The rasterizers are two kinds: the affine ones have a map of their own (`affine`), all the others draw the same
+//! picture, which one of them cuts off (`low_pass`). The filters change the tangent vectors (`filter`, `paper_filter`),
+//! add a disk in the image (`low_pass`) or replace the map (`ewa`). A splat that reaches the near plane, or whose depth
+//! radius is above 0.9 of its center's depth, has no affine map worth the name: the affine rasterizers draw it by its
+//! rays, and `ewa` leaves it as it is.
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
-//! Not modelled: [`crate::scene::Accumulate`]. The sums are `f64` whatever it says.
+//! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it says),
+//! [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`Settings::early_depth`].
 
+mod affine;
 mod band;
+mod ewa;
 mod filter;
+mod fragment;
 mod intersect;
 mod kernel;
+mod low_pass;
+mod paper_filter;
 mod picture;
 mod search_box;
 mod shade;
@@ -37,19 +49,21 @@ use self::band::Frame;
 use self::search_box::SearchBox;
 use self::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Scene, Settings};
+use crate::scene::{Camera, Scene, Settings, Shapes};
 
 /// Rows that a thread takes at a time: enough that the boxes of all splats are not walked too often, few enough
 /// that every thread stays busy.
 const BAND_ROWS: usize = 16;
 
-/// Renders `scene` seen by `camera`, with every setting but `accumulate`.
+/// Renders `scene` seen by `camera`, with every setting but `accumulate`, `kernel_eval` and
+/// `early_depth`.
 ///
 /// Splats with a [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on
 /// how many. `progress(done, total)` is called from several threads, with rows.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, and for a size that memory can't hold.
+/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for a filter that the scene's splats
+/// rule out, and for a size that memory can't hold.
 pub fn render(
     scene: &Scene,
     camera: &Camera,
@@ -58,6 +72,9 @@ pub fn render(
 ) -> Result<Picture> {
     settings.validate()?;
     camera.validate()?;
+    for object in &scene.objects {
+        settings.check_object(&object.name, matches!(object.splats.shapes, Shapes::Ellipses { .. }))?;
+    }
     let [width, height] = settings.size_px;
     let view = View::new(camera, settings.size_px);
     let (splats, defects) = splat::prepare(scene, &view, settings);

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use super::intersect::r2_margin;
+use glam::DVec2;
+
+use super::affine::ImageEllipse;
+use super::intersect::{Map, r2_margin};
 use super::splat::DrawnSplat;
 use super::view::View;
 
@@ -14,16 +17,28 @@ pub(super) struct SearchBox {
 }
 
 impl SearchBox {
-    /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`].
-    ///
+    /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`], of the splat or
+    /// of the low-pass filter beside it.
+    pub fn of(splat: &DrawnSplat, limit_r2: f64, view: &View) -> Self {
+        let [middle_x, middle_y] = view.middle_px();
+        let farthest_px = middle_x.hypot(middle_y);
+        let own = match &splat.map {
+            Map::Projective => Self::of_ball(splat, limit_r2, farthest_px, view),
+            Map::Affine(ellipse) => Self::of_ellipse(splat, ellipse, limit_r2, farthest_px, view),
+            Map::Stretched(stretched) => {
+                Self::of_ellipse(splat, &stretched.ellipse, limit_r2, farthest_px, view)
+            }
+        };
+        let Some(low_pass) = &splat.low_pass else { return own };
+        let reach = (limit_r2 + r2_margin(farthest_px, low_pass.minor_px)).sqrt() * low_pass.radius;
+        own.union(Self::of_circle(low_pass.center, reach, view))
+    }
+
     /// The enlarged disk lies in a ball, the ball in a cube; the cube is projected corner by corner. Where it
     /// reaches the near plane the box is the whole image.
-    pub fn of(splat: &DrawnSplat, limit_r2: f64, view: &View) -> Self {
-        let [width, height] = view.size_px;
-        let whole = Self { columns: 0..width, rows: 0..height };
-        let Some(minor_px) = splat.minor_px else { return whole };
-        let [middle_x, middle_y] = view.middle_px();
-        let margin = r2_margin(middle_x.hypot(middle_y), minor_px);
+    fn of_ball(splat: &DrawnSplat, limit_r2: f64, farthest_px: f64, view: &View) -> Self {
+        let Some(minor_px) = splat.minor_px else { return Self::whole(view) };
+        let margin = r2_margin(farthest_px, minor_px);
         // |u s + v t|² ≤ (u² + v²)(|s|² + |t|²).
         let radius = ((limit_r2 + margin) * (splat.s.length_squared() + splat.t.length_squared())).sqrt();
         let center = splat.center;
@@ -33,20 +48,63 @@ impl SearchBox {
         // Written so that NaN and infinity take the whole image.
         let reaches_near = !(center.z - radius >= view.near && radius.is_finite());
         if reaches_near {
-            return whole;
+            return Self::whole(view);
         }
-        let range = |coordinate: f64, middle_px: f64, pixels: u32| {
+        let ends = |coordinate: f64| {
             let ends = [center.z - radius, center.z + radius]
                 .map(|z| [(coordinate - radius) / z, (coordinate + radius) / z]);
-            let low = ends[0][0].min(ends[1][0]) * view.focal_px + middle_px;
-            let high = ends[0][1].max(ends[1][1]) * view.focal_px + middle_px;
+            [ends[0][0].min(ends[1][0]), ends[0][1].max(ends[1][1])]
+        };
+        let ([left, right], [top, bottom]) = (ends(center.x), ends(center.y));
+        Self::between(DVec2::new(left, top), DVec2::new(right, bottom), view)
+    }
+
+    /// The enlarged ellipse lies in the circle of its long axis.
+    fn of_ellipse(
+        splat: &DrawnSplat,
+        ellipse: &ImageEllipse,
+        limit_r2: f64,
+        farthest_px: f64,
+        view: &View,
+    ) -> Self {
+        let margin = splat.minor_px.map_or(f64::INFINITY, |minor_px| r2_margin(farthest_px, minor_px));
+        Self::of_circle(ellipse.center, (limit_r2 + margin).sqrt() * ellipse.lengths[0], view)
+    }
+
+    fn of_circle(center: DVec2, radius: f64, view: &View) -> Self {
+        if center.is_finite() && radius.is_finite() {
+            Self::between(center - radius, center + radius, view)
+        } else {
+            Self::whole(view)
+        }
+    }
+
+    /// Between two points of the image plane.
+    fn between(low: DVec2, high: DVec2, view: &View) -> Self {
+        let range = |low: f64, high: f64, middle_px: f64, pixels: u32| {
             // One pixel more on each side than the pixel centers need.
             let limit = f64::from(pixels);
-            let first = (low - 1.5).floor().clamp(0.0, limit);
-            let end = (high + 1.5).ceil().clamp(0.0, limit);
+            let first = (low * view.focal_px + middle_px - 1.5).floor().clamp(0.0, limit);
+            let end = (high * view.focal_px + middle_px + 1.5).ceil().clamp(0.0, limit);
             first as u32..end as u32
         };
-        Self { columns: range(center.x, middle_x, width), rows: range(center.y, middle_y, height) }
+        let ([width, height], [middle_x, middle_y]) = (view.size_px, view.middle_px());
+        Self { columns: range(low.x, high.x, middle_x, width), rows: range(low.y, high.y, middle_y, height) }
+    }
+
+    fn whole(view: &View) -> Self {
+        let [width, height] = view.size_px;
+        Self { columns: 0..width, rows: 0..height }
+    }
+
+    /// The smallest box around both.
+    fn union(self, other: Self) -> Self {
+        let both = |a: Range<u32>, b: Range<u32>| match (a.is_empty(), b.is_empty()) {
+            (true, _) => b,
+            (_, true) => a,
+            _ => a.start.min(b.start)..a.end.max(b.end),
+        };
+        Self { columns: both(self.columns, other.columns), rows: both(self.rows, other.rows) }
     }
 
     /// The part of it within `rows`.

@@ -2,9 +2,16 @@
 
 use glam::DVec3;
 
-use super::filter::{adjust, minor_axis, projected};
+use super::affine::ImageEllipse;
+use super::ewa::Stretched;
+use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
+use super::intersect::Map;
+use super::low_pass::{LowPass, Square};
+use super::paper_filter::adjust_paper;
 use super::view::View;
-use crate::scene::{Backfaces, DefectCounts, Epsilon, Filter, Object, Scene, Settings, Shapes};
+use crate::scene::{
+    Backfaces, DefectCounts, Epsilon, Filter, FilterWeight, Object, Rasterizer, Scene, Settings, Shapes,
+};
 
 /// A splat in view space. A point of it is `center + u·s + v·t`.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +35,21 @@ pub(super) struct DrawnSplat {
     pub alpha: f64,
     /// The depth of the visibility test is this times the fragment's own; at least 1.
     pub shift: f64,
-    /// Semi-minor axis of the projection at the center, in pixels; `None` where the disk reaches the near plane
-    /// and the projection is no ellipse.
+    /// How the image is mapped onto it.
+    pub map: Map,
+    /// What the kernel's value is multiplied by, above 0 and at most 1; coverage does not depend on it.
+    pub share: f64,
+    /// The low-pass filter beside it, for [`Filter::Max`].
+    pub low_pass: Option<LowPass>,
+    /// What it is cut to, for [`Rasterizer::RaycastApproximate`].
+    pub square: Option<Square>,
+    /// Semi-minor axis in pixels: of the map's ellipse, or of the projection at the center; `None` where the disk
+    /// reaches the near plane and the projection is no ellipse.
     pub minor_px: Option<f64>,
 }
+
+/// The largest depth radius over the center's depth at which a splat is still taken for an ellipse.
+const REGULAR_DEPTH_RATIO: f64 = 0.9;
 
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
@@ -80,17 +98,41 @@ fn prepare_one(
     };
     let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
 
+    // The projection at a center behind the near plane has no meaning: no filter acts there, and nothing is cut off.
+    let in_front = center.z > view.near;
+    let h = view.filter_radius();
+    let original = (s, t);
     let (s, t) = match settings.filter {
-        // The projection at a center behind the near plane has no meaning: such a splat is drawn as it is.
-        Filter::Adjust if center.z > view.near => adjust(center, s, t, view.filter_radius()),
-        _ => (s, t),
+        Filter::Adjust if in_front => adjust(center, s, t, h),
+        Filter::AdjustPaper if in_front => adjust_paper(center, s, t, h),
+        _ => original,
     };
+
+    let depth_radius = s.z.hypot(t.z);
+    let reaches_near = center.z - depth_radius < view.near;
+    let regular = in_front && !reaches_near && depth_radius <= REGULAR_DEPTH_RATIO * center.z;
+    let map = if regular { map(center, s, t, h, settings) } else { Map::Projective };
+    let share = match &map {
+        Map::Stretched(stretched) => stretched.share,
+        _ if in_front && settings.filter_weight == FilterWeight::Area => area_share(center, original, (s, t)),
+        _ => 1.0,
+    };
+    let minor = match &map {
+        Map::Projective => minor_axis(projected(center, s), projected(center, t)),
+        Map::Affine(ellipse) => ellipse.lengths[1],
+        Map::Stretched(stretched) => stretched.ellipse.lengths[1],
+    };
+    let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
+        center: center.truncate() / center.z,
+        radius: h,
+        z: center.z,
+        minor_px: view.focal_px * minor.max(h),
+    });
+    let square = (in_front && settings.rasterizer == Rasterizer::RaycastApproximate)
+        .then(|| Square::around(center, s, t, low_pass.as_ref()));
 
     let plane_normal = s.cross(t).normalize();
     let (u_direction, v_direction) = (t.cross(plane_normal), plane_normal.cross(s));
-    let reaches_near = center.z - s.z.hypot(t.z) < view.near;
-    let minor_px =
-        (!reaches_near).then(|| view.focal_px * minor_axis(projected(center, s), projected(center, t)));
     let [red, green, blue, alpha] = splats.color(i).map(f64::from);
     Some(DrawnSplat {
         center,
@@ -103,8 +145,28 @@ fn prepare_one(
         albedo: DVec3::new(red, green, blue),
         alpha,
         shift,
-        minor_px,
+        map,
+        share,
+        low_pass,
+        square,
+        minor_px: (!reaches_near).then_some(view.focal_px * minor),
     })
+}
+
+/// The map of a regular splat with the tangent vectors that are drawn. All rasterizers but the affine ones draw the same
+/// picture.
+fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
+    match (settings.filter, settings.rasterizer) {
+        (Filter::Ewa, Rasterizer::AffineContour) => Map::Stretched(Stretched::of_contour(center, s, t, h)),
+        // The filter brings its own map.
+        (Filter::Ewa, _) => Map::Stretched(Stretched::at_center(center, s, t, h)),
+        (_, Rasterizer::AffineContour) => Map::Affine(ImageEllipse::exact_contour(center, s, t)),
+        (_, Rasterizer::AffineCenter) => {
+            let (s, t) = orthogonalized(center, s, t);
+            Map::Affine(ImageEllipse::exact_at_center(center, s, t))
+        }
+        _ => Map::Projective,
+    }
 }
 
 /// The scaled tangent vectors in world space, with `s × t` along the outward normal.

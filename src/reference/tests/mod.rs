@@ -1,19 +1,29 @@
 //! Scenes whose picture is known in closed form.
 
+mod affine;
 mod attributes;
+mod chopped;
 mod coverage;
 mod depth;
 mod diagnostics;
 mod edge_on;
 mod epsilon;
+mod ewa;
 mod facing;
 mod hostile;
+mod low_pass;
 mod near_plane;
+mod paper_filter;
 
 use glam::{DVec3, Vec3};
 
+use super::splat::{DrawnSplat, prepare};
+use super::view::View;
 use super::{Picture, Pixel, render};
-use crate::scene::{Camera, Colors, Epsilon, Filter, Kernel, Object, Scene, Settings, Shapes, Splats};
+use crate::scene::{
+    Camera, Colors, Epsilon, Filter, FilterWeight, Kernel, Object, Rasterizer, Scene, Settings, Shapes,
+    Splats,
+};
 
 /// World space is view space; 90° in both directions for a square picture: the focal length is half its side.
 pub(super) fn camera() -> Camera {
@@ -55,6 +65,25 @@ pub(super) fn facing_disk(center: DVec3, radius: f32, color: [f32; 4]) -> Ellips
 
 pub(super) fn picture(scene: &Scene, settings: &Settings) -> Picture {
     render(scene, &camera(), settings, &|_, _| ()).unwrap()
+}
+
+/// The only splat of a scene as it is drawn, and the view.
+pub(super) fn drawn(ellipse: Ellipse, settings: &Settings) -> (DrawnSplat, View) {
+    let view = View::new(&camera(), settings.size_px);
+    let (splats, _) = prepare(&ellipses(&[ellipse]), &view, settings);
+    (splats[0], view)
+}
+
+/// A splat before the eye, of a size of `ratio` times its distance, its axes not its tangent vectors; `aspect` is that of
+/// the ellipse, in its plane.
+pub(super) fn random_ellipse(random: &mut Random, ratio: f64, aspect: f64) -> Ellipse {
+    let z = random.within(0.5, 8.0);
+    let center = DVec3::new(random.within(-0.9, 0.9) * z, random.within(-0.9, 0.9) * z, z);
+    let first = random.direction();
+    let second = first.cross(random.direction()).normalize();
+    let (major, minor) = (first * (z * ratio), second * (z * ratio / aspect));
+    let (sin, cos) = random.within(0.0, 6.3).sin_cos();
+    (center, (cos * major + sin * minor).as_vec3(), (cos * minor - sin * major).as_vec3(), GRAY)
 }
 
 pub(super) fn covered(picture: &Picture) -> usize {

@@ -1,0 +1,80 @@
+//! What a splat is in a pixel: its weight and depth, and how close that is to another outcome.
+
+use glam::DVec3;
+
+use super::intersect::r2_margin;
+use super::kernel::weight;
+use super::splat::DrawnSplat;
+use super::view::View;
+use crate::scene::Kernel;
+
+/// A splat's part of a pixel that it covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fragment {
+    /// View-space depth, at or beyond the near plane.
+    pub z: f64,
+    /// Above 0.
+    pub weight: f64,
+}
+
+/// A pixel so close to a border of a splat that an evaluation with 24 bits may take it for the other side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rim {
+    /// The smallest depth that the splat has on either side of the border.
+    pub z: f64,
+    /// How far `r²` may be off. See [`DrawnSplat::r2_margin`].
+    pub margin: f64,
+}
+
+impl DrawnSplat {
+    /// `None` where the splat does not cover.
+    pub fn fragment(&self, ray: DVec3, near: f64, kernel: Kernel) -> Option<Fragment> {
+        let x = ray.truncate();
+        if self.square.is_some_and(|square| square.depth_inside(x) < 0.0) {
+            return None;
+        }
+        let disk = self.hit(ray, near).map(|hit| (hit.z, weight(kernel, hit.r2)));
+        let disk = disk.filter(|(_, weight)| *weight > 0.0);
+        let low_pass = self.low_pass.map(|low_pass| (low_pass.z, weight(kernel, low_pass.r2(x))));
+        let low_pass = low_pass.filter(|(_, weight)| *weight > 0.0);
+        // The depth is the disk's own wherever the disk is.
+        let (z, _) = disk.or(low_pass)?;
+        let weight = disk.map_or(0.0, |disk| disk.1).max(low_pass.map_or(0.0, |low_pass| low_pass.1));
+        Some(Fragment { z, weight: self.share * weight })
+    }
+
+    /// `None` where no rounding can change what the splat is here. `limit_r2` is the kernel's.
+    pub fn rim(&self, ray: DVec3, distance_px: f64, limit_r2: f64, view: &View) -> Option<Rim> {
+        let x = ray.truncate();
+        let inside_square =
+            self.square.map_or(f64::INFINITY, |square| square.depth_inside(x) * view.focal_px);
+        let square_margin_px = 1e-3 + 16.0 * 0.5_f64.powi(24) * distance_px;
+        if inside_square < -square_margin_px {
+            return None;
+        }
+
+        // How far r² is below the limit, with the margin and the depth.
+        let disk = self.hit(ray, view.near).map(|hit| {
+            let margin = self.r2_margin(ray, hit.z, distance_px, view);
+            (limit_r2 - hit.r2, Rim { z: hit.z, margin })
+        });
+        let low_pass = self.low_pass.map(|low_pass| {
+            let margin = r2_margin(distance_px, low_pass.minor_px);
+            (limit_r2 - low_pass.r2(x), Rim { z: low_pass.z, margin })
+        });
+        let covers = |part: &(f64, Rim)| part.0 > part.1.margin;
+        let undecided = |part: &(f64, Rim)| part.0.abs() <= part.1.margin;
+        let may_cover = |part: &(f64, Rim)| covers(part) || undecided(part);
+
+        let at_disk = disk.is_some_and(|disk| undecided(&disk));
+        // Under the disk the border of the low-pass filter shows nowhere: there it weighs least.
+        let at_low_pass =
+            low_pass.is_some_and(|part| undecided(&part)) && !disk.is_some_and(|disk| covers(&disk));
+        let at_square = inside_square.abs() <= square_margin_px;
+        if !(at_disk || at_low_pass || at_square) {
+            return None;
+        }
+        let parts = [disk, low_pass].into_iter().flatten().filter(may_cover);
+        parts.map(|part| part.1).reduce(|a, b| Rim { z: a.z.min(b.z), margin: a.margin.max(b.margin) })
+    }
+}
