@@ -44,7 +44,7 @@ impl fmt::Display for CompareReport {
             let count = flagged.len();
             writeln!(
                 f,
-                "note: {count} methods are flagged, {} first: {}",
+                "note: the times of {count} methods are flagged (all in the JSON); {}: {}",
                 first.method.line(),
                 first.flags[0]
             )?;
@@ -160,7 +160,8 @@ fn names(row: &MethodRow) -> String {
 
 /// The medians together; `None` where one is missing, or there is none at all.
 fn median_sum(spreads: impl Iterator<Item = Option<Spread>>) -> Option<f64> {
-    let medians: Vec<f64> = spreads.map(|spread| spread.map(|spread| spread.median)).collect::<Option<_>>()?;
+    let medians: Vec<f64> =
+        spreads.map(|spread| spread.map(|spread| spread.median)).collect::<Option<_>>()?;
     (!medians.is_empty()).then(|| medians.iter().sum())
 }
 

@@ -176,7 +176,7 @@ fn find_errors(
     skipped: &mut Vec<Skipped>,
 ) -> Result<Vec<(Method, [ErrorFigures; 2])>> {
     let Stage { arguments, scene, camera, base, bars, .. } = *stage;
-    let truth = references::truth(scene, camera, base, arguments.samples, bars)?;
+    let truth = references::truth(scene, camera, base, arguments.samples, "ground truth", bars)?;
     let pictures =
         arguments.pictures.as_deref().map(|folder| Pictures::new(folder, BACKGROUND)).transpose()?;
     if let Some(pictures) = &pictures {

@@ -44,12 +44,12 @@ pub fn truth(
     camera: &Camera,
     base: &Settings,
     samples_per_side: u32,
+    task: &str,
     bars: &Bars,
 ) -> Result<Surface> {
     let _ = samples_per_side;
     let settings = Settings { filter: surfel::scene::Filter::None, ..base.clone() };
-    let picture =
-        reference::render(scene, camera, &settings, &|done, total| bars.step("ground truth", done, total))?;
+    let picture = reference::render(scene, camera, &settings, &|done, total| bars.step(task, done, total))?;
     Ok(Surface::of(&picture))
 }
 
