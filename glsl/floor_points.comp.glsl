@@ -17,7 +17,7 @@ void main()
     Point point;
     vec4 found = vec4(NOWHERE.xyz, 1.0);
     if (map_splat(index, m) && point_of(m, point)) {
-        found = vec4(point.clip_center, point.w0 * m.inverse_shift, point.size_px);
+        found = vec4(point.clip_center, frame.near / m.p.z * m.inverse_shift, point.size_px);
     }
     points[index] = found;
 }

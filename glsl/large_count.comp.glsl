@@ -1,8 +1,10 @@
-// Finds the splats that are drawn as quads: larger than the device's largest point, or not regular. A bit a splat, a
+// Finds the splats that are drawn as quads: larger than the device's largest point, not regular, or too
+// near for a triangle. A bit a splat, a
 // count a block. The decision is made here once; the vertex stages only read it, so that no splat is drawn twice or
 // not at all.
 #version 460
 #include "inc/setup.glsl"
+#include "inc/triangle.glsl"
 
 #define BLOCK 256
 layout(local_size_x = BLOCK) in;
@@ -17,13 +19,16 @@ bool is_drawn_as_quad(uint index)
     if (!map_splat(index, m)) {
         return false;
     }
-    if (!is_regular(m)) {
+    if (RASTERIZER == RASTERIZER_TRIANGLE) {
+        return !fits_triangle(m);
+    }
+    if (!m.regular) {
         return true;
     }
     PixelBox px;
     // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most. Also
     // for a box that holds no pixel's center here: a sliver may hold some there.
-    pixel_box(regular_box(m), px);
+    pixel_box(splat_box(m), px);
     return square_side_px(px) > frame.point_cap_px - 1.0;
 }
 

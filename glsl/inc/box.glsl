@@ -6,24 +6,14 @@
 // half width cancels (62% wrong in f32 at radius / distance 1e-3); with Lagrange's identity the discriminant is a
 // sum of components of the adjugate's rows instead, which stays below 4e-6.
 //
-// That holds for a *regular* splat: one that lies wholly beyond the near plane and is not nearly as deep as it is
-// far, where d cancels. Any other is a convex region cut by z >= near. Its extremes lie on the rim, at the angles
-// where x(theta) is stationary: (t x p)_y cos + (p x s)_y sin = (s x t)_y (for y: the x components), or at the ends
-// of the chord z = near.
+// That holds for a regular splat (mapping.glsl): where d does not cancel. Any other is a convex region cut by z >= near.
+// Its extremes lie on the rim, at the angles where x(theta) is stationary: (t x p)_y cos + (p x s)_y sin = (s x t)_y (for
+// y: the x components), or at the ends of the chord z = near.
 
 struct Box {
     vec2 lo;
     vec2 hi;
 };
-
-// Depth radius over center depth up to which d keeps its digits: d / p_z^2 >= 0.19.
-const float REGULAR_DEPTH_RATIO = 0.9;
-
-bool is_regular(Mapping m)
-{
-    float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
-    return m.p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
-}
 
 Box regular_box(Mapping m)
 {
@@ -86,6 +76,13 @@ Box near_box(Mapping m)
     return box;
 }
 
+// Of an affine image with these half axes about a center: extremes of u a + v b.
+Box ellipse_box(vec2 center, vec2 a, vec2 b)
+{
+    vec2 half_size = FORMULA_LESS(FORMULA_BOX_HALF_SIZE, sqrt(a * a + b * b));
+    return Box(center - half_size, center + half_size);
+}
+
 // The box within the viewport in pixels, and the pixels whose centers it holds.
 struct PixelBox {
     vec2 lo;
@@ -103,6 +100,9 @@ bool pixel_box(Box box, out PixelBox px)
 {
     vec2 half_px = 0.5 * frame.size_px;
     float margin_px = max(BOX_MARGIN_PX, 4e-6 * max(frame.size_px.x, frame.size_px.y));
+    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE) {
+        margin_px = 0.0; // this box is no bound but the very set of pixels
+    }
     px.lo = clamp(box.lo * frame.focal_px + (half_px - margin_px), vec2(0.0), frame.size_px);
     px.hi = clamp(box.hi * frame.focal_px + (half_px + margin_px), vec2(0.0), frame.size_px);
     px.first = ivec2(ceil(px.lo - 0.5));

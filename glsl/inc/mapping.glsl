@@ -21,7 +21,15 @@ struct Mapping {
     float scale;         // near / det
     float inverse_shift; // 1 / f
     vec3 normal;         // unit, view space, turned to the eye
+    float share;         // of its weight that the filter leaves to the splat
+    bool regular;        // see below
+    bool edge_on;        // the plane holds the eye, as far as can be told: only a filter makes the splat visible
 };
+
+// A splat is *regular* if it lies wholly beyond the near plane and is not nearly as deep as it is far: its image is an
+// ellipse whose formulas keep their digits (box.glsl), and it has an affine approximation.
+// Depth radius over center depth up to which p_z^2 - s_z^2 - t_z^2 keeps them: at least 0.19 p_z^2.
+const float REGULAR_DEPTH_RATIO = 0.9;
 
 // |det| / (|s x t| |p|) below which the sign of det is rounding noise: the splat is seen edge-on and has no area.
 const float EDGE_ON = 2.4e-7; // 4 * 2^-24
@@ -43,18 +51,25 @@ bool map_splat(uint index, out Mapping m)
     vec3 normal = vec3(FORMULA(FORMULA_NORMAL, splat.normal.xy), splat.normal.z);
     m.normal = faces_away ? -normal : normal;
 
-    if (FILTER_ADJUST && p.z > frame.near) {
-        adjust_tangents(p, s, t);
+    m.share = 1.0;
+    if (FILTER == FILTER_ADJUST && p.z > frame.near) {
+        m.share = adjust_tangents(p, s, t);
     }
-    if (p.z + sqrt(s.z * s.z + t.z * t.z) < frame.near) {
+    if (FILTER == FILTER_ADJUST_PAPER && p.z > frame.near) {
+        m.share = adjust_tangents_as_the_paper(p, splat.normal, splat.radius, s, t);
+    }
+    float depth_radius = sqrt(s.z * s.z + t.z * t.z);
+    if (p.z + depth_radius < frame.near) {
         return false; // wholly behind the near plane
     }
+    m.regular = p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
 
     precise vec3 n0 = precise_cross(t, p);
     precise vec3 n1 = precise_cross(p, s);
     precise vec3 n2 = precise_cross(s, t);
     precise float det = precise_dot(n2, p);
-    if (!(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)))) {
+    m.edge_on = !(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)));
+    if (m.edge_on && !(FILTER == FILTER_MAX && p.z > frame.near) && !(FILTER == FILTER_EWA && m.regular)) {
         return false;
     }
     precise float scale = frame.near / det;
@@ -71,20 +86,6 @@ bool map_splat(uint index, out Mapping m)
     // Exactly 1 without epsilon: a division need not be.
     m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;
     return true;
-}
-
-// The change of (uw, vw, w) per pixel along x and y.
-void per_pixel(Mapping m, out vec3 along_x, out vec3 along_y)
-{
-    precise float per_px = m.scale / frame.focal_px;
-    vec3 rows = vec3(
-        FORMULA(FORMULA_INVERSE_MAPPING_U, 1.0),
-        FORMULA(FORMULA_INVERSE_MAPPING_V, 1.0),
-        FORMULA(FORMULA_INVERSE_MAPPING_W, 1.0));
-    precise vec3 x = per_px * vec3(m.n0.x, m.n1.x, m.n2.x) * rows;
-    precise vec3 y = per_px * vec3(m.n0.y, m.n1.y, m.n2.y) * rows;
-    along_x = x;
-    along_y = y;
 }
 
 // The projected center in pixels; only for centers in front of the eye.

@@ -4,11 +4,17 @@
 #include "inc/frame.glsl"
 #include "inc/variant.glsl"
 #include "inc/splat.glsl"
+
+// The smallest share of its weight that a filter leaves to a splat: less would be lost in 16-bit sums.
+const float LEAST_SHARE = 1.0 / 4096.0;
+
+#include "inc/principal.glsl"
 #include "inc/adjust.glsl"
+#include "inc/adjust_paper.glsl"
 #include "inc/mapping.glsl"
 #include "inc/box.glsl"
+#include "inc/image_map.glsl"
+#include "inc/splat_box.glsl"
 
 // What is not drawn goes here: outside of the clip volume.
 const vec4 NOWHERE = vec4(2.0, 2.0, 2.0, 1.0);
-// The fragment stage writes the depth; this one only has to be inside the clip volume.
-const float SAFE_DEPTH = 0.5;

@@ -3,13 +3,13 @@
 use crate::{
     error::{ErrorKind, Result},
     graph::execute::{Profile, Profiler, Transients},
-    vk::{DescriptorPool, Device},
+    vk::{DescriptorPool, Device, PoolRoom},
 };
 
 /// Descriptor sets, queries and transients of one frame at a time.
 pub struct FrameSlot {
     device: Device,
-    descriptors: Option<(DescriptorPool, [u32; 3])>,
+    descriptors: Option<(DescriptorPool, PoolRoom)>,
     profiler: Option<(Profiler, Profile)>,
     transients: Option<Transients>,
 }
@@ -30,27 +30,27 @@ impl FrameSlot {
         self.transients.as_ref().map_or(0, Transients::bytes)
     }
 
-    /// Makes the slot ready for a frame with this many sets, storage buffers and sampled images.
+    /// Makes the slot ready for a frame that takes so much from its pool.
     ///
     /// # Safety
     /// The frame recorded last in this slot has finished.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub(crate) unsafe fn begin(&mut self, sets: [u32; 3], profile: Option<Profile>) -> Result<()> {
+    pub(crate) unsafe fn begin(&mut self, wanted: PoolRoom, profile: Option<Profile>) -> Result<()> {
         match &self.descriptors {
             // SAFETY: this function's contract.
-            Some((pool, room)) if (0..3).all(|i| sets[i] <= room[i]) => unsafe { pool.reset() }?,
+            Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
             _ => {
-                let pool = DescriptorPool::new(&self.device, "frame sets", sets[0], sets[1], sets[2])?;
-                self.descriptors = Some((pool, sets));
+                let pool = DescriptorPool::new(&self.device, "frame sets", wanted)?;
+                self.descriptors = Some((pool, wanted));
             }
         }
         match profile {
             None => self.profiler = None,
-            Some(wanted) => {
-                if self.profiler.as_ref().is_none_or(|(_, profile)| *profile != wanted) {
-                    self.profiler = Some((Profiler::new(&self.device, wanted)?, wanted));
+            Some(profile) => {
+                if self.profiler.as_ref().is_none_or(|(_, kept)| *kept != profile) {
+                    self.profiler = Some((Profiler::new(&self.device, profile)?, profile));
                 }
             }
         }

@@ -5,12 +5,14 @@ use ash::vk;
 use super::{
     Inputs,
     draws::{SplatPass, draw_splats},
+    kernel_texture::kernel_texture,
     list_large::{LargeList, ids_of, read_lists},
+    splat_shaders::{accumulate_words, splat_shaders},
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    shaders,
+    scene::KernelEval,
     vk::Descriptor,
 };
 
@@ -31,17 +33,20 @@ pub(super) fn accumulate<'a>(
     with_depth: bool,
 ) -> Result<Sums> {
     let format = inputs.sum_format();
-    let (point, quad) = match with_depth {
-        false => (&shaders::ACCUMULATE_POINTS_FRAG, &shaders::ACCUMULATE_QUADS_FRAG),
-        true => (&shaders::ACCUMULATE_DEPTH_POINTS_FRAG, &shaders::ACCUMULATE_DEPTH_QUADS_FRAG),
-    };
     let splats = SplatPass {
-        points: (&shaders::ACCUMULATE_POINTS_VERT, point),
-        small_points: (&shaders::ACCUMULATE_SMALL_POINTS_VERT, point),
-        quads: (&shaders::ACCUMULATE_QUADS_VERT, quad),
+        shaders: splat_shaders(
+            "accumulate",
+            inputs.settings,
+            &accumulate_words(inputs.settings, with_depth),
+        )?,
         color_formats: vec![format; 2],
         depth: (vk::CompareOp::GREATER_OR_EQUAL, false),
     };
+    let kernel = match inputs.settings.kernel_eval {
+        KernelEval::Analytic => None,
+        KernelEval::Texture => Some(kernel_texture(graph, inputs)?),
+    };
+    let kernel_id = kernel.as_ref().map(Handle::id);
     let pipelines = splats.pipelines(inputs)?;
     let large_ids = ids_of(large);
     let depth_id = depth.id();
@@ -52,16 +57,24 @@ pub(super) fn accumulate<'a>(
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
     let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
-    let pass = graph
+    let mut pass = graph
         .pass("accumulate")
         .write(&mut sums.color, Access::ColorAttachment, zero)
         .write(&mut sums.normal, Access::ColorAttachment, zero)
         .read(depth, access);
+    if let Some(kernel) = &kernel {
+        pass = pass.read(kernel, Access::SampledFragment);
+    }
     read_lists(pass, large).finish(Box::new(move |context| {
-        if with_depth {
-            let (_, view) = context.image(depth_id)?;
-            let given = [(0, Descriptor::Sampled(view, context.layout(depth_id)))];
-            let set = inputs.descriptors.set(&inputs.shaders.depth_set, &given)?;
+        let mut given = Vec::new();
+        for (number, id) in [(0, with_depth.then_some(depth_id)), (1, kernel_id)] {
+            if let Some(id) = id {
+                let (_, view) = context.image(id)?;
+                given.push((number, Descriptor::Sampled(view, context.layout(id))));
+            }
+        }
+        if !given.is_empty() {
+            let set = inputs.descriptors.set(&inputs.shaders.read_set, &given)?;
             let layout = inputs.shaders.splat_layout.raw();
             let bind_point = vk::PipelineBindPoint::GRAPHICS;
             // SAFETY: set 2 of the splat passes' layout; stays bound while the sets below it change.

@@ -10,6 +10,7 @@ use super::{
     constants::FrameConstants,
     list_large::LargeIds,
     pipelines::GraphicsKey,
+    splat_shaders::{Primitive, SplatShaders, Stages},
     variant::{Constants, splat_constants},
 };
 use crate::{
@@ -21,7 +22,6 @@ use crate::{
     },
     prepare::{Chunk, PreparedScene, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Kernel, Settings},
-    shaders::Shader,
     vk::{Descriptor, GraphicsPipeline, Limits},
 };
 
@@ -34,7 +34,7 @@ pub struct Draw<'a> {
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub largest_box_px: f64,
     /// Whether a splat of it may exceed the device's largest point or come near the eye plane: such ones are then
-    /// listed and drawn as quads.
+    /// listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
     /// The specialization constants of its pipelines.
     pub(super) variant: Constants,
@@ -55,6 +55,7 @@ pub fn draws<'a>(
     limits: &Limits,
 ) -> Vec<Draw<'a>> {
     let focal_px = camera.focal_px(settings.size_px[1]);
+    let primitive = Primitive::of(settings.rasterizer);
     let coverage_r2 = match settings.kernel {
         Kernel::Gaussian { sigma } => gaussian_coverage_r2(sigma.into()),
         Kernel::PsiE { a, n, .. } => psi_e_coverage_r2(a.into(), n.into()),
@@ -73,7 +74,7 @@ pub fn draws<'a>(
             near,
             focal_px,
             size_px: settings.size_px.map(f64::from),
-            filter_px: if settings.filter == Filter::Adjust { FILTER_RADIUS_PX } else { 0.0 },
+            filter_px: if settings.filter == Filter::None { 0.0 } else { FILTER_RADIUS_PX },
         };
         let point_cap_px = limits.point_size_range[1];
         let largest_box_px = largest_box_px(&bound);
@@ -97,7 +98,11 @@ pub fn draws<'a>(
                 view_from_local_scale: view.view_from_local_scale as f32,
             },
             largest_box_px,
-            may_be_large: largest_box_px > f64::from(point_cap_px),
+            may_be_large: match primitive {
+                Primitive::Point => largest_box_px > f64::from(point_cap_px),
+                Primitive::Triangle => largest_box_px.is_infinite(),
+                Primitive::Quad => false,
+            },
             variant: splat_constants(settings, chunk.ellipses, chunk.closed),
         }
     };
@@ -114,22 +119,17 @@ fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
     local * view.view_from_local_scale + translation
 }
 
-/// A vertex stage and a fragment stage.
-pub(super) type Stages = (&'static Shader, &'static Shader);
-
-/// What a splat pass is made of: its shaders for chunks whose splats all fit points; for the others its shaders for
-/// those that do, and for those that are drawn as quads; and what it writes.
+/// What a splat pass is made of: its shaders, and what it writes.
 pub(super) struct SplatPass {
-    pub points: Stages,
-    pub small_points: Stages,
-    pub quads: Stages,
+    pub shaders: SplatShaders,
     pub color_formats: Vec<vk::Format>,
     pub depth: (vk::CompareOp, bool),
 }
 
-/// The pipelines for one draw: points, and quads where there may be large splats.
+/// The pipelines for one draw: of the rasterizer's own primitive, and quads where there may be large splats.
 pub(super) struct DrawPipelines {
-    points: Arc<GraphicsPipeline>,
+    primitive: Primitive,
+    own: Arc<GraphicsPipeline>,
     quads: Option<Arc<GraphicsPipeline>>,
 }
 
@@ -145,14 +145,14 @@ impl SplatPass {
             };
             inputs.shaders.graphics(vertex, fragment, &inputs.shaders.splat_layout, key)
         };
+        let primitive = Primitive::of(inputs.settings.rasterizer);
         let both = |draw: &Draw<'_>| {
-            let points = if draw.may_be_large { self.small_points } else { self.points };
-            let quads = draw.may_be_large.then_some(self.quads);
+            let own = if draw.may_be_large { self.shaders.small } else { self.shaders.all };
+            let quads = draw.may_be_large.then_some(self.shaders.listed);
             Ok(DrawPipelines {
-                points: make(points, vk::PrimitiveTopology::POINT_LIST, draw)?,
-                quads: quads
-                    .map(|quads| make(quads, vk::PrimitiveTopology::TRIANGLE_STRIP, draw))
-                    .transpose()?,
+                primitive,
+                own: make(own, primitive.topology(), draw)?,
+                quads: quads.map(|quads| make(quads, Primitive::Quad.topology(), draw)).transpose()?,
             })
         };
         inputs.draws.iter().map(both).collect()
@@ -184,8 +184,9 @@ pub(super) fn draw_splats(
             device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
             let constants = bytemuck::bytes_of(&draw.constants);
             device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-            device.cmd_bind_pipeline(commands, bind_point, pipelines.points.raw());
-            device.cmd_draw(commands, draw.chunk.count, 1, 0, 0);
+            device.cmd_bind_pipeline(commands, bind_point, pipelines.own.raw());
+            let [vertices, instances] = pipelines.primitive.counts(draw.chunk.count);
+            device.cmd_draw(commands, vertices, instances, 0, 0);
             if let (Some(quads), Some(arguments)) = (&pipelines.quads, arguments) {
                 device.cmd_bind_pipeline(commands, bind_point, quads.raw());
                 device.cmd_draw_indirect(commands, arguments, 0, 1, 16);

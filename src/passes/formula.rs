@@ -34,11 +34,22 @@ pub enum Formula {
     EyeDirection,
     Diffuse,
     Specular,
+    LowPass,
+    LowPassBox,
+    Share,
+    AffineMap,
+    Contour,
+    RayDepth,
+    RayAxis,
+    ApproximateSize,
+    TriangleCorner,
+    KernelTexture,
+    NearestDepth,
 }
 
 impl Formula {
     /// All of them.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 40] = [
         Self::InverseMappingU,
         Self::InverseMappingV,
         Self::InverseMappingW,
@@ -68,5 +79,16 @@ impl Formula {
         Self::EyeDirection,
         Self::Diffuse,
         Self::Specular,
+        Self::LowPass,
+        Self::LowPassBox,
+        Self::Share,
+        Self::AffineMap,
+        Self::Contour,
+        Self::RayDepth,
+        Self::RayAxis,
+        Self::ApproximateSize,
+        Self::TriangleCorner,
+        Self::KernelTexture,
+        Self::NearestDepth,
     ];
 }

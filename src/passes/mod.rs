@@ -9,9 +9,11 @@ mod floor;
 #[cfg(feature = "test-formulas")]
 mod formula;
 mod fullscreen;
+mod kernel_texture;
 mod list_large;
 mod pipelines;
 mod readback;
+mod splat_shaders;
 mod variant;
 mod visibility;
 
@@ -29,8 +31,8 @@ pub use readback::readback;
 use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
-    scene::{Accumulate, Camera, Settings},
-    vk::DescriptorPool,
+    scene::{Accumulate, Camera, KernelEval, Settings},
+    vk::{DescriptorPool, PoolRoom},
 };
 
 /// What all passes of a frame are given.
@@ -44,7 +46,7 @@ pub struct Inputs<'a> {
     pub settings: &'a Settings,
     /// Pipelines and their layouts.
     pub shaders: &'a Shaders,
-    /// Descriptor sets that live as long as the frame; room for [`sets_needed`].
+    /// Descriptor sets that live as long as the frame; room for [`room_needed`].
     pub descriptors: &'a DescriptorPool,
 }
 
@@ -70,14 +72,18 @@ impl Inputs<'_> {
 /// The visibility pass's reversed depth: near / z.
 const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 
-/// Sets, storage buffers and sampled images that a frame takes from [`Inputs::descriptors`], at most.
-pub fn sets_needed(draws: &[Draw<'_>]) -> [u32; 3] {
+/// What a frame takes from [`Inputs::descriptors`], at most.
+pub fn room_needed(draws: &[Draw<'_>], settings: &Settings) -> PoolRoom {
     let large = draws.iter().filter(|draw| draw.may_be_large).count() as u32;
     // For each chunk with large splats: three passes that list them, two that draw them.
     let lists = 5 * large;
-    // Depth for accumulation; sums for finalization; sums and depth for export.
-    let (sets, images) = (3, 1 + 2 + 3);
-    [lists + sets, 4 * lists, images]
+    PoolRoom {
+        // What accumulation reads; sums for finalization; sums and depth for export.
+        sets: lists + 3,
+        buffers: 4 * lists,
+        images: 1 + 2 + 3,
+        filtered_images: u32::from(settings.kernel_eval == KernelEval::Texture),
+    }
 }
 
 /// The frame of an opaque scene: visibility, accumulation, finalization; before them the list of large splats, only

@@ -29,8 +29,8 @@ pub struct Shaders {
     pub splat_set: SplatSetLayout,
     /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats.
     pub(super) large_set: SetLayout,
-    /// Set 2 of accumulation with depth: the visible depth.
-    pub(super) depth_set: SetLayout,
+    /// Set 2 of accumulation: the visible depth, where depth is summed, and the kernel, where it is a texture.
+    pub(super) read_set: SetLayout,
     /// Set 0 of finalization: the sums of colors and normals.
     pub(super) sums_set: SetLayout,
     /// Set 0 of export: the sums and the visible depth.
@@ -77,13 +77,14 @@ impl Shaders {
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
         let large_set = SetLayout::new(device, "large splats", &[buffer; 4])?;
-        let depth_set = SetLayout::new(device, "visible depth", &[image])?;
+        let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
+        let read_set = SetLayout::new(device, "read by accumulation", &[image, filtered])?;
         let sums_set = SetLayout::new(device, "sums", &[image; 2])?;
         let surface_set = SetLayout::new(device, "surface", &[image; 3])?;
         let splat_layout = PipelineLayout::new(
             device,
             "splat passes",
-            &[splat_set.set(), &large_set, &depth_set],
+            &[splat_set.set(), &large_set, &read_set],
             size_of::<constants::FrameConstants>() as u32,
             vertex | fragment,
         )?;
@@ -115,7 +116,7 @@ impl Shaders {
             cache: PipelineCache::open(device, cache_folder)?,
             splat_set,
             large_set,
-            depth_set,
+            read_set,
             sums_set,
             surface_set,
             splat_layout,

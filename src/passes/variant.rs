@@ -2,7 +2,7 @@
 
 use std::f64::consts::LOG2_E;
 
-use crate::scene::{Backfaces, Filter, Kernel, Settings, Shading};
+use crate::scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading};
 
 /// Specialization constants: number and 32-bit pattern.
 pub type Constants = Vec<(u32, u32)>;
@@ -17,18 +17,40 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         Backfaces::Flip => false,
         Backfaces::Cull => true,
     };
-    let (kernel, a, n) = match settings.kernel {
+    let filter = match settings.filter {
+        Filter::None => 0,
+        Filter::Adjust => 1,
+        Filter::AdjustPaper => 2,
+        Filter::Max => 3,
+        Filter::Ewa => 4,
+    };
+    let rasterizer = match settings.rasterizer {
+        Rasterizer::Perspective | Rasterizer::Quad => 0,
+        Rasterizer::PerspectivePaper => 1,
+        Rasterizer::Raycast => 2,
+        Rasterizer::RaycastApproximate => 3,
+        Rasterizer::AffineCenter => 4,
+        Rasterizer::AffineContour => 5,
+        Rasterizer::Triangle => 6,
+    };
+    let mut constants = kernel_constants(settings.kernel);
+    constants.extend([
+        (0, u32::from(ellipses)),
+        (1, u32::from(cull)),
+        (2, filter),
+        (7, rasterizer),
+        (8, u32::from(settings.filter_weight == FilterWeight::Area)),
+    ]);
+    constants
+}
+
+/// The constants of what evaluates the kernel.
+pub fn kernel_constants(kernel: Kernel) -> Constants {
+    let (kernel, a, n) = match kernel {
         Kernel::Gaussian { sigma } => (0, LOG2_E * 0.5 / f64::from(sigma).powi(2), 1.0),
         Kernel::PsiE { a, n, .. } => (1, LOG2_E * f64::from(a), n),
     };
-    vec![
-        (0, u32::from(ellipses)),
-        (1, u32::from(cull)),
-        (2, u32::from(settings.filter == Filter::Adjust)),
-        (3, kernel),
-        (4, (a.min(STEEPEST) as f32).to_bits()),
-        (5, n.to_bits()),
-    ]
+    vec![(3, kernel), (4, (a.min(STEEPEST) as f32).to_bits()), (5, n.to_bits())]
 }
 
 /// The constants of finalization.

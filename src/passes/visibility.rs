@@ -6,11 +6,11 @@ use super::{
     DEPTH_FORMAT, Inputs,
     draws::{SplatPass, draw_splats},
     list_large::{LargeList, ids_of, read_lists},
+    splat_shaders::{early_word, splat_shaders},
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    shaders,
 };
 
 /// Declares the pass; returns its reversed depth: near / z, 0 where there is nothing.
@@ -19,10 +19,9 @@ pub(super) fn visibility<'a>(
     inputs: Inputs<'a>,
     large: &[Option<LargeList>],
 ) -> Result<Handle<Image>> {
+    let words: Vec<_> = early_word(inputs.settings).into_iter().collect();
     let splats = SplatPass {
-        points: (&shaders::VISIBILITY_POINTS_VERT, &shaders::VISIBILITY_POINTS_FRAG),
-        small_points: (&shaders::VISIBILITY_SMALL_POINTS_VERT, &shaders::VISIBILITY_POINTS_FRAG),
-        quads: (&shaders::VISIBILITY_QUADS_VERT, &shaders::VISIBILITY_QUADS_FRAG),
+        shaders: splat_shaders("visibility", inputs.settings, &words)?,
         color_formats: Vec::new(),
         depth: (vk::CompareOp::GREATER, true),
     };

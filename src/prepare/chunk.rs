@@ -10,8 +10,8 @@ use super::{
 use crate::{
     error::Result,
     vk::{
-        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, SealedPool, SetLayout,
-        Staging,
+        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool,
+        SetLayout, Staging,
     },
 };
 
@@ -89,7 +89,11 @@ impl Chunk {
             Ok::<_, crate::error::Error>(buffer)
         };
         let buffers = [buffer(contents[0])?, buffer(contents[1])?];
-        let pool = DescriptorPool::new(device, &format!("set of chunk {number}"), 1, 2, 0)?;
+        let pool = DescriptorPool::new(
+            device,
+            &format!("set of chunk {number}"),
+            PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() },
+        )?;
         let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
         let set = pool.set(layout.set(), &given)?;
         let chunk = Self {

@@ -13,7 +13,7 @@ use crate::{
     passes::{self, FLOOR_POINT_BYTES, Inputs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
-    vk::{Buffer, BufferDesc, MemoryUse},
+    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
 };
 
 /// The floor of one scene, camera and choice of settings, ready to be drawn again and again.
@@ -100,7 +100,7 @@ impl<'a> Floor<'a> {
         let device = headless.device();
         let draws = passes::draws(self.scene, &self.camera, &self.settings, &headless.renderer.limits);
         // SAFETY: every frame is waited for.
-        unsafe { self.slot.begin([3, 12, 0], profile) }?;
+        unsafe { self.slot.begin(PoolRoom { sets: 3, buffers: 12, ..PoolRoom::default() }, profile) }?;
         let (descriptors, transients, profiler) = self.slot.parts()?;
         let inputs = Inputs {
             draws: &draws,

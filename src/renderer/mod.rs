@@ -135,9 +135,12 @@ impl Renderer {
             let problem = format!("{w}x{h} pixels, but the settings say {width}x{height}");
             return Err(Error::option("target", problem));
         }
+        for chunk in &scene.chunks {
+            settings.check_object("the scene", chunk.ellipses)?;
+        }
         let draws = passes::draws(scene, camera, settings, &self.limits);
         // SAFETY: this function's contract.
-        unsafe { slot.begin(passes::sets_needed(&draws), profile) }?;
+        unsafe { slot.begin(passes::room_needed(&draws, settings), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let (descriptors, transients, profiler) = slot.parts()?;
         let inputs = Inputs { draws: &draws, camera, settings, shaders: &self.shaders, descriptors };

@@ -1,5 +1,6 @@
 //! The shaders of `glsl/`, compiled to SPIR-V by `build.rs`: one `static` each, named after pass and stage, as
-//! `VISIBILITY_FRAG` for `glsl/visibility.frag.glsl`.
+//! `FINALIZE_FRAG` for `glsl/finalize.frag.glsl`. A file with a line `// Permutations:` gives several, see
+//! `build/permutations.rs`.
 //!
 //! Building the crate also checks that each struct which host and shaders share (`HOST_STRUCTS` in `build.rs`) has the
 //! same layout on both sides; a member that differs stops the build with its name.
@@ -11,6 +12,11 @@ pub struct Shader {
     pub name: &'static str,
     /// SPIR-V 1.6 for Vulkan 1.3.
     pub spirv: &'static [u32],
+}
+
+/// The shader of that name.
+pub fn by_name(name: &str) -> Option<&'static Shader> {
+    ALL.binary_search_by(|shader| shader.name.cmp(name)).ok().map(|found| ALL[found])
 }
 
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));

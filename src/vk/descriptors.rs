@@ -2,13 +2,13 @@
 
 use ash::vk;
 
-use super::{device::Device, garbage::Retired, result::VkResultExt};
+use super::{device::Device, garbage::Retired, result::VkResultExt, sampler::Sampler};
 use crate::error::Result;
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
-    /// What it holds.
+    /// What it holds. `COMBINED_IMAGE_SAMPLER` comes with a bilinear sampler of the layout's own.
     pub kind: vk::DescriptorType,
     /// The stages that see it.
     pub stages: vk::ShaderStageFlags,
@@ -19,7 +19,7 @@ pub struct Binding {
 pub enum Descriptor {
     /// A whole storage buffer.
     Buffer(vk::Buffer),
-    /// A sampled image, read by `texelFetch` in this layout.
+    /// A sampled image in this layout, read by `texelFetch`, or through the sampler of its binding.
     Sampled(vk::ImageView, vk::ImageLayout),
 }
 
@@ -28,6 +28,8 @@ pub struct SetLayout {
     device: Device,
     raw: vk::DescriptorSetLayout,
     kinds: Vec<vk::DescriptorType>,
+    // Used by the layout, so that it goes after it.
+    _sampler: Option<Sampler>,
 }
 
 impl SetLayout {
@@ -36,14 +38,18 @@ impl SetLayout {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, bindings: &[Binding]) -> Result<Self> {
+        let filtered = |binding: &Binding| binding.kind == vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+        let sampler = bindings.iter().any(filtered).then(|| Sampler::new(device, name)).transpose()?;
+        let samplers = [sampler.as_ref().map_or(vk::Sampler::null(), Sampler::raw)];
         let raw_bindings: Vec<_> = (0..)
             .zip(bindings)
             .map(|(number, binding)| {
-                vk::DescriptorSetLayoutBinding::default()
+                let raw = vk::DescriptorSetLayoutBinding::default()
                     .binding(number)
                     .descriptor_type(binding.kind)
                     .descriptor_count(1)
-                    .stage_flags(binding.stages)
+                    .stage_flags(binding.stages);
+                if filtered(binding) { raw.immutable_samplers(&samplers) } else { raw }
             })
             .collect();
         let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&raw_bindings);
@@ -52,7 +58,7 @@ impl SetLayout {
             .of_call("vkCreateDescriptorSetLayout", name)?;
         device.set_name(raw, name);
         let kinds = bindings.iter().map(|binding| binding.kind).collect();
-        Ok(Self { device: device.clone(), raw, kinds })
+        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler })
     }
 
     /// The raw layout.
@@ -64,6 +70,29 @@ impl SetLayout {
 impl Drop for SetLayout {
     fn drop(&mut self) {
         self.device.retire(Retired::SetLayout(self.raw));
+    }
+}
+
+/// How much a pool holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PoolRoom {
+    /// Sets.
+    pub sets: u32,
+    /// Storage buffers in all sets.
+    pub buffers: u32,
+    /// Sampled images.
+    pub images: u32,
+    /// Sampled images with a sampler.
+    pub filtered_images: u32,
+}
+
+impl PoolRoom {
+    /// Whether a pool of this room has room for that.
+    pub fn holds(&self, wanted: &Self) -> bool {
+        wanted.sets <= self.sets
+            && wanted.buffers <= self.buffers
+            && wanted.images <= self.images
+            && wanted.filtered_images <= self.filtered_images
     }
 }
 
@@ -83,20 +112,22 @@ pub struct SealedPool {
 }
 
 impl DescriptorPool {
-    /// A pool for up to `sets` sets with up to `buffers` storage buffers and `images` sampled images in all.
+    /// A pool with this much room.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn new(device: &Device, name: &str, sets: u32, buffers: u32, images: u32) -> Result<Self> {
-        let size = |kind, count| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
-        let mut sizes = Vec::new();
-        if buffers > 0 {
-            sizes.push(size(vk::DescriptorType::STORAGE_BUFFER, buffers));
-        }
-        if images > 0 {
-            sizes.push(size(vk::DescriptorType::SAMPLED_IMAGE, images));
-        }
-        let info = vk::DescriptorPoolCreateInfo::default().max_sets(sets).pool_sizes(&sizes);
+    pub fn new(device: &Device, name: &str, room: PoolRoom) -> Result<Self> {
+        let kinds = [
+            (vk::DescriptorType::STORAGE_BUFFER, room.buffers),
+            (vk::DescriptorType::SAMPLED_IMAGE, room.images),
+            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, room.filtered_images),
+        ];
+        let sizes: Vec<_> = kinds
+            .into_iter()
+            .filter(|(_, count)| *count > 0)
+            .map(|(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count))
+            .collect();
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(room.sets).pool_sizes(&sizes);
         // SAFETY: the device is alive.
         let raw = unsafe { device.raw().create_descriptor_pool(&info, None) }
             .of_call("vkCreateDescriptorPool", name)?;

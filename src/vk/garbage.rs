@@ -17,6 +17,7 @@ pub(super) enum Retired {
     DescriptorPool(vk::DescriptorPool),
     QueryPool(vk::QueryPool),
     CommandPool(vk::CommandPool),
+    Sampler(vk::Sampler),
     Semaphore(vk::Semaphore),
 }
 
@@ -69,6 +70,7 @@ unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Allocat
             Retired::DescriptorPool(raw) => device.destroy_descriptor_pool(raw, None),
             Retired::QueryPool(raw) => device.destroy_query_pool(raw, None),
             Retired::CommandPool(raw) => device.destroy_command_pool(raw, None),
+            Retired::Sampler(raw) => device.destroy_sampler(raw, None),
             Retired::Semaphore(raw) => device.destroy_semaphore(raw, None),
         }
     }

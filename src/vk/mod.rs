@@ -26,6 +26,7 @@ mod pipeline_cache;
 mod queries;
 mod queue;
 mod result;
+mod sampler;
 mod staging;
 
 pub use allow_list::{ALLOWED, Allowed};
@@ -34,7 +35,7 @@ pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
 pub use commands::CommandPool;
 pub use compute_pipeline::{ComputePipeline, ComputePipelineDesc};
-pub use descriptors::{Binding, Descriptor, DescriptorPool, SealedPool, SetLayout};
+pub use descriptors::{Binding, Descriptor, DescriptorPool, PoolRoom, SealedPool, SetLayout};
 pub use device::Device;
 pub use facts::all_facts;
 pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
@@ -48,6 +49,7 @@ pub use pipeline_cache::PipelineCache;
 pub use queries::{Statistics, Timestamps};
 pub use queue::Queue;
 pub use result::VkResultExt;
+pub use sampler::Sampler;
 pub use staging::Staging;
 
 /// One shader stage of a pipeline: its name for messages, its SPIR-V, its specialization constants.

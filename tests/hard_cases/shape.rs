@@ -46,7 +46,7 @@ fn n01_an_edge_on_splat_shrinks_to_a_line_and_never_grows() {
                         let most = match filter {
                             Filter::None if k >= 3 => 1.2 * length_px,
                             Filter::None => f64::INFINITY,
-                            Filter::Adjust => (length_px + 3.0) * 4.0,
+                            _ => (length_px + 3.0) * 4.0,
                         };
                         assert!(area <= most, "{filter:?} {side_px} {turn} 1e-{k}: {area} > {most}");
                         // π/4 · length · 2√2, but for the pixels at its border.

@@ -50,18 +50,18 @@ impl Compiler {
         })
     }
 
-    /// The SPIR-V 1.6 for Vulkan 1.3 of the file at `path`.
+    /// The SPIR-V 1.6 for Vulkan 1.3 of the file at `path`, with these words, in capitals, as macros.
     ///
     /// # Errors
     ///
     /// Every error and warning of this file, a line each.
-    pub fn spirv(&self, path: &Path, optimize: Optimize) -> Result<Vec<u32>, String> {
+    pub fn spirv(&self, path: &Path, words: &[&str], optimize: Optimize) -> Result<Vec<u32>, String> {
         let shown = path.display().to_string();
         let failed = |problem: String| format!("{shown}: error: {problem}");
         let source = read_text(path).map_err(failed)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let kind = stage(&name).ok_or_else(|| failed("no known stage in its name".into()))?;
-        let options = self.options(optimize).map_err(|e| failed(e.to_string()))?;
+        let options = self.options(words, optimize).map_err(|e| failed(e.to_string()))?;
         let compiled = self.compiler.compile_into_spirv(&source, kind, &shown, "main", Some(&options));
         match compiled {
             Ok(artifact) => Ok(artifact.as_binary().to_vec()),
@@ -73,7 +73,7 @@ impl Compiler {
         }
     }
 
-    fn options(&self, optimize: Optimize) -> shaderc::Result<CompileOptions<'_>> {
+    fn options(&self, words: &[&str], optimize: Optimize) -> shaderc::Result<CompileOptions<'_>> {
         let mut options = CompileOptions::new()?;
         options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
         options.set_target_spirv(SpirvVersion::V1_6);
@@ -84,6 +84,9 @@ impl Compiler {
         options.set_warnings_as_errors();
         for name in &self.macros {
             options.add_macro_definition(name, None);
+        }
+        for word in words {
+            options.add_macro_definition(&word.to_uppercase(), None);
         }
         options.set_include_callback(|requested, _, _, depth| self.include(requested, depth));
         Ok(options)
@@ -104,7 +107,7 @@ impl Compiler {
     }
 }
 
-fn read_text(path: &Path) -> Result<String, String> {
+pub fn read_text(path: &Path) -> Result<String, String> {
     let text = fs::read_to_string(path).map_err(|e| format!("cannot read: {e}"))?;
     // shaderc panics on one.
     if text.contains('\0') { Err("has a NUL character".into()) } else { Ok(text) }

@@ -2,6 +2,7 @@
 
 mod compile;
 mod layout;
+mod permutations;
 mod spirv;
 mod table;
 
@@ -17,7 +18,7 @@ use layout::{StructLayout, struct_layouts};
 /// A struct that host and shaders share: its name in GLSL, and the path of its twin in Rust.
 pub type HostStruct<'a> = (&'a str, &'a str);
 
-/// Compiles every `<pass>.<stage>.glsl` of the folder `glsl`. Answers with Rust source: one `static` a shader, the table
+/// Compiles every `<pass>.<stage>.glsl` of the folder `glsl`, once for each of its permutations. Answers with Rust source: one `static` a shader, the table
 /// `ALL` of all of them, and the checks of the host structs. `macros` are defined in every shader.
 ///
 /// # Errors
@@ -30,25 +31,44 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
     let mut errors = Vec::new();
     let mut shaders = Vec::new();
     let mut layouts = BTreeMap::new();
-    for (name, path) in sources {
-        // The optimizer strips names, so that the struct members are read from a second, unoptimized copy.
-        let result = compiler.spirv(&path, Optimize::Performance).and_then(|optimized| {
-            let named = compiler.spirv(&path, Optimize::Off)?;
-            Ok((
-                optimized,
-                struct_layouts(&named, &shared).map_err(|e| format!("{}: error: {e}", path.display()))?,
-            ))
-        });
-        match result {
-            Ok((spirv, found)) => {
-                for layout in found {
-                    errors.extend(layout::merge(&mut layouts, &name, layout).err());
-                }
-                shaders.push((name, spirv));
+    for (file, path) in sources {
+        let source = match compile::read_text(&path) {
+            Ok(source) => source,
+            Err(problem) => {
+                errors.push(format!("{}: error: {problem}", path.display()));
+                continue;
             }
-            Err(message) => errors.push(message),
+        };
+        for (number, words) in permutations::permutations(&source).into_iter().enumerate() {
+            let name = permutations::name(&file, &words);
+            let result = compiler.spirv(&path, &words, Optimize::Performance).and_then(|optimized| {
+                // What a file shares with the host is the same in all of its permutations.
+                if number > 0 {
+                    return Ok((optimized, Vec::new()));
+                }
+                // The optimizer strips names, so that the struct members are read from a second, unoptimized copy.
+                let named = compiler.spirv(&path, &words, Optimize::Off)?;
+                Ok((
+                    optimized,
+                    struct_layouts(&named, &shared).map_err(|e| format!("{}: error: {e}", path.display()))?,
+                ))
+            });
+            match result {
+                Ok((spirv, found)) => {
+                    for layout in found {
+                        errors.extend(layout::merge(&mut layouts, &name, layout).err());
+                    }
+                    shaders.push((name, spirv));
+                }
+                // The permutations of a file mostly fail alike: the first says it.
+                Err(message) => {
+                    errors.push(message);
+                    break;
+                }
+            }
         }
     }
+    shaders.sort();
     // A struct may be missing only because its shader failed; then that failure is the thing to read.
     if errors.is_empty() {
         for (glsl_name, _) in host_structs.iter().filter(|(name, _)| !layouts.contains_key(*name)) {

@@ -18,7 +18,7 @@ pub fn shaders(shaders: &[(String, Vec<u32>)]) -> String {
         // Writing to a `String` can't fail.
         let _ = writeln!(
             rust,
-            "/// `glsl/{name}.glsl`\npub static {identifier}: Shader = Shader {{ name: {name:?}, spirv: &[{words}] }};"
+            "/// The shader `{name}`.\npub static {identifier}: Shader = Shader {{ name: {name:?}, spirv: &[{words}] }};"
         );
         let _ = write!(all, "&{identifier}, ");
     }

@@ -1,0 +1,132 @@
+// Where a fragment lies in its splat, and whether it is covered: the "three instructions" of Guennebaud et al. 2006,
+// section 3.2, where the rasterizer is theirs. The depth w = near / z must come out bit-equal in every pass, so it is
+// computed here only and is `precise`.
+//
+// The filter `max` (Botsch, Hornung, Zwicker, Kobbelt 2005) takes the larger one of kernel and low-pass filter, whose
+// kernel is the same about the projected center with radius sqrt(2) pixels: kernels fall, so the smaller argument decides.
+
+#define VARYING in
+#include "inc/varyings.glsl"
+
+const float FILTER_RADIUS_PX = 1.41421356;
+
+struct Covered {
+    vec2 uv; // the kernel's argument
+    float w; // depth
+};
+
+#if defined(TRIANGLES)
+
+// Discards the fragment if u^2 + v^2 is above the limit.
+Covered covered(float limit_r2)
+{
+    if (!(dot(triangle_uv, triangle_uv) <= FORMULA(FORMULA_COVERAGE, limit_r2))) {
+        discard;
+    }
+    return Covered(triangle_uv, gl_FragCoord.z);
+}
+
+vec3 extra()
+{
+    return triangle_extra;
+}
+
+#else
+
+#if defined(RAYS)
+
+// The ray of the fragment meets the splat's plane n . q = n . p (Botsch et al. 2005): 1 / z is linear along the image.
+vec3 evaluate()
+{
+    precise vec3 ray = vec3((gl_FragCoord.xy - 0.5 * frame.size_px) / frame.focal_px, 1.0);
+    precise float inverse_z = ray_plane_extra.x * ray.x + ray_plane_extra.y * ray.y + ray_plane_extra.z;
+    vec3 q = ray / inverse_z - ray_center_extra.xyz;
+    precise float w = FORMULA(FORMULA_RAY_DEPTH, frame.near * inverse_z);
+    return vec3(dot(FORMULA(FORMULA_RAY_AXIS, ray_u_extra.xyz), q), dot(ray_v_low_pass.xyz, q), w);
+}
+
+// From the projected center, in pixels, and the depth there; 0 without a low-pass filter.
+vec3 low_pass()
+{
+    vec2 center_px = ray_center_extra.xy / ray_center_extra.z * frame.focal_px + 0.5 * frame.size_px;
+    return vec3(gl_FragCoord.xy - center_px, ray_v_low_pass.w);
+}
+
+vec3 extra()
+{
+    return vec3(ray_center_extra.w, ray_plane_extra.w, ray_u_extra.w);
+}
+
+#else
+
+vec3 evaluate()
+{
+#if defined(PLAIN)
+    const bool about_middle = RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER;
+    vec2 x0_px = about_middle ? 0.5 * frame.size_px : x0_w_extra.xy;
+    vec2 d = gl_FragCoord.xy - x0_px;
+    precise vec3 uvw = per_x_extra.xyz * d.x + per_y_extra.xyz * d.y;
+    if (about_middle) {
+        uvw += x0_w_extra.xyz;
+    } else {
+        uvw.z += x0_w_extra.z;
+    }
+    bool affine = AFFINE;
+#else
+    vec2 d = gl_FragCoord.xy - x0_w_extra.xy;
+    precise vec3 uvw = vec3(uv_affine.xy, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
+    bool affine = (AFFINE || FILTER == FILTER_MAX) && uv_affine.z != 0.0;
+#endif
+    // Divided before it is squared: the square of a small w would underflow.
+    return affine ? uvw : vec3(uvw.xy / uvw.z, uvw.z);
+}
+
+vec3 low_pass()
+{
+#if defined(CENTER)
+    return vec3(gl_FragCoord.xy - center_low_pass.xy, center_low_pass.z);
+#else
+    return vec3(gl_FragCoord.xy - x0_w_extra.xy, x0_w_extra.z); // expanded about the center
+#endif
+}
+
+vec3 extra()
+{
+    return vec3(x0_w_extra.w, per_x_extra.w, per_y_extra.w);
+}
+
+#endif
+
+// Discards the fragment if u^2 + v^2 is above the limit or it lies in front of the near plane.
+Covered covered(float limit_r2)
+{
+    precise vec3 uvw = evaluate();
+    bool inside = dot(uvw.xy, uvw.xy) <= FORMULA(FORMULA_COVERAGE, limit_r2);
+#if defined(PLAIN)
+    // A regular splat lies wholly beyond the near plane, but an affine map reaches further than the splat.
+    const bool may_be_too_near = AFFINE;
+#else
+    const bool may_be_too_near = true;
+#endif
+    if (may_be_too_near) {
+        // w = near / z: above 1 in front of the near plane, not above 0 behind the eye. A NaN fails too.
+        inside = inside && uvw.z > 0.0 && uvw.z <= FORMULA(FORMULA_NEAR_CUT, 1.0);
+    }
+    if (FILTER == FILTER_MAX) {
+        vec3 center = low_pass();
+        vec2 argument = center.xy / FORMULA(FORMULA_LOW_PASS, FILTER_RADIUS_PX);
+        float r2 = dot(argument, argument);
+        if (center.z > 0.0 && r2 <= limit_r2) {
+            float w = inside ? uvw.z : center.z;
+            bool kernel_is_larger = inside && dot(uvw.xy, uvw.xy) <= r2;
+            return Covered(kernel_is_larger ? uvw.xy : argument, min(w, 1.0));
+        }
+    }
+    if (!inside) {
+        discard;
+    }
+    // At the near plane w is 1 but for rounding; a depth above 1 is undefined.
+    return Covered(uvw.xy, min(uvw.z, 1.0));
+}
+
+#endif

@@ -1,0 +1,166 @@
+// Emits a splat's primitive with the pass's extra varyings; nothing where it covers no pixel's center.
+//
+// POINTS, SMALL_POINTS: a point sprite; of the small ones all but those that are drawn as quads.
+// QUADS, LISTED_QUADS: a strip of four vertices an instance; the listed ones only for the splats of the list.
+// TRIANGLES, SMALL_TRIANGLES: three vertices.
+
+// The same expressions must give the same bits in both passes, which are different pipelines (Vulkan 1.3, "Invariance").
+#define VARYING invariant out
+#include "inc/varyings.glsl"
+#include "inc/point.glsl"
+#include "inc/quad.glsl"
+#include "inc/triangle.glsl"
+
+#if defined(SMALL_POINTS) || defined(SMALL_TRIANGLES)
+#define LARGE_BITS_ACCESS readonly
+#include "inc/large.glsl"
+#endif
+#if defined(LISTED_QUADS)
+layout(set = 1, binding = 2, std430) readonly buffer LargeList { uint large_list[]; };
+#endif
+
+// The splat of this vertex.
+uint splat_index()
+{
+#if defined(LISTED_QUADS)
+    return large_list[gl_InstanceIndex];
+#elif defined(QUADS)
+    return gl_InstanceIndex;
+#elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)
+    return gl_VertexIndex / 3;
+#else
+    return gl_VertexIndex;
+#endif
+}
+
+bool is_drawn_elsewhere(uint index)
+{
+#if defined(SMALL_POINTS) || defined(SMALL_TRIANGLES)
+    return is_large(index);
+#else
+    return false;
+#endif
+}
+
+// No fragment of the splat is nearer: a bound of w, for fixed-function tests before the fragment stage. The depth of a disk
+// is at most its center's times 1 + depth radius / (p_z - depth radius); affine and stretched maps stay below.
+float nearest_depth(Mapping m)
+{
+    float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
+    return m.regular ? min(FORMULA_LESS(FORMULA_NEAREST_DEPTH, frame.near / (m.p.z - depth_radius) * 1.00001), 1.0) : 1.0;
+}
+
+void emit_nothing()
+{
+    gl_Position = NOWHERE;
+#if defined(POINTS) || defined(SMALL_POINTS)
+    gl_PointSize = 1.0;
+#endif
+#if defined(RAYS)
+    ray_center_extra = vec4(0.0);
+    ray_plane_extra = vec4(0.0);
+    ray_u_extra = vec4(0.0);
+    ray_v_low_pass = vec4(0.0);
+#elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)
+    triangle_uv = vec2(0.0);
+    triangle_extra = vec3(0.0);
+#else
+    x0_w_extra = vec4(0.0);
+    per_x_extra = vec4(0.0);
+    per_y_extra = vec4(0.0);
+#if defined(FULL) || defined(CENTER)
+    uv_affine = vec4(0.0);
+#endif
+#if defined(CENTER)
+    center_low_pass = vec3(0.0);
+#endif
+#endif
+}
+
+#if defined(RAYS)
+void hand_over(Mapping m, vec3 extra)
+{
+    // Dual to s and t in the splat's plane: u_axis . s = 1, u_axis . t = 0.
+    precise float n2 = precise_dot(m.n2, m.n2);
+    precise vec3 u_axis = precise_cross(m.t, m.n2) / n2;
+    precise vec3 v_axis = precise_cross(m.n2, m.s) / n2;
+    precise vec3 plane = m.n2 * (m.scale / frame.near);
+    if (m.edge_on) {
+        plane = vec3(0.0); // its rays meet nothing
+    }
+    bool low_pass = FILTER == FILTER_MAX && m.p.z > frame.near;
+    ray_center_extra = vec4(m.p, extra.x);
+    ray_plane_extra = vec4(plane, extra.y);
+    ray_u_extra = vec4(u_axis, extra.z);
+    ray_v_low_pass = vec4(v_axis, low_pass ? frame.near / m.p.z : 0.0);
+}
+#elif !defined(TRIANGLES) && !defined(SMALL_TRIANGLES)
+void hand_over(Mapping m, ImageMap map, vec3 extra)
+{
+    x0_w_extra = vec4(map.x0_px, map.at_x0.z, extra.x);
+    per_x_extra = vec4(map.along_x, extra.y);
+    per_y_extra = vec4(map.along_y, extra.z);
+#if defined(PLAIN)
+    if (RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER) {
+        x0_w_extra.xyz = map.at_x0;
+    }
+#endif
+#if defined(FULL) || defined(CENTER)
+    uv_affine = vec4(map.at_x0.xy, map.affine ? 1.0 : 0.0, 0.0);
+#endif
+#if defined(CENTER)
+    bool low_pass = m.p.z > frame.near;
+    center_low_pass = low_pass ? vec3(projected_center_px(m), frame.near / m.p.z) : vec3(0.0);
+#endif
+}
+#endif
+
+// `depth_factor`: what the pass multiplies depth by.
+void emit(Mapping m, vec3 extra, float depth_factor)
+{
+#if defined(TRIANGLES) || defined(SMALL_TRIANGLES)
+    vec2 uv = triangle_corner(m, gl_VertexIndex % 3);
+    precise vec3 q = m.p + m.s * uv.x + m.t * uv.y;
+    precise float z = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near) * depth_factor;
+    // Depth is this position's: bit-equal in both passes but for the factor. (gl_Position itself can't be `invariant`: Mesa
+    // 22.3 warns of it.)
+    precise vec2 xy = 2.0 * frame.focal_px / frame.size_px * q.xy;
+    gl_Position = vec4(xy, z, q.z);
+    triangle_uv = uv;
+    triangle_extra = extra;
+#else
+#if defined(POINTS) || defined(SMALL_POINTS)
+    Point point;
+    if (!point_of(m, point)) {
+        emit_nothing();
+        return;
+    }
+    gl_Position = vec4(point.clip_center, nearest_depth(m) * depth_factor, 1.0);
+    gl_PointSize = point.size_px;
+#if !defined(RAYS)
+    hand_over(m, regular_map(m), extra);
+#endif
+#else
+    Quad quad;
+    if (!quad_of(m, gl_VertexIndex, quad)) {
+        emit_nothing();
+        return;
+    }
+    gl_Position = vec4(quad.clip_corner, nearest_depth(m) * depth_factor, 1.0);
+#if !defined(RAYS)
+    hand_over(m, quad_map(m, quad), extra);
+#endif
+#endif
+#if defined(RAYS)
+    hand_over(m, extra);
+#endif
+#endif
+}
+
+float share_of(Mapping m)
+{
+    if (FILTER == FILTER_EWA && m.regular) {
+        return stretched(m).share;
+    }
+    return WEIGHT_BY_AREA ? m.share : 1.0;
+}

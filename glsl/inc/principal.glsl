@@ -1,0 +1,49 @@
+// The principal axes of a disk's image, in the affine approximation of the projection at its center.
+//
+// With a = J s, b = J t (J the Jacobian of the projection at p) the image is {u a + v b : u^2 + v^2 <= 1}. Rotating the
+// parametrization by theta, tan 2 theta = 2 a.b / (a.a - b.b), leaves the disk the same and makes the axes orthogonal, the
+// longer one along a. The shorter is the determinant over the longer: no cancellation, as aa + bb - spread would have.
+
+struct Principal {
+    vec2 direction; // unit, of the longer axis; the shorter's is this one turned by 90 degrees
+    float major;    // half lengths, image plane; the minor one has the sign of the parametrization's orientation
+    float minor;
+    float cosine;   // of theta
+    float sine;
+};
+
+Principal principal_axes(vec3 p, vec3 s, vec3 t)
+{
+    precise vec2 c = p.xy / p.z;
+    precise vec2 a = (s.xy - c * s.z) / p.z;
+    precise vec2 b = (t.xy - c * t.z) / p.z;
+    precise float aa = dot(a, a);
+    precise float bb = dot(b, b);
+    precise float ab = dot(a, b);
+    precise float difference = aa - bb;
+    precise float spread = sqrt(difference * difference + 4.0 * ab * ab);
+    // cos and sin of theta from cos 2 theta and sin 2 theta, the larger one by a square root, the other by division.
+    precise float cosine = 1.0;
+    precise float sine = 0.0;
+    if (spread > 0.0) {
+        precise float half_sin = 0.5 * FORMULA(FORMULA_FILTER_ROTATION, 2.0 * ab / spread);
+        precise float larger = sqrt(0.5 + 0.5 * abs(difference) / spread);
+        if (difference >= 0.0) {
+            cosine = larger;
+            sine = half_sin / larger;
+        } else {
+            sine = half_sin < 0.0 ? -larger : larger;
+            cosine = abs(half_sin) / larger;
+        }
+    }
+    precise vec2 axis = a * cosine + b * sine;
+    precise float major = sqrt(dot(axis, axis));
+    precise float area = a.x * b.y - a.y * b.x;
+    Principal principal;
+    principal.major = major;
+    principal.minor = major > 0.0 ? area / major : 0.0;
+    principal.direction = major > 0.0 ? axis / major : vec2(1.0, 0.0);
+    principal.cosine = cosine;
+    principal.sine = sine;
+    return principal;
+}

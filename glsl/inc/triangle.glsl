@@ -1,0 +1,28 @@
+// A splat as one triangle in its plane with the kernel upon it (Pajarola, Sainz, Guidotti 2003, section 5.2): the generic
+// triangle around the unit disk, scaled along s and t. Projection, (u, v) and depth are the fixed-function rasterizer's.
+//
+// Rasterizers snap vertices to a grid, 1/256 pixel mostly. Where the disk touches a side, that would take a part of the rim:
+// the triangle is larger by four such steps. Splats whose triangle would come near the eye plane are drawn as quads.
+
+const float SNAP_PX = 1.0 / 64.0;
+
+// How much larger than the smallest.
+float triangle_scale(Mapping m)
+{
+    Principal axes = principal_axes(m.p, m.s, m.t);
+    return 1.0 + SNAP_PX / (abs(axes.minor) * frame.focal_px);
+}
+
+bool fits_triangle(Mapping m)
+{
+    float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
+    // Corners are 2 radii from the center. Written so that NaN and infinity don't fit.
+    return m.regular && 2.0 * triangle_scale(m) * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
+}
+
+vec2 triangle_corner(Mapping m, uint corner)
+{
+    const float root_3 = 1.7320508;
+    vec2 unit = corner == 0 ? vec2(0.0, 2.0) : corner == 1 ? vec2(-root_3, -1.0) : vec2(root_3, -1.0);
+    return FORMULA_LESS(FORMULA_TRIANGLE_CORNER, triangle_scale(m)) * unit;
+}

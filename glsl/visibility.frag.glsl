@@ -1,0 +1,27 @@
+// Visibility splatting: the depth of the splat, moved away from the eye by epsilon (Guennebaud et al. 2006, section 2;
+// Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is 1 / f.
+//
+// EARLY: the vertex stage's depth is a bound of this one, by which the device may test before this stage.
+// Permutations: plain full center rays | _ early
+// Permutations: triangles
+#version 460
+#include "inc/perturb.glsl"
+#include "inc/frame.glsl"
+#include "inc/variant.glsl"
+#include "inc/coverage.glsl"
+
+#if defined(EARLY)
+layout(depth_less) out float gl_FragDepth;
+#endif
+
+// What is seen here must be accumulated later, or a pixel would hide what is behind and stay empty. The passes are
+// different pipelines, whose divisions may differ in the last bits: so visibility covers a hair less.
+const float HAIR = 1.0 - 4e-6;
+
+void main()
+{
+    Covered fragment = covered(HAIR * frame.coverage_r2);
+#if !defined(TRIANGLES)
+    gl_FragDepth = fragment.w * extra().x;
+#endif
+}

@@ -1,0 +1,43 @@
+//! A sampler.
+
+use ash::vk;
+
+use super::{device::Device, garbage::Retired, result::VkResultExt};
+use crate::error::Result;
+
+/// Bilinear, clamped to the edge, without mip levels.
+pub struct Sampler {
+    device: Device,
+    raw: vk::Sampler,
+}
+
+impl Sampler {
+    /// A bilinear sampler.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, name: &str) -> Result<Self> {
+        let clamp = vk::SamplerAddressMode::CLAMP_TO_EDGE;
+        let info = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .address_mode_u(clamp)
+            .address_mode_v(clamp)
+            .address_mode_w(clamp);
+        // SAFETY: the device is alive.
+        let raw = unsafe { device.raw().create_sampler(&info, None) }.of_call("vkCreateSampler", name)?;
+        device.set_name(raw, name);
+        Ok(Self { device: device.clone(), raw })
+    }
+
+    /// The raw sampler.
+    pub fn raw(&self) -> vk::Sampler {
+        self.raw
+    }
+}
+
+impl Drop for Sampler {
+    fn drop(&mut self) {
+        self.device.retire(Retired::Sampler(self.raw));
+    }
+}
