@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, io, ops::Range};
 
-use plotters::style::RGBColor;
+use plotters::{coord::Shift, prelude::*};
 
 use crate::error::Error;
 
@@ -54,6 +54,48 @@ pub(super) fn mark(value: f64) -> String {
         _ if (1e-3..1e6).contains(&value) => format!("{}", (value * 1e6).round() / 1e6),
         _ => format!("{value:.0e}"),
     }
+}
+
+/// What stands before a legend's text.
+pub(super) enum Sign {
+    /// A circle, filled or not.
+    Dot(RGBColor, bool),
+    /// A line of this width.
+    Line(RGBColor, u32),
+    /// An area.
+    Band,
+    /// Letters beside the dots.
+    Letters(&'static str),
+}
+
+/// The color of bands.
+pub(super) fn band() -> ShapeStyle {
+    BLACK.mix(0.08).filled()
+}
+
+/// Width of a legend beside a plot, in pixels.
+pub(super) const LEGEND_WIDTH_PX: u32 = 200;
+
+/// Draws a legend, line by line.
+pub(super) fn legend<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    lines: impl Iterator<Item = (Sign, String)>,
+) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+    for (y, (sign, text)) in (60..).step_by(20).zip(lines) {
+        match sign {
+            Sign::Dot(color, filled) => {
+                let style = ShapeStyle { color: color.to_rgba(), filled, stroke_width: 1 };
+                area.draw(&Circle::new((18, y), 4, style))?;
+            }
+            Sign::Line(color, width) => {
+                area.draw(&PathElement::new([(6, y), (30, y)], color.stroke_width(width)))?;
+            }
+            Sign::Band => area.draw(&Rectangle::new([(6, y - 6), (30, y + 6)], band()))?,
+            Sign::Letters(letters) => area.draw(&Text::new(letters, (10, y - 6), (FONT, 12)))?,
+        }
+        area.draw(&Text::new(text, (38, y - 7), (FONT, 13)))?;
+    }
+    Ok(())
 }
 
 /// A plot that can't be drawn: no input leads there.

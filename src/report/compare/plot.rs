@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use super::{CompareReport, MethodRow};
 use crate::{
     error::Result,
-    report::plot::{FONT, SIZE_PX, color, failed, logarithmic, mark},
+    report::plot::{FONT, LEGEND_WIDTH_PX, SIZE_PX, Sign, color, failed, legend, logarithmic, mark},
     scene::{Filter, Rasterizer},
 };
 
@@ -41,7 +41,8 @@ impl CompareReport {
             "{}: {} splats, times at {width}x{height}, errors at {error_width}x{error_height}",
             self.device.name, self.splats
         );
-        let mut chart = ChartBuilder::on(&root)
+        let (left, right) = root.split_horizontally(SIZE_PX.0 - LEGEND_WIDTH_PX);
+        let mut chart = ChartBuilder::on(&left)
             .caption(caption, (FONT, 20))
             .margin(16)
             .x_label_area_size(48)
@@ -70,10 +71,7 @@ impl CompareReport {
                 let style = ShapeStyle { color: color(i).to_rgba(), filled, stroke_width: 1 };
                 Circle::new(dot.place, 4, style)
             };
-            chart
-                .draw_series(own.map(circle))?
-                .label(*name)
-                .legend(move |(x, y)| Circle::new((x + 10, y), 4, color(i).filled()));
+            chart.draw_series(own.map(circle))?;
         }
         chart.draw_series(dots.iter().map(|dot| {
             let code = code(dot.row.method.rasterizer).to_owned();
@@ -83,32 +81,7 @@ impl CompareReport {
         chart.draw_series(front.iter().map(|dot| {
             EmptyElement::at(dot.place) + Text::new(dot.row.method.line(), (8, -16), (FONT, 13))
         }))?;
-        for (name, _) in Rasterizer::NAMES {
-            let letters = code(name);
-            chart
-                .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
-                .label(*name)
-                .legend(move |(x, y)| Text::new(letters, (x + 4, y - 6), (FONT, 12)));
-        }
-        for (label, filled) in [("16-bit sums", false), ("32-bit sums", true)] {
-            chart.draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?.label(label).legend(
-                move |(x, y)| {
-                    let style = ShapeStyle { color: BLACK.to_rgba(), filled, stroke_width: 1 };
-                    Circle::new((x + 10, y), 4, style)
-                },
-            );
-        }
-        chart
-            .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
-            .label("Pareto front")
-            .legend(|(x, y)| PathElement::new([(x, y), (x + 20, y)], BLACK));
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .label_font((FONT, 13))
-            .draw()?;
+        legend(&right, legend_lines())?;
         root.present()
     }
 }
@@ -119,6 +92,17 @@ impl<'a> Dot<'a> {
         let on_axes = ms > 0.0 && rms > 0.0 && ms.is_finite() && rms.is_finite();
         on_axes.then_some(Self { row, place: (ms, rms) })
     }
+}
+
+/// Filters by color, sums by filling, rasterizers by letters.
+fn legend_lines() -> impl Iterator<Item = (Sign, String)> {
+    let filters = Filter::NAMES.iter().enumerate().map(|(i, (name, _))| (Sign::Dot(color(i), true), *name));
+    let sums = [(false, "16-bit sums"), (true, "32-bit sums")];
+    let sums = sums.into_iter().map(|(filled, name)| (Sign::Dot(BLACK, filled), name));
+    let rasterizers = Rasterizer::NAMES.iter().map(|(name, _)| (Sign::Letters(code(name)), *name));
+    let front = (Sign::Line(BLACK, 1), "Pareto front");
+    let lines = filters.chain(sums).chain(rasterizers).chain([front]);
+    lines.map(|(sign, text)| (sign, text.to_owned()))
 }
 
 /// A rasterizer in two letters at most.

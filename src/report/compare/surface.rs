@@ -1,6 +1,6 @@
 //! A picture as the comparison takes it: plain arrays, whoever has drawn it.
 
-use crate::reference::Picture;
+use crate::reference::{GroundTruth, Picture};
 
 /// How near to the ε-threshold a fragment makes its pixel a matter of rounding, relative to the depth.
 const EPSILON_MARGIN: f64 = 1e-4;
@@ -41,6 +41,19 @@ impl Surface {
                     [pixel.color[0], pixel.color[1], pixel.color[2]].map(|component| component as f32)
                 })
                 .collect(),
+        }
+    }
+
+    /// Of the ground truth.
+    #[expect(clippy::cast_possible_truncation, reason = "compared with 32-bit pictures")]
+    pub fn of_truth(truth: &GroundTruth) -> Self {
+        let pixels = &truth.pixels;
+        Self {
+            size_px: truth.size_px,
+            coverage: pixels.iter().map(|pixel| pixel.coverage as f32).collect(),
+            normal: pixels.iter().map(|pixel| pixel.normal.map(|component| component as f32)).collect(),
+            depth: pixels.iter().map(|pixel| pixel.depth as f32).collect(),
+            color: pixels.iter().map(|pixel| pixel.color.map(|component| component as f32)).collect(),
         }
     }
 

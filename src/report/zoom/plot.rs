@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use super::ZoomReport;
 use crate::{
     error::Result,
-    report::plot::{FONT, SIZE_PX, color, failed, logarithmic, mark},
+    report::plot::{FONT, LEGEND_WIDTH_PX, SIZE_PX, Sign, band, color, failed, legend, logarithmic, mark},
 };
 
 impl ZoomReport {
@@ -41,7 +41,8 @@ impl ZoomReport {
             "checkerboard of {side}x{side} splats, tilted by {} degrees, {width}x{height} pixels",
             self.board.tilt_deg
         );
-        let mut chart = ChartBuilder::on(&root)
+        let (left, right) = root.split_horizontally(SIZE_PX.0 - LEGEND_WIDTH_PX);
+        let mut chart = ChartBuilder::on(&left)
             .caption(caption, (FONT, 20))
             .margin(16)
             .x_label_area_size(48)
@@ -65,26 +66,15 @@ impl ZoomReport {
             .map(|step| step.pixels_per_splat)
             .collect();
         if let (Some(first), Some(last)) = (mixed.first(), mixed.last()) {
-            let band = Rectangle::new([(*first, bottom), (*last, top)], BLACK.mix(0.07).filled());
-            chart
-                .draw_series([band])?
-                .label("splats larger than the filter along one axis alone")
-                .legend(|(x, y)| Rectangle::new([(x, y - 5), (x + 20, y + 5)], BLACK.mix(0.15).filled()));
+            chart.draw_series([Rectangle::new([(*first, bottom), (*last, top)], band())])?;
         }
-        for (i, (filter, line)) in self.filters.iter().zip(lines).enumerate() {
-            let style = color(i).stroke_width(2);
-            chart
-                .draw_series(LineSeries::new(line, style).point_size(3))?
-                .label(filter.line())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], color(i).stroke_width(2)));
+        for (i, line) in lines.into_iter().enumerate() {
+            chart.draw_series(LineSeries::new(line, color(i).stroke_width(2)).point_size(3))?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::LowerLeft)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .label_font((FONT, 13))
-            .draw()?;
+        let names = self.filters.iter().enumerate();
+        let lines = names.map(|(i, filter)| (Sign::Line(color(i), 2), filter.line()));
+        let mixed = [(Sign::Band, "mixed: larger than the"), (Sign::Letters(""), "filter along one axis")];
+        legend(&right, lines.chain(mixed.map(|(sign, text)| (sign, text.to_owned()))))?;
         root.present()
     }
 }

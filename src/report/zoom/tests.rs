@@ -130,7 +130,7 @@ fn table_and_plot_show_every_filter_and_step() {
         "{table}"
     );
     let svg = report.plot_svg().unwrap();
-    for text in ["adjust-paper", "ewa", "pixels a splat", "larger than the filter"] {
+    for text in ["adjust-paper", "ewa", "pixels a splat", "mixed: larger than"] {
         assert!(svg.contains(text), "{text}");
     }
 }

@@ -38,7 +38,7 @@ pub fn oracle(
 /// Draws what every filter aims at.
 ///
 /// # Errors
-/// As the reference's ground truth.
+/// As [`reference::ground_truth`].
 pub fn truth(
     scene: &Scene,
     camera: &Camera,
@@ -47,10 +47,9 @@ pub fn truth(
     task: &str,
     bars: &Bars,
 ) -> Result<Surface> {
-    let _ = samples_per_side;
-    let settings = Settings { filter: surfel::scene::Filter::None, ..base.clone() };
-    let picture = reference::render(scene, camera, &settings, &|done, total| bars.step(task, done, total))?;
-    Ok(Surface::of(&picture))
+    let progress = |done, total| bars.step(task, done, total);
+    let truth = reference::ground_truth(scene, camera, base, samples_per_side, &progress)?;
+    Ok(Surface::of_truth(&truth))
 }
 
 /// What the device has drawn.
