@@ -22,27 +22,30 @@
 
 mod affine;
 mod band;
+mod bands;
 mod ewa;
 mod filter;
 mod fragment;
+mod ground_truth;
 mod intersect;
 mod kernel;
 mod low_pass;
+mod low_pass_taps;
 mod paper_filter;
 mod picture;
+mod row_span;
 mod search_box;
 mod shade;
 mod splat;
+mod surface;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
-use std::num::NonZero;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
+pub use ground_truth::{GroundTruth, TruePixel, ground_truth};
 pub use picture::{Picture, Pixel};
 
 use self::band::Frame;
@@ -85,25 +88,12 @@ pub fn render(
     let mut pixels = empty_pixels(settings)?;
     let rows_done = AtomicU64::new(0);
     progress(0, u64::from(height));
-    let bands = Mutex::new(pixels.chunks_mut(width as usize * BAND_ROWS).enumerate());
-    let work = || {
-        loop {
-            // The lock is held only while the next band is taken: nothing can be left half done under it.
-            let next = bands.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((i, pixels)) = next else { break };
-            let first = (i * BAND_ROWS) as u32;
-            let rows = (pixels.len() / width as usize) as u32;
-            band::render(&frame, first..first + rows, pixels);
-            let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
-            progress(done, u64::from(height));
-        }
-    };
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(work);
-        }
-        work();
+    bands::for_each(&mut pixels, width as usize * BAND_ROWS, |i, pixels| {
+        let first = (i * BAND_ROWS) as u32;
+        let rows = (pixels.len() / width as usize) as u32;
+        band::render(&frame, first..first + rows, pixels);
+        let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
+        progress(done, u64::from(height));
     });
     Ok(Picture { size_px: settings.size_px, pixels, defects })
 }

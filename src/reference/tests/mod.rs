@@ -10,6 +10,7 @@ mod edge_on;
 mod epsilon;
 mod ewa;
 mod facing;
+mod ground_truth;
 mod hostile;
 mod low_pass;
 mod near_plane;
