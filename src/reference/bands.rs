@@ -4,8 +4,8 @@ use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Calls `work(index, band)` for every band of `band_len` pixels, the last one perhaps shorter. Which thread takes which
-/// band is open; none is taken twice.
+/// Calls `work(index, band)` for every band of `band_len` pixels, the last one perhaps shorter. Which thread takes
+/// which band is open; none is taken twice.
 pub(super) fn for_each<T: Send>(pixels: &mut [T], band_len: usize, work: impl Fn(usize, &mut [T]) + Sync) {
     let bands = Mutex::new(pixels.chunks_mut(band_len).enumerate());
     let take = || {

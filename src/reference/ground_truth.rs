@@ -4,8 +4,8 @@
 //! regular grid within each pixel, shaded, and low-passed by the Gaussian that the filters stand for. Samples reach
 //! beyond the image's border as far as the filter does, so that pixels at the border are like any other.
 //!
-//! One sample row after the other: the filter is separable, so that each is low-passed along itself first and then added
-//! to the pixel rows that it reaches.
+//! One sample row after the other: the filter is separable, so that each is low-passed along itself first and then
+//! added to the pixel rows that it reaches.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,46 +13,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec3;
 
 use super::bands;
+use super::fragment::Fragment;
 use super::kernel::limit_r2;
 use super::low_pass_taps::Taps;
 use super::row_span::row_span;
 use super::search_box::SearchBox;
 use super::splat::{self, DrawnSplat};
-use super::surface::{Nearest, Sums, direction};
+use super::surface::{Nearest, Sums};
+use super::true_pixel::{Channels, GroundTruth, TruePixel, add, channels};
 use super::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{
-    Camera, DefectCounts, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings, Shading,
-};
-
-/// The low-passed surface.
-#[derive(Clone, Debug)]
-pub struct GroundTruth {
-    /// Width and height in pixels.
-    pub size_px: [u32; 2],
-    /// Row by row, the top left pixel first; `width · height` entries.
-    pub pixels: Vec<TruePixel>,
-    /// The splats that can't be drawn, by reason; they are not in it.
-    pub defects: DefectCounts,
-}
-
-/// One pixel of the low-passed surface. All but the coverage are means over the samples that see a surface, weighted by the
-/// filter: over a background, the image is `coverage · color + (1 − coverage) · background`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TruePixel {
-    /// The share of the filter in which there is a surface, 0–1.
-    pub coverage: f64,
-    /// Linear; 0 where empty.
-    pub albedo: [f64; 3],
-    /// The mean's direction, in view space (toward the eye is z < 0); 0 where empty.
-    pub normal: [f64; 3],
-    /// View-space z in world units; +∞ where empty.
-    pub depth: f64,
-    /// Linear, the mean of shaded samples; 0 where empty.
-    pub color: [f64; 3],
-    /// The splats' own alpha, 0–1; 0 where empty.
-    pub alpha: f64,
-}
+use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings, Shading};
 
 /// Pixel rows that a thread takes at a time. The sample rows that the filter reaches beyond them are sampled twice.
 const BAND_ROWS: usize = 32;
@@ -65,9 +36,6 @@ const MAX_SAMPLES_PER_SIDE: u32 = 64;
 
 /// The most samples of a picture: 8192² pixels with 256 each.
 const MAX_SAMPLES: u64 = 1 << 34;
-
-/// What is low-passed of a sample: whether it sees a surface, then albedo, normal, color, depth and alpha.
-type Channels = [f64; 12];
 
 /// All that every band reads.
 struct Field<'a> {
@@ -86,17 +54,17 @@ struct Field<'a> {
     columns: Vec<f64>,
 }
 
-/// Renders what every filter of `scene`, seen by `camera`, aims at, with `samples_per_side` squared samples a pixel: 16
-/// and more for a picture that others are judged by.
+/// Renders what every filter of `scene`, seen by `camera`, aims at, with `samples_per_side` squared samples a
+/// pixel: 16 and more for a picture that others are judged by.
 ///
-/// Of the settings it reads size, kernel, ε, back faces and shading. The filter's standard deviation is `σ h`, with h =
-/// √2 pixels and σ that of a Gaussian kernel, or ½ for another; it is cut off at 4 of them. Splats with a
+/// Of the settings it reads size, kernel, ε, back faces and shading. The filter's standard deviation is `σ h`, with
+/// h = √2 pixels and σ that of a Gaussian kernel, or ½ for another; it is cut off at 4 of them. Splats with a
 /// [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on how many.
 /// `progress(done, total)` is called from several threads, with rows.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for a number of samples outside 1–64 or more
-/// than 2³⁴ in all, and for a size that memory can't hold.
+/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for a number of samples
+/// outside 1–64 or more than 2³⁴ in all, and for a size that memory can't hold.
 pub fn ground_truth(
     scene: &Scene,
     camera: &Camera,
@@ -232,21 +200,7 @@ impl Field<'_> {
             let y = self.view.ray(0, row).y;
             for ((sample, sums), x) in samples.iter_mut().zip(sums).zip(&self.columns) {
                 let Some(surface) = sums.surface(self.shading, DVec3::new(*x, y, 1.0)) else { continue };
-                let (albedo, normal, color) = (surface.albedo, surface.normal, surface.color);
-                *sample = [
-                    1.0,
-                    albedo.x,
-                    albedo.y,
-                    albedo.z,
-                    normal.x,
-                    normal.y,
-                    normal.z,
-                    color.x,
-                    color.y,
-                    color.z,
-                    surface.depth,
-                    surface.alpha,
-                ];
+                *sample = channels(&surface);
             }
         }
         Some(samples)
@@ -257,7 +211,7 @@ impl Field<'_> {
         &self,
         here: &[usize],
         rows: &Range<u32>,
-        mut f: impl FnMut(usize, usize, &DrawnSplat, super::fragment::Fragment),
+        mut f: impl FnMut(usize, usize, &DrawnSplat, Fragment),
     ) {
         for &splat_index in here {
             let (splat, search) = (&self.splats[splat_index], &self.boxes[splat_index]);
@@ -282,38 +236,6 @@ impl Field<'_> {
             for (tap, sample) in self.taps.weights.iter().zip(&samples[first..]) {
                 add(value, *tap, sample);
             }
-        }
-    }
-}
-
-fn add(sum: &mut Channels, weight: f64, value: &Channels) {
-    sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += weight * value);
-}
-
-impl TruePixel {
-    const EMPTY: Self = Self {
-        coverage: 0.0,
-        albedo: [0.0; 3],
-        normal: [0.0; 3],
-        depth: f64::INFINITY,
-        color: [0.0; 3],
-        alpha: 0.0,
-    };
-
-    fn from_sums(sums: &Channels) -> Self {
-        let coverage = sums[0];
-        if coverage <= 0.0 {
-            return Self::EMPTY;
-        }
-        let three = |first: usize| DVec3::new(sums[first], sums[first + 1], sums[first + 2]);
-        Self {
-            // The taps' sum is 1 but for rounding.
-            coverage: coverage.min(1.0),
-            albedo: (three(1) / coverage).to_array(),
-            normal: direction(three(4), coverage).to_array(),
-            depth: sums[10] / coverage,
-            color: (three(7) / coverage).to_array(),
-            alpha: sums[11] / coverage,
         }
     }
 }

@@ -13,14 +13,14 @@ const MAX_REACH_PX: u32 = 64;
 pub(super) struct Taps {
     /// How many whole pixels it reaches to each side of its own.
     pub reach_px: u32,
-    /// The weights of the samples from `reach_px` pixels before a pixel's first one to `reach_px` pixels behind its last
-    /// one; their sum is 1.
+    /// The weights of the samples from `reach_px` pixels before a pixel's first one to `reach_px` pixels behind its
+    /// last one; their sum is 1.
     pub weights: Vec<f64>,
 }
 
 impl Taps {
-    /// The standard deviation is that of every filter: `σ h`, with h = √2 pixels and σ that of a Gaussian kernel. For ψ_E,
-    /// which has none, σ is that of the default kernel, ½.
+    /// The standard deviation is that of every filter: `σ h`, with h = √2 pixels and σ that of a Gaussian kernel.
+    /// For ψ_E, which has none, σ is that of the default kernel, ½.
     pub fn new(kernel: Kernel, samples_per_side: u32) -> Result<Self> {
         let sigma = match kernel {
             Kernel::Gaussian { sigma } => f64::from(sigma),

@@ -9,16 +9,16 @@
 //! first, then the fragments at or before it are summed, normalized and shaded (`band`, `shade`).
 //!
 //! The rasterizers are two kinds: the affine ones have a map of their own (`affine`), all the others draw the same
-//! picture, which one of them cuts off (`low_pass`). The filters change the tangent vectors (`filter`, `paper_filter`),
-//! add a disk in the image (`low_pass`) or replace the map (`ewa`). A splat that reaches the near plane, or whose depth
-//! radius is above 0.9 of its center's depth, has no affine map worth the name: the affine rasterizers draw it by its
-//! rays, and `ewa` leaves it as it is.
+//! picture, which one of them cuts off (`low_pass`). The filters change the tangent vectors (`filter`,
+//! `paper_filter`), add a disk in the image (`low_pass`) or replace the map (`ewa`). A splat that reaches the near
+//! plane, or whose depth radius is above 0.9 of its center's depth, has no affine map worth the name: the affine
+//! rasterizers draw it by its rays, and `ewa` leaves it as it is.
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
-//! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it says),
-//! [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`Settings::early_depth`].
+//! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it
+//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`Settings::early_depth`].
 
 mod affine;
 mod band;
@@ -38,6 +38,7 @@ mod search_box;
 mod shade;
 mod splat;
 mod surface;
+mod true_pixel;
 mod view;
 
 #[cfg(test)]
@@ -45,8 +46,9 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-pub use ground_truth::{GroundTruth, TruePixel, ground_truth};
+pub use ground_truth::ground_truth;
 pub use picture::{Picture, Pixel};
+pub use true_pixel::{GroundTruth, TruePixel};
 
 use self::band::Frame;
 use self::search_box::SearchBox;

@@ -8,8 +8,8 @@ use super::search_box::SearchBox;
 use super::splat::DrawnSplat;
 use super::view::View;
 
-/// The columns of `search` in which the splat, under the projective map, may have an `r²` of at most `limit_r2` in the
-/// row with image-plane coordinate `y`: at least all in which it has.
+/// The columns of `search` in which the splat, under the projective map, may have an `r²` of at most `limit_r2` in
+/// the row with image-plane coordinate `y`: at least all in which it has.
 pub(super) fn row_span(
     splat: &DrawnSplat,
     search: &SearchBox,
@@ -18,8 +18,8 @@ pub(super) fn row_span(
     view: &View,
 ) -> Range<usize> {
     let all = search.columns.start as usize..search.columns.end as usize;
-    // The ray (x, y, 1) meets the plane at z = d/w with d = n·p, w = n·ray. There u = U/w with U = d u_axis·ray − u_axis·p w,
-    // v alike; all are linear in x, and u² + v² ≤ limit is U² + V² − limit w² ≤ 0.
+    // The ray (x, y, 1) meets the plane at z = d/w with d = n·p, w = n·ray. There u = U/w with U = d u_axis·ray −
+    // u_axis·p w, v alike; all are linear in x, and u² + v² ≤ limit is U² + V² − limit w² ≤ 0.
     let d = splat.plane_normal.dot(splat.center);
     let linear = |axis: DVec3| {
         let of = d * axis - axis.dot(splat.center) * splat.plane_normal;
@@ -43,8 +43,7 @@ pub(super) fn row_span(
     let half = (discriminant.max(0.0) + 1e-9 * scale).sqrt();
     let column = |x: f64| x * view.focal_px + view.middle_px()[0] - 0.5;
     let (first, last) = (column((-b - half) / a).floor(), column((-b + half) / a).ceil());
-    // Written so that NaN takes all.
-    if !(first <= last) {
+    if first.is_nan() || last.is_nan() {
         return all;
     }
     all.start.max(first.max(0.0) as usize)..all.end.min(last.max(-1.0) as usize + 1)

@@ -17,8 +17,8 @@ pub(super) struct SearchBox {
 }
 
 impl SearchBox {
-    /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`], of the splat or
-    /// of the low-pass filter beside it.
+    /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`], of the
+    /// splat or of the low-pass filter beside it.
     pub fn of(splat: &DrawnSplat, limit_r2: f64, view: &View) -> Self {
         let [middle_x, middle_y] = view.middle_px();
         let farthest_px = middle_x.hypot(middle_y);
@@ -38,8 +38,9 @@ impl SearchBox {
         own.union(Self::of_circle(low_pass.center, reach, view))
     }
 
-    /// Holds every pixel whose `r²` is at most `largest_r2`, under the projective map. The disk of that size lies in a ball, the ball in a cube; the cube is projected corner by corner. Where
-    /// it reaches the near plane the box is the whole image.
+    /// Holds every pixel whose `r²` is at most `largest_r2`, under the projective map. The disk of that size lies
+    /// in a ball, the ball in a cube; the cube is projected corner by corner. Where it reaches the near plane the
+    /// box is the whole image.
     pub fn of_disk(splat: &DrawnSplat, largest_r2: f64, view: &View) -> Self {
         // |u s + v t|² ≤ (u² + v²)(|s|² + |t|²).
         let radius = (largest_r2 * (splat.s.length_squared() + splat.t.length_squared())).sqrt();

@@ -5,8 +5,7 @@ use std::sync::Mutex;
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::reference::ground_truth;
-use crate::reference::ground_truth::GroundTruth;
+use crate::reference::{GroundTruth, ground_truth};
 use crate::scene::Shading;
 
 /// 256 samples a pixel.
@@ -103,8 +102,8 @@ fn a_checkerboard_far_above_the_pixels_frequency_becomes_its_mean() {
             assert!((albedo - 0.5).abs() < 0.01 && (color - 0.5).abs() < 0.01, "{albedo} {color}");
         }
     }
-    // Without the low-pass filter the pixel centers, all at the corners of four squares, show what they hit; moved by half a
-    // square all of them see one color.
+    // Without the low-pass filter the pixel centers, all at the corners of four squares, show what they hit; moved
+    // by half a square all of them see one color.
     let moved: Vec<_> =
         list.iter().map(|e| (e.0 + DVec3::new(0.5 * pitch, 0.5 * pitch, 0.0), e.1, e.2, e.3)).collect();
     let aliased = picture_of(&moved);
@@ -133,8 +132,8 @@ fn where_the_surface_is_smooth_it_is_the_picture_and_half_the_variance_of_its_cu
             let curvature =
                 at(column - 1, row) + at(column + 1, row) + at(column, row - 1) + at(column, row + 1)
                     - 4.0 * plain;
-            // σ² = ½ px². The cut at 4 deviations takes a thousandth of σ², and the difference quotient is wrong by as
-            // little: of the 3e-5 that the filter changes, 3e-8 each.
+            // σ² = ½ px². The cut at 4 deviations takes a thousandth of σ², and the difference quotient is wrong by
+            // as little: of the 3e-5 that the filter changes, 3e-8 each.
             let expected = plain + 0.25 * curvature;
             assert!((filtered - expected).abs() < 2e-7, "{column}, {row}: {filtered} {expected}");
             assert!((picture.pixels[row * 48 + column].color[0] - plain).abs() < 1e-15);
@@ -185,7 +184,8 @@ fn a_pixel_does_not_depend_on_the_pictures_size() {
 
 #[test]
 fn samples_are_shaded_before_they_are_low_passed() {
-    // A ridge along the edge of two half planes that face left and right by 60°: the mean normal faces the eye, neither half does.
+    // A ridge along the edge of two half planes that face left and right by 60°: the mean normal faces the eye,
+    // neither half does.
     let (sin, cos) = 60.0_f32.to_radians().sin_cos();
     let far = |side: f32| {
         let (s, t) = (Vec3::Y * 50.0, Vec3::new(cos, 0.0, side * sin) * 50.0);
