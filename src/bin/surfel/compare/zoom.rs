@@ -27,22 +27,26 @@ use crate::{
 const TURN_DEG: f64 = 20.0;
 const SHIFT: DVec3 = DVec3::new(0.31, 0.17, 0.0);
 
+/// How far beyond the picture's border splats count: more than the reach of any filter and of the ground truth.
+const MARGIN_PX: f64 = 16.0;
+
 /// Compares all filters at all distances.
 ///
 /// # Errors
 /// Whatever goes wrong; a filter that can't be drawn has no figures.
 pub fn run(mut headless: Headless, arguments: &CompareArguments, base: &Settings) -> Result<()> {
     let side = arguments.zoom_splats as usize;
-    let scene = Scene { objects: vec![checkerboard(side)] };
+    let board = Scene { objects: vec![checkerboard(side)] };
     let (methods, skipped) =
-        candidates::split(arguments.selection().product(), base, &scene, &headless.renderer);
+        candidates::split(arguments.selection().product(), base, &board, &headless.renderer);
     candidates::some_left(methods.len(), &skipped)?;
     let bars = Bars::new();
-    let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
     let mut steps = Vec::new();
     let path = zoom_path(arguments.zoom_steps);
     for (number, pixels_per_splat) in path.iter().copied().enumerate() {
         let camera = camera(pixels_per_splat, base.size_px);
+        let scene = in_view(&board, &camera, base.size_px);
+        let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
         let stage =
             Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars: &bars };
         let task = format!("ground truth {} of {}", number + 1, path.len());
@@ -101,6 +105,33 @@ fn camera(pixels_per_splat: f64, size_px: [u32; 2]) -> Camera {
     camera
 }
 
+/// The splats that may be seen, even if a filter enlarges them. All others change no picture, but references walk them in
+/// every pixel where they come near the eye plane.
+fn in_view(board: &Scene, camera: &Camera, size_px: [u32; 2]) -> Scene {
+    let view = camera.view_from_world();
+    let focal_px = camera.focal_px(size_px[1]);
+    let [half_width, half_height] = size_px.map(|side| 0.5 * f64::from(side) + MARGIN_PX);
+    // The sides of the view's pyramid, facing inward.
+    let sides = [
+        DVec3::new(focal_px, 0.0, half_width),
+        DVec3::new(-focal_px, 0.0, half_width),
+        DVec3::new(0.0, focal_px, half_height),
+        DVec3::new(0.0, -focal_px, half_height),
+    ]
+    .map(DVec3::normalize);
+    let mut seen = board.clone();
+    for object in &mut seen.objects {
+        let splats = &mut object.splats;
+        let seen = |i: usize| {
+            let (center, radius) = (view.point(splats.positions[i]), splats.major_radius(i));
+            sides.iter().all(|side| side.dot(center) >= -radius)
+        };
+        let keep: Vec<bool> = (0..splats.len()).map(seen).collect();
+        splats.keep(&keep);
+    }
+    seen
+}
+
 fn step(
     headless: &mut Headless,
     stage: &Stage<'_>,
@@ -141,6 +172,22 @@ fn fragments(headless: &mut Headless, stage: &Stage<'_>, method: &Method) -> Res
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_splats_that_cannot_be_seen_are_left_out() {
+        let board = Scene { objects: vec![checkerboard(100)] };
+        for px in [0.5, 5.0, 50.0] {
+            let camera = camera(px, [64, 48]);
+            let seen = in_view(&board, &camera, [64, 48]);
+            let (all, left) = (board.splat_count(), seen.splat_count());
+            // From afar the whole board is in the picture, from near a part of it.
+            assert!(if px < 1.0 { left == all } else { left > 4 && left < all }, "{px}: {left} of {all}");
+            let settings = Settings { size_px: [64, 48], ..Settings::default() };
+            let [whole, part] = [&board, &seen]
+                .map(|scene| surfel::reference::render(scene, &camera, &settings, &|_, _| {}).unwrap());
+            assert_eq!(whole.pixels, part.pixels, "{px}");
+        }
+    }
 
     #[test]
     fn neighbors_in_the_middle_are_as_far_apart_as_the_step_says() {
