@@ -5,6 +5,8 @@
 
 #[path = "cli/compare.rs"]
 mod compare;
+#[path = "cli/convert.rs"]
+mod convert;
 #[path = "cli/faults.rs"]
 mod faults;
 #[path = "cli/files.rs"]
@@ -243,13 +245,9 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    for words in [
-        &["--help"][..],
-        &["render", "--help"],
-        &["reference", "--help"],
-        &["compare", "--help"],
-        &["info", "--help"],
-    ] {
+    let subcommands = ["render", "reference", "compare", "convert", "bench", "info"];
+    let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
+    for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);
         assert!(run.code == 0 && run.stderr.is_empty(), "{}", run.stderr);
         assert!(run.stdout.contains("Usage: surfel") && !run.stdout.contains('\u{1b}'), "{}", run.stdout);

@@ -13,7 +13,7 @@ use common::{
 use surfel::{
     passes::Formula,
     reference::{self, Picture},
-    scene::{Filter, Kernel, Settings},
+    scene::{Filter, Kernel, KernelEval, Rasterizer, Settings},
 };
 
 /// The scenes of the comparison, those that see most formulas first.
@@ -27,6 +27,31 @@ fn scenes() -> Vec<(Hard, Picture)> {
         scenes::random_ellipses(Filter::None),
         scenes::cut_by_the_near_plane(),
     ];
+    // Each has a formula that no other does.
+    let methods: [(&str, Hard, fn(&mut Settings)); 10] = [
+        ("ellipses, ewa", scenes::random_ellipses(Filter::None), |s| s.filter = Filter::Ewa),
+        ("ellipses, contour ewa", scenes::random_ellipses(Filter::None), |s| {
+            (s.rasterizer, s.filter) = (Rasterizer::AffineContour, Filter::Ewa);
+        }),
+        ("ellipses, affine-contour", scenes::random_ellipses(Filter::None), |s| {
+            s.rasterizer = Rasterizer::AffineContour;
+        }),
+        ("ellipses, raycast", scenes::random_ellipses(Filter::None), |s| s.rasterizer = Rasterizer::Raycast),
+        ("ellipses, raycast-approximate", scenes::random_ellipses(Filter::None), |s| {
+            s.rasterizer = Rasterizer::RaycastApproximate;
+        }),
+        ("ellipses, triangle", scenes::random_ellipses(Filter::None), |s| {
+            s.rasterizer = Rasterizer::Triangle
+        }),
+        ("ellipses, max", scenes::random_ellipses(Filter::None), |s| s.filter = Filter::Max),
+        ("subpixel disks, max", scenes::subpixel_filtered(), |s| s.filter = Filter::Max),
+        ("sphere, early depth", scenes::sphere_of_disks(), |s| s.early_depth = true),
+        ("sphere, kernel texture", scenes::sphere_of_disks(), |s| s.kernel_eval = KernelEval::Texture),
+    ];
+    all.extend(methods.map(|(name, mut hard, change)| {
+        change(&mut hard.settings);
+        Hard { name, ..hard }
+    }));
     let seen: Vec<_> = all.iter().map(|hard| hard.name).collect();
     all.extend(scenes::all().into_iter().filter(|hard| !seen.contains(&hard.name)));
     let oracle =

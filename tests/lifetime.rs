@@ -121,10 +121,12 @@ fn sizes_that_no_device_has_are_refused_and_leave_nothing() {
     let mut staging = Staging::new(device, "staging", 16).unwrap();
     let small = BufferDesc { name: "small", size: 8, usage };
     let small = Buffer::new(device, small, MemoryUse::Device).unwrap();
-    assert!(staging.push(&small, &[0; 9]).is_err(), "more than the target has");
-    staging.push(&small, &[0; 8]).unwrap();
-    staging.push(&small, &[0; 8]).unwrap();
-    assert!(staging.push(&small, &[0; 1]).is_err(), "more than the batch has");
+    assert!(staging.push(&small, 0, &[0; 9]).is_err(), "more than the target has");
+    assert!(staging.push(&small, 1, &[0; 8]).is_err(), "beyond the target's end");
+    assert!(staging.push(&small, u64::MAX, &[0; 8]).is_err(), "beyond all numbers");
+    staging.push(&small, 0, &[0; 8]).unwrap();
+    staging.push(&small, 0, &[0; 8]).unwrap();
+    assert!(staging.push(&small, 0, &[0; 1]).is_err(), "more than the batch has");
     let pool = CommandPool::new(device, "pool").unwrap();
     assert!(pool.end().is_err(), "not begun");
     drop((pool, staging, small));

@@ -41,7 +41,8 @@ fn every_shader_of_the_crate_is_valid_for_vulkan_1_3() {
     let in_folder = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl")).unwrap();
     let glsl_files =
         in_folder.filter(|e| e.as_ref().unwrap().path().extension().is_some_and(|x| x == "glsl"));
-    assert_eq!(shaders::ALL.len(), glsl_files.count());
+    // A file gives one shader, or one for each of its permutations.
+    assert!(shaders::ALL.len() > glsl_files.count());
     let folder = folder(&[]);
     for shader in shaders::ALL {
         let bytes: Vec<u8> = shader.spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
@@ -91,6 +92,19 @@ fn an_include_that_is_missing_outside_or_circular_is_an_error() {
         &[],
     );
     assert!(said.contains("glsl/inc/a.glsl:1: error:") && said.contains("a circle?"), "{said}");
+}
+
+#[test]
+fn a_line_of_permutations_gives_a_shader_for_each_choice() {
+    let text = format!(
+        "{COMPUTE}// Permutations: a b | _ c\n// Permutations: d\nvoid main() {{\n#if defined(D)\n#error d\n#endif\n}}\n"
+    );
+    assert!(errors(&[("x.comp.glsl", &text)], &[]).contains("'#error' : d"));
+    let text = text.replace("#error d", "");
+    let folder = folder(&[("x.comp.glsl", &text)]);
+    let rust = build(folder.path(), &[], &[]).unwrap();
+    let names: Vec<_> = rust.lines().filter_map(|line| line.strip_prefix("/// The shader ")).collect();
+    assert_eq!(names, ["`x_a.comp`.", "`x_a_c.comp`.", "`x_b.comp`.", "`x_b_c.comp`.", "`x_d.comp`."]);
 }
 
 #[test]

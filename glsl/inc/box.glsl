@@ -100,9 +100,6 @@ bool pixel_box(Box box, out PixelBox px)
 {
     vec2 half_px = 0.5 * frame.size_px;
     float margin_px = max(BOX_MARGIN_PX, 4e-6 * max(frame.size_px.x, frame.size_px.y));
-    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE) {
-        margin_px = 0.0; // this box is no bound but the very set of pixels
-    }
     px.lo = clamp(box.lo * frame.focal_px + (half_px - margin_px), vec2(0.0), frame.size_px);
     px.hi = clamp(box.hi * frame.focal_px + (half_px + margin_px), vec2(0.0), frame.size_px);
     px.first = ivec2(ceil(px.lo - 0.5));

@@ -42,14 +42,20 @@ vec3 evaluate()
     precise float inverse_z = ray_plane_extra.x * ray.x + ray_plane_extra.y * ray.y + ray_plane_extra.z;
     vec3 q = ray / inverse_z - ray_center_extra.xyz;
     precise float w = FORMULA(FORMULA_RAY_DEPTH, frame.near * inverse_z);
-    return vec3(dot(FORMULA(FORMULA_RAY_AXIS, ray_u_extra.xyz), q), dot(ray_v_low_pass.xyz, q), w);
+    return vec3(dot(FORMULA(FORMULA_RAY_AXIS, ray_u_extra.xyz), q), dot(ray_v_square.xyz, q), w);
+}
+
+vec2 from_center_px()
+{
+    vec2 center_px = ray_center_extra.xy / ray_center_extra.z * frame.focal_px + 0.5 * frame.size_px;
+    return gl_FragCoord.xy - center_px;
 }
 
 // From the projected center, in pixels, and the depth there; 0 without a low-pass filter.
 vec3 low_pass()
 {
-    vec2 center_px = ray_center_extra.xy / ray_center_extra.z * frame.focal_px + 0.5 * frame.size_px;
-    return vec3(gl_FragCoord.xy - center_px, ray_v_low_pass.w);
+    float z = ray_center_extra.z;
+    return vec3(from_center_px(), z > frame.near ? frame.near / z : 0.0);
 }
 
 vec3 extra()
@@ -100,6 +106,14 @@ vec3 extra()
 // Discards the fragment if u^2 + v^2 is above the limit or it lies in front of the near plane.
 Covered covered(float limit_r2)
 {
+#if defined(RAYS)
+    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && ray_v_square.w > 0.0) {
+        vec2 d = abs(from_center_px());
+        if (max(d.x, d.y) > ray_v_square.w) {
+            discard; // sprites end at pixels, so that the square is cut here
+        }
+    }
+#endif
     precise vec3 uvw = evaluate();
     bool inside = dot(uvw.xy, uvw.xy) <= FORMULA(FORMULA_COVERAGE, limit_r2);
 #if defined(PLAIN)

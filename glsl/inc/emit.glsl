@@ -46,6 +46,9 @@ bool is_drawn_elsewhere(uint index)
 // is at most its center's times 1 + depth radius / (p_z - depth radius); affine and stretched maps stay below.
 float nearest_depth(Mapping m)
 {
+    if (!EARLY_DEPTH) {
+        return 0.5; // only has to be inside the clip volume
+    }
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
     return m.regular ? min(FORMULA_LESS(FORMULA_NEAREST_DEPTH, frame.near / (m.p.z - depth_radius) * 1.00001), 1.0) : 1.0;
 }
@@ -60,7 +63,7 @@ void emit_nothing()
     ray_center_extra = vec4(0.0);
     ray_plane_extra = vec4(0.0);
     ray_u_extra = vec4(0.0);
-    ray_v_low_pass = vec4(0.0);
+    ray_v_square = vec4(0.0);
 #elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)
     triangle_uv = vec2(0.0);
     triangle_extra = vec3(0.0);
@@ -88,11 +91,15 @@ void hand_over(Mapping m, vec3 extra)
     if (m.edge_on) {
         plane = vec3(0.0); // its rays meet nothing
     }
-    bool low_pass = FILTER == FILTER_MAX && m.p.z > frame.near;
+    // The square that its approximate size leaves of the splat; none where the center is too near to have one.
+    float half_square_px = 0.0;
+    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > frame.near) {
+        half_square_px = approximate_radius(m) * frame.focal_px;
+    }
     ray_center_extra = vec4(m.p, extra.x);
     ray_plane_extra = vec4(plane, extra.y);
     ray_u_extra = vec4(u_axis, extra.z);
-    ray_v_low_pass = vec4(v_axis, low_pass ? frame.near / m.p.z : 0.0);
+    ray_v_square = vec4(v_axis, half_square_px);
 }
 #elif !defined(TRIANGLES) && !defined(SMALL_TRIANGLES)
 void hand_over(Mapping m, ImageMap map, vec3 extra)

@@ -11,21 +11,22 @@ void include_low_pass(inout Box box, Mapping m)
 
 // Botsch et al. 2005: the larger radius as it appears at the center's depth, about the projected center. Tilted disks off
 // the axis reach beyond it and are chopped.
-Box approximate_box(Mapping m)
+float approximate_radius(Mapping m)
 {
     float radius = sqrt(max(dot(m.s, m.s), dot(m.t, m.t)));
     float half_size = FORMULA(FORMULA_APPROXIMATE_SIZE, radius / m.p.z);
     if (FILTER == FILTER_MAX) {
         half_size = max(half_size, frame.filter_radius);
     }
-    vec2 center = m.p.xy / m.p.z;
-    return Box(center - half_size, center + half_size);
+    return half_size;
 }
 
 Box splat_box(Mapping m)
 {
     if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > frame.near) {
-        return approximate_box(m);
+        vec2 center = m.p.xy / m.p.z;
+        float half_size = approximate_radius(m);
+        return Box(center - half_size, center + half_size);
     }
     if (FILTER == FILTER_EWA && m.regular) {
         Stretched ewa = stretched(m);

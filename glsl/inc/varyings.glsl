@@ -8,7 +8,7 @@
 layout(location = 0) flat VARYING vec4 ray_center_extra; // p, extra.x
 layout(location = 1) flat VARYING vec4 ray_plane_extra;  // n / (n . p), extra.y
 layout(location = 2) flat VARYING vec4 ray_u_extra;      // what a vector's product with is u, extra.z
-layout(location = 3) flat VARYING vec4 ray_v_low_pass;   // v alike; near / p_z, or 0 without a low-pass filter
+layout(location = 3) flat VARYING vec4 ray_v_square;     // v alike; half the side in pixels of the square that is drawn, or 0
 #elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)
 layout(location = 0) VARYING vec2 triangle_uv;
 layout(location = 1) flat VARYING vec3 triangle_extra;

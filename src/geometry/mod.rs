@@ -1,11 +1,18 @@
 //! CPU preparation: what turns other models into splats.
 
 mod mesh_splats;
+mod neighbors;
 mod normals;
 mod radii;
+mod resample;
+mod surface;
+#[cfg(test)]
+mod test_meshes;
 mod topology;
 
-pub use mesh_splats::{DEFAULT_OVERLAP, MeshReport, splats_from_mesh};
+pub use mesh_splats::{DEFAULT_OVERLAP, splats_from_mesh};
+pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, resample};
+pub use surface::MeshReport;
 
 use glam::DVec3;
 

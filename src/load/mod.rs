@@ -19,7 +19,13 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum Model {
     /// Disks, ready to be drawn once [`Splats::drop_defective`] was called.
-    Splats(Splats),
+    Splats {
+        /// The disks.
+        splats: Splats,
+        /// The file says that they sample a closed surface and that their normals point outward, as
+        /// [`crate::scene::Object::closed`] wants it.
+        closed: bool,
+    },
     /// Triangles; [`crate::geometry::splats_from_mesh`] makes splats of them.
     Mesh(Mesh),
 }

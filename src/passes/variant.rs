@@ -40,6 +40,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         (2, filter),
         (7, rasterizer),
         (8, u32::from(settings.filter_weight == FilterWeight::Area)),
+        (9, u32::from(settings.early_depth)),
     ]);
     constants
 }

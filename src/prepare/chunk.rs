@@ -4,7 +4,7 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
-    pack::{Packed, shape_bytes},
+    pack::{COLOR_BYTES, Packed, Survey, shape_bytes},
     rebase::Rebase,
 };
 use crate::{
@@ -62,33 +62,30 @@ pub struct Chunk {
     pub largest_radius: f64,
     set: vk::DescriptorSet,
     _pool: SealedPool,
-    /// Never read again, but the set names them.
+    /// Shapes and colors. Not read by the host, but the set names them.
     buffers: [Buffer; 2],
 }
 
 impl Chunk {
+    /// Room for the splats of a survey, with nothing in it yet.
     pub(super) fn new(
         device: &Device,
         layout: &SplatSetLayout,
         number: usize,
         closed: bool,
-        packed: &Packed,
-    ) -> Result<(Self, Staging)> {
-        let contents: [(&str, &[u8]); 2] = [
-            ("shapes", bytemuck::cast_slice(&packed.shapes)),
-            ("colors", bytemuck::cast_slice(&packed.colors)),
-        ];
-        let bytes = contents.iter().map(|(_, bytes)| bytes.len() as u64).sum();
-        let mut staging = Staging::new(device, &format!("upload of chunk {number}"), bytes)?;
-        let mut buffer = |(what, bytes): (&str, &[u8])| {
+        survey: &Survey,
+    ) -> Result<Self> {
+        let colors = if survey.uniform_color { 1 } else { survey.count };
+        let buffer = |what: &str, count: u32, bytes_each: usize| {
             let name = format!("{what} of chunk {number}");
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-            let desc = BufferDesc { name: &name, size: bytes.len() as u64, usage };
-            let buffer = Buffer::new(device, desc, MemoryUse::Device)?;
-            staging.push(&buffer, bytes)?;
-            Ok::<_, crate::error::Error>(buffer)
+            let size = u64::from(count) * bytes_each as u64;
+            Buffer::new(device, BufferDesc { name: &name, size, usage }, MemoryUse::Device)
         };
-        let buffers = [buffer(contents[0])?, buffer(contents[1])?];
+        let buffers = [
+            buffer("shapes", survey.count, shape_bytes(survey.ellipses))?,
+            buffer("colors", colors, COLOR_BYTES)?,
+        ];
         let pool = DescriptorPool::new(
             device,
             &format!("set of chunk {number}"),
@@ -96,19 +93,34 @@ impl Chunk {
         )?;
         let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
         let set = pool.set(layout.set(), &given)?;
-        let chunk = Self {
-            rebase: packed.rebase,
-            count: packed.count,
-            ellipses: packed.ellipses,
+        Ok(Self {
+            rebase: survey.rebase,
+            count: survey.count,
+            ellipses: survey.ellipses,
             closed,
-            uniform_color: packed.uniform_color,
-            bounds: packed.bounds,
-            largest_radius: packed.largest_radius,
+            uniform_color: survey.uniform_color,
+            bounds: survey.bounds,
+            largest_radius: survey.largest_radius,
             set,
             _pool: pool.seal(),
             buffers,
-        };
-        Ok((chunk, staging))
+        })
+    }
+
+    /// A batch that fills in the splats from number `first` of the chunk on.
+    pub(super) fn upload(&self, device: &Device, first: u32, packed: &Packed) -> Result<Staging> {
+        let shapes: &[u8] = bytemuck::cast_slice(&packed.shapes);
+        let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
+        // The one color comes with the first splats.
+        let colors = if self.uniform_color && first > 0 { &[] } else { colors };
+        let bytes = (shapes.len() + colors.len()) as u64;
+        let mut staging = Staging::new(device, "upload of splats", bytes)?;
+        let first = u64::from(first);
+        staging.push(&self.buffers[0], first * shape_bytes(self.ellipses) as u64, shapes)?;
+        if !colors.is_empty() {
+            staging.push(&self.buffers[1], first * COLOR_BYTES as u64, colors)?;
+        }
+        Ok(staging)
     }
 
     /// The descriptor set.

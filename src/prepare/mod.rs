@@ -11,6 +11,8 @@ mod rebase;
 pub use chunk::{Chunk, SplatSetLayout};
 pub use rebase::{Rebase, ViewFromLocal};
 
+use std::ops::Range;
+
 use crate::{
     error::Result,
     scene::{DefectCounts, Scene},
@@ -37,9 +39,13 @@ impl PreparedScene {
     }
 }
 
-/// Uploads a scene, in chunks within `limits`. Splats with a defect are left out and counted. `submit` runs one batch of uploads: our own queue,
-/// or the host's, which may defer it as long as it comes before the first frame and the batch lives until then.
-/// `progress` is called with splats done and splats in all.
+/// How many splats are packed and uploaded at once: 3.7 MB at most, so that neither the host nor the device holds a
+/// second copy of a scene on its way.
+const BATCH_SPLATS: usize = 1 << 16;
+
+/// Uploads a scene, in chunks within `limits`. Splats with a defect are left out and counted. `submit` runs one batch of
+/// uploads, of which a chunk has several: our own queue, or the host's, which may defer it as long as it comes before the
+/// first frame and the batch lives until then. `progress` is called with splats done and splats in all.
 ///
 /// # Errors
 /// Whatever the allocator, the driver or `submit` answers.
@@ -57,22 +63,36 @@ pub fn prepare(
     let mut done = 0;
     for object in &scene.objects {
         let splats = &object.splats;
-        for first in (0..splats.len()).step_by(capacity) {
-            let range = first..splats.len().min(first + capacity);
-            done += range.len() as u64;
-            let rebase = Rebase::of(splats, range.clone());
-            let packed = pack::pack(splats, range, rebase);
-            prepared.defects.merge(&packed.defects);
-            if packed.count > 0 {
-                let number = prepared.chunks.len();
-                let (chunk, staging) = Chunk::new(device, layout, number, object.closed, &packed)?;
-                submit(staging)?;
-                prepared.chunks.push(chunk);
+        for range in pieces(0..splats.len(), capacity) {
+            let survey = pack::survey(splats, range.clone(), Rebase::of(splats, range.clone()));
+            prepared.defects.merge(&survey.defects);
+            if survey.count == 0 {
+                done += range.len() as u64;
+                progress(done, total);
+                continue;
             }
-            progress(done, total);
+            let chunk = Chunk::new(device, layout, prepared.chunks.len(), object.closed, &survey)?;
+            let mut first = 0;
+            for batch in pieces(range, BATCH_SPLATS) {
+                done += batch.len() as u64;
+                let packed = pack::pack(splats, batch, survey.rebase);
+                let count = packed.count(survey.ellipses);
+                if count > 0 {
+                    submit(chunk.upload(device, first, &packed)?)?;
+                    first += count;
+                }
+                progress(done, total);
+            }
+            prepared.chunks.push(chunk);
         }
     }
     Ok(prepared)
+}
+
+/// A range cut into pieces of a size, the last one shorter.
+fn pieces(range: Range<usize>, size: usize) -> impl Iterator<Item = Range<usize>> {
+    let end = range.end;
+    range.step_by(size).map(move |first| first..end.min(first.saturating_add(size)))
 }
 
 #[cfg(test)]

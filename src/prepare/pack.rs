@@ -10,26 +10,39 @@ use glam::{DVec3, Vec3};
 use super::rebase::Rebase;
 use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
 
-/// Splats as bytes for the GPU.
-pub struct Packed {
+/// What is known of a range of splats before any of them is packed: buffers get their exact size.
+pub struct Survey {
     /// Their local space.
     pub rebase: Rebase,
-    /// How many.
+    /// How many are drawn.
     pub count: u32,
     /// Whether they carry tangent vectors.
     pub ellipses: bool,
     /// One color for all.
     pub uniform_color: bool,
-    /// See the module.
-    pub shapes: Vec<[f32; 4]>,
-    /// See the module.
-    pub colors: Vec<[u16; 4]>,
     /// The box of the centers, local space.
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
     pub largest_radius: f64,
-    /// What was left out.
+    /// What is left out.
     pub defects: DefectCounts,
+}
+
+/// Splats as bytes for the GPU.
+#[derive(Default)]
+pub struct Packed {
+    /// See the module.
+    pub shapes: Vec<[f32; 4]>,
+    /// See the module.
+    pub colors: Vec<[u16; 4]>,
+}
+
+impl Packed {
+    /// How many splats these are.
+    #[expect(clippy::cast_possible_truncation, reason = "a chunk has at most 2²² splats")]
+    pub fn count(&self, ellipses: bool) -> u32 {
+        (self.shapes.len() * 16 / shape_bytes(ellipses)) as u32
+    }
 }
 
 /// The length to which shorter tangent vectors are brought, local space: 2⁻⁹⁰. Devices may flush denormal numbers to
@@ -41,34 +54,55 @@ pub fn shape_bytes(ellipses: bool) -> usize {
     if ellipses { 48 } else { 32 }
 }
 
-/// Packs the splats of a range, without those that have a defect.
-pub fn pack(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Packed {
-    let ellipses = matches!(splats.shapes, Shapes::Ellipses { .. });
-    let uniform_color = matches!(splats.colors, Colors::Uniform(_));
-    let mut packed = Packed {
+/// Bytes of a splat's color.
+pub const COLOR_BYTES: usize = 8;
+
+/// Looks through the splats of a range.
+pub fn survey(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Survey {
+    let mut survey = Survey {
         rebase,
         count: 0,
-        ellipses,
-        uniform_color,
-        shapes: Vec::with_capacity(range.len() * shape_bytes(ellipses) / 16),
-        colors: Vec::with_capacity(if uniform_color { 1 } else { range.len() }),
+        ellipses: matches!(splats.shapes, Shapes::Ellipses { .. }),
+        uniform_color: matches!(splats.colors, Colors::Uniform(_)),
         bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         largest_radius: 0.0,
         defects: DefectCounts::default(),
     };
     for i in range {
-        let position = rebase.point(splats.positions[i]);
-        let radius = splats.major_radius(i) * rebase.scale;
-        // Beyond f32 from where the others are: no shader may meet an infinity.
-        let beyond = || !position.as_vec3().is_finite() || !(radius as f32).is_finite();
-        let defect = splats.defect(i).or_else(|| beyond().then_some(Defect::Position));
-        packed.defects.add(defect);
-        if defect.is_some() {
-            continue;
+        match local(splats, i, rebase) {
+            Ok((position, radius)) => {
+                survey.bounds = [survey.bounds[0].min(position), survey.bounds[1].max(position)];
+                survey.largest_radius = survey.largest_radius.max(radius);
+                survey.count += 1;
+            }
+            Err(defect) => survey.defects.add(Some(defect)),
         }
-        packed.bounds = [packed.bounds[0].min(position), packed.bounds[1].max(position)];
-        packed.largest_radius = packed.largest_radius.max(radius);
-        packed.count += 1;
+    }
+    survey
+}
+
+/// Position and major radius in local space, of a splat that can be drawn.
+fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defect> {
+    let position = rebase.point(splats.positions[i]);
+    let radius = splats.major_radius(i) * rebase.scale;
+    // Beyond f32 from where the others are: no shader may meet an infinity.
+    let beyond = || !position.as_vec3().is_finite() || !(radius as f32).is_finite();
+    match splats.defect(i).or_else(|| beyond().then_some(Defect::Position)) {
+        None => Ok((position, radius)),
+        Some(defect) => Err(defect),
+    }
+}
+
+/// Packs the splats of a range, without those that have a defect. Where one color is for all, it is packed once.
+pub fn pack(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Packed {
+    let ellipses = matches!(splats.shapes, Shapes::Ellipses { .. });
+    let uniform_color = matches!(splats.colors, Colors::Uniform(_));
+    let mut packed = Packed {
+        shapes: Vec::with_capacity(range.len() * shape_bytes(ellipses) / 16),
+        colors: Vec::with_capacity(if uniform_color { 1 } else { range.len() }),
+    };
+    for i in range {
+        let Ok((position, radius)) = local(splats, i, rebase) else { continue };
         packed.shapes.push(position.as_vec3().extend(radius as f32).into());
         match &splats.shapes {
             // In f64: a normal may have any length that f32 has.
@@ -121,9 +155,11 @@ mod tests {
         positions.push(DVec3::splat(1e60));
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; 10], radii: vec![1.0; 10] };
         let splats = Splats { positions, shapes, colors: Colors::Uniform([0.5; 4]) };
-        let packed = pack(&splats, 0..10, Rebase::of(&splats, 0..10));
-        assert_eq!((packed.count, packed.defects.of(Defect::Position)), (9, 1));
-        assert!(packed.bounds.iter().all(|corner| corner.as_vec3().is_finite()));
+        let rebase = Rebase::of(&splats, 0..10);
+        let survey = survey(&splats, 0..10, rebase);
+        assert_eq!((survey.count, survey.defects.of(Defect::Position)), (9, 1));
+        assert!(survey.bounds.iter().all(|corner| corner.as_vec3().is_finite()));
+        assert_eq!(pack(&splats, 0..10, rebase).shapes.len(), 2 * 9);
     }
 
     #[test]
@@ -139,7 +175,9 @@ mod tests {
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
         let packed = pack(&splats, 0..5, rebase);
-        assert_eq!((packed.count, packed.defects.total(), packed.largest_radius), (3, 2, 1.5));
+        let survey = survey(&splats, 0..5, rebase);
+        assert_eq!((survey.count, survey.defects.total(), survey.largest_radius), (3, 2, 1.5));
+        assert_eq!(packed.shapes.len(), 2 * 3);
         assert_eq!(packed.colors, [[0, 32768, 65535, 65535]]);
         for (i, radius) in [0.5, 1.0, 1.5].into_iter().enumerate() {
             assert_eq!(packed.shapes[2 * i], [0.0, 0.0, 0.0, radius]);

@@ -1,11 +1,13 @@
-//! Pictures and texts to files. A file appears whole or not at all.
+//! Pictures, splats and texts to files. A file appears whole or not at all.
 
 mod exr;
 mod png;
+mod splats;
 mod whole;
 
 pub use exr::exr;
 pub use png::png;
+pub use splats::{WrittenSplats, splats};
 
 use std::{io::Write as _, path::Path};
 

@@ -15,7 +15,7 @@ pub use camera::{Camera, ViewFromWorld};
 pub use mesh::{Mesh, MeshColors};
 pub use methods::{Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, Rasterizer};
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
-pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats};
+pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
 
 /// One thing in a scene: splats and how they are to be treated.
 #[derive(Clone, Debug)]

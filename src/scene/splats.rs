@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::Bounds;
+use crate::math::srgb::linear_from_srgb;
 
 /// Oriented elliptical disks in world space. All arrays have one entry a splat.
 #[derive(Clone, Debug)]
@@ -44,6 +45,17 @@ pub enum Colors {
     PerSplat(Vec<[f32; 4]>),
 }
 
+impl Colors {
+    /// Those of a surface that has none: the sRGB value 204/255, opaque.
+    pub fn unknown() -> Self {
+        let gray = linear_from_srgb(UNKNOWN_SRGB);
+        Self::Uniform([gray, gray, gray, 1.0])
+    }
+}
+
+/// The albedo of surfaces without colors, as an sRGB value.
+pub const UNKNOWN_SRGB: f32 = 204.0 / 255.0;
+
 /// Why a splat can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Defect {
@@ -75,6 +87,20 @@ impl Splats {
     /// No splat at all.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
+    }
+
+    /// Bytes of memory that the splats themselves need: with disks 24 for a position, 12 for a normal, 4 for a radius;
+    /// with ellipses 24 and twice 12; 16 more for a color of its own.
+    pub fn bytes(&self) -> u64 {
+        let shape = match &self.shapes {
+            Shapes::Disks { .. } => size_of::<(Vec3, f32)>(),
+            Shapes::Ellipses { .. } => 2 * size_of::<Vec3>(),
+        };
+        let color = match &self.colors {
+            Colors::Uniform(_) => 0,
+            Colors::PerSplat(_) => size_of::<[f32; 4]>(),
+        };
+        self.len() as u64 * (size_of::<DVec3>() + shape + color) as u64
     }
 
     /// Color and alpha of splat `i`.

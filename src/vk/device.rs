@@ -120,7 +120,7 @@ impl Device {
             physical_device: physical,
             debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
             buffer_device_address: false,
-            allocation_sizes: gpu_allocator::AllocationSizes::default(),
+            allocation_sizes: block_sizes(),
         });
         let allocator = allocator.map_err(|error| {
             if owned {
@@ -229,6 +229,11 @@ impl Device {
         })
     }
 
+    /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks.
+    pub fn memory_held(&self) -> u64 {
+        self.memory().as_ref().map_or(0, |(allocator, _)| allocator.capacity())
+    }
+
     /// Whether the queue was free; it is taken now.
     pub(super) fn take_queue(&self) -> bool {
         !self.0.queue_taken.swap(true, Ordering::AcqRel)
@@ -260,6 +265,16 @@ impl Device {
     fn memory(&self) -> MutexGuard<'_, Option<(Allocator, Garbage)>> {
         self.0.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a
+/// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
+fn block_sizes() -> gpu_allocator::AllocationSizes {
+    const FIRST_BYTES: u64 = 8 << 20;
+    const MOST_BYTES: u64 = 64 << 20;
+    gpu_allocator::AllocationSizes::new(FIRST_BYTES, FIRST_BYTES)
+        .with_max_device_memblock_size(MOST_BYTES)
+        .with_max_host_memblock_size(MOST_BYTES)
 }
 
 impl Drop for Shared {

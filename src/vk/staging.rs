@@ -29,21 +29,22 @@ impl Staging {
         Ok(Self { device: device.clone(), buffer, used: 0, copies: Vec::new() })
     }
 
-    /// Adds bytes for the start of `target`, whose usage includes `TRANSFER_DST`.
+    /// Adds bytes for `target`, whose usage includes `TRANSFER_DST`, from its byte `offset` on.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] if the batch or the target has no room for them.
-    pub fn push(&mut self, target: &Buffer, bytes: &[u8]) -> Result<()> {
+    pub fn push(&mut self, target: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
         let begin = self.used;
         let room = self.buffer.bytes_mut().get_mut(begin..begin + bytes.len());
-        let fits = bytes.len() as u64 <= target.size();
+        let fits = offset.checked_add(bytes.len() as u64).is_some_and(|end| end <= target.size());
         let Some(room) = room.filter(|_| fits) else {
             let problem = format!("no room for {} bytes after {begin}, or in their target", bytes.len());
             return Err(Error::option("upload", problem));
         };
         room.copy_from_slice(bytes);
         self.used += bytes.len();
-        let region = vk::BufferCopy::default().src_offset(begin as u64).size(bytes.len() as u64);
+        let region =
+            vk::BufferCopy::default().src_offset(begin as u64).dst_offset(offset).size(bytes.len() as u64);
         if !bytes.is_empty() {
             self.copies.push((target.raw(), region));
         }

@@ -203,7 +203,7 @@ fn subpixel_unfiltered() -> Hard {
 }
 
 /// Disks of 1e-6 to 1 pixel: each must be seen.
-fn subpixel_filtered() -> Hard {
+pub fn subpixel_filtered() -> Hard {
     subpixel("subpixel disks", 1e-6, 1.0)
 }
 

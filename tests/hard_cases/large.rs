@@ -163,6 +163,25 @@ fn a_scene_in_many_chunks_gives_the_same_picture() {
     assert_validation_is_silent(&headless);
 }
 
+/// Uploads are made in batches of 65 536: what is left out in one moves the next.
+#[test]
+fn a_chunk_of_several_batches_with_splats_left_out_agrees() {
+    let mut headless = shared();
+    let mut hard = scenes::sphere_of_disks();
+    let mut object = scenes::sphere(150_000, DVec3::ZERO);
+    for i in (0..object.splats.len()).step_by(7) {
+        object.splats.positions[i].x = f64::NAN;
+    }
+    // And a batch of which nothing is left.
+    object.splats.positions[65_536..131_072].fill(DVec3::NAN);
+    hard.scene.objects = vec![object];
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    assert_eq!(prepared.chunks.len(), 1);
+    assert_eq!(prepared.splat_count(), (150_000 - 65_536) * 6 / 7);
+    assert_agrees(&mut headless, &hard, 1000);
+    assert_validation_is_silent(&headless);
+}
+
 #[test]
 fn n18_a_frame_repeated_twenty_times_gives_the_same_bits() {
     let mut headless = shared();

@@ -51,7 +51,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let desc = BufferDesc { name: "buffer", size: 1 << 16, usage: vk::BufferUsageFlags::TRANSFER_DST };
     let buffer = Buffer::new(&device, desc, MemoryUse::Device).unwrap();
     let mut staging = Staging::new(&device, "staging", 1 << 16).unwrap();
-    staging.push(&buffer, &[3; 1 << 16]).unwrap();
+    staging.push(&buffer, 0, &[3; 1 << 16]).unwrap();
     let extent = vk::Extent2D { width: 33, height: 17 };
     let desc = ImageDesc { name: "image", format: FORMAT, extent, usage: vk::ImageUsageFlags::SAMPLED };
     keep(Box::new(Image::new(&device, desc).unwrap()));

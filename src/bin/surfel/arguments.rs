@@ -17,6 +17,7 @@ use crate::{
 #[command(after_help = "Start here:
   surfel render                        a picture of the built-in model, surfel.png
   surfel render scan.ply -o scan.png   a picture of a file
+  surfel convert scan.obj splats.ply   a file of splats
   surfel info                          the devices of this machine
 
 Exit codes: 0 fine; 1 the input or an option is at fault; 2 the device is at fault; 3 validation messages.")]
@@ -41,6 +42,9 @@ pub enum Command {
     #[command(long_about = format!("Put methods side by side.\n\n{COMPARE_HELP}\n\n{SCENE_HELP}"))]
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(Box<CompareArguments>),
+    /// Write a model as a file of splats, at a mesh's vertices or anew over its area
+    #[command(long_about = CONVERT_HELP, after_help = CONVERT_EXAMPLES)]
+    Convert(ConvertArguments),
     /// Measure: tables of what things cost
     #[command(after_help = BENCH_EXAMPLES)]
     Bench(BenchArguments),
@@ -90,6 +94,21 @@ const COMPARE_EXAMPLES: &str = "Examples:
   surfel compare --filter adjust --rasterizer perspective,raycast --frames 50
   surfel compare --zoom --plot zoom.svg                   the filters over distance";
 
+const CONVERT_HELP: &str = "Write a model as a file of splats.
+
+Without --resample these are the splats that `surfel render` draws: a disk at each vertex of a mesh, or the splats of the \
+file. With --resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from \
+the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
+
+The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
+alpha (sRGB) where the model has colors. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
+surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn.";
+
+const CONVERT_EXAMPLES: &str = "Examples:
+  surfel convert igea.ply splats.ply                          a disk at each vertex
+  surfel convert igea.ply igea-1m.ply --resample 1000000      a million disks, evenly spread
+  surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7";
+
 const BENCH_EXAMPLES: &str = "Examples:
   surfel bench floor                      the built-in model
   surfel bench floor --model igea.ply --json floor.json";
@@ -129,6 +148,26 @@ pub struct ReferenceArguments {
     /// What is drawn, and how.
     #[command(flatten)]
     pub picture: PictureArguments,
+}
+
+/// Options of `surfel convert`.
+#[derive(Debug, Args)]
+pub struct ConvertArguments {
+    /// A PLY file (splats or a mesh) or an OBJ file (a mesh)
+    #[arg(value_name = "INPUT")]
+    pub input: PathBuf,
+
+    /// The file of splats, .ply; an old one is replaced
+    #[arg(value_name = "OUTPUT")]
+    pub output: PathBuf,
+
+    /// Spread that many disks evenly over the mesh's area [default: a disk at each vertex]
+    #[arg(long, value_name = "N")]
+    pub resample: Option<u64>,
+
+    /// Which samples are taken
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "resample")]
+    pub seed: u64,
 }
 
 /// Options of `surfel bench`.

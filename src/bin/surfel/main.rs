@@ -7,6 +7,7 @@ mod cache;
 mod camera;
 mod compare;
 mod console;
+mod convert;
 mod explain;
 mod info;
 mod json;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(arguments),
         Command::Reference(arguments) => reference::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Convert(arguments) => convert::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };

@@ -72,6 +72,22 @@ pub fn check_places(files: &[&Path], folder: Option<&Path>, names: &[&str], inpu
     Ok(())
 }
 
+/// Checks that a file of splats can be written, and that it is not the input.
+///
+/// # Errors
+/// A name that is not .ply; a place that can't be written to; the input's own.
+pub fn check_converted(input: &Path, output: &Path) -> Result<()> {
+    let extension = output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    if extension.as_deref() != Some("ply") {
+        return Err(Error::option("OUTPUT", format!("{}: expected a name in .ply", output.display())));
+    }
+    check_file(output)?;
+    match input.canonicalize().is_ok_and(|input| input == place_of(output)) {
+        true => Err(Error::option(output.display().to_string(), "is the input")),
+        false => Ok(()),
+    }
+}
+
 fn picture_format(path: &Path) -> Result<PictureFormat> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {

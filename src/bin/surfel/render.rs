@@ -70,6 +70,8 @@ fn draw(
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
     bars.clear();
     let prepared = prepared?;
+    // The device has it all: what the host had is free for what a software driver needs to draw.
+    drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };
 
     let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));

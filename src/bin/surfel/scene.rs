@@ -51,11 +51,15 @@ pub fn load_scene(inputs: &[PathBuf], bars: &Bars, steps: &mut Steps) -> Result<
     Ok(Loaded { scene, ball, inputs: reports })
 }
 
-fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, InputReport)> {
+/// The splats of one input, without those that can't be drawn.
+///
+/// # Errors
+/// As [`load_scene`].
+pub fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, InputReport)> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let model = steps.time(format!("read {name}"), || load(path, bars))?;
     let (object, report) = match model {
-        Model::Splats(splats) => finish(Object { name, splats, closed: false }, String::new(), None),
+        Model::Splats { splats, closed } => finish(Object { name, splats, closed }, String::new(), None),
         Model::Mesh(mesh) => {
             let step = format!("normals and radii of {name}");
             let (splats, report) = steps.time(step, || splats_from_mesh(&mesh, DEFAULT_OVERLAP, bars));
@@ -72,10 +76,10 @@ fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, I
 }
 
 /// Drops what can't be drawn and puts it all in words. `head` is what a mesh was, empty for splats.
-fn finish(mut object: Object, head: String, mesh: Option<[usize; 2]>) -> (Object, InputReport) {
+pub fn finish(mut object: Object, head: String, mesh: Option<[usize; 2]>) -> (Object, InputReport) {
     let defects = object.splats.drop_defective();
     let mut summary = match head.is_empty() {
-        true => format!("{}: {}", object.name, splats_head(&object.splats)),
+        true => format!("{}: {}", object.name, splats_head(&object)),
         false => format!("{}: {head}", object.name),
     };
     if defects.total() > 0 {
@@ -92,15 +96,22 @@ fn finish(mut object: Object, head: String, mesh: Option<[usize; 2]>) -> (Object
     (object, report)
 }
 
-fn splats_head(splats: &Splats) -> String {
-    let kind = match splats.shapes {
-        Shapes::Disks { .. } => "disks",
-        Shapes::Ellipses { .. } => "ellipses",
-    };
-    format!("{} {kind}", splats.len())
+/// A file of splats in words.
+fn splats_head(object: &Object) -> String {
+    let closed = if object.closed { ", closed" } else { "" };
+    format!("{} {}{closed}", object.splats.len(), kind(&object.splats))
 }
 
-fn mesh_head(mesh: &Mesh, report: &MeshReport) -> String {
+/// What splats are, in the plural.
+pub fn kind(splats: &Splats) -> &'static str {
+    match splats.shapes {
+        Shapes::Disks { .. } => "disks",
+        Shapes::Ellipses { .. } => "ellipses",
+    }
+}
+
+/// A mesh in words.
+pub fn mesh_head(mesh: &Mesh, report: &MeshReport) -> String {
     format!("{} vertices, {} triangles: {report}", mesh.positions.len(), mesh.triangles.len())
 }
 

@@ -7,6 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use crate::math::random::SplitMix;
+
 /// A point of the surface.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SurfacePoint {
@@ -165,22 +167,6 @@ fn color(ridge_number: f64, ridge: f64, bead: f64) -> [f32; 4] {
     let color = GROOVE.lerp(top, t * t * (3.0 - 2.0 * t)) * (1.0 + 0.18 * bead);
     let [r, g, b] = color.clamp(DVec3::ZERO, DVec3::ONE).as_vec3().to_array();
     [r, g, b, 1.0]
-}
-
-/// Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014: the same numbers everywhere.
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// 0 to 1.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are kept")]
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 #[cfg(test)]

@@ -20,7 +20,12 @@ pub(super) struct Header {
     pub body_start: usize,
     /// How many lines the header has.
     pub lines: usize,
+    /// It has the line `comment surfel closed`: the splats sample a closed surface and their normals point outward.
+    pub closed: bool,
 }
+
+/// A comment that says what a splat file has no property for, see [`Header::closed`]. `save/` writes it.
+const CLOSED: &str = "surfel closed";
 
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header> {
     let mut reader = Reader::new(bytes);
@@ -61,6 +66,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header> {
         elements: parsed.elements,
         body_start,
         lines: text.lines().count(),
+        closed: parsed.comments.iter().any(|comment| comment.trim() == CLOSED),
     })
 }
 

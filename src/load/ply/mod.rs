@@ -25,12 +25,6 @@ use body::Body;
 use faces::Triangles;
 use vertices::{VertexLayout, Vertices};
 
-/// The albedo of files without colors: 0.8 sRGB, linear, opaque.
-fn default_color() -> [f32; 4] {
-    let gray = crate::math::srgb::linear_from_srgb(vertices::DEFAULT_SRGB);
-    [gray, gray, gray, 1.0]
-}
-
 pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Result<Model> {
     let header = header::parse(path, bytes)?;
     let Some(vertex_def) = header.elements.get("vertex") else {
@@ -79,7 +73,8 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     if layout.clip_curves {
         progress.note(&format!("{}: clip curves are not supported yet and are left out", path.display()));
     }
-    splats(path, vertices).map(Model::Splats)
+    let splats = splats(path, vertices)?;
+    Ok(Model::Splats { splats, closed: header.closed })
 }
 
 fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {
@@ -105,6 +100,6 @@ fn splats(path: &Path, vertices: Vertices) -> Result<Splats> {
         (None, Some(_), None) => return refuse("points with normals but no radius"),
         (None, None, Some(_)) => return refuse("points with a radius but no normals"),
     };
-    let colors = vertices.colors.map_or_else(|| Colors::Uniform(default_color()), Colors::PerSplat);
+    let colors = vertices.colors.map_or_else(Colors::unknown, Colors::PerSplat);
     Ok(Splats { positions: vertices.positions, shapes, colors })
 }

@@ -15,7 +15,7 @@ fn parse(bytes: &[u8]) -> crate::error::Result<Model> {
 
 fn splats(bytes: &[u8]) -> Splats {
     match parse(bytes).unwrap() {
-        Model::Splats(splats) => splats,
+        Model::Splats { splats, .. } => splats,
         Model::Mesh(_) => panic!("a mesh"),
     }
 }
@@ -23,7 +23,7 @@ fn splats(bytes: &[u8]) -> Splats {
 fn mesh(bytes: &[u8]) -> Mesh {
     match parse(bytes).unwrap() {
         Model::Mesh(mesh) => mesh,
-        Model::Splats(_) => panic!("splats"),
+        Model::Splats { .. } => panic!("splats"),
     }
 }
 

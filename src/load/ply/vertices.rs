@@ -8,6 +8,7 @@ use ply_rs_bw::ply::{ElementDef, PropertyAccess, PropertyAccessResult, PropertyT
 use crate::{
     error::{Error, Result},
     math::srgb::linear_from_srgb,
+    scene::UNKNOWN_SRGB,
 };
 
 /// Which properties the file's vertices have.
@@ -22,9 +23,6 @@ pub(super) struct VertexLayout {
     /// Some `clip_…` property.
     pub clip_curves: bool,
 }
-
-/// The color of vertices without one, as the sRGB value 204/255.
-pub(super) const DEFAULT_SRGB: f32 = 204.0 / 255.0;
 
 impl VertexLayout {
     /// Finds the groups of properties. A group is there as a whole or not at all.
@@ -87,7 +85,7 @@ pub(super) struct VertexRecord {
 
 impl Default for VertexRecord {
     fn default() -> Self {
-        let gray = DEFAULT_SRGB;
+        let gray = UNKNOWN_SRGB;
         Self {
             position: DVec3::ZERO,
             normal: Vec3::ZERO,

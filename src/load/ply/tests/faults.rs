@@ -189,7 +189,7 @@ proptest! {
                 let count = mesh.positions.len();
                 prop_assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < count));
             }
-            Ok(Model::Splats(splats)) => {
+            Ok(Model::Splats { splats, .. }) => {
                 let _ = splats.bounds();
             }
             Err(error) => prop_assert!(!error.to_string().contains('\n'), "{error}"),

@@ -1,0 +1,66 @@
+//! `surfel convert`: a model as a file of splats.
+
+use std::path::Path;
+
+use surfel::{
+    Error, ErrorKind, Result,
+    geometry::resample,
+    load::{Model, load},
+    save,
+    scene::Object,
+};
+
+use crate::{
+    arguments::ConvertArguments,
+    console::{self, Bars},
+    outputs,
+    scene::{finish, kind, load_object, mesh_head},
+    steps::Steps,
+};
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Whatever goes wrong; what can be known before the long work is found before it.
+pub fn run(arguments: &ConvertArguments) -> Result<()> {
+    outputs::check_converted(&arguments.input, &arguments.output)?;
+    let bars = Bars::new();
+    let made = match arguments.resample {
+        Some(count) => resampled(&arguments.input, count, arguments.seed, &bars),
+        None => load_object(&arguments.input, &bars, &mut Steps::default())
+            .map(|(object, report)| (object, report.summary)),
+    };
+    bars.clear();
+    let (object, summary) = made?;
+    let written = save::splats(&arguments.output, &object.splats, object.closed, &bars);
+    bars.clear();
+    let written = written?;
+    let kind = kind(&object.splats);
+    let positions = if written.double_positions { ", 64-bit positions" } else { "" };
+    let closed = if object.closed { ", marked as closed" } else { "" };
+    let (count, bytes) = (object.splats.len(), written.bytes);
+    let output = arguments.output.display();
+    console::print(&format!("{summary} -> {output}: {count} {kind}{positions}{closed}, {bytes} bytes"))
+}
+
+/// Splats spread evenly over the mesh in a file, and what was done in words.
+fn resampled(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
+    let mesh = match load(path, bars)? {
+        Model::Mesh(mesh) => mesh,
+        Model::Splats { .. } => {
+            let problem =
+                "the file holds splats; expected a mesh, whose triangles --resample takes samples of";
+            return Err(Error::input(path, "", problem));
+        }
+    };
+    let (splats, report) = resample(&mesh, count, seed, bars).map_err(|error| match error.kind() {
+        // The library knows no file.
+        ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
+        _ => error,
+    })?;
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let head = format!("{}; resampled with seed {seed}", mesh_head(&mesh, &report));
+    let counts = [mesh.positions.len(), mesh.triangles.len()];
+    let (object, report) = finish(Object { name, splats, closed: report.closed }, head, Some(counts));
+    Ok((object, report.summary))
+}

@@ -1,0 +1,219 @@
+//! The nearest neighbors of points among themselves: a k-d tree (Friedman, Bentley, Finkel, "An Algorithm for Finding Best
+//! Matches in Logarithmic Expected Time", 1977).
+//!
+//! Every node halves its points by number, so that no input makes the tree deep, not even points that are all the same.
+//! The tree is the order of its points, and each node's plane goes through its middle one. Distances depend neither on
+//! the number of threads nor on the order of the points.
+
+use std::{num::NonZero, ops::Range, thread};
+
+use glam::DVec3;
+
+/// How many neighbors are found.
+pub(super) const NEIGHBORS: usize = 6;
+
+/// So many points are searched one by one.
+const LEAF: usize = 8;
+
+/// Fewer points than this are not worth a thread.
+const POINTS_PER_THREAD: usize = 1 << 14;
+
+/// So many points are searched for between two progress messages.
+const BATCH: usize = 1 << 18;
+
+/// A point and its number in the input.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    pub position: DVec3,
+    pub number: u32,
+}
+
+/// A k-d tree.
+pub(super) struct Tree {
+    points: Vec<Point>,
+    /// At the place of a node's middle point: the axis along which the node is halved.
+    axes: Vec<u8>,
+}
+
+impl Tree {
+    /// Bytes that [`Tree::new`] needs for a point, its argument included.
+    pub(super) const BYTES_PER_POINT: usize = size_of::<Point>() + 1;
+
+    /// Of finite points.
+    pub(super) fn new(mut points: Vec<Point>) -> Self {
+        let mut axes = vec![0; points.len()];
+        halve(&mut points, &mut axes, threads(usize::MAX));
+        Self { points, axes }
+    }
+
+    /// Hands each point's number and the distances of its nearest neighbors, sorted, to `take`, in no order that
+    /// matters. Where there are fewer neighbors, infinite distances stand in. `progress` is called with points done.
+    pub(super) fn distances(
+        &self,
+        mut take: impl FnMut(u32, [f64; NEIGHBORS]),
+        mut progress: impl FnMut(usize),
+    ) {
+        let mut found = Vec::new();
+        for first in (0..self.points.len()).step_by(BATCH) {
+            let batch = first..self.points.len().min(first + BATCH);
+            found.resize(batch.len(), [0.0; NEIGHBORS]);
+            let share = batch.len().div_ceil(threads(batch.len()));
+            thread::scope(|scope| {
+                for (i, part) in found.chunks_mut(share).enumerate() {
+                    let first = batch.start + i * share;
+                    scope.spawn(move || {
+                        for (j, distances) in part.iter_mut().enumerate() {
+                            *distances = self.nearest(first + j);
+                        }
+                    });
+                }
+            });
+            for (point, distances) in self.points[batch.clone()].iter().zip(&found) {
+                take(point.number, *distances);
+            }
+            progress(batch.end);
+        }
+    }
+
+    fn nearest(&self, place: usize) -> [f64; NEIGHBORS] {
+        let mut squared = [f64::INFINITY; NEIGHBORS];
+        self.search(0..self.points.len(), place, &mut squared);
+        squared.map(f64::sqrt)
+    }
+
+    fn search(&self, node: Range<usize>, place: usize, nearest: &mut [f64; NEIGHBORS]) {
+        let target = self.points[place].position;
+        if node.len() <= LEAF {
+            for other in node.filter(|&other| other != place) {
+                insert(nearest, target.distance_squared(self.points[other].position));
+            }
+            return;
+        }
+        let middle = node.start + node.len() / 2;
+        if middle != place {
+            insert(nearest, target.distance_squared(self.points[middle].position));
+        }
+        let axis = usize::from(self.axes[middle]);
+        let beyond = target[axis] - self.points[middle].position[axis];
+        let (below, above) = (node.start..middle, middle + 1..node.end);
+        let (near, far) = if beyond < 0.0 { (below, above) } else { (above, below) };
+        self.search(near, place, nearest);
+        // Not where it is equal: all of many equal points would be searched.
+        if beyond * beyond < nearest[NEIGHBORS - 1] {
+            self.search(far, place, nearest);
+        }
+    }
+}
+
+/// Into the sorted distances, if it is below the largest.
+fn insert(nearest: &mut [f64; NEIGHBORS], squared: f64) {
+    let mut i = NEIGHBORS;
+    while i > 0 && squared < nearest[i - 1] {
+        if i < NEIGHBORS {
+            nearest[i] = nearest[i - 1];
+        }
+        i -= 1;
+    }
+    if i < NEIGHBORS {
+        nearest[i] = squared;
+    }
+}
+
+/// Brings the points into the order of the tree.
+fn halve(points: &mut [Point], axes: &mut [u8], threads: usize) {
+    if points.len() <= LEAF {
+        return;
+    }
+    let axis = longest_axis(points);
+    let middle = points.len() / 2;
+    points.select_nth_unstable_by(middle, |a, b| {
+        let along = a.position[axis].total_cmp(&b.position[axis]);
+        along.then(a.number.cmp(&b.number))
+    });
+    #[expect(clippy::cast_possible_truncation, reason = "0–2")]
+    let of_middle = axis as u8;
+    axes[middle] = of_middle;
+    let parallel = threads > 1 && points.len() > 2 * POINTS_PER_THREAD;
+    // The middle point stays where it is and belongs to no half.
+    let (below, above) = points.split_at_mut(middle);
+    let (axes_below, axes_above) = axes.split_at_mut(middle);
+    let (above, axes_above) = (&mut above[1..], &mut axes_above[1..]);
+    if parallel {
+        thread::scope(|scope| {
+            scope.spawn(|| halve(below, axes_below, threads / 2));
+            halve(above, axes_above, threads - threads / 2);
+        });
+    } else {
+        halve(below, axes_below, 1);
+        halve(above, axes_above, 1);
+    }
+}
+
+fn longest_axis(points: &[Point]) -> usize {
+    let first = points.first().map_or(DVec3::ZERO, |point| point.position);
+    let (low, high) = points
+        .iter()
+        .fold((first, first), |(low, high), point| (low.min(point.position), high.max(point.position)));
+    (high - low).max_position()
+}
+
+fn threads(points: usize) -> usize {
+    let useful = points.div_ceil(POINTS_PER_THREAD);
+    thread::available_parallelism().map_or(1, NonZero::get).min(useful).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::SplitMix;
+
+    fn distances(positions: &[DVec3]) -> Vec<[f64; NEIGHBORS]> {
+        let points = (0..).zip(positions).map(|(number, &position)| Point { position, number }).collect();
+        let mut all = vec![[f64::NAN; NEIGHBORS]; positions.len()];
+        Tree::new(points).distances(|number, found| all[number as usize] = found, |_| {});
+        all
+    }
+
+    fn brute_force(positions: &[DVec3], of: usize) -> [f64; NEIGHBORS] {
+        let others = positions.iter().enumerate().filter(|(other, _)| *other != of);
+        let mut all: Vec<f64> = others.map(|(_, p)| p.distance_squared(positions[of]).sqrt()).collect();
+        all.sort_by(f64::total_cmp);
+        all.resize(NEIGHBORS.max(all.len()), f64::INFINITY);
+        std::array::from_fn(|i| all[i])
+    }
+
+    #[test]
+    fn distances_are_those_of_brute_force() {
+        let mut random = SplitMix(5);
+        let mut unit = move || random.unit();
+        for count in [0, 1, 2, 6, 7, LEAF, LEAF + 1, 50, 2000] {
+            // In space, on a plane, on a grid with many equal coordinates, and at one place with a few elsewhere.
+            let space: Vec<_> = (0..count).map(|_| DVec3::new(unit(), unit(), unit())).collect();
+            let plane: Vec<_> = space.iter().map(|p| DVec3::new(p.x, 3.0, 1e6 * p.z)).collect();
+            let grid: Vec<_> = space.iter().map(|p| (*p * 4.0).floor()).collect();
+            let heap: Vec<_> = space.iter().map(|p| if p.x < 0.9 { DVec3::ONE } else { *p }).collect();
+            for positions in [space, plane, grid, heap] {
+                for (i, found) in distances(&positions).into_iter().enumerate() {
+                    assert_eq!(found, brute_force(&positions, i), "{count} points, {i}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn many_points_on_several_threads_and_all_at_one_place() {
+        // Enough for threads when building and for two batches. Along a line every distance is known.
+        let count = BATCH + 4 * POINTS_PER_THREAD;
+        let line: Vec<_> = (0..count).map(|i| DVec3::X * ((i * 7919) % count) as f64).collect();
+        for (i, found) in distances(&line).into_iter().enumerate() {
+            let at = line[i].x;
+            let from_end = at.min((count - 1) as f64 - at);
+            if from_end >= 3.0 {
+                assert_eq!(found, [1.0, 1.0, 2.0, 2.0, 3.0, 3.0], "{i}");
+            }
+        }
+        // Would take hours if equal points were searched on both sides of every plane.
+        let heap = vec![DVec3::splat(0.1); count];
+        assert!(distances(&heap).into_iter().all(|found| found == [0.0; NEIGHBORS]));
+    }
+}

@@ -1,0 +1,128 @@
+//! `surfel convert`: what it writes, and that it is drawn as its source is.
+
+use std::fs;
+
+use super::program::{Folder, surfel};
+
+/// A closed octahedron; coordinates that 32 bits have.
+const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n\
+    f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n";
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("octahedron.obj", OCTAHEDRON);
+    folder
+}
+
+/// Runs a conversion that has to work, and gives its one line.
+fn convert(folder: &Folder, arguments: &[&str]) -> String {
+    let run = surfel(folder, &[&["convert"], arguments].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{}", run.stdout);
+    assert_eq!(run.stdout.lines().count(), 1, "{}", run.stdout);
+    run.stdout.trim_end().to_owned()
+}
+
+fn picture(folder: &Folder, model: &str, options: &[&str]) -> Vec<u8> {
+    let run = surfel(folder, &[&["render", model, "-o", "picture.png", "--size", "64x64"], options].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    fs::read(folder.path("picture.png")).unwrap()
+}
+
+#[test]
+fn a_converted_mesh_is_drawn_as_the_mesh_itself() {
+    let folder = folder();
+    let said = convert(&folder, &["octahedron.obj", "splats.ply"]);
+    let expected = "octahedron.obj: 6 vertices, 8 triangles: closed; normals and radii computed -> splats.ply: 6 \
+        disks, marked as closed, ";
+    assert!(said.starts_with(expected), "{said}");
+    // From inside, where culling shows: the far side faces away.
+    let inside = ["--eye", "0,0,0.2", "--target", "0,0,-1"];
+    let culled = picture(&folder, "octahedron.obj", &inside);
+    assert_ne!(culled, picture(&folder, "octahedron.obj", &[&inside[..], &["--backfaces", "flip"]].concat()));
+    assert_eq!(picture(&folder, "splats.ply", &inside), culled);
+    assert_eq!(picture(&folder, "splats.ply", &[]), picture(&folder, "octahedron.obj", &[]));
+    // Splats again: the same file.
+    convert(&folder, &["splats.ply", "again.ply"]);
+    assert_eq!(fs::read(folder.path("again.ply")).unwrap(), fs::read(folder.path("splats.ply")).unwrap());
+}
+
+#[test]
+fn resampling_repeats_for_a_seed() {
+    let folder = folder();
+    let run = |output: &str, seed: &[&str]| {
+        let said = convert(&folder, &[&["octahedron.obj", output, "--resample", "20000"], seed].concat());
+        (said, fs::read(folder.path(output)).unwrap())
+    };
+    let (said, first) = run("a.ply", &[]);
+    let bytes = first.len();
+    let expected = "octahedron.obj: 6 vertices, 8 triangles: closed; resampled with seed 0 -> a.ply: 20000 disks, \
+        marked as closed, ";
+    assert_eq!(said, format!("{expected}{bytes} bytes"));
+    assert!(first == run("b.ply", &["--seed", "0"]).1 && first != run("c.ply", &["--seed", "1"]).1);
+    assert!(folder.names().iter().all(|name| !name.ends_with(".tmp")), "{:?}", folder.names());
+    // The corner of an octahedron that faces the eye covers the middle of the picture.
+    let drawn = surfel(&folder, &["render", "a.ply", "--size", "64x64", "--shading", "albedo"]);
+    assert_eq!((drawn.code, drawn.stderr.lines().next()), (0, Some("a.ply: 20000 disks, closed")));
+    assert_eq!(super::files::png(&folder.path("surfel.png")).at(32, 32), [204; 3]);
+}
+
+#[test]
+fn an_old_file_is_replaced_and_a_failure_keeps_it() {
+    let folder = folder();
+    folder.write("out.ply", "old");
+    folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    let run = surfel(&folder, &["convert", "flat.obj", "out.ply", "--resample", "10"]);
+    assert_eq!(run.code, 1);
+    let expected = "surfel: flat.obj: no area to take samples of: 1 triangles of 0 square units\n";
+    assert_eq!(run.stderr, expected);
+    assert_eq!(fs::read(folder.path("out.ply")).unwrap(), b"old");
+    convert(&folder, &["octahedron.obj", "out.ply"]);
+    assert!(fs::read(folder.path("out.ply")).unwrap().starts_with(b"ply\n"));
+}
+
+#[test]
+fn what_cannot_be_converted_is_refused_in_one_line() {
+    let folder = folder();
+    convert(&folder, &["octahedron.obj", "splats.ply"]);
+    let before = folder.names();
+    let cases: [(&[&str], &str); 9] = [
+        (&["none.obj", "a.ply"], "none.obj: cannot read: No such file"),
+        (&["octahedron.obj", "a.obj"], "a.obj: expected a name in .ply"),
+        (&["octahedron.obj", "none/a.ply"], "none/a.ply: cannot write: No such file"),
+        (&["splats.ply", "./splats.ply"], "./splats.ply: is the input"),
+        (&["splats.ply", "a.ply", "--resample", "9"], "splats.ply: the file holds splats; expected a mesh"),
+        (&["octahedron.obj", "a.ply", "--resample", "0"], "--resample: 0 samples, expected 1 to 4294967295"),
+        (
+            &["octahedron.obj", "a.ply", "--resample", "4294967296"],
+            "--resample: 4294967296 samples, expected",
+        ),
+        (&["octahedron.obj", "a.ply", "--resample", "-1"], "-1"),
+        (&["octahedron.obj", "a.ply", "--seed", "1"], "--resample <N>"),
+    ];
+    for (arguments, words) in cases {
+        let run = surfel(&folder, &[&["convert"], arguments].concat());
+        assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{arguments:?}");
+        assert!(run.stderr.contains(words) && run.stderr.lines().count() == 1, "{}", run.stderr);
+        assert_eq!(folder.names(), before, "{arguments:?}");
+    }
+}
+
+/// With 2 GB of address space: the machine that runs this may have room for all of them.
+#[test]
+#[cfg(target_os = "linux")]
+fn more_samples_than_there_is_memory_for() {
+    let folder = folder();
+    let program = env!("CARGO_BIN_EXE_surfel");
+    let command =
+        format!("ulimit -v 2000000; exec '{program}' convert octahedron.obj a.ply --resample 4294967295");
+    let shell =
+        std::process::Command::new("sh").args(["-c", &command]).current_dir(folder.path(".")).output();
+    let output = shell.unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.starts_with("surfel: --resample: no memory for 4294967295 samples (")
+            && said.lines().count() == 1
+    );
+    assert_eq!(folder.names(), ["octahedron.obj"]);
+}
