@@ -3,6 +3,8 @@
 
 #![cfg(feature = "cli")]
 
+#[path = "cli/compare.rs"]
+mod compare;
 #[path = "cli/convert.rs"]
 mod convert;
 #[path = "cli/faults.rs"]
@@ -243,7 +245,7 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    let subcommands = ["render", "reference", "convert", "bench", "info"];
+    let subcommands = ["render", "reference", "compare", "convert", "bench", "info"];
     let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
     for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);

@@ -1,5 +1,5 @@
-//! Affine maps from the image to the splat, in place of the projective one. Each makes the splat an ellipse in the image
-//! whose `r²` is a quadratic form.
+//! Affine maps from the image to the splat, in place of the projective one. Each makes the splat an ellipse in the
+//! image whose `r²` is a quadratic form.
 
 use glam::{DVec2, DVec3};
 
@@ -16,9 +16,9 @@ pub(super) struct ImageEllipse {
 }
 
 impl ImageEllipse {
-    /// Exact at the projected center (Guennebaud, Paulin 2003): `(u, v) = [a b]⁻¹ (x − c)` with `a`, `b` the tangent
-    /// vectors under the Jacobian of the projection. The tangents are those of [`super::filter::orthogonalized`]: the axes then point
-    /// along `s` and `t`.
+    /// Exact at the projected center (Guennebaud, Paulin 2003): `(u, v) = [a b]⁻¹ (x − c)` with `a`, `b` the
+    /// tangent vectors under the Jacobian of the projection. The tangents are those of
+    /// [`super::filter::orthogonalized`]: the axes then point along `s` and `t`.
     pub fn exact_at_center(center: DVec3, s: DVec3, t: DVec3) -> Self {
         let (a, b) = (projected(center, s), projected(center, t));
         let long = a.try_normalize().unwrap_or(DVec2::X);

@@ -1,6 +1,6 @@
-//! The elliptical weighted average (Zwicker, Pfister, van Baar, Gross 2001): the splat's Gaussian under an affine map,
-//! convolved with the Gaussian of the low-pass filter. Covariances add: `V = σ² (a aᵀ + b bᵀ + h² I)`. In the principal
-//! axes `l` of the splat's ellipse that is an ellipse of the same directions and the axes `√(l² + h²)`.
+//! The elliptical weighted average (Zwicker, Pfister, van Baar, Gross 2001): the splat's Gaussian under an affine
+//! map, convolved with the Gaussian of the low-pass filter. Covariances add: `V = σ² (a aᵀ + b bᵀ + h² I)`. In the
+//! principal axes `l` of the splat's ellipse that is an ellipse of the same directions and the axes `√(l² + h²)`.
 
 use glam::{DVec2, DVec3};
 
@@ -9,18 +9,19 @@ use super::filter::orthogonalized;
 use super::intersect::Hit;
 use crate::scene::LEAST_SHARE;
 
-/// A plane through the eye, but for 32-bit rounding: where `|(s×t)·p|` is at most this share of `|s×t| |p|`, a splat is
-/// seen from its edge and its contour has no width to be stretched.
+/// A plane through the eye, but for 32-bit rounding: where `|(s×t)·p|` is at most this share of `|s×t| |p|`, a
+/// splat is seen from its edge and its contour has no width to be stretched.
 const EDGE_ON: f64 = 2.4e-7;
 
 /// A splat's ellipse with the low-pass filter added.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretched {
     pub ellipse: ImageEllipse,
-    /// What its weight is multiplied by: the ratio of the areas, `√(det(V − σ²h²I) / det V)`, at least [`LEAST_SHARE`].
+    /// What its weight is multiplied by: the ratio of the areas, `√(det(V − σ²h²I) / det V)`, at least
+    /// [`LEAST_SHARE`].
     pub share: f64,
-    /// 1/z is `inverse_depth + per_uv · (u, v)`: that of the splat's plane at the point that has been stretched to here,
-    /// so that it stays within the depths of the splat itself.
+    /// 1/z is `inverse_depth + per_uv · (u, v)`: that of the splat's plane at the point that has been stretched to
+    /// here, so that it stays within the depths of the splat itself.
     inverse_depth: f64,
     per_uv: DVec2,
 }

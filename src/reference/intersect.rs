@@ -43,7 +43,8 @@ impl DrawnSplat {
         }
     }
 
-    /// Solves `[s t p] (u, v, 1)ᵀ = z (x, y, 1)ᵀ` (Guennebaud et al. 2006, eq. 3): the plane first, then u and v in it.
+    /// Solves `[s t p] (u, v, 1)ᵀ = z (x, y, 1)ᵀ` (Guennebaud et al. 2006, eq. 3): the plane first, then u and v in
+    /// it.
     fn plane_hit(&self, ray: DVec3, near: f64) -> Option<Hit> {
         let z = self.plane_depth(ray, near)?;
         let q = z * ray - self.center;

@@ -9,41 +9,46 @@
 //! first, then the fragments at or before it are summed, normalized and shaded (`band`, `shade`).
 //!
 //! The rasterizers are two kinds: the affine ones have a map of their own (`affine`), all the others draw the same
-//! picture, which one of them cuts off (`low_pass`). The filters change the tangent vectors (`filter`, `paper_filter`),
-//! add a disk in the image (`low_pass`) or replace the map (`ewa`). A splat that reaches the near plane, or whose depth
-//! radius is above 0.9 of its center's depth, has no affine map worth the name: the affine rasterizers draw it by its
-//! rays, and `ewa` leaves it as it is.
+//! picture, which one of them cuts off (`low_pass`). The filters change the tangent vectors (`filter`,
+//! `paper_filter`), add a disk in the image (`low_pass`) or replace the map (`ewa`). A splat that reaches the near
+//! plane, or whose depth radius is above 0.9 of its center's depth, has no affine map worth the name: the affine
+//! rasterizers draw it by its rays, and `ewa` leaves it as it is.
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
-//! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it says),
-//! [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`Settings::early_depth`].
+//! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it
+//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`Settings::early_depth`].
 
 mod affine;
 mod band;
+mod bands;
 mod ewa;
 mod filter;
 mod fragment;
+mod ground_truth;
 mod intersect;
 mod kernel;
 mod low_pass;
+mod low_pass_taps;
 mod paper_filter;
 mod picture;
+mod row_span;
 mod search_box;
 mod shade;
 mod splat;
+mod surface;
+mod true_pixel;
 mod view;
 
 #[cfg(test)]
 mod tests;
 
-use std::num::NonZero;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
 
+pub use ground_truth::ground_truth;
 pub use picture::{Picture, Pixel};
+pub use true_pixel::{GroundTruth, TruePixel};
 
 use self::band::Frame;
 use self::search_box::SearchBox;
@@ -85,25 +90,12 @@ pub fn render(
     let mut pixels = empty_pixels(settings)?;
     let rows_done = AtomicU64::new(0);
     progress(0, u64::from(height));
-    let bands = Mutex::new(pixels.chunks_mut(width as usize * BAND_ROWS).enumerate());
-    let work = || {
-        loop {
-            // The lock is held only while the next band is taken: nothing can be left half done under it.
-            let next = bands.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((i, pixels)) = next else { break };
-            let first = (i * BAND_ROWS) as u32;
-            let rows = (pixels.len() / width as usize) as u32;
-            band::render(&frame, first..first + rows, pixels);
-            let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
-            progress(done, u64::from(height));
-        }
-    };
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(work);
-        }
-        work();
+    bands::for_each(&mut pixels, width as usize * BAND_ROWS, |i, pixels| {
+        let first = (i * BAND_ROWS) as u32;
+        let rows = (pixels.len() / width as usize) as u32;
+        band::render(&frame, first..first + rows, pixels);
+        let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
+        progress(done, u64::from(height));
     });
     Ok(Picture { size_px: settings.size_px, pixels, defects })
 }

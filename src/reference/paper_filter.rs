@@ -1,6 +1,6 @@
-//! The low-pass filter by tangent adjustment as the paper has it (Guennebaud, Barthe, Paulin 2006, section 4.1). Each
-//! tangent vector is adjusted by itself, along a basis whose projections are orthogonal only in places: 60° to 90° apart,
-//! so that a splat may end up thinner than the filter.
+//! The low-pass filter by tangent adjustment as the paper has it (Guennebaud, Barthe, Paulin 2006, section 4.1).
+//! Each tangent vector is adjusted by itself, along a basis whose projections are orthogonal only in places: 60° to
+//! 90° apart, so that a splat may end up thinner than the filter.
 
 use glam::DVec3;
 
@@ -16,8 +16,8 @@ pub(super) fn adjust_paper(center: DVec3, s: DVec3, t: DVec3, h: f64) -> (DVec3,
         return (adjusted(center, s, s, h), adjusted(center, t, t, h));
     };
     let second = normal.cross(first);
-    // n × (p × n) = p − n (n·p), and p itself projects to nothing: the second tangent's projection points along that of
-    // the normal, which it still has where the disk is seen from its edge and its own projection vanishes.
+    // n × (p × n) = p − n (n·p), and p itself projects to nothing: the second tangent's projection points along
+    // that of the normal, which it still has where the disk is seen from its edge and its own projection vanishes.
     (adjusted(center, radius * first, first, h), adjusted(center, radius * second, normal, h))
 }
 

@@ -37,9 +37,10 @@ pub struct Pixel {
     /// Some splat that is not hidden has its rim here: its `r²` is within `max(1e-3, 16·2⁻²⁴·|x|/b)` of the largest
     /// `r²` that covers, with |x| the distance from the middle of the image and b its semi-minor axis, both in
     /// pixels, of the splat as drawn (for a splat that reaches the near plane, b is that of the affine map at the
-    /// fragment). With the filter `max` also the border of the low-pass filter, where it lies outside the splat. With
-    /// the rasterizer `raycast-approximate` also the border of its square, to 1e-3 px + 16·2⁻²⁴·|x|. Hidden is a splat whose depth here is beyond z* by more than that margin, relative: present or
-    /// not, it changes nothing.
+    /// fragment). With the filter `max` also the border of the low-pass filter, where it lies outside the splat.
+    /// With the rasterizer `raycast-approximate` also the border of its square, to 1e-3 px + 16·2⁻²⁴·|x|. Hidden is
+    /// a splat whose depth here is beyond z* by more than that margin, relative: present or not, it changes
+    /// nothing.
     pub rim: bool,
 }
 

@@ -17,13 +17,17 @@ pub(super) struct SearchBox {
 }
 
 impl SearchBox {
-    /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`], of the splat or
-    /// of the low-pass filter beside it.
+    /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`], of the
+    /// splat or of the low-pass filter beside it.
     pub fn of(splat: &DrawnSplat, limit_r2: f64, view: &View) -> Self {
         let [middle_x, middle_y] = view.middle_px();
         let farthest_px = middle_x.hypot(middle_y);
         let own = match &splat.map {
-            Map::Projective => Self::of_ball(splat, limit_r2, farthest_px, view),
+            Map::Projective => {
+                // A splat that reaches the near plane has another margin in every pixel.
+                let Some(minor_px) = splat.minor_px else { return Self::whole(view) };
+                Self::of_disk(splat, limit_r2 + r2_margin(farthest_px, minor_px), view)
+            }
             Map::Affine(ellipse) => Self::of_ellipse(splat, ellipse, limit_r2, farthest_px, view),
             Map::Stretched(stretched) => {
                 Self::of_ellipse(splat, &stretched.ellipse, limit_r2, farthest_px, view)
@@ -34,13 +38,12 @@ impl SearchBox {
         own.union(Self::of_circle(low_pass.center, reach, view))
     }
 
-    /// The enlarged disk lies in a ball, the ball in a cube; the cube is projected corner by corner. Where it
-    /// reaches the near plane the box is the whole image.
-    fn of_ball(splat: &DrawnSplat, limit_r2: f64, farthest_px: f64, view: &View) -> Self {
-        let Some(minor_px) = splat.minor_px else { return Self::whole(view) };
-        let margin = r2_margin(farthest_px, minor_px);
+    /// Holds every pixel whose `r²` is at most `largest_r2`, under the projective map. The disk of that size lies
+    /// in a ball, the ball in a cube; the cube is projected corner by corner. Where it reaches the near plane the
+    /// box is the whole image.
+    pub fn of_disk(splat: &DrawnSplat, largest_r2: f64, view: &View) -> Self {
         // |u s + v t|² ≤ (u² + v²)(|s|² + |t|²).
-        let radius = ((limit_r2 + margin) * (splat.s.length_squared() + splat.t.length_squared())).sqrt();
+        let radius = (largest_r2 * (splat.s.length_squared() + splat.t.length_squared())).sqrt();
         let center = splat.center;
         if center.z + radius < view.near {
             return Self { columns: 0..0, rows: 0..0 };

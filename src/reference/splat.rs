@@ -153,8 +153,8 @@ fn prepare_one(
     })
 }
 
-/// The map of a regular splat with the tangent vectors that are drawn. All rasterizers but the affine ones draw the same
-/// picture.
+/// The map of a regular splat with the tangent vectors that are drawn. All rasterizers but the affine ones draw the
+/// same picture.
 fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
     match (settings.filter, settings.rasterizer) {
         (Filter::Ewa, Rasterizer::AffineContour) => Map::Stretched(Stretched::of_contour(center, s, t, h)),

@@ -161,22 +161,31 @@ impl Splats {
             })
             .collect();
         if counts.total() > 0 {
-            retain(&mut self.positions, &keep);
-            match &mut self.shapes {
-                Shapes::Disks { normals, radii } => {
-                    retain(normals, &keep);
-                    retain(radii, &keep);
-                }
-                Shapes::Ellipses { s, t } => {
-                    retain(s, &keep);
-                    retain(t, &keep);
-                }
-            }
-            if let Colors::PerSplat(colors) = &mut self.colors {
-                retain(colors, &keep);
-            }
+            self.keep(&keep);
         }
         counts
+    }
+
+    /// Removes every splat whose value is false, and keeps the order of the others.
+    ///
+    /// # Panics
+    /// If there is not a value for each splat.
+    pub fn keep(&mut self, keep: &[bool]) {
+        assert_eq!(keep.len(), self.len(), "a value for each splat");
+        retain(&mut self.positions, keep);
+        match &mut self.shapes {
+            Shapes::Disks { normals, radii } => {
+                retain(normals, keep);
+                retain(radii, keep);
+            }
+            Shapes::Ellipses { s, t } => {
+                retain(s, keep);
+                retain(t, keep);
+            }
+        }
+        if let Colors::PerSplat(colors) = &mut self.colors {
+            retain(colors, keep);
+        }
     }
 
     /// The box around all disks (each taken as the ball of its major radius); splats with a [`Defect`] are left

@@ -5,6 +5,7 @@ mod arguments;
 mod bench;
 mod cache;
 mod camera;
+mod compare;
 mod console;
 mod convert;
 mod explain;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
     let done = match &arguments.command {
         Command::Render(arguments) => render::run(arguments),
         Command::Reference(arguments) => reference::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Info(arguments) => info::run(arguments),

@@ -134,33 +134,47 @@ fn the_search_box_holds_the_projected_rim() {
 
 #[test]
 fn no_pixel_outside_the_search_box_is_covered_or_near_the_rim() {
-    let mut random = Random(3);
-    let settings = Settings { filter: Filter::None, ..settings(48) };
-    let view = View::new(&camera(), settings.size_px);
-    let (splats, _) = prepare(&ellipses(&random_splats(&mut random, 300)), &view, &settings);
-    let limit_r2 = limit_r2(settings.kernel);
-    let concerns = |splat: &DrawnSplat, column, row| {
-        let [x_px, y_px] = view.offset_px(column, row);
-        let ray = view.ray(column, row);
-        splat
-            .hit(ray, view.near)
-            .is_some_and(|hit| hit.r2 <= limit_r2 + splat.r2_margin(ray, hit.z, x_px.hypot(y_px), &view))
-    };
-    let (mut concerned, mut smaller_boxes) = (0, 0);
-    for (i, splat) in splats.iter().enumerate() {
-        let search = SearchBox::of(splat, limit_r2, &view);
-        smaller_boxes += usize::from(search.columns.len() * search.rows.len() < 48 * 48);
-        for row in 0..48 {
-            for column in 0..48 {
-                if concerns(splat, column, row) {
-                    concerned += 1;
-                    let found = search.columns.contains(&column) && search.rows.contains(&row);
-                    assert!(found, "splat {i} at {column}, {row}");
+    use Rasterizer::{AffineCenter, AffineContour, Perspective, RaycastApproximate};
+    let methods = [
+        (Perspective, Filter::None),
+        (Perspective, Filter::Max),
+        (Perspective, Filter::Ewa),
+        (AffineCenter, Filter::None),
+        (AffineContour, Filter::Max),
+        (AffineContour, Filter::Ewa),
+        (RaycastApproximate, Filter::Adjust),
+    ];
+    for (rasterizer, filter) in methods {
+        let mut random = Random(3);
+        let settings = Settings { rasterizer, filter, ..settings(48) };
+        let view = View::new(&camera(), settings.size_px);
+        let (splats, _) = prepare(&ellipses(&random_splats(&mut random, 300)), &view, &settings);
+        let limit_r2 = limit_r2(settings.kernel);
+        let concerns = |splat: &DrawnSplat, column, row| {
+            let [x_px, y_px] = view.offset_px(column, row);
+            let ray = view.ray(column, row);
+            splat.fragment(ray, view.near, settings.kernel).is_some()
+                || splat.rim(ray, x_px.hypot(y_px), limit_r2, &view).is_some()
+        };
+        let (mut concerned, mut smaller_boxes) = (0, 0);
+        for (i, splat) in splats.iter().enumerate() {
+            let search = SearchBox::of(splat, limit_r2, &view);
+            smaller_boxes += usize::from(search.columns.len() * search.rows.len() < 48 * 48);
+            for row in 0..48 {
+                for column in 0..48 {
+                    if concerns(splat, column, row) {
+                        concerned += 1;
+                        let found = search.columns.contains(&column) && search.rows.contains(&row);
+                        assert!(found, "{rasterizer:?} {filter:?}: splat {i} at {column}, {row}");
+                    }
                 }
             }
         }
+        assert!(
+            concerned > 5000 && smaller_boxes > 50,
+            "{rasterizer:?} {filter:?}: {concerned}, {smaller_boxes}"
+        );
     }
-    assert!(concerned > 5000 && smaller_boxes > 50, "{concerned}, {smaller_boxes}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod edge_on;
 mod epsilon;
 mod ewa;
 mod facing;
+mod ground_truth;
 mod hostile;
 mod low_pass;
 mod near_plane;
@@ -74,8 +75,8 @@ pub(super) fn drawn(ellipse: Ellipse, settings: &Settings) -> (DrawnSplat, View)
     (splats[0], view)
 }
 
-/// A splat before the eye, of a size of `ratio` times its distance, its axes not its tangent vectors; `aspect` is that of
-/// the ellipse, in its plane.
+/// A splat before the eye, of a size of `ratio` times its distance, its axes not its tangent vectors; `aspect` is
+/// that of the ellipse, in its plane.
 pub(super) fn random_ellipse(random: &mut Random, ratio: f64, aspect: f64) -> Ellipse {
     let z = random.within(0.5, 8.0);
     let center = DVec3::new(random.within(-0.9, 0.9) * z, random.within(-0.9, 0.9) * z, z);

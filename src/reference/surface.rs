@@ -1,0 +1,77 @@
+//! From the fragments of the nearest surface to one normalized surface point, and its color.
+
+use glam::DVec3;
+
+use super::fragment::Fragment;
+use super::shade::shade;
+use super::splat::DrawnSplat;
+use crate::scene::Shading;
+
+/// The shifted depth that a fragment must not exceed, and whose it is.
+#[derive(Clone, Copy)]
+pub(super) struct Nearest {
+    pub z_shifted: f64,
+    pub splat: usize,
+}
+
+impl Nearest {
+    /// Of a pixel without a splat.
+    pub const NONE: Self = Self { z_shifted: f64::INFINITY, splat: usize::MAX };
+}
+
+/// The weighted sums of a pixel.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Sums {
+    pub weight: f64,
+    albedo: DVec3,
+    normal: DVec3,
+    z: f64,
+    alpha: f64,
+}
+
+/// What a pixel sees.
+pub(super) struct Surface {
+    /// Linear.
+    pub albedo: DVec3,
+    /// Unit.
+    pub normal: DVec3,
+    pub depth: f64,
+    /// Straight.
+    pub alpha: f64,
+    /// Linear and shaded.
+    pub color: DVec3,
+}
+
+/// A sum of normals shorter than this share of the sum of weights is rounding noise and has no direction.
+const VANISHING: f64 = 1e-12;
+
+impl Sums {
+    pub fn add(&mut self, fragment: Fragment, splat: &DrawnSplat) {
+        self.weight += fragment.weight;
+        self.albedo += fragment.weight * splat.albedo;
+        self.normal += fragment.weight * splat.normal;
+        self.z += fragment.weight * fragment.z;
+        self.alpha += fragment.weight * splat.alpha;
+    }
+
+    /// Guennebaud et al. 2006, eq. 1, then the shading; `None` where nothing was added.
+    pub fn surface(&self, shading: Shading, ray: DVec3) -> Option<Surface> {
+        if self.weight <= 0.0 {
+            return None;
+        }
+        let albedo = self.albedo / self.weight;
+        let normal = direction(self.normal, self.weight);
+        Some(Surface {
+            albedo,
+            normal,
+            depth: self.z / self.weight,
+            alpha: self.alpha / self.weight,
+            color: shade(shading, albedo, normal, ray),
+        })
+    }
+}
+
+/// The direction of a sum of unit normals whose weights sum to `weight`; toward the eye where they cancel.
+pub(super) fn direction(sum: DVec3, weight: f64) -> DVec3 {
+    if sum.length() <= VANISHING * weight { DVec3::NEG_Z } else { sum.normalize() }
+}
