@@ -3,6 +3,8 @@
 
 #![cfg(feature = "cli")]
 
+#[path = "cli/compare.rs"]
+mod compare;
 #[path = "cli/faults.rs"]
 mod faults;
 #[path = "cli/files.rs"]
@@ -241,7 +243,13 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    for words in [&["--help"][..], &["render", "--help"], &["reference", "--help"], &["info", "--help"]] {
+    for words in [
+        &["--help"][..],
+        &["render", "--help"],
+        &["reference", "--help"],
+        &["compare", "--help"],
+        &["info", "--help"],
+    ] {
         let run = surfel(&folder, words);
         assert!(run.code == 0 && run.stderr.is_empty(), "{}", run.stderr);
         assert!(run.stdout.contains("Usage: surfel") && !run.stdout.contains('\u{1b}'), "{}", run.stdout);

@@ -3,12 +3,18 @@
 //!
 //! No figure is made up: what was not measured is `None` (`null` in JSON) and a sentence among the flags says why.
 
+#[cfg(feature = "compare")]
+pub mod compare;
 mod floor;
 mod frames;
 mod options;
+#[cfg(feature = "compare")]
+mod plot;
 mod run;
 mod spread;
 mod table;
+#[cfg(feature = "compare")]
+pub mod zoom;
 
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};

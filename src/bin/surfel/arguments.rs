@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand};
 use surfel::scene::Accumulate;
 
 use crate::{
+    compare::CompareArguments,
     parse,
     picture_arguments::{PictureArguments, choice},
 };
@@ -36,6 +37,10 @@ pub enum Command {
     #[command(long_about = format!("Draw the same with the reference. {REFERENCE_HELP}\n\n{SCENE_HELP}"))]
     #[command(after_help = REFERENCE_EXAMPLES)]
     Reference(ReferenceArguments),
+    /// Put methods side by side: what each costs, and how far its picture is from the exact one
+    #[command(long_about = format!("Put methods side by side.\n\n{COMPARE_HELP}\n\n{SCENE_HELP}"))]
+    #[command(after_help = COMPARE_EXAMPLES)]
+    Compare(Box<CompareArguments>),
     /// Measure: tables of what things cost
     #[command(after_help = BENCH_EXAMPLES)]
     Bench(BenchArguments),
@@ -50,6 +55,21 @@ vertices. Several inputs are one scene; none is the built-in model. Lengths are 
 const REFERENCE_HELP: &str =
     "It computes in 64 bits on the processor, slow and obvious, and needs no Vulkan.";
 
+const COMPARE_HELP: &str = "\
+Every combination of rasterizer, filter, precision of the sums and kernel evaluation draws the same scene. What it costs is \
+timed at --time-size, with the methods in turn, so that a change of the machine's speed meets all of them. How wrong it is is \
+found at --size, twice: against the oracle of the same method in 64 bits (implementation error), and against the ground \
+truth, the continuous surface at many samples a pixel under the filter's Gaussian (method error).
+
+Columns: milliseconds a pass and a frame (median, smallest, largest); fragments a pass; linear color, where white is 1 (largest \
+and root mean square) over the pixels that both pictures cover; PSNR in decibels below white; SSIM, 1 for equal pictures; \
+pixels that only one of them covers; normals in degrees; depth relative to itself. A star marks the Pareto front: no other \
+method is at least as good in milliseconds a frame and in the RMS of the method error and better in one. Two runs differ \
+in times, what is told of them, and the stars, in nothing else.
+
+With --zoom, a checkerboard tilted by 75 degrees is drawn from many distances in place of a scene, by each filter, against the \
+ground truth.";
+
 const RENDER_EXAMPLES: &str = "Examples:
   surfel render
   surfel render igea.ply -o igea.png --size 1920x1080
@@ -63,6 +83,12 @@ A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\"
 const REFERENCE_EXAMPLES: &str = "Examples:
   surfel reference igea.ply -o igea.png --size 256x256
   surfel reference igea.ply --size 256x256 --dump oracle     to compare with: surfel render ... --dump buffers";
+
+const COMPARE_EXAMPLES: &str = "Examples:
+  surfel compare igea.ply --quick                         each option by itself
+  surfel compare igea.ply --json all.json --plot all.svg  every combination
+  surfel compare --filter adjust --rasterizer perspective,raycast --frames 50
+  surfel compare --zoom --plot zoom.svg                   the filters over distance";
 
 const BENCH_EXAMPLES: &str = "Examples:
   surfel bench floor                      the built-in model

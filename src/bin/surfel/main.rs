@@ -5,6 +5,7 @@ mod arguments;
 mod bench;
 mod cache;
 mod camera;
+mod compare;
 mod console;
 mod explain;
 mod info;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
     let done = match &arguments.command {
         Command::Render(arguments) => render::run(arguments),
         Command::Reference(arguments) => reference::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };

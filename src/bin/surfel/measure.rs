@@ -61,7 +61,8 @@ pub fn frame_times(
     Ok((FrameTimes::of(&names, WARM_UP_FRAMES, &samples, &counts), transient_bytes))
 }
 
-fn sample(frame: &Frame) -> FrameSample {
+/// The times of one frame.
+pub fn sample(frame: &Frame) -> FrameSample {
     let ms = |secs: f64| 1e3 * secs;
     let (passes, span_secs) = match &frame.profile {
         Some(profile) => (profile.passes.as_slice(), profile.span_secs),

@@ -32,29 +32,44 @@ pub const DUMPED: [&str; 5] = ["weight.exr", "albedo.exr", "normal.exr", "depth.
 pub fn check(arguments: &PictureArguments, timings: Option<&Path>) -> Result<PictureFormat> {
     let format = picture_format(&arguments.output)?;
     let files: Vec<&Path> = [Some(arguments.output.as_path()), timings].into_iter().flatten().collect();
-    for file in &files {
+    let inputs: Vec<&Path> = paths(&arguments.inputs).chain(arguments.camera.camera.as_deref()).collect();
+    check_places(&files, arguments.dump.as_deref(), &DUMPED, &inputs)?;
+    Ok(format)
+}
+
+/// Paths as they are passed on.
+pub fn paths(owned: &[PathBuf]) -> impl Iterator<Item = &Path> {
+    owned.iter().map(PathBuf::as_path)
+}
+
+/// Checks that `files`, and those of these names in `folder`, can be written, and that none of them is an input or
+/// written twice.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_places(files: &[&Path], folder: Option<&Path>, names: &[&str], inputs: &[&Path]) -> Result<()> {
+    for file in files {
         check_file(file)?;
     }
-    if let Some(folder) = &arguments.dump {
+    if let Some(folder) = folder {
         check_folder(folder)?;
     }
-    let inputs = arguments.inputs.iter().chain(&arguments.camera.camera);
-    let mut taken: Vec<PathBuf> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
-    let dumped = arguments.dump.iter().flat_map(|folder| DUMPED.map(|name| folder.join(name)));
-    let dumped: Vec<PathBuf> = dumped.collect();
-    for file in &dumped {
+    let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
+    let in_folder: Vec<PathBuf> =
+        folder.iter().flat_map(|folder| names.iter().map(|name| folder.join(name))).collect();
+    for file in &in_folder {
         if file.is_dir() {
             return Err(Error::file(file, "write", io::ErrorKind::IsADirectory.into()));
         }
     }
-    for file in files.into_iter().chain(dumped.iter().map(PathBuf::as_path)) {
+    for file in files.iter().copied().chain(paths(&in_folder)) {
         let place = place_of(file);
         if taken.contains(&place) {
             return Err(Error::option(file.display().to_string(), "is an input, or written twice"));
         }
         taken.push(place);
     }
-    Ok(format)
+    Ok(())
 }
 
 fn picture_format(path: &Path) -> Result<PictureFormat> {

@@ -121,10 +121,13 @@ pub struct StyleArguments {
     pub background: Background,
 }
 
-const ON_OFF: &[(&str, bool)] = &[("off", false), ("on", true)];
-const BACKFACES: &[(&str, Backfaces)] =
+/// The values of switches.
+pub const ON_OFF: &[(&str, bool)] = &[("off", false), ("on", true)];
+/// The values of `--backfaces`.
+pub const BACKFACES: &[(&str, Backfaces)] =
     &[("auto", Backfaces::Auto), ("flip", Backfaces::Flip), ("cull", Backfaces::Cull)];
-const SHADINGS: &[(&str, Shading)] = &[
+/// The values of `--shading`.
+pub const SHADINGS: &[(&str, Shading)] = &[
     ("phong", Shading::Phong),
     ("lambert", Shading::Lambert),
     ("normals", Shading::Normals),

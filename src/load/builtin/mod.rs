@@ -1,6 +1,9 @@
-//! The built-in model: a picture without any file.
+//! The built-in models: pictures without any file.
 
+mod checkerboard;
 mod relief;
+
+pub use checkerboard::{CHECKERBOARD_FIELD, CHECKERBOARD_RADIUS, checkerboard};
 
 use std::{num::NonZero, thread};
 

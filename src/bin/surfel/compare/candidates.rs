@@ -1,0 +1,54 @@
+//! Which methods there are for a scene on a device, and why not the others.
+
+use std::collections::BTreeMap;
+
+use surfel::{
+    Error, Result,
+    renderer::Renderer,
+    report::compare::{Method, Skipped},
+    scene::{Scene, Settings, Shapes},
+};
+
+/// The methods that exist, and those that don't with the reason.
+pub fn split(
+    methods: Vec<Method>,
+    base: &Settings,
+    scene: &Scene,
+    renderer: &Renderer,
+) -> (Vec<Method>, Vec<Skipped>) {
+    let (mut left, mut skipped) = (Vec::new(), Vec::new());
+    for method in methods {
+        match check(&method.settings(base), scene, renderer) {
+            Ok(()) => left.push(method),
+            Err(error) => skipped.push(Skipped { method: method.names(), reason: error.to_string() }),
+        }
+    }
+    (left, skipped)
+}
+
+fn check(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Result<()> {
+    renderer.check_settings(settings)?;
+    scene.objects.iter().try_for_each(|object| {
+        settings.check_object(&object.name, matches!(object.splats.shapes, Shapes::Ellipses { .. }))
+    })
+}
+
+/// Refuses to compare nothing.
+///
+/// # Errors
+/// The first reason why a method was left out, where none is left.
+pub fn some_left(left: usize, skipped: &[Skipped]) -> Result<()> {
+    match (left, skipped.first()) {
+        (0, Some(first)) => Err(Error::option("compare", format!("no method is left; {}", first.reason))),
+        (0, None) => Err(Error::option("compare", "no method is left")),
+        _ => Ok(()),
+    }
+}
+
+/// The options that do not say which method it is.
+pub fn common_options(mut options: BTreeMap<&'static str, String>) -> BTreeMap<&'static str, String> {
+    for option in ["rasterizer", "filter", "filter-weight", "accumulate", "kernel-eval", "early-depth"] {
+        options.remove(option);
+    }
+    options
+}

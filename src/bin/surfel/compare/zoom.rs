@@ -1,0 +1,164 @@
+//! `surfel compare --zoom`: the filters on a checkerboard over distance, against the ground truth.
+
+use glam::DVec3;
+use surfel::{
+    Progress as _, Result,
+    graph::execute::Profile,
+    load::builtin::{CHECKERBOARD_FIELD, CHECKERBOARD_RADIUS, checkerboard},
+    renderer::{Headless, Wanted},
+    report::{
+        compare::{Method, errors},
+        settings_as_options,
+        zoom::{Board, FilterNames, TILT_DEG, ZoomFigures, ZoomReport, ZoomStep, zoom_path},
+    },
+    save,
+    scene::{Camera, Scene, Settings},
+};
+
+use super::{BACKGROUND, CompareArguments, Stage, candidates, references, surface};
+use crate::{
+    console::{self, Bars},
+    json::to_json,
+    reports::device_report,
+};
+
+/// Turns the board about its normal and shifts it, in degrees and spacings, so that no row of splats coincides with a row
+/// of pixels.
+const TURN_DEG: f64 = 20.0;
+const SHIFT: DVec3 = DVec3::new(0.31, 0.17, 0.0);
+
+/// Compares all filters at all distances.
+///
+/// # Errors
+/// Whatever goes wrong; a filter that can't be drawn has no figures.
+pub fn run(mut headless: Headless, arguments: &CompareArguments, base: &Settings) -> Result<()> {
+    let side = arguments.zoom_splats as usize;
+    let scene = Scene { objects: vec![checkerboard(side)] };
+    let (methods, skipped) =
+        candidates::split(arguments.selection().product(), base, &scene, &headless.renderer);
+    candidates::some_left(methods.len(), &skipped)?;
+    let bars = Bars::new();
+    let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
+    let mut steps = Vec::new();
+    let path = zoom_path(arguments.zoom_steps);
+    for (number, pixels_per_splat) in path.iter().copied().enumerate() {
+        let camera = camera(pixels_per_splat, base.size_px);
+        let stage =
+            Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars: &bars };
+        let task = format!("ground truth {} of {}", number + 1, path.len());
+        let step = step(&mut headless, &stage, &methods, pixels_per_splat, &task);
+        bars.clear();
+        steps.push(step?);
+    }
+    let names = |method: &Method| {
+        let names = method.names();
+        FilterNames { filter: names.filter, filter_weight: names.filter_weight }
+    };
+    let mut report = ZoomReport {
+        surfel: env!("CARGO_PKG_VERSION").to_owned(),
+        device: device_report(headless.device().facts()),
+        settings: zoom_options(base, &methods[0]),
+        size_px: base.size_px,
+        samples_per_side: arguments.samples,
+        board: Board {
+            splats_per_side: side,
+            splats_per_field: CHECKERBOARD_FIELD,
+            radius: CHECKERBOARD_RADIUS,
+            tilt_deg: TILT_DEG,
+        },
+        filters: methods.iter().map(names).collect(),
+        steps,
+        claims: Vec::new(),
+    };
+    report.claims = report.judge();
+    console::print(&report.to_string())?;
+    if let Some(path) = &arguments.json {
+        save::text(path, &to_json(&report)?)?;
+    }
+    if let Some(path) = &arguments.plot {
+        save::text(path, &report.plot_svg()?)?;
+    }
+    let _ = headless.renderer.shaders.save_cache();
+    Ok(())
+}
+
+/// Everything but the filter.
+fn zoom_options(base: &Settings, method: &Method) -> std::collections::BTreeMap<&'static str, String> {
+    let mut options = settings_as_options(&method.settings(base));
+    options.remove("filter");
+    options.remove("filter-weight");
+    options
+}
+
+/// Looks at the board's middle, tilted, from where its splats are so far apart in the middle of the picture.
+fn camera(pixels_per_splat: f64, size_px: [u32; 2]) -> Camera {
+    let fov_y_rad = Camera::DEFAULT_FOV_Y_RAD;
+    let mut camera = Camera { eye: DVec3::Z, target: SHIFT, up: DVec3::Z, fov_y_rad, near: None };
+    let distance = camera.focal_px(size_px[1]) / pixels_per_splat;
+    let (sin_turn, cos_turn) = TURN_DEG.to_radians().sin_cos();
+    let (sin_tilt, cos_tilt) = TILT_DEG.to_radians().sin_cos();
+    camera.eye = SHIFT + distance * DVec3::new(-sin_tilt * sin_turn, -sin_tilt * cos_turn, cos_tilt);
+    camera
+}
+
+fn step(
+    headless: &mut Headless,
+    stage: &Stage<'_>,
+    methods: &[Method],
+    pixels_per_splat: f64,
+    task: &str,
+) -> Result<ZoomStep> {
+    let Stage { arguments, scene, camera, base, bars, .. } = *stage;
+    let truth = references::truth(scene, camera, base, arguments.samples, task, bars)?;
+    let mut figures = Vec::new();
+    for method in methods {
+        let mut drawn = || -> Result<ZoomFigures> {
+            let drawn = surface(headless, stage, method)?;
+            let fragments = fragments(headless, stage, method)?;
+            Ok(ZoomFigures { fragments, error: errors(&drawn, &truth, &[], BACKGROUND) })
+        };
+        figures.push(match drawn() {
+            Ok(figures) => Some(figures),
+            Err(error) => {
+                bars.note(&format!("{} at {pixels_per_splat:.3} px a splat: {error}", method.names().line()));
+                None
+            }
+        });
+    }
+    Ok(ZoomStep { pixels_per_splat, figures })
+}
+
+/// Fragments of the accumulation.
+fn fragments(headless: &mut Headless, stage: &Stage<'_>, method: &Method) -> Result<Option<u64>> {
+    let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+    let settings = method.settings(stage.base);
+    let profile =
+        headless.render(stage.prepared, stage.camera, &settings, wanted)?.profile.unwrap_or_default();
+    let pass = profile.passes.iter().find(|pass| pass.name == "accumulate");
+    Ok(pass.and_then(|pass| pass.counts).map(|counts| counts.fragments))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbors_in_the_middle_are_as_far_apart_as_the_step_says() {
+        for px in [0.05, 1.0, 50.0] {
+            let camera = camera(px, [256, 256]);
+            camera.validate().unwrap();
+            let view = camera.view_from_world();
+            let project = |world: DVec3| {
+                let p = view.point(world);
+                camera.focal_px(256) * p.truncate() / p.z
+            };
+            let (sin, cos) = TURN_DEG.to_radians().sin_cos();
+            // Small steps: across the view, then along it, which the tilt foreshortens.
+            let across = project(SHIFT + 1e-6 * DVec3::new(cos, -sin, 0.0)) / 1e-6;
+            let along = project(SHIFT + 1e-6 * DVec3::new(sin, cos, 0.0)) / 1e-6;
+            assert!((across.x.abs() / px - 1.0).abs() < 1e-4 && across.y.abs() < 1e-4 * px, "{across}");
+            let foreshortened = px * TILT_DEG.to_radians().cos();
+            assert!((along.y.abs() / foreshortened - 1.0).abs() < 1e-4, "{along}");
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Speed against error as a plot.
+
+use plotters::prelude::*;
+
+use super::{CompareReport, MethodRow};
+use crate::{
+    error::Result,
+    report::plot::{FONT, SIZE_PX, color, failed, logarithmic, mark},
+    scene::{Filter, Rasterizer},
+};
+
+/// A method's place in the plot.
+struct Dot<'a> {
+    row: &'a MethodRow,
+    place: (f64, f64),
+}
+
+impl CompareReport {
+    /// Milliseconds of a frame against the RMS of the method error's color, as SVG; both axes are logarithmic, the Pareto
+    /// front is a line with the names of its methods. Methods without one of the figures are not in it.
+    ///
+    /// # Errors
+    /// None that an input could lead to.
+    pub fn plot_svg(&self) -> Result<String> {
+        let mut svg = String::new();
+        self.draw(SVGBackend::with_string(&mut svg, SIZE_PX)).map_err(failed)?;
+        Ok(svg)
+    }
+
+    fn draw<B: DrawingBackend>(
+        &self,
+        backend: B,
+    ) -> std::result::Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        let dots: Vec<Dot<'_>> = self.methods.iter().filter_map(Dot::of).collect();
+        let (ms, ms_marks) = logarithmic(dots.iter().map(|dot| dot.place.0));
+        let (rms, rms_marks) = logarithmic(dots.iter().map(|dot| dot.place.1));
+        let root = backend.into_drawing_area();
+        root.fill(&WHITE)?;
+        let [[width, height], [error_width, error_height]] = [self.time_size_px, self.error_size_px];
+        let caption = format!(
+            "{}: {} splats, times at {width}x{height}, errors at {error_width}x{error_height}",
+            self.device.name, self.splats
+        );
+        let mut chart = ChartBuilder::on(&root)
+            .caption(caption, (FONT, 20))
+            .margin(16)
+            .x_label_area_size(48)
+            .y_label_area_size(84)
+            .build_cartesian_2d(
+                ms.log_scale().with_key_points(ms_marks),
+                rms.log_scale().with_key_points(rms_marks),
+            )?;
+        chart
+            .configure_mesh()
+            .x_desc("milliseconds a frame (median)")
+            .y_desc("RMS of linear color against the ground truth")
+            .x_label_formatter(&|value| mark(*value))
+            .y_label_formatter(&|value| mark(*value))
+            .label_style((FONT, 14))
+            .draw()?;
+
+        let mut front: Vec<&Dot<'_>> = dots.iter().filter(|dot| dot.row.pareto).collect();
+        front.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
+        chart.draw_series(LineSeries::new(front.iter().map(|dot| dot.place), BLACK.stroke_width(1)))?;
+        for (i, (name, _)) in Filter::NAMES.iter().enumerate() {
+            let own = dots.iter().filter(|dot| dot.row.method.filter == *name);
+            // 32 bits are filled.
+            let circle = |dot: &Dot<'_>| {
+                let filled = dot.row.method.accumulate == "f32";
+                let style = ShapeStyle { color: color(i).to_rgba(), filled, stroke_width: 1 };
+                Circle::new(dot.place, 4, style)
+            };
+            chart
+                .draw_series(own.map(circle))?
+                .label(*name)
+                .legend(move |(x, y)| Circle::new((x + 10, y), 4, color(i).filled()));
+        }
+        chart.draw_series(dots.iter().map(|dot| {
+            let code = code(dot.row.method.rasterizer).to_owned();
+            EmptyElement::at(dot.place)
+                + Text::new(code, (5, 3), (FONT, 10).into_font().color(&BLACK.mix(0.6)))
+        }))?;
+        chart.draw_series(front.iter().map(|dot| {
+            EmptyElement::at(dot.place) + Text::new(dot.row.method.line(), (8, -16), (FONT, 13))
+        }))?;
+        for (name, _) in Rasterizer::NAMES {
+            let letters = code(name);
+            chart
+                .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
+                .label(*name)
+                .legend(move |(x, y)| Text::new(letters, (x + 4, y - 6), (FONT, 12)));
+        }
+        for (label, filled) in [("16-bit sums", false), ("32-bit sums", true)] {
+            chart.draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?.label(label).legend(
+                move |(x, y)| {
+                    let style = ShapeStyle { color: BLACK.to_rgba(), filled, stroke_width: 1 };
+                    Circle::new((x + 10, y), 4, style)
+                },
+            );
+        }
+        chart
+            .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
+            .label("Pareto front")
+            .legend(|(x, y)| PathElement::new([(x, y), (x + 20, y)], BLACK));
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE.mix(0.85))
+            .border_style(BLACK.mix(0.3))
+            .label_font((FONT, 13))
+            .draw()?;
+        root.present()
+    }
+}
+
+impl<'a> Dot<'a> {
+    fn of(row: &'a MethodRow) -> Option<Self> {
+        let [ms, rms] = row.speed_and_error()?;
+        let on_axes = ms > 0.0 && rms > 0.0 && ms.is_finite() && rms.is_finite();
+        on_axes.then_some(Self { row, place: (ms, rms) })
+    }
+}
+
+/// A rasterizer in two letters at most.
+fn code(rasterizer: &str) -> &'static str {
+    let found = Rasterizer::NAMES.iter().find(|(name, _)| *name == rasterizer).map(|(_, value)| *value);
+    match found.unwrap_or_default() {
+        Rasterizer::Perspective => "p",
+        Rasterizer::PerspectivePaper => "pp",
+        Rasterizer::Raycast => "r",
+        Rasterizer::RaycastApproximate => "ra",
+        Rasterizer::AffineCenter => "ac",
+        Rasterizer::AffineContour => "ao",
+        Rasterizer::Triangle => "t",
+        Rasterizer::Quad => "q",
+    }
+}

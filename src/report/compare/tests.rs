@@ -1,0 +1,138 @@
+//! Table, JSON and plot of a report that is made by hand.
+
+use super::*;
+use crate::{
+    report::FrameSample,
+    scene::{Accumulate, Camera, Filter, FilterWeight, KernelEval, Rasterizer, Settings},
+};
+
+fn method(rasterizer: Rasterizer, filter: Filter) -> MethodNames {
+    let (accumulate, kernel_eval) = (Accumulate::F32, KernelEval::Analytic);
+    let filter_weight = FilterWeight::Unit;
+    Method { rasterizer, filter, filter_weight, accumulate, kernel_eval, early_depth: false }.names()
+}
+
+fn figures(rms: f64) -> ErrorFigures {
+    let deviation = Some(Deviation { max: 4.0 * rms, rms });
+    ErrorFigures {
+        compared_px: 1000,
+        left_out_px: 10,
+        left_out_share: 0.01,
+        coverage_px: 3,
+        color: deviation,
+        psnr_db: (rms > 0.0).then(|| -20.0 * rms.log10()),
+        ssim: Some(1.0 - rms),
+        normal_deg: deviation,
+        depth: deviation,
+    }
+}
+
+fn times(ms: f64) -> FrameTimes {
+    let sample = |ms: f64| FrameSample {
+        passes_ms: vec![Some(ms), Some(2.0 * ms), Some(0.5), Some(0.25)],
+        span_ms: None,
+        wall_ms: 4.0 * ms,
+    };
+    let names = ["visibility", "accumulate", "finalize", "list"].map(str::to_owned);
+    let counts = [Some([100, 2000]), Some([100, 3000]), Some([3, 4096]), None];
+    FrameTimes::of(&names, 2, &[sample(ms), sample(2.0 * ms)], &counts)
+}
+
+fn report() -> CompareReport {
+    let row = |rasterizer, filter, ms, rms| {
+        MethodRow::new(method(rasterizer, filter), times(ms), figures(1e-5), figures(rms))
+    };
+    let skip = |rasterizer, reason: &str| Skipped {
+        method: method(rasterizer, Filter::Ewa),
+        reason: reason.to_owned(),
+    };
+    let mut report = CompareReport {
+        surfel: "0.0.0".to_owned(),
+        device: DeviceReport {
+            name: "a device".to_owned(),
+            driver: "its driver".to_owned(),
+            api_version: "1.3.0".to_owned(),
+            timestamp_period_ns: 1.0,
+            timestamp_valid_bits: 64,
+        },
+        settings: crate::report::settings_as_options(&Settings::default()),
+        camera: (&Camera::fit(&crate::scene::Ball { center: glam::DVec3::ZERO, radius: 1.0 }, [64; 2], 0.75))
+            .into(),
+        inputs: Vec::new(),
+        splats: 100,
+        error_size_px: [256, 256],
+        time_size_px: [1024, 1024],
+        samples_per_side: 16,
+        timed_frames: 2,
+        methods: vec![
+            row(Rasterizer::Perspective, Filter::Adjust, 10.0, 0.01),
+            row(Rasterizer::Perspective, Filter::None, 9.0, 0.02),
+            row(Rasterizer::Quad, Filter::Adjust, 20.0, 0.01),
+        ],
+        skipped: vec![
+            skip(Rasterizer::Raycast, "no map"),
+            skip(Rasterizer::Triangle, "no map"),
+            skip(Rasterizer::Quad, "lost"),
+        ],
+        notes: vec!["a note".to_owned()],
+    };
+    report.mark_front();
+    report
+}
+
+#[test]
+fn the_table_is_the_same_to_the_letter() {
+    let table = report().to_string();
+    // Where a change is wanted, the new text is in the failure.
+    assert_eq!(table, include_str!("tests/table.txt"), "\n{table}");
+}
+
+#[test]
+fn what_was_not_measured_is_a_dash() {
+    let mut report = report();
+    report.methods.truncate(1);
+    let row = &mut report.methods[0];
+    row.frame_ms = None;
+    row.passes.iter_mut().for_each(|pass| (pass.ms, pass.fragments) = (None, None));
+    row.method_error = ErrorFigures { color: None, psnr_db: None, ssim: None, ..row.method_error };
+    report.mark_front();
+    assert!(!report.methods[0].pareto);
+    let table = report.to_string();
+    let dashes = |line: &str| line.split_whitespace().filter(|word| *word == "-").count();
+    let rows: Vec<usize> =
+        table.lines().filter(|line| line.starts_with("  perspective")).map(dashes).collect();
+    assert_eq!(rows, [10, 4], "{table}");
+    assert!(report.plot_svg().unwrap().contains("Pareto front"));
+}
+
+#[test]
+fn json_has_names_units_and_null_for_what_is_not_counted() {
+    let json = serde_json::to_value(report()).unwrap();
+    let first = &json["methods"][0];
+    assert_eq!((&first["rasterizer"], &first["early_depth"]), (&"perspective".into(), &"off".into()));
+    assert_eq!(first["frame_ms"]["min"], 30.75);
+    assert!(first["passes"][0]["instructions"].is_null() && first["passes"][3]["fragments"].is_null());
+    assert_eq!(first["passes"][1]["fragments"], 3000);
+    assert_eq!((&first["pareto"], &json["methods"][2]["pareto"]), (&true.into(), &false.into()));
+    assert_eq!(first["method_error"]["color"]["rms"], 0.01);
+    assert_eq!(json["skipped"][2]["reason"], "lost");
+}
+
+#[test]
+fn the_plot_names_the_front_its_axes_and_each_filter() {
+    let svg = report().plot_svg().unwrap();
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    for text in [
+        "perspective, adjust, f32, analytic",
+        "perspective, none, f32",
+        "milliseconds",
+        "RMS",
+        "ewa",
+        "raycast",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    // Not on the front, so without its name.
+    assert!(!svg.contains("quad, adjust"));
+    assert_eq!(svg, report().plot_svg().unwrap());
+}

@@ -1,0 +1,129 @@
+//! Filters over distance: a checkerboard in perspective from far to near, against the ground truth.
+
+mod claims;
+mod plot;
+mod table;
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+pub use claims::Claim;
+
+use super::{DeviceReport, compare::ErrorFigures};
+
+/// The board is tilted by that many degrees against the view: so much that a splat can be larger than the filter along
+/// one axis and smaller along the other.
+pub const TILT_DEG: f64 = 75.0;
+
+/// How far the path reaches: projected spacing of the splats in the middle of the picture, in pixels.
+pub const PIXELS_PER_SPLAT: [f64; 2] = [0.05, 50.0];
+
+/// The radius of the low-pass filter in pixels, √2.
+const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
+
+/// All filters at all distances.
+#[derive(Clone, Debug, Serialize)]
+pub struct ZoomReport {
+    /// The version of surfel.
+    pub surfel: String,
+    /// What it ran on.
+    pub device: DeviceReport,
+    /// What all have in common, by the names of the options.
+    pub settings: BTreeMap<&'static str, String>,
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// Samples along a pixel's side in the ground truth.
+    pub samples_per_side: u32,
+    /// The board.
+    pub board: Board,
+    /// The filters that are compared.
+    pub filters: Vec<FilterNames>,
+    /// From far to near.
+    pub steps: Vec<ZoomStep>,
+    /// What the figures say about `adjust`.
+    pub claims: Vec<Claim>,
+}
+
+/// What is looked at.
+#[derive(Clone, Debug, Serialize)]
+pub struct Board {
+    /// Splats along its side.
+    pub splats_per_side: usize,
+    /// Splats along the side of a field.
+    pub splats_per_field: usize,
+    /// A splat's radius in units of the spacing.
+    pub radius: f64,
+    /// Degrees between its normal and the view.
+    pub tilt_deg: f64,
+}
+
+/// A filter and its weight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct FilterNames {
+    /// `--filter`.
+    pub filter: &'static str,
+    /// `--filter-weight`.
+    pub filter_weight: &'static str,
+}
+
+/// One distance.
+#[derive(Clone, Debug, Serialize)]
+pub struct ZoomStep {
+    /// The projected spacing of the splats across the view in the middle of the picture, in pixels.
+    pub pixels_per_splat: f64,
+    /// One a filter, in their order; `None` where it could not be drawn.
+    pub figures: Vec<Option<ZoomFigures>>,
+}
+
+/// One filter at one distance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ZoomFigures {
+    /// Fragments of the accumulation in one frame; `None` where not counted.
+    pub fragments: Option<u64>,
+    /// Against the ground truth.
+    pub error: ErrorFigures,
+}
+
+impl ZoomStep {
+    /// Whether splats in the middle of the picture are larger than the filter along one axis and smaller along the other.
+    pub fn is_mixed(&self, board: &Board) -> bool {
+        let major_px = self.pixels_per_splat * board.radius;
+        let minor_px = major_px * board.tilt_deg.to_radians().cos();
+        minor_px < FILTER_RADIUS_PX && FILTER_RADIUS_PX < major_px
+    }
+
+    /// The root mean square of a filter's error.
+    fn rms(&self, filter: usize) -> Option<f64> {
+        Some(self.figures.get(filter)?.as_ref()?.error.color?.rms)
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "counts of fragments are far below 2⁵³")]
+    fn fragments(&self, filter: usize) -> Option<f64> {
+        Some(self.figures.get(filter)?.as_ref()?.fragments? as f64)
+    }
+}
+
+impl FilterNames {
+    /// The filter, with its weight where that is not the default.
+    pub fn line(&self) -> String {
+        match self.filter_weight {
+            "unit" => self.filter.to_owned(),
+            weight => format!("{} {weight}", self.filter),
+        }
+    }
+}
+
+/// `steps` distances in equal ratios, from far to near; in pixels a splat.
+pub fn zoom_path(steps: u32) -> Vec<f64> {
+    let [first, last] = PIXELS_PER_SPLAT;
+    let at = |i: u32| match i + 1 == steps {
+        // Without rounding.
+        true => last,
+        false => first * (last / first).powf(f64::from(i) / f64::from(steps - 1)),
+    };
+    (0..steps).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests;
