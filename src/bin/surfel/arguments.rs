@@ -7,6 +7,7 @@ use surfel::scene::Accumulate;
 
 use crate::{
     compare::CompareArguments,
+    figure::FigureArguments,
     parse,
     picture_arguments::{PictureArguments, choice},
 };
@@ -41,6 +42,9 @@ pub enum Command {
     #[command(long_about = format!("Put methods side by side.\n\n{COMPARE_HELP}\n\n{SCENE_HELP}"))]
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(Box<CompareArguments>),
+    /// Draw the papers' figures as labeled pictures
+    #[command(long_about = FIGURE_HELP, after_help = FIGURE_EXAMPLES)]
+    Figure(FigureArguments),
     /// Measure: tables of what things cost
     #[command(after_help = BENCH_EXAMPLES)]
     Bench(BenchArguments),
@@ -89,6 +93,18 @@ const COMPARE_EXAMPLES: &str = "Examples:
   surfel compare igea.ply --json all.json --plot all.svg  every combination
   surfel compare --filter adjust --rasterizer perspective,raycast --frames 50
   surfel compare --zoom --plot zoom.svg                   the filters over distance";
+
+const FIGURE_HELP: &str = "\
+Draw a figure of the papers as a labeled picture: comparisons as PNG, curves as SVG. G is Guennebaud, Barthe, Paulin, \
+\"Splat/Mesh Blending, Perspective Rasterization and Transparency for Point-Based Rendering\", 2006; P is Pajarola, Sainz, \
+Guidotti, \"Object-Space Blending and Splatting of Points\", 2003. Everything shown was drawn by the device. Without a name, \
+the figures are listed.";
+
+const FIGURE_EXAMPLES: &str = "Examples:
+  surfel figure                            what there is
+  surfel figure g3                         g3.png in the current folder
+  surfel figure p10 -o kernels.svg
+  surfel figure p19 --model igea.ply --size 600x600";
 
 const BENCH_EXAMPLES: &str = "Examples:
   surfel bench floor                      the built-in model

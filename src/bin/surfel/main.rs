@@ -8,6 +8,7 @@ mod camera;
 mod compare;
 mod console;
 mod explain;
+mod figure;
 mod info;
 mod json;
 mod measure;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(arguments),
         Command::Reference(arguments) => reference::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Figure(arguments) => figure::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
