@@ -7,6 +7,8 @@
 mod compare;
 #[path = "cli/faults.rs"]
 mod faults;
+#[path = "cli/figure.rs"]
+mod figure;
 #[path = "cli/files.rs"]
 mod files;
 #[path = "cli/program.rs"]
@@ -248,6 +250,7 @@ fn the_manual_is_complete_and_plain() {
         &["render", "--help"],
         &["reference", "--help"],
         &["compare", "--help"],
+        &["figure", "--help"],
         &["info", "--help"],
     ] {
         let run = surfel(&folder, words);

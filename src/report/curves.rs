@@ -69,6 +69,7 @@ impl CurvePlot {
             .configure_mesh()
             .x_desc(self.x_label.as_str())
             .y_desc(self.y_label.as_str())
+            .max_light_lines(0)
             .label_style((FONT, 14))
             .draw()?;
         for (i, curve) in self.curves.iter().enumerate() {

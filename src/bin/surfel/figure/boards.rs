@@ -4,7 +4,7 @@ use glam::DVec3;
 use surfel::{
     Result,
     load::builtin::{CHECKERBOARD_FIELD, CHECKERBOARD_RADIUS, checkerboard},
-    scene::{Accumulate, Camera, Filter, Scene, Settings, Shading},
+    scene::{Accumulate, Camera, Epsilon, Filter, Scene, Settings, Shading},
 };
 
 use super::{easel::Easel, sheet::Panel};
@@ -69,7 +69,21 @@ impl Board {
     }
 }
 
-/// The board's own colors, sums in 32 bits, a filter.
+/// The board's own colors, sums in 32 bits, a filter, a background that no field has.
+///
+/// ε is larger than the board. With a multiple of the radius, a pixel toward the horizon would take the nearest of the
+/// many points that it sees, and whatever the filter, the board would alias: filters are compared, not visibility.
 pub fn unlit(filter: Filter) -> Settings {
-    Settings { filter, shading: Shading::Albedo, accumulate: Accumulate::F32, ..Settings::default() }
+    Settings {
+        filter,
+        shading: Shading::Albedo,
+        accumulate: Accumulate::F32,
+        epsilon: Epsilon::Length(1e4),
+        background: Some([0.62, 0.80, 1.0]),
+        ..Settings::default()
+    }
 }
+
+/// What all of [`unlit`] have in common, for a note.
+pub const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; the \
+    background is blue.";

@@ -101,12 +101,8 @@ fn panel(drawn: &Footprint, ewa: &Footprint, window_px: u32, size_px: [u32; 2]) 
             let neighbors =
                 [[x + 1, y], [x, y + 1]].map(|[x, y]| exact[fine(x.min(size - 1), y.min(size - 1))]);
             let crossed = |level: &f32| neighbors.iter().any(|there| (here < *level) != (*there < *level));
-            let edge = x == 0 || y == 0 || x + 1 == size || y + 1 == size;
-            raster.pixels[y * size + x] = match (edge, CONTOURS.iter().any(crossed)) {
-                (true, _) => [160; 3],
-                (false, true) => CONTOUR,
-                (false, false) => [gray; 3],
-            };
+            let contour = CONTOURS.iter().any(crossed);
+            raster.pixels[y * size + x] = if contour { CONTOUR } else { [gray; 3] };
         }
     }
     for i in 0..window_px * window_px {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use surfel::{Result, scene::Filter};
 
 use super::{
-    boards::{Board, Way, unlit},
+    boards::{Board, UNLIT_TEXT, Way, unlit},
     easel::Easel,
     sheet::Sheet,
 };
@@ -19,9 +19,9 @@ const ENLARGE: u32 = 3;
 pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
     let board = Board {
         side: 600,
-        eye: DVec3::new(0.3, -150.0, 3.0),
+        eye: DVec3::new(0.3, -150.0, 5.0),
         turn_deg: 20.0,
-        pitch_deg: 1.7,
+        pitch_deg: 2.9,
         fov_y_deg: 3.0,
     };
     let way =
@@ -39,6 +39,7 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
         notes: vec![
             format!("{} Each pixel is {ENLARGE}x{ENLARGE} here.", board.text()),
             "Gaussian kernel, sigma 0.5 radii; low-pass radius sqrt 2 px.".to_owned(),
+            UNLIT_TEXT.to_owned(),
         ],
     })
 }

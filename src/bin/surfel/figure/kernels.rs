@@ -38,8 +38,10 @@ impl PsiE {
     }
 }
 
-/// Pixels from the middle of the disk to its rim: as many points has a curve.
-const RADIUS_PX: u16 = 750;
+/// Points of a curve after the one at r = 0, a pixel each. The disk's rim is half a pixel beyond the last: whether a pixel
+/// exactly on the rim is covered is a matter of rounding.
+const POINTS: u16 = 250;
+const RADIUS_PX: f64 = POINTS as f64 + 0.5;
 
 /// One disk seen straight on, so large that its weights along a row of pixels are the kernel's curve.
 pub struct Bench {
@@ -61,7 +63,7 @@ impl Bench {
         let object = Object { name: "disk".to_owned(), splats, closed: false };
         let distance = 10.0;
         // In a picture one pixel high.
-        let fov_y_rad = 2.0 * (0.5 / (f64::from(RADIUS_PX) * distance)).atan();
+        let fov_y_rad = 2.0 * (0.5 / (RADIUS_PX * distance)).atan();
         let camera =
             Camera { eye: DVec3::Z * distance, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad, near: None };
         Ok(Self { scene: easel.prepare(&Scene { objects: vec![object] })?, camera })
@@ -74,16 +76,15 @@ impl Bench {
     pub fn curve(&self, easel: &mut Easel<'_>, name: String, kernel: Kernel) -> Result<Curve> {
         let settings = Settings {
             // The middle pixel's center is the disk's.
-            size_px: [2 * u32::from(RADIUS_PX) + 1, 1],
+            size_px: [2 * u32::from(POINTS) + 1, 1],
             filter: Filter::None,
             accumulate: Accumulate::F32,
             kernel,
             ..Settings::default()
         };
         let weights = easel.weights(&self.scene, &self.camera, &settings)?;
-        let right = weights.iter().skip(RADIUS_PX.into());
-        let point =
-            |(i, weight): (u16, &f32)| (SUPPORT * f64::from(i) / f64::from(RADIUS_PX), f64::from(*weight));
-        Ok(Curve { name, points: (0..=RADIUS_PX).zip(right).map(point).collect() })
+        let right = weights.iter().skip(POINTS.into());
+        let point = |(i, weight): (u16, &f32)| (SUPPORT * f64::from(i) / RADIUS_PX, f64::from(*weight));
+        Ok(Curve { name, points: (0..=POINTS).zip(right).map(point).collect() })
     }
 }

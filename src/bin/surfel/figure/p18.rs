@@ -7,7 +7,7 @@ use surfel::{
 };
 
 use super::{
-    boards::{Board, Way, unlit},
+    boards::{Board, UNLIT_TEXT, Way, unlit},
     easel::Easel,
     kernels::PsiE,
     sheet::Sheet,
@@ -22,7 +22,7 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
         side: 512,
         eye: DVec3::new(0.3, -250.0, 14.0),
         turn_deg: 25.0,
-        pitch_deg: 22.0,
+        pitch_deg: 32.0,
         fov_y_deg: 40.0,
     };
     let way = |name, kernel: PsiE| Way {
@@ -49,6 +49,7 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
             "As in the paper, a textured triangle for each splat and no screen-space filter. Unlike there, every point \
              is drawn: no level of detail (the paper's tau is 0.02% of the window)."
                 .to_owned(),
+            UNLIT_TEXT.to_owned(),
         ],
     })
 }

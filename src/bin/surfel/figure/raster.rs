@@ -96,6 +96,18 @@ impl Raster {
         }
     }
 
+    /// Draws a line of one pixel around these, which stay as they are.
+    pub fn frame(&mut self, [left, top]: [u32; 2], [width, height]: [u32; 2], color: [u8; 3]) {
+        let size = self.size_px;
+        for y in top.saturating_sub(1)..(top + height + 1).min(size[1]) {
+            for x in left.saturating_sub(1)..(left + width + 1).min(size[0]) {
+                if !((left..left + width).contains(&x) && (top..top + height).contains(&y)) {
+                    self.pixels[y as usize * size[0] as usize + x as usize] = color;
+                }
+            }
+        }
+    }
+
     /// Writes a line of black text, its top left corner here.
     pub fn text(&mut self, text: &str, [left, top]: [u32; 2], style: TextStyle) {
         let style = MonoTextStyle::new(style.font(), Rgb888::BLACK);

@@ -30,8 +30,12 @@ pub struct Sheet {
 
 /// Around everything, and between panels.
 const MARGIN_PX: u32 = 16;
+/// Around each panel.
+const FRAME: [u8; 3] = [160; 3];
 /// Between a panel and its name.
 const GAP_PX: u32 = 4;
+/// Between a row of panels and the next.
+const ROW_GAP_PX: u32 = 10;
 /// Text needs some width, however small the panels are.
 const NARROWEST_PX: u32 = 480;
 
@@ -63,7 +67,7 @@ impl Sheet {
         let mut top = ink.paragraph(&self.title, [MARGIN_PX, MARGIN_PX], inner_px, TextStyle::Title) + GAP_PX;
         let [width, height] = self.panel_size_px();
         for (i, row) in self.panels.chunks(self.columns.max(1)).enumerate() {
-            top += GAP_PX;
+            top += ROW_GAP_PX;
             if let Some(heading) = self.headings.get(i) {
                 top = ink.paragraph(heading, [MARGIN_PX, top], inner_px, TextStyle::Heading) + GAP_PX;
             }
@@ -113,6 +117,7 @@ impl Ink {
     fn picture(&mut self, picture: &Raster, corner: [u32; 2]) {
         if let Some(raster) = &mut self.raster {
             raster.paste(picture, corner);
+            raster.frame(corner, picture.size_px, FRAME);
         }
     }
 }
