@@ -9,6 +9,8 @@ mod compare;
 mod convert;
 #[path = "cli/faults.rs"]
 mod faults;
+#[path = "cli/figure.rs"]
+mod figure;
 #[path = "cli/files.rs"]
 mod files;
 #[path = "cli/program.rs"]
@@ -245,7 +247,7 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    let subcommands = ["render", "reference", "compare", "convert", "bench", "info"];
+    let subcommands = ["render", "reference", "compare", "convert", "figure", "bench", "info"];
     let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
     for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);

@@ -5,6 +5,8 @@
 
 #[cfg(feature = "compare")]
 pub mod compare;
+#[cfg(feature = "compare")]
+pub mod curves;
 mod floor;
 mod frames;
 mod options;

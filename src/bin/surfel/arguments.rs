@@ -7,6 +7,7 @@ use surfel::scene::Accumulate;
 
 use crate::{
     compare::CompareArguments,
+    figure::FigureArguments,
     parse,
     picture_arguments::{PictureArguments, choice},
 };
@@ -45,6 +46,9 @@ pub enum Command {
     /// Write a model as a file of splats, at a mesh's vertices or anew over its area
     #[command(long_about = CONVERT_HELP, after_help = CONVERT_EXAMPLES)]
     Convert(ConvertArguments),
+    /// Draw the papers' figures as labeled pictures
+    #[command(long_about = FIGURE_HELP, after_help = FIGURE_EXAMPLES)]
+    Figure(FigureArguments),
     /// Measure: tables of what things cost
     #[command(after_help = BENCH_EXAMPLES)]
     Bench(BenchArguments),
@@ -108,6 +112,18 @@ const CONVERT_EXAMPLES: &str = "Examples:
   surfel convert igea.ply splats.ply                          a disk at each vertex
   surfel convert igea.ply igea-1m.ply --resample 1000000      a million disks, evenly spread
   surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7";
+
+const FIGURE_HELP: &str = "\
+Draw a figure of the papers as a labeled picture: comparisons as PNG, curves as SVG. G is Guennebaud, Barthe, Paulin, \
+\"Splat/Mesh Blending, Perspective Rasterization and Transparency for Point-Based Rendering\", 2006; P is Pajarola, Sainz, \
+Guidotti, \"Object-Space Blending and Splatting of Points\", 2003. Everything shown was drawn by the device. Without a name, \
+the figures are listed.";
+
+const FIGURE_EXAMPLES: &str = "Examples:
+  surfel figure                            what there is
+  surfel figure g3                         g3.png in the current folder
+  surfel figure p10 -o kernels.svg
+  surfel figure p19 --model igea.ply --size 600x600";
 
 const BENCH_EXAMPLES: &str = "Examples:
   surfel bench floor                      the built-in model

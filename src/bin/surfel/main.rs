@@ -9,6 +9,7 @@ mod compare;
 mod console;
 mod convert;
 mod explain;
+mod figure;
 mod info;
 mod json;
 mod measure;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Reference(arguments) => reference::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
+        Command::Figure(arguments) => figure::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };

@@ -46,7 +46,9 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
                 // Both splat passes must place a splat alike, to the last bit. Fragments say `precise` where they need it.
                 let optimized = match name.ends_with(".frag") {
                     true => optimized,
-                    false => exact::exact(&optimized).map_err(|e| format!("{}: error: {e}", path.display()))?,
+                    false => {
+                        exact::exact(&optimized).map_err(|e| format!("{}: error: {e}", path.display()))?
+                    }
                 };
                 // What a file shares with the host is the same in all of its permutations.
                 if number > 0 {

@@ -1,0 +1,154 @@
+//! The options of `surfel figure`, and what figures there are.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use surfel::{Error, Result};
+
+use crate::parse;
+
+/// Options of `surfel figure`.
+#[derive(Debug, Args)]
+pub struct FigureArguments {
+    /// Which figure [default: list them]
+    #[arg(value_name = "NAME")]
+    pub name: Option<Figure>,
+
+    /// The file: .png for g1, g3, g4, p18 and p19, .svg for p9 and p10 [default: the figure's name, in the current folder]
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub output: Option<PathBuf>,
+
+    /// Width and height in pixels: of each panel without its labels, or of the plot [default: the figure's own]
+    #[arg(long, value_name = "WxH", requires = "name", value_parser = parse::size)]
+    pub size: Option<[u32; 2]>,
+
+    /// The PLY or OBJ file that p19 shows [default: the built-in model with few splats]
+    #[arg(long, value_name = "FILE", requires = "name")]
+    pub model: Option<PathBuf>,
+
+    /// The device: its number or a part of its name, see `surfel info` [default: the best]
+    #[arg(long, value_name = "NAME|INDEX", requires = "name")]
+    pub device: Option<String>,
+
+    /// Have the Vulkan validation layer watch; any message makes the exit code 3
+    #[arg(long, requires = "name")]
+    pub validate: bool,
+}
+
+/// The figures of the papers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Figure {
+    /// G figure 1, the filters' footprints: the weight of one splat over the image, magnified, minified and both, without a
+    /// filter, under full EWA, under tangent adjustment, ours and the paper's, and under the maximum
+    G1,
+    /// G figure 3, a checkerboard of 600x600 points to the horizon: no filter, EWA, tangent adjustment, maximum
+    G3,
+    /// G figure 4, splats that are magnified across and minified along the view: maximum against tangent adjustment
+    G4,
+    /// P figure 9, Gaussian kernels for six widths, as curves
+    P9,
+    /// P figure 10, the kernels psi_E for six pairs of n and a, as curves
+    P10,
+    /// P figure 18, a checkerboard of 512x512 points with a round kernel and a more localized one
+    P18,
+    /// P figure 19, a model with a narrow kernel and with one that has a plateau
+    P19,
+}
+
+/// The sides that a panel or plot may have.
+const SIDES_PX: std::ops::RangeInclusive<u32> = 32..=4096;
+
+impl Figure {
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::G1 => "g1",
+            Self::G3 => "g3",
+            Self::G4 => "g4",
+            Self::P9 => "p9",
+            Self::P10 => "p10",
+            Self::P18 => "p18",
+            Self::P19 => "p19",
+        }
+    }
+
+    /// The ending of its file's name.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::P9 | Self::P10 => "svg",
+            _ => "png",
+        }
+    }
+
+    /// Width and height of a panel or plot where none are given.
+    fn default_size_px(self) -> [u32; 2] {
+        match self {
+            Self::G1 => [240, 240],
+            Self::G3 => [800, 240],
+            Self::G4 => [400, 300],
+            Self::P9 | Self::P10 => [900, 600],
+            Self::P18 => [512, 400],
+            Self::P19 => [512, 512],
+        }
+    }
+
+    /// Every figure with what it shows, a line each.
+    pub fn list() -> String {
+        let line = |figure: &Self| {
+            let about =
+                figure.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
+            format!("{:<5}{}\n", figure.name(), about.unwrap_or_default())
+        };
+        Self::value_variants().iter().map(line).collect()
+    }
+}
+
+impl FigureArguments {
+    /// Where the figure goes.
+    ///
+    /// # Errors
+    /// A name that does not say what the file will be.
+    pub fn output(&self, figure: Figure) -> Result<PathBuf> {
+        let (name, extension) = (figure.name(), figure.extension());
+        let Some(path) = &self.output else { return Ok(PathBuf::from(format!("{name}.{extension}"))) };
+        match path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension)) {
+            true => Ok(path.clone()),
+            false => {
+                let problem = format!("{}: expected a name in .{extension} for {name}", path.display());
+                Err(Error::option("--output", problem))
+            }
+        }
+    }
+
+    /// Width and height of each panel or of the plot.
+    ///
+    /// # Errors
+    /// A side out of range; another shape than square for `g1`.
+    pub fn size_px(&self, figure: Figure) -> Result<[u32; 2]> {
+        let [width, height] = self.size.unwrap_or_else(|| figure.default_size_px());
+        let refuse =
+            |expected: String| Err(Error::option("--size", format!("{width}x{height}: expected {expected}")));
+        if ![width, height].iter().all(|side| SIDES_PX.contains(side)) {
+            return refuse(format!("{} to {} pixels a side", SIDES_PX.start(), SIDES_PX.end()));
+        }
+        if figure == Figure::G1 && width != height {
+            return refuse("a square, the panels of g1 are".to_owned());
+        }
+        Ok([width, height])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_command_line_and_the_list_explains_each() {
+        for figure in Figure::value_variants() {
+            assert_eq!(figure.to_possible_value().unwrap().get_name(), figure.name());
+        }
+        let list = Figure::list();
+        assert_eq!(list.lines().count(), Figure::value_variants().len());
+        assert!(list.lines().all(|line| line.contains(" figure ") && line.len() > 40), "{list}");
+    }
+}

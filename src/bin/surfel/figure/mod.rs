@@ -1,0 +1,108 @@
+//! `surfel figure`: the papers' figures as labeled pictures.
+//!
+//! One file a figure. Comparisons are panels on a `sheet`, written as PNG; curves are plots, written as SVG. Whatever is
+//! shown was drawn by the device: curves of kernels are weights that it has written, no formulas.
+
+mod arguments;
+mod boards;
+mod easel;
+mod footprint;
+mod g1;
+mod g3;
+mod g4;
+mod kernels;
+mod p10;
+mod p18;
+mod p19;
+mod p9;
+mod raster;
+mod sheet;
+
+use std::path::Path;
+
+use surfel::{
+    Error, Result,
+    renderer::{Headless, HeadlessOptions},
+    report::curves::CurvePlot,
+    save,
+    vk::Validation,
+};
+
+pub use arguments::FigureArguments;
+
+use crate::{
+    cache,
+    console::{self, Bars},
+    outputs, validation,
+};
+use arguments::Figure;
+use easel::Easel;
+use sheet::Sheet;
+
+/// What a figure is before it is a file.
+enum Drawn {
+    Sheet(Sheet),
+    Plot(CurvePlot),
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Whatever goes wrong; what can be known before the device is opened is found before it.
+pub fn run(arguments: &FigureArguments) -> Result<()> {
+    let Some(figure) = arguments.name else { return console::print(&Figure::list()) };
+    let output = arguments.output(figure)?;
+    let size_px = arguments.size_px(figure)?;
+    if arguments.model.is_some() && figure != Figure::P19 {
+        return Err(Error::option(
+            "--model",
+            format!("{} has a scene of its own; expected p19", figure.name()),
+        ));
+    }
+    let inputs: Vec<&Path> = arguments.model.as_deref().into_iter().collect();
+    outputs::check_places(&[&output], None, &[], &inputs)?;
+    let options = HeadlessOptions {
+        validation: if arguments.validate { Validation::On } else { Validation::Off },
+        device: arguments.device.clone(),
+        cache_folder: cache::folder(),
+    };
+    let headless = Headless::new(&options)?;
+    let messages = headless.device().instance().messages();
+    let easel = Easel { headless, bars: Bars::new(), size_px, model: arguments.model.as_deref() };
+    let done = draw(easel, figure).and_then(|drawn| write(&drawn, &output, size_px));
+    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
+    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
+    done.and(said)
+}
+
+fn draw(mut easel: Easel<'_>, figure: Figure) -> Result<Drawn> {
+    let drawn = match figure {
+        Figure::G1 => g1::draw(&mut easel).map(Drawn::Sheet),
+        Figure::G3 => g3::draw(&mut easel).map(Drawn::Sheet),
+        Figure::G4 => g4::draw(&mut easel).map(Drawn::Sheet),
+        Figure::P9 => p9::draw(&mut easel).map(Drawn::Plot),
+        Figure::P10 => p10::draw(&mut easel).map(Drawn::Plot),
+        Figure::P18 => p18::draw(&mut easel).map(Drawn::Sheet),
+        Figure::P19 => p19::draw(&mut easel).map(Drawn::Sheet),
+    };
+    easel.bars.clear();
+    // A lost cache costs the next run some time, that is all.
+    let _ = easel.headless.renderer.shaders.save_cache();
+    drawn
+}
+
+fn write(drawn: &Drawn, output: &Path, size_px: [u32; 2]) -> Result<()> {
+    let [width, height] = match drawn {
+        Drawn::Sheet(sheet) => {
+            let raster = sheet.draw()?;
+            save::png(output, raster.size_px, 3, raster.pixels.as_flattened())?;
+            raster.size_px
+        }
+        Drawn::Plot(plot) => {
+            save::text(output, &plot.svg(size_px)?)?;
+            size_px
+        }
+    };
+    console::say(&format!("wrote {}, {width}x{height} pixels", output.display()));
+    Ok(())
+}

@@ -1,0 +1,229 @@
+//! `surfel figure`: small sizes; what the papers say of their figures is to be seen in ours.
+
+use std::fs;
+
+use super::{
+    files::{Png, png},
+    program::{Folder, surfel},
+    splats,
+};
+
+/// Around each panel.
+const FRAME: [u8; 3] = [160; 3];
+
+/// A panel's gray values, row by row.
+struct Panel {
+    width: usize,
+    values: Vec<f64>,
+    /// Whether the pixel has a color, as lines and dots over gray ones have.
+    colored: Vec<bool>,
+}
+
+/// Draws a figure under validation and cuts its panels out, in reading order.
+fn panels(name: &str, size: [u32; 2], more: &[&str]) -> Vec<Panel> {
+    let folder = Folder::new();
+    folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n1 0.3 0.2 0 0 1 1 0 0 255\n"));
+    let side = format!("{}x{}", size[0], size[1]);
+    let run = surfel(&folder, &[&["figure", name, "--size", &side, "--validate"], more].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("validation: no message"), "{}", run.stderr);
+    let mut names = [format!("{name}.png"), "model.ply".to_owned()];
+    names.sort();
+    assert_eq!(folder.names(), names);
+    let sheet = png(&folder.path(&format!("{name}.png")));
+    // Text is wrapped to the sheet's margins, where nothing else is black.
+    assert!((0..sheet.size[1]).any(|row| (16..200).any(|column| sheet.at(column, row) == [0; 3])));
+    let mut found = Vec::new();
+    for row in 1..sheet.size[1] - size[1] {
+        for column in 1..sheet.size[0] - size[0] {
+            if framed(&sheet, [column, row], size) {
+                found.push(cut(&sheet, [column, row], size));
+            }
+        }
+    }
+    found
+}
+
+/// Whether a panel's corner is here.
+fn framed(sheet: &Png, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> bool {
+    let is_frame = |x, y| sheet.at(x, y) == FRAME;
+    (left - 1..=left + width).all(|x| is_frame(x, top - 1) && is_frame(x, top + height))
+        && (top..top + height).all(|y| is_frame(left - 1, y) && is_frame(left + width, y))
+}
+
+fn cut(sheet: &Png, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Panel {
+    let gray = |[r, g, b]: [u8; 3]| (f64::from(r) + f64::from(g) + f64::from(b)) / 765.0;
+    let places = (top..top + height).flat_map(|y| (left..left + width).map(move |x| [x, y]));
+    let colors: Vec<[u8; 3]> = places.map(|[x, y]| sheet.at(x, y)).collect();
+    let colored = colors.iter().map(|[r, g, b]| r != g || g != b).collect();
+    Panel { width: width as usize, values: colors.into_iter().map(gray).collect(), colored }
+}
+
+impl Panel {
+    /// The mean squared difference of pixels this far from each other, along rows and columns.
+    fn energy(&self, step: usize) -> f64 {
+        let (width, values) = (self.width, &self.values);
+        let across =
+            (0..values.len()).filter(|i| i % width + step < width).map(|i| values[i + step] - values[i]);
+        let down = (0..values.len() - step * width).map(|i| values[i + step * width] - values[i]);
+        across.chain(down).map(|difference| difference * difference).sum::<f64>() / (2 * values.len()) as f64
+    }
+
+    /// How many pixels are between these.
+    fn count(&self, range: std::ops::Range<f64>) -> usize {
+        self.values.iter().filter(|value| range.contains(value)).count()
+    }
+
+    /// The mean distance of two panels.
+    fn distance(&self, other: &Self) -> f64 {
+        let sum: f64 = self.values.iter().zip(&other.values).map(|(a, b)| (a - b).abs()).sum();
+        sum / self.values.len() as f64
+    }
+}
+
+#[test]
+fn without_a_name_the_figures_are_listed() {
+    let folder = Folder::new();
+    let run = surfel(&folder, &["figure"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let names: Vec<_> = run.stdout.lines().filter_map(|line| line.split(' ').next()).collect();
+    assert_eq!(names, ["g1", "g3", "g4", "p9", "p10", "p18", "p19"]);
+    assert!(folder.names().is_empty());
+}
+
+#[test]
+fn g1_the_maximum_is_as_thin_as_no_filter_where_a_splat_is_minified_one_way() {
+    let panels = panels("g1", [96, 96], &[]);
+    assert_eq!(panels.len(), 15);
+    // The weight of a panel; contours and pixel centers hide the same places in all of them.
+    let ink = |i: usize| {
+        let panel = &panels[i];
+        let values = panel.values.iter().zip(&panel.colored).filter(|(_, colored)| !**colored);
+        values.map(|(value, _)| 1.0 - value).sum::<f64>()
+    };
+    for row in 0..3 {
+        let [ewa, none, adjust, paper, max] = [0, 1, 2, 3, 4].map(|column| ink(5 * row + column));
+        println!(
+            "row {row}: ewa {ewa:.0}, none {none:.0}, adjust {adjust:.0}, paper {paper:.0}, max {max:.0}"
+        );
+        assert!((adjust / ewa - 1.0).abs() < 0.1, "adjustment has nearly EWA's shape");
+        match row {
+            // All nearly the same.
+            0 => assert!([none, paper, max].iter().all(|other| (other / ewa - 1.0).abs() < 0.1)),
+            1 => assert!(none < 0.6 * ewa && (max / ewa - 1.0).abs() < 0.1),
+            _ => assert!(none < 0.75 * ewa && max < 0.8 * ewa),
+        }
+    }
+}
+
+#[test]
+fn g3_without_a_filter_the_far_board_aliases() {
+    let [none, ewa, adjust, max] = <[Panel; 4]>::try_from(panels("g3", [320, 96], &[])).ok().unwrap();
+    let [a, b, c, d] = [&none, &ewa, &adjust, &max].map(|panel| panel.energy(1));
+    println!("energy of neighbors: none {a:.4}, ewa {b:.4}, adjust {c:.4}, max {d:.4}");
+    // Without a filter fields finer than a pixel are black or white; filtered they are gray.
+    assert!(a > 2.0 * b && a > 1.5 * c && a > d);
+    assert!(d > b, "the maximum is the roughest filter");
+    println!("from ewa: adjust {:.4}, max {:.4}", adjust.distance(&ewa), max.distance(&ewa));
+    assert!(adjust.distance(&ewa) < max.distance(&ewa));
+}
+
+#[test]
+fn g4_adjustment_is_nearer_to_ewa_than_the_maximum() {
+    let [max, adjust, ewa] = <[Panel; 3]>::try_from(panels("g4", [180, 120], &[])).ok().unwrap();
+    // Each pixel is a square of 3.
+    let [a, b, c] = [&max, &adjust, &ewa].map(|panel| panel.energy(3));
+    println!("energy of neighbors: max {a:.4}, adjust {b:.4}, ewa {c:.4}");
+    println!("from ewa: max {:.4}, adjust {:.4}", max.distance(&ewa), adjust.distance(&ewa));
+    assert!(a > 1.2 * b);
+    assert!(adjust.distance(&ewa) < 0.5 * max.distance(&ewa));
+}
+
+#[test]
+fn p18_the_round_kernel_blurs_more_than_the_localized_one() {
+    let [round, localized] = <[Panel; 2]>::try_from(panels("p18", [128, 96], &[])).ok().unwrap();
+    let [a, b] = [&round, &localized].map(|panel| panel.count(0.1..0.9));
+    println!("gray pixels: {a} and {b}");
+    // Both have gray pixels where the board is far; 1.9 times as many were measured.
+    assert!(2 * a > 3 * b && b > 0);
+}
+
+#[test]
+fn p19_shows_the_built_in_model_or_another() {
+    for more in [&[][..], &["--model", "model.ply"]] {
+        let [narrow, plateau] = <[Panel; 2]>::try_from(panels("p19", [96, 96], more)).ok().unwrap();
+        let distance = narrow.distance(&plateau);
+        assert!(narrow.count(0.0..0.98) > 1000 && distance > 1e-3 && distance < 0.2, "{distance}");
+    }
+}
+
+#[test]
+fn p9_and_p10_are_curves_with_the_papers_values() {
+    let folder = Folder::new();
+    // The third curve, σ = ½, at r = ½; the first, n = 2 and a = 8, at r = ¾, where q = ¼.
+    let cases = [
+        ("p9", "#009E73", 1.0 / 3.0, (-0.5_f64).exp(), ["σ = 0.2", "σ = 1"]),
+        ("p10", "#0072B2", 0.5, (-8.0 / 3.0_f64).exp(), ["n = 2, a = 8", "n = 5, a = 4"]),
+    ];
+    for (name, color, r, weight, labels) in cases {
+        let run = surfel(&folder, &["figure", name, "-o", "a.svg", "--size", "900x600"]);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let svg = fs::read_to_string(folder.path("a.svg")).unwrap();
+        for label in labels {
+            assert!(svg.contains(&format!("\n{label}\n")), "{label}");
+        }
+        let curve = svg
+            .lines()
+            .filter(|line| line.starts_with("<polyline") && line.contains(color))
+            .max_by_key(|line| line.len())
+            .unwrap();
+        let points: Vec<[f64; 2]> = curve
+            .split_once("points=\"")
+            .and_then(|(_, rest)| rest.split_once('"'))
+            .unwrap()
+            .0
+            .split_whitespace()
+            .map(|point| {
+                let (x, y) = point.split_once(',').unwrap();
+                [x.parse().unwrap(), y.parse().unwrap()]
+            })
+            .collect();
+        // From weight 1 at r = 0 to the rim.
+        let (first, last) = (points[0], points[points.len() - 1]);
+        let bottom = last[1];
+        // The last of 251 points is half a step before the rim.
+        let x = first[0] + r * (last[0] - first[0]) * 250.5 / 250.0;
+        let at = points.iter().min_by(|a, b| (a[0] - x).abs().total_cmp(&(b[0] - x).abs())).unwrap();
+        let drawn = (bottom - at[1]) / (bottom - first[1]);
+        // σ = ½ ends at exp(−4.5) and not at 0. Places are whole pixels of some 440, and so is half a step along a
+        // curve that falls by less than 1.3 pixels a pixel.
+        let end = if name == "p9" { (-4.5_f64).exp() } else { 0.0 };
+        let expected = (weight - end) / (1.0 - end);
+        println!("{name}: {drawn:.4}, expected {expected:.4}");
+        assert!((drawn - expected).abs() < 3.0 / 440.0, "{name}: {drawn} and {expected}");
+    }
+}
+
+#[test]
+fn faults_are_one_line_and_leave_nothing() {
+    let folder = Folder::new();
+    folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n"));
+    let before = folder.names();
+    let cases: [(&[&str], &str); 9] = [
+        (&["g2"], "possible values: g1, g3, g4, p9, p10, p18, p19"),
+        (&["--size", "64x64"], "required arguments"),
+        (&["g3", "-o", "a.svg"], "--output: a.svg: expected a name in .png for g3"),
+        (&["p9", "-o", "a.png"], "--output: a.png: expected a name in .svg for p9"),
+        (&["g3", "--size", "31x64"], "--size: 31x64: expected 32 to 4096 pixels a side"),
+        (&["g1", "--size", "64x32"], "--size: 64x32: expected a square"),
+        (&["g3", "--model", "model.ply"], "--model: g3 has a scene of its own"),
+        (&["p19", "--model", "none.ply"], "none.ply: cannot read"),
+        (&["g3", "-o", "no/such/a.png"], "no/such/a.png: cannot write"),
+    ];
+    for (words, expected) in cases {
+        let run = surfel(&folder, &[&["figure"], words].concat());
+        assert_eq!((run.code, run.stderr.lines().count(), run.stdout.as_str()), (1, 1, ""), "{}", run.stderr);
+        assert!(run.stderr.contains(expected), "{words:?}: {}", run.stderr);
+    }
+    assert_eq!(folder.names(), before);
+}
