@@ -31,10 +31,10 @@ pub(super) fn row_span(
     let b = u.0 * u.1 + v.0 * v.1 - limit_r2 * w.0 * w.1;
     let c = u.1 * u.1 + v.1 * v.1 - limit_r2 * w.1 * w.1;
     let discriminant = b * b - a * c;
-    // A splat before the eye plane is an ellipse in the image, where x is between the roots. Rounding of the
-    // discriminant decides about a sample at the very top and bottom alone, and of those none is to be lost.
+    // With a > 0 that holds between the roots and nowhere else. Rounding of the discriminant decides about a sample
+    // at the very top and bottom alone, and of those none is to be lost.
     let scale = b * b + (a * c).abs();
-    if splat.minor_px.is_none() || a.is_nan() || a <= 1e-9 * (u.0 * u.0 + v.0 * v.0) {
+    if a.is_nan() || a <= 1e-9 * (u.0 * u.0 + v.0 * v.0) {
         return all;
     }
     if discriminant < -1e-9 * scale {

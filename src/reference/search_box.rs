@@ -22,7 +22,7 @@ impl SearchBox {
     pub fn of(splat: &DrawnSplat, limit_r2: f64, view: &View) -> Self {
         let [middle_x, middle_y] = view.middle_px();
         let farthest_px = middle_x.hypot(middle_y);
-        let own = match &splat.map {
+        match &splat.map {
             Map::Projective => {
                 // A splat that reaches the near plane has another margin in every pixel.
                 let Some(minor_px) = splat.minor_px else { return Self::whole(view) };
@@ -32,10 +32,7 @@ impl SearchBox {
             Map::Stretched(stretched) => {
                 Self::of_ellipse(splat, &stretched.ellipse, limit_r2, farthest_px, view)
             }
-        };
-        let Some(low_pass) = &splat.low_pass else { return own };
-        let reach = (limit_r2 + r2_margin(farthest_px, low_pass.minor_px)).sqrt() * low_pass.radius;
-        own.union(Self::of_circle(low_pass.center, reach, view))
+        }
     }
 
     /// Holds every pixel whose `r²` is at most `largest_r2`, under the projective map. The disk of that size lies
@@ -85,7 +82,8 @@ impl SearchBox {
     /// Between two points of the image plane.
     fn between(low: DVec2, high: DVec2, view: &View) -> Self {
         let range = |low: f64, high: f64, middle_px: f64, pixels: u32| {
-            // One pixel more on each side than the pixel centers need.
+            // A pixel more on each side than the pixel centers need. The low-pass filter beside a splat reaches √2
+            // pixels around the projected center, and is within that.
             let limit = f64::from(pixels);
             let first = (low * view.focal_px + middle_px - 1.5).floor().clamp(0.0, limit);
             let end = (high * view.focal_px + middle_px + 1.5).ceil().clamp(0.0, limit);
@@ -98,16 +96,6 @@ impl SearchBox {
     fn whole(view: &View) -> Self {
         let [width, height] = view.size_px;
         Self { columns: 0..width, rows: 0..height }
-    }
-
-    /// The smallest box around both.
-    fn union(self, other: Self) -> Self {
-        let both = |a: Range<u32>, b: Range<u32>| match (a.is_empty(), b.is_empty()) {
-            (true, _) => b,
-            (_, true) => a,
-            _ => a.start.min(b.start)..a.end.max(b.end),
-        };
-        Self { columns: both(self.columns, other.columns), rows: both(self.rows, other.rows) }
     }
 
     /// The part of it within `rows`.

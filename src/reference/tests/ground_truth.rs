@@ -49,13 +49,17 @@ fn the_coverage_along_an_edge_is_the_share_of_the_gaussian() {
             let radius = 2.0_f64.powi(20);
             let center = DVec3::new((edge_px - 8.0) / 8.0 - radius * reach, 0.0, 1.0);
             let scene = ellipses(&[facing_disk(center, radius as f32, GRAY)]);
-            let picture = truth(&scene, &Settings { kernel, ..settings(16) });
+            let picture = truth(&scene, &Settings { kernel, shading: Shading::Albedo, ..settings(16) });
             for column in 0..16 {
                 let pixel = &picture.pixels[7 * 16 + column];
                 let distance_px = edge_px - (column as f64 + 0.5);
                 let expected = normal_share(distance_px / (sigma * 2.0_f64.sqrt()));
                 // The cut at 4 deviations leaves out 6e-5, the midpoint rule is right to 1e-4.
                 let difference = (pixel.coverage - expected).abs();
+                // The color is that of the part that is there.
+                if pixel.coverage > 0.0 {
+                    assert!((pixel.color[2] - 0.75).abs() < 1e-12 && pixel.albedo == pixel.color);
+                }
                 assert!(difference < 2e-4, "{kernel:?} {sixteenths} {column}: {} {expected}", pixel.coverage);
             }
         }
@@ -76,6 +80,13 @@ fn a_uniform_scene_is_unchanged_up_to_the_border() {
         assert!(
             (DVec3::from(pixel.normal) - DVec3::NEG_Z).length() < 1e-12 && (pixel.alpha - 1.0).abs() < 1e-12
         );
+    }
+    // A filter narrower than the distance of samples, of which there are two at a pixel's middle.
+    let narrow = Settings { kernel: Kernel::Gaussian { sigma: 0.01 }, ..settings(9) };
+    let scene = ellipses(&[facing_disk(DVec3::Z * 2.0, 1e4, GRAY)]);
+    for samples in [2, 3] {
+        let picture = ground_truth(&scene, &camera(), &narrow, samples, &|_, _| ()).unwrap();
+        assert!(picture.pixels.iter().all(|pixel| pixel.coverage == 1.0));
     }
     let nothing = truth(&Scene::default(), &settings(9));
     for pixel in &nothing.pixels {
@@ -233,6 +244,8 @@ fn one_sample_under_a_filter_without_width_is_the_picture_without_a_filter() {
     for splat in &mut list {
         splat.0.z -= 0.5;
     }
+    // A wall beside the eye: on a row it has one end alone.
+    list.push((DVec3::X, Vec3::Y * 40.0, Vec3::Z * 40.0, GRAY));
     let settings = Settings { kernel, epsilon: Epsilon::Radii(0.1), ..settings(150) };
     let scene = ellipses(&list);
     let plain = picture(&scene, &settings);
