@@ -11,7 +11,7 @@ const COMMON_PASSES: [&str; 3] = ["visibility", "accumulate", "finalize"];
 /// What the columns mean.
 const FOOT: &str = "\
 ms: milliseconds, medians; other: all further passes together; min and max: of whole frames
-fragments: invocations of the fragment stage in one frame; instructions: not yet counted
+fragments: invocations of the fragment stage in one frame
 implementation error: against the 64-bit oracle of the same method; method error: against the ground truth
 max, rms: linear color, white is 1; psnr: decibels below white; ssim: 1 for equal pictures, over the whole picture
 normal: degrees, rms; depth: relative, rms; both and the color over pixels that both pictures cover

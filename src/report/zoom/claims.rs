@@ -78,7 +78,7 @@ impl ZoomReport {
             limit,
             steps: ratios.len(),
             // A ratio that is no number is above every limit.
-            steps_above: ratios.iter().filter(|(ratio, _)| !(*ratio <= limit)).count(),
+            steps_above: ratios.iter().filter(|(ratio, _)| ratio.is_nan() || *ratio > limit).count(),
         }
     }
 }

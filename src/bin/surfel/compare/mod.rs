@@ -153,7 +153,7 @@ fn compare(mut headless: Headless, arguments: &CompareArguments, base: &Settings
         timed_frames: arguments.frames,
         methods: rows,
         skipped,
-        notes: Vec::new(),
+        notes: notes(arguments),
     };
     report.mark_front();
     console::print(&report.to_string())?;
@@ -166,6 +166,15 @@ fn compare(mut headless: Headless, arguments: &CompareArguments, base: &Settings
     // A lost cache costs the next run some time, that is all.
     let _ = headless.renderer.shaders.save_cache();
     Ok(())
+}
+
+/// What a reader of the figures has to know.
+fn notes(arguments: &CompareArguments) -> Vec<String> {
+    let mut notes = vec!["instructions are not yet counted".to_owned()];
+    if arguments.validate {
+        notes.push("timed under validation: the times are worthless".to_owned());
+    }
+    notes
 }
 
 /// The implementation error and the method error of each method, in their order; what fails goes to `skipped`.
