@@ -5,7 +5,7 @@ mod common;
 
 use common::{
     assert_validation_is_silent,
-    compare::{F32, compare},
+    compare::{Errors, F32, compare},
     headless, render,
     scenes::{self, Hard},
     with_limits,
@@ -59,13 +59,23 @@ fn scenes() -> Vec<(Hard, Picture)> {
     all.into_iter().map(|hard| (oracle(&hard), hard)).map(|(oracle, hard)| (hard, oracle)).collect()
 }
 
+/// Ray casting subtracts the center from a point of the plane: twice the error of an expansion about the center.
+fn limit(hard: &Hard) -> Errors {
+    if hard.name.contains("raycast") { F32.times(2.0) } else { F32 }
+}
+
 #[test]
 fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
     let mut headless = headless();
     let scenes = scenes();
     for (hard, oracle) in &scenes {
         let errors = compare(&render(&mut headless, hard), oracle);
-        assert!(errors.beyond(&F32).is_empty(), "{} differs already: {}", hard.name, errors.row(hard.name));
+        assert!(
+            errors.beyond(&limit(hard)).is_empty(),
+            "{} differs already: {}",
+            hard.name,
+            errors.row(hard.name)
+        );
     }
     // As this device draws them, and all as quads, which have formulas of their own in the same places.
     let own_px = headless.device().facts().limits.point_size_range[1];
@@ -82,7 +92,7 @@ fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
                     |limits| limits.point_size_range[1] = cap_px,
                     |headless| render(headless, hard),
                 );
-                let beyond = compare(&frame, oracle).beyond(&F32);
+                let beyond = compare(&frame, oracle).beyond(&limit(hard));
                 (!beyond.is_empty()).then(|| format!("{}: {}", hard.name, beyond.join(", ")))
             });
             let name = format!("{formula:?}");

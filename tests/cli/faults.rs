@@ -71,7 +71,7 @@ fn an_unknown_option_and_a_missing_one() {
     refused(&folder, &["paint"], 1, &["unrecognized subcommand 'paint'", "see surfel --help"]);
     refused(
         &folder,
-        &["render", "--rasterizer", "raycast"],
+        &["render", "--rasterizer", "voxels"],
         1,
         &["'raycast'", "possible values: perspective"],
     );
