@@ -28,7 +28,8 @@ fn scenes() -> Vec<(Hard, Picture)> {
         scenes::cut_by_the_near_plane(),
     ];
     // Each has a formula that no other does.
-    let methods: [(&str, Hard, fn(&mut Settings)); 10] = [
+    type Change = fn(&mut Settings);
+    let methods: [(&str, Hard, Change); 10] = [
         ("ellipses, ewa", scenes::random_ellipses(Filter::None), |s| s.filter = Filter::Ewa),
         ("ellipses, contour ewa", scenes::random_ellipses(Filter::None), |s| {
             (s.rasterizer, s.filter) = (Rasterizer::AffineContour, Filter::Ewa);
