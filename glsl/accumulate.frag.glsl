@@ -33,7 +33,7 @@ layout(location = 1) out vec4 normal_sum; // weight * normal, weight * z / z_vis
 
 void main()
 {
-    Covered fragment = covered(frame.coverage_r2);
+    Covered fragment = covered(COVERAGE_R2);
 #if !defined(TRIANGLES)
     gl_FragDepth = fragment.w;
 #endif

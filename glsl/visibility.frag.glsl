@@ -20,7 +20,7 @@ const float HAIR = 1.0 - 4e-6;
 
 void main()
 {
-    Covered fragment = covered(HAIR * frame.coverage_r2);
+    Covered fragment = covered(HAIR * COVERAGE_R2);
 #if !defined(TRIANGLES)
     gl_FragDepth = fragment.w * extra().x;
 #endif

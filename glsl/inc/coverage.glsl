@@ -21,6 +21,12 @@ vec2 at_px()
     return gl_FragCoord.xy - 0.5 * frame.size_px;
 }
 
+// From a place as the vertex stage hands it over (`handed_over_px`).
+vec2 from_px(vec2 place)
+{
+    return PLACES_FROM_CORNER ? gl_FragCoord.xy - place : at_px() - place;
+}
+
 #if defined(TRIANGLES)
 
 // Discards the fragment if u^2 + v^2 is above the limit.
@@ -75,8 +81,7 @@ vec3 evaluate()
 {
 #if defined(PLAIN)
     const bool about_middle = RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER;
-    vec2 x0_px = about_middle ? vec2(0.0) : x0_w_extra.xy;
-    precise vec2 d = at_px() - x0_px;
+    precise vec2 d = about_middle ? at_px() : from_px(x0_w_extra.xy);
     precise vec3 uvw = per_x_extra.xyz * d.x + per_y_extra.xyz * d.y;
     if (about_middle) {
         uvw += x0_w_extra.xyz;
@@ -85,7 +90,7 @@ vec3 evaluate()
     }
     bool affine = AFFINE;
 #else
-    precise vec2 d = at_px() - x0_w_extra.xy;
+    precise vec2 d = from_px(x0_w_extra.xy);
     precise vec3 uvw = vec3(uv_affine.xy, x0_w_extra.z) + (per_x_extra.xyz * d.x + per_y_extra.xyz * d.y);
     bool affine = (AFFINE || FILTER == FILTER_MAX) && uv_affine.z != 0.0;
 #endif
@@ -96,9 +101,9 @@ vec3 evaluate()
 vec3 low_pass()
 {
 #if defined(CENTER)
-    return vec3(at_px() - center_low_pass.xy, center_low_pass.z);
+    return vec3(from_px(center_low_pass.xy), center_low_pass.z);
 #else
-    return vec3(at_px() - x0_w_extra.xy, x0_w_extra.z); // expanded about the center
+    return vec3(from_px(x0_w_extra.xy), x0_w_extra.z); // expanded about the center
 #endif
 }
 

@@ -103,9 +103,14 @@ void hand_over(Mapping m, vec3 extra)
     ray_v_square = vec4(v_axis, half_square_px);
 }
 #elif !defined(TRIANGLES) && !defined(SMALL_TRIANGLES)
+vec2 handed_over_px(vec2 from_middle)
+{
+    return PLACES_FROM_CORNER ? from_middle + 0.5 * frame.size_px : from_middle;
+}
+
 void hand_over(Mapping m, ImageMap map, vec3 extra)
 {
-    x0_w_extra = vec4(map.x0_px, map.at_x0.z, extra.x);
+    x0_w_extra = vec4(handed_over_px(map.x0_px), map.at_x0.z, extra.x);
     per_x_extra = vec4(map.along_x, extra.y);
     per_y_extra = vec4(map.along_y, extra.z);
 #if defined(PLAIN)
@@ -118,7 +123,7 @@ void hand_over(Mapping m, ImageMap map, vec3 extra)
 #endif
 #if defined(CENTER)
     bool low_pass = m.p.z > frame.near;
-    center_low_pass = low_pass ? vec3(projected_center_px(m), frame.near / m.p.z) : vec3(0.0);
+    center_low_pass = low_pass ? vec3(handed_over_px(projected_center_px(m)), frame.near / m.p.z) : vec3(0.0);
 #endif
 }
 #endif

@@ -15,7 +15,6 @@ struct FrameConstants {
     float filter_radius;    // h = sqrt(2) pixels, image-plane unit
     float epsilon_radii;    // epsilon as a multiple of the splat's larger radius ...
     float epsilon_length;   // ... plus a length, view unit; one of the two is 0
-    float coverage_r2;      // the largest u^2 + v^2 that covers; 1 but for kernels that fall below 2^-24 earlier
     float point_cap_px;     // the largest point of the device
     float point_step_px;    // the step of point sizes
     uint splat_count;       // of this chunk

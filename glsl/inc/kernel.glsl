@@ -1,4 +1,4 @@
-// Reconstruction kernels over r^2 = u^2 + v^2 <= coverage_r2, by arithmetic.
+// Reconstruction kernels over r^2 = u^2 + v^2 <= COVERAGE_R2, by arithmetic.
 // gaussian: exp(-r^2 / 2 sigma^2). psi_e: exp(-a q / (1 - q)), q = r^n (Pajarola, Sainz, Guidotti 2003, section 4; the
 // paper's b scales r and the support alike). At q = 1 psi_e is its limit, 0; coverage ends before. pow(0, y) may be NaN. The host turns
 // KERNEL_A to base 2, whose exponential is the hardware's own.

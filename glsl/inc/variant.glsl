@@ -10,6 +10,7 @@ layout(constant_id = 6) const uint SHADING = 0;            // SHADING_PHONG ...
 layout(constant_id = 7) const uint RASTERIZER = 0;         // RASTERIZER_PERSPECTIVE ...
 layout(constant_id = 8) const bool WEIGHT_BY_AREA = false; // adjusted splats weigh old area / new area; else 1
 layout(constant_id = 9) const bool EARLY_DEPTH = false;    // the vertex stage bounds the fragments' depth; else any will do
+layout(constant_id = 10) const float COVERAGE_R2 = 1.0;    // largest u^2 + v^2 that covers: less where the kernel ends earlier
 
 #define FILTER_NONE 0
 #define FILTER_ADJUST 1

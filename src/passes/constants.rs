@@ -24,8 +24,6 @@ pub struct FrameConstants {
     pub epsilon_radii: f32,
     /// ε as a length, view unit.
     pub epsilon_length: f32,
-    /// The largest u² + v² that covers.
-    pub coverage_r2: f32,
     /// The largest point of the device.
     pub point_cap_px: f32,
     /// The step of point sizes.

@@ -16,12 +16,9 @@ use super::{
 use crate::{
     error::Result,
     graph::execute::PassContext,
-    math::{
-        kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
-        size::{SizeBound, largest_box_px},
-    },
+    math::size::{SizeBound, largest_box_px},
     prepare::{Chunk, PreparedScene, ViewFromLocal},
-    scene::{Camera, Epsilon, Filter, Kernel, Settings},
+    scene::{Camera, Epsilon, Filter, Settings},
     vk::{Descriptor, GraphicsPipeline, Limits},
 };
 
@@ -56,10 +53,6 @@ pub fn draws<'a>(
 ) -> Vec<Draw<'a>> {
     let focal_px = camera.focal_px(settings.size_px[1]);
     let primitive = Primitive::of(settings.rasterizer);
-    let coverage_r2 = match settings.kernel {
-        Kernel::Gaussian { sigma } => gaussian_coverage_r2(sigma.into()),
-        Kernel::PsiE { a, n, .. } => psi_e_coverage_r2(a.into(), n.into()),
-    };
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
         // Nearer than that f32 ends; the eye is about 1 away.
@@ -90,7 +83,6 @@ pub fn draws<'a>(
                 filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
                 epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
                 epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
-                coverage_r2: coverage_r2 as f32,
                 point_cap_px,
                 point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
                 splat_count: chunk.count,

@@ -2,7 +2,10 @@
 
 use std::f64::consts::LOG2_E;
 
-use crate::scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading};
+use crate::{
+    math::kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
+    scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading},
+};
 
 /// Specialization constants: number and 32-bit pattern.
 pub type Constants = Vec<(u32, u32)>;
@@ -41,8 +44,17 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         (7, rasterizer),
         (8, u32::from(settings.filter_weight == FilterWeight::Area)),
         (9, u32::from(settings.early_depth)),
+        (10, (coverage_r2(settings.kernel) as f32).to_bits()),
     ]);
     constants
+}
+
+/// The largest u² + v² that covers.
+fn coverage_r2(kernel: Kernel) -> f64 {
+    match kernel {
+        Kernel::Gaussian { sigma } => gaussian_coverage_r2(sigma.into()),
+        Kernel::PsiE { a, n, .. } => psi_e_coverage_r2(a.into(), n.into()),
+    }
 }
 
 /// The constants of what evaluates the kernel.
