@@ -21,7 +21,7 @@ use common::{
 use glam::DVec3;
 use surfel::{
     reference,
-    scene::{Accumulate, Kernel, Settings},
+    scene::{Accumulate, FilterWeight, Kernel, Settings},
 };
 
 fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
@@ -43,7 +43,9 @@ fn every_hard_scene_stays_within_the_rounding_of_16_bits_and_finite() {
         // Of weight 1 each: the sum counts the fragments.
         let flat = Kernel::Gaussian { sigma: 1e6 };
         let full_disk = matches!(hard.settings.kernel, Kernel::Gaussian { .. });
-        let counts = render(&mut headless, &with(&hard, |s| s.kernel = flat)).weight;
+        let counts =
+            render(&mut headless, &with(&hard, |s| (s.kernel, s.filter_weight) = (flat, FilterWeight::Unit)))
+                .weight;
         println!("32 bits: {}", compare(&in_32, &oracle).row(hard.name));
         let errors = compare(&in_16, &oracle);
         println!("16 bits: {}", errors.row(hard.name));

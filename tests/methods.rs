@@ -87,7 +87,7 @@ fn every_rasterizer_with_every_filter_agrees_with_its_oracle_on_every_hard_scene
 }
 
 #[test]
-fn weights_by_area_and_early_depth_agree_with_the_oracle() {
+fn unit_weights_and_early_depth_agree_with_the_oracle() {
     let mut headless = shared();
     let mut failures = Vec::new();
     for scene in [scenes::sphere_of_disks(), scenes::random_ellipses(Filter::Adjust), scenes::edge_on()] {
@@ -95,13 +95,13 @@ fn weights_by_area_and_early_depth_agree_with_the_oracle() {
             for (_, rasterizer) in Rasterizer::NAMES {
                 let method = |s: &mut Settings| {
                     (s.rasterizer, s.filter) = (*rasterizer, filter);
-                    (s.filter_weight, s.early_depth) = (FilterWeight::Area, true);
+                    (s.filter_weight, s.early_depth) = (FilterWeight::Unit, true);
                 };
                 let Some(hard) = with(&scene, method) else { continue };
                 let oracle =
                     reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
                 let errors = compare(&render(&mut headless, &hard), &oracle);
-                let name = format!("{} {} {} by area", rasterizer.name(), filter.name(), hard.name);
+                let name = format!("{} {} {} unit weight", rasterizer.name(), filter.name(), hard.name);
                 println!("{}", errors.row(&name));
                 let limit = F32.times(factor(&hard)).of_at_least(fewest_px(&hard));
                 failures.extend(errors.beyond(&limit).into_iter().map(|beyond| format!("{name}: {beyond}")));

@@ -45,11 +45,13 @@ pub enum Formula {
     TriangleCorner,
     KernelTexture,
     NearestDepth,
+    Widened,
+    KeptDepth,
 }
 
 impl Formula {
     /// All of them.
-    pub const ALL: [Self; 40] = [
+    pub const ALL: [Self; 42] = [
         Self::InverseMappingU,
         Self::InverseMappingV,
         Self::InverseMappingW,
@@ -90,5 +92,7 @@ impl Formula {
         Self::TriangleCorner,
         Self::KernelTexture,
         Self::NearestDepth,
+        Self::Widened,
+        Self::KeptDepth,
     ];
 }

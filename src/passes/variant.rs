@@ -42,7 +42,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         (1, u32::from(cull)),
         (2, filter),
         (7, rasterizer),
-        (8, u32::from(settings.filter_weight == FilterWeight::Area)),
+        (8, u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area)),
         (9, u32::from(settings.early_depth)),
         (10, (coverage_r2(settings.kernel) as f32).to_bits()),
     ]);

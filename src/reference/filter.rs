@@ -1,8 +1,10 @@
 //! The low-pass filter by tangent adjustment (Guennebaud, Barthe, Paulin 2006, section 4.1).
 //!
-//! The paper adjusts each tangent vector by itself, which holds only where their projections are orthogonal. Here
-//! the parametrization is rotated first, so that they are, for disks and ellipses alike; lengths and directions are
-//! those of the affine approximation of the projection at the center.
+//! The paper adjusts each tangent vector by itself, which holds only where their projections are orthogonal, and
+//! makes the short ones as long as the filter. Here the parametrization is rotated first, so that they are
+//! orthogonal, for disks and ellipses alike; and a short axis becomes nearly as long as the convolution of kernel and
+//! filter, whose covariances add. Lengths and directions are those of the affine approximation of the projection at
+//! the center.
 
 use glam::{DVec2, DVec3};
 
@@ -42,18 +44,37 @@ pub(super) fn area_share(center: DVec3, old: (DVec3, DVec3), new: (DVec3, DVec3)
     if share >= LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
 }
 
+/// Projected semi-axes of this many `h` are drawn as they are.
+const UNTOUCHED: f64 = 4.0;
+
+/// Below this many `h` an axis loses its depth as it vanishes: which of its ends is nearer can't be told where it
+/// projects to nothing.
+const OWN_DEPTH: f64 = 1.0 / 16.0;
+
+/// The projected semi-axis that is drawn in place of one of length `l`: near `√(l² + h²)`, never shorter than
+/// `h` or `l`, and `l` itself from [`UNTOUCHED`] on.
+pub(super) fn widened(l: f64, h: f64) -> f64 {
+    let own_part = 1.0 - UNTOUCHED.powi(-2);
+    if l < UNTOUCHED * h { (h * h + own_part * l * l).sqrt() } else { l }
+}
+
 /// The tangent vectors that are drawn in place of `s` and `t`: none of the ellipse's projected semi-axes is shorter
 /// than `h` (image-plane units). All in view space; `center.z` must be above 0.
 pub(super) fn adjust(center: DVec3, s: DVec3, t: DVec3, h: f64) -> (DVec3, DVec3) {
     let (s, t) = orthogonalized(center, s, t);
     let (a, b) = (projected(center, s), projected(center, t));
     let long = a.try_normalize().unwrap_or(DVec2::X);
-    // The short axis' own direction but for the sign, which the symmetric disk does not show; it exists even
-    // where the disk is seen exactly from its edge.
-    let short = long.perp();
-    // eq. 9: parallel to the screen, of projected length h.
-    let parallel = |direction: DVec2| direction.extend(0.0) * (center.z * h);
-    (if a.length() < h { parallel(long) } else { s }, if b.length() < h { parallel(short) } else { t })
+    // The short axis' own direction; it exists even where the disk is seen exactly from its edge.
+    let short = if long.perp_dot(b) < 0.0 { -long.perp() } else { long.perp() };
+    let axis = |v: DVec3, length: f64, direction: DVec2| {
+        if length >= UNTOUCHED * h {
+            return v;
+        }
+        // Eq. 9 would have z = 0. The vector with this depth whose projection is the drawn axis:
+        let z = v.z * (length / (OWN_DEPTH * h)).min(1.0);
+        (direction * (widened(length, h) * center.z) + center.truncate() / center.z * z).extend(z)
+    };
+    (axis(s, a.length(), long), axis(t, b.length(), short))
 }
 
 #[cfg(test)]
@@ -81,16 +102,16 @@ mod tests {
     }
 
     #[test]
-    fn the_drawn_ellipse_has_the_clamped_axes_in_the_same_directions() {
+    fn the_drawn_ellipse_has_the_widened_axes_in_the_same_directions() {
         let mut random = Random(1);
         let h = 0.01;
-        let mut clamped = [0; 3];
+        let mut untouched = [0; 3];
         for case in 0..4000 {
             let center =
                 DVec3::new(random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.within(0.5, 8.0));
             let first = random.direction();
             let second = first.cross(random.direction()).normalize();
-            let size = center.z * h * 10.0_f64.powf(random.within(-2.0, 1.5));
+            let size = center.z * h * 10.0_f64.powf(random.within(-2.0, 3.0));
             let aspect = random.within(1.0, 50.0);
             let mix_rad = random.within(0.0, 6.3);
             // Tangent vectors that are not the ellipse's axes, and not orthogonal.
@@ -100,7 +121,7 @@ mod tests {
 
             let (drawn_s, drawn_t) = adjust(center, s, t, h);
             let (large, small, direction) = eigen(ellipse(center, s, t));
-            let expected = (large.sqrt().max(h), small.max(0.0).sqrt().max(h));
+            let expected = (widened(large.sqrt(), h), widened(small.max(0.0).sqrt(), h));
             let drawn = ellipse(center, drawn_s, drawn_t);
             let along = |v: DVec2| v.dot(drawn * v).sqrt();
             // A near-circle has no directions to check; its axes are equal in all of them.
@@ -115,16 +136,16 @@ mod tests {
             let (a, b) = (projected(center, drawn_s), projected(center, drawn_t));
             assert!((minor_axis(a, b) - expected.1).abs() < tolerance, "case {case}");
 
-            let count = usize::from(large.sqrt() < h) + usize::from(small.sqrt() < h);
-            clamped[count] += 1;
-            if count == 0 {
+            let count = usize::from(large.sqrt() >= 4.0 * h) + usize::from(small.sqrt() >= 4.0 * h);
+            untouched[count] += 1;
+            if count == 2 {
                 // The disk itself is untouched: s sᵀ + t tᵀ stays.
                 let probe = random.direction();
                 let support = |s: DVec3, t: DVec3| s.dot(probe).hypot(t.dot(probe));
                 assert!((support(s, t) - support(drawn_s, drawn_t)).abs() < 1e-12 * size, "case {case}");
             }
         }
-        assert!(clamped.iter().all(|&n| n > 100), "every kind occurs: {clamped:?}");
+        assert!(untouched.iter().all(|&n| n > 100), "every kind occurs: {untouched:?}");
     }
 
     #[test]
@@ -140,12 +161,43 @@ mod tests {
     }
 
     #[test]
-    fn an_adjusted_axis_is_parallel_to_the_screen() {
-        // Far away and tilted: both axes are replaced.
-        let center = DVec3::new(3.0, -2.0, 100.0);
-        let (s, t) = adjust(center, DVec3::new(1e-3, 0.0, 1e-3), DVec3::new(0.0, 1e-3, 0.0), 0.01);
-        assert_eq!((s.z, t.z), (0.0, 0.0));
-        assert!((s.length() - 1.0).abs() < 1e-12 && (t.length() - 1.0).abs() < 1e-12);
+    fn a_widened_axis_is_nearly_the_sum_of_covariances_and_grows_without_a_step() {
+        let h = 0.01;
+        assert_eq!(widened(0.0, h), h);
+        let mut before = h;
+        for i in 1..=1000 {
+            let l = h * f64::from(i) / 100.0;
+            let drawn = widened(l, h);
+            assert!(drawn >= l && drawn >= before && drawn - before < 0.011 * h, "{i}");
+            let sum = l.hypot(h);
+            // Shortest just where it ends: 4 / √17.
+            assert!(drawn <= sum && drawn >= 0.97 * sum, "{i}: {}", drawn / sum);
+            before = drawn;
+        }
+        assert_eq!(widened(4.0 * h, h), 4.0 * h);
+    }
+
+    #[test]
+    fn a_widened_axis_keeps_its_depth_until_it_all_but_vanishes() {
+        let (center, h) = (DVec3::new(3.0, -2.0, 100.0), 0.01);
+        // Of length l on the screen, the shorter one.
+        let drawn = |l: f64| {
+            let depth = 0.3;
+            let t = (DVec2::Y * (l * center.z) + center.truncate() / center.z * depth).extend(depth);
+            let (s, t) = adjust(center, DVec3::X * (5.0 * h * center.z), t, h);
+            assert_eq!(s, DVec3::X * (5.0 * h * center.z));
+            t
+        };
+        for l in [0.1 * h, h, 3.9 * h] {
+            let t = drawn(l);
+            assert!((t.z - 0.3).abs() < 1e-12, "{l}: {t}");
+            assert!((projected(center, t) - DVec2::Y * widened(l, h)).length() < 1e-12, "{l}: {t}");
+        }
+        assert!((drawn(h / 32.0).z - 0.15).abs() < 1e-12);
+        assert!((drawn(-h / 32.0).z - 0.15).abs() < 1e-12);
+        // Across the edge-on position nothing jumps: t turns around, with what little depth it has.
+        let (below, above) = (drawn(-1e-9 * h), drawn(1e-9 * h));
+        assert!((below + above).length() < 1e-5 * h, "{below} {above}");
     }
 
     #[test]

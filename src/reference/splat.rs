@@ -114,7 +114,9 @@ fn prepare_one(
     let map = if regular { map(center, s, t, h, settings) } else { Map::Projective };
     let share = match &map {
         Map::Stretched(stretched) => stretched.share,
-        _ if in_front && settings.filter_weight == FilterWeight::Area => area_share(center, original, (s, t)),
+        _ if in_front && settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area => {
+            area_share(center, original, (s, t))
+        }
         _ => 1.0,
     };
     let minor = match &map {

@@ -57,8 +57,8 @@ named! {
 named! {
     /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
     Filter {
-        /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, so
-        /// that it is exact for ellipses too.
+        /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, for
+        /// ellipses too. An axis of length l becomes max(l, √(h² + 15/16 l²)), nearly the convolution's √(h² + l²).
         Adjust = "adjust",
         /// No filter: a splat that misses every pixel center is not seen.
         None = "none",
@@ -74,12 +74,12 @@ named! {
 }
 
 named! {
-    /// What a splat weighs that tangent adjustment has enlarged.
+    /// What a splat weighs that tangent adjustment has enlarged. With other filters it means nothing.
     FilterWeight {
-        /// As much as any other.
-        Unit = "unit",
         /// Its old area over its new one, on the screen, but at least 2⁻¹² ([`LEAST_SHARE`]).
         Area = "area",
+        /// As much as any other.
+        Unit = "unit",
     }
 }
 
@@ -147,7 +147,7 @@ mod tests {
     fn each_value_is_listed_once_and_the_default_comes_first() {
         assert_eq!(Rasterizer::default(), Rasterizer::Perspective);
         assert_eq!(Filter::default(), Filter::Adjust);
-        assert_eq!(FilterWeight::default(), FilterWeight::Unit);
+        assert_eq!(FilterWeight::default(), FilterWeight::Area);
         assert_eq!(KernelEval::default(), KernelEval::Analytic);
         assert_eq!(Accumulate::default(), Accumulate::F16);
         for (name, value) in Rasterizer::NAMES {

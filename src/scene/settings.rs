@@ -74,11 +74,6 @@ impl Settings {
             let problem = "ewa: adds covariances, which psi_e has none of; expected --kernel gaussian:S";
             return Err(Error::option("--filter", problem));
         }
-        if self.filter_weight == FilterWeight::Area && !self.filter.adjusts() {
-            let problem =
-                format!("area with --filter {}: expected adjust or adjust-paper", self.filter.name());
-            return Err(Error::option("--filter-weight", problem));
-        }
         let (Epsilon::Radii(epsilon) | Epsilon::Length(epsilon)) = self.epsilon;
         if !(epsilon >= 0.0 && epsilon.is_finite()) {
             return Err(Error::option(
@@ -224,10 +219,6 @@ mod tests {
             ("--kernel", psi_e(1.0, 1.0, f32::NAN)),
             ("--filter", Settings { filter: Filter::Ewa, ..psi_e(6.0, 1.5, 3.0) }),
             ("--filter", Settings { filter: Filter::Ewa, rasterizer: Rasterizer::Raycast, ..good() }),
-            (
-                "--filter-weight",
-                Settings { filter_weight: FilterWeight::Area, filter: Filter::Max, ..good() },
-            ),
             ("--epsilon", Settings { epsilon: Epsilon::Radii(-1e-9), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::NAN), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::INFINITY), ..good() }),

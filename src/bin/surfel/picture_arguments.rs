@@ -80,8 +80,8 @@ pub struct StyleArguments {
     #[arg(long, value_name = "NAME", default_value = "adjust", value_parser = choice(Filter::NAMES))]
     pub filter: Filter,
 
-    /// What a splat weighs that the filter adjust has enlarged: as much as any, or its old area over its new one
-    #[arg(long, value_name = "HOW", default_value = "unit", value_parser = choice(FilterWeight::NAMES))]
+    /// What a splat weighs that tangent adjustment has enlarged: its old area over its new one, or as much as any
+    #[arg(long, value_name = "HOW", default_value = "area", value_parser = choice(FilterWeight::NAMES))]
     pub filter_weight: FilterWeight,
 
     /// The weight within a splat: gaussian:S (S in radii) or psi_e:A,B,N
@@ -190,7 +190,7 @@ mod tests {
             size_px: [7, 9],
             rasterizer: Rasterizer::AffineContour,
             filter: Filter::AdjustPaper,
-            filter_weight: FilterWeight::Area,
+            filter_weight: FilterWeight::Unit,
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
             kernel_eval: KernelEval::Texture,
             early_depth: true,

@@ -41,9 +41,13 @@ fn near_the_edge_it_shrinks_to_a_line_and_never_grows() {
             // 1 to each side, 64.5 pixels.
             assert!(area <= last && rows <= 1 && area <= 65, "{angle_deg}: {area}");
             last = area;
-            // With the filter: half axes 32 and √2 pixels, a line of 64 with 2 to 3 rows.
+            // With the filter: half axes 32 and √2 pixels, a line of 64 with 2 to 3 rows; or 4, where the disk still has
+            // depth and its near end is magnified.
             let (area, rows) = size(angle_deg, Filter::Adjust);
-            assert!((100..=190).contains(&area) && rows == 3, "{angle_deg}: {area} in {rows} rows");
+            assert!(
+                (100..=190).contains(&area) && (3..=4).contains(&rows),
+                "{angle_deg}: {area} in {rows} rows"
+            );
         }
     }
 }

@@ -39,7 +39,8 @@ pub(super) fn camera() -> Camera {
 
 /// No filter, so that the splat is drawn as it is.
 pub(super) fn settings(side_px: u32) -> Settings {
-    Settings { size_px: [side_px; 2], filter: Filter::None, ..Settings::default() }
+    let (filter, filter_weight) = (Filter::None, FilterWeight::Unit);
+    Settings { size_px: [side_px; 2], filter, filter_weight, ..Settings::default() }
 }
 
 pub(super) const GRAY: [f32; 4] = [0.25, 0.5, 0.75, 1.0];

@@ -88,7 +88,7 @@ impl Method {
 }
 
 impl MethodNames {
-    /// The filter with its weight, where that is not the default: `adjust`, `adjust area`.
+    /// The filter with its weight, where that is not the default: `adjust`, `adjust unit`.
     pub fn filter_and_weight(&self) -> String {
         match self.filter_weight {
             weight if weight == FilterWeight::default().name() => self.filter.to_owned(),
@@ -127,7 +127,10 @@ impl Selection {
         let mut methods = Vec::new();
         for &rasterizer in &self.rasterizers {
             for &filter in &self.filters {
-                for &filter_weight in &self.filter_weights {
+                // Only tangent adjustment leaves a splat a weight to choose.
+                let default = [FilterWeight::default()];
+                let filter_weights: &[_] = if filter.adjusts() { &self.filter_weights } else { &default };
+                for &filter_weight in filter_weights {
                     for &accumulate in &self.accumulates {
                         for &kernel_eval in &self.kernel_evals {
                             for &early_depth in &self.early_depths {
@@ -182,7 +185,7 @@ mod tests {
         Selection {
             rasterizers: values(Rasterizer::NAMES),
             filters: values(Filter::NAMES),
-            filter_weights: vec![FilterWeight::Unit],
+            filter_weights: vec![FilterWeight::default()],
             accumulates: values(Accumulate::NAMES),
             kernel_evals: values(KernelEval::NAMES),
             early_depths: vec![false],
@@ -219,12 +222,12 @@ mod tests {
         let method = Method {
             rasterizer: Rasterizer::Raycast,
             filter: Filter::AdjustPaper,
-            filter_weight: FilterWeight::Area,
+            filter_weight: FilterWeight::Unit,
             accumulate: Accumulate::F32,
             kernel_eval: KernelEval::Texture,
             early_depth: true,
         };
-        assert_eq!(method.names().line(), "raycast, adjust-paper area, f32, texture, early depth");
+        assert_eq!(method.names().line(), "raycast, adjust-paper unit, f32, texture, early depth");
         let settings = method.settings(&Settings::default());
         let options = crate::report::settings_as_options(&settings);
         let names = method.names();

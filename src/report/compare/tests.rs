@@ -8,7 +8,7 @@ use crate::{
 
 fn method(rasterizer: Rasterizer, filter: Filter) -> MethodNames {
     let (accumulate, kernel_eval) = (Accumulate::F32, KernelEval::Analytic);
-    let filter_weight = FilterWeight::Unit;
+    let filter_weight = FilterWeight::default();
     Method { rasterizer, filter, filter_weight, accumulate, kernel_eval, early_depth: false }.names()
 }
 

@@ -11,6 +11,7 @@ use serde::Serialize;
 pub use claims::Claim;
 
 use super::{DeviceReport, compare::ErrorFigures};
+use crate::scene::FilterWeight;
 
 /// The board is tilted by that many degrees against the view: so much that a splat can be larger than the filter along
 /// one axis and smaller along the other.
@@ -108,7 +109,7 @@ impl FilterNames {
     /// The filter, with its weight where that is not the default.
     pub fn line(&self) -> String {
         match self.filter_weight {
-            "unit" => self.filter.to_owned(),
+            weight if weight == FilterWeight::default().name() => self.filter.to_owned(),
             weight => format!("{} {weight}", self.filter),
         }
     }

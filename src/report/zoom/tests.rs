@@ -4,10 +4,10 @@ use super::*;
 use crate::report::compare::Deviation;
 
 const FILTERS: [FilterNames; 4] = [
-    FilterNames { filter: "adjust", filter_weight: "unit" },
-    FilterNames { filter: "adjust-paper", filter_weight: "unit" },
-    FilterNames { filter: "max", filter_weight: "unit" },
-    FilterNames { filter: "ewa", filter_weight: "unit" },
+    FilterNames { filter: "adjust", filter_weight: "area" },
+    FilterNames { filter: "adjust-paper", filter_weight: "area" },
+    FilterNames { filter: "max", filter_weight: "area" },
+    FilterNames { filter: "ewa", filter_weight: "area" },
 ];
 
 fn figures((rms, fragments): (f64, u64)) -> Option<ZoomFigures> {

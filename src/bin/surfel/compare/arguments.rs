@@ -122,7 +122,7 @@ pub struct MethodArguments {
     #[arg(long, value_name = "LIST", default_value = "all", value_delimiter = ',', value_parser = listed(Filter::NAMES))]
     pub filter: Vec<Listed<Filter>>,
 
-    /// What a splat weighs that the filter has enlarged [default: unit; with --zoom: all]
+    /// What a splat weighs that the filter has enlarged [default: area; with --zoom: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = listed(FilterWeight::NAMES))]
     pub filter_weight: Vec<Listed<FilterWeight>>,
 
@@ -152,10 +152,10 @@ pub struct CommonArguments {
     pub kernel: Kernel,
 
     /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r,
-    /// or a length
-    #[arg(long, value_name = "1r|LENGTH", default_value = "1r", value_parser = parse::epsilon)]
+    /// or a length [default: 1r; with --zoom: 1000r]
+    #[arg(long, value_name = "1r|LENGTH", value_parser = parse::epsilon)]
     #[arg(allow_hyphen_values = true)]
-    pub epsilon: Epsilon,
+    pub epsilon: Option<Epsilon>,
 
     /// Splats that face away: auto leaves them out where the surface is closed and turns them elsewhere
     #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(BACKFACES))]
@@ -203,7 +203,7 @@ impl CompareArguments {
         let MethodArguments {
             rasterizer, filter, filter_weight, accumulate, kernel_eval, early_depth, ..
         } = &self.methods;
-        let both_weights = [FilterWeight::Unit, FilterWeight::Area];
+        let both_weights = [FilterWeight::Area, FilterWeight::Unit];
         let (weights, sums): (&[_], &[_]) = match self.zoom {
             false => (&both_weights[..1], &[Accumulate::F16, Accumulate::F32]),
             true => (&both_weights, &[Accumulate::F32]),
@@ -230,11 +230,16 @@ impl CompareArguments {
 
     /// What all methods have in common, at the size of the errors. The background is white.
     pub fn settings(&self) -> Settings {
-        let shading = if self.zoom { Shading::Albedo } else { Shading::Phong };
+        // The board is one surface, all of which a filter may mix; at 1r, splats that it has enlarged to pixels would hide
+        // their own neighbors behind them, which is a matter of epsilon and not of the filter.
+        let (shading, epsilon) = match self.zoom {
+            true => (Shading::Albedo, Epsilon::Radii(1000.0)),
+            false => (Shading::Phong, Settings::default().epsilon),
+        };
         Settings {
             size_px: self.size,
             kernel: self.common.kernel,
-            epsilon: self.common.epsilon,
+            epsilon: self.common.epsilon.unwrap_or(epsilon),
             backfaces: self.common.backfaces,
             shading: self.common.shading.unwrap_or(shading),
             ..Settings::default()
@@ -272,9 +277,9 @@ mod tests {
         assert_eq!(selection.rasterizers, [Rasterizer::Quad, Rasterizer::Perspective]);
         assert_eq!((selection.filters.len(), selection.filters[0]), (5, Filter::Max));
         assert_eq!(selection.early_depths, [true, false]);
-        assert_eq!(selection.filter_weights, [FilterWeight::Unit]);
+        assert_eq!(selection.filter_weights, [FilterWeight::Area]);
         let both = compare(&["--filter-weight", "all"]).selection().filter_weights;
-        assert_eq!(both, [FilterWeight::Unit, FilterWeight::Area]);
+        assert_eq!(both, [FilterWeight::Area, FilterWeight::Unit]);
     }
 
     #[test]
