@@ -32,7 +32,7 @@ const BAND_ROWS: usize = 32;
 const STRIP_SAMPLES: usize = 1 << 17;
 
 /// The most samples along a pixel's side.
-const MAX_SAMPLES_PER_SIDE: u32 = 64;
+pub const MOST_SAMPLES_PER_SIDE: u32 = 64;
 
 /// The most samples of a picture: 8192² pixels with 256 each.
 const MAX_SAMPLES: u64 = 1 << 34;
@@ -115,9 +115,9 @@ pub fn ground_truth(
 }
 
 fn check_samples(size_px: [u32; 2], samples_per_side: u32) -> Result<()> {
-    if !(1..=MAX_SAMPLES_PER_SIDE).contains(&samples_per_side) {
+    if !(1..=MOST_SAMPLES_PER_SIDE).contains(&samples_per_side) {
         let problem =
-            format!("{samples_per_side}: expected 1 to {MAX_SAMPLES_PER_SIDE} along a pixel's side");
+            format!("{samples_per_side}: expected 1 to {MOST_SAMPLES_PER_SIDE} along a pixel's side");
         return Err(Error::option("--samples", problem));
     }
     let [width, height] = size_px.map(u64::from);

@@ -46,7 +46,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-pub use ground_truth::ground_truth;
+pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
 pub use picture::{Picture, Pixel};
 pub use true_pixel::{GroundTruth, TruePixel};
 

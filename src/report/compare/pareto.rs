@@ -1,11 +1,18 @@
 //! The methods that no other beats in speed and error at once.
 
-/// For each (time, error), smaller being better: whether no other is at least as good in both and better in one. Equal
-/// pairs are on the front together; a pair with a figure that is missing or not finite is not on it and beats none.
+/// Errors up to this factor apart count as equal: rounding alone makes the pictures of two exact methods differ in the
+/// fourth digit, and no one pays time for that.
+const EQUAL_ERRORS: f64 = 1.01;
+
+/// For each (time, error), smaller being better: whether no other is at least as good in both and better in one, or
+/// faster with an equal error, which is one within 1%. Equal pairs are on the front together; a pair with a figure that is missing or not finite is not on it and beats none.
 pub fn pareto_front(figures: &[Option<[f64; 2]>]) -> Vec<bool> {
     let finite =
         |figures: &Option<[f64; 2]>| figures.filter(|pair| pair.iter().all(|value| value.is_finite()));
-    let beats = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
+    let beats = |a: [f64; 2], b: [f64; 2]| {
+        let faster_and_equal = a[0] < b[0] && a[1] <= EQUAL_ERRORS * b[1];
+        faster_and_equal || a[0] <= b[0] && a[1] <= b[1] && a != b
+    };
     figures
         .iter()
         .map(|own| {
@@ -36,6 +43,13 @@ mod tests {
         assert_eq!(front(&[[2.0, 2.0], [1.0, 2.0]]), [false, true]);
         assert_eq!(front(&[[1.0, 2.0], [1.0, 2.0], [2.0, 1.0]]), [true; 3]);
         assert_eq!(front(&[[0.0, 1.0], [-0.0, 1.0]]), [true; 2]);
+    }
+
+    #[test]
+    fn errors_within_a_percent_are_equal_and_the_faster_one_is_on_the_front() {
+        assert_eq!(front(&[[1.0, 1.009], [2.0, 1.0]]), [true, false]);
+        assert_eq!(front(&[[1.0, 1.011], [2.0, 1.0]]), [true, true]);
+        assert_eq!(front(&[[1.0, 1.0], [1.0, 1.009]]), [true, false]);
     }
 
     #[test]

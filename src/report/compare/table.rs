@@ -17,7 +17,7 @@ max, rms: linear color, white is 1; psnr: decibels below white; ssim: 1 for equa
 normal: degrees, rms; depth: relative, rms; both and the color over pixels that both pictures cover
 cov px: pixels covered in one and empty in the other (the truth covers from one half on)
 out: share of the covered pixels left out because a rim or the epsilon-threshold falls on their center within rounding
-*: on the Pareto front: no other method is at least as good in frame ms and rms method error and better in one";
+*: on the Pareto front: no other method is at least as good in frame ms and rms method error (within 1%: equal) and better in one";
 
 impl fmt::Display for CompareReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

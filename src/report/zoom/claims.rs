@@ -26,7 +26,7 @@ pub struct Claim {
 }
 
 /// Where all splats are far below a pixel both filters draw the same disks, but for rounding.
-const EQUAL: f64 = 1.001;
+const EQUAL: f64 = 1.01;
 
 /// A figure of one filter at one step.
 type Figure = fn(&ZoomStep, usize) -> Option<f64>;

@@ -11,7 +11,7 @@ use serde::Serialize;
 pub use claims::Claim;
 
 use super::{DeviceReport, compare::ErrorFigures};
-use crate::scene::FilterWeight;
+use crate::{reference::MOST_SAMPLES_PER_SIDE, scene::FilterWeight};
 
 /// The board is tilted by that many degrees against the view: so much that a splat can be larger than the filter along
 /// one axis and smaller along the other.
@@ -34,7 +34,7 @@ pub struct ZoomReport {
     pub settings: BTreeMap<&'static str, String>,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Samples along a pixel's side in the ground truth.
+    /// Samples along a pixel's side in the ground truth, at least; see [`ZoomStep::samples_per_side`].
     pub samples_per_side: u32,
     /// The board.
     pub board: Board,
@@ -73,6 +73,8 @@ pub struct FilterNames {
 pub struct ZoomStep {
     /// The projected spacing of the splats across the view in the middle of the picture, in pixels.
     pub pixels_per_splat: f64,
+    /// Samples along a pixel's side in the ground truth.
+    pub samples_per_side: u32,
     /// One a filter, in their order; `None` where it could not be drawn.
     pub figures: Vec<Option<ZoomFigures>>,
 }
@@ -113,6 +115,18 @@ impl FilterNames {
             weight => format!("{} {weight}", self.filter),
         }
     }
+}
+
+/// How many samples along a pixel's side the ground truth needs at this distance: two between neighboring splats where the
+/// tilt brings them together, or it would alias itself; from `least` to [`MOST_SAMPLES_PER_SIDE`].
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "at most 64, at least 0; `as` saturates"
+)]
+pub fn samples_per_side(pixels_per_splat: f64, least: u32) -> u32 {
+    let between_px = pixels_per_splat * TILT_DEG.to_radians().cos();
+    ((2.0 / between_px).ceil() as u32).min(MOST_SAMPLES_PER_SIDE).max(least)
 }
 
 /// `steps` distances in equal ratios, from far to near; in pixels a splat.

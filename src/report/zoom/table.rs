@@ -18,7 +18,13 @@ impl fmt::Display for ZoomReport {
             "checkerboard of {0}x{0} splats, fields of {1}x{1}, radius {2} of the spacing, tilted by {3} degrees",
             board.splats_per_side, board.splats_per_field, board.radius, board.tilt_deg
         )?;
-        writeln!(f, "{width}x{height} pixels, ground truth of {samples} samples a pixel")?;
+        let most =
+            self.steps.iter().map(|step| u64::from(step.samples_per_side).pow(2)).max().unwrap_or(samples);
+        write!(f, "{width}x{height} pixels, ground truth of {samples} samples a pixel")?;
+        match most > samples {
+            true => writeln!(f, ", up to {most} where splats are far below one")?,
+            false => writeln!(f)?,
+        }
         self.block(f, "RMS of linear color over pixels that both cover (~: mixed)", &|step, i| {
             step.rms(i).map(|rms| format!("{rms:.3e}"))
         })?;

@@ -44,7 +44,11 @@ fn report(steps: &[(f64, [(f64, u64); 4])]) -> ZoomReport {
         filters: FILTERS.to_vec(),
         steps: steps
             .iter()
-            .map(|(px, all)| ZoomStep { pixels_per_splat: *px, figures: all.map(figures).to_vec() })
+            .map(|(px, all)| ZoomStep {
+                pixels_per_splat: *px,
+                samples_per_side: 16,
+                figures: all.map(figures).to_vec(),
+            })
             .collect(),
         claims: Vec::new(),
     };
@@ -62,11 +66,20 @@ fn the_path_has_equal_ratios_and_both_ends() {
 }
 
 #[test]
+fn samples_follow_the_splats_until_there_are_too_many() {
+    // cos 75° is 0.2588: at 0.2 px neighbors are 0.0518 px apart, 1/19.3 px; two samples each.
+    for (px, least, samples) in [(50.0, 16, 16), (0.2, 16, 39), (0.2, 48, 48), (0.05, 16, 64), (0.05, 2, 64)]
+    {
+        assert_eq!(samples_per_side(px, least), samples, "{px} {least}");
+    }
+}
+
+#[test]
 fn mixed_is_where_the_filter_lies_between_the_two_axes() {
     let report = report(&[]);
     // cos 75° is 0.2588: the minor axis reaches √2 px at 5.46.
     for (px, mixed) in [(1.41, false), (1.42, true), (5.4, true), (5.5, false)] {
-        let step = ZoomStep { pixels_per_splat: px, figures: Vec::new() };
+        let step = ZoomStep { pixels_per_splat: px, samples_per_side: 16, figures: Vec::new() };
         assert_eq!(step.is_mixed(&report.board), mixed, "{px}");
     }
 }

@@ -53,7 +53,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "WxH", value_parser = parse::size)]
     pub time_size: Option<[u32; 2]>,
 
-    /// Samples along a pixel's side in the ground truth
+    /// Samples along a pixel's side in the ground truth; --zoom takes more where splats are far below a pixel
     #[arg(long, value_name = "N", default_value_t = 16)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: u32,

@@ -9,7 +9,9 @@ use surfel::{
     report::{
         compare::{Method, errors},
         settings_as_options,
-        zoom::{Board, FilterNames, TILT_DEG, ZoomFigures, ZoomReport, ZoomStep, zoom_path},
+        zoom::{
+            Board, FilterNames, TILT_DEG, ZoomFigures, ZoomReport, ZoomStep, samples_per_side, zoom_path,
+        },
     },
     save,
     scene::{Camera, Scene, Settings},
@@ -140,7 +142,8 @@ fn step(
     task: &str,
 ) -> Result<ZoomStep> {
     let Stage { arguments, scene, camera, base, bars, .. } = *stage;
-    let truth = references::truth(scene, camera, base, arguments.samples, task, bars)?;
+    let samples = samples_per_side(pixels_per_splat, arguments.samples);
+    let truth = references::truth(scene, camera, base, samples, task, bars)?;
     let mut figures = Vec::new();
     for method in methods {
         let mut drawn = || -> Result<ZoomFigures> {
@@ -156,7 +159,7 @@ fn step(
             }
         });
     }
-    Ok(ZoomStep { pixels_per_splat, figures })
+    Ok(ZoomStep { pixels_per_splat, samples_per_side: samples, figures })
 }
 
 /// Fragments of the accumulation.

@@ -31,7 +31,11 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
             "patterns that are not on the board, where fields are finer than pixels",
         ),
         way("Full EWA [Zwicker et al. 2001]", Filter::Ewa, "gray, where fields are finer than pixels"),
-        way("Tangent adjustment, surfel's adjust", Filter::Adjust, "the paper's filter with orthogonal axes"),
+        way(
+            "Tangent adjustment, surfel's adjust",
+            Filter::Adjust,
+            "orthogonal axes, as long as EWA's but for 3%",
+        ),
         way(
             "Maximum of kernel and low-pass filter [Botsch et al. 2005]",
             Filter::Max,
