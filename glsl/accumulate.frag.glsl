@@ -31,6 +31,8 @@ layout(set = 2, binding = 0) uniform texture2D visible_depth;
 layout(location = 0) out vec4 color_sum;  // weight * linear albedo, weight
 layout(location = 1) out vec4 normal_sum; // weight * normal, weight * z / z_visible or 0
 
+const float LEAST_WEIGHT = 5.9604645e-8; // 2^-24
+
 void main()
 {
     Covered fragment = covered(COVERAGE_R2);
@@ -43,7 +45,7 @@ void main()
     float weight = kernel_weight(dot(fragment.uv, fragment.uv));
 #endif
     if (WEIGHTED) {
-        weight *= normal_weight.w;
+        weight = max(weight * normal_weight.w, LEAST_WEIGHT); // what covers must not vanish in 16-bit sums
     }
 #if defined(WITH_DEPTH)
     float w_visible = texelFetch(visible_depth, ivec2(gl_FragCoord.xy), 0).r;

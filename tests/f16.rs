@@ -21,7 +21,7 @@ use common::{
 use glam::DVec3;
 use surfel::{
     reference,
-    scene::{Accumulate, FilterWeight, Kernel, Settings},
+    scene::{Accumulate, Filter, FilterWeight, Kernel, Settings},
 };
 
 fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
@@ -78,6 +78,50 @@ fn every_hard_scene_stays_within_the_rounding_of_16_bits_and_finite() {
         }
         println!("16 bits: {checked} pixels within the bound, at most {:.0}% of it", 100.0 * most);
         assert!(checked >= 1000 || hard.name.contains("coincident"), "{}: {checked}", hard.name);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// A filter takes all but a 16th of a small splat's weight, and a kernel may end at 2⁻²⁴: what covers must not vanish in
+/// 16 bits, or the background would show where visibility has hidden all else; nor may the color of dark splats.
+#[test]
+fn small_filtered_splats_cover_in_16_bits_what_they_cover_in_32() {
+    let mut headless = shared();
+    let kernels = [
+        Kernel::Gaussian { sigma: 0.5 },
+        Kernel::Gaussian { sigma: 0.2 },
+        Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
+    ];
+    for kernel in kernels {
+        for filter in [Filter::Adjust, Filter::Ewa] {
+            let hard = with(&scenes::subpixel_filtered(), |s| (s.kernel, s.filter) = (kernel, filter));
+            if hard.settings.validate().is_err() {
+                continue; // ewa adds the covariances of Gaussians
+            }
+            let in_32 = render(&mut headless, &hard);
+            let in_16 = render(&mut headless, &with(&hard, |s| s.accumulate = Accumulate::F16));
+            let covered = |weight: &[f32]| weight.iter().map(|weight| *weight > 0.0).collect::<Vec<_>>();
+            assert!(covered(&in_32.weight) == covered(&in_16.weight), "{kernel:?} {filter:?}");
+            assert!(in_32.weight.iter().filter(|weight| **weight > 0.0).count() > 10_000);
+        }
+    }
+    // Isolated specks of linear 0.0015, 5 of 255 in sRGB, weigh 0.0085 at least: 214 steps of 2⁻²⁴ of color.
+    let dark = 0.0015;
+    let mut builder = Builder::default();
+    for i in 0..64 {
+        let at = |k: i32| 0.04 * f64::from(k) - 0.14 + 0.001 * f64::from(i);
+        builder.disk(DVec3::new(at(i % 8), at(i / 8), 0.0), DVec3::Z, 1e-5, [dark, dark, dark, 1.0]);
+    }
+    let settings = Settings { size_px: [128, 128], accumulate: Accumulate::F16, ..settings() };
+    let camera = camera([0.0, 0.0, 0.5], [0.0; 3]);
+    let hard = Hard { name: "dark specks", scene: builder.scene(false), camera, settings };
+    let frame = render(&mut headless, &hard);
+    let covered: Vec<_> = (0..frame.weight.len()).filter(|i| frame.weight[*i] > 0.0).collect();
+    assert!(covered.len() > 200, "{}", covered.len());
+    for i in covered {
+        // A step of color, by which the device may cut off, and as much again for two relative roundings.
+        let error = (f64::from(frame.albedo[i][0]) / f64::from(dark) - 1.0).abs();
+        assert!(error < 2.0 / 200.0, "pixel {i}: {error}");
     }
     assert_validation_is_silent(&headless);
 }

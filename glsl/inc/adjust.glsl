@@ -6,54 +6,63 @@
 //
 // Axes: the parametrization is rotated first (principal.glsl). Covariances of Gaussians add, so that an axis of length l
 // should become sqrt(l^2 + h^2): the paper's max(l, h) is short of that by 29% at l = h, which doubles the error of a
-// checkerboard there. Here it is max(l, sqrt(h^2 + 15/16 l^2)): within 3.1% of the sum everywhere, and splats wider than
-// 4 h, which would gain nothing that can be seen, are left alone.
+// checkerboard there. Here it is max(l, sqrt(h^2 + 255/256 l^2)): 0.2% short of the sum at most, so that the exact outline,
+// which in perspective is larger than the affine one, has no more fragments than EWA; and nothing is widened from 16 h on.
 //
-// Depth: an axis keeps its own, so that the splat's depths stay those of its surface. Parallel to the screen it would cut
-// through its neighbors where it is stretched just a little. But one shorter than h / 16 loses it as it vanishes: which end
-// is the nearer one is then rounding.
+// Depth: an axis keeps its own, as it is at its ends. Parallel to the screen it would cut through its neighbors where it is
+// stretched just a little. But one shorter than h / 16 loses it as it vanishes: which end is the nearer one is rounding then.
+//
+// The widened vectors are s = L1 p_z e + (z1 / p_z) p and t = L2 p_z f + (z2 / p_z) p, with e and f = e turned by 90 degrees
+// in the image plane. The multiples of p cancel in the adjugate, so that they are left out from the start: in f32 they would
+// hide a thin splat's own part.
+//   t x p = L2 p_z (f x p)    p x s = -L1 p_z (e x p)    s x t = L1 L2 p_z^2 (0, 0, 1) + L1 z2 (e x p) - L2 z1 (f x p)
+//   det = (s x t) . p = L1 L2 p_z^3, which is never 0: no widened splat is edge-on
 //
 // Limits: affine approximation at the center, like every EWA filter; needs the center in front of the near plane.
 
-const float UNTOUCHED = 4.0;                                     // in h
-const float OWN_PART = 1.0 - 1.0 / (UNTOUCHED * UNTOUCHED);      // so that both forms meet at UNTOUCHED h
-const float OWN_DEPTH = 1.0 / 16.0;                              // in h
+const float OWN_PART = 255.0 / 256.0;
+const float OWN_DEPTH = 1.0 / 16.0; // in h: shorter axes lose their depth
 
-float widened(float half_length, float h)
+struct Widened {
+    vec3 s;
+    vec3 t;
+    vec3 n0; // t x p, p x s, s x t
+    vec3 n1;
+    vec3 n2;
+    float det;
+    float share; // of its weight that the splat keeps if weights go by area
+};
+
+// (v, 0) x p
+vec3 flat_cross(vec2 v, vec3 p)
 {
-    return sqrt(h * h + FORMULA(FORMULA_WIDENED, OWN_PART * half_length * half_length));
+    return vec3(v.y * p.z, -v.x * p.z, v.x * p.y - v.y * p.x);
 }
 
-// The vector at p that has this motion in the image plane and this depth.
-vec3 with_projection(vec3 p, vec2 projected, float z)
-{
-    vec3 v = vec3(projected * p.z + p.xy / p.z * z, z);
-    return v;
-}
-
-// Answers with the share of its weight that the splat keeps if weights go by area.
-float adjust_tangents(vec3 p, inout vec3 s, inout vec3 t)
+Widened adjust_tangents(vec3 p, vec3 s, vec3 t)
 {
     Principal axes = principal_axes(p, s, t);
     float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
-    float major = axes.major;
     float minor = abs(axes.minor);
-    if (minor >= UNTOUCHED * h) {
-        return 1.0;
-    }
-    vec3 long_axis = s * axes.cosine + t * axes.sine;
-    float short_z = t.z * axes.cosine - s.z * axes.sine;
-    float drawn_major = major;
-    s = long_axis;
-    if (major < UNTOUCHED * h) {
-        drawn_major = widened(major, h);
-        float z = long_axis.z * min(major / (OWN_DEPTH * h), 1.0);
-        s = with_projection(p, axes.direction * drawn_major, z);
-    }
-    float drawn_minor = widened(minor, h);
-    vec2 turned = vec2(-axes.direction.y, axes.direction.x);
-    float signed_minor = axes.minor < 0.0 ? -drawn_minor : drawn_minor;
-    float z = FORMULA(FORMULA_KEPT_DEPTH, short_z) * min(minor / (OWN_DEPTH * h), 1.0);
-    t = with_projection(p, turned * signed_minor, z);
-    return FORMULA(FORMULA_SHARE, max(major * minor / (drawn_major * drawn_minor), LEAST_SHARE));
+    float l1 = max(sqrt(FORMULA(FORMULA_WIDENED, OWN_PART * axes.major * axes.major) + h * h), axes.major);
+    float l2 = max(sqrt(OWN_PART * minor * minor + h * h), minor);
+    vec2 e = axes.direction;
+    vec2 f = vec2(-e.y, e.x);
+    // Of the axes as they are, with the sign with which the parametrization runs along f.
+    float z1 = (s.z * axes.cosine + t.z * axes.sine) * min(axes.major / (OWN_DEPTH * h), 1.0);
+    float z2 = FORMULA(FORMULA_KEPT_DEPTH, t.z * axes.cosine - s.z * axes.sine) * min(minor / (OWN_DEPTH * h), 1.0);
+    z2 = axes.minor < 0.0 ? -z2 : z2;
+    vec3 e_p = flat_cross(e, p);
+    vec3 f_p = flat_cross(f, p);
+    vec2 c = p.xy / p.z;
+    Widened widened;
+    widened.s = vec3(e * (l1 * p.z) + c * z1, z1);
+    widened.t = vec3(f * (l2 * p.z) + c * z2, z2);
+    widened.n0 = l2 * p.z * f_p;
+    widened.n1 = -l1 * p.z * e_p;
+    widened.n2 = l1 * z2 * e_p - l2 * z1 * f_p;
+    widened.n2.z += l1 * l2 * p.z * p.z;
+    widened.det = l1 * l2 * p.z * p.z * p.z;
+    widened.share = FORMULA(FORMULA_SHARE, max(axes.major * minor / (l1 * l2), LEAST_SHARE));
+    return widened;
 }

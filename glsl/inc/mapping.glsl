@@ -52,8 +52,13 @@ bool map_splat(uint index, out Mapping m)
     m.normal = faces_away ? -normal : normal;
 
     m.share = 1.0;
-    if (FILTER == FILTER_ADJUST && p.z > frame.near) {
-        m.share = adjust_tangents(p, s, t);
+    bool is_widened = FILTER == FILTER_ADJUST && p.z > frame.near;
+    Widened widened;
+    if (is_widened) {
+        widened = adjust_tangents(p, s, t);
+        s = widened.s;
+        t = widened.t;
+        m.share = widened.share;
     }
     if (FILTER == FILTER_ADJUST_PAPER && p.z > frame.near) {
         m.share = adjust_tangents_as_the_paper(p, splat.normal, splat.radius, s, t);
@@ -64,13 +69,24 @@ bool map_splat(uint index, out Mapping m)
     }
     m.regular = p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
 
-    vec3 n0 = precise_cross(t, p);
-    vec3 n1 = precise_cross(p, s);
-    vec3 n2 = precise_cross(s, t);
-    // Where a filter changed s and t, the splat is not edge-on any more.
-    bool changed = any(notEqual(s, splat.s)) || any(notEqual(t, splat.t));
-    float det = changed ? precise_dot(n2, p) : splat.det;
-    m.edge_on = !(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)));
+    vec3 n0;
+    vec3 n1;
+    vec3 n2;
+    float det;
+    m.edge_on = false;
+    if (is_widened) {
+        n0 = widened.n0;
+        n1 = widened.n1;
+        n2 = widened.n2;
+        det = widened.det;
+    } else {
+        n0 = precise_cross(t, p);
+        n1 = precise_cross(p, s);
+        n2 = precise_cross(s, t);
+        bool changed = FILTER == FILTER_ADJUST_PAPER && (any(notEqual(s, splat.s)) || any(notEqual(t, splat.t)));
+        det = changed ? precise_dot(n2, p) : splat.det;
+        m.edge_on = !(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)));
+    }
     if (m.edge_on && !(FILTER == FILTER_MAX && p.z > frame.near) && !(FILTER == FILTER_EWA && m.regular)) {
         return false;
     }

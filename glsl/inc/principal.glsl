@@ -12,11 +12,18 @@ struct Principal {
     float sine;
 };
 
+// Projections below are none. Its inverse is finite.
+const float TINY = 1e-37;
+
 Principal principal_axes(vec3 p, vec3 s, vec3 t)
 {
     vec2 c = p.xy / p.z;
     vec2 a = (s.xy - c * s.z) / p.z;
     vec2 b = (t.xy - c * t.z) / p.z;
+    // In units of the largest component: fourth powers of lengths neither under- nor overflow.
+    float unit = max(max(max(abs(a.x), abs(a.y)), max(abs(b.x), abs(b.y))), TINY);
+    a /= unit;
+    b /= unit;
     float aa = dot(a, a);
     float bb = dot(b, b);
     float ab = dot(a, b);
@@ -40,8 +47,8 @@ Principal principal_axes(vec3 p, vec3 s, vec3 t)
     float major = sqrt(dot(axis, axis));
     float area = a.x * b.y - a.y * b.x;
     Principal principal;
-    principal.major = major;
-    principal.minor = major > 0.0 ? area / major : 0.0;
+    principal.major = major * unit;
+    principal.minor = major > 0.0 ? area / major * unit : 0.0;
     principal.direction = major > 0.0 ? axis / major : vec2(1.0, 0.0);
     principal.cosine = cosine;
     principal.sine = sine;

@@ -17,10 +17,13 @@ pub struct SizeBound {
     pub filter_px: f64,
 }
 
+/// Radius over the nearest depth, up to which all splats are known to be regular.
+const LARGEST_RADIUS_RATIO: f64 = 0.45;
+
 /// Whether every splat is regular as `glsl/inc/box.glsl` has it: wholly beyond the near plane, and its depth radius at
 /// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter.
 fn all_regular(bound: &SizeBound) -> bool {
-    bound.nearest_z > bound.near && bound.largest_radius <= 0.45 * bound.nearest_z
+    bound.nearest_z > bound.near && bound.largest_radius <= LARGEST_RADIUS_RATIO * bound.nearest_z
 }
 
 /// An upper bound of the side of a splat's box within the image, in pixels; infinite where a splat may come
@@ -28,14 +31,15 @@ fn all_regular(bound: &SizeBound) -> bool {
 ///
 /// Two points of a splat at x₁, x₂ in the image plane with depths z₁, z₂: `x₁ − x₂ = ((X₁ − X₂) − x₂ (z₁ − z₂)) / z₁`,
 /// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it. The
-/// filter replaces an axis by one of its own radius, parallel to the screen: 2h more. Three pixels for rounding.
+/// filter makes each half axis at most h longer at the center's depth p, which is up to `p / (p − r)` as much where the disk
+/// is nearest: `2h / (1 − r/p)` more. Three pixels for rounding.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;
     }
     let half_image = 0.5 * bound.size_px[0].max(bound.size_px[1]) / bound.focal_px;
     let splat = 2.0 * bound.largest_radius * (1.0 + half_image) / bound.nearest_z * bound.focal_px;
-    splat + 2.0 * bound.filter_px + 3.0
+    splat + 2.0 * bound.filter_px / (1.0 - LARGEST_RADIUS_RATIO) + 3.0
 }
 
 #[cfg(test)]

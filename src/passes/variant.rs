@@ -44,9 +44,18 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         (7, rasterizer),
         (8, u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area)),
         (9, u32::from(settings.early_depth)),
+        (11, u32::from(may_count_from_corner(settings))),
         (10, (coverage_r2(settings.kernel) as f32).to_bits()),
     ]);
     constants
+}
+
+/// Whether splats are so wide, and the image so small, that a place's rounding is nothing to them; see
+/// `glsl/inc/varyings.glsl`.
+fn may_count_from_corner(settings: &Settings) -> bool {
+    const LARGEST_PX: u32 = 8192;
+    matches!(settings.filter, Filter::Adjust | Filter::Ewa)
+        && settings.size_px.iter().all(|side| *side <= LARGEST_PX)
 }
 
 /// The largest u² + v² that covers.

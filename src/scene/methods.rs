@@ -58,7 +58,7 @@ named! {
     /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
     Filter {
         /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, for
-        /// ellipses too. An axis of length l becomes max(l, √(h² + 15/16 l²)), nearly the convolution's √(h² + l²).
+        /// ellipses too. An axis of length l becomes √(l² + h²), as under the convolution, but for 0.2%.
         Adjust = "adjust",
         /// No filter: a splat that misses every pixel center is not seen.
         None = "none",
@@ -76,7 +76,7 @@ named! {
 named! {
     /// What a splat weighs that tangent adjustment has enlarged. With other filters it means nothing.
     FilterWeight {
-        /// Its old area over its new one, on the screen, but at least 2⁻¹² ([`LEAST_SHARE`]).
+        /// Its old area over its new one, on the screen, but at least a 16th ([`LEAST_SHARE`]).
         Area = "area",
         /// As much as any other.
         Unit = "unit",
@@ -103,9 +103,13 @@ named! {
     }
 }
 
-/// The smallest share of its weight that a filter leaves to a splat: 2⁻¹². Normalization by area or determinant would
-/// let the smallest splats fall below what 16-bit sums can hold, and leave holes.
-pub const LEAST_SHARE: f64 = 1.0 / 4096.0;
+/// The smallest share of its weight that a filter leaves to a splat: 1/16. Normalization by area or determinant would
+/// let the smallest splats fall below what 16-bit sums can hold, and lose dark colors long before.
+pub const LEAST_SHARE: f64 = 1.0 / 16.0;
+
+/// The least weight of a fragment that covers: what 16-bit sums can hold. A kernel ends there (`--kernel`), and a share
+/// of it is no less.
+pub const LEAST_WEIGHT: f64 = 1.0 / 16_777_216.0;
 
 impl Rasterizer {
     /// Whether its map from image to splat is affine.

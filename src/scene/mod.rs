@@ -13,7 +13,7 @@ mod splats;
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use mesh::{Mesh, MeshColors};
-pub use methods::{Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, Rasterizer};
+pub use methods::{Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, Rasterizer};
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
 

@@ -116,8 +116,9 @@ pub fn choose(devices: &[DeviceFacts], asked: Option<&str>) -> Result<usize> {
     let candidates: Vec<usize> = match asked {
         None => (0..devices.len()).collect(),
         Some(asked) => match asked.parse::<usize>() {
-            Ok(index) if index < devices.len() => vec![index],
-            _ => {
+            // A number is never a part of a name: most names have digits.
+            Ok(index) => (0..devices.len()).filter(|&i| i == index).collect(),
+            Err(_) => {
                 let part = asked.to_lowercase();
                 let called_so = |&i: &usize| devices[i].name.to_lowercase().contains(&part);
                 (0..devices.len()).filter(called_so).collect()
@@ -180,6 +181,8 @@ mod tests {
         assert_eq!(error.to_string(), "--device: 'voodoo' is none of: 0 llvmpipe (LLVM 15), 1 Card");
         assert_eq!(error.exit_code(), 1);
         assert_eq!(choose(&devices, Some("7")).unwrap_err().exit_code(), 1);
+        // Of "LLVM 15", which is not the device that was asked for.
+        assert_eq!(choose(&devices, Some("15")).unwrap_err().exit_code(), 1);
     }
 
     #[test]

@@ -129,6 +129,34 @@ fn what_does_not_exist_is_listed_with_its_reason_and_the_others_go_on() {
     assert!(run.stdout.contains("skipped, 1 method: --filter: max with"), "{}", run.stdout);
 }
 
+/// What is claimed of `adjust` (Guennebaud et al. 2006, sections 4 and 4.2, and beyond): a smaller run of what
+/// `benches/README.md` reports. The paper's clamp of half axes would be 2.1 times as wrong as `ewa`.
+#[test]
+fn the_claims_of_tangent_adjustment_hold_over_distance_at_two_tilts() {
+    let folder = Folder::new();
+    for tilt in ["75", "30"] {
+        let words = ["compare", "--zoom", "--zoom-steps", "9", "--zoom-splats", "300", "--zoom-tilt", tilt];
+        let small = ["--size", "64x64", "--samples", "8", "--filter", "adjust,adjust-paper,max,ewa"];
+        let run = surfel(&folder, &[&words[..], &small, &["--json", "z.json"]].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let report = json(&folder, "z.json");
+        for claim in report["claims"].as_array().unwrap() {
+            let (text, worst) = (claim["claim"].as_str().unwrap(), claim["worst_ratio"].as_f64().unwrap());
+            // In small pictures a single row of pixels at the board's border is a hundredth of the error.
+            let most = match text.split_once(": ").unwrap().1 {
+                "at least as good as adjust-paper" => 1.02,
+                "better than max where splats are mixed" => 0.6,
+                "not more than 10% worse than ewa" => 1.05,
+                "no more fragments than ewa" => 1.001,
+                other => panic!("{other}"),
+            };
+            assert!(worst <= most, "{tilt} degrees, {text}: {worst}");
+            assert!(claim["steps"].as_u64() >= Some(1), "{claim}");
+        }
+        assert_eq!(report["claims"].as_array().unwrap().len(), 8);
+    }
+}
+
 #[test]
 fn a_zoom_compares_filters_at_each_distance() {
     let folder = Folder::new();

@@ -1,7 +1,7 @@
 //! Scenes whose lengths are far apart: no digit is lost to a stray point, no product to the range of f32.
 
 use glam::DVec3;
-use surfel::scene::{Camera, Epsilon, Kernel, Settings};
+use surfel::scene::{Camera, Epsilon, FilterWeight, Kernel, Settings};
 
 use super::{
     common::{
@@ -112,7 +112,8 @@ fn n14_kernels_steeper_than_f32_leave_no_nan() {
     ] {
         let mut builder = Builder::default();
         builder.disk(DVec3::ZERO, DVec3::Z, 1.0, [0.5, 0.25, 1.0, 1.0]);
-        let settings = Settings { size_px: [65, 65], kernel, ..builder::settings() };
+        let settings =
+            Settings { size_px: [65, 65], kernel, filter_weight: FilterWeight::Unit, ..builder::settings() };
         let camera = camera([0.0, 0.0, 3.2], [0.0; 3]);
         let frame = render(
             &mut headless,

@@ -6,8 +6,9 @@ use surfel::scene::{Epsilon, Filter, FilterWeight, LEAST_SHARE, Settings};
 use super::{
     GRAY,
     common::{
-        assert_agrees, assert_validation_is_silent,
+        against_oracle, assert_agrees, assert_validation_is_silent,
         builder::{Builder, Random, camera, settings},
+        compare::F32,
         render,
         scenes::{self, Hard},
         shared,
@@ -52,7 +53,7 @@ fn n01_an_edge_on_splat_shrinks_to_a_line_and_never_grows() {
                         let most = match filter {
                             Filter::None if k >= 3 => 1.2 * length_px,
                             Filter::None => f64::INFINITY,
-                            _ => (length_px + 3.0) * 4.0,
+                            _ => (length_px + 3.0) * 2.6,
                         };
                         assert!(area <= most, "{filter:?} {side_px} {turn} 1e-{k}: {area} > {most}");
                         // π/4 · length · 2√2, but for the pixels at its border.
@@ -119,7 +120,11 @@ fn n02_a_center_in_the_plane_of_the_eye_agrees() {
             builder.disk(center, normal, 2.0, GRAY);
             let mut hard = hard("center beside the eye", builder, of_size(128));
             hard.camera.near = Some(1e-4);
-            assert_agrees(&mut headless, &hard, 1000);
+            // In front of the near plane the filter widens tangents through their projections, 400 image planes off the axis
+            // at the nearest: 2⁻²⁴ · 400 of each vector, twice, is 5e-5 of the depth beside the usual error.
+            let (_, _, errors) = against_oracle(&mut headless, &hard);
+            let beyond = errors.beyond(&F32.times(2.0));
+            assert!(beyond.is_empty(), "{depth} {turn}: {beyond:#?}");
         }
     }
     assert_validation_is_silent(&headless);
@@ -186,8 +191,8 @@ fn n07_subpixel_splats_are_all_seen_and_none_weighs_more_than_another() {
             }
         }
         let hard = hard("subpixel", builder, settings());
-        // The drawn radius h' and the share of its weight: that of `adjust`, whose short axes become √(h² + 15/16 l²) long.
-        let drawn_px2 = 2.0 + 15.0 / 16.0 * radius_px * radius_px;
+        // The drawn radius h' and the share of its weight: that of `adjust`, whose axes become √(l² + h²) long.
+        let drawn_px2 = 2.0 + radius_px * radius_px;
         let share = f64::max(radius_px * radius_px / drawn_px2, LEAST_SHARE);
         for (filter_weight, share) in [(FilterWeight::Unit, 1.0), (FilterWeight::Area, share)] {
             let hard = Hard { settings: Settings { filter_weight, ..hard.settings.clone() }, ..hard.clone() };

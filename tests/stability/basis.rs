@@ -120,7 +120,7 @@ fn no_splat_of_our_adjustment_is_thinner_than_the_filter() {
         let [p, s, t] = answer.splat();
         let width = semi_minor(projected(p, s), projected(p, t)) / h;
         least = f64::min(least, width);
-        adjusted += usize::from(width < 1.001);
+        adjusted += usize::from(width < 1.01);
     }
     println!("the thinnest is 1 {:+.1e} h, {adjusted} adjusted", least - 1.0);
     // The area a × b of an ellipse of aspect 50 cancels: some steps of f32 times 50, 1.2e-5.

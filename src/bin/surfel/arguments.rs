@@ -71,11 +71,13 @@ truth, the continuous surface at many samples a pixel under the filter's Gaussia
 
 Columns: milliseconds a pass and a frame (median, smallest, largest); fragments a pass; linear color, where white is 1 (largest \
 and root mean square) over the pixels that both pictures cover; PSNR in decibels below white; SSIM, 1 for equal pictures; \
-pixels that only one of them covers; normals in degrees; depth relative to itself. A star marks the Pareto front: no other \
+pixels that only one of them covers; image, the root mean square over all that either picture touches, over white; normals \
+in degrees; depth relative to itself; out, the share of pixels left out of the implementation error, because rounding alone \
+may turn a rim or the epsilon test there (their error is in the JSON). A star marks the Pareto front: no other \
 method is at least as good in milliseconds a frame and in the RMS of the method error (equal within 1%) and better in one. Two runs differ \
 in times, what is told of them, and the stars, in nothing else.
 
-With --zoom, a checkerboard tilted by 75 degrees is drawn from many distances in place of a scene, by each filter, against the \
+With --zoom, a tilted checkerboard is drawn from many distances in place of a scene, by each filter, against the \
 ground truth.";
 
 const RENDER_EXAMPLES: &str = "Examples:

@@ -13,6 +13,12 @@ pub fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers(text).ok_or_else(|| "expected three numbers with commas between, such as 0,0.5,-2".to_owned())
 }
 
+/// `75`: degrees between a plane and the view, not quite edge-on.
+pub fn tilt(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().ok().filter(|degrees| (0.0..=85.0).contains(degrees));
+    degrees.ok_or_else(|| "expected degrees, 0 to 85".to_owned())
+}
+
 /// `1r`: multiples of a splat's radius; or `0.02`: a length.
 pub fn epsilon(text: &str) -> Result<Epsilon, String> {
     let parsed = match text.strip_suffix('r') {

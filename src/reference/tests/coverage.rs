@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, Vec3};
 
 use super::*;
+use crate::reference::filter::widened;
 use crate::reference::intersect::r2_margin;
 use crate::reference::kernel::limit_r2;
 use crate::reference::search_box::SearchBox;
@@ -25,11 +26,14 @@ fn a_disk_parallel_to_the_screen_covers_its_area() {
 
 #[test]
 fn every_covered_pixel_is_inside_the_circle_and_every_empty_one_outside() {
-    let (center, radius) = (DVec3::new(0.3, 0.2, 2.0), 0.75);
-    for settings in [settings(101), Settings { filter: Filter::Adjust, ..settings(101) }] {
-        let picture = picture(&ellipses(&[facing_disk(center, radius, GRAY)]), &settings);
+    let (center, radius) = (DVec3::new(0.3, 0.2, 2.0), 0.75_f64);
+    // h is √2 pixels, 2√2/101 in the image plane and twice that at depth 2.
+    let widened = widened(radius, 4.0 * 2.0_f64.sqrt() / 101.0);
+    let filtered = Settings { filter: Filter::Adjust, ..settings(101) };
+    for (settings, radius) in [(settings(101), radius), (filtered, widened)] {
+        let picture = picture(&ellipses(&[facing_disk(center, 0.75, GRAY)]), &settings);
         for (x, y, pixel) in pixels_at(&picture) {
-            let inside = (2.0 * x - 0.3).hypot(2.0 * y - 0.2) <= f64::from(radius);
+            let inside = (2.0 * x - 0.3).hypot(2.0 * y - 0.2) <= radius;
             assert_eq!(pixel.is_covered(), inside, "{x}, {y}");
         }
         assert!(covered(&picture) > 1000);

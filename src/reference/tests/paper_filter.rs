@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, Vec3};
 
 use super::*;
-use crate::reference::filter::{adjust, minor_axis, orthogonalized, projected};
+use crate::reference::filter::{adjust, minor_axis, orthogonalized, projected, widened};
 use crate::reference::paper_filter::adjust_paper;
 use crate::scene::LEAST_SHARE;
 
@@ -122,14 +122,17 @@ fn elliptic_splats_are_refused_by_name_and_disks_are_drawn() {
 
 #[test]
 fn a_weight_by_area_is_old_area_over_new() {
-    // Depth 1, 64 pixels: a pixel is 1/32, h = √2/32. A disk of half that. `adjust` widens to 4 h.
+    // Depth 1, 64 pixels: a pixel is 1/32, h = √2/32. `adjust` widens every disk, the paper those below h.
     let h = 2.0_f64.sqrt() / 32.0;
-    for (filter, [half, twice]) in
-        [(Filter::Adjust, [0.25 / (1.0 + 15.0 / 64.0), 4.0 / 4.75]), (Filter::AdjustPaper, [0.25, 1.0])]
-    {
+    for filter in [Filter::Adjust, Filter::AdjustPaper] {
         let unit = Settings { filter, filter_weight: FilterWeight::Unit, ..settings(64) };
         let area = Settings { filter_weight: FilterWeight::Area, ..unit.clone() };
-        for (radius, share) in [(0.5 * h, half), (1e-9, LEAST_SHARE), (2.0 * h, twice), (0.5, 1.0)] {
+        for radius in [0.5 * h, 1e-9, 2.0 * h, 0.5] {
+            let share = match filter {
+                Filter::Adjust => (radius / widened(radius, h)).powi(2),
+                _ => (radius / h).powi(2).min(1.0),
+            };
+            let share = share.max(LEAST_SHARE);
             let scene = disks(DVec3::Z, Vec3::NEG_Z, radius as f32);
             let (a, b) = (picture(&scene, &area), picture(&scene, &unit));
             assert!(covered(&b) >= 4);
@@ -143,7 +146,8 @@ fn a_weight_by_area_is_old_area_over_new() {
     // An ellipse of which one axis alone is short: a quarter of h.
     let needle = (DVec3::Z, Vec3::X * 0.5, Vec3::Y * (0.25 * h) as f32, GRAY);
     let settings = Settings { filter: Filter::Adjust, filter_weight: FilterWeight::Area, ..settings(64) };
-    assert!((drawn(needle, &settings).0.share - 0.25 / (1.0_f64 + 15.0 / 256.0).sqrt()).abs() < 1e-7);
+    let expected = (0.5 / widened(0.5, h)) * (0.25 / widened(0.25, 1.0));
+    assert!((drawn(needle, &settings).0.share - expected).abs() < 1e-7);
     let unit = Settings { filter_weight: FilterWeight::Unit, ..settings };
     assert_eq!(drawn(needle, &unit).0.share, 1.0);
 }

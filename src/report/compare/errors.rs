@@ -18,6 +18,11 @@ pub struct ErrorFigures {
     pub coverage_px: u64,
     /// Linear color, all three components; white is 1.
     pub color: Option<Deviation>,
+    /// Of the linear color over one background, over all pixels in which either picture has anything, save those that are
+    /// left out: what wrong and missing coverage costs is in it.
+    pub image: Option<Deviation>,
+    /// Of the linear color in the pixels that are left out and both cover.
+    pub left_out_color: Option<Deviation>,
     /// Of the linear color, in decibels below white: `−20 log10(rms)`. `None` where there is no difference.
     pub psnr_db: Option<f64>,
     /// Structural similarity of the whole pictures over one background, in gray: the mean over windows of 8×8 pixels;
@@ -61,7 +66,7 @@ impl Deviations {
 }
 
 /// Compares two pictures of one size. `left_out` has a value for each pixel, or none at all; `background` is linear and
-/// matters for the structural similarity alone.
+/// matters for [`ErrorFigures::image`] and the structural similarity alone.
 ///
 /// # Panics
 /// If the sizes or the lengths of the arrays differ.
@@ -73,20 +78,31 @@ pub fn errors(
 ) -> ErrorFigures {
     assert_eq!(picture.size_px, reference.size_px, "pictures of two sizes");
     let (mut color, mut normal, mut depth) = <(Deviations, Deviations, Deviations)>::default();
+    let (mut image, mut left_out_color) = <(Deviations, Deviations)>::default();
     let (mut compared_px, mut left_out_px, mut coverage_px, mut covered_px) = (0, 0, 0, 0_u64);
     for i in 0..reference.coverage.len() {
+        let is_left_out = left_out.get(i).copied().unwrap_or(false);
+        if !is_left_out && (picture.coverage[i] > 0.0 || reference.coverage[i] > 0.0) {
+            let [own, expected] = [picture, reference].map(|surface| surface.over(i, background));
+            for (own, expected) in own.iter().zip(expected) {
+                image.add(f64::from(*own) - f64::from(expected));
+            }
+        }
         let covers = [picture.covers(i), reference.covers(i)];
         if covers == [false; 2] {
             continue;
         }
         covered_px += 1;
-        if left_out.get(i).copied().unwrap_or(false) {
+        let colors = if is_left_out { &mut left_out_color } else { &mut color };
+        if covers == [true; 2] {
+            for (own, expected) in picture.color[i].iter().zip(reference.color[i]) {
+                colors.add(f64::from(*own) - f64::from(expected));
+            }
+        }
+        if is_left_out {
             left_out_px += 1;
         } else if covers == [true; 2] {
             compared_px += 1;
-            for (own, expected) in picture.color[i].iter().zip(reference.color[i]) {
-                color.add(f64::from(*own) - f64::from(expected));
-            }
             normal.add(degrees_between(picture.normal[i], reference.normal[i]));
             depth.add(f64::from(picture.depth[i]) / f64::from(reference.depth[i]) - 1.0);
         } else {
@@ -101,6 +117,8 @@ pub fn errors(
         left_out_share: share(left_out_px, covered_px),
         coverage_px,
         color,
+        image: image.all(),
+        left_out_color: left_out_color.all(),
         psnr_db: (rms > 0.0 && rms.is_finite()).then(|| -20.0 * rms.log10()),
         ssim: ssim(picture, reference, background),
         normal_deg: normal.all(),
@@ -191,6 +209,18 @@ mod tests {
         assert_eq!((figures.left_out_px, figures.compared_px, figures.coverage_px), (2, 1, 0));
         close(figures.left_out_share, 2.0 / 3.0);
         assert_eq!(figures.color, Some(Deviation { max: 0.0, rms: 0.0 }));
+        close(figures.left_out_color.unwrap().rms, f64::from(0.9_f32 - 0.5));
+    }
+
+    #[test]
+    fn the_image_counts_what_is_covered_by_either_over_the_background() {
+        // Half covered by black over white is 0.5, which a full gray matches; one covered pixel too many, black on white.
+        let reference =
+            row(&[(0.5, 0.0, Z, 1.0), (0.0, 0.0, Z, f32::INFINITY), (0.0, 0.0, Z, f32::INFINITY)]);
+        let picture = row(&[(1.0, 0.5, Z, 1.0), (1.0, 0.0, Z, 1.0), (0.0, 0.0, Z, f32::INFINITY)]);
+        let image = errors(&picture, &reference, &[], WHITE).image.unwrap();
+        close(image.max, 1.0);
+        close(image.rms, 0.5_f64.sqrt());
     }
 
     #[test]

@@ -71,7 +71,7 @@ pub struct MethodRow {
     pub method_error: ErrorFigures,
     /// What is odd about its times, a sentence each.
     pub flags: Vec<String>,
-    /// No other method is at least as good in the median of `frame_ms` and in the RMS of the method error's color and
+    /// No other method is at least as good in the median of `frame_ms` and in the RMS of the method error's image and
     /// better in one of them.
     pub pareto: bool,
 }
@@ -124,9 +124,9 @@ impl MethodRow {
         }
     }
 
-    /// Milliseconds of a frame (median) and the RMS of the method error's color; `None` where one is missing.
+    /// Milliseconds of a frame (median) and the RMS of the method error's image; `None` where one is missing.
     pub fn speed_and_error(&self) -> Option<[f64; 2]> {
-        Some([self.frame_ms?.median, self.method_error.color?.rms])
+        Some([self.frame_ms?.median, self.method_error.image?.rms])
     }
 
     /// Fragments of the pass of this name.

@@ -54,7 +54,7 @@ impl CompareReport {
         chart
             .configure_mesh()
             .x_desc("milliseconds a frame (median)")
-            .y_desc("RMS of linear color against the ground truth")
+            .y_desc("RMS of the linear image against the ground truth")
             .x_label_formatter(&|value| mark(*value))
             .y_label_formatter(&|value| mark(*value))
             .label_style((FONT, 14))

@@ -64,23 +64,22 @@ impl Surface {
         picture.pixels.iter().map(undecided).collect()
     }
 
+    /// A pixel over a background, linear.
+    pub(super) fn over(&self, i: usize, background: [f32; 3]) -> [f32; 3] {
+        let (share, color) = (self.coverage[i], self.color[i]);
+        [0, 1, 2].map(|c| match share {
+            0.0 => background[c],
+            _ => background[c] + share * (color[c] - background[c]),
+        })
+    }
+
     /// The picture over a background (linear), 8-bit sRGB.
     pub fn srgb_over(&self, background: [f32; 3]) -> Vec<[u8; 3]> {
         let byte = |linear: f32| {
             // The cast saturates, and takes NaN to 0.
             (255.0 * crate::math::srgb::srgb_from_linear(linear.clamp(0.0, 1.0)) + 0.5) as u8
         };
-        self.coverage
-            .iter()
-            .zip(&self.color)
-            .map(|(&share, color)| {
-                let over = |c: usize| match share {
-                    0.0 => background[c],
-                    _ => background[c] + share * (color[c] - background[c]),
-                };
-                [0, 1, 2].map(over).map(byte)
-            })
-            .collect()
+        (0..self.coverage.len()).map(|i| self.over(i, background).map(byte)).collect()
     }
 }
 

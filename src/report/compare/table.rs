@@ -10,14 +10,15 @@ const COMMON_PASSES: [&str; 3] = ["visibility", "accumulate", "finalize"];
 
 /// What the columns mean.
 const FOOT: &str = "\
-ms: milliseconds, medians; other: all further passes together; min and max: of whole frames
+ms: milliseconds, medians, each with how far the smallest and the largest lie from it; other: all further passes together
 fragments: invocations of the fragment stage in one frame
 implementation error: against the 64-bit oracle of the same method; method error: against the ground truth
 max, rms: linear color, white is 1; psnr: decibels below white; ssim: 1 for equal pictures, over the whole picture
 normal: degrees, rms; depth: relative, rms; both and the color over pixels that both pictures cover
+image: rms of linear color over a white background, over pixels that either picture touches
 cov px: pixels covered in one and empty in the other (the truth covers from one half on)
 out: share of the covered pixels left out because a rim or the epsilon-threshold falls on their center within rounding
-*: on the Pareto front: no other method is at least as good in frame ms and rms method error (within 1%: equal) and better in one";
+*: on the Pareto front: no other method is at least as good in frame ms and image (within 1%: equal) and better in one";
 
 impl fmt::Display for CompareReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -60,15 +61,17 @@ impl CompareReport {
     fn times(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11} {:>11}",
+            "{} {:>8} {:9} {:>8} {:9} {:>8} {:9} {:>8} {:>8} {:9} {:>11} {:>11} {:>11}",
             heads(),
             "vis. ms",
+            "",
             "acc. ms",
+            "",
             "fin. ms",
+            "",
             "other ms",
             "frame ms",
-            "min",
-            "max",
+            "",
             "vis. frag.",
             "acc. frag.",
             "fin. frag.",
@@ -78,19 +81,24 @@ impl CompareReport {
                 median_sum(row.passes.iter().filter(|pass| pass.name == name).map(|pass| pass.ms))
             };
             let [visibility, accumulate, finalize] = COMMON_PASSES.map(ms);
+            let spread = |name: &str| {
+                spread(row.passes.iter().find(|pass| pass.name == name).and_then(|pass| pass.ms))
+            };
             let further = row.passes.iter().filter(|pass| !COMMON_PASSES.contains(&pass.name.as_str()));
             let [vis_fragments, acc_fragments, fin_fragments] = COMMON_PASSES.map(|name| row.fragments(name));
             writeln!(
                 f,
-                "{} {} {} {} {} {} {} {} {} {} {}",
+                "{} {} {} {} {} {} {} {} {} {} {} {} {}",
                 names(row),
                 ms_column(visibility),
+                spread(COMMON_PASSES[0]),
                 ms_column(accumulate),
+                spread(COMMON_PASSES[1]),
                 ms_column(finalize),
+                spread(COMMON_PASSES[2]),
                 ms_column(median_sum(further.map(|pass| pass.ms))),
                 ms_column(row.frame_ms.map(|ms| ms.median)),
-                ms_column(row.frame_ms.map(|ms| ms.min)),
-                ms_column(row.frame_ms.map(|ms| ms.max)),
+                self::spread(row.frame_ms),
                 count(vis_fragments),
                 count(acc_fragments),
                 count(fin_fragments),
@@ -104,7 +112,7 @@ impl CompareReport {
         writeln!(f, "{:width$} {:40}   method error", "", "implementation error")?;
         writeln!(
             f,
-            "{} {:>8} {:>8} {:>6} {:>6} {:>8}   {:>8} {:>8} {:>6} {:>7} {:>6} {:>8} {:>8}",
+            "{} {:>8} {:>8} {:>6} {:>6} {:>8}   {:>8} {:>8} {:>6} {:>8} {:>7} {:>6} {:>8} {:>8}",
             heads(),
             "max",
             "rms",
@@ -114,6 +122,7 @@ impl CompareReport {
             "max",
             "rms",
             "psnr",
+            "image",
             "ssim",
             "cov px",
             "normal",
@@ -123,7 +132,7 @@ impl CompareReport {
             let (own, method) = (&row.implementation_error, &row.method_error);
             writeln!(
                 f,
-                "{} {} {} {:5.2}% {:6} {}   {} {} {} {} {:6} {} {}",
+                "{} {} {} {:5.2}% {:6} {}   {} {} {} {} {} {:6} {} {}",
                 names(row),
                 small(max(own.color), 8),
                 small(rms(own.color), 8),
@@ -133,6 +142,7 @@ impl CompareReport {
                 small(max(method.color), 8),
                 small(rms(method.color), 8),
                 psnr(method),
+                digits(rms(method.image)),
                 method.ssim.map_or_else(|| format!("{:>7}", "-"), |ssim| format!("{ssim:7.4}")),
                 method.coverage_px,
                 small(rms(method.normal_deg), 8),
@@ -174,7 +184,21 @@ fn rms(deviation: Option<Deviation>) -> Option<f64> {
 }
 
 fn ms_column(ms: Option<f64>) -> String {
-    ms.map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.3}"))
+    ms.map_or_else(|| format!("{:>8}", "-"), |ms| format!("{ms:8.3}"))
+}
+
+/// The smallest and the largest beside the median, in percent.
+fn spread(ms: Option<Spread>) -> String {
+    let beside = |ms: Spread| {
+        let percent = |value: f64| 100.0 * (value / ms.median - 1.0);
+        format!("{:.0}+{:.0}%", percent(ms.min).min(-0.0), percent(ms.max))
+    };
+    format!("{:9}", ms.filter(|ms| ms.median > 0.0).map_or_else(String::new, beside))
+}
+
+/// Enough digits to tell methods on the front from others.
+fn digits(value: Option<f64>) -> String {
+    value.map_or_else(|| format!("{:>8}", "-"), |value| format!("{:>8}", format!("{value:.2e}")))
 }
 
 fn count(count: Option<u64>) -> String {

@@ -20,6 +20,8 @@ fn figures(rms: f64) -> ErrorFigures {
         left_out_share: 0.01,
         coverage_px: 3,
         color: deviation,
+        image: deviation,
+        left_out_color: None,
         psnr_db: (rms > 0.0).then(|| -20.0 * rms.log10()),
         ssim: Some(1.0 - rms),
         normal_deg: deviation,
@@ -94,14 +96,15 @@ fn what_was_not_measured_is_a_dash() {
     let row = &mut report.methods[0];
     row.frame_ms = None;
     row.passes.iter_mut().for_each(|pass| (pass.ms, pass.fragments) = (None, None));
-    row.method_error = ErrorFigures { color: None, psnr_db: None, ssim: None, ..row.method_error };
+    row.method_error =
+        ErrorFigures { color: None, image: None, psnr_db: None, ssim: None, ..row.method_error };
     report.mark_front();
     assert!(!report.methods[0].pareto);
     let table = report.to_string();
     let dashes = |line: &str| line.split_whitespace().filter(|word| *word == "-").count();
     let rows: Vec<usize> =
         table.lines().filter(|line| line.starts_with("  perspective")).map(dashes).collect();
-    assert_eq!(rows, [10, 4], "{table}");
+    assert_eq!(rows, [8, 5], "{table}");
     assert!(report.plot_svg().unwrap().contains("Pareto front"));
 }
 

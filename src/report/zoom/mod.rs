@@ -13,9 +13,9 @@ pub use claims::Claim;
 use super::{DeviceReport, compare::ErrorFigures};
 use crate::{reference::MOST_SAMPLES_PER_SIDE, scene::FilterWeight};
 
-/// The board is tilted by that many degrees against the view: so much that a splat can be larger than the filter along
-/// one axis and smaller along the other.
-pub const TILT_DEG: f64 = 75.0;
+/// By how many degrees the board is tilted against the view where nothing else is said: so much that a splat can be larger
+/// than the filter along one axis and smaller along the other.
+pub const DEFAULT_TILT_DEG: f64 = 75.0;
 
 /// How far the path reaches: projected spacing of the splats in the middle of the picture, in pixels.
 pub const PIXELS_PER_SPLAT: [f64; 2] = [0.05, 50.0];
@@ -124,8 +124,8 @@ impl FilterNames {
     clippy::cast_sign_loss,
     reason = "at most 64, at least 0; `as` saturates"
 )]
-pub fn samples_per_side(pixels_per_splat: f64, least: u32) -> u32 {
-    let between_px = pixels_per_splat * TILT_DEG.to_radians().cos();
+pub fn samples_per_side(pixels_per_splat: f64, tilt_deg: f64, least: u32) -> u32 {
+    let between_px = pixels_per_splat * tilt_deg.to_radians().cos();
     ((2.0 / between_px).ceil() as u32).min(MOST_SAMPLES_PER_SIDE).max(least)
 }
 

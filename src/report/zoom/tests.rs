@@ -18,6 +18,8 @@ fn figures((rms, fragments): (f64, u64)) -> Option<ZoomFigures> {
         left_out_share: 0.0,
         coverage_px: 1,
         color,
+        image: color,
+        left_out_color: None,
         psnr_db: None,
         ssim: None,
         normal_deg: None,
@@ -40,7 +42,7 @@ fn report(steps: &[(f64, [(f64, u64); 4])]) -> ZoomReport {
         settings: BTreeMap::new(),
         size_px: [64, 64],
         samples_per_side: 16,
-        board: Board { splats_per_side: 60, splats_per_field: 5, radius: 1.0, tilt_deg: TILT_DEG },
+        board: Board { splats_per_side: 60, splats_per_field: 5, radius: 1.0, tilt_deg: DEFAULT_TILT_DEG },
         filters: FILTERS.to_vec(),
         steps: steps
             .iter()
@@ -70,7 +72,7 @@ fn samples_follow_the_splats_until_there_are_too_many() {
     // cos 75° is 0.2588: at 0.2 px neighbors are 0.0518 px apart, 1/19.3 px; two samples each.
     for (px, least, samples) in [(50.0, 16, 16), (0.2, 16, 39), (0.2, 48, 48), (0.05, 16, 64), (0.05, 2, 64)]
     {
-        assert_eq!(samples_per_side(px, least), samples, "{px} {least}");
+        assert_eq!(samples_per_side(px, 75.0, least), samples, "{px} {least}");
     }
 }
 

@@ -62,15 +62,19 @@ pub struct CompareArguments {
     #[arg(long, conflicts_with_all = ZOOM_HAS_ITS_OWN)]
     pub zoom: bool,
 
-    /// Distances of --zoom
-    #[arg(long, value_name = "N", default_value_t = 25, requires = "zoom")]
+    /// Distances of --zoom [default: 25]
+    #[arg(long, value_name = "N", conflicts_with = "inputs", requires = "zoom")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=1000))]
-    pub zoom_steps: u32,
+    pub zoom_steps: Option<u32>,
 
-    /// Splats along the checkerboard's side
-    #[arg(long, value_name = "N", default_value_t = 600, requires = "zoom")]
+    /// Splats along the checkerboard's side [default: 600]
+    #[arg(long, value_name = "N", conflicts_with = "inputs", requires = "zoom")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=4000))]
-    pub zoom_splats: u32,
+    pub zoom_splats: Option<u32>,
+
+    /// By how many degrees the checkerboard is tilted against the view, 0 to 85 [default: 75]
+    #[arg(long, value_name = "DEGREES", conflicts_with = "inputs", requires = "zoom", value_parser = parse::tilt)]
+    pub zoom_tilt: Option<f64>,
 
     /// From where.
     #[command(flatten)]
@@ -295,5 +299,7 @@ mod tests {
         assert!(refused(&["--zoom", "--rasterizer", "quad"]).contains("cannot be used with"));
         assert!(refused(&["--zoom", "--fov", "9"]).contains("cannot be used with"));
         assert!(refused(&["--zoom-steps", "30"]).contains("--zoom"));
+        assert!(refused(&["--zoom-steps", "30", "a.ply"]).contains("cannot be used with"));
+        assert!(refused(&["--zoom", "--zoom-tilt", "86"]).contains("0 to 85"));
     }
 }

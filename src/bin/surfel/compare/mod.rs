@@ -110,7 +110,8 @@ fn compare(mut headless: Headless, arguments: &CompareArguments, base: &Settings
     let timed = Settings { size_px: time_size_px, ..base.clone() };
     headless.renderer.check_settings(&timed).map_err(|error| match arguments.time_size {
         None => Error::option("--time-size", format!("4 times --size by default: {error}")),
-        Some(_) => error,
+        // It is this option's size that was checked.
+        Some(_) => Error::option("--time-size", error.to_string().trim_start_matches("--size: ")),
     })?;
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();

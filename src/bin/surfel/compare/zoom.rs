@@ -10,7 +10,8 @@ use surfel::{
         compare::{Method, errors},
         settings_as_options,
         zoom::{
-            Board, FilterNames, TILT_DEG, ZoomFigures, ZoomReport, ZoomStep, samples_per_side, zoom_path,
+            Board, DEFAULT_TILT_DEG, FilterNames, ZoomFigures, ZoomReport, ZoomStep, samples_per_side,
+            zoom_path,
         },
     },
     save,
@@ -37,22 +38,23 @@ const MARGIN_PX: f64 = 16.0;
 /// # Errors
 /// Whatever goes wrong; a filter that can't be drawn has no figures.
 pub fn run(mut headless: Headless, arguments: &CompareArguments, base: &Settings) -> Result<()> {
-    let side = arguments.zoom_splats as usize;
+    let side = arguments.zoom_splats.unwrap_or(600) as usize;
+    let tilt_deg = arguments.zoom_tilt.unwrap_or(DEFAULT_TILT_DEG);
     let board = Scene { objects: vec![checkerboard(side)] };
     let (methods, skipped) =
         candidates::split(arguments.selection().product(), base, &board, &headless.renderer);
     candidates::some_left(methods.len(), &skipped)?;
     let bars = Bars::new();
     let mut steps = Vec::new();
-    let path = zoom_path(arguments.zoom_steps);
+    let path = zoom_path(arguments.zoom_steps.unwrap_or(25));
     for (number, pixels_per_splat) in path.iter().copied().enumerate() {
-        let camera = camera(pixels_per_splat, base.size_px);
+        let camera = camera(pixels_per_splat, tilt_deg, base.size_px);
         let scene = in_view(&board, &camera, base.size_px);
         let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
         let stage =
             Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars: &bars };
         let task = format!("ground truth {} of {}", number + 1, path.len());
-        let step = step(&mut headless, &stage, &methods, pixels_per_splat, &task);
+        let step = step(&mut headless, &stage, &methods, [pixels_per_splat, tilt_deg], &task);
         bars.clear();
         steps.push(step?);
     }
@@ -70,7 +72,7 @@ pub fn run(mut headless: Headless, arguments: &CompareArguments, base: &Settings
             splats_per_side: side,
             splats_per_field: CHECKERBOARD_FIELD,
             radius: CHECKERBOARD_RADIUS,
-            tilt_deg: TILT_DEG,
+            tilt_deg,
         },
         filters: methods.iter().map(names).collect(),
         steps,
@@ -97,12 +99,13 @@ fn zoom_options(base: &Settings, method: &Method) -> std::collections::BTreeMap<
 }
 
 /// Looks at the board's middle, tilted, from where its splats are so far apart in the middle of the picture.
-fn camera(pixels_per_splat: f64, size_px: [u32; 2]) -> Camera {
+fn camera(pixels_per_splat: f64, tilt_deg: f64, size_px: [u32; 2]) -> Camera {
     let fov_y_rad = Camera::DEFAULT_FOV_Y_RAD;
     let mut camera = Camera { eye: DVec3::Z, target: SHIFT, up: DVec3::Z, fov_y_rad, near: None };
     let distance = camera.focal_px(size_px[1]) / pixels_per_splat;
     let (sin_turn, cos_turn) = TURN_DEG.to_radians().sin_cos();
-    let (sin_tilt, cos_tilt) = TILT_DEG.to_radians().sin_cos();
+    let (sin_tilt, cos_tilt) = tilt_deg.to_radians().sin_cos();
+    camera.up = DVec3::new(cos_tilt * sin_turn, cos_tilt * cos_turn, sin_tilt);
     camera.eye = SHIFT + distance * DVec3::new(-sin_tilt * sin_turn, -sin_tilt * cos_turn, cos_tilt);
     camera
 }
@@ -138,11 +141,11 @@ fn step(
     headless: &mut Headless,
     stage: &Stage<'_>,
     methods: &[Method],
-    pixels_per_splat: f64,
+    [pixels_per_splat, tilt_deg]: [f64; 2],
     task: &str,
 ) -> Result<ZoomStep> {
     let Stage { arguments, scene, camera, base, bars, .. } = *stage;
-    let samples = samples_per_side(pixels_per_splat, arguments.samples);
+    let samples = samples_per_side(pixels_per_splat, tilt_deg, arguments.samples);
     let truth = references::truth(scene, camera, base, samples, task, bars)?;
     let mut figures = Vec::new();
     for method in methods {
@@ -180,7 +183,7 @@ mod tests {
     fn only_splats_that_cannot_be_seen_are_left_out() {
         let board = Scene { objects: vec![checkerboard(100)] };
         for px in [0.5, 5.0, 50.0] {
-            let camera = camera(px, [64, 48]);
+            let camera = camera(px, 75.0, [64, 48]);
             let seen = in_view(&board, &camera, [64, 48]);
             let (all, left) = (board.splat_count(), seen.splat_count());
             // From afar the whole board is in the picture, from near a part of it.
@@ -194,8 +197,8 @@ mod tests {
 
     #[test]
     fn neighbors_in_the_middle_are_as_far_apart_as_the_step_says() {
-        for px in [0.05, 1.0, 50.0] {
-            let camera = camera(px, [256, 256]);
+        for (px, tilt_deg) in [(0.05, 75.0), (1.0, 0.0), (50.0, 45.0)] {
+            let camera = camera(px, tilt_deg, [256, 256]);
             camera.validate().unwrap();
             let view = camera.view_from_world();
             let project = |world: DVec3| {
@@ -207,7 +210,7 @@ mod tests {
             let across = project(SHIFT + 1e-6 * DVec3::new(cos, -sin, 0.0)) / 1e-6;
             let along = project(SHIFT + 1e-6 * DVec3::new(sin, cos, 0.0)) / 1e-6;
             assert!((across.x.abs() / px - 1.0).abs() < 1e-4 && across.y.abs() < 1e-4 * px, "{across}");
-            let foreshortened = px * TILT_DEG.to_radians().cos();
+            let foreshortened = px * f64::to_radians(tilt_deg).cos();
             assert!((along.y.abs() / foreshortened - 1.0).abs() < 1e-4, "{along}");
         }
     }

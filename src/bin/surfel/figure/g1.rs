@@ -108,7 +108,8 @@ fn panel(drawn: &Footprint, ewa: &Footprint, window_px: u32, size_px: [u32; 2]) 
     for i in 0..window_px * window_px {
         let [x, y] =
             [i % window_px, i / window_px].map(|k| ((2 * k + 1) * size_px[0] / (2 * window_px)) as usize);
-        for [x, y] in [[x, y], [x - 1, y], [x, y - 1], [x - 1, y - 1]] {
+        let [left, above] = [x.saturating_sub(1), y.saturating_sub(1)];
+        for [x, y] in [[x, y], [left, y], [x, above], [left, above]] {
             raster.pixels[y * size + x] = PIXEL_CENTER;
         }
     }
