@@ -2,7 +2,7 @@
 // s = p x n, t = n x s of a disk (equation 10), each tangent vector by itself (equations 8 and 9).
 //
 // Limits: disks only. The projected basis vectors are 60 to 90 degrees apart, so that most adjusted splats end up thinner
-// than h, down to 0.71 h. Needs the center in front of the near plane.
+// than h, down to 0.71 h. For regular splats (mapping.glsl), as `adjust`.
 
 float projected_area(vec3 p, vec3 s, vec3 t)
 {

@@ -51,8 +51,15 @@ bool map_splat(uint index, out Mapping m)
     vec3 normal = vec3(FORMULA(FORMULA_NORMAL, splat.normal.xy), splat.normal.z);
     m.normal = faces_away ? -normal : normal;
 
+    // No filter makes a splat deeper: what is regular stays so.
+    float depth_radius = sqrt(s.z * s.z + t.z * t.z);
+    if (p.z + depth_radius < frame.near) {
+        return false; // wholly behind the near plane
+    }
+    m.regular = p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
+
     m.share = 1.0;
-    bool is_widened = FILTER == FILTER_ADJUST && p.z > frame.near;
+    bool is_widened = FILTER == FILTER_ADJUST && m.regular;
     Widened widened;
     if (is_widened) {
         widened = adjust_tangents(p, s, t);
@@ -60,15 +67,9 @@ bool map_splat(uint index, out Mapping m)
         t = widened.t;
         m.share = widened.share;
     }
-    if (FILTER == FILTER_ADJUST_PAPER && p.z > frame.near) {
+    if (FILTER == FILTER_ADJUST_PAPER && m.regular) {
         m.share = adjust_tangents_as_the_paper(p, splat.normal, splat.radius, s, t);
     }
-    float depth_radius = sqrt(s.z * s.z + t.z * t.z);
-    if (p.z + depth_radius < frame.near) {
-        return false; // wholly behind the near plane
-    }
-    m.regular = p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
-
     vec3 n0;
     vec3 n1;
     vec3 n2;

@@ -3,6 +3,9 @@
 //
 // Rasterizers snap vertices to a grid, 1/256 pixel mostly. Where the disk touches a side, that would take a part of the rim:
 // the triangle is larger by four such steps. Splats whose triangle would come near the eye plane are drawn as quads.
+//
+// Limits: depth is interpolated between snapped vertices. Where it changes steeply across a pixel, as across large grazing
+// disks in a telephoto view, the snapping shifts it: 2e-4 of it at a field of view of 0.5 degrees, 3e-2 at 0.1.
 
 const float SNAP_PX = 1.0 / 64.0;
 

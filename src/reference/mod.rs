@@ -54,7 +54,7 @@ use self::band::Frame;
 use self::search_box::SearchBox;
 use self::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Scene, Settings, Shapes};
+use crate::scene::{Camera, Scene, Settings};
 
 /// Rows that a thread takes at a time: enough that the boxes of all splats are not walked too often, few enough
 /// that every thread stays busy.
@@ -77,9 +77,7 @@ pub fn render(
 ) -> Result<Picture> {
     settings.validate()?;
     camera.validate()?;
-    for object in &scene.objects {
-        settings.check_object(&object.name, matches!(object.splats.shapes, Shapes::Ellipses { .. }))?;
-    }
+    settings.check_scene(scene)?;
     let [width, height] = settings.size_px;
     let view = View::new(camera, settings.size_px);
     let (splats, defects) = splat::prepare(scene, &view, settings);

@@ -98,19 +98,20 @@ fn prepare_one(
     };
     let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
 
-    // The projection at a center behind the near plane has no meaning: no filter acts there, and nothing is cut off.
+    // The projection at a center behind the near plane has no meaning: no filter acts there, and nothing is cut off. Nor
+    // has the affine approximation of a splat that is nearly as deep as it is far: its tangents stay as they are.
     let in_front = center.z > view.near;
-    let h = view.filter_radius();
-    let original = (s, t);
-    let (s, t) = match settings.filter {
-        Filter::Adjust if in_front => adjust(center, s, t, h),
-        Filter::AdjustPaper if in_front => adjust_paper(center, s, t, h),
-        _ => original,
-    };
-
     let depth_radius = s.z.hypot(t.z);
     let reaches_near = center.z - depth_radius < view.near;
     let regular = in_front && !reaches_near && depth_radius <= REGULAR_DEPTH_RATIO * center.z;
+    let h = view.filter_radius();
+    let original = (s, t);
+    let (s, t) = match settings.filter {
+        Filter::Adjust if regular => adjust(center, s, t, h),
+        Filter::AdjustPaper if regular => adjust_paper(center, s, t, h),
+        _ => original,
+    };
+
     let map = if regular { map(center, s, t, h, settings) } else { Map::Projective };
     let share = match &map {
         Map::Stretched(stretched) => stretched.share,

@@ -128,9 +128,11 @@ impl Filter {
         use Rasterizer::{PerspectivePaper, Raycast, RaycastApproximate, Triangle};
         let problem = match (self, rasterizer) {
             (Self::Ewa, PerspectivePaper | Raycast | RaycastApproximate | Triangle) => {
-                "brings its own affine map; expected perspective, quad, affine-center or affine-contour"
+                "the filter brings its own affine map; expected perspective, quad, affine-center or affine-contour"
             }
-            (Self::Max, Triangle) => "reaches beyond the triangle; expected another rasterizer or filter",
+            (Self::Max, Triangle) => {
+                "the filter reaches beyond the triangle; expected another rasterizer or filter"
+            }
             _ => return Ok(()),
         };
         let name = rasterizer.name();

@@ -1,6 +1,9 @@
 //! How a scene is rendered. The default of each setting is the first value of its option in the manual.
 
-use super::methods::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer};
+use super::{
+    Object, Scene, Shapes,
+    methods::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer},
+};
 use crate::error::{Error, Result};
 
 /// Every choice that changes the picture, apart from scene and camera.
@@ -91,10 +94,19 @@ impl Settings {
         Ok(())
     }
 
-    /// Refuses a filter that an object's splats rule out.
+    /// Refuses a filter that the splats of an object rule out.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where `object` has elliptic splats.
+    /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where an object has elliptic splats.
+    pub fn check_scene(&self, scene: &Scene) -> Result<()> {
+        let is_elliptic = |object: &Object| matches!(object.splats.shapes, Shapes::Ellipses { .. });
+        scene.objects.iter().try_for_each(|object| self.check_object(&object.name, is_elliptic(object)))
+    }
+
+    /// Whether an object of this name, whose splats are ellipses or not, can be drawn so.
+    ///
+    /// # Errors
+    /// As [`Self::check_scene`].
     pub fn check_object(&self, object: &str, ellipses: bool) -> Result<()> {
         if self.filter == Filter::AdjustPaper && ellipses {
             let problem =

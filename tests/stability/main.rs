@@ -4,6 +4,7 @@
 mod common;
 
 mod basis;
+mod filtered;
 mod measure;
 mod pictures;
 mod probe;

@@ -34,7 +34,7 @@ pub struct Case {
 }
 
 /// The first axis.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// In front of the eye, radius over depth.
     Ahead(f64),

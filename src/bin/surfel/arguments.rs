@@ -67,7 +67,8 @@ const COMPARE_HELP: &str = "\
 Every combination of rasterizer, filter, precision of the sums and kernel evaluation draws the same scene. What it costs is \
 timed at --time-size, with the methods in turn, so that a change of the machine's speed meets all of them. How wrong it is is \
 found at --size, twice: against the oracle of the same method in 64 bits (implementation error), and against the ground \
-truth, the continuous surface at many samples a pixel under the filter's Gaussian (method error).
+truth, the continuous surface at many samples a pixel under the filter's Gaussian (method error). All of it takes minutes; \
+--quick shows what each option changes by itself.
 
 Columns: milliseconds a pass and a frame (median, smallest, largest); fragments a pass; linear color, where white is 1 (largest \
 and root mean square) over the pixels that both pictures cover; PSNR in decibels below white; SSIM, 1 for equal pictures; \
@@ -143,7 +144,7 @@ pub struct RenderArguments {
     pub device: Option<String>,
 
     /// Time that many frames, after two to warm up, and print a table [default: 10 with --timings, else none]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     #[arg(help_heading = "Device and measurement")]
     pub frames: Option<u32>,
 
@@ -179,12 +180,13 @@ pub struct ConvertArguments {
     #[arg(value_name = "OUTPUT")]
     pub output: PathBuf,
 
-    /// Spread that many disks evenly over the mesh's area [default: a disk at each vertex]
-    #[arg(long, value_name = "N")]
+    /// Spread that many disks evenly over the mesh's area; takes about 75 bytes of memory each [default: a disk at each vertex]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u64>(1..=4_294_967_295), allow_hyphen_values = true)]
     pub resample: Option<u64>,
 
     /// Which samples are taken
     #[arg(long, value_name = "S", default_value_t = 0, requires = "resample")]
+    #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     pub seed: u64,
 }
 
@@ -209,7 +211,7 @@ pub struct BenchArguments {
 
     /// Rounds that are counted, after three to warm up
     #[arg(long, value_name = "N", default_value_t = 20)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
 
     /// The device: its number or a part of its name, see `surfel info` [default: the best]

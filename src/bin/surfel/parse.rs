@@ -1,5 +1,7 @@
 //! The values of options, as text. Whether they are in range is for the library to say, see `Settings::validate`.
 
+use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
+
 use surfel::scene::{Epsilon, Kernel};
 
 /// `1024x768`.
@@ -11,6 +13,17 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
 /// `0.5,1,-2`.
 pub fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers(text).ok_or_else(|| "expected three numbers with commas between, such as 0,0.5,-2".to_owned())
+}
+
+/// A whole number within `range`.
+pub fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: FromStr + PartialOrd + Display + Clone + Send + Sync + 'static,
+{
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        number.ok_or_else(|| format!("expected a whole number, {} to {}", range.start(), range.end()))
+    }
 }
 
 /// `75`: degrees between a plane and the view, not quite edge-on.

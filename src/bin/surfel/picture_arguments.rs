@@ -76,7 +76,8 @@ pub struct StyleArguments {
     pub rasterizer: Rasterizer,
 
     /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), none, the paper's adjustment
-    /// (disks only), the maximum of kernel and low-pass filter, or full EWA (Gaussian kernels only)
+    /// (disks only), the maximum of kernel and low-pass filter (not for triangle), or full EWA (Gaussian kernels; with
+    /// perspective, quad and the affine rasterizers)
     #[arg(long, value_name = "NAME", default_value = "adjust", value_parser = choice(Filter::NAMES))]
     pub filter: Filter,
 
@@ -92,7 +93,8 @@ pub struct StyleArguments {
     #[arg(long, value_name = "HOW", default_value = "analytic", value_parser = choice(KernelEval::NAMES))]
     pub kernel_eval: KernelEval,
 
-    /// Tell the device a bound of each splat's depth, so that it may skip hidden fragments; the picture is the same
+    /// Tell the device a bound of each splat's depth, so that it may skip hidden fragments; the picture is the same, and
+    /// the reference's too
     #[arg(long, value_name = "on|off", default_value = "off", value_parser = choice(ON_OFF))]
     #[arg(action = clap::ArgAction::Set)]
     pub early_depth: bool,

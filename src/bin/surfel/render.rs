@@ -65,6 +65,7 @@ fn draw(
     let picture = &arguments.picture;
     let bars = Bars::new();
     let Loaded { scene, ball, inputs } = load_scene(&picture.inputs, &bars, &mut steps)?;
+    settings.check_scene(&scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&ball, settings.size_px)?;
     let prepared =
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));

@@ -55,7 +55,7 @@ pub struct CompareArguments {
 
     /// Samples along a pixel's side in the ground truth; --zoom takes more where splats are far below a pixel
     #[arg(long, value_name = "N", default_value_t = 16)]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(value_parser = parse::whole::<u32>(1..=64), allow_hyphen_values = true)]
     pub samples: u32,
 
     /// In place of a scene: a checkerboard in perspective, each filter at distances from 0.05 to 50 pixels a splat
@@ -64,12 +64,12 @@ pub struct CompareArguments {
 
     /// Distances of --zoom [default: 25]
     #[arg(long, value_name = "N", conflicts_with = "inputs", requires = "zoom")]
-    #[arg(value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(value_parser = parse::whole::<u32>(2..=1000), allow_hyphen_values = true)]
     pub zoom_steps: Option<u32>,
 
     /// Splats along the checkerboard's side [default: 600]
     #[arg(long, value_name = "N", conflicts_with = "inputs", requires = "zoom")]
-    #[arg(value_parser = clap::value_parser!(u32).range(2..=4000))]
+    #[arg(value_parser = parse::whole::<u32>(2..=4000), allow_hyphen_values = true)]
     pub zoom_splats: Option<u32>,
 
     /// By how many degrees the checkerboard is tilted against the view, 0 to 85 [default: 75]
@@ -90,7 +90,7 @@ pub struct CompareArguments {
 
     /// Frames timed of each method, in pairs: the methods take turns, an untimed frame before each pair
     #[arg(long, value_name = "N", default_value_t = 10, help_heading = "Device and measurement")]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
 
     /// The device: its number or a part of its name, see `surfel info` [default: the best]

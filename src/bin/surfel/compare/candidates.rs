@@ -6,7 +6,7 @@ use surfel::{
     Error, Result,
     renderer::Renderer,
     report::compare::{Method, Skipped},
-    scene::{Filter, Rasterizer, Scene, Settings, Shapes},
+    scene::{Filter, Rasterizer, Scene, Settings},
 };
 
 /// The methods that exist, and those that don't with the reason.
@@ -34,9 +34,7 @@ pub fn split(
 
 fn check(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Result<()> {
     renderer.check_settings(settings)?;
-    scene.objects.iter().try_for_each(|object| {
-        settings.check_object(&object.name, matches!(object.splats.shapes, Shapes::Ellipses { .. }))
-    })
+    settings.check_scene(scene)
 }
 
 /// Refuses to compare nothing.

@@ -18,7 +18,7 @@ pub struct FigureArguments {
     #[arg(short, long, value_name = "FILE", requires = "name")]
     pub output: Option<PathBuf>,
 
-    /// Width and height in pixels: of each panel without its labels, or of the plot [default: the figure's own]
+    /// Width and height in pixels: of each panel without its labels, or of the plot; 32 to 4096 a side, g1 square [default: the figure's own]
     #[arg(long, value_name = "WxH", requires = "name", value_parser = parse::size)]
     pub size: Option<[u32; 2]>,
 
