@@ -109,8 +109,14 @@ impl Areas {
             true => Ok(Self { ends, total }),
             false => {
                 let count = mesh.triangles.len();
-                let problem =
-                    format!("no area to take samples of: {count} triangles of {total} square units");
+                let plural = if count == 1 { "" } else { "s" };
+                let wrong = mesh.positions.iter().position(|vertex| !vertex.is_finite());
+                let because = match wrong {
+                    Some(vertex) => format!(" (vertex {vertex} is {:?})", mesh.positions[vertex].to_array()),
+                    None if count > 0 => " (none has an area within the range of 64-bit numbers)".to_owned(),
+                    None => String::new(),
+                };
+                let problem = format!("no area to take samples of in {count} triangle{plural}{because}");
                 Err(Error::input("mesh", "", problem))
             }
         }

@@ -73,7 +73,7 @@ fn an_old_file_is_replaced_and_a_failure_keeps_it() {
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     let run = surfel(&folder, &["convert", "flat.obj", "out.ply", "--resample", "10"]);
     assert_eq!(run.code, 1);
-    let expected = "surfel: flat.obj: no area to take samples of: 1 triangles of 0 square units\n";
+    let expected = "surfel: flat.obj: no area to take samples of in 1 triangle (none has an area within the range of 64-bit numbers)\n";
     assert_eq!(run.stderr, expected);
     assert_eq!(fs::read(folder.path("out.ply")).unwrap(), b"old");
     convert(&folder, &["octahedron.obj", "out.ply"]);
@@ -92,12 +92,18 @@ fn what_cannot_be_converted_is_refused_in_one_line() {
         (&["none.obj", "none/a.ply"], "none/a.ply: cannot write: No such file"),
         (&["splats.ply", "./splats.ply"], "./splats.ply: is the input"),
         (&["splats.ply", "a.ply", "--resample", "9"], "splats.ply: the file holds splats; expected a mesh"),
-        (&["octahedron.obj", "a.ply", "--resample", "0"], "--resample: 0 samples, expected 1 to 4294967295"),
+        (
+            &["octahedron.obj", "a.ply", "--resample", "0"],
+            "'0' for '--resample <N>': expected a whole number, 1 to 4294967295",
+        ),
         (
             &["octahedron.obj", "a.ply", "--resample", "4294967296"],
-            "--resample: 4294967296 samples, expected",
+            "'4294967296' for '--resample <N>': expected a whole number",
         ),
-        (&["octahedron.obj", "a.ply", "--resample", "-1"], "-1"),
+        (
+            &["octahedron.obj", "a.ply", "--resample", "-1"],
+            "'-1' for '--resample <N>': expected a whole number",
+        ),
         (&["octahedron.obj", "a.ply", "--seed", "1"], "--resample <N>"),
     ];
     for (arguments, words) in cases {

@@ -106,7 +106,7 @@ fn values_that_cannot_be() {
         ("--background", "0,0,2", ["--background", "0 to 1"]),
         ("--fov", "180", ["--fov", "between 1e-10 and 180"]),
         ("--eye", "1,2", ["--eye", "three numbers"]),
-        ("--frames", "0", ["--frames", "1..="]),
+        ("--frames", "0", ["--frames", "expected a whole number, 1 to 100000"]),
     ] {
         refused(&folder, &["render", "good.obj", option, value], 1, &words);
     }

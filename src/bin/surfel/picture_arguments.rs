@@ -85,7 +85,8 @@ pub struct StyleArguments {
     #[arg(long, value_name = "HOW", default_value = "area", value_parser = choice(FilterWeight::NAMES))]
     pub filter_weight: FilterWeight,
 
-    /// The weight within a splat: gaussian:S (S in radii) or psi_e:A,B,N
+    /// The weight within a splat: gaussian:S (S in radii) or psi_e:A,B,N, whose small weights are for --accumulate f32: sums
+    /// of 16 bits lose the colors at its rim
     #[arg(long, value_name = "KERNEL", default_value = "gaussian:0.5", value_parser = parse::kernel)]
     pub kernel: Kernel,
 
