@@ -75,7 +75,7 @@ and root mean square) over the pixels that both pictures cover; PSNR in decibels
 pixels that only one of them covers; image, the root mean square over all that either picture touches, over white; normals \
 in degrees; depth relative to itself; out, the share of pixels left out of the implementation error, because rounding alone \
 may turn a rim or the epsilon test there (their error is in the JSON). A star marks the Pareto front: no other \
-method is at least as good in milliseconds a frame and in the RMS of the method error (equal within 1%) and better in one. Two runs differ \
+method is at least as good in milliseconds a frame and in image (equal within 1%) and better in one. Two runs differ \
 in times, what is told of them, and the stars, in nothing else.
 
 With --zoom, a tilted checkerboard is drawn from many distances in place of a scene, by each filter, against the \
