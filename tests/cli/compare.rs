@@ -75,7 +75,9 @@ fn methods_stand_side_by_side_with_times_and_both_errors() {
         assert!(own["color"]["max"].as_f64().unwrap() < limit, "{own}");
         let truth = &method["method_error"];
         assert!(truth["color"]["rms"].as_f64() > own["color"]["rms"].as_f64(), "{truth}");
-        assert!(truth["ssim"].as_f64() > Some(0.1) && truth["psnr_db"].as_f64() > Some(10.0), "{truth}");
+        // The filter blurs what the truth still shows; without it the splats are where the truth has them.
+        let least = if method["filter"] == "none" { 0.5 } else { 0.2 };
+        assert!(truth["ssim"].as_f64() > Some(least) && truth["psnr_db"].as_f64() > Some(10.0), "{truth}");
     }
     // 16 bits cost exactness, which is told apart from what the filter costs.
     let rms = |i: usize| methods[i]["implementation_error"]["color"]["rms"].as_f64().unwrap();

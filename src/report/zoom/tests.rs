@@ -105,7 +105,7 @@ fn claims_are_judged_by_the_worst_step_and_only_where_they_are_made() {
     // Worse than `max` outside of the band is no fault; within, it is twice as good.
     assert_eq!(claims[1].worst_ratio, Some(0.5));
     assert!(
-        claims[3].to_string().contains("NO, not at 1 of 3 steps; worst ratio 1.100 at 20.000"),
+        claims[3].to_string().contains("NO, not at 1 of 3 steps; worst ratio 1.100000 at 20.000"),
         "{}",
         claims[3]
     );
