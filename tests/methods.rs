@@ -38,19 +38,13 @@ fn family(rasterizer: Rasterizer) -> Rasterizer {
 
 /// How much larger than [`F32`] errors may be.
 ///
-/// Disks seen within 1° of grazing are 0.02 px thin where nothing widens them. A center is placed to half a step of f32
-/// in pixels, 3.8e-6 at 64 px, which is 2e-4 of such an axis, and both ends of the kernel's slope of 4 see it: 1e-3 and
-/// more. Normals nearly cancel there, which magnifies errors of weights further. Three times the limit for forms that are
-/// expanded about the center; the paper's, whose coordinates count from the image's middle, has twice their error. A
-/// triangle's (u, v) are interpolated between vertices that are snapped to 1/256 px on some devices.
+/// Disks seen within 1° of grazing are 0.02 px thin where nothing widens them. A triangle's vertices are placed to half a
+/// step of f32 in pixels, 3.8e-6 at 64 px, which is 2e-4 of such an axis; both ends of the kernel's slope of 4 see it, and
+/// no expansion about the center takes it out, since (u, v) are interpolated between them: 1.03e-3 of the weight. (A device
+/// that snaps vertices to 1/256 px will be wrong by more than that.)
 fn factor(hard: &Hard) -> f64 {
     let thin = hard.name == "edge-on disks" && !matches!(hard.settings.filter, Filter::Adjust | Filter::Ewa);
-    match (thin, hard.settings.rasterizer) {
-        (false, Rasterizer::Perspective | Rasterizer::Quad) => 1.0,
-        (false, _) => 2.0,
-        (true, Rasterizer::PerspectivePaper | Rasterizer::Triangle) => 6.0,
-        (true, _) => 3.0,
-    }
+    if thin && hard.settings.rasterizer == Rasterizer::Triangle { 1.1 } else { 1.0 }
 }
 
 /// Scenes whose splats are mostly too small for a picture without filter have few pixels.

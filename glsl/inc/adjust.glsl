@@ -6,8 +6,9 @@
 //
 // Axes: the parametrization is rotated first (principal.glsl). Covariances of Gaussians add, so that an axis of length l
 // should become sqrt(l^2 + h^2): the paper's max(l, h) is short of that by 29% at l = h, which doubles the error of a
-// checkerboard there. Here it is max(l, sqrt(h^2 + 255/256 l^2)): 0.2% short of the sum at most, so that the exact outline,
-// which in perspective is larger than the affine one, has no more fragments than EWA; and nothing is widened from 16 h on.
+// checkerboard there. Here it is max(l, h, sqrt(255/256 (l^2 + h^2))): 0.2% short of the sum at most, so that the exact
+// outline, which in perspective is larger than the affine one, has no more fragments than EWA. Below h / 16 and from 16 h
+// on it is the paper's.
 //
 // Depth: an axis keeps its own, as it is at its ends. Parallel to the screen it would cut through its neighbors where it is
 // stretched just a little. But one shorter than h / 16 loses it as it vanishes: which end is the nearer one is rounding then.
@@ -21,7 +22,7 @@
 // Limits: affine approximation at the center, like every EWA filter: for regular splats (mapping.glsl). A center that is
 // nearer than the splat is deep has no image of which that would be true, and in f32 no digits.
 
-const float OWN_PART = 255.0 / 256.0;
+const float SUM_PART = 255.0 / 256.0;
 const float OWN_DEPTH = 1.0 / 16.0; // in h: shorter axes lose their depth
 
 struct Widened {
@@ -40,13 +41,19 @@ vec3 flat_cross(vec2 v, vec3 p)
     return vec3(v.y * p.z, -v.x * p.z, v.x * p.y - v.y * p.x);
 }
 
+// The half axis that is drawn in place of one of length l.
+float widened_axis(float l, float h)
+{
+    return max(sqrt(SUM_PART * FORMULA(FORMULA_WIDENED, l * l) + SUM_PART * h * h), max(l, h));
+}
+
 Widened adjust_tangents(vec3 p, vec3 s, vec3 t)
 {
     Principal axes = principal_axes(p, s, t);
     float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
     float minor = abs(axes.minor);
-    float l1 = max(sqrt(FORMULA(FORMULA_WIDENED, OWN_PART * axes.major * axes.major) + h * h), axes.major);
-    float l2 = max(sqrt(OWN_PART * minor * minor + h * h), minor);
+    float l1 = widened_axis(axes.major, h);
+    float l2 = widened_axis(minor, h);
     vec2 e = axes.direction;
     vec2 f = vec2(-e.y, e.x);
     // Of the axes as they are, with the sign with which the parametrization runs along f.

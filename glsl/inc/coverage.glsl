@@ -50,7 +50,7 @@ vec3 extra()
 // The ray of the fragment meets the splat's plane n . q = n . p (Botsch et al. 2005): 1 / z is linear along the image.
 vec3 evaluate()
 {
-    precise vec3 ray = vec3(at_px() / frame.focal_px, 1.0);
+    precise vec3 ray = vec3(at_px(), 1.0); // x and y in focal lengths, like all that was handed over
     precise float inverse_z = ray_plane_extra.x * ray.x + ray_plane_extra.y * ray.y + ray_plane_extra.z;
     vec3 q = ray / inverse_z - ray_center_extra.xyz;
     precise float w = FORMULA(FORMULA_RAY_DEPTH, frame.near * inverse_z);
@@ -59,7 +59,7 @@ vec3 evaluate()
 
 vec2 from_center_px()
 {
-    vec2 center_px = ray_center_extra.xy / ray_center_extra.z * frame.focal_px;
+    vec2 center_px = ray_center_extra.xy / ray_center_extra.z;
     return at_px() - center_px;
 }
 

@@ -87,8 +87,9 @@ void hand_over(Mapping m, vec3 extra)
     float n2 = precise_dot(m.n2, m.n2);
     vec3 u_axis = precise_cross(m.t, m.n2) / n2;
     vec3 v_axis = precise_cross(m.n2, m.s) / n2;
-    // Not by m.scale: n . p of this very n, so that the plane holds the center.
-    vec3 plane = m.n2 / precise_dot(m.n2, m.p);
+    // The third component such that the plane holds the center.
+    vec2 slope = m.n2.xy * (m.scale / frame.near);
+    vec3 plane = vec3(slope, (1.0 - (slope.x * m.p.x + slope.y * m.p.y)) / m.p.z);
     if (m.edge_on) {
         plane = vec3(0.0); // its rays meet nothing
     }
@@ -97,10 +98,12 @@ void hand_over(Mapping m, vec3 extra)
     if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > frame.near) {
         half_square_px = approximate_radius(m) * frame.focal_px;
     }
-    ray_center_extra = vec4(m.p, extra.x);
-    ray_plane_extra = vec4(plane, extra.y);
-    ray_u_extra = vec4(u_axis, extra.z);
-    ray_v_square = vec4(v_axis, half_square_px);
+    // x and y of positions in focal lengths, so that a pixel is its ray.
+    vec3 stretch = vec3(frame.focal_px, frame.focal_px, 1.0);
+    ray_center_extra = vec4(m.p * stretch, extra.x);
+    ray_plane_extra = vec4(plane / stretch, extra.y);
+    ray_u_extra = vec4(u_axis / stretch, extra.z);
+    ray_v_square = vec4(v_axis / stretch, half_square_px);
 }
 #elif !defined(TRIANGLES) && !defined(SMALL_TRIANGLES)
 vec2 handed_over_px(vec2 from_middle)
