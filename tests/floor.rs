@@ -35,3 +35,27 @@ fn the_floor_draws_the_fragments_of_the_passes_and_the_strict_floor_fewer_points
     }
     assert_validation_is_silent(&headless);
 }
+
+#[test]
+fn a_scene_of_several_chunks_has_a_floor_too() {
+    let mut headless = headless();
+    let hard = scenes::sphere_of_disks();
+    // 32 bytes a disk: four chunks.
+    common::with_limits(
+        &mut headless,
+        |limits| limits.max_storage_buffer_range = 32 * 1000,
+        |headless| {
+            let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+            let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+            let frame = headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap();
+            for survivors in [false, true] {
+                let mut floor =
+                    Floor::new(headless, &prepared, &hard.camera, &hard.settings, survivors).unwrap();
+                let counted = fragments(&floor.frame(headless, Profile::Counts).unwrap());
+                assert_eq!(counted, fragments(frame.profile.as_ref().unwrap()));
+                assert_eq!(floor.count() < prepared.splat_count(), survivors);
+            }
+        },
+    );
+    assert_validation_is_silent(&headless);
+}

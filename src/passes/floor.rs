@@ -6,7 +6,7 @@
 
 use ash::vk;
 
-use super::{DEPTH_FORMAT, Inputs, pipelines::GraphicsKey};
+use super::{DEPTH_FORMAT, Draw, Inputs, pipelines::GraphicsKey};
 use crate::{
     error::Result,
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
@@ -20,16 +20,24 @@ pub const FLOOR_POINT_BYTES: u64 = 16;
 /// Invocations of a workgroup, as in `glsl/floor_points.comp.glsl`.
 const GROUP: u32 = 256;
 
-/// Declares the pass that precomputes the points of the first chunk.
+/// The precomputed points of a chunk.
+pub struct FloorPoints<'a> {
+    /// [`FLOOR_POINT_BYTES`] each.
+    pub buffer: &'a Handle<Buffer>,
+    /// How many are drawn.
+    pub count: u32,
+}
+
+/// Declares the pass that precomputes the points of one chunk.
 ///
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
 pub fn floor_points<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
+    draw: &'a Draw<'a>,
     points: &mut Handle<Buffer>,
 ) -> Result<()> {
-    let Some(draw) = inputs.draws.first() else { return Ok(()) };
     let layout = &inputs.shaders.list_layout;
     let pipeline = inputs.shaders.compute(&shaders::FLOOR_POINTS_COMP, layout, draw.variant.clone())?;
     let id = points.id();
@@ -53,15 +61,14 @@ pub fn floor_points<'a>(
     Ok(())
 }
 
-/// Declares the floor's three passes over `count` precomputed points.
+/// Declares the floor's three passes over precomputed points.
 ///
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
 pub fn floor_frame<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    points: &Handle<Buffer>,
-    count: u32,
+    points: &[FloorPoints<'_>],
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
@@ -72,12 +79,13 @@ pub fn floor_frame<'a>(
 
     let key = || GraphicsKey::new(vk::PrimitiveTopology::POINT_LIST, Vec::new());
     let depth_key = GraphicsKey { depth: Some((vk::CompareOp::GREATER, true)), ..key() };
-    let body = draw_points(inputs, &shaders::FLOOR_DEPTH_FRAG, depth_key, points, count)?;
-    graph
-        .pass("floor depth")
-        .write(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
-        .read(points, Access::StorageReadVertex)
-        .finish(body);
+    let body = draw_points(inputs, &shaders::FLOOR_DEPTH_FRAG, depth_key, points)?;
+    let pass = graph.pass("floor depth").write(
+        &mut depth,
+        Access::DepthAttachment,
+        Start::Clear(ClearValue::Depth(0.0)),
+    );
+    points.iter().fold(pass, |pass, chunk| pass.read(chunk.buffer, Access::StorageReadVertex)).finish(body);
 
     let add_key = GraphicsKey {
         color_formats: vec![sums; 2],
@@ -85,15 +93,14 @@ pub fn floor_frame<'a>(
         depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
         ..key()
     };
-    let body = draw_points(inputs, &shaders::FLOOR_ADD_FRAG, add_key, points, count)?;
+    let body = draw_points(inputs, &shaders::FLOOR_ADD_FRAG, add_key, points)?;
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    graph
+    let pass = graph
         .pass("floor add")
         .write(&mut color, Access::ColorAttachment, zero)
         .write(&mut normal, Access::ColorAttachment, zero)
-        .read(&depth, Access::DepthTest)
-        .read(points, Access::StorageReadVertex)
-        .finish(body);
+        .read(&depth, Access::DepthTest);
+    points.iter().fold(pass, |pass, chunk| pass.read(chunk.buffer, Access::StorageReadVertex)).finish(body);
 
     let fill_key = GraphicsKey {
         color_formats: vec![target_format],
@@ -125,22 +132,24 @@ fn draw_points<'a>(
     inputs: Inputs<'a>,
     fragment: &'static shaders::Shader,
     key: GraphicsKey,
-    points: &Handle<Buffer>,
-    count: u32,
+    points: &[FloorPoints<'_>],
 ) -> Result<Body<'a>> {
     let layout = &inputs.shaders.splat_layout;
     let pipeline = inputs.shaders.graphics(&shaders::FLOOR_POINTS_VERT, fragment, layout, key)?;
-    let id = points.id();
+    let chunks: Vec<_> = points.iter().map(|chunk| (chunk.buffer.id(), chunk.count)).collect();
     Ok(Box::new(move |context| {
-        let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
-        let set = inputs.descriptors.set(&inputs.shaders.large_set, &given)?;
         let (device, commands) = (context.device(), context.commands());
         let bind_point = vk::PipelineBindPoint::GRAPHICS;
-        // SAFETY: inside of rendering; pipeline and set have one layout.
-        unsafe {
-            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 1, &[set], &[]);
-            device.cmd_draw(commands, count, 1, 0, 0);
+        // SAFETY: inside of rendering.
+        unsafe { device.cmd_bind_pipeline(commands, bind_point, pipeline.raw()) };
+        for &(id, count) in &chunks {
+            let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
+            let set = inputs.descriptors.set(&inputs.shaders.large_set, &given)?;
+            // SAFETY: inside of rendering; pipeline and set have one layout.
+            unsafe {
+                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 1, &[set], &[]);
+                device.cmd_draw(commands, count, 1, 0, 0);
+            }
         }
         Ok(())
     }))

@@ -22,7 +22,7 @@ use ash::vk;
 pub use constants::{ExportConstants, FinalizeConstants, FrameConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
-pub use floor::{FLOOR_POINT_BYTES, floor_frame, floor_points};
+pub use floor::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points};
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
 pub use pipelines::Shaders;

@@ -10,7 +10,7 @@ use crate::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
         execute::{FrameProfile, Physical, Profile, Transients, execute, memory_need},
     },
-    passes::{self, FLOOR_POINT_BYTES, Inputs},
+    passes::{self, FLOOR_POINT_BYTES, FloorPoints, Inputs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
@@ -21,10 +21,15 @@ pub struct Floor<'a> {
     scene: &'a PreparedScene,
     camera: Camera,
     settings: Settings,
-    points: Buffer,
-    count: u32,
+    chunks: Vec<Points>,
     target: HeadlessTarget,
     slot: FrameSlot,
+}
+
+/// The points of a chunk.
+struct Points {
+    buffer: Buffer,
+    count: u32,
 }
 
 impl<'a> Floor<'a> {
@@ -32,8 +37,8 @@ impl<'a> Floor<'a> {
     /// vertex stage too; else they stay, outside of the clip volume.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Option`] for a scene of more than one chunk or with splats larger than the device's
-    /// points; whatever the driver answers.
+    /// [`crate::error::ErrorKind::Option`] for a scene with splats larger than the device's points; whatever the driver
+    /// answers.
     pub fn new(
         headless: &Headless,
         scene: &'a PreparedScene,
@@ -43,48 +48,47 @@ impl<'a> Floor<'a> {
     ) -> Result<Self> {
         let device = headless.device();
         let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
-        let [draw] = draws.as_slice() else {
-            return Err(Error::option("bench floor", "the floor is measured with one object of one chunk"));
-        };
-        if draw.may_be_large {
+        if draws.iter().any(|draw| draw.may_be_large) {
             let problem = "a splat may exceed the device's largest point: choose a farther camera";
-            return Err(Error::option("bench floor", problem));
+            return Err(Error::option("bench", problem));
         }
-        let buffer = |memory| {
-            let size = u64::from(draw.chunk.count) * FLOOR_POINT_BYTES;
+        let buffer = |count: u32, memory| {
+            let size = u64::from(count) * FLOOR_POINT_BYTES;
             let desc = BufferDesc { name: "floor points", size, usage: vk::BufferUsageFlags::STORAGE_BUFFER };
             Buffer::new(device, desc, memory)
         };
+        let points = |count| Ok(Points { buffer: buffer(count, MemoryUse::Readback)?, count });
         let mut floor = Self {
             scene,
             camera: *camera,
             settings: settings.clone(),
-            points: buffer(MemoryUse::Readback)?,
-            count: draw.chunk.count,
+            chunks: draws.iter().map(|draw| points(draw.chunk.count)).collect::<Result<_>>()?,
             target: HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?,
             slot: FrameSlot::new(device),
         };
         floor.record(headless, None, true)?;
         if survivors {
-            let drawn: Vec<[f32; 4]> = floor
-                .points
-                .bytes()
-                .chunks_exact(FLOOR_POINT_BYTES as usize)
-                .map(bytemuck::pod_read_unaligned::<[f32; 4]>)
-                .filter(|point| point[0] < 2.0)
-                .collect();
-            floor.count = drawn.len() as u32;
-            let bytes: &[u8] = bytemuck::cast_slice(&drawn);
-            let mut kept = buffer(MemoryUse::Upload)?;
-            kept.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
-            floor.points = kept;
+            for chunk in &mut floor.chunks {
+                let drawn: Vec<[f32; 4]> = chunk
+                    .buffer
+                    .bytes()
+                    .chunks_exact(FLOOR_POINT_BYTES as usize)
+                    .map(bytemuck::pod_read_unaligned::<[f32; 4]>)
+                    .filter(|point| point[0] < 2.0)
+                    .collect();
+                let bytes: &[u8] = bytemuck::cast_slice(&drawn);
+                // A buffer has at least a byte, also where nothing is drawn.
+                let mut kept = buffer((drawn.len() as u32).max(1), MemoryUse::Upload)?;
+                kept.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
+                *chunk = Points { buffer: kept, count: drawn.len() as u32 };
+            }
         }
         Ok(floor)
     }
 
     /// How many points are drawn.
-    pub fn count(&self) -> u32 {
-        self.count
+    pub fn count(&self) -> u64 {
+        self.chunks.iter().map(|chunk| u64::from(chunk.count)).sum()
     }
 
     /// Draws one frame and measures it.
@@ -99,8 +103,11 @@ impl<'a> Floor<'a> {
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {
         let device = headless.device();
         let draws = passes::draws(self.scene, &self.camera, &self.settings, &headless.renderer.limits);
+        // Each chunk's points are a set in both passes that draw them.
+        let sets = 2 * self.chunks.len() as u32;
+        let room = PoolRoom { sets, buffers: 4 * sets, ..PoolRoom::default() };
         // SAFETY: every frame is waited for.
-        unsafe { self.slot.begin(PoolRoom { sets: 3, buffers: 12, ..PoolRoom::default() }, profile) }?;
+        unsafe { self.slot.begin(room, profile) }?;
         let (descriptors, transients, profiler) = self.slot.parts()?;
         let inputs = Inputs {
             draws: &draws,
@@ -110,18 +117,30 @@ impl<'a> Floor<'a> {
             descriptors,
         };
         let mut graph = Graph::new();
-        let desc = GraphBufferDesc { size_bytes: self.points.size() };
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
-        let mut points = graph.import_buffer("floor points", desc, BufferState::default(), Some(host));
-        let mut imports = vec![(points.id(), Physical::Buffer(self.points.raw()))];
+        let mut imports = Vec::new();
+        let mut handles = Vec::new();
+        for chunk in &self.chunks {
+            let desc = GraphBufferDesc { size_bytes: chunk.buffer.size() };
+            let handle = graph.import_buffer("floor points", desc, BufferState::default(), Some(host));
+            imports.push((handle.id(), Physical::Buffer(chunk.buffer.raw())));
+            handles.push(handle);
+        }
         if precompute {
-            passes::floor_points(&mut graph, inputs, &mut points)?;
+            for (draw, points) in draws.iter().zip(&mut handles) {
+                passes::floor_points(&mut graph, inputs, draw, points)?;
+            }
         } else {
             let target = self.target.target();
             let desc = ImageDesc { format: target.format, extent: target.extent };
             let mut image = graph.import_image("target", desc, target.initial, None);
             imports.push((image.id(), Physical::Image(target.image, target.view)));
-            passes::floor_frame(&mut graph, inputs, &points, self.count, &mut image, target.format)?;
+            let points: Vec<_> = handles
+                .iter()
+                .zip(&self.chunks)
+                .map(|(buffer, chunk)| FloorPoints { buffer, count: chunk.count })
+                .collect();
+            passes::floor_frame(&mut graph, inputs, &points, &mut image, target.format)?;
         }
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
         let transients = match transients {

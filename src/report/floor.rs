@@ -20,9 +20,9 @@ pub struct FloorReport {
     /// What was drawn.
     pub scene: SceneReport,
     /// Points of the floor: all splats, those that are not drawn outside of the clip volume.
-    pub floor_points: u32,
+    pub floor_points: u64,
     /// Points of the strict floor: only the splats that are drawn.
-    pub strict_points: u32,
+    pub strict_points: u64,
     /// Rounds of a frame, its floor and its strict floor, in turn.
     pub rounds: u32,
     /// Each pass, then the frame.
@@ -136,7 +136,7 @@ mod tests {
         ];
         let names = ["a".to_owned(), "b".to_owned()];
         let rows = FloorRow::rows(&names, &rounds, [&[Some(5), Some(7)], &[Some(5), None]]);
-        let same = |value| Some(Spread { median: value, min: value, max: value });
+        let same = |value| Spread::of([value; 2]);
         assert_eq!((rows[0].ratio, rows[1].ratio, rows[2].ratio), (same(2.0), same(1.0), same(6.0 / 5.0)));
         assert_eq!(rows[2].strict_ratio, same(2.0));
         assert_eq!((rows[2].fragments, rows[2].floor_fragments), (Some(12), None));
