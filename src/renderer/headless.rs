@@ -83,6 +83,8 @@ pub struct Frame {
     pub profile: Option<FrameProfile>,
     /// Seconds from the submission to the end of the wait for it.
     pub wall_secs: f64,
+    /// Seconds in which the host recorded it.
+    pub record_secs: f64,
     /// What was recorded.
     pub plan: Plan,
 }
@@ -157,6 +159,7 @@ impl Headless {
         };
         // Once more, in case that the wait for the frame before failed.
         self.queue.wait_submitted()?;
+        let begun = Instant::now();
         // SAFETY: every submission was waited for.
         let commands = unsafe { self.commands.begin() }?;
         // SAFETY: recording; all that the frame uses is alive until the wait below; the same for the slot.
@@ -173,13 +176,14 @@ impl Headless {
             )
         }?;
         let commands = self.commands.end()?;
+        let record_secs = begun.elapsed().as_secs_f64();
         let submitted = Instant::now();
         // SAFETY: recorded just now; waited for at once.
         let epoch = unsafe { self.queue.submit(commands) }?;
         self.queue.wait(epoch)?;
         let wall_secs = submitted.elapsed().as_secs_f64();
         let profile = self.slot.profiler().map(|profiler| profiler.read()).transpose()?;
-        Ok(targets.frame(plan, profile, wall_secs))
+        Ok(targets.frame(plan, profile, wall_secs, record_secs))
     }
 }
 
@@ -221,7 +225,7 @@ impl Targets {
     }
 
     /// Copies what was wanted out of the buffers.
-    fn frame(&self, plan: Plan, profile: Option<FrameProfile>, wall_secs: f64) -> Frame {
+    fn frame(&self, plan: Plan, profile: Option<FrameProfile>, wall_secs: f64, record_secs: f64) -> Frame {
         let picture = self.picture.as_ref().map(Buffer::bytes).unwrap_or_default();
         let (srgb, linear) = match self.wanted.linear {
             false => (copied(picture), Vec::new()),
@@ -238,6 +242,7 @@ impl Targets {
             depth: copied(surface(3)),
             profile,
             wall_secs,
+            record_secs,
             plan,
         }
     }

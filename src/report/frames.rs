@@ -16,6 +16,8 @@ pub struct FrameSample {
     pub span_ms: Option<f64>,
     /// Milliseconds from the submission to the end of the wait for it.
     pub wall_ms: f64,
+    /// Milliseconds in which the host recorded it.
+    pub record_ms: f64,
 }
 
 /// A figure of one frame; `None` where not measured.
@@ -23,7 +25,7 @@ type Figure = fn(&FrameSample) -> Option<f64>;
 
 impl FrameSample {
     /// The passes together; `None` where one is missing.
-    fn sum_ms(&self) -> Option<f64> {
+    pub(super) fn sum_ms(&self) -> Option<f64> {
         self.passes_ms.iter().copied().sum()
     }
 }
@@ -56,6 +58,8 @@ pub struct FrameTimes {
     pub first_to_last_timestamp_ms: Option<Spread>,
     /// From the submission to the end of the wait for it, in milliseconds.
     pub submit_to_wait_ms: Option<Spread>,
+    /// In which the host recorded the frame, in milliseconds.
+    pub record_ms: Option<Spread>,
     /// What a reader of these figures has to know, a sentence each.
     pub flags: Vec<String>,
 }
@@ -89,6 +93,7 @@ impl FrameTimes {
             sum_of_passes_ms: all(FrameSample::sum_ms),
             first_to_last_timestamp_ms: all(|sample| sample.span_ms),
             submit_to_wait_ms: all(|sample| Some(sample.wall_ms)),
+            record_ms: all(|sample| Some(sample.record_ms)),
             flags: flags(samples, &passes),
             passes,
         }
@@ -138,7 +143,12 @@ mod tests {
     use super::*;
 
     fn sample(passes_ms: [f64; 2], span_ms: f64, wall_ms: f64) -> FrameSample {
-        FrameSample { passes_ms: passes_ms.map(Some).to_vec(), span_ms: Some(span_ms), wall_ms }
+        FrameSample {
+            passes_ms: passes_ms.map(Some).to_vec(),
+            span_ms: Some(span_ms),
+            wall_ms,
+            record_ms: 0.1,
+        }
     }
 
     fn times(samples: &[FrameSample]) -> FrameTimes {
@@ -149,9 +159,9 @@ mod tests {
     fn figures_are_taken_per_pass_and_per_frame() {
         let samples = [sample([1.0, 10.0], 11.0, 11.2), sample([2.0, 8.0], 10.1, 10.2)];
         let times = times(&samples);
-        assert_eq!(times.passes[1].ms, Some(Spread { median: 9.0, min: 8.0, max: 10.0 }));
+        assert_eq!(times.passes[1].ms, Spread::of([10.0, 8.0]));
         assert_eq!((times.passes[1].vertices, times.passes[1].fragments), (Some(5), Some(6)));
-        assert_eq!(times.sum_of_passes_ms, Some(Spread { median: 10.5, min: 10.0, max: 11.0 }));
+        assert_eq!(times.sum_of_passes_ms, Spread::of([11.0, 10.0]));
         assert_eq!(times.timed_frames, 2);
         assert!(times.flags.is_empty(), "{:?}", times.flags);
     }
@@ -173,7 +183,8 @@ mod tests {
 
     #[test]
     fn what_was_not_measured_has_no_figure_and_a_reason() {
-        let untimed = FrameSample { passes_ms: vec![None, None], span_ms: None, wall_ms: 3.0 };
+        let untimed =
+            FrameSample { passes_ms: vec![None, None], span_ms: None, wall_ms: 3.0, record_ms: 0.1 };
         let times = FrameTimes::of(&["a".to_owned(), "b".to_owned()], 0, &[untimed], &[None, None]);
         assert_eq!((times.sum_of_passes_ms, times.first_to_last_timestamp_ms), (None, None));
         assert!(times.submit_to_wait_ms.is_some() && times.passes[0].ms.is_none());

@@ -9,17 +9,26 @@ pub mod compare;
 pub mod curves;
 mod floor;
 mod frames;
+mod grid;
 mod options;
 #[cfg(feature = "compare")]
 mod plot;
 mod run;
 mod spread;
 mod table;
+mod throughput;
+mod trust;
 #[cfg(feature = "compare")]
 pub mod zoom;
 
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
+pub use grid::{Grid, NONE, cell, count_cell};
 pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
 pub use spread::Spread;
+pub use throughput::{
+    Measured, MethodThroughput, PAPER_SPLATS, PaperThroughput, ThroughputRow, paper_throughput, passes_grid,
+    throughput_grid,
+};
+pub use trust::{Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};

@@ -1,9 +1,9 @@
 //! Several measurements of one thing.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The middle and the ends of several measurements, in their unit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// The middle one; of an even number the mean of the two in the middle.
     pub median: f64,
@@ -11,7 +11,13 @@ pub struct Spread {
     pub min: f64,
     /// The largest.
     pub max: f64,
+    /// An interval that holds the true median with at least 95% confidence, whatever the distribution; `None` of fewer
+    /// than 6 measurements, which can't give one.
+    pub interval: Option<[f64; 2]>,
 }
+
+/// How often the true median may lie outside of the interval, on each side.
+const TAIL: f64 = 0.025;
 
 impl Spread {
     /// Of these values; `None` where there is none, or one is not finite.
@@ -27,8 +33,43 @@ impl Spread {
             1 => sorted[middle],
             _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
         };
-        Some(Self { median, min, max })
+        let interval = rank(sorted.len()).map(|rank| [sorted[rank], sorted[sorted.len() - 1 - rank]]);
+        Some(Self { median, min, max, interval })
     }
+
+    /// Half the interval's width as a part of the median; `None` without an interval, or of a median that is not above 0.
+    pub fn uncertainty(&self) -> Option<f64> {
+        let [low, high] = self.interval?;
+        (self.median > 0.0).then(|| 0.5 * (high - low) / self.median)
+    }
+}
+
+/// The largest rank, from 0, such that the true median lies below that order statistic with a probability of at most
+/// [`TAIL`]: fewer than `rank + 1` of `count` measurements are below the median then, each with a chance of a half.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts of measurements are far below 2⁵³"
+)]
+fn rank(count: usize) -> Option<usize> {
+    // The probability of exactly k, from k = 0 on: 2⁻ⁿ · n over k. It would underflow of more than 1000, where the normal
+    // distribution is as good.
+    if count > 1000 {
+        return Some((0.5 * (count as f64 - 1.96 * (count as f64).sqrt()) - 1.0) as usize);
+    }
+    let mut term = 0.5_f64.powi(i32::try_from(count).ok()?);
+    let mut below = term;
+    let mut rank = None;
+    for k in 0..count {
+        if below > TAIL {
+            break;
+        }
+        rank = Some(k);
+        term *= (count - k) as f64 / (k + 1) as f64;
+        below += term;
+    }
+    rank
 }
 
 #[cfg(test)]
@@ -37,10 +78,10 @@ mod tests {
 
     #[test]
     fn median_and_ends_whatever_the_order() {
-        let spread = |median, min, max| Some(Spread { median, min, max });
-        assert_eq!(Spread::of([3.0, 1.0, 2.0]), spread(2.0, 1.0, 3.0));
-        assert_eq!(Spread::of([4.0, 1.0, 2.0, 10.0]), spread(3.0, 1.0, 10.0));
-        assert_eq!(Spread::of([5.0]), spread(5.0, 5.0, 5.0));
+        let of = |values: &[f64]| Spread::of(values.iter().copied()).map(|s| (s.median, s.min, s.max));
+        assert_eq!(of(&[3.0, 1.0, 2.0]), Some((2.0, 1.0, 3.0)));
+        assert_eq!(of(&[4.0, 1.0, 2.0, 10.0]), Some((3.0, 1.0, 10.0)));
+        assert_eq!(of(&[5.0]), Some((5.0, 5.0, 5.0)));
     }
 
     #[test]
@@ -48,5 +89,34 @@ mod tests {
         assert_eq!(Spread::of([]), None);
         assert_eq!(Spread::of([1.0, f64::NAN]), None);
         assert_eq!(Spread::of([f64::INFINITY]), None);
+    }
+
+    /// Ranks from the published tables of the sign test's intervals (two-sided, 95%).
+    #[test]
+    fn the_interval_is_that_of_the_sign_test() {
+        for (count, expected) in [(5, None), (6, Some(0)), (10, Some(1)), (20, Some(5)), (50, Some(17))] {
+            assert_eq!(rank(count), expected, "{count}");
+        }
+        let spread = Spread::of((1..=20).map(f64::from)).unwrap();
+        assert_eq!((spread.median, spread.interval), (10.5, Some([6.0, 15.0])));
+        assert!((spread.uncertainty().unwrap() - 4.5 / 10.5).abs() < 1e-12);
+        // Where the two ways meet.
+        assert!(rank(1001).unwrap().abs_diff(rank(1000).unwrap()) <= 1);
+    }
+
+    #[test]
+    fn the_interval_holds_the_true_median_as_often_as_it_says() {
+        // Uniform numbers, whose median is a half.
+        let mut random = crate::math::random::SplitMix(7);
+        let runs = 4000;
+        let held = (0..runs)
+            .filter(|_| {
+                let values: Vec<f64> = (0..20).map(|_| random.unit()).collect();
+                let [low, high] = Spread::of(values).unwrap().interval.unwrap();
+                low <= 0.5 && 0.5 <= high
+            })
+            .count();
+        // 95.9% by the binomial distribution; 3 standard deviations are 0.9%.
+        assert!((0.95..0.968).contains(&(held as f64 / f64::from(runs))), "{held} of {runs}");
     }
 }

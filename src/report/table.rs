@@ -32,6 +32,7 @@ impl fmt::Display for FrameTimes {
             ("sum of the passes", self.sum_of_passes_ms),
             ("first to last timestamp", self.first_to_last_timestamp_ms),
             ("submission to end of wait", self.submit_to_wait_ms),
+            ("recorded by the host", self.record_ms),
         ] {
             writeln!(f, "{name:30} {}", columns(spread))?;
         }
@@ -44,7 +45,7 @@ impl fmt::Display for FrameTimes {
 
 fn columns(spread: Option<Spread>) -> String {
     match spread {
-        Some(Spread { median, min, max }) => format!("{median:9.3} {min:9.3} {max:9.3}"),
+        Some(Spread { median, min, max, .. }) => format!("{median:9.3} {min:9.3} {max:9.3}"),
         None => format!("{:>9} {:>9} {:>9}", "-", "-", "-"),
     }
 }

@@ -12,6 +12,7 @@ mod explain;
 mod figure;
 mod info;
 mod json;
+mod machine;
 mod measure;
 mod outputs;
 mod parse;
@@ -22,6 +23,7 @@ mod render;
 mod reports;
 mod scene;
 mod steps;
+mod turns;
 mod usage;
 mod validation;
 

@@ -6,12 +6,12 @@ use surfel::{
     Result,
     graph::execute::Profile,
     prepare::PreparedScene,
-    renderer::{Frame, Headless, Wanted},
-    report::{FrameSample, FrameTimes},
+    renderer::{Headless, Wanted},
+    report::FrameTimes,
     scene::{Camera, Settings},
 };
 
-use crate::steps::Steps;
+use crate::{steps::Steps, turns};
 
 /// Frames before those that are timed: the first makes pipelines and transients, the second finds them.
 const WARM_UP_FRAMES: u32 = 2;
@@ -51,26 +51,12 @@ pub fn frame_times(
     }
     let mut samples = Vec::new();
     for _ in 0..frames {
-        samples.push(sample(&draw(headless, timed)?));
+        let frame = draw(headless, timed)?;
+        let profile = frame.profile.unwrap_or_default();
+        samples.push(turns::sample(&profile, frame.wall_secs, frame.record_secs));
     }
     let transient_bytes = headless.transient_bytes();
-    let counts = draw(headless, counted)?.profile.unwrap_or_default().passes;
-    let counts: Vec<_> =
-        counts.iter().map(|pass| pass.counts.map(|counts| [counts.vertices, counts.fragments])).collect();
+    let counts = turns::counts(&draw(headless, counted)?.profile.unwrap_or_default());
     let names: Vec<_> = first.plan.passes.iter().map(|pass| pass.name.clone()).collect();
     Ok((FrameTimes::of(&names, WARM_UP_FRAMES, &samples, &counts), transient_bytes))
-}
-
-/// The times of one frame.
-pub fn sample(frame: &Frame) -> FrameSample {
-    let ms = |secs: f64| 1e3 * secs;
-    let (passes, span_secs) = match &frame.profile {
-        Some(profile) => (profile.passes.as_slice(), profile.span_secs),
-        None => (&[][..], None),
-    };
-    FrameSample {
-        passes_ms: passes.iter().map(|pass| pass.secs.map(ms)).collect(),
-        span_ms: span_secs.map(ms),
-        wall_ms: ms(frame.wall_secs),
-    }
 }

@@ -34,6 +34,7 @@ fn times(ms: f64) -> FrameTimes {
         passes_ms: vec![Some(ms), Some(2.0 * ms), Some(0.5), Some(0.25)],
         span_ms: None,
         wall_ms: 4.0 * ms,
+        record_ms: 0.1,
     };
     let names = ["visibility", "accumulate", "finalize", "list"].map(str::to_owned);
     let counts = [Some([100, 2000]), Some([100, 3000]), Some([3, 4096]), None];

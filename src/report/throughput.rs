@@ -1,0 +1,313 @@
+//! Table 1 of Guennebaud, Barthe, Paulin 2006 (section 7), on any device: the throughput of perspective splatting and of ray
+//! casting at several numbers of splats, over the floor of the same points, beside the paper's own figures.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    FrameSample, FrameTimes, Spread,
+    grid::{Grid, cell, count_cell},
+};
+
+/// One number of splats.
+#[derive(Clone, Debug, Serialize)]
+pub struct ThroughputRow {
+    /// Splats drawn.
+    pub splats: u64,
+    /// Each method, timed in turn with the others and with the floor.
+    pub methods: Vec<MethodThroughput>,
+    /// The floor's frames: the same points into the same formats with nothing computed.
+    pub floor: FrameTimes,
+    /// How many times the first method's frame the others' take, round by round.
+    pub beside_first: Vec<Option<Spread>>,
+    /// Bytes of device memory in splat buffers.
+    pub splat_bytes: u64,
+    /// Bytes of device memory that a frame's own images and buffers share.
+    pub transient_bytes: u64,
+}
+
+/// One method at one number of splats.
+#[derive(Clone, Debug, Serialize)]
+pub struct MethodThroughput {
+    /// The method in words.
+    pub name: String,
+    /// Its frames.
+    pub frames: FrameTimes,
+    /// How many times the floor's pass each of its passes takes, then the frame, round by round.
+    pub over_floor: Vec<Option<Spread>>,
+    /// Frames a second, by the median of the passes together; `None` where not measured.
+    pub fps: Option<f64>,
+    /// Million splats a second, drawn or culled.
+    pub million_splats_per_sec: Option<f64>,
+    /// What the paper has for it at about this number of splats.
+    pub paper: Option<PaperThroughput>,
+}
+
+/// Figures of the paper, on its own hardware (GeForce 7800, 2006).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PaperThroughput {
+    /// Frames a second.
+    pub fps: f64,
+    /// Million splats a second.
+    pub million_splats_per_sec: f64,
+}
+
+/// The paper's table: splats, then frames a second of perspective splatting and of ray casting.
+const PAPER: [(u64, [f64; 2]); 5] = [
+    (154_000, [50.0, 33.0]),
+    (460_000, [40.0, 26.0]),
+    (1_400_000, [22.0, 13.0]),
+    (2_500_000, [15.0, 9.2]),
+    (5_000_000, [6.5, 5.0]),
+];
+
+/// The paper's numbers of splats.
+pub const PAPER_SPLATS: [u64; 5] = [154_000, 460_000, 1_400_000, 2_500_000, 5_000_000];
+
+/// The paper's figures at a number of splats: of perspective splatting, and of ray casting.
+pub fn paper_throughput(splats: u64) -> Option<[PaperThroughput; 2]> {
+    let (count, fps) = PAPER.iter().find(|(count, _)| *count == splats)?;
+    Some(fps.map(|fps| PaperThroughput { fps, million_splats_per_sec: fps * *count as f64 * 1e-6 }))
+}
+
+/// What was measured of one contestant: its passes' names, its frames round by round, its counts.
+pub struct Measured<'a> {
+    /// The method in words.
+    pub name: &'a str,
+    /// Its passes.
+    pub passes: &'a [String],
+    /// Frames of each round.
+    pub rounds: &'a [Vec<FrameSample>],
+    /// Vertices and fragments of each pass.
+    pub counts: &'a [Option<[u64; 2]>],
+}
+
+impl Measured<'_> {
+    fn times(&self) -> FrameTimes {
+        FrameTimes::of(self.passes, 1, &self.rounds.concat(), self.counts)
+    }
+
+    /// The passes' milliseconds in each round, then the frame's: the least of the round's frames, since what disturbs a
+    /// frame only makes it longer.
+    fn rounds_ms(&self) -> Vec<Vec<Option<f64>>> {
+        let pass = |round: &[FrameSample], i: usize| least(round.iter().map(|frame| frame.passes_ms[i]));
+        let frame = |round: &[FrameSample]| least(round.iter().map(FrameSample::sum_ms));
+        let round = |round: &Vec<FrameSample>| {
+            (0..self.passes.len()).map(|i| pass(round, i)).chain([frame(round)]).collect()
+        };
+        self.rounds.iter().map(round).collect()
+    }
+
+    /// Milliseconds of the frame in each round; empty where not measured.
+    pub fn frame_ms(&self) -> Vec<f64> {
+        let all: Option<Vec<f64>> =
+            self.rounds_ms().iter().map(|round| round.last().copied().flatten()).collect();
+        all.unwrap_or_default()
+    }
+}
+
+fn least(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    values.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)
+}
+
+/// Figure `i` of one contestant over that of another, round by round.
+fn ratio(own: &[Vec<Option<f64>>], other: &[Vec<Option<f64>>], i: usize, j: usize) -> Option<Spread> {
+    let ratios: Option<Vec<f64>> =
+        own.iter().zip(other).map(|(own, other)| Some((*own.get(i)?)? / (*other.get(j)?)?)).collect();
+    ratios.and_then(Spread::of)
+}
+
+impl ThroughputRow {
+    /// Of methods and their floor, measured in turn.
+    pub fn of(splats: u64, methods: &[Measured<'_>], floor: &Measured<'_>, bytes: [u64; 2]) -> Self {
+        let floor_ms = floor.rounds_ms();
+        let paper = paper_throughput(splats);
+        let method = |(number, measured): (usize, &Measured<'_>)| {
+            let own_ms = measured.rounds_ms();
+            let frames = measured.times();
+            let secs = frames.sum_of_passes_ms.map(|spread| 1e-3 * spread.median).filter(|secs| *secs > 0.0);
+            MethodThroughput {
+                name: measured.name.to_owned(),
+                // Passes meet the floor's by their order; a method with others has no such ratio but the frame's.
+                over_floor: (0..=measured.passes.len())
+                    .map(|i| {
+                        match measured.passes.len() == floor.passes.len() || i == measured.passes.len() {
+                            true => ratio(&own_ms, &floor_ms, i, i.min(floor.passes.len())),
+                            false => None,
+                        }
+                    })
+                    .collect(),
+                fps: secs.map(|secs| 1.0 / secs),
+                million_splats_per_sec: secs.map(|secs| 1e-6 * splats as f64 / secs),
+                paper: paper.and_then(|both| both.get(number).copied()),
+                frames,
+            }
+        };
+        let first = methods.first().map(Measured::rounds_ms).unwrap_or_default();
+        let frame = |measured: &Measured<'_>| measured.passes.len();
+        let beside = |measured: &Measured<'_>| {
+            ratio(&measured.rounds_ms(), &first, frame(measured), methods.first().map_or(0, frame))
+        };
+        Self {
+            splats,
+            methods: methods.iter().enumerate().map(method).collect(),
+            floor: floor.times(),
+            beside_first: methods.iter().map(beside).collect(),
+            splat_bytes: bytes[0],
+            transient_bytes: bytes[1],
+        }
+    }
+}
+
+/// The head of the table: frames and splats a second, the ratios, beside the paper's.
+pub fn throughput_grid(rows: &[ThroughputRow]) -> Grid {
+    let mut grid = Grid::new(
+        "throughput (the paper's in brackets)",
+        &[
+            "splats",
+            "method",
+            "fps",
+            "(paper)",
+            "M splats/s",
+            "(paper)",
+            "frame ms",
+            "95% of the median",
+            "x first",
+            "(paper)",
+            "x floor",
+            "record ms",
+            "MB",
+        ],
+    );
+    for row in rows {
+        let mega = 1e-6 * (row.splat_bytes + row.transient_bytes) as f64;
+        let first_paper = row.methods.first().and_then(|method| method.paper);
+        for (method, beside) in row.methods.iter().zip(&row.beside_first) {
+            let ms = method.frames.sum_of_passes_ms;
+            let paper_ratio = first_paper.zip(method.paper).map(|(first, own)| first.fps / own.fps);
+            grid.row([
+                row.splats.to_string(),
+                method.name.clone(),
+                cell(method.fps, 2),
+                bracketed(method.paper.map(|paper| paper.fps), 1),
+                cell(method.million_splats_per_sec, 2),
+                bracketed(method.paper.map(|paper| paper.million_splats_per_sec), 1),
+                cell(ms.map(|ms| ms.median), 2),
+                interval_cell(ms.as_ref()),
+                cell(beside.map(|spread| spread.median), 3),
+                bracketed(paper_ratio, 2),
+                cell(method.over_floor.last().copied().flatten().map(|spread| spread.median), 2),
+                cell(method.frames.record_ms.map(|ms| ms.median), 3),
+                format!("{mega:.1}"),
+            ]);
+        }
+    }
+    grid.notes.push(
+        "medians; ratios are medians of the rounds' own ratios: x first beside the first method, x floor beside the same \
+         points and formats with nothing computed"
+            .to_owned(),
+    );
+    grid
+}
+
+/// Every pass of every method: where the time goes. The floor's passes follow each number of splats.
+pub fn passes_grid(rows: &[ThroughputRow]) -> Grid {
+    let head = ["splats", "method", "pass", "ms", "min", "max", "x floor", "vertices", "fragments"];
+    let mut grid = Grid::new("where the time goes", &head);
+    for row in rows {
+        for method in &row.methods {
+            rows_of(&mut grid, row.splats, &method.name, &method.frames, &method.over_floor);
+        }
+        rows_of(&mut grid, row.splats, "floor", &row.floor, &[]);
+    }
+    grid
+}
+
+fn rows_of(grid: &mut Grid, splats: u64, name: &str, frames: &FrameTimes, over_floor: &[Option<Spread>]) {
+    for (i, pass) in frames.passes.iter().enumerate() {
+        let over = over_floor.get(i).copied().flatten();
+        grid.row([
+            splats.to_string(),
+            name.to_owned(),
+            pass.name.clone(),
+            cell(pass.ms.map(|ms| ms.median), 2),
+            cell(pass.ms.map(|ms| ms.min), 2),
+            cell(pass.ms.map(|ms| ms.max), 2),
+            cell(over.map(|spread| spread.median), 2),
+            count_cell(pass.vertices),
+            count_cell(pass.fragments),
+        ]);
+    }
+}
+
+fn bracketed(figure: Option<f64>, decimals: usize) -> String {
+    figure.map_or_else(String::new, |figure| format!("({figure:.decimals$})"))
+}
+
+/// The interval that holds the true median.
+fn interval_cell(spread: Option<&Spread>) -> String {
+    match spread.and_then(|spread| spread.interval) {
+        Some([low, high]) => format!("{low:.2} to {high:.2}"),
+        None => super::grid::NONE.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rounds(scale: f64) -> Vec<Vec<FrameSample>> {
+        // The machine becomes slower from round to round.
+        let frame = |slow: f64| FrameSample {
+            passes_ms: [1.0, 2.0, 0.5].map(|ms| Some(scale * slow * ms)).to_vec(),
+            span_ms: None,
+            wall_ms: 4.0,
+            record_ms: 0.1,
+        };
+        (1..=6).map(|round| vec![frame(1.5 * f64::from(round)), frame(f64::from(round))]).collect()
+    }
+
+    fn row() -> ThroughputRow {
+        let names = ["visibility", "accumulate", "finalize"].map(str::to_owned);
+        let counts = [Some([7, 70]); 3];
+        let all = [rounds(2.0), rounds(3.0), rounds(1.0)];
+        let measured = |name, i: usize| Measured { name, passes: &names, rounds: &all[i], counts: &counts };
+        let methods = [measured("perspective", 0), measured("raycast", 1)];
+        ThroughputRow::of(154_000, &methods, &measured("floor", 2), [1_000_000, 500_000])
+    }
+
+    #[test]
+    fn ratios_are_those_of_each_round() {
+        let row = row();
+        assert_eq!(row.beside_first, [Spread::of([1.0; 6]), Spread::of([1.5; 6])]);
+        assert_eq!(row.methods[0].over_floor, vec![Spread::of([2.0; 6]); 4]);
+        // 12 frames from 7 to 63 ms.
+        let median = row.methods[0].frames.sum_of_passes_ms.unwrap().median;
+        assert!((row.methods[0].fps.unwrap() - 1e3 / median).abs() < 1e-9);
+        assert_eq!(
+            row.methods[1].paper,
+            Some(PaperThroughput { fps: 33.0, million_splats_per_sec: 33.0 * 0.154 })
+        );
+    }
+
+    #[test]
+    fn the_papers_splats_a_second_follow_from_its_frames() {
+        // As printed: 50 (7.7), 40 (18.4), 22 (31), 15 (37.5), 6.5 (32.5); 33 (5), 26 (12), 13 (18.2), 9.2 (23), 5 (25).
+        let printed = [[7.7, 5.0], [18.4, 12.0], [31.0, 18.2], [37.5, 23.0], [32.5, 25.0]];
+        for (splats, printed) in PAPER_SPLATS.into_iter().zip(printed) {
+            for (figure, printed) in paper_throughput(splats).unwrap().iter().zip(printed) {
+                let near = (figure.million_splats_per_sec / printed - 1.0).abs() < 0.02;
+                assert!(near, "{splats}: {figure:?} {printed}");
+            }
+        }
+        assert_eq!(paper_throughput(150_000), None);
+    }
+
+    #[test]
+    fn every_pass_of_every_method_has_a_row() {
+        let rows = [row()];
+        assert_eq!(passes_grid(&rows).rows.len(), 9);
+        let grid = throughput_grid(&rows);
+        assert!(grid.rows.iter().all(|row| row.len() == grid.head.len()));
+        assert_eq!(grid.rows[1][..4], ["154000", "raycast", grid.rows[1][2].as_str(), "(33.0)"]);
+    }
+}
