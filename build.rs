@@ -3,7 +3,7 @@
 #[path = "src/shaders/build/mod.rs"]
 mod shader_build;
 
-use std::{env, fs, path::Path};
+use std::{env, fs, path::Path, process::Command};
 
 /// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
 /// offset, and the size; a listed struct that no shader has is an error.
@@ -17,6 +17,7 @@ fn main() {
     let glsl = Path::new("glsl");
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=src/shaders/build");
+    tell_the_commit();
     match shader_build::files_and_folders(glsl) {
         Ok(paths) => paths.iter().for_each(|p| println!("cargo::rerun-if-changed={}", p.display())),
         Err(e) => return println!("cargo::error=cannot list {}: {e}", glsl.display()),
@@ -33,5 +34,24 @@ fn main() {
         }
         // Cargo shows each such line as an error and then stops the build.
         Err(errors) => errors.iter().flat_map(|e| e.lines()).for_each(|line| println!("cargo::error={line}")),
+    }
+}
+
+/// Reports name the commit they were made from, as `SURFEL_COMMIT`: in a checkout, not in a package.
+fn tell_the_commit() {
+    let git = |arguments: &[&str]| {
+        let output = Command::new("git").args(arguments).output().ok().filter(|o| o.status.success())?;
+        Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+    };
+    // Not that of a repository which this folder happens to lie in.
+    let is_ours = git(&["rev-parse", "--show-prefix"]).is_some_and(|prefix| prefix.is_empty());
+    if let (true, Some(commit)) = (is_ours, git(&["rev-parse", "--short=12", "HEAD"])) {
+        println!("cargo::rustc-env=SURFEL_COMMIT={commit}");
+        // Written by each commit and each checkout.
+        if let Some(log) =
+            git(&["rev-parse", "--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists())
+        {
+            println!("cargo::rerun-if-changed={log}");
+        }
     }
 }

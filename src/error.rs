@@ -77,6 +77,20 @@ pub enum ErrorKind {
         /// The first of them.
         first: String,
     },
+    /// Figures became worse than they were.
+    Regression {
+        /// How many.
+        count: usize,
+        /// The first of them.
+        first: String,
+    },
+    /// Figures can't be trusted, and that was refused.
+    Doubtful {
+        /// How many reasons there are.
+        count: usize,
+        /// The first of them.
+        first: String,
+    },
 }
 
 impl Error {
@@ -85,15 +99,17 @@ impl Error {
         &self.0
     }
 
-    /// The program's exit code: 1 the input or an option is at fault, 2 the device is, 3 validation messages.
+    /// The program's exit code: 1 the input or an option is at fault, 2 the device is, 3 validation messages or a failed
+    /// check.
     pub fn exit_code(&self) -> u8 {
         match *self.0 {
             ErrorKind::Input { .. } | ErrorKind::Option { .. } | ErrorKind::File { .. } => 1,
             ErrorKind::NoDevice { .. }
             | ErrorKind::Vulkan { .. }
             | ErrorKind::Memory { .. }
-            | ErrorKind::Graph { .. } => 2,
-            ErrorKind::Validation { .. } => 3,
+            | ErrorKind::Graph { .. }
+            | ErrorKind::Doubtful { .. } => 2,
+            ErrorKind::Validation { .. } | ErrorKind::Regression { .. } => 3,
         }
     }
 
@@ -161,6 +177,12 @@ impl fmt::Display for Error {
             ErrorKind::Validation { count, first } => {
                 write!(f, "{count} validation message(s), the first: {first}")
             }
+            ErrorKind::Regression { count, first } => {
+                write!(f, "{count} figure(s) became worse, the first: {first}")
+            }
+            ErrorKind::Doubtful { count, first } => {
+                write!(f, "{count} figure(s) can't be trusted, the first: {first}")
+            }
         }
     }
 }
@@ -199,6 +221,16 @@ mod tests {
                 ErrorKind::Validation { count: 2, first: "VUID-x".into() }.into(),
                 3,
                 "2 validation message(s), the first: VUID-x",
+            ),
+            (
+                ErrorKind::Regression { count: 1, first: "a".into() }.into(),
+                3,
+                "1 figure(s) became worse, the first: a",
+            ),
+            (
+                ErrorKind::Doubtful { count: 1, first: "a".into() }.into(),
+                2,
+                "1 figure(s) can't be trusted, the first: a",
             ),
         ];
         for (error, code, text) in cases {

@@ -3,6 +3,8 @@
 
 #![cfg(feature = "cli")]
 
+#[path = "cli/bench.rs"]
+mod bench;
 #[path = "cli/compare.rs"]
 mod compare;
 #[path = "cli/convert.rs"]
@@ -271,27 +273,6 @@ fn splats(lines: &str) -> String {
     let floats: String = ["x", "y", "z", "nx", "ny", "nz", "radius"].map(property).concat();
     let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     format!("ply\nformat ascii 1.0\nelement vertex {count}\n{floats}{colors}end_header\n{lines}")
-}
-
-#[test]
-fn the_floor_is_measured_in_turn_with_the_passes() {
-    let folder = Folder::new();
-    let words =
-        ["bench", "floor", "--size", "128x128", "--frames", "3", "--json", "floor.json", "--validate"];
-    let run = surfel(&folder, &words);
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(run.stdout.contains("x floor") && run.stdout.ends_with('\n'), "{}", run.stdout);
-    let report: Value = serde_json::from_slice(&fs::read(folder.path("floor.json")).unwrap()).unwrap();
-    let rows = report["rows"].as_array().unwrap();
-    let names: Vec<_> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["visibility", "accumulate", "finalize", "frame"]);
-    for row in rows {
-        assert!(row["ratio"]["median"].as_f64().unwrap() > 0.0, "{row}");
-        assert_eq!(row["fragments"], row["floor_fragments"], "{row}");
-    }
-    assert!(report["strict_points"].as_u64() < report["floor_points"].as_u64());
-    let refused = surfel(&folder, &["bench", "floor", "--json", "no/such/folder/x.json"]);
-    assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
 }
 
 #[test]

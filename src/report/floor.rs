@@ -1,20 +1,15 @@
 //! The three passes against the floor under them; see [`crate::passes::floor_frame`].
 
-use std::{collections::BTreeMap, fmt};
-
 use serde::Serialize;
 
-use super::{CameraReport, DeviceReport, SceneReport, Spread};
+use super::{
+    CameraReport, SceneReport, Spread,
+    grid::{Grid, cell, count_cell},
+};
 
 /// How many times the floor a pass, or the frame, takes.
 #[derive(Clone, Debug, Serialize)]
 pub struct FloorReport {
-    /// The version of surfel.
-    pub surfel: String,
-    /// What it ran on.
-    pub device: DeviceReport,
-    /// The settings by the names of their options.
-    pub settings: BTreeMap<&'static str, String>,
     /// The camera.
     pub camera: CameraReport,
     /// What was drawn.
@@ -87,39 +82,31 @@ impl FloorRow {
     }
 }
 
-impl fmt::Display for FloorReport {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} ({}), {} rounds", self.device.name, self.device.driver, self.rounds)?;
-        writeln!(
-            f,
-            "{} splats; the floor draws {} points, the strict floor the {} that are seen",
+impl FloorReport {
+    /// The table.
+    pub fn grid(&self) -> Grid {
+        let title = format!(
+            "floor: {} splats; the floor draws {} points, the strict floor the {} that are seen",
             self.scene.splats, self.floor_points, self.strict_points
-        )?;
-        writeln!(
-            f,
-            "{:12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>11} {:>11}",
-            "", "ms", "floor", "strict", "x floor", "x strict", "fragments", "floor's"
-        )?;
+        );
+        let head = ["", "ms", "floor", "strict", "x floor", "x strict", "fragments", "floor's"];
+        let mut grid = Grid::new(title, &head);
         for row in &self.rows {
-            let median = |spread: &Option<Spread>, digits: usize| match spread {
-                Some(spread) => format!("{:.digits$}", spread.median),
-                None => "-".to_owned(),
-            };
-            let count = |count: Option<u64>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
-            writeln!(
-                f,
-                "{:12} {:>9} {:>9} {:>9} {:>8} {:>8} {:>11} {:>11}",
-                row.name,
+            let median =
+                |spread: &Option<Spread>, decimals| cell(spread.map(|spread| spread.median), decimals);
+            grid.row([
+                row.name.clone(),
                 median(&row.ms, 1),
                 median(&row.floor_ms, 1),
                 median(&row.strict_floor_ms, 1),
                 median(&row.ratio, 2),
                 median(&row.strict_ratio, 2),
-                count(row.fragments),
-                count(row.floor_fragments),
-            )?;
+                count_cell(row.fragments),
+                count_cell(row.floor_fragments),
+            ]);
         }
-        write!(f, "medians; a ratio is the median of the rounds' own ratios")
+        grid.notes.push("medians; a ratio is the median of the rounds' own ratios".to_owned());
+        grid
     }
 }
 

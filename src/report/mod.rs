@@ -3,12 +3,14 @@
 //!
 //! No figure is made up: what was not measured is `None` (`null` in JSON) and a sentence among the flags says why.
 
+mod bench;
 #[cfg(feature = "compare")]
 pub mod compare;
 #[cfg(feature = "compare")]
 pub mod curves;
 mod floor;
 mod frames;
+pub mod gate;
 mod grid;
 mod options;
 #[cfg(feature = "compare")]
@@ -17,10 +19,13 @@ mod run;
 mod spread;
 mod table;
 mod throughput;
+#[cfg(feature = "compare")]
+mod throughput_plot;
 mod trust;
 #[cfg(feature = "compare")]
 pub mod zoom;
 
+pub use bench::{BenchReport, floor_gate, throughput_gate};
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
 pub use grid::{Grid, NONE, cell, count_cell};
@@ -31,4 +36,6 @@ pub use throughput::{
     Measured, MethodThroughput, PAPER_SPLATS, PaperThroughput, ThroughputRow, paper_throughput, passes_grid,
     throughput_grid,
 };
+#[cfg(feature = "compare")]
+pub use throughput_plot::throughput_plot;
 pub use trust::{Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};

@@ -158,10 +158,10 @@ impl ThroughputRow {
     }
 }
 
-/// The head of the table: frames and splats a second, the ratios, beside the paper's.
-pub fn throughput_grid(rows: &[ThroughputRow]) -> Grid {
+/// Frames and splats a second and the ratios, beside the paper's.
+pub fn throughput_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
     let mut grid = Grid::new(
-        "throughput (the paper's in brackets)",
+        title,
         &[
             "splats",
             "method",
@@ -202,7 +202,7 @@ pub fn throughput_grid(rows: &[ThroughputRow]) -> Grid {
         }
     }
     grid.notes.push(
-        "medians; ratios are medians of the rounds' own ratios: x first beside the first method, x floor beside the same \
+        "medians; in brackets the paper's; ratios are medians of the rounds' own ratios: x first beside the first method, x floor beside the same \
          points and formats with nothing computed"
             .to_owned(),
     );
@@ -210,9 +210,9 @@ pub fn throughput_grid(rows: &[ThroughputRow]) -> Grid {
 }
 
 /// Every pass of every method: where the time goes. The floor's passes follow each number of splats.
-pub fn passes_grid(rows: &[ThroughputRow]) -> Grid {
+pub fn passes_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
     let head = ["splats", "method", "pass", "ms", "min", "max", "x floor", "vertices", "fragments"];
-    let mut grid = Grid::new("where the time goes", &head);
+    let mut grid = Grid::new(title, &head);
     for row in rows {
         for method in &row.methods {
             rows_of(&mut grid, row.splats, &method.name, &method.frames, &method.over_floor);
@@ -305,8 +305,8 @@ mod tests {
     #[test]
     fn every_pass_of_every_method_has_a_row() {
         let rows = [row()];
-        assert_eq!(passes_grid(&rows).rows.len(), 9);
-        let grid = throughput_grid(&rows);
+        assert_eq!(passes_grid("t", &rows).rows.len(), 9);
+        let grid = throughput_grid("t", &rows);
         assert!(grid.rows.iter().all(|row| row.len() == grid.head.len()));
         assert_eq!(grid.rows[1][..4], ["154000", "raycast", grid.rows[1][2].as_str(), "(33.0)"]);
     }

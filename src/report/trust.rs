@@ -108,7 +108,7 @@ pub fn spread_flag(what: &str, spread: Option<&Spread>, limits: &TrustLimits) ->
     match spread.uncertainty() {
         None => Some(format!("{what}: too few frames to tell how certain the median is (6 at least)")),
         Some(part) if part > limits.uncertainty => Some(format!(
-            "{what}: the median is certain to {:.0}% only (up to {:.0}% is fine): more --frames, or a quieter machine",
+            "{what}: the median is certain to {:.1}% only (up to {:.1}% is fine): more --frames, or a quieter machine",
             100.0 * part,
             100.0 * limits.uncertainty
         )),
@@ -156,7 +156,7 @@ mod tests {
         let few = spread_flag("frame", Spread::of([1.0; 5]).as_ref(), &limits).unwrap();
         assert!(few.contains("too few frames"), "{few}");
         let wide = Spread::of([1.0, 1.0, 1.0, 1.3, 1.3, 1.3]);
-        assert!(spread_flag("frame", wide.as_ref(), &limits).unwrap().contains("certain to 13% only"));
+        assert!(spread_flag("frame", wide.as_ref(), &limits).unwrap().contains("certain to 13.0% only"));
         assert!(spread_flag("frame", None, &limits).unwrap().contains("not measured"));
     }
 }

@@ -3,13 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use surfel::scene::Accumulate;
 
 use crate::{
-    compare::CompareArguments,
-    figure::FigureArguments,
-    parse,
-    picture_arguments::{PictureArguments, choice},
+    bench::BenchArguments, compare::CompareArguments, figure::FigureArguments, parse,
+    picture_arguments::PictureArguments,
 };
 
 /// Draws surfaces made of splats (oriented disks, surfels) with Vulkan.
@@ -21,7 +18,8 @@ use crate::{
   surfel convert scan.obj splats.ply   a file of splats
   surfel info                          the devices of this machine
 
-Exit codes: 0 fine; 1 the input or an option is at fault; 2 the device is at fault; 3 validation messages.")]
+Exit codes: 0 fine; 1 the input or an option is at fault; 2 the device is at fault; 3 validation messages or a \
+failed check.")]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -50,8 +48,8 @@ pub enum Command {
     #[command(long_about = FIGURE_HELP, after_help = FIGURE_EXAMPLES)]
     Figure(FigureArguments),
     /// Measure: tables of what things cost
-    #[command(after_help = BENCH_EXAMPLES)]
-    Bench(BenchArguments),
+    #[command(long_about = BENCH_HELP, after_help = BENCH_EXAMPLES)]
+    Bench(Box<BenchArguments>),
     /// List devices, drivers and limits, and what a device lacks
     Info(InfoArguments),
 }
@@ -128,9 +126,26 @@ const FIGURE_EXAMPLES: &str = "Examples:
   surfel figure p10 -o kernels.svg
   surfel figure p19 --model igea.ply --size 600x600";
 
+const BENCH_HELP: &str = "\
+Measure what things cost, in figures that can be trusted or say that they can't be.
+
+What is compared takes turns, frame pair by frame pair, so that a change of the machine's speed meets all of it alike; \
+ratios are taken within each round. The floor draws the same points through the same fixed-function stages into the same \
+formats with nothing computed: `x floor` is how many times its time a method takes. A median comes with an interval that \
+holds the true one with 95% confidence, whatever the distribution. Notes say when a median is too uncertain (--max-spread), \
+the machine's speed drifted, its clock moved, or other processes took the processor; with --strict they end in exit code 2.
+
+As a gate: `--json now.json` keeps a run, `--baseline now.json` judges a later one by it. Times are judged by x floor, so \
+that the two runs need not be on an equally fast machine: worse is what is beyond both intervals and --tolerance. Counts of \
+fragments, vertices and bytes may grow by a thousandth. Anything worse ends in exit code 3.";
+
 const BENCH_EXAMPLES: &str = "Examples:
   surfel bench floor                      the built-in model
-  surfel bench floor --model igea.ply --json floor.json";
+  surfel bench table1 --model igea.ply --markdown table1.md --plot table1.svg
+  surfel bench slides --model igea.ply
+  surfel bench table1 --splats 154k,460k --json before.json
+  surfel bench table1 --splats 154k,460k --baseline before.json
+  surfel bench all --csv tables --json all.json";
 
 /// Options of `surfel render`.
 #[derive(Debug, Args)]
@@ -188,50 +203,6 @@ pub struct ConvertArguments {
     #[arg(long, value_name = "S", default_value_t = 0, requires = "resample")]
     #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     pub seed: u64,
-}
-
-/// Options of `surfel bench`.
-#[derive(Debug, Args)]
-pub struct BenchArguments {
-    /// What is measured
-    #[arg(value_name = "NAME")]
-    pub table: Bench,
-
-    /// A PLY or OBJ file [default: the built-in model]
-    #[arg(long, value_name = "FILE")]
-    pub model: Option<PathBuf>,
-
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse::size)]
-    pub size: [u32; 2],
-
-    /// The precision of the sums
-    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
-    pub accumulate: Accumulate,
-
-    /// Rounds that are counted, after three to warm up
-    #[arg(long, value_name = "N", default_value_t = 20)]
-    #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
-    pub frames: u32,
-
-    /// The device: its number or a part of its name, see `surfel info` [default: the best]
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub device: Option<String>,
-
-    /// Write the table and all that explains it as JSON
-    #[arg(long, value_name = "FILE.json")]
-    pub json: Option<PathBuf>,
-
-    /// Have the Vulkan validation layer watch, which makes the times worthless
-    #[arg(long)]
-    pub validate: bool,
-}
-
-/// What can be measured.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub enum Bench {
-    /// The three passes against a floor: the same points and formats with nothing computed
-    Floor,
 }
 
 /// Options of `surfel info`.

@@ -6,8 +6,9 @@ use surfel::{
     Error, ErrorKind, Result,
     geometry::resample,
     load::{Model, load},
+    report::InputReport,
     save,
-    scene::Object,
+    scene::{Mesh, Object},
 };
 
 use crate::{
@@ -47,20 +48,35 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
 fn resampled(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
     let mesh = match load(path, bars)? {
         Model::Mesh(mesh) => mesh,
-        Model::Splats { .. } => {
-            let problem =
-                "the file holds splats; expected a mesh, whose triangles --resample takes samples of";
-            return Err(Error::input(path, "", problem));
-        }
+        Model::Splats { .. } => return Err(not_a_mesh(path)),
     };
-    let (splats, report) = resample(&mesh, count, seed, bars).map_err(|error| match error.kind() {
+    resample_mesh(&mesh, path, count, seed, bars).map(|(object, report)| (object, report.summary))
+}
+
+/// Why a file of splats can't be resampled.
+pub fn not_a_mesh(path: &Path) -> Error {
+    let problem = "the file holds splats; expected a mesh, to take samples of its triangles";
+    Error::input(path, "", problem)
+}
+
+/// Splats spread evenly over the mesh of the file at `path`.
+///
+/// # Errors
+/// As [`resample`].
+pub fn resample_mesh(
+    mesh: &Mesh,
+    path: &Path,
+    count: u64,
+    seed: u64,
+    bars: &Bars,
+) -> Result<(Object, InputReport)> {
+    let (splats, report) = resample(mesh, count, seed, bars).map_err(|error| match error.kind() {
         // The library knows no file.
         ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
         _ => error,
     })?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let head = format!("{}; resampled with seed {seed}", mesh_head(&mesh, &report));
+    let head = format!("{}; resampled with seed {seed}", mesh_head(mesh, &report));
     let counts = [mesh.positions.len(), mesh.triangles.len()];
-    let (object, report) = finish(Object { name, splats, closed: report.closed }, head, Some(counts));
-    Ok((object, report.summary))
+    Ok(finish(Object { name, splats, closed: report.closed }, head, Some(counts)))
 }

@@ -26,6 +26,26 @@ where
     }
 }
 
+/// `460000`, `460k` or `1.4M`.
+pub fn splats(text: &str) -> Result<u64, String> {
+    let (number, scale) = match (text.strip_suffix('k'), text.strip_suffix('M')) {
+        (Some(number), _) => (number, 1e3),
+        (_, Some(number)) => (number, 1e6),
+        _ => (text, 1.0),
+    };
+    let splats = number.parse::<f64>().ok().map(|number| (number * scale).round());
+    let splats = splats.filter(|splats| (1.0..=f64::from(u32::MAX)).contains(splats));
+    splats
+        .map(|splats| splats as u64)
+        .ok_or_else(|| "expected a number of splats, 1 to 4294967295, such as 154k or 1.4M".to_owned())
+}
+
+/// `2.5`: a percentage.
+pub fn percent(text: &str) -> Result<f64, String> {
+    let percent = text.parse().ok().filter(|percent| (0.0..=1000.0).contains(percent));
+    percent.ok_or_else(|| "expected percent, 0 to 1000".to_owned())
+}
+
 /// `75`: degrees between a plane and the view, not quite edge-on.
 pub fn tilt(text: &str) -> Result<f64, String> {
     let degrees = text.parse().ok().filter(|degrees| (0.0..=85.0).contains(degrees));
@@ -93,6 +113,8 @@ mod tests {
     fn values_are_read() {
         assert_eq!(size("1024x768"), Ok([1024, 768]));
         assert_eq!(triple("-1, 2.5,3e-2"), Ok([-1.0, 2.5, 0.03]));
+        assert_eq!((splats("154k"), splats("1.4M"), splats("7")), (Ok(154_000), Ok(1_400_000), Ok(7)));
+        assert_eq!(percent("2.5"), Ok(2.5));
         assert_eq!(background("none"), Ok(Background(None)));
         assert_eq!(background("1,0.5,0"), Ok(Background(Some([1.0, 0.5, 0.0]))));
     }
@@ -104,6 +126,12 @@ mod tests {
         }
         for text in ["", "1,2", "1,2,3,4", "1,,2", "a,b,c"] {
             assert!(triple(text).is_err() && background(text).is_err(), "{text}");
+        }
+        for text in ["", "k", "0", "-1", "5G", "NaN", "1e30", "0.1"] {
+            assert!(splats(text).is_err(), "{text}");
+        }
+        for text in ["", "-1", "NaN", "1001"] {
+            assert!(percent(text).is_err(), "{text}");
         }
         for text in ["", "r", "1rr", "one", "1 r"] {
             assert!(epsilon(text).is_err(), "{text}");

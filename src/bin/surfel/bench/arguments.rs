@@ -1,0 +1,142 @@
+//! The options of `surfel bench`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use surfel::{
+    report::PAPER_SPLATS,
+    scene::{Accumulate, Filter, Settings},
+};
+
+use crate::{parse, picture_arguments::choice};
+
+/// Options of `surfel bench`.
+#[derive(Debug, Args)]
+pub struct BenchArguments {
+    /// What is measured
+    #[arg(value_name = "NAME")]
+    pub table: Bench,
+
+    /// A PLY or OBJ file; for table1 and slides a mesh, which is resampled evenly over its area [default: the built-in model]
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+
+    /// Numbers of splats of table1, with commas between, such as 154k,1.4M [default: the paper's]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
+    pub splats: Vec<u64>,
+
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse::size)]
+    pub size: [u32; 2],
+
+    /// The filter of floor and table1; slides has each method's own
+    #[arg(long, value_name = "FILTER", default_value = "adjust", value_parser = choice(Filter::NAMES))]
+    pub filter: Filter,
+
+    /// The precision of the sums
+    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
+    pub accumulate: Accumulate,
+
+    /// Frames timed of each method, in pairs: methods and floor take turns; an untimed frame before each pair
+    #[arg(long, value_name = "N", default_value_t = 20, help_heading = "Device and measurement")]
+    #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
+    pub frames: u32,
+
+    /// The device: its number or a part of its name, see `surfel info` [default: the best]
+    #[arg(long, value_name = "NAME|INDEX", help_heading = "Device and measurement")]
+    pub device: Option<String>,
+
+    /// How uncertain a median may be without a note: half its 95% interval, in percent
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0, help_heading = "Device and measurement")]
+    #[arg(value_parser = parse::percent, allow_hyphen_values = true)]
+    pub max_spread: f64,
+
+    /// Refuse doubtful figures: any note makes the exit code 2
+    #[arg(long, help_heading = "Device and measurement")]
+    pub strict: bool,
+
+    /// Have the Vulkan validation layer watch, which makes the times worthless; any message makes the exit code 3
+    #[arg(long, help_heading = "Device and measurement")]
+    pub validate: bool,
+
+    /// The JSON of an earlier run: any figure that became worse makes the exit code 3; takes 12 frames at least
+    #[arg(long, value_name = "FILE.json", help_heading = "Gate")]
+    pub baseline: Option<PathBuf>,
+
+    /// By how much a time over the floor may grow beside the uncertainty of both runs, in percent
+    #[arg(long, value_name = "PERCENT", default_value_t = 3.0, requires = "baseline", help_heading = "Gate")]
+    #[arg(value_parser = parse::percent, allow_hyphen_values = true)]
+    pub tolerance: f64,
+
+    /// Write the tables and all that explains them as JSON
+    #[arg(long, value_name = "FILE.json", help_heading = "Results")]
+    pub json: Option<PathBuf>,
+
+    /// Write the tables as Markdown
+    #[arg(long, value_name = "FILE.md", help_heading = "Results")]
+    pub markdown: Option<PathBuf>,
+
+    /// Write each table as CSV into this folder
+    #[arg(long, value_name = "DIR", help_heading = "Results")]
+    pub csv: Option<PathBuf>,
+
+    /// Draw milliseconds over numbers of splats (table1)
+    #[arg(long, value_name = "FILE.svg", help_heading = "Results")]
+    pub plot: Option<PathBuf>,
+}
+
+/// What can be measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Bench {
+    /// The three passes against a floor: the same points and formats with nothing computed
+    Floor,
+    /// Throughput of perspective splatting and of ray casting from 154k to 5M splats, beside the paper's table 1
+    Table1,
+    /// The five methods of the paper's slides side by side
+    Slides,
+    /// All of them
+    All,
+}
+
+/// Which tables a name stands for.
+#[derive(Clone, Copy, Debug)]
+pub struct Tables {
+    pub floor: bool,
+    pub table1: bool,
+    pub slides: bool,
+}
+
+impl Bench {
+    /// The tables of this name.
+    pub fn tables(self) -> Tables {
+        let is = |one| self == one || self == Self::All;
+        Tables { floor: is(Self::Floor), table1: is(Self::Table1), slides: is(Self::Slides) }
+    }
+
+    /// As it is written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Floor => "floor",
+            Self::Table1 => "table1",
+            Self::Slides => "slides",
+            Self::All => "all",
+        }
+    }
+}
+
+impl BenchArguments {
+    /// What all methods have in common.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            size_px: self.size,
+            filter: self.filter,
+            accumulate: self.accumulate,
+            ..Settings::default()
+        }
+    }
+
+    /// The numbers of splats of table1.
+    pub fn splat_counts(&self) -> Vec<u64> {
+        if self.splats.is_empty() { PAPER_SPLATS.to_vec() } else { self.splats.clone() }
+    }
+}

@@ -1,0 +1,83 @@
+//! The three passes against the floor under them, in turn, so that a change of the machine's speed meets both.
+
+use surfel::{
+    Error, Progress as _, Result,
+    graph::execute::{FrameProfile, Profile},
+    renderer::{Floor, Headless, Wanted},
+    report::{FloorReport, FloorRow, drift_flag, spread_flag},
+    scene::Camera,
+};
+
+use super::Stage;
+use crate::{
+    reports::scene_report,
+    scene::{Loaded, load_scene},
+    steps::Steps,
+};
+
+/// Rounds that are not counted: pipelines, transients, caches.
+const WARM_UP_ROUNDS: u32 = 3;
+
+/// Measures the model as it is.
+///
+/// # Errors
+/// Whatever goes wrong.
+pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorReport> {
+    let (arguments, settings, bars) = (stage.arguments, &stage.settings, &stage.bars);
+    let inputs: Vec<_> = arguments.model.iter().cloned().collect();
+    let Loaded { scene, ball, inputs } = load_scene(&inputs, bars, &mut Steps::default())?;
+    let camera = Camera::fit(&ball, settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
+    drop(scene);
+    let mut floor = Floor::new(headless, &prepared, &camera, settings, false)?;
+    let mut strict = Floor::new(headless, &prepared, &camera, settings, true)?;
+
+    let mut rounds = Vec::new();
+    let mut names = Vec::new();
+    for round in 0..WARM_UP_ROUNDS + arguments.frames {
+        bars.step("rounds", round.into(), (WARM_UP_ROUNDS + arguments.frames).into());
+        let wanted = Wanted { profile: Some(Profile::Times), ..Wanted::default() };
+        let frame = headless.render(&prepared, &camera, settings, wanted)?;
+        let profile = frame.profile.unwrap_or_default();
+        let times = [
+            passes_ms(&profile)?,
+            passes_ms(&floor.frame(headless, Profile::Times)?)?,
+            passes_ms(&strict.frame(headless, Profile::Times)?)?,
+        ];
+        if round >= WARM_UP_ROUNDS {
+            rounds.push(times);
+        }
+        names = profile.passes.into_iter().map(|pass| pass.name).collect();
+    }
+    bars.clear();
+    let transient_bytes = headless.transient_bytes();
+    let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+    let counted = headless.render(&prepared, &camera, settings, wanted)?.profile.unwrap_or_default();
+    let fragments = [fragments(&counted), fragments(&floor.frame(headless, Profile::Counts)?)];
+    let report = FloorReport {
+        camera: (&camera).into(),
+        scene: scene_report(inputs.clone(), &prepared, transient_bytes),
+        floor_points: floor.count(),
+        strict_points: strict.count(),
+        rounds: arguments.frames,
+        rows: FloorRow::rows(&names, &rounds, [&fragments[0], &fragments[1]]),
+    };
+    let frames: Vec<Vec<f64>> =
+        (0..3).map(|kind| rounds.iter().map(|round| round[kind].iter().sum()).collect()).collect();
+    stage.flags.extend(drift_flag("floor", &frames, &stage.limits));
+    if let Some(frame) = report.rows.last() {
+        stage.flags.extend(spread_flag("floor, frame", frame.ms.as_ref(), &stage.limits));
+    }
+    stage.inputs.extend(inputs);
+    Ok(report)
+}
+
+/// Milliseconds of each pass.
+fn passes_ms(profile: &FrameProfile) -> Result<Vec<f64>> {
+    let ms: Option<Vec<f64>> = profile.passes.iter().map(|pass| pass.secs.map(|secs| 1e3 * secs)).collect();
+    ms.ok_or_else(|| Error::option("bench floor", "the device's queue has no timestamps"))
+}
+
+fn fragments(profile: &FrameProfile) -> Vec<Option<u64>> {
+    profile.passes.iter().map(|pass| pass.counts.map(|counts| counts.fragments)).collect()
+}

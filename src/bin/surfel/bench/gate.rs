@@ -1,0 +1,133 @@
+//! A run against an earlier one (`--baseline`), and against doubt (`--strict`).
+
+use std::{collections::BTreeMap, fs, path::Path};
+
+use serde::Deserialize;
+use surfel::{
+    Error, ErrorKind, Result,
+    report::{
+        BenchReport, floor_gate,
+        gate::{Gate, Judgement, Verdict},
+        throughput_gate,
+    },
+};
+
+use super::arguments::BenchArguments;
+
+/// The part of a report that is read.
+#[derive(Deserialize)]
+struct Report {
+    gate: Gate,
+}
+
+/// The earlier run's figures, read before the long work.
+///
+/// # Errors
+/// A file that can't be read or is no report of `surfel bench`.
+pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
+    let Some(path) = &arguments.baseline else { return Ok(None) };
+    let text = fs::read_to_string(path).map_err(|e| Error::file(path, "read", e))?;
+    let report: Report = serde_json::from_str(&text).map_err(|e| {
+        let place = format!("line {}", e.line());
+        Error::input(path, place, format!("{e}; expected a file of `surfel bench ... --json`"))
+    })?;
+    // All but what the run itself decides is known before it.
+    check_subject(path, &subject(arguments, None), &report.gate)?;
+    Ok(Some(report.gate))
+}
+
+/// What a later run is judged by.
+pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
+    let circumstances = [
+        ("device", report.device.name.clone()),
+        ("driver", report.device.driver.clone()),
+        ("surfel", report.surfel.clone()),
+        ("commit", report.commit.clone().unwrap_or_else(|| "unknown".to_owned())),
+    ];
+    let mut figures = throughput_gate("table1", &report.table1);
+    figures.extend(report.slides.iter().flat_map(|row| throughput_gate("slides", std::slice::from_ref(row))));
+    figures.extend(report.floor.iter().flat_map(floor_gate));
+    Gate {
+        subject: subject(arguments, Some(report)),
+        circumstances: circumstances.map(|(name, value)| (name.to_owned(), value)).into(),
+        figures,
+    }
+}
+
+/// Judges a run.
+///
+/// # Errors
+/// A baseline of something else.
+pub fn judge(arguments: &BenchArguments, now: &Gate, before: &Gate) -> Result<Judgement> {
+    if let Some(path) = &arguments.baseline {
+        check_subject(path, &now.subject, before)?;
+    }
+    Ok(now.judge(before, 0.01 * arguments.tolerance))
+}
+
+/// Ends with what was found.
+///
+/// # Errors
+/// [`ErrorKind::Regression`] where something became worse or is gone; [`ErrorKind::Doubtful`] where figures could not be
+/// judged, or are doubtful and that is refused.
+pub fn conclude(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
+    if let Some(judgement) = &report.judgement {
+        let worse = judgement.with(Verdict::Worse).map(|judged| {
+            format!("{}: {} before, {} now", judged.name, rounded(judged.before), rounded(judged.now))
+        });
+        let gone = judgement.gone.iter().map(|name| format!("{name}: gone"));
+        let all: Vec<String> = worse.chain(gone).collect();
+        if let Some(first) = all.first() {
+            return Err(ErrorKind::Regression { count: all.len(), first: first.clone() }.into());
+        }
+        if !judgement.passes() {
+            let first = judgement.with(Verdict::NotJudged).next().map(|judged| judged.name.clone());
+            let first = first.unwrap_or_else(|| "the baseline has no figures".to_owned());
+            let count = judgement.with(Verdict::NotJudged).count().max(1);
+            return Err(ErrorKind::Doubtful { count, first: format!("{first}: can't be judged") }.into());
+        }
+    }
+    match (arguments.strict, report.flags.first()) {
+        (true, Some(first)) => {
+            Err(ErrorKind::Doubtful { count: report.flags.len(), first: first.clone() }.into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What must be equal for two runs to compare; without a report, what the command line alone decides.
+fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap<String, String> {
+    let tables = arguments.table.tables();
+    let mut subject: BTreeMap<String, String> = surfel::report::settings_as_options(&arguments.settings())
+        .into_iter()
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect();
+    subject.insert("table".to_owned(), arguments.table.name().to_owned());
+    if tables.table1 || tables.slides {
+        let splats: Vec<String> = arguments.splats.iter().map(u64::to_string).collect();
+        let splats = if splats.is_empty() { "default".to_owned() } else { splats.join(",") };
+        subject.insert("splats".to_owned(), splats);
+    }
+    if let Some(report) = report {
+        let inputs: Vec<&str> = report.inputs.iter().map(|input| input.summary.as_str()).collect();
+        subject.insert("inputs".to_owned(), inputs.join("; "));
+    }
+    subject
+}
+
+fn check_subject(path: &Path, now: &BTreeMap<String, String>, before: &Gate) -> Result<()> {
+    let known = |map: &BTreeMap<String, String>| {
+        map.iter().filter(|(name, _)| now.contains_key(*name)).map(|(n, v)| (n.clone(), v.clone())).collect()
+    };
+    let now = Gate { subject: now.clone(), ..Gate::default() };
+    let before = Gate { subject: known(&before.subject), ..Gate::default() };
+    match now.mismatch(&before).first() {
+        Some(first) => Err(Error::input(path, "", format!("the baseline is of something else: {first}"))),
+        None => Ok(()),
+    }
+}
+
+/// Enough digits to see a difference.
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() * 1e-3
+}

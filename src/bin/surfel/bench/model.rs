@@ -1,0 +1,53 @@
+//! The model of a table at a number of splats.
+
+use surfel::{
+    Result,
+    load::{Model, builtin, load},
+    report::InputReport,
+    scene::{Ball, Mesh, Object, Scene},
+};
+
+use super::Stage;
+use crate::{
+    convert::resample_mesh,
+    scene::{Loaded, finish},
+};
+
+/// What a table draws.
+pub enum Source {
+    /// The built-in model, which has as many splats as wanted.
+    BuiltIn,
+    /// A mesh and the name of its file.
+    Mesh(Mesh, std::path::PathBuf),
+}
+
+impl Source {
+    /// Reads the model that the command line names.
+    ///
+    /// # Errors
+    /// As [`load`]; a file of splats, which can't be resampled.
+    pub fn open(stage: &Stage<'_>) -> Result<Self> {
+        let Some(path) = &stage.arguments.model else { return Ok(Self::BuiltIn) };
+        match load(path, &stage.bars)? {
+            Model::Mesh(mesh) => Ok(Self::Mesh(mesh, path.clone())),
+            Model::Splats { .. } => Err(crate::convert::not_a_mesh(path)),
+        }
+    }
+
+    /// The model with so many splats, spread evenly over its area.
+    ///
+    /// # Errors
+    /// A mesh without area; more splats than there is memory for.
+    pub fn scene(&self, splats: u64, stage: &Stage<'_>) -> Result<Loaded> {
+        let (object, report): (Object, InputReport) = match self {
+            Self::BuiltIn => {
+                let count = usize::try_from(splats).unwrap_or(usize::MAX);
+                finish(builtin::relief(count), String::new(), None)
+            }
+            Self::Mesh(mesh, path) => resample_mesh(mesh, path, splats, 0, &stage.bars)?,
+        };
+        let scene = Scene { objects: vec![object] };
+        let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
+        Ok(Loaded { scene, ball, inputs: vec![report] })
+    }
+}

@@ -1,0 +1,99 @@
+//! Table 1 of Guennebaud, Barthe, Paulin 2006: perspective splatting and ray casting at several numbers of splats, in turn
+//! with the floor under them.
+
+use surfel::{
+    Result,
+    graph::execute::Profile,
+    renderer::{Floor, Headless},
+    report::{Measured, ThroughputRow, drift_flag, spread_flag},
+    scene::{Camera, Rasterizer, Settings},
+};
+
+use super::{Stage, model::Source};
+use crate::{
+    scene::Loaded,
+    turns::{self, Draw, Drawn},
+};
+
+/// A method and what it is called.
+pub type Contestant = (String, Settings);
+
+/// Measures all numbers of splats, one after the other.
+///
+/// # Errors
+/// Whatever goes wrong.
+pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<Vec<ThroughputRow>> {
+    let source = Source::open(stage)?;
+    let method = |rasterizer: Rasterizer| {
+        let settings = Settings { rasterizer, ..stage.settings.clone() };
+        (format!("{}, {}", rasterizer.name(), settings.filter.name()), settings)
+    };
+    let methods = [Rasterizer::Perspective, Rasterizer::Raycast].map(method);
+    let counts = stage.arguments.splat_counts();
+    counts.into_iter().map(|splats| row(headless, stage, &source, splats, &methods)).collect()
+}
+
+/// Measures methods in turn with the floor of the first.
+///
+/// # Errors
+/// Whatever goes wrong.
+pub fn row(
+    headless: &mut Headless,
+    stage: &mut Stage<'_>,
+    source: &Source,
+    splats: u64,
+    methods: &[Contestant],
+) -> Result<ThroughputRow> {
+    let Loaded { scene, ball, inputs } = source.scene(splats, stage)?;
+    let camera = Camera::fit(&ball, stage.settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    for (_, settings) in methods {
+        headless.renderer.check(&camera, settings)?;
+        settings.check_scene(&scene)?;
+    }
+    let prepared = headless
+        .prepare(&scene, &|done, total| surfel::Progress::step(&stage.bars, "upload", done, total))?;
+    drop(scene);
+    let floor_settings = methods.first().map_or(&stage.settings, |(_, settings)| settings);
+    let floor = Floor::new(headless, &prepared, &camera, floor_settings, false)?;
+    let mut contestants: Vec<Draw<'_>> =
+        methods.iter().map(|(_, settings)| turns::frames(&prepared, &camera, settings.clone())).collect();
+    contestants.push(floor_frames(floor));
+    let task = format!("{splats} splats: frames");
+    let timed = turns::take(headless, contestants, stage.arguments.frames, &task, &stage.bars);
+    let timed: Vec<turns::Timed> = timed.into_iter().collect::<Result<_>>()?;
+
+    let names = methods.iter().map(|(name, _)| name.as_str()).chain(["floor"]);
+    let measured: Vec<Measured<'_>> = names
+        .zip(&timed)
+        .map(|(name, timed)| Measured {
+            name,
+            passes: &timed.names,
+            rounds: &timed.rounds,
+            counts: &timed.counts,
+        })
+        .collect();
+    let Some((floor, methods)) = measured.split_last() else {
+        return Err(surfel::Error::option("bench", "nothing was measured"));
+    };
+    let row = ThroughputRow::of(splats, methods, floor, [prepared.bytes(), headless.transient_bytes()]);
+    let frames: Vec<Vec<f64>> = measured.iter().map(Measured::frame_ms).collect();
+    stage.flags.extend(drift_flag(&format!("{splats} splats"), &frames, &stage.limits));
+    for method in &row.methods {
+        let what = format!("{splats} splats, {}", method.name);
+        stage.flags.extend(spread_flag(&what, method.frames.sum_of_passes_ms.as_ref(), &stage.limits));
+        stage.flags.extend(method.frames.flags.iter().map(|flag| format!("{what}: {flag}")));
+    }
+    stage.inputs.extend(inputs);
+    Ok(row)
+}
+
+/// The floor's frames.
+fn floor_frames(mut floor: Floor<'_>) -> Draw<'_> {
+    Box::new(move |headless: &mut Headless, profile: Profile| {
+        let begun = std::time::Instant::now();
+        let profile = floor.frame(headless, profile)?;
+        // What the host does for it is not told apart from the wait.
+        let sample = turns::sample(&profile, begun.elapsed().as_secs_f64(), 0.0);
+        Ok(Drawn { profile, sample })
+    })
+}

@@ -1,0 +1,135 @@
+//! All that a run of `surfel bench` found: tables with what explains them, and what a later run is judged by.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::{
+    DeviceReport, FloorReport, InputReport, Machine, ThroughputRow, TrustLimits,
+    gate::{Gate, GateFigure, GateKind, Judgement},
+    grid::Grid,
+    passes_grid, throughput_grid,
+};
+
+/// Everything that is needed to understand, repeat and judge a benchmark.
+#[derive(Clone, Debug, Serialize)]
+pub struct BenchReport {
+    /// The version of surfel.
+    pub surfel: String,
+    /// The commit that it was built from; `None` outside of a checkout.
+    pub commit: Option<String>,
+    /// What it ran on.
+    pub device: DeviceReport,
+    /// The settings that all methods share, by the names of their options.
+    pub settings: BTreeMap<&'static str, String>,
+    /// What was drawn.
+    pub inputs: Vec<InputReport>,
+    /// Frames timed of each method.
+    pub frames: u32,
+    /// What the machine did meanwhile.
+    pub machine: Machine,
+    /// Beyond which figures are flagged.
+    pub limits: TrustLimits,
+    /// `floor`: the three passes against the floor under them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floor: Option<FloorReport>,
+    /// `table1`: throughput over numbers of splats.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub table1: Vec<ThroughputRow>,
+    /// `slides`: methods side by side at one number of splats.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slides: Option<ThroughputRow>,
+    /// Why figures are doubtful, a sentence each; empty where they are not.
+    pub flags: Vec<String>,
+    /// What a later run is judged by.
+    pub gate: Gate,
+    /// Against an earlier run, where one was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub judgement: Option<Judgement>,
+}
+
+impl BenchReport {
+    /// Every table, for people.
+    pub fn grids(&self) -> Vec<Grid> {
+        let mut grids = Vec::new();
+        grids.extend(self.floor.as_ref().map(FloorReport::grid));
+        if !self.table1.is_empty() {
+            grids.push(throughput_grid("table 1: throughput", &self.table1));
+            grids.push(passes_grid("table 1: where the time goes", &self.table1));
+        }
+        if let Some(row) = &self.slides {
+            let rows = std::slice::from_ref(row);
+            grids.push(throughput_grid("the slides' methods: throughput", rows));
+            grids.push(passes_grid("the slides' methods: where the time goes", rows));
+        }
+        grids
+    }
+
+    /// As text: what it ran on, every table, the flags, the judgement.
+    pub fn text(&self) -> String {
+        let DeviceReport { name, driver, .. } = &self.device;
+        let mut text = format!("{name} ({driver}); {} frames of each, in turn\n", self.frames);
+        for grid in self.grids() {
+            text += &format!("\n{grid}");
+        }
+        for flag in &self.flags {
+            text += &format!("note: {flag}\n");
+        }
+        if let Some(judgement) = &self.judgement {
+            text += &format!("\n{}", judgement.grid());
+        }
+        text
+    }
+
+    /// As Markdown.
+    pub fn markdown(&self) -> String {
+        let DeviceReport { name, driver, api_version, .. } = &self.device;
+        let commit = self.commit.as_ref().map_or_else(String::new, |commit| format!(" ({commit})"));
+        let mut text = format!(
+            "surfel {}{commit} on {name}, {driver}, Vulkan {api_version}; {} frames of each, in turn.\n",
+            self.surfel, self.frames
+        );
+        for grid in self.grids() {
+            text += &format!("\n{}", grid.markdown());
+        }
+        for flag in &self.flags {
+            text += &format!("\nNote: {flag}.\n");
+        }
+        text
+    }
+}
+
+/// The figures by which rows of throughput are judged. `table` begins their names.
+pub fn throughput_gate(table: &str, rows: &[ThroughputRow]) -> Vec<GateFigure> {
+    let mut figures = Vec::new();
+    for row in rows {
+        for method in &row.methods {
+            let name = |what: &str| format!("{table}, {} splats, {}, {what}", row.splats, method.name);
+            let passes = method.frames.passes.iter().map(|pass| pass.name.as_str()).chain(["frame"]);
+            for (pass, over) in passes.zip(&method.over_floor) {
+                figures.extend(GateFigure::time(name(&format!("{pass}, x floor")), over.as_ref()));
+            }
+            for pass in &method.frames.passes {
+                let count = |what: &str, count| {
+                    GateFigure::count(name(&format!("{}, {what}", pass.name)), GateKind::Work, count)
+                };
+                figures.extend(count("vertices", pass.vertices));
+                figures.extend(count("fragments", pass.fragments));
+            }
+        }
+        let bytes = Some(row.splat_bytes + row.transient_bytes);
+        let name = format!("{table}, {} splats, bytes", row.splats);
+        figures.extend(GateFigure::count(name, GateKind::Work, bytes));
+    }
+    figures
+}
+
+/// The figures by which the floor is judged.
+pub fn floor_gate(floor: &FloorReport) -> Vec<GateFigure> {
+    let time =
+        |row: &super::FloorRow| GateFigure::time(format!("floor, {}, x floor", row.name), row.ratio.as_ref());
+    let work = |row: &super::FloorRow| {
+        GateFigure::count(format!("floor, {}, fragments", row.name), GateKind::Work, row.fragments)
+    };
+    floor.rows.iter().flat_map(|row| [time(row), work(row)]).flatten().collect()
+}

@@ -1,0 +1,298 @@
+//! A measurement against an earlier one: what became worse, beyond what chance explains.
+//!
+//! Milliseconds of two runs don't compare: machines differ, and one machine differs from hour to hour. What is judged is
+//! each pass's time as a multiple of the floor that was measured in turn with it, and what is counted, which is exact.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Spread,
+    grid::{Grid, cell},
+};
+
+/// What kind of figure it is: how it is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GateKind {
+    /// A time as a multiple of the floor's in the same round: worse if both intervals are apart by more than the tolerance.
+    TimeOverFloor,
+    /// A count of instructions: worse by 1 is worse.
+    Instructions,
+    /// Fragments, vertices, bytes: worse beyond a thousandth, since drivers round sizes in their own way.
+    Work,
+}
+
+/// A figure that is judged. Less is better.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GateFigure {
+    /// What it is of; unique in a report.
+    pub name: String,
+    /// How it is judged.
+    pub kind: GateKind,
+    /// The figure; a time's median.
+    pub value: f64,
+    /// An interval that holds the true median with 95% confidence; only times have one.
+    pub interval: Option<[f64; 2]>,
+}
+
+/// What a report is judged by: the part of its JSON that `--baseline` reads.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Gate {
+    /// What must be equal for figures to compare: table, model, settings, size, by name.
+    pub subject: BTreeMap<String, String>,
+    /// What may differ and is told then: device, driver, version.
+    pub circumstances: BTreeMap<String, String>,
+    /// The figures.
+    pub figures: Vec<GateFigure>,
+}
+
+/// By how much counts of work may grow.
+const WORK_TOLERANCE: f64 = 1e-3;
+
+/// How a figure did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// As before, within what chance and tolerance explain.
+    Same,
+    /// Better.
+    Better,
+    /// Worse: a regression.
+    Worse,
+    /// One of the two runs has no interval: it can't be judged.
+    NotJudged,
+}
+
+/// A figure then and now.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Judged {
+    /// What it is of.
+    pub name: String,
+    /// How it is judged.
+    pub kind: GateKind,
+    /// Then.
+    pub before: f64,
+    /// Now.
+    pub now: f64,
+    /// How it did.
+    pub verdict: Verdict,
+}
+
+/// All figures then and now.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Judgement {
+    /// Figures that both have.
+    pub judged: Vec<Judged>,
+    /// Figures that only the baseline has.
+    pub gone: Vec<String>,
+    /// Figures that only the new run has.
+    pub new: Vec<String>,
+    /// Circumstances that differ, a sentence each.
+    pub differs: Vec<String>,
+}
+
+impl GateFigure {
+    /// A time over the floor; `None` where not measured.
+    pub fn time(name: String, spread: Option<&Spread>) -> Option<Self> {
+        let spread = spread?;
+        let kind = GateKind::TimeOverFloor;
+        Some(Self { name, kind, value: spread.median, interval: spread.interval })
+    }
+
+    /// A count; `None` where not counted.
+    pub fn count(name: String, kind: GateKind, count: Option<u64>) -> Option<Self> {
+        Some(Self { name, kind, value: count? as f64, interval: None })
+    }
+
+    /// How it does beside what it was. `tolerance`: by which part times may grow, beside their intervals.
+    fn verdict(&self, before: &Self, tolerance: f64) -> Verdict {
+        let outside = |now: [f64; 2], before: [f64; 2], allowed: f64| {
+            if now[0] > before[1] * (1.0 + allowed) {
+                Verdict::Worse
+            } else if now[1] * (1.0 + allowed) < before[0] {
+                Verdict::Better
+            } else {
+                Verdict::Same
+            }
+        };
+        let exact = |allowed| outside([self.value; 2], [before.value; 2], allowed);
+        match self.kind {
+            GateKind::Instructions => exact(0.0),
+            GateKind::Work => exact(WORK_TOLERANCE),
+            GateKind::TimeOverFloor => match self.interval.zip(before.interval) {
+                Some((now, before)) => outside(now, before, tolerance),
+                None => Verdict::NotJudged,
+            },
+        }
+    }
+}
+
+impl Gate {
+    /// What differs in the subject, as `name: before, now`; empty where the figures compare.
+    pub fn mismatch(&self, before: &Self) -> Vec<String> {
+        differences(&before.subject, &self.subject)
+    }
+
+    /// Judges every figure against an earlier run's.
+    pub fn judge(&self, before: &Self, tolerance: f64) -> Judgement {
+        let of = |gate: &Self| -> BTreeMap<String, GateFigure> {
+            gate.figures.iter().map(|figure| (figure.name.clone(), figure.clone())).collect()
+        };
+        let (then, now) = (of(before), of(self));
+        let judge = |figure: &GateFigure| {
+            let before = then.get(&figure.name)?;
+            let verdict = figure.verdict(before, tolerance);
+            let (name, kind) = (figure.name.clone(), figure.kind);
+            Some(Judged { name, kind, before: before.value, now: figure.value, verdict })
+        };
+        let only = |these: &[GateFigure], others: &BTreeMap<String, GateFigure>| {
+            let names = these.iter().map(|figure| figure.name.clone());
+            names.filter(|name| !others.contains_key(name)).collect()
+        };
+        Judgement {
+            judged: self.figures.iter().filter_map(judge).collect(),
+            gone: only(&before.figures, &now),
+            new: only(&self.figures, &then),
+            differs: differences(&before.circumstances, &self.circumstances),
+        }
+    }
+}
+
+fn differences(before: &BTreeMap<String, String>, now: &BTreeMap<String, String>) -> Vec<String> {
+    let value = |map: &BTreeMap<String, String>, name: &String| {
+        map.get(name).cloned().unwrap_or_else(|| "nothing".to_owned())
+    };
+    let mut names: Vec<&String> = before.keys().chain(now.keys()).collect();
+    names.sort();
+    names.dedup();
+    names
+        .into_iter()
+        .filter(|name| before.get(*name) != now.get(*name))
+        .map(|name| format!("{name}: {}, now {}", value(before, name), value(now, name)))
+        .collect()
+}
+
+impl Judgement {
+    /// The figures of a verdict.
+    pub fn with(&self, verdict: Verdict) -> impl Iterator<Item = &Judged> {
+        self.judged.iter().filter(move |judged| judged.verdict == verdict)
+    }
+
+    /// Whether the gate is passed: nothing became worse, nothing is gone, all could be judged.
+    pub fn passes(&self) -> bool {
+        self.gone.is_empty()
+            && !self.judged.is_empty()
+            && self.with(Verdict::Worse).next().is_none()
+            && self.with(Verdict::NotJudged).next().is_none()
+    }
+
+    /// In one line.
+    pub fn summary(&self) -> String {
+        let count = |verdict| self.with(verdict).count();
+        format!(
+            "against the baseline: {} worse, {} better, {} the same, {} not judged, {} gone, {} new",
+            count(Verdict::Worse),
+            count(Verdict::Better),
+            count(Verdict::Same),
+            count(Verdict::NotJudged),
+            self.gone.len(),
+            self.new.len()
+        )
+    }
+
+    /// Everything that is not the same.
+    pub fn grid(&self) -> Grid {
+        let mut grid = Grid::new(self.summary(), &["figure", "before", "now", "x", "verdict"]);
+        for judged in self.judged.iter().filter(|judged| judged.verdict != Verdict::Same) {
+            let decimals = if judged.kind == GateKind::TimeOverFloor { 3 } else { 0 };
+            let verdict = match judged.verdict {
+                Verdict::Worse => "WORSE",
+                Verdict::Better => "better",
+                Verdict::NotJudged => "not judged: too few rounds",
+                Verdict::Same => "same",
+            };
+            grid.row([
+                judged.name.clone(),
+                cell(Some(judged.before), decimals),
+                cell(Some(judged.now), decimals),
+                cell((judged.before != 0.0).then(|| judged.now / judged.before), 3),
+                verdict.to_owned(),
+            ]);
+        }
+        grid.notes.extend(self.gone.iter().map(|name| format!("gone: {name}")));
+        grid.notes.extend(self.differs.iter().map(|differs| format!("note: {differs}")));
+        grid
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn time(name: &str, low: f64, high: f64) -> GateFigure {
+        let (value, interval) = (0.5 * (low + high), Some([low, high]));
+        GateFigure { name: name.to_owned(), kind: GateKind::TimeOverFloor, value, interval }
+    }
+
+    fn count(name: &str, kind: GateKind, value: u64) -> GateFigure {
+        GateFigure::count(name.to_owned(), kind, Some(value)).unwrap()
+    }
+
+    fn gate(figures: Vec<GateFigure>) -> Gate {
+        Gate { figures, ..Gate::default() }
+    }
+
+    fn verdict(before: GateFigure, now: GateFigure) -> Verdict {
+        gate(vec![now]).judge(&gate(vec![before]), 0.03).judged[0].verdict
+    }
+
+    #[test]
+    fn times_are_judged_by_their_intervals_and_the_tolerance() {
+        assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 1.9, 2.1)), Verdict::Same);
+        assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 2.05, 2.2)), Verdict::Same);
+        assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 2.07, 2.2)), Verdict::Worse);
+        assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 1.5, 1.7)), Verdict::Better);
+        let unknown = GateFigure { interval: None, ..time("a", 1.0, 1.0) };
+        assert_eq!(verdict(time("a", 1.8, 2.0), unknown), Verdict::NotJudged);
+    }
+
+    #[test]
+    fn one_instruction_more_is_worse_and_a_thousandth_of_the_fragments_is_not() {
+        let of = |kind, before, now| verdict(count("a", kind, before), count("a", kind, now));
+        assert_eq!(of(GateKind::Instructions, 20, 21), Verdict::Worse);
+        assert_eq!(of(GateKind::Instructions, 20, 20), Verdict::Same);
+        assert_eq!(of(GateKind::Instructions, 20, 19), Verdict::Better);
+        assert_eq!(of(GateKind::Work, 100_000, 100_100), Verdict::Same);
+        assert_eq!(of(GateKind::Work, 100_000, 100_200), Verdict::Worse);
+    }
+
+    #[test]
+    fn what_is_gone_or_not_judged_or_worse_does_not_pass() {
+        let before = gate(vec![time("a", 1.0, 1.1), time("b", 1.0, 1.1)]);
+        assert!(before.judge(&before, 0.0).passes());
+        assert!(!gate(vec![time("a", 1.0, 1.1)]).judge(&before, 0.0).passes());
+        let worse = gate(vec![time("a", 1.0, 1.1), time("b", 2.0, 2.1)]).judge(&before, 0.0);
+        assert!(!worse.passes());
+        assert!(worse.grid().to_string().contains("WORSE") && worse.summary().contains("1 worse"));
+        // An empty baseline proves nothing.
+        assert!(!gate(Vec::new()).judge(&gate(Vec::new()), 0.0).passes());
+        let more = gate(vec![time("a", 1.0, 1.1), time("b", 1.0, 1.1), time("c", 9.0, 9.1)]);
+        assert!(more.judge(&before, 0.0).passes());
+    }
+
+    #[test]
+    fn subjects_must_be_equal_and_circumstances_are_told() {
+        let with = |size: &str, driver: &str| Gate {
+            subject: [("size".to_owned(), size.to_owned())].into(),
+            circumstances: [("driver".to_owned(), driver.to_owned())].into(),
+            figures: vec![time("a", 1.0, 1.1)],
+        };
+        assert_eq!(with("2x2", "x").mismatch(&with("1x1", "x")), ["size: 1x1, now 2x2"]);
+        assert!(with("1x1", "x").mismatch(&with("1x1", "y")).is_empty());
+        let judged = with("1x1", "new").judge(&with("1x1", "old"), 0.0);
+        assert_eq!(judged.differs, ["driver: old, now new"]);
+        assert!(judged.passes());
+    }
+}

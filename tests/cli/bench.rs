@@ -1,0 +1,143 @@
+//! `surfel bench`: tables, files, and the gate.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::program::{Folder, Run, surfel};
+
+/// A run that is small: figures don't matter here.
+fn bench(folder: &Folder, words: &[&str]) -> Run {
+    surfel(folder, &[&["bench"], words, &["--size", "96x96"]].concat())
+}
+
+fn json(folder: &Folder, name: &str) -> Value {
+    serde_json::from_slice(&fs::read(folder.path(name)).unwrap()).unwrap()
+}
+
+/// Frames come in pairs, and an interval takes 6 of them.
+const TABLE1: [&str; 5] = ["table1", "--splats", "500,1k", "--frames", "12"];
+
+#[test]
+fn the_floor_is_measured_in_turn_with_the_passes() {
+    let folder = Folder::new();
+    let run = bench(&folder, &["floor", "--frames", "3", "--json", "floor.json", "--validate"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("x floor") && run.stdout.ends_with('\n'), "{}", run.stdout);
+    // Of 3 frames no median is certain.
+    assert!(run.stdout.contains("note: floor, frame: too few frames"), "{}", run.stdout);
+    let report = &json(&folder, "floor.json")["floor"];
+    let rows = report["rows"].as_array().unwrap();
+    let names: Vec<_> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["visibility", "accumulate", "finalize", "frame"]);
+    for row in rows {
+        assert!(row["ratio"]["median"].as_f64().unwrap() > 0.0, "{row}");
+        assert_eq!(row["fragments"], row["floor_fragments"], "{row}");
+    }
+    assert!(report["strict_points"].as_u64() < report["floor_points"].as_u64());
+    let refused = bench(&folder, &["floor", "--json", "no/such/folder/x.json"]);
+    assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
+}
+
+#[test]
+fn throughput_is_told_in_every_form_of_every_pass() {
+    let folder = Folder::new();
+    let files = ["--json", "t.json", "--markdown", "t.md", "--csv", "tables", "--plot", "t.svg"];
+    let run = bench(&folder, &[&TABLE1[..], &files].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let report = json(&folder, "t.json");
+    let rows = report["table1"].as_array().unwrap();
+    assert_eq!(rows.len(), 2);
+    for row in rows {
+        let methods = row["methods"].as_array().unwrap();
+        assert_eq!(methods.len(), 2);
+        for method in methods {
+            let passes = method["frames"]["passes"].as_array().unwrap();
+            // A ratio to the floor for each pass, and for the frame.
+            assert_eq!(method["over_floor"].as_array().unwrap().len(), passes.len() + 1);
+            assert!(method["over_floor"].as_array().unwrap().iter().all(Value::is_object), "{method}");
+            assert!(method["fps"].as_f64() > Some(0.0) && passes.iter().all(|pass| pass["ms"].is_object()));
+            assert_eq!(method["frames"]["sum_of_passes_ms"]["interval"].as_array().unwrap().len(), 2);
+            assert!(method["frames"]["record_ms"]["median"].as_f64() > Some(0.0));
+        }
+        // What the floor draws is what perspective splatting draws.
+        let fragments = |frames: &Value| frames["passes"][1]["fragments"].clone();
+        assert_eq!(fragments(&row["floor"]), fragments(&methods[0]["frames"]));
+        assert!(row["splat_bytes"].as_u64() > Some(0) && row["transient_bytes"].as_u64() > Some(0));
+    }
+    assert!(report["machine"]["threads"].as_u64() > Some(0));
+    let markdown = fs::read_to_string(folder.path("t.md")).unwrap();
+    assert!(markdown.contains("| 1000 | raycast, adjust |"), "{markdown}");
+    assert_eq!(folder.names_in("tables"), ["table1-passes.csv", "table1.csv"]);
+    let passes = fs::read_to_string(folder.path("tables").join("table1-passes.csv")).unwrap();
+    // A head; two numbers of splats, three contestants, three passes.
+    assert_eq!(passes.lines().count(), 1 + 2 * 3 * 3, "{passes}");
+    assert!(fs::read_to_string(folder.path("t.svg")).unwrap().contains("floor"));
+}
+
+#[test]
+fn a_gate_passes_what_is_the_same_and_stops_what_became_worse() {
+    let folder = Folder::new();
+    // On a busy machine intervals are wide; times are not what is tested here.
+    let wide = ["--tolerance", "400"];
+    assert_eq!(bench(&folder, &[&TABLE1[..], &["--json", "before.json"]].concat()).code, 0);
+    let same = bench(&folder, &[&TABLE1[..], &["--baseline", "before.json"], &wide].concat());
+    assert_eq!(same.code, 0, "{} {}", same.stdout, same.stderr);
+    assert!(same.stdout.contains("against the baseline: 0 worse"), "{}", same.stdout);
+
+    // As if fragments had been fewer, a pass faster, and one more been measured.
+    let mut before = json(&folder, "before.json");
+    let figures = before["gate"]["figures"].as_array_mut().unwrap();
+    let of = |figures: &mut Vec<Value>, end: &str| {
+        figures.iter().position(|figure| figure["name"].as_str().unwrap().ends_with(end)).unwrap()
+    };
+    let fragments = of(figures, "1000 splats, raycast, adjust, accumulate, fragments");
+    figures[fragments]["value"] = (figures[fragments]["value"].as_f64().unwrap() * 0.99).into();
+    let time = of(figures, "1000 splats, perspective, adjust, visibility, x floor");
+    figures[time]["interval"] = [0.001, 0.002].to_vec().into();
+    figures.push(serde_json::json!({"name": "x", "kind": "work", "value": 1.0, "interval": null}));
+    folder.write("better.json", before.to_string());
+    let worse = bench(&folder, &[&TABLE1[..], &["--baseline", "better.json"], &wide].concat());
+    assert_eq!(worse.code, 3, "{} {}", worse.stdout, worse.stderr);
+    assert!(worse.stdout.contains("2 worse") && worse.stdout.contains("gone: x"), "{}", worse.stdout);
+    assert!(worse.stderr.contains("3 figure(s) became worse"), "{}", worse.stderr);
+}
+
+#[test]
+fn a_baseline_of_something_else_is_refused_before_the_long_work() {
+    let folder = Folder::new();
+    let report = r#"{"gate": {"subject": {"table": "floor"}, "circumstances": {}, "figures": []}}"#;
+    folder.write("floor.json", report);
+    folder.write("broken.json", "{\n\"gate\": 7}");
+    for (file, expected) in [
+        ("floor.json", "the baseline is of something else"),
+        ("broken.json", "broken.json: line 2: "),
+        ("missing.json", "cannot read"),
+    ] {
+        let refused = bench(&folder, &[&TABLE1[..], &["--baseline", file]].concat());
+        assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
+        assert!(refused.stderr.contains(expected) && refused.stdout.is_empty(), "{}", refused.stderr);
+    }
+}
+
+#[test]
+fn doubtful_figures_are_refused_where_that_is_asked_for() {
+    let folder = Folder::new();
+    let words = ["floor", "--frames", "3"];
+    let refused = bench(&folder, &[&words[..], &["--strict"]].concat());
+    assert_eq!(refused.code, 2, "{}", refused.stderr);
+    assert!(refused.stderr.contains("can't be trusted, the first: "), "{}", refused.stderr);
+    // The table is there all the same.
+    assert!(refused.stdout.contains("accumulate"), "{}", refused.stdout);
+}
+
+#[test]
+fn a_file_of_splats_has_no_area_to_resample() {
+    let folder = Folder::new();
+    let header = "ply\nformat ascii 1.0\nelement vertex 1\n";
+    let floats = ["x", "y", "z", "nx", "ny", "nz", "radius"].map(|name| format!("property float {name}\n"));
+    folder.write("one.ply", format!("{header}{}end_header\n0 0 0 0 0 1 1\n", floats.concat()));
+    let refused = bench(&folder, &["table1", "--model", "one.ply"]);
+    assert_eq!(refused.code, 1, "{}", refused.stderr);
+    assert!(refused.stderr.contains("one.ply: the file holds splats; expected a mesh"), "{}", refused.stderr);
+}
