@@ -2,7 +2,13 @@
 
 use std::{fmt::Display, io, ops::Range};
 
-use plotters::{coord::Shift, prelude::*};
+use plotters::{
+    coord::{
+        Shift,
+        combinators::{LogCoord, WithKeyPoints},
+    },
+    prelude::*,
+};
 
 use crate::error::Error;
 
@@ -46,6 +52,45 @@ pub(super) fn logarithmic(values: impl Iterator<Item = f64>) -> (Range<f64>, Vec
     let first = marks.iter().rposition(|mark| *mark <= low).unwrap_or(0);
     let last = marks.iter().position(|mark| *mark >= high).unwrap_or(marks.len() - 1).max(first + 1);
     (marks[first]..marks[last], marks[first..=last].to_vec())
+}
+
+/// What a logarithmic axis shows: its name, and the values that it holds.
+pub(super) struct LogAxis<'a> {
+    /// With the unit.
+    pub name: &'a str,
+    /// From [`logarithmic`].
+    pub range: (Range<f64>, Vec<f64>),
+}
+
+/// A plane whose axes are logarithmic.
+pub(super) type LogPlane = Cartesian2d<WithKeyPoints<LogCoord<f64>>, WithKeyPoints<LogCoord<f64>>>;
+
+/// Fills an area with a grid, its axes and a caption; what is drawn then lies over it.
+pub(super) fn log_chart<'a, B: DrawingBackend>(
+    area: &'a DrawingArea<B, Shift>,
+    caption: &str,
+    x: LogAxis<'_>,
+    y: LogAxis<'_>,
+) -> Result<ChartContext<'a, B, LogPlane>, DrawingAreaErrorKind<B::ErrorType>> {
+    let ((x_range, x_marks), (y_range, y_marks)) = (x.range, y.range);
+    let mut chart = ChartBuilder::on(area)
+        .caption(caption, (FONT, 20))
+        .margin(16)
+        .x_label_area_size(48)
+        .y_label_area_size(84)
+        .build_cartesian_2d(
+            x_range.log_scale().with_key_points(x_marks),
+            y_range.log_scale().with_key_points(y_marks),
+        )?;
+    chart
+        .configure_mesh()
+        .x_desc(x.name)
+        .y_desc(y.name)
+        .x_label_formatter(&|value| mark(*value))
+        .y_label_formatter(&|value| mark(*value))
+        .label_style((FONT, 14))
+        .draw()?;
+    Ok(chart)
 }
 
 /// A mark's text, without the noise of its last bits.

@@ -4,7 +4,7 @@ use plotters::prelude::*;
 
 use super::{
     ThroughputRow,
-    plot::{FONT, LEGEND_WIDTH_PX, SIZE_PX, Sign, color, failed, legend, logarithmic, mark},
+    plot::{LEGEND_WIDTH_PX, LogAxis, SIZE_PX, Sign, color, failed, legend, log_chart, logarithmic},
 };
 use crate::error::Result;
 
@@ -34,28 +34,17 @@ fn draw<B: DrawingBackend>(
 ) -> std::result::Result<(), DrawingAreaErrorKind<B::ErrorType>> {
     let curves = curves(rows);
     let points = || curves.iter().flat_map(|curve| &curve.points);
-    let (splats, splats_marks) = logarithmic(points().map(|(splats, _)| *splats));
-    let (ms, ms_marks) = logarithmic(points().map(|(_, ms)| *ms).chain(ends(rows)));
     let root = backend.into_drawing_area();
     root.fill(&WHITE)?;
     let (left, right) = root.split_horizontally(SIZE_PX.0 - LEGEND_WIDTH_PX);
-    let mut chart = ChartBuilder::on(&left)
-        .caption(device, (FONT, 20))
-        .margin(16)
-        .x_label_area_size(48)
-        .y_label_area_size(84)
-        .build_cartesian_2d(
-            splats.log_scale().with_key_points(splats_marks),
-            ms.log_scale().with_key_points(ms_marks),
-        )?;
-    chart
-        .configure_mesh()
-        .x_desc("splats")
-        .y_desc("milliseconds a frame (median; bars: smallest and largest)")
-        .x_label_formatter(&|value| mark(*value))
-        .y_label_formatter(&|value| mark(*value))
-        .label_style((FONT, 14))
-        .draw()?;
+    let splats = logarithmic(points().map(|(splats, _)| *splats));
+    let ms = logarithmic(points().map(|(_, ms)| *ms).chain(ends(rows)));
+    let mut chart = log_chart(
+        &left,
+        device,
+        LogAxis { name: "splats", range: splats },
+        LogAxis { name: "milliseconds a frame (median; bars: smallest and largest)", range: ms },
+    )?;
     for curve in &curves {
         let style = curve.color.stroke_width(curve.width);
         chart.draw_series(LineSeries::new(curve.points.iter().copied(), style))?;

@@ -5,7 +5,9 @@ use plotters::prelude::*;
 use super::{CompareReport, MethodRow};
 use crate::{
     error::Result,
-    report::plot::{FONT, LEGEND_WIDTH_PX, SIZE_PX, Sign, color, failed, legend, logarithmic, mark},
+    report::plot::{
+        FONT, LEGEND_WIDTH_PX, LogAxis, SIZE_PX, Sign, color, failed, legend, log_chart, logarithmic,
+    },
     scene::{Filter, Rasterizer},
 };
 
@@ -32,8 +34,8 @@ impl CompareReport {
         backend: B,
     ) -> std::result::Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let dots: Vec<Dot<'_>> = self.methods.iter().filter_map(Dot::of).collect();
-        let (ms, ms_marks) = logarithmic(dots.iter().map(|dot| dot.place.0));
-        let (rms, rms_marks) = logarithmic(dots.iter().map(|dot| dot.place.1));
+        let ms = logarithmic(dots.iter().map(|dot| dot.place.0));
+        let rms = logarithmic(dots.iter().map(|dot| dot.place.1));
         let root = backend.into_drawing_area();
         root.fill(&WHITE)?;
         let [[width, height], [error_width, error_height]] = [self.time_size_px, self.error_size_px];
@@ -42,23 +44,12 @@ impl CompareReport {
             self.device.name, self.splats
         );
         let (left, right) = root.split_horizontally(SIZE_PX.0 - LEGEND_WIDTH_PX);
-        let mut chart = ChartBuilder::on(&left)
-            .caption(caption, (FONT, 20))
-            .margin(16)
-            .x_label_area_size(48)
-            .y_label_area_size(84)
-            .build_cartesian_2d(
-                ms.log_scale().with_key_points(ms_marks),
-                rms.log_scale().with_key_points(rms_marks),
-            )?;
-        chart
-            .configure_mesh()
-            .x_desc("milliseconds a frame (median)")
-            .y_desc("RMS of the linear image against the ground truth")
-            .x_label_formatter(&|value| mark(*value))
-            .y_label_formatter(&|value| mark(*value))
-            .label_style((FONT, 14))
-            .draw()?;
+        let mut chart = log_chart(
+            &left,
+            &caption,
+            LogAxis { name: "milliseconds a frame (median)", range: ms },
+            LogAxis { name: "RMS of the linear image against the ground truth", range: rms },
+        )?;
 
         let mut front: Vec<&Dot<'_>> = dots.iter().filter(|dot| dot.row.pareto).collect();
         front.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));

@@ -5,7 +5,9 @@ use plotters::prelude::*;
 use super::ZoomReport;
 use crate::{
     error::Result,
-    report::plot::{FONT, LEGEND_WIDTH_PX, SIZE_PX, Sign, band, color, failed, legend, logarithmic, mark},
+    report::plot::{
+        LEGEND_WIDTH_PX, LogAxis, SIZE_PX, Sign, band, color, failed, legend, log_chart, logarithmic,
+    },
 };
 
 impl ZoomReport {
@@ -30,10 +32,9 @@ impl ZoomReport {
             self.steps.iter().filter_map(place).filter(drawn).collect::<Vec<_>>()
         };
         let lines: Vec<_> = (0..self.filters.len()).map(line).collect();
-        let (px, px_marks) = logarithmic(self.steps.iter().map(|step| step.pixels_per_splat));
-        let (rms, rms_marks) = logarithmic(lines.iter().flatten().map(|(_, rms)| *rms));
-        let bottom = rms.start;
-        let top = rms.end;
+        let px = logarithmic(self.steps.iter().map(|step| step.pixels_per_splat));
+        let rms = logarithmic(lines.iter().flatten().map(|(_, rms)| *rms));
+        let (bottom, top) = (rms.0.start, rms.0.end);
         let root = backend.into_drawing_area();
         root.fill(&WHITE)?;
         let ([width, height], side) = (self.size_px, self.board.splats_per_side);
@@ -42,23 +43,12 @@ impl ZoomReport {
             self.board.tilt_deg
         );
         let (left, right) = root.split_horizontally(SIZE_PX.0 - LEGEND_WIDTH_PX);
-        let mut chart = ChartBuilder::on(&left)
-            .caption(caption, (FONT, 20))
-            .margin(16)
-            .x_label_area_size(48)
-            .y_label_area_size(84)
-            .build_cartesian_2d(
-                px.log_scale().with_key_points(px_marks),
-                rms.log_scale().with_key_points(rms_marks),
-            )?;
-        chart
-            .configure_mesh()
-            .x_desc("pixels a splat, in the middle of the picture")
-            .y_desc("RMS of linear color against the ground truth")
-            .x_label_formatter(&|value| mark(*value))
-            .y_label_formatter(&|value| mark(*value))
-            .label_style((FONT, 14))
-            .draw()?;
+        let mut chart = log_chart(
+            &left,
+            &caption,
+            LogAxis { name: "pixels a splat, in the middle of the picture", range: px },
+            LogAxis { name: "RMS of linear color against the ground truth", range: rms },
+        )?;
         let mixed: Vec<f64> = self
             .steps
             .iter()
