@@ -264,7 +264,7 @@ mod tests {
         assert_eq!(of(GateKind::Instructions, 20, 21), Verdict::Worse);
         assert_eq!(of(GateKind::Instructions, 20, 20), Verdict::Same);
         assert_eq!(of(GateKind::Instructions, 20, 19), Verdict::Better);
-        assert_eq!(of(GateKind::Work, 100_000, 100_100), Verdict::Same);
+        assert_eq!(of(GateKind::Work, 100_000, 100_099), Verdict::Same);
         assert_eq!(of(GateKind::Work, 100_000, 100_200), Verdict::Worse);
     }
 
