@@ -37,6 +37,8 @@ pub mod error;
 pub mod frame;
 pub mod geometry;
 pub mod graph;
+#[cfg(feature = "selftest")]
+pub mod hard_scenes;
 #[cfg(feature = "files")]
 pub mod load;
 pub mod math;
@@ -49,6 +51,8 @@ pub mod report;
 #[cfg(feature = "files")]
 pub mod save;
 pub mod scene;
+#[cfg(feature = "selftest")]
+pub mod selftest;
 pub mod shaders;
 pub mod vk;
 

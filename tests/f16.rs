@@ -1,9 +1,7 @@
 //! 16-bit accumulation: how far it is from the oracle beside 32 bits, how far it may be, and what many splats do to it.
 //!
-//! A sum of `n` fragments in binary16 (11 significant bits, least number 2⁻²⁴): each blend rounds the source and the
-//! sum, each by at most 2⁻¹⁰ of the sum (drivers may truncate), or 2⁻²⁴ where it is subnormal. So a sum S of positive
-//! values errs by at most `e = n (2·2⁻¹⁰ S + 2·2⁻²⁴)`, and a quotient of two such sums by about twice that, relative:
-//! that bound is asserted at every pixel. It says nothing beyond some hundred fragments, where sums stall: a sum of equal
+//! A sum S of `n` positive values in binary16 errs by at most `e = n (2·2⁻¹⁰ S + 2·2⁻²⁴)`, and a quotient of two such sums
+//! by about twice that, relative (`selftest::half::Rounding`): that bound is asserted at every pixel. It says nothing beyond some hundred fragments, where sums stall: a sum of equal
 //! summands a stops in the first binade whose step is 2a or more (with truncation: more than a), between 2048 a and
 //! 4096 a (1024 a and 2048 a): a normalized color is then within a factor 2 of the input. On the way there a summand of
 //! 0.5 to 1.5 steps is taken as a whole step, so that a sum may grow by 2/3 to 2 times its rate: a factor 3.
@@ -22,6 +20,7 @@ use glam::DVec3;
 use surfel::{
     reference,
     scene::{Accumulate, Filter, FilterWeight, Kernel, Settings},
+    selftest::half::Rounding,
 };
 
 fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
@@ -59,20 +58,23 @@ fn every_hard_scene_stays_within_the_rounding_of_16_bits_and_finite() {
             assert_eq!(covered, in_16.depth[i].is_finite(), "{}: pixel {i}", hard.name);
             // ψ_E covers less than the flat kernel, so that its count is only an upper bound.
             assert!(count > 0.0 || !full_disk || weight == 0.0);
-            let (relative, absolute) = (count * 2.0 / 1024.0, count * 2.0 / 16_777_216.0);
-            if weight <= absolute || relative + absolute / weight > 0.25 {
+            let rounding = Rounding::of(count);
+            if !rounding.holds(weight) {
                 continue;
             }
-            let error = (f64::from(in_16.weight[i]) - weight).abs() / (relative * weight + absolute);
+            let error = (f64::from(in_16.weight[i]) - weight).abs() / rounding.of_sum(weight);
             assert!(error <= 1.0, "{}: pixel {i}: weight {error} of its bound", hard.name);
-            let quotient = 2.0 * (relative + absolute / weight) / (1.0 - relative - absolute / weight);
             for c in 0..3 {
                 let (a, b) = (f64::from(in_16.albedo[i][c]), f64::from(in_32.albedo[i][c]));
-                let bound = quotient * b + 2.0 * absolute / weight;
+                let bound = rounding.of_mean(b, weight);
                 assert!((a - b).abs() <= bound, "{}: pixel {i}: albedo {a}, {b}", hard.name);
             }
             let depth = f64::from(in_16.depth[i]) / f64::from(in_32.depth[i]) - 1.0;
-            assert!(depth.abs() <= quotient, "{}: pixel {i}: depth off by {depth}", hard.name);
+            assert!(
+                depth.abs() <= rounding.of_quotient(weight),
+                "{}: pixel {i}: depth off by {depth}",
+                hard.name
+            );
             most = most.max(error);
             checked += 1;
         }

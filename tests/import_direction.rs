@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["error", "progress"],
     &["math"],
     &["scene"],
-    &["load", "save"],
+    &["load", "save", "hard_scenes"],
     &["geometry"],
     &["reference"],
     &["report"],
@@ -25,6 +25,7 @@ const LAYERS: &[&[&str]] = &[
     &["passes"],
     &["frame"],
     &["renderer"],
+    &["selftest"],
 ];
 
 /// What a folder may not import although it stands above: (folder, import, why).

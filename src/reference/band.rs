@@ -29,6 +29,7 @@ pub(super) fn render(frame: &Frame, rows: Range<u32>, pixels: &mut [Pixel]) {
         let ray = frame.view.ray(column, row);
         if let Some(surface) = sums.surface(frame.settings.shading, ray) {
             pixel.weight = sums.weight;
+            pixel.fragments = sums.fragments;
             pixel.albedo = surface.albedo.to_array();
             pixel.normal = surface.normal.to_array();
             pixel.depth = surface.depth;

@@ -18,6 +18,8 @@ pub struct Picture {
 pub struct Pixel {
     /// `Σw` over the fragments of the nearest surface; 0 where the pixel is empty.
     pub weight: f64,
+    /// How many fragments these are.
+    pub fragments: u32,
     /// `Σw·albedo / Σw`, linear red, green, blue; 0 where empty.
     pub albedo: [f64; 3],
     /// `Σw·n` normalized, in view space: a surface that faces the eye has z < 0. `(0, 0, −1)` where the sum
@@ -49,6 +51,7 @@ impl Pixel {
     pub(super) fn empty(background: [f64; 4]) -> Self {
         Self {
             weight: 0.0,
+            fragments: 0,
             albedo: [0.0; 3],
             normal: [0.0; 3],
             depth: f64::INFINITY,

@@ -23,6 +23,7 @@ impl Nearest {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
     pub weight: f64,
+    pub fragments: u32,
     albedo: DVec3,
     normal: DVec3,
     z: f64,
@@ -48,6 +49,7 @@ const VANISHING: f64 = 1e-12;
 impl Sums {
     pub fn add(&mut self, fragment: Fragment, splat: &DrawnSplat) {
         self.weight += fragment.weight;
+        self.fragments += 1;
         self.albedo += fragment.weight * splat.albedo;
         self.normal += fragment.weight * splat.normal;
         self.z += fragment.weight * fragment.z;

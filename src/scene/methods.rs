@@ -112,6 +112,16 @@ pub const LEAST_SHARE: f64 = 1.0 / 16.0;
 pub const LEAST_WEIGHT: f64 = 1.0 / 16_777_216.0;
 
 impl Rasterizer {
+    /// The one that stands for all that draw the same picture: the exact ones are one family.
+    pub fn family(self) -> Self {
+        match self {
+            Self::RaycastApproximate | Self::AffineCenter | Self::AffineContour => self,
+            Self::Perspective | Self::PerspectivePaper | Self::Raycast | Self::Triangle | Self::Quad => {
+                Self::Perspective
+            }
+        }
+    }
+
     /// Whether its map from image to splat is affine.
     pub fn is_affine(self) -> bool {
         matches!(self, Self::AffineCenter | Self::AffineContour)

@@ -1,16 +1,18 @@
 //! What the tests of the GPU path share: a validated device, scenes with known difficulties, and the comparison with
 //! the oracle.
 
-#![allow(dead_code, reason = "each test binary uses its own part")]
+#![allow(dead_code, unused_imports, reason = "each test binary uses its own part")]
 
-pub mod builder;
-pub mod compare;
 pub mod faults;
 pub mod host;
-pub mod scenes;
 pub mod watched;
 
 use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
+
+pub use surfel::{
+    hard_scenes::{self as scenes, builder},
+    selftest::agreement as compare,
+};
 
 use compare::Errors;
 use scenes::Hard;
@@ -101,12 +103,6 @@ pub fn with_limits<T>(
 
 /// Whether two frames are the same bit by bit.
 pub fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
-    let bits = |frame: &Frame| -> Vec<u32> {
-        let vectors = frame.albedo.iter().chain(&frame.normal).chain(&frame.linear).flatten();
-        vectors.chain(&frame.weight).chain(&frame.depth).map(|value| value.to_bits()).collect()
-    };
-    let (a, b) = (bits(a), bits(b));
-    assert_eq!(a.len(), b.len(), "{what}");
-    let different = a.iter().zip(&b).filter(|(a, b)| a != b).count();
-    assert_eq!(different, 0, "{what}: {different} of {} values differ", a.len());
+    let different = compare::different_values(a, b);
+    assert_eq!(different, 0, "{what}: {different} values differ");
 }

@@ -66,11 +66,7 @@ impl Method {
     /// What its exact picture depends on: not on how sums and kernels are rounded, nor on which of the rasterizers
     /// that are exact draws it.
     pub fn picture_key(&self) -> PictureKey {
-        use Rasterizer::{Perspective, PerspectivePaper, Quad, Raycast, Triangle};
-        let rasterizer = match self.rasterizer {
-            Perspective | PerspectivePaper | Raycast | Triangle | Quad => Perspective,
-            other => other,
-        };
+        let rasterizer = self.rasterizer.family();
         PictureKey { rasterizer, filter: self.filter, filter_weight: self.filter_weight }
     }
 

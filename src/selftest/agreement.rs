@@ -1,6 +1,11 @@
 //! GPU against oracle, pixel by pixel.
 
-use surfel::{reference::Picture, renderer::Frame};
+use std::collections::BTreeMap;
+
+use crate::{
+    reference::{Picture, Pixel},
+    renderer::Frame,
+};
 
 /// The largest errors over the compared pixels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,12 +57,15 @@ pub const F32: Errors = Errors {
 /// ψ_E(6, 1.5, 3) and 50 for a Gaussian of σ = 0.1, where the default has 2. The same rounding of r² is there a
 /// larger part of a weight, but of a weight that counts for nothing beside any other; in absolute terms ψ_E is as steep
 /// as the default, |dw / d r²| ≤ 2.7 against 2.
-const SMALL_WEIGHT: f64 = 0.135;
+pub const SMALL_WEIGHT: f64 = 0.135;
 
 /// How near to the ε-threshold a fragment exempts its pixel, relative.
 const EPSILON_MARGIN: f64 = 1e-4;
 
 /// Compares a frame that has its surface with the oracle's picture.
+///
+/// # Panics
+/// Where they differ in size.
 pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
     assert_eq!(frame.size_px, oracle.size_px);
     let mut errors = Errors::default();
@@ -67,12 +75,7 @@ pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
             continue;
         }
         errors.covered += 1;
-        let values = frame.albedo[i].iter().chain(&frame.normal[i]).chain([&frame.weight[i]]);
-        errors.not_finite += values.filter(|value| !value.is_finite()).count();
-        errors.not_finite += usize::from(covered && !frame.depth[i].is_finite());
-        if let Some(color) = frame.linear.get(i) {
-            errors.not_finite += color.iter().filter(|value| !value.is_finite()).count();
-        }
+        errors.not_finite += not_finite(frame, i);
         if expected.rim {
             errors.exempt_rim += 1;
             continue;
@@ -104,6 +107,29 @@ pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
         worst(&mut errors.normal_deg, degrees_between(frame.normal[i], expected.normal));
     }
     errors
+}
+
+/// Whether rounding alone can't turn a pixel.
+pub(super) fn is_compared(expected: &Pixel) -> bool {
+    !expected.rim && expected.epsilon_margin >= EPSILON_MARGIN
+}
+
+/// Values of a pixel that are NaN or infinite; an empty pixel's depth may be.
+pub(super) fn not_finite(frame: &Frame, i: usize) -> usize {
+    let surface = frame.albedo[i].iter().chain(&frame.normal[i]).chain([&frame.weight[i]]);
+    let values = surface.chain(frame.linear.get(i).into_iter().flatten());
+    let depth = frame.weight[i] > 0.0 && !frame.depth[i].is_finite();
+    values.filter(|value| !value.is_finite()).count() + usize::from(depth)
+}
+
+/// How many values differ in at least one bit, over all that two frames of one size have.
+pub fn different_values(a: &Frame, b: &Frame) -> usize {
+    let bits = |frame: &Frame| -> Vec<u32> {
+        let vectors = frame.albedo.iter().chain(&frame.normal).chain(&frame.linear).flatten();
+        vectors.chain(&frame.weight).chain(&frame.depth).map(|value| value.to_bits()).collect()
+    };
+    let (a, b) = (bits(a), bits(b));
+    a.iter().zip(&b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len())
 }
 
 fn degrees_between(a: [f32; 4], b: [f64; 3]) -> f64 {
@@ -147,6 +173,20 @@ impl Errors {
         check("values not finite", self.not_finite as f64, limit.not_finite as f64);
         check("compared pixels missing", limit.compared as f64, self.compared as f64);
         beyond
+    }
+
+    /// The errors by name, for reports.
+    pub fn figures(&self) -> BTreeMap<&'static str, f64> {
+        BTreeMap::from([
+            ("compared_px", self.compared as f64),
+            ("coverage_px", self.coverage as f64),
+            ("not_finite_values", self.not_finite as f64),
+            ("weight", self.weight),
+            ("albedo", self.albedo),
+            ("depth", self.depth),
+            ("normal_deg", self.normal_deg),
+            ("color", self.color),
+        ])
     }
 
     /// One row of the table that the tests print.

@@ -2,25 +2,18 @@
 
 use std::f64::consts::TAU;
 
+use crate::scene::{Accumulate, Camera, Colors, Filter, Object, Scene, Settings, Shapes, Splats};
 use glam::{DVec3, Vec3};
-use surfel::scene::{Accumulate, Camera, Colors, Filter, Object, Scene, Settings, Shapes, Splats};
 
-/// A reproducible sequence (SplitMix64, Steele, Lea, Flood 2014): no test depends on a library's generator.
-pub struct Random(pub u64);
+pub use crate::math::random::SplitMix as Random;
 
 impl Random {
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
+    /// From `lo` to below `hi`.
     pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
         lo + (hi - lo) * self.unit()
     }
 
+    /// A direction, all alike.
     pub fn direction(&mut self) -> DVec3 {
         let z = self.between(-1.0, 1.0);
         let (sin, cos) = self.between(0.0, TAU).sin_cos();
@@ -28,6 +21,7 @@ impl Random {
         DVec3::new(r * cos, r * sin, z)
     }
 
+    /// A color, opaque.
     pub fn color(&mut self) -> [f32; 4] {
         [self.unit() as f32, self.unit() as f32, self.unit() as f32, 1.0]
     }
@@ -45,6 +39,7 @@ pub struct Builder {
 }
 
 impl Builder {
+    /// Adds a disk.
     pub fn disk(&mut self, position: DVec3, normal: DVec3, radius: f64, color: [f32; 4]) {
         self.positions.push(position);
         self.normals.push(normal.as_vec3());
@@ -52,6 +47,7 @@ impl Builder {
         self.colors.push(color);
     }
 
+    /// Adds an ellipse by its scaled tangent vectors.
     pub fn ellipse(&mut self, position: DVec3, s: DVec3, t: DVec3, color: [f32; 4]) {
         self.positions.push(position);
         self.s.push(s.as_vec3());
@@ -59,6 +55,7 @@ impl Builder {
         self.colors.push(color);
     }
 
+    /// All of them as one object: ellipses where there is one, else disks.
     pub fn object(self, closed: bool) -> Object {
         let shapes = match self.s.is_empty() {
             true => Shapes::Disks { normals: self.normals, radii: self.radii },
@@ -68,11 +65,13 @@ impl Builder {
         Object { name: "test".to_owned(), splats, closed }
     }
 
+    /// A scene of that object alone.
     pub fn scene(self, closed: bool) -> Scene {
         Scene { objects: vec![self.object(closed)] }
     }
 }
 
+/// 45° of view, +y up.
 pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
     Camera {
         eye: eye.into(),
@@ -83,10 +82,12 @@ pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
     }
 }
 
+/// How hard scenes are drawn: small, with exact sums.
 pub fn settings() -> Settings {
     Settings { size_px: [256, 256], accumulate: Accumulate::F32, ..Settings::default() }
 }
 
+/// The same without a filter.
 pub fn unfiltered() -> Settings {
     Settings { filter: Filter::None, ..settings() }
 }

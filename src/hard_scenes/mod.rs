@@ -1,0 +1,45 @@
+//! Scenes that are hard in one known way each, with the camera that shows it: for the tests, and for the self-test that
+//! is shipped.
+
+pub mod builder;
+mod shapes;
+mod sizes;
+mod views;
+
+pub use shapes::{coincident, degenerate, far_from_the_origin, random_ellipses, sphere, sphere_of_disks};
+pub use sizes::{edge_on, larger_than_the_screen, subpixel_filtered, subpixel_unfiltered};
+pub use views::{centers_off_screen, cut_by_the_near_plane, ground};
+
+use crate::scene::{Camera, Filter, Scene, Settings};
+
+/// A scene, its camera, and how it is to be rendered.
+#[derive(Clone)]
+pub struct Hard {
+    /// What is hard about it.
+    pub name: &'static str,
+    /// The splats.
+    pub scene: Scene,
+    /// From where.
+    pub camera: Camera,
+    /// How, before a method changes it.
+    pub settings: Settings,
+}
+
+/// Every hard scene.
+pub fn all() -> Vec<Hard> {
+    vec![
+        sphere_of_disks(),
+        random_ellipses(Filter::Adjust),
+        random_ellipses(Filter::None),
+        edge_on(),
+        ground(),
+        cut_by_the_near_plane(),
+        larger_than_the_screen(),
+        centers_off_screen(),
+        subpixel_unfiltered(),
+        subpixel_filtered(),
+        far_from_the_origin(),
+        coincident(),
+        degenerate(),
+    ]
+}

@@ -1,0 +1,134 @@
+//! What the splats are: an ordinary surface, ellipses any way round, many in one place, broken ones.
+
+use std::f64::consts::PI;
+
+use glam::{DQuat, DVec3};
+
+use super::{
+    Hard,
+    builder::{Builder, Random, camera, settings},
+};
+use crate::scene::{Filter, Object, Scene, Settings};
+
+/// A closed sphere of `count` disks around `center` (golden-angle spiral), colored by position.
+pub fn sphere(count: usize, center: DVec3) -> Object {
+    let mut builder = Builder::default();
+    let golden = PI * (3.0 - 5.0_f64.sqrt());
+    for i in 0..count {
+        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        let n = DVec3::new(r * cos, r * sin, z);
+        let color = (0.5 * n + 0.5).as_vec3();
+        let radius = 2.2 / (count as f64).sqrt() * 1.3;
+        // On a grid of f32, so that the oracle and the GPU have the same input.
+        let position = center + n.as_vec3().as_dvec3();
+        builder.disk(position, n, radius, [color.x, color.y, color.z, 1.0]);
+    }
+    builder.object(true)
+}
+
+/// A closed surface of disks that overlap: the ordinary case.
+pub fn sphere_of_disks() -> Hard {
+    let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)] };
+    Hard { name: "sphere of disks", scene, camera: camera([0.0, 0.0, 3.2], [0.0; 3]), settings: settings() }
+}
+
+/// The same sphere where a step of f32 is half a unit.
+pub fn far_from_the_origin() -> Hard {
+    let offset = DVec3::new(500_000.0, 4_600_000.0, 300.0);
+    let scene = Scene { objects: vec![sphere(3000, offset)] };
+    let mut camera = camera([0.0, 0.0, 3.2], [0.0; 3]);
+    camera.eye += offset;
+    camera.target += offset;
+    Hard { name: "sphere far from the origin", scene, camera, settings: settings() }
+}
+
+/// Ellipses of aspect up to 20, any way round; unfiltered ones get as thin as 0.1 px.
+pub fn random_ellipses(filter: Filter) -> Hard {
+    let mut random = Random(1);
+    let mut builder = Builder::default();
+    for _ in 0..600 {
+        let rotation = DQuat::from_axis_angle(random.direction(), random.between(0.0, PI));
+        let aspect = random.between(1.0, 20.0);
+        let radius = random.between(0.02, 0.3);
+        let position =
+            DVec3::new(random.between(-1.3, 1.3), random.between(-1.3, 1.3), random.between(-1.0, 1.0));
+        let color = random.color();
+        builder.ellipse(
+            position.as_vec3().as_dvec3(),
+            rotation * DVec3::X * radius,
+            rotation * DVec3::Y * radius / aspect,
+            color,
+        );
+    }
+    let name = match filter {
+        Filter::Adjust => "random ellipses of aspect up to 20",
+        _ => "random ellipses, unfiltered",
+    };
+    Hard {
+        name,
+        scene: builder.scene(false),
+        camera: camera([0.3, 0.2, 3.5], [0.0; 3]),
+        settings: Settings { filter, ..settings() },
+    }
+}
+
+/// Thousands of disks of different colors in one place.
+pub fn coincident() -> Hard {
+    let mut builder = Builder::default();
+    let mut random = Random(6);
+    for _ in 0..3000 {
+        let color = random.color();
+        builder.disk(DVec3::new(0.1, -0.05, 0.0), DVec3::new(0.2, 0.1, 1.0).normalize(), 0.5, color);
+    }
+    Hard {
+        name: "3000 coincident disks",
+        scene: builder.scene(false),
+        camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
+        settings: settings(),
+    }
+}
+
+/// Every defect among good disks and good ellipses.
+pub fn degenerate() -> Hard {
+    let mut builder = Builder::default();
+    let mut random = Random(7);
+    let nan = f64::NAN;
+    for i in 0..400 {
+        let p = DVec3::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), random.between(-0.2, 0.2));
+        let p = p.as_vec3().as_dvec3();
+        let n = (DVec3::Z + 0.5 * random.direction()).normalize();
+        let color = random.color();
+        match i % 8 {
+            0 => builder.disk(p, n, 0.0, color),
+            1 => builder.disk(p, DVec3::ZERO, 0.1, color),
+            2 => builder.disk(p, DVec3::new(nan, 0.0, 1.0), 0.1, color),
+            3 => builder.disk(DVec3::new(f64::INFINITY, 0.0, 0.0), n, 0.1, color),
+            4 => builder.disk(p, n, nan, color),
+            _ => builder.disk(p, n, 0.1, color),
+        }
+    }
+    let mut ellipses = Builder::default();
+    for i in 0..200 {
+        let p = DVec3::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), random.between(-0.2, 0.2));
+        let p = p.as_vec3().as_dvec3();
+        let s = 0.1 * random.direction();
+        let t = 0.5 * s.cross(random.direction());
+        let color = random.color();
+        match i % 8 {
+            0 => ellipses.ellipse(p, s, 2.0 * s, color),
+            1 => ellipses.ellipse(p, s, DVec3::ZERO, color),
+            2 => ellipses.ellipse(p, s, DVec3::new(0.0, nan, 0.1), color),
+            3 => ellipses.ellipse(p, DVec3::new(0.0, f64::INFINITY, 0.1), t, color),
+            4 => ellipses.ellipse(p, s, t, [0.5, f32::NAN, 0.5, 1.0]),
+            _ => ellipses.ellipse(p, s, t, color),
+        }
+    }
+    Hard {
+        name: "degenerate splats among good ones",
+        scene: Scene { objects: vec![builder.object(false), ellipses.object(false)] },
+        camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
+        settings: settings(),
+    }
+}
