@@ -91,6 +91,17 @@ pub enum ErrorKind {
         /// The first of them.
         first: String,
     },
+    /// Cases of the self-test failed, or pass that are listed as failures.
+    Selftest {
+        /// How many cases there were.
+        cases: usize,
+        /// How many failed.
+        failed: usize,
+        /// How many passed against the list.
+        fixed: usize,
+        /// The first of both.
+        first: String,
+    },
 }
 
 impl Error {
@@ -109,7 +120,7 @@ impl Error {
             | ErrorKind::Memory { .. }
             | ErrorKind::Graph { .. }
             | ErrorKind::Doubtful { .. } => 2,
-            ErrorKind::Validation { .. } | ErrorKind::Regression { .. } => 3,
+            ErrorKind::Validation { .. } | ErrorKind::Regression { .. } | ErrorKind::Selftest { .. } => 3,
         }
     }
 
@@ -183,6 +194,13 @@ impl fmt::Display for Error {
             ErrorKind::Doubtful { count, first } => {
                 write!(f, "{count} figure(s) can't be trusted, the first: {first}")
             }
+            ErrorKind::Selftest { cases, failed, fixed: 0, first } => {
+                write!(f, "{failed} of {cases} case(s) failed, the first: {first}")
+            }
+            ErrorKind::Selftest { cases, failed, fixed, first } => write!(
+                f,
+                "{failed} of {cases} case(s) failed and {fixed} passed against the list, the first: {first}"
+            ),
         }
     }
 }
@@ -231,6 +249,16 @@ mod tests {
                 ErrorKind::Doubtful { count: 1, first: "a".into() }.into(),
                 2,
                 "1 figure(s) can't be trusted, the first: a",
+            ),
+            (
+                ErrorKind::Selftest { cases: 9, failed: 2, fixed: 0, first: "a.b".into() }.into(),
+                3,
+                "2 of 9 case(s) failed, the first: a.b",
+            ),
+            (
+                ErrorKind::Selftest { cases: 9, failed: 0, fixed: 1, first: "a.b".into() }.into(),
+                3,
+                "0 of 9 case(s) failed and 1 passed against the list, the first: a.b",
             ),
         ];
         for (error, code, text) in cases {

@@ -17,6 +17,8 @@ mod figure;
 mod files;
 #[path = "cli/program.rs"]
 mod program;
+#[path = "cli/selftest.rs"]
+mod selftest;
 
 use std::fs;
 
@@ -249,7 +251,7 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    let subcommands = ["render", "reference", "compare", "convert", "figure", "bench", "info"];
+    let subcommands = ["render", "reference", "compare", "convert", "figure", "bench", "selftest", "info"];
     let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
     for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);

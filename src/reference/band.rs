@@ -32,6 +32,7 @@ pub(super) fn render(frame: &Frame, rows: Range<u32>, pixels: &mut [Pixel]) {
             pixel.fragments = sums.fragments;
             pixel.albedo = surface.albedo.to_array();
             pixel.normal = surface.normal.to_array();
+            pixel.normal_length = surface.normal_length;
             pixel.depth = surface.depth;
             pixel.color = surface.color.extend(1.0).to_array();
             pixel.alpha = surface.alpha;

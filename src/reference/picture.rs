@@ -25,6 +25,8 @@ pub struct Pixel {
     /// `Σw·n` normalized, in view space: a surface that faces the eye has z < 0. `(0, 0, −1)` where the sum
     /// vanishes, 0 where the pixel is empty.
     pub normal: [f64; 3],
+    /// `|Σw·n| / Σw`: 1 where all normals agree, near 0 where they cancel; 0 where the pixel is empty.
+    pub normal_length: f64,
     /// `Σw·z / Σw`, view-space z in world units; +∞ where empty.
     pub depth: f64,
     /// The shaded color, linear red, green, blue, and alpha: 1 where covered; where empty the background with
@@ -54,6 +56,7 @@ impl Pixel {
             fragments: 0,
             albedo: [0.0; 3],
             normal: [0.0; 3],
+            normal_length: 0.0,
             depth: f64::INFINITY,
             color: background,
             alpha: 0.0,

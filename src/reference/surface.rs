@@ -36,6 +36,8 @@ pub(super) struct Surface {
     pub albedo: DVec3,
     /// Unit.
     pub normal: DVec3,
+    /// Of the mean of the normals.
+    pub normal_length: f64,
     pub depth: f64,
     /// Straight.
     pub alpha: f64,
@@ -66,6 +68,7 @@ impl Sums {
         Some(Surface {
             albedo,
             normal,
+            normal_length: self.normal.length() / self.weight,
             depth: self.z / self.weight,
             alpha: self.alpha / self.weight,
             color: shade(shading, albedo, normal, ray),

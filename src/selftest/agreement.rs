@@ -28,6 +28,9 @@ pub struct Errors {
     pub depth: f64,
     /// Degrees between normals.
     pub normal_deg: f64,
+    /// The same times the length of the mean of the normals: where they nearly cancel, errors of weights turn it by so much
+    /// more.
+    pub normal_sum_deg: f64,
     /// Shaded color, linear, absolute; only where the frame has it.
     pub color: f64,
     /// NaN or infinite values in covered pixels.
@@ -49,6 +52,7 @@ pub const F32: Errors = Errors {
     albedo: 1.0 / 1024.0,
     depth: 1e-4,
     normal_deg: 0.1,
+    normal_sum_deg: 0.1,
     color: 1.0 / 1024.0,
     not_finite: 0,
 };
@@ -104,7 +108,9 @@ pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
             }
         }
         worst(&mut errors.depth, (f64::from(frame.depth[i]) / expected.depth - 1.0).abs());
-        worst(&mut errors.normal_deg, degrees_between(frame.normal[i], expected.normal));
+        let normal_deg = degrees_between(frame.normal[i], expected.normal);
+        worst(&mut errors.normal_deg, normal_deg);
+        worst(&mut errors.normal_sum_deg, normal_deg * expected.normal_length);
     }
     errors
 }
@@ -146,6 +152,7 @@ impl Errors {
             albedo: factor * self.albedo,
             depth: factor * self.depth,
             normal_deg: factor * self.normal_deg,
+            normal_sum_deg: factor * self.normal_sum_deg,
             color: factor * self.color,
             ..self
         }
@@ -168,6 +175,7 @@ impl Errors {
         check("albedo", self.albedo, limit.albedo);
         check("depth", self.depth, limit.depth);
         check("normal (degrees)", self.normal_deg, limit.normal_deg);
+        check("sum of normals (degrees)", self.normal_sum_deg, limit.normal_sum_deg);
         check("color", self.color, limit.color);
         check("pixels covered in one only", self.coverage as f64, limit.coverage as f64);
         check("values not finite", self.not_finite as f64, limit.not_finite as f64);
@@ -185,6 +193,7 @@ impl Errors {
             ("albedo", self.albedo),
             ("depth", self.depth),
             ("normal_deg", self.normal_deg),
+            ("normal_sum_deg", self.normal_sum_deg),
             ("color", self.color),
         ])
     }

@@ -1,5 +1,29 @@
-//! Every method on every hard scene against the oracle.
+//! The self-test: every method on every hard scene against the oracle, on the device at hand, under validation.
+//!
+//! A [`Case`] is one scene drawn by one method. Its name is a path, such as `methods.perspective.adjust.edge-on-disks`: a
+//! group, the rasterizer, the filter, the scene. [`run`] draws the cases of a [`Suite`] and judges each by its tolerance
+//! ([`tolerance`]), by what the validation layer said meanwhile, and by what is [`Known`] of the driver.
+//!
+//! | group | what is checked |
+//! |---|---|
+//! | `device` | opening and closing the device: what the layer says outside of all other cases |
+//! | `methods` | against the oracle, with 32-bit sums |
+//! | `unit-weight`, `kernel-texture`, `sums-16` and their combinations | the same with that option of a method |
+//! | `early-depth` | the bound of depth changes no bit |
+//! | `repeat` | uploading and drawing again gives the same bits |
 
 pub mod agreement;
+mod case;
+mod check;
 pub mod half;
+mod known;
+mod pattern;
+mod report;
+mod run;
 pub mod tolerance;
+
+pub use case::{Case, SIZE_PX, Suite};
+pub use known::{BUILT_IN, Entry, Expectation, Known, KnownList};
+pub use pattern::Pattern;
+pub use report::{CaseResult, Counts, SelftestReport, Status, ValidationReport};
+pub use run::{Event, Outcome, run};

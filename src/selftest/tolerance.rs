@@ -46,12 +46,15 @@ fn of_kernel_texture(kernel: Kernel, exact: &Errors) -> Errors {
     // Errors are relative to the weight or to this, whichever is larger; a device may filter with 8 bits of fraction.
     let weight =
         (interpolation + 1.0 / 256.0 * texel * curvature.sqrt()) / SMALL_WEIGHT + 1.0 / 4096.0 + exact.weight;
-    // Albedo and the like are means: their errors follow the weights' by at most the spread of the values, 1.
+    // Albedo and the like are means: their errors follow the weights' by at most the spread of the values, 1. The sum of
+    // normals is off by as much of the sum of weights, which turns it the more the shorter it is: disks seen at grazing
+    // angles nearly cancel.
     Errors {
         weight,
         albedo: weight,
         color: 2.0 * weight,
-        normal_deg: (2.0 * weight).to_degrees(),
+        normal_deg: f64::INFINITY,
+        normal_sum_deg: (2.0 * weight).to_degrees(),
         depth: weight,
         ..*exact
     }

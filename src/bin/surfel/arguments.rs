@@ -5,8 +5,12 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::{
-    bench::BenchArguments, compare::CompareArguments, figure::FigureArguments, parse,
+    bench::BenchArguments,
+    compare::CompareArguments,
+    figure::FigureArguments,
+    parse,
     picture_arguments::PictureArguments,
+    selftest::{self, SelftestArguments},
 };
 
 /// Draws surfaces made of splats (oriented disks, surfels) with Vulkan.
@@ -50,6 +54,9 @@ pub enum Command {
     /// Measure: tables of what things cost
     #[command(long_about = BENCH_HELP, after_help = BENCH_EXAMPLES)]
     Bench(Box<BenchArguments>),
+    /// Compare every method with the oracle on every hard scene, under validation: for the CI of drivers
+    #[command(long_about = selftest::HELP, after_help = selftest::EXAMPLES)]
+    Selftest(SelftestArguments),
     /// List devices, drivers and limits, and what a device lacks
     Info(InfoArguments),
 }

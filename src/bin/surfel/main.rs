@@ -22,6 +22,7 @@ mod reference;
 mod render;
 mod reports;
 mod scene;
+mod selftest;
 mod steps;
 mod turns;
 mod usage;
@@ -33,7 +34,7 @@ use arguments::{Arguments, Command};
 
 fn main() -> ExitCode {
     allocator::keep_freed_memory();
-    if std::env::args_os().any(|argument| argument == "--validate") {
+    if std::env::args_os().any(|argument| argument == "--validate" || argument == "selftest") {
         // SAFETY: first thing in `main`, there is no other thread yet.
         unsafe { surfel::vk::arm_validation_across_submits() };
     }
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(arguments),
         Command::Figure(arguments) => figure::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
+        Command::Selftest(arguments) => selftest::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
     match done {

@@ -1,0 +1,93 @@
+//! The report as JUnit XML, which CI systems show: a group of cases is a test suite.
+
+use std::{io, time::Duration};
+
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestRerun, TestSuite};
+use surfel::{
+    Error, Result,
+    selftest::{CaseResult, SelftestReport, Status},
+};
+
+/// The XML.
+///
+/// # Errors
+/// None: there is nothing in a report that XML can't hold.
+pub fn text(report: &SelftestReport) -> Result<String> {
+    let mut xml = Report::new("surfel selftest");
+    xml.set_time(duration(report.secs));
+    for (name, cases) in report.groups() {
+        let mut suite = TestSuite::new(name);
+        for (name, value) in &properties(report) {
+            suite.add_property((*name, value.as_str()));
+        }
+        suite.set_time(duration(cases.iter().map(|case| case.secs).sum()));
+        suite.add_test_cases(cases.into_iter().map(case));
+        xml.add_test_suite(suite);
+    }
+    xml.to_string().map_err(|error| Error::file("JUnit XML", "write", io::Error::other(error)))
+}
+
+/// What it ran on, and how.
+fn properties(report: &SelftestReport) -> Vec<(&'static str, String)> {
+    let [vendor, device, driver] = report.ids;
+    let validation = report.validation.as_ref().map_or("off", |validation| &validation.layer);
+    vec![
+        ("surfel", report.surfel.clone()),
+        ("form", report.form.to_owned()),
+        ("device", report.device.name.clone()),
+        ("driver", report.device.driver.clone()),
+        ("vulkan", report.device.api_version.clone()),
+        ("vendor_id", format!("{vendor:#x}")),
+        ("device_id", format!("{device:#x}")),
+        ("driver_version", format!("{driver:#x}")),
+        ("vulkan_loader", report.vulkan_loader.clone()),
+        ("validation_layer", validation.to_owned()),
+        ("known_lists", report.known_lists.join(", ")),
+        ("retries", report.retries.to_string()),
+    ]
+}
+
+/// What is known keeps a run green: known fails count as skipped, as flakes do that never passed.
+fn case(result: &CaseResult) -> TestCase {
+    let reason = result.reason.as_deref().unwrap_or_default();
+    let problems = result.problems.join("\n");
+    let about = |mut status: TestCaseStatus, message: String| {
+        status.set_message(message).set_type(result.status.name());
+        if !problems.is_empty() {
+            status.set_description(problems.as_str());
+        }
+        status
+    };
+    let first = || result.problems.first().cloned().unwrap_or_default();
+    let status = match result.status {
+        Status::Pass => TestCaseStatus::success(),
+        Status::Fail => about(TestCaseStatus::non_success(NonSuccessKind::Failure), first()),
+        Status::Fixed => {
+            let message = format!("passes, but is listed as a failure: {reason}");
+            about(TestCaseStatus::non_success(NonSuccessKind::Failure), message)
+        }
+        Status::Flake if result.failed_attempts < result.attempts => {
+            let mut status = TestCaseStatus::success();
+            let mut rerun = TestRerun::new(NonSuccessKind::Failure);
+            rerun.set_type(result.status.name()).set_message(first()).set_description(problems.as_str());
+            status.add_rerun(rerun);
+            status
+        }
+        Status::Flake | Status::KnownFail | Status::Skip => {
+            about(TestCaseStatus::skipped(), format!("{}: {reason}", result.status.name()))
+        }
+    };
+    let mut case = TestCase::new(result.name.as_str(), status);
+    let class = result.name.rsplit_once('.').map_or("", |(class, _)| class);
+    case.set_classname(class).set_time(duration(result.secs));
+    if !result.figures.is_empty() {
+        let rows: Vec<String> =
+            result.figures.iter().map(|(name, value)| format!("{name} {value:.3e}")).collect();
+        case.set_system_out(rows.join("\n"));
+    }
+    case
+}
+
+fn duration(secs: f64) -> Duration {
+    Duration::try_from_secs_f64(secs).unwrap_or_default()
+}

@@ -1,0 +1,179 @@
+//! Which cases there are, and what they are called.
+
+use super::check::Check;
+use crate::{
+    hard_scenes::{self, Hard},
+    scene::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer, Settings, Shapes},
+};
+
+/// Width and height of every picture. A quarter of the pixels of the tests' pictures: there are many methods.
+pub const SIZE_PX: [u32; 2] = [128, 128];
+
+/// One thing that is checked.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// A path, such as `methods.perspective.adjust.edge-on-disks`: it stays the same from version to version.
+    pub name: String,
+    /// Whether the quick form has it.
+    pub quick: bool,
+    /// What it draws, and how.
+    pub(super) drawing: Option<Drawing>,
+}
+
+/// What a case draws, and what it has to be like.
+#[derive(Clone, Debug)]
+pub(super) struct Drawing {
+    /// The scene, by its index in the suite.
+    pub scene: usize,
+    /// The method.
+    pub settings: Settings,
+    /// What is checked.
+    pub check: Check,
+}
+
+/// The names of the cases that draw nothing.
+pub(super) const OPEN: &str = "device.open";
+pub(super) const CLOSE: &str = "device.close";
+
+/// All cases, with what they draw.
+pub struct Suite {
+    /// The scenes, by index.
+    pub(super) scenes: Vec<Hard>,
+    /// The cases: group after group.
+    pub cases: Vec<Case>,
+}
+
+impl Case {
+    /// The group: the first part of the name.
+    pub fn group(&self) -> &str {
+        group_of(&self.name)
+    }
+
+    /// Whether it is run whatever is asked for: what the validation layer says outside of all other cases is its.
+    pub fn is_always_run(&self) -> bool {
+        self.drawing.is_none()
+    }
+}
+
+/// The first part of a case's name.
+pub(super) fn group_of(name: &str) -> &str {
+    name.split('.').next().unwrap_or(name)
+}
+
+impl Suite {
+    /// Every case there is.
+    pub fn new() -> Self {
+        let scenes = hard_scenes::all();
+        let mut cases = vec![Case { name: OPEN.to_owned(), quick: true, drawing: None }];
+        for method in methods() {
+            for (index, hard) in scenes.iter().enumerate() {
+                cases.extend(against_oracle(index, hard, method));
+            }
+        }
+        for (group, check) in [("early-depth", Check::EarlyDepth), ("repeat", Check::Repeat)] {
+            for (_, rasterizer) in Rasterizer::NAMES {
+                for (index, hard) in scenes.iter().enumerate() {
+                    cases.extend(same_bits(index, hard, group, check, *rasterizer));
+                }
+            }
+        }
+        cases.push(Case { name: CLOSE.to_owned(), quick: true, drawing: None });
+        Self { scenes, cases }
+    }
+}
+
+impl Default for Suite {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What is varied of a method.
+#[derive(Clone, Copy)]
+struct Method {
+    weight: FilterWeight,
+    kernel_eval: KernelEval,
+    accumulate: Accumulate,
+    rasterizer: Rasterizer,
+    filter: Filter,
+}
+
+/// Every combination, group after group; the plain one with exact sums first.
+fn methods() -> Vec<Method> {
+    let mut methods = Vec::new();
+    for accumulate in [Accumulate::F32, Accumulate::F16] {
+        for (_, kernel_eval) in KernelEval::NAMES {
+            for (_, weight) in FilterWeight::NAMES {
+                for (_, rasterizer) in Rasterizer::NAMES {
+                    for (_, filter) in Filter::NAMES {
+                        // Only tangent adjustment leaves a splat a weight to choose.
+                        if *weight == FilterWeight::default() || filter.adjusts() {
+                            let (weight, kernel_eval) = (*weight, *kernel_eval);
+                            let (rasterizer, filter) = (*rasterizer, *filter);
+                            methods.push(Method { weight, kernel_eval, accumulate, rasterizer, filter });
+                        }
+                    }
+                }
+            }
+        }
+    }
+    methods
+}
+
+impl Method {
+    fn group(self) -> String {
+        let parts = [
+            (self.weight == FilterWeight::Unit).then_some("unit-weight"),
+            (self.kernel_eval == KernelEval::Texture).then_some("kernel-texture"),
+            (self.accumulate == Accumulate::F16).then_some("sums-16"),
+        ];
+        let parts: Vec<&str> = parts.into_iter().flatten().collect();
+        if parts.is_empty() { "methods".to_owned() } else { parts.join("-") }
+    }
+}
+
+/// `None` where the method can't draw the scene, or the scene is not hard with it.
+fn against_oracle(index: usize, hard: &Hard, method: Method) -> Option<Case> {
+    let settings = Settings {
+        size_px: SIZE_PX,
+        rasterizer: method.rasterizer,
+        filter: method.filter,
+        filter_weight: method.weight,
+        kernel_eval: method.kernel_eval,
+        accumulate: method.accumulate,
+        ..hard.settings.clone()
+    };
+    let group = method.group();
+    let name = [group.as_str(), method.rasterizer.name(), method.filter.name(), &slug(hard.name)].join(".");
+    let own_filter = method.filter == hard.settings.filter;
+    // Every method and every option once, the defaults everywhere.
+    let quick = match group.as_str() {
+        "methods" => index == 0 || own_filter,
+        "sums-16" if own_filter && method.rasterizer == Rasterizer::default() => true,
+        _ => index == 0 && method.filter == Filter::default(),
+    };
+    let hard_without_filter = hard.settings.filter == Filter::None;
+    let is_hard = !(hard_without_filter && method.filter.adjusts());
+    let drawing = Some(Drawing { scene: index, settings: settings.clone(), check: Check::Oracle });
+    (is_hard && can_draw(hard, &settings)).then_some(Case { name, quick, drawing })
+}
+
+/// Drawn twice, with the scene's own filter.
+fn same_bits(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: Rasterizer) -> Option<Case> {
+    let settings = Settings { size_px: SIZE_PX, rasterizer, ..hard.settings.clone() };
+    let name = [group, rasterizer.name(), settings.filter.name(), &slug(hard.name)].join(".");
+    let allowed = can_draw(hard, &settings);
+    let drawing = Some(Drawing { scene: index, settings, check });
+    allowed.then_some(Case { name, quick: index == 0, drawing })
+}
+
+fn can_draw(hard: &Hard, settings: &Settings) -> bool {
+    let ellipses = hard.scene.objects.iter().any(|o| matches!(o.splats.shapes, Shapes::Ellipses { .. }));
+    settings.validate().is_ok() && settings.check_object("the scene", ellipses).is_ok()
+}
+
+/// A scene's name as a part of a case's.
+fn slug(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-")
+}

@@ -1,0 +1,140 @@
+//! Draws a case and says what is wrong with it.
+
+use std::{collections::BTreeMap, rc::Rc};
+
+use super::{
+    agreement,
+    case::{Drawing, Suite},
+    half, tolerance,
+};
+use crate::{
+    error::Result,
+    hard_scenes::Hard,
+    prepare::PreparedScene,
+    reference::{self, Picture},
+    renderer::{Frame, Headless, Wanted},
+    scene::{Accumulate, FilterWeight, KernelEval, Settings},
+};
+
+/// What is checked of a drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Check {
+    /// It agrees with the oracle.
+    Oracle,
+    /// A bound of depth changes no bit.
+    EarlyDepth,
+    /// Uploaded and drawn again it is the same.
+    Repeat,
+}
+
+/// What came of one try.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Found {
+    /// What is wrong, in words; empty where nothing is.
+    pub problems: Vec<String>,
+    /// What was measured, by name.
+    pub figures: BTreeMap<&'static str, f64>,
+}
+
+/// Everything of Vulkan, and what cases of one scene share.
+pub(super) struct Stage<'a> {
+    pub headless: Headless,
+    suite: &'a Suite,
+    /// The scene of this index, uploaded.
+    prepared: Option<(usize, PreparedScene)>,
+    /// Of the scene of this index, by their settings.
+    oracles: (usize, Vec<(Settings, Rc<Picture>)>),
+}
+
+/// The surface as data and the shaded picture in linear light.
+const ALL: Wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
+
+impl<'a> Stage<'a> {
+    pub fn new(headless: Headless, suite: &'a Suite) -> Self {
+        Self { headless, suite, prepared: None, oracles: (0, Vec::new()) }
+    }
+
+    /// Draws a case and checks it.
+    ///
+    /// # Errors
+    /// Whatever device and oracle answer.
+    pub fn check(&mut self, drawing: &Drawing) -> Result<Found> {
+        let Drawing { scene, settings, check } = drawing;
+        let frame = self.draw(*scene, settings)?;
+        let other = match check {
+            Check::Oracle => return self.against_oracle(drawing, &frame),
+            Check::EarlyDepth => self.draw(*scene, &Settings { early_depth: true, ..settings.clone() })?,
+            Check::Repeat => {
+                self.prepared = None;
+                self.draw(*scene, settings)?
+            }
+        };
+        let (different, covered) = (agreement::different_values(&frame, &other), covered_px(&frame));
+        let mut problems = Vec::new();
+        if different > 0 {
+            problems.push(format!("{different} values differ"));
+        }
+        if covered == 0 {
+            problems.push("nothing was drawn".to_owned());
+        }
+        let figures =
+            BTreeMap::from([("different_values", different as f64), ("covered_px", covered as f64)]);
+        Ok(Found { problems, figures })
+    }
+
+    /// Draws a scene, which is uploaded unless it is there.
+    fn draw(&mut self, scene: usize, settings: &Settings) -> Result<Frame> {
+        let hard = &self.suite.scenes[scene];
+        let prepared = match self.prepared.take() {
+            Some((there, prepared)) if there == scene => prepared,
+            _ => self.headless.prepare(&hard.scene, &|_, _| {})?,
+        };
+        let frame = self.headless.render(&prepared, &hard.camera, settings, ALL);
+        self.prepared = Some((scene, prepared));
+        frame
+    }
+
+    fn against_oracle(&mut self, drawing: &Drawing, frame: &Frame) -> Result<Found> {
+        let hard = Hard { settings: drawing.settings.clone(), ..self.suite.scenes[drawing.scene].clone() };
+        let oracle = self.oracle(drawing.scene, &hard)?;
+        let limit = tolerance::of(&hard);
+        Ok(match hard.settings.accumulate {
+            Accumulate::F32 => {
+                let errors = agreement::compare(frame, &oracle);
+                Found { problems: errors.beyond(&limit), figures: errors.figures() }
+            }
+            Accumulate::F16 => {
+                let errors = half::compare(frame, &oracle, &limit);
+                Found { problems: errors.beyond(limit.compared), figures: errors.figures() }
+            }
+        })
+    }
+
+    /// The exact picture; cases that differ only in what it does not depend on share it.
+    fn oracle(&mut self, scene: usize, hard: &Hard) -> Result<Rc<Picture>> {
+        let mut key = Settings {
+            rasterizer: hard.settings.rasterizer.family(),
+            accumulate: Accumulate::default(),
+            kernel_eval: KernelEval::default(),
+            early_depth: false,
+            ..hard.settings.clone()
+        };
+        if !key.filter.adjusts() {
+            key.filter_weight = FilterWeight::default();
+        }
+        if self.oracles.0 != scene {
+            self.oracles = (scene, Vec::new());
+        }
+        let oracles = &mut self.oracles.1;
+        if let Some((_, oracle)) = oracles.iter().find(|(settings, _)| *settings == key) {
+            return Ok(Rc::clone(oracle));
+        }
+        let oracle = Rc::new(reference::render(&hard.scene, &hard.camera, &key, &|_, _| {})?);
+        oracles.push((key, Rc::clone(&oracle)));
+        Ok(oracle)
+    }
+}
+
+fn covered_px(frame: &Frame) -> usize {
+    frame.weight.iter().filter(|weight| **weight > 0.0).count()
+}

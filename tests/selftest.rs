@@ -1,0 +1,166 @@
+//! The self-test tested: it sees what is wrong, says of which case, and knows what is known.
+
+mod common;
+
+use std::collections::HashSet;
+
+use ash::vk;
+use common::{headless, watched::fill};
+use surfel::{
+    passes::Formula,
+    renderer::Headless,
+    scene::{Filter, Rasterizer},
+    selftest::{CaseResult, Event, Known, KnownList, Pattern, Status, Suite, run},
+    vk::{Buffer, BufferDesc, CommandPool, Device, MemoryUse},
+};
+
+const SPHERE: &str = "methods.perspective.adjust.sphere-of-disks";
+
+/// Runs the cases that match, knowing `list`; without those that are always run. `before` is called before each case.
+fn results(headless: Headless, pattern: &str, list: &str, before: &mut dyn FnMut(&str)) -> Vec<CaseResult> {
+    let suite = Suite::new();
+    let pattern = Pattern::new(pattern).unwrap();
+    let cases: Vec<_> =
+        suite.cases.iter().filter(|case| pattern.matches(&case.name) || case.is_always_run()).collect();
+    let names = suite.cases.iter().map(|case| case.name.as_str());
+    let known = Known::of_driver(vec![KnownList::parse("k.txt", list).unwrap()], "a driver", names).unwrap();
+    let outcome = run(headless, &suite, &cases, &known, 2, &mut |event| match event {
+        Event::Started(case) => before(&case.name),
+        Event::Finished { result, .. } => println!("{}", result.line()),
+    });
+    assert!(outcome.lost.is_none() && outcome.results.len() == cases.len());
+    outcome.results
+}
+
+fn result<'a>(results: &'a [CaseResult], name: &str) -> &'a CaseResult {
+    results.iter().find(|result| result.name == name).unwrap()
+}
+
+fn perturbed(formula: Formula) -> Headless {
+    let mut headless = headless();
+    headless.renderer.shaders.perturbed = Some(formula);
+    headless
+}
+
+#[test]
+fn a_formula_that_is_wrong_fails_every_case_that_it_is_in_and_no_other() {
+    for group in ["methods", "kernel-texture", "sums-16"] {
+        let pattern = format!("{group}.perspective.adjust.sphere-of-disks");
+        for result in results(perturbed(Formula::NormalizedColor), &pattern, "", &mut |_| {}) {
+            let wrong = result.name == pattern;
+            assert_eq!(result.status, if wrong { Status::Fail } else { Status::Pass }, "{}", result.line());
+            assert_eq!(result.problems.iter().any(|problem| problem.contains("albedo")), wrong);
+            assert_eq!(result.attempts, if wrong { 3 } else { 1 });
+        }
+    }
+    // What the wrong formula leaves alike is no fault of these cases.
+    let results =
+        results(perturbed(Formula::Kernel), "*.perspective.adjust.sphere-of-disks", "", &mut |_| {});
+    assert_eq!(result(&results, SPHERE).status, Status::Fail);
+    for group in ["early-depth", "repeat"] {
+        let same = result(&results, &format!("{group}.perspective.adjust.sphere-of-disks"));
+        assert_eq!((same.status, same.figures["different_values"]), (Status::Pass, 0.0));
+    }
+}
+
+#[test]
+fn a_list_knows_what_fails_and_what_passes_against_it_is_told() {
+    let list = "fail methods.perspective.adjust # the kernel is wrong\n\
+                flake methods.quad.adjust # now and then\n\
+                skip methods.triangle # takes too long\n";
+    let known = |headless: Headless| results(headless, "methods.*.adjust.sphere-of-disks", list, &mut |_| {});
+    let wrong = known(perturbed(Formula::Kernel));
+    let right = known(headless());
+    for (name, when_wrong, when_right) in [
+        ("perspective", (Status::KnownFail, 1), (Status::Fixed, 1)),
+        ("quad", (Status::Flake, 3), (Status::Pass, 1)),
+        ("triangle", (Status::Skip, 0), (Status::Skip, 0)),
+        ("raycast", (Status::Fail, 3), (Status::Pass, 1)),
+    ] {
+        let name = format!("methods.{name}.adjust.sphere-of-disks");
+        for (results, expected) in [(&wrong, when_wrong), (&right, when_right)] {
+            let result = result(results, &name);
+            assert_eq!((result.status, result.attempts), expected, "{}", result.line());
+        }
+    }
+    let fixed = result(&right, SPHERE);
+    assert_eq!(fixed.reason.as_deref(), Some("the kernel is wrong (k.txt:1)"));
+    assert!(fixed.line().contains("passes, but is listed as a failure"), "{}", fixed.line());
+}
+
+#[test]
+fn what_the_layer_says_fails_the_case_during_which_it_is_said() {
+    let headless = headless();
+    let device = headless.device().clone();
+    let results = results(headless, "methods.quad.*.sphere-of-disks", "", &mut |case| {
+        if case == "methods.quad.none.sphere-of-disks" || case == "device.close" {
+            record_what_is_not_allowed(&device);
+        }
+    });
+    for result in &results {
+        let spoken = result.name == "methods.quad.none.sphere-of-disks" || result.name == "device.close";
+        assert_eq!(result.status, if spoken { Status::Fail } else { Status::Pass }, "{}", result.line());
+        assert_eq!(
+            result.line().contains("VUID-vkCmdFillBuffer-dstBuffer-00029"),
+            spoken,
+            "{}",
+            result.line()
+        );
+        // It was said once: the second try was silent, which does not undo the first.
+        assert_eq!((result.attempts, result.failed_attempts), if spoken { (2, 1) } else { (1, 0) });
+    }
+    assert_eq!(results.len(), 7);
+}
+
+/// A fill of a buffer that was not made for that; never submitted.
+fn record_what_is_not_allowed(device: &Device) {
+    let desc = BufferDesc { name: "the buffer", size: 4096, usage: vk::BufferUsageFlags::TRANSFER_SRC };
+    let buffer = Buffer::new(device, desc, MemoryUse::Device).unwrap();
+    let pool = CommandPool::new(device, "program").unwrap();
+    // SAFETY: the pool is new, and what is recorded is never submitted.
+    fill(device.raw(), unsafe { pool.begin() }.unwrap(), &buffer);
+}
+
+#[test]
+fn what_the_device_cannot_do_is_skipped_with_the_reason() {
+    let mut headless = headless();
+    let mut limits = headless.device().facts().limits;
+    limits.max_image_side = 64;
+    headless.renderer.lower_limits(&limits);
+    for result in results(headless, "methods.quad", "", &mut |_| {}) {
+        let drawn = result.name.starts_with("methods");
+        assert_eq!(result.status, if drawn { Status::Skip } else { Status::Pass });
+        assert_eq!(result.reason.is_some_and(|reason| reason.contains("draws at most 64x64")), drawn);
+    }
+}
+
+#[test]
+fn the_quick_form_has_every_method_every_option_and_every_scene() {
+    let suite = Suite::new();
+    let names: HashSet<&str> = suite.cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!(names.len(), suite.cases.len());
+    assert!(names.contains("methods.perspective.adjust.edge-on-disks"));
+    let quick: Vec<_> = suite.cases.iter().filter(|case| case.quick).collect();
+    println!("{} cases, {} of them quick", suite.cases.len(), quick.len());
+    assert!(10 * quick.len() < 2 * suite.cases.len());
+    // The parts of names, each in its place.
+    let parts = |quick_alone: bool, place: usize| -> HashSet<&str> {
+        let cases = suite.cases.iter().filter(|case| case.quick || !quick_alone);
+        cases.filter_map(|case| case.name.split('.').nth(place)).collect()
+    };
+    for place in 0..4 {
+        assert_eq!(parts(true, place), parts(false, place));
+    }
+    assert_eq!(parts(true, 3).len(), surfel::hard_scenes::all().len());
+    for (name, _) in Rasterizer::NAMES {
+        for (filter, _) in Filter::NAMES {
+            let method = format!("methods.{name}.{filter}.");
+            let has = |case: &&surfel::selftest::Case| case.name.starts_with(&method);
+            assert_eq!(
+                quick.iter().any(|case| has(case)),
+                suite.cases.iter().any(|case| has(&case)),
+                "{method}"
+            );
+        }
+    }
+}
