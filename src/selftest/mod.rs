@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `device` | opening and closing the device: what the layer says outside of all other cases |
 //! | `methods` | against the oracle, with 32-bit sums |
-//! | `unit-weight`, `kernel-texture`, `sums-16` and their combinations | the same with that option of a method |
+//! | `psi-e`, `unit-weight`, `kernel-texture`, `sums-16` and their combinations | the same with that option of a method |
 //! | `early-depth` | the bound of depth changes no bit |
 //! | `repeat` | uploading and drawing again gives the same bits |
 

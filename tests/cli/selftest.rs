@@ -43,7 +43,8 @@ fn cases_pass_and_both_files_tell_of_each() {
     let cases = report.test_suites.iter().flat_map(|suite| &suite.test_cases);
     let mut of_xml: Vec<&str> = cases.map(|case| case.name.as_str()).collect();
     let mut sorted = names.clone();
-    (of_xml.sort_unstable(), sorted.sort_unstable());
+    of_xml.sort_unstable();
+    sorted.sort_unstable();
     assert_eq!(of_xml, sorted);
     let property =
         |name: &str| report.test_suites[0].properties.iter().find(|p| p.name.as_str() == name).unwrap();

@@ -15,8 +15,8 @@ pub const HELP: &str = "\
 Draw every hard scene with every method and compare it with the oracle in 64 bits, under validation: for those who change \
 a driver, a validation layer, or surfel. Files are not needed, the scenes are built in; each is hard in one known way.
 
-A case is a path: the group, the rasterizer, the filter, the scene. The groups: methods, with 32-bit sums; unit-weight, \
-kernel-texture, sums-16 and combinations of them, with those options (sums of 16 bits are held to what rounding alone may do \
+A case is a path: the group, the rasterizer, the filter, the scene. The groups: methods, with 32-bit sums; psi-e, \
+unit-weight, kernel-texture, sums-16 and combinations of them, with those options (sums of 16 bits are held to what rounding alone may do \
 to them; where some hundred splats meet in a pixel that is no bound, and only coverage and finite values are asked for); \
 early-depth, which may change no bit; repeat, drawn twice, which may change none either. A message of the validation layer \
 fails the case during which it comes; device.open and device.close stand for all outside of cases, and are always run.
