@@ -29,7 +29,7 @@ listed as a flake.
 What is known of drivers comes with the program, a list a driver, and from --known. A list is a text; each line says fail, \
 flake or skip, a case or a pattern, and why:
 
-  driver llvmpipe Mesa 22.3.*               the drivers it is about, as surfel info prints them; none: all
+  driver llvmpipe Mesa 22.3.*                 as surfel info prints it; without any: all
   fail  methods.triangle.none.edge-on-disks   # vertices are snapped to 1/256 px
   flake repeat.quad                           # all below it
   skip  *.3000-coincident-disks               # takes minutes
@@ -42,7 +42,7 @@ pub const EXAMPLES: &str = "Examples:
   surfel selftest --quick                                  less than a minute on a processor
   surfel selftest --junit selftest.xml --json selftest.json
   surfel selftest --case methods.triangle --case '*.edge-on-disks'
-  surfel selftest --known ci/turnip.txt --device turnip
+  surfel selftest --known ci/turnip.txt --device adreno
   surfel selftest --verbose 2>&1 | tail -1                 the case in which the driver crashes
 
 Exit codes: 0 fine; 1 an option or a list is at fault; 2 the device is at fault; 3 cases failed, or pass against the list.";
