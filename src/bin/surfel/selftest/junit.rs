@@ -91,3 +91,67 @@ fn case(result: &CaseResult) -> TestCase {
 fn duration(secs: f64) -> Duration {
     Duration::try_from_secs_f64(secs).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    fn result(status: Status, attempts: u32, failed_attempts: u32) -> CaseResult {
+        let problems = if failed_attempts > 0 {
+            vec!["weight 2 > 1".to_owned(), "<odd> & \u{7}".to_owned()]
+        } else {
+            Vec::new()
+        };
+        CaseResult {
+            name: "methods.quad.none.ground".to_owned(),
+            status,
+            reason: Some("known (k.txt:1)".to_owned()),
+            problems,
+            attempts,
+            failed_attempts,
+            secs: 0.5,
+            figures: BTreeMap::from([("weight", 2.0)]),
+            settings: BTreeMap::new(),
+        }
+    }
+
+    /// What a CI system makes of a case: its element, the message.
+    fn seen(result: &CaseResult) -> (&'static str, String) {
+        let case = case(result);
+        assert_eq!(case.classname.as_deref(), Some("methods.quad.none"));
+        assert_eq!(case.system_out.as_deref(), Some("weight 2.000e0"));
+        let text =
+            |message: &Option<quick_junit::XmlString>| message.as_deref().unwrap_or_default().to_owned();
+        match &case.status {
+            TestCaseStatus::Success { flaky_runs } => match flaky_runs.as_slice() {
+                [] => ("success", String::new()),
+                [run, ..] => ("flaky", text(&run.message)),
+            },
+            TestCaseStatus::NonSuccess { message, description, .. } => {
+                assert_eq!(description.is_some(), result.failed_attempts > 0);
+                ("failure", text(message))
+            }
+            TestCaseStatus::Skipped { message, .. } => ("skipped", text(message)),
+        }
+    }
+
+    #[test]
+    fn only_what_fails_the_run_is_a_failure() {
+        for (status, attempts, failed, expected) in [
+            (Status::Pass, 1, 0, ("success", "")),
+            (Status::Fail, 3, 3, ("failure", "weight 2 > 1")),
+            (Status::Fail, 2, 1, ("failure", "weight 2 > 1")),
+            (Status::Fixed, 1, 0, ("failure", "passes, but is listed as a failure: known (k.txt:1)")),
+            (Status::KnownFail, 1, 1, ("skipped", "known fail: known (k.txt:1)")),
+            (Status::Flake, 2, 1, ("flaky", "weight 2 > 1")),
+            (Status::Flake, 3, 3, ("skipped", "flake: known (k.txt:1)")),
+            (Status::Skip, 0, 0, ("skipped", "skip: known (k.txt:1)")),
+        ] {
+            let (element, message) = seen(&result(status, attempts, failed));
+            assert_eq!((element, message.as_str()), expected, "{status:?}");
+            assert_eq!(element == "failure", status.fails_the_run());
+        }
+    }
+}
