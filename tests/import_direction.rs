@@ -17,6 +17,7 @@ const LAYERS: &[&[&str]] = &[
     &["load", "save", "hard_scenes"],
     &["geometry"],
     &["reference"],
+    &["count"],
     &["report"],
     &["vk"],
     &["graph"],

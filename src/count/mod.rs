@@ -1,0 +1,76 @@
+//! What a shader costs in instructions, counted on its SPIR-V, so that the same text gives the same figure everywhere.
+//!
+//! Two rules. The **paper-comparable** count is that of the programs of 2006: vec4 operations of `ARB_vertex_program` and
+//! `ARB_fragment_program`, one each ([`arb`] is the table). The **scalar** count is what a scalar processor executes: each
+//! operation times its components ([`scalar`]). Both are taken of one pipeline's variant: constants are substituted, what
+//! can't be reached and what nothing depends on is gone ([`specialize`], [`live`]).
+//!
+//! Branches: ARB has none. Both sides of one that is left count, and each value that it decides is one selection more. The
+//! longest path says what one invocation executes at most. A loop's body counts once.
+
+mod arb;
+mod fold;
+mod live;
+mod module;
+mod numbering;
+mod patterns;
+mod scalar;
+mod specialize;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use module::Module;
+
+/// A shader's instructions. Of what the paper does not count, `listed` says how much there is.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Paper-comparable: instructions of an ARB program. `None` for compute shaders, which ARB has not.
+    pub arb: Option<u32>,
+    /// Of them, those of the longest path.
+    pub arb_longest_path: Option<u32>,
+    /// The ARB instructions by name.
+    pub mnemonics: BTreeMap<&'static str, u32>,
+    /// Scalar arithmetic: operations times components.
+    pub scalar: u32,
+    /// What the paper-comparable count leaves out.
+    pub listed: Listed,
+}
+
+/// What is listed beside the paper-comparable count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Listed {
+    /// Registers loaded from storage buffers: attributes of a vertex there.
+    pub loads: u32,
+    /// Stores to outputs and buffers.
+    pub stores: u32,
+    /// Inputs and constants copied to outputs as they are.
+    pub moves: u32,
+    /// Discards: the alpha test of the time.
+    pub kills: u32,
+    /// Comparisons that only decide a discard: the alpha test's own.
+    pub alpha_tests: u32,
+    /// Integers that only address memory.
+    pub addresses: u32,
+    /// Of the counted, operations on bits, which ARB has not.
+    pub bit_operations: u32,
+    /// Loops that are left.
+    pub loops: u32,
+}
+
+/// Counts a shader as a pipeline with these specialization constants (id, 32-bit pattern) has it.
+///
+/// # Errors
+/// A sentence, where the words are not SPIR-V or hold what can't be counted: a call that was not inlined, an
+/// instruction that the table lacks.
+pub fn count(spirv: &[u32], constants: &[(u32, u32)]) -> Result<Counts, String> {
+    let module = Module::parse(spirv, constants)?;
+    let specialized = specialize::specialize(&module)?;
+    let live = live::live(&specialized);
+    let mut counts = arb::count(&specialized, &live)?;
+    counts.scalar = scalar::count(&specialized, &live)?;
+    Ok(counts)
+}

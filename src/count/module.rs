@@ -1,0 +1,316 @@
+//! A module as rspirv parses it, arranged for counting: types, constants with their values, the blocks of its one function.
+//!
+//! rspirv's own loader refuses `OpExecutionModeId`, which compute shaders have in SPIR-V 1.6; its parser does not.
+
+use std::collections::{HashMap, HashSet};
+
+use rspirv::{
+    binary::{Consumer, ParseAction, parse_words},
+    dr::{Instruction, ModuleHeader, Operand},
+    spirv::{Decoration, ExecutionModel, Op, StorageClass},
+};
+
+use super::{fold, numbering::has_effect};
+
+/// An id of SPIR-V.
+pub type Id = u32;
+
+/// The types that matter here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Type {
+    Bool,
+    Int,
+    Float,
+    Vector {
+        component: Id,
+        count: u32,
+    },
+    Matrix {
+        column: Id,
+        count: u32,
+    },
+    Array {
+        element: Id,
+        count: u32,
+    },
+    Struct(Vec<Id>),
+    Pointer {
+        pointee: Id,
+    },
+    /// Images, samplers and the like.
+    Opaque,
+}
+
+/// A basic block.
+#[derive(Debug)]
+pub struct Block {
+    pub label: Id,
+    /// All but label, merge instruction and terminator.
+    pub body: Vec<Instruction>,
+    /// Where a selection or loop that starts here ends.
+    pub merge: Option<Id>,
+    pub is_loop: bool,
+    pub terminator: Instruction,
+}
+
+/// A whole shader.
+pub struct Module {
+    pub stage: ExecutionModel,
+    pub types: HashMap<Id, Type>,
+    /// Constants: their scalars in order, as 32-bit patterns.
+    pub constants: HashMap<Id, Vec<u32>>,
+    /// Variables and their storage classes.
+    pub variables: HashMap<Id, StorageClass>,
+    /// The variables that are stored to, or to a part of which a pointer was made that is.
+    pub written: HashSet<Id>,
+    /// The type of each result.
+    pub type_of: HashMap<Id, Id>,
+    pub blocks: Vec<Block>,
+}
+
+#[derive(Default)]
+struct Collector(Vec<Instruction>);
+
+impl Consumer for Collector {
+    fn initialize(&mut self) -> ParseAction {
+        ParseAction::Continue
+    }
+
+    fn finalize(&mut self) -> ParseAction {
+        ParseAction::Continue
+    }
+
+    fn consume_header(&mut self, _: ModuleHeader) -> ParseAction {
+        ParseAction::Continue
+    }
+
+    fn consume_instruction(&mut self, instruction: Instruction) -> ParseAction {
+        self.0.push(instruction);
+        ParseAction::Continue
+    }
+}
+
+/// The ids among the operands, in order.
+pub fn ids(instruction: &Instruction) -> impl Iterator<Item = Id> {
+    instruction.operands.iter().filter_map(|operand| match operand {
+        Operand::IdRef(id) => Some(*id),
+        _ => None,
+    })
+}
+
+/// The literal numbers among the operands, in order.
+pub fn literals(instruction: &Instruction) -> impl Iterator<Item = u32> {
+    instruction.operands.iter().filter_map(|operand| match operand {
+        Operand::LiteralBit32(number) | Operand::LiteralExtInstInteger(number) => Some(*number),
+        _ => None,
+    })
+}
+
+impl Module {
+    /// Parses a module and gives its specialization constants these values.
+    pub fn parse(spirv: &[u32], specialization: &[(u32, u32)]) -> Result<Self, String> {
+        let mut all = Collector::default();
+        parse_words(spirv, &mut all).map_err(|state| format!("not SPIR-V: {state}"))?;
+        let mut module = Self {
+            stage: ExecutionModel::GLCompute,
+            types: HashMap::new(),
+            constants: HashMap::new(),
+            variables: HashMap::new(),
+            written: HashSet::new(),
+            type_of: HashMap::new(),
+            blocks: Vec::new(),
+        };
+        let mut spec_ids = HashMap::new();
+        let mut rest = all.0.into_iter();
+        for instruction in rest.by_ref() {
+            match (instruction.class.opcode, instruction.operands.as_slice()) {
+                (Op::Function, _) => break,
+                (Op::EntryPoint, [Operand::ExecutionModel(stage), ..]) => module.stage = *stage,
+                (
+                    Op::Decorate,
+                    [
+                        Operand::IdRef(id),
+                        Operand::Decoration(Decoration::SpecId),
+                        Operand::LiteralBit32(number),
+                    ],
+                ) => {
+                    spec_ids.insert(*id, *number);
+                }
+                _ => module.global(&instruction, &spec_ids, specialization)?,
+            }
+        }
+        module.function(rest)?;
+        module.find_written();
+        Ok(module)
+    }
+
+    fn global(
+        &mut self,
+        instruction: &Instruction,
+        spec_ids: &HashMap<Id, u32>,
+        specialization: &[(u32, u32)],
+    ) -> Result<(), String> {
+        let Some(id) = instruction.result_id else { return Ok(()) };
+        if let Some(type_) = instruction.result_type {
+            self.type_of.insert(id, type_);
+        }
+        let given = || {
+            let number = spec_ids.get(&id)?;
+            specialization.iter().find(|(constant, _)| constant == number).map(|(_, value)| *value)
+        };
+        let of_ids = |module: &Self| -> Vec<Id> {
+            ids(instruction).filter(|id| module.types.contains_key(id)).collect()
+        };
+        let mut literal = literals(instruction);
+        let value = match instruction.class.opcode {
+            Op::TypeBool => return self.type_(id, Type::Bool),
+            Op::TypeInt => return self.type_(id, Type::Int),
+            Op::TypeFloat => return self.type_(id, Type::Float),
+            Op::TypeVector | Op::TypeMatrix => {
+                let (inner, count) = (of_ids(self)[0], literal.next().unwrap_or(1));
+                return self.type_(
+                    id,
+                    match instruction.class.opcode {
+                        Op::TypeVector => Type::Vector { component: inner, count },
+                        _ => Type::Matrix { column: inner, count },
+                    },
+                );
+            }
+            Op::TypeArray => {
+                let mut operands = ids(instruction);
+                let element = operands.next().unwrap_or_default();
+                let length = operands.next().and_then(|length| self.constants.get(&length)?.first().copied());
+                return self.type_(id, Type::Array { element, count: length.unwrap_or(1) });
+            }
+            Op::TypeRuntimeArray => {
+                let element = of_ids(self)[0];
+                return self.type_(id, Type::Array { element, count: 1 });
+            }
+            Op::TypeStruct => return self.type_(id, Type::Struct(ids(instruction).collect())),
+            Op::TypePointer => {
+                let pointee = ids(instruction).next().unwrap_or_default();
+                return self.type_(id, Type::Pointer { pointee });
+            }
+            Op::TypeVoid | Op::TypeFunction | Op::TypeImage | Op::TypeSampler | Op::TypeSampledImage => {
+                return self.type_(id, Type::Opaque);
+            }
+            Op::Variable => {
+                if let Some(Operand::StorageClass(class)) = instruction.operands.first() {
+                    self.variables.insert(id, *class);
+                }
+                return Ok(());
+            }
+            Op::Constant => vec![literal.next().unwrap_or_default()],
+            Op::ConstantTrue => vec![1],
+            Op::ConstantFalse => vec![0],
+            Op::SpecConstant => vec![given().or(literal.next()).unwrap_or_default()],
+            Op::SpecConstantTrue => vec![given().unwrap_or(1)],
+            Op::SpecConstantFalse => vec![given().unwrap_or(0)],
+            Op::ConstantNull => vec![0; self.width(instruction.result_type.unwrap_or_default()) as usize],
+            Op::ConstantComposite | Op::SpecConstantComposite => {
+                ids(instruction).filter_map(|id| self.constants.get(&id)).flatten().copied().collect()
+            }
+            Op::SpecConstantOp => {
+                let folded = fold::constant_operation(self, instruction);
+                folded.ok_or_else(|| format!("%{id}: a constant expression that can't be evaluated"))?
+            }
+            // Names, imports and constants without a value, which stay unknown.
+            _ => return Ok(()),
+        };
+        self.constants.insert(id, value);
+        Ok(())
+    }
+
+    fn type_(&mut self, id: Id, type_: Type) -> Result<(), String> {
+        self.types.insert(id, type_);
+        Ok(())
+    }
+
+    fn function(&mut self, instructions: impl Iterator<Item = Instruction>) -> Result<(), String> {
+        let mut open: Option<Block> = None;
+        for instruction in instructions {
+            if let (Some(id), Some(type_)) = (instruction.result_id, instruction.result_type) {
+                self.type_of.insert(id, type_);
+            }
+            match instruction.class.opcode {
+                Op::Label => {
+                    let label = instruction.result_id.unwrap_or_default();
+                    let terminator = instruction;
+                    open = Some(Block { label, body: Vec::new(), merge: None, is_loop: false, terminator });
+                }
+                Op::SelectionMerge | Op::LoopMerge => {
+                    if let Some(block) = &mut open {
+                        block.merge = ids(&instruction).next();
+                        block.is_loop = instruction.class.opcode == Op::LoopMerge;
+                    }
+                }
+                Op::Branch
+                | Op::BranchConditional
+                | Op::Switch
+                | Op::Return
+                | Op::Kill
+                | Op::TerminateInvocation
+                | Op::Unreachable => {
+                    if let Some(mut block) = open.take() {
+                        block.terminator = instruction;
+                        self.blocks.push(block);
+                    }
+                }
+                Op::Function | Op::FunctionCall => {
+                    return Err("a call was not inlined: only one function can be counted".to_owned());
+                }
+                Op::FunctionEnd | Op::Line | Op::NoLine | Op::Nop => {}
+                _ => {
+                    if let Some(block) = &mut open {
+                        block.body.push(instruction);
+                    }
+                }
+            }
+        }
+        match self.blocks.is_empty() {
+            true => Err("no function".to_owned()),
+            false => Ok(()),
+        }
+    }
+
+    fn find_written(&mut self) {
+        let all = || self.blocks.iter().flat_map(|block| &block.body);
+        let base = |pointer: Id| {
+            let chain = all().find(|instruction| instruction.result_id == Some(pointer));
+            chain.and_then(|chain| ids(chain).next()).unwrap_or(pointer)
+        };
+        let writes = all().filter(|instruction| has_effect(instruction.class.opcode));
+        self.written = writes.filter_map(|write| ids(write).next()).map(base).collect();
+    }
+
+    /// Scalars of a type; 1 for what has none.
+    pub fn width(&self, type_: Id) -> u32 {
+        match self.types.get(&type_) {
+            Some(Type::Vector { count, .. }) => *count,
+            Some(Type::Matrix { column, count }) => count * self.width(*column),
+            Some(Type::Array { element, count }) => count * self.width(*element),
+            Some(Type::Struct(members)) => members.iter().map(|member| self.width(*member)).sum(),
+            _ => 1,
+        }
+    }
+
+    /// Scalars of a value.
+    pub fn width_of(&self, id: Id) -> u32 {
+        self.type_of.get(&id).map_or(1, |type_| self.width(*type_))
+    }
+
+    /// The type of a part of a composite, and its first scalar.
+    pub fn part(&self, type_: Id, index: u32) -> Option<(Id, u32)> {
+        match self.types.get(&type_)? {
+            Type::Vector { component, .. } => Some((*component, index)),
+            Type::Matrix { column: part, .. } | Type::Array { element: part, .. } => {
+                Some((*part, index * self.width(*part)))
+            }
+            Type::Struct(members) => {
+                let before = members.iter().take(index as usize).map(|member| self.width(*member)).sum();
+                Some((*members.get(index as usize)?, before))
+            }
+            _ => None,
+        }
+    }
+}
