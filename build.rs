@@ -9,6 +9,7 @@ use std::{env, fs, path::Path, process::Command};
 /// offset, and the size; a listed struct that no shader has is an error.
 const HOST_STRUCTS: &[shader_build::HostStruct] = &[
     ("FrameConstants", "crate::passes::FrameConstants"),
+    ("PaperConstants", "crate::passes::PaperConstants"),
     ("FinalizeConstants", "crate::passes::FinalizeConstants"),
     ("ExportConstants", "crate::passes::ExportConstants"),
 ];

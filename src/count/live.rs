@@ -14,7 +14,7 @@ use super::{
 pub struct Live<'a> {
     /// In order, each with its block's label; those with an effect among them.
     pub instructions: Vec<(Id, &'a Instruction)>,
-    /// Which live instructions use the result of one; a branch uses it as the label of its block.
+    /// Which live instructions use the result of one; a branch does as the label of its block, a store as some number.
     pub users: HashMap<Id, HashSet<Id>>,
 }
 
@@ -22,10 +22,10 @@ pub struct Live<'a> {
 pub fn live<'a>(specialized: &Specialized<'a>) -> Live<'a> {
     let mut marks = Marks { specialized, results: HashSet::new(), users: HashMap::new() };
     let blocks: Vec<&Block> = specialized.blocks().collect();
-    for block in &blocks {
-        for instruction in block.body.iter().filter(|instruction| has_effect(instruction.class.opcode)) {
-            marks.use_operands(instruction, effect_name(instruction));
-        }
+    // Stores have no result to name them by: they get numbers that no id has.
+    let effects = blocks.iter().flat_map(|block| &block.body).filter(|i| has_effect(i.class.opcode));
+    for (instruction, number) in effects.zip(0..) {
+        marks.use_operands(instruction, instruction.result_id.unwrap_or(Id::MAX - number));
     }
     let mut conditions: Vec<(Id, Id)> = Vec::new();
     loop {
@@ -55,11 +55,6 @@ pub fn live<'a>(specialized: &Specialized<'a>) -> Live<'a> {
         .filter(|(_, instruction)| is_live(instruction))
         .collect();
     Live { instructions, users: marks.users }
-}
-
-/// Stores have no result: the pointer stands for them, which only they use.
-fn effect_name(instruction: &Instruction) -> Id {
-    instruction.result_id.or_else(|| ids(instruction).next()).unwrap_or_default()
 }
 
 struct Marks<'s, 'a> {

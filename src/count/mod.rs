@@ -61,6 +61,34 @@ pub struct Listed {
     pub loops: u32,
 }
 
+/// The instructions of a pass's pipeline, stage by stage.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PassCounts {
+    /// The pass.
+    pub pass: String,
+    /// Of the vertex stage.
+    pub vertex: Option<Counts>,
+    /// Of the fragment stage.
+    pub fragment: Option<Counts>,
+    /// Of the compute stage.
+    pub compute: Option<Counts>,
+}
+
+impl PassCounts {
+    /// Paper-comparable: vertex and fragment program, as `46/3`.
+    pub fn vertex_and_fragment(&self) -> String {
+        self.of_stages(|counts| counts.arb)
+    }
+
+    /// A figure of each stage, as `1/2`; `-` where a stage has none.
+    pub fn of_stages(&self, figure: impl Fn(&Counts) -> Option<u32>) -> String {
+        let shown =
+            |counts: &Counts| figure(counts).map_or_else(|| "-".to_owned(), |count| count.to_string());
+        let stages = [&self.vertex, &self.fragment, &self.compute];
+        stages.into_iter().flatten().map(shown).collect::<Vec<_>>().join("/")
+    }
+}
+
 /// Counts a shader as a pipeline with these specialization constants (id, 32-bit pattern) has it.
 ///
 /// # Errors

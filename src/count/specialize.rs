@@ -35,6 +35,8 @@ pub struct Specialized<'a> {
     pub module: &'a Module,
     values: HashMap<Id, Value>,
     edges: HashSet<(Id, Id)>,
+    /// The blocks to which an edge leads, and the first.
+    reached: HashSet<Id>,
     /// The block of an instruction and its place there.
     places: HashMap<Id, (usize, usize)>,
 }
@@ -53,7 +55,9 @@ pub fn specialize(module: &Module) -> Result<Specialized<'_>, String> {
             places.extend(instruction.result_id.map(|id| (id, (number, place))));
         }
     }
-    let mut specialized = Specialized { module, values: HashMap::new(), edges: HashSet::new(), places };
+    let reached = module.blocks.first().map(|entry| entry.label).into_iter().collect();
+    let mut specialized =
+        Specialized { module, values: HashMap::new(), edges: HashSet::new(), reached, places };
     for _ in 0..MOST_PASSES {
         if !specialized.pass() {
             numbering::share_equal_values(&mut specialized);
@@ -66,11 +70,7 @@ pub fn specialize(module: &Module) -> Result<Specialized<'_>, String> {
 impl<'a> Specialized<'a> {
     /// The blocks that can be reached, in order.
     pub fn blocks(&self) -> impl Iterator<Item = &'a Block> + '_ {
-        let is_entry = |label: Id| self.module.blocks.first().is_some_and(|entry| entry.label == label);
-        self.module
-            .blocks
-            .iter()
-            .filter(move |block| is_entry(block.label) || self.edges.iter().any(|(_, to)| *to == block.label))
+        self.module.blocks.iter().filter(|block| self.reached.contains(&block.label))
     }
 
     /// Where control goes from a block, each block once.
@@ -146,6 +146,7 @@ impl<'a> Specialized<'a> {
             }
             for target in self.targets(&block.terminator) {
                 changed |= self.edges.insert((block.label, target));
+                self.reached.insert(target);
             }
         }
         changed

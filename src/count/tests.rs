@@ -137,6 +137,12 @@ fn what_the_paper_does_not_count_is_listed() {
 }
 
 #[test]
+fn what_is_stored_behind_a_pointer_into_a_block_counts() {
+    let counts = vertex("o = a; gl_Position = a * b; gl_PointSize = a.x + b.x;");
+    assert_eq!(words(&counts), "ADD MUL");
+}
+
+#[test]
 fn operations_on_bits_are_counted_and_listed() {
     let counts = vertex("o = vec4(uintBitsToFloat(floatBitsToUint(a.xyz) & 0xfffff000u), 0.0);");
     assert_eq!((words(&counts).as_str(), counts.listed.bit_operations), ("BIT", 1));

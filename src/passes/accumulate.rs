@@ -8,11 +8,13 @@ use super::{
     kernel_texture::kernel_texture,
     list_large::{LargeList, ids_of, read_lists},
     splat_shaders::{accumulate_words, splat_shaders},
+    sum_format,
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    scene::KernelEval,
+    scene::{KernelEval, Settings},
+    shaders,
     vk::Descriptor,
 };
 
@@ -24,6 +26,15 @@ pub(super) struct Sums {
     pub normal: Handle<Image>,
 }
 
+/// What the pass is made of.
+pub(super) fn splat_pass(settings: &Settings, with_depth: bool) -> Result<SplatPass> {
+    Ok(SplatPass {
+        shaders: splat_shaders("accumulate", settings, &accumulate_words(settings, with_depth))?,
+        color_formats: vec![sum_format(settings); 2],
+        depth: (vk::CompareOp::GREATER_OR_EQUAL, false),
+    })
+}
+
 /// Declares the pass. `with_depth`: something reads the surface's depth, so it is summed too.
 pub(super) fn accumulate<'a>(
     graph: &mut Graph<Body<'a>>,
@@ -32,22 +43,13 @@ pub(super) fn accumulate<'a>(
     depth: &Handle<Image>,
     with_depth: bool,
 ) -> Result<Sums> {
-    let format = inputs.sum_format();
-    let splats = SplatPass {
-        shaders: splat_shaders(
-            "accumulate",
-            inputs.settings,
-            &accumulate_words(inputs.settings, with_depth),
-        )?,
-        color_formats: vec![format; 2],
-        depth: (vk::CompareOp::GREATER_OR_EQUAL, false),
-    };
+    let format = sum_format(inputs.settings);
     let kernel = match inputs.settings.kernel_eval {
         KernelEval::Analytic => None,
-        KernelEval::Texture => Some(kernel_texture(graph, inputs)?),
+        KernelEval::Texture => Some(kernel_texture(graph, inputs, &shaders::KERNEL_TEXTURE_FRAG)?),
     };
     let kernel_id = kernel.as_ref().map(Handle::id);
-    let pipelines = splats.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings, with_depth)?.pipelines(inputs)?;
     let large_ids = ids_of(large);
     let depth_id = depth.id();
 

@@ -39,6 +39,30 @@ pub struct FrameConstants {
     pub origin_from_eye: [f32; 6],
 }
 
+/// What the paper's own programs are told; see `glsl/inc/paper.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct PaperConstants {
+    /// Row of the rotation from local to view space, then the translation, local unit.
+    pub view_from_local_x: [f32; 4],
+    /// As above.
+    pub view_from_local_y: [f32; 4],
+    /// As above.
+    pub view_from_local_z: [f32; 4],
+    /// What view space is multiplied by: 2 f / width, 2 f / height, 1/2, 1.
+    pub clip_from_view: [f32; 4],
+    /// Of the map's rows: b / f, b / f, b, with b the depth of the near plane, local unit, and f in pixels.
+    pub scale: [f32; 3],
+    /// f in pixels.
+    pub size_px: f32,
+    /// Of the image.
+    pub middle_px: [f32; 2],
+    /// Twice √2 pixels, image-plane unit.
+    pub filter_radius: f32,
+    /// ε as a multiple of the splat's radius.
+    pub epsilon_radii: f32,
+}
+
 /// What finalization is told; see `glsl/finalize.frag.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

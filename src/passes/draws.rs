@@ -9,7 +9,7 @@ use super::{
     Inputs,
     constants::FrameConstants,
     list_large::LargeIds,
-    pipelines::GraphicsKey,
+    pipelines::{GraphicsKey, Layout},
     splat_shaders::{Primitive, SplatShaders, Stages},
     variant::{Constants, splat_constants},
 };
@@ -19,7 +19,7 @@ use crate::{
     math::size::{SizeBound, largest_box_px},
     prepare::{Chunk, PreparedScene, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Settings},
-    vk::{Descriptor, GraphicsPipeline, Limits},
+    vk::{Blend, Descriptor, GraphicsPipeline, Limits},
 };
 
 /// A chunk in this frame.
@@ -134,16 +134,20 @@ pub(super) struct DrawPipelines {
 }
 
 impl SplatPass {
+    /// What the pipeline is that draws splats of a variant as a primitive.
+    pub fn key(&self, stages: Stages, primitive: Primitive, variant: &Constants) -> GraphicsKey {
+        GraphicsKey {
+            color_formats: self.color_formats.clone(),
+            blend: Blend::Add,
+            depth: Some(self.depth),
+            ..GraphicsKey::new(stages, Layout::Splat, primitive.topology(), variant.clone())
+        }
+    }
+
     /// The pipelines of every draw, in their order.
     pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
-        let make = |(vertex, fragment): Stages, topology, draw: &Draw<'_>| {
-            let key = GraphicsKey {
-                color_formats: self.color_formats.clone(),
-                add: true,
-                depth: Some(self.depth),
-                ..GraphicsKey::new(topology, draw.variant.clone())
-            };
-            inputs.shaders.graphics(vertex, fragment, &inputs.shaders.splat_layout, key)
+        let make = |stages: Stages, primitive: Primitive, draw: &Draw<'_>| {
+            inputs.shaders.graphics(self.key(stages, primitive, &draw.variant))
         };
         let primitive = Primitive::of(inputs.settings.rasterizer);
         let both = |draw: &Draw<'_>| {
@@ -151,8 +155,8 @@ impl SplatPass {
             let quads = draw.may_be_large.then_some(self.shaders.listed);
             Ok(DrawPipelines {
                 primitive,
-                own: make(own, primitive.topology(), draw)?,
-                quads: quads.map(|quads| make(quads, Primitive::Quad.topology(), draw)).transpose()?,
+                own: make(own, primitive, draw)?,
+                quads: quads.map(|quads| make(quads, Primitive::Quad, draw)).transpose()?,
             })
         };
         inputs.draws.iter().map(both).collect()

@@ -3,7 +3,11 @@
 use ash::vk;
 
 use super::{
-    Inputs, accumulate::Sums, constants::ExportConstants, fullscreen::draw_fullscreen, pipelines::GraphicsKey,
+    Inputs,
+    accumulate::Sums,
+    constants::ExportConstants,
+    fullscreen::draw_fullscreen,
+    pipelines::{GraphicsKey, Layout},
 };
 use crate::{
     error::Result,
@@ -34,6 +38,14 @@ impl Exported {
     ];
 }
 
+/// What its pipeline is.
+pub(super) fn key() -> GraphicsKey {
+    GraphicsKey {
+        color_formats: Exported::FORMATS.to_vec(),
+        ..GraphicsKey::fullscreen(&shaders::EXPORT_FRAG, Layout::Export, Vec::new())
+    }
+}
+
 /// Declares the pass.
 pub(super) fn export<'a>(
     graph: &mut Graph<Body<'a>>,
@@ -42,11 +54,7 @@ pub(super) fn export<'a>(
     depth: &Handle<Image>,
 ) -> Result<Exported> {
     let layout = &inputs.shaders.export_layout;
-    let key = GraphicsKey {
-        color_formats: Exported::FORMATS.to_vec(),
-        ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, Vec::new())
-    };
-    let pipeline = inputs.shaders.graphics(&shaders::FULLSCREEN_VERT, &shaders::EXPORT_FRAG, layout, key)?;
+    let pipeline = inputs.shaders.graphics(key())?;
     let constants = ExportConstants { near: inputs.camera.near() as f32 };
     let ids = [sums.color.id(), sums.normal.id(), depth.id()];
     let [weight, albedo, normal, depth_format] = Exported::FORMATS;

@@ -6,16 +6,31 @@
 use ash::vk;
 
 use super::{
-    Inputs, accumulate::Sums, constants::FinalizeConstants, fullscreen::draw_fullscreen,
-    pipelines::GraphicsKey, variant::shading_constants,
+    Inputs,
+    accumulate::Sums,
+    constants::FinalizeConstants,
+    fullscreen::draw_fullscreen,
+    pipelines::{GraphicsKey, Layout},
+    variant::shading_constants,
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     math::srgb::linear_from_srgb,
+    scene::Settings,
     shaders,
     vk::Descriptor,
 };
+
+/// What its pipeline is.
+pub(super) fn key(settings: &Settings, target_format: vk::Format) -> GraphicsKey {
+    let constants = shading_constants(settings.shading);
+    GraphicsKey {
+        color_formats: vec![target_format],
+        depth: Some((vk::CompareOp::LESS, false)),
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, constants)
+    }
+}
 
 /// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept.
 pub(super) fn finalize<'a>(
@@ -27,13 +42,7 @@ pub(super) fn finalize<'a>(
     target_format: vk::Format,
 ) -> Result<()> {
     let layout = &inputs.shaders.finalize_layout;
-    let key = GraphicsKey {
-        color_formats: vec![target_format],
-        depth: Some((vk::CompareOp::LESS, false)),
-        ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, shading_constants(inputs.settings.shading))
-    };
-    let pipeline =
-        inputs.shaders.graphics(&shaders::FULLSCREEN_VERT, &shaders::FINALIZE_FRAG, layout, key)?;
+    let pipeline = inputs.shaders.graphics(key(inputs.settings, target_format))?;
     let [width, height] = inputs.settings.size_px;
     let background = inputs.settings.background.map_or([0.0; 4], |srgb| {
         let [r, g, b] = srgb.map(linear_from_srgb);

@@ -6,12 +6,18 @@
 
 use ash::vk;
 
-use super::{DEPTH_FORMAT, Draw, Inputs, pipelines::GraphicsKey};
+use super::{
+    DEPTH_FORMAT, Draw, Inputs,
+    pipelines::{ComputeKey, GraphicsKey, Layout},
+    sum_format,
+    variant::Constants,
+};
 use crate::{
     error::Result,
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    scene::Settings,
     shaders,
-    vk::Descriptor,
+    vk::{Blend, Descriptor},
 };
 
 /// Bytes of a point: its place in clip space, its reversed depth, its size in pixels; four floats.
@@ -19,6 +25,33 @@ pub const FLOOR_POINT_BYTES: u64 = 16;
 
 /// Invocations of a workgroup, as in `glsl/floor_points.comp.glsl`.
 const GROUP: u32 = 256;
+
+/// What the pipeline is that precomputes the points.
+pub(super) fn points_key(variant: &Constants) -> ComputeKey {
+    ComputeKey { shader: &shaders::FLOOR_POINTS_COMP, layout: Layout::List, constants: variant.clone() }
+}
+
+/// What the pipelines of the three passes are, in their order.
+pub(super) fn keys(settings: &Settings, target_format: vk::Format) -> [GraphicsKey; 3] {
+    let key = |fragment| {
+        let stages = (&shaders::FLOOR_POINTS_VERT, fragment);
+        GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, Vec::new())
+    };
+    let depth = (vk::CompareOp::GREATER, true);
+    [
+        GraphicsKey { depth: Some(depth), ..key(&shaders::FLOOR_DEPTH_FRAG) },
+        GraphicsKey {
+            color_formats: vec![sum_format(settings); 2],
+            blend: Blend::Add,
+            depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
+            ..key(&shaders::FLOOR_ADD_FRAG)
+        },
+        GraphicsKey {
+            color_formats: vec![target_format],
+            ..GraphicsKey::fullscreen(&shaders::FLOOR_FILL_FRAG, Layout::Finalize, Vec::new())
+        },
+    ]
+}
 
 /// The precomputed points of a chunk.
 pub struct FloorPoints<'a> {
@@ -39,7 +72,7 @@ pub fn floor_points<'a>(
     points: &mut Handle<Buffer>,
 ) -> Result<()> {
     let layout = &inputs.shaders.list_layout;
-    let pipeline = inputs.shaders.compute(&shaders::FLOOR_POINTS_COMP, layout, draw.variant.clone())?;
+    let pipeline = inputs.shaders.compute(points_key(&draw.variant))?;
     let id = points.id();
     graph.pass("floor points").write(points, Access::StorageWriteCompute, Start::Discard).finish(Box::new(
         move |context| {
@@ -72,14 +105,13 @@ pub fn floor_frame<'a>(
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
-    let sums = inputs.sum_format();
+    let sums = sum_format(inputs.settings);
+    let [depth_key, add_key, fill_key] = keys(inputs.settings, target_format);
     let mut depth = graph.create_image("floor depth", inputs.image(DEPTH_FORMAT));
     let mut color = graph.create_image("floor color sums", inputs.image(sums));
     let mut normal = graph.create_image("floor normal sums", inputs.image(sums));
 
-    let key = || GraphicsKey::new(vk::PrimitiveTopology::POINT_LIST, Vec::new());
-    let depth_key = GraphicsKey { depth: Some((vk::CompareOp::GREATER, true)), ..key() };
-    let body = draw_points(inputs, &shaders::FLOOR_DEPTH_FRAG, depth_key, points)?;
+    let body = draw_points(inputs, depth_key, points)?;
     let pass = graph.pass("floor depth").write(
         &mut depth,
         Access::DepthAttachment,
@@ -87,13 +119,7 @@ pub fn floor_frame<'a>(
     );
     points.iter().fold(pass, |pass, chunk| pass.read(chunk.buffer, Access::StorageReadVertex)).finish(body);
 
-    let add_key = GraphicsKey {
-        color_formats: vec![sums; 2],
-        add: true,
-        depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
-        ..key()
-    };
-    let body = draw_points(inputs, &shaders::FLOOR_ADD_FRAG, add_key, points)?;
+    let body = draw_points(inputs, add_key, points)?;
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
     let pass = graph
         .pass("floor add")
@@ -102,13 +128,7 @@ pub fn floor_frame<'a>(
         .read(&depth, Access::DepthTest);
     points.iter().fold(pass, |pass, chunk| pass.read(chunk.buffer, Access::StorageReadVertex)).finish(body);
 
-    let fill_key = GraphicsKey {
-        color_formats: vec![target_format],
-        ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, Vec::new())
-    };
-    let layout = &inputs.shaders.finalize_layout;
-    let pipeline =
-        inputs.shaders.graphics(&shaders::FULLSCREEN_VERT, &shaders::FLOOR_FILL_FRAG, layout, fill_key)?;
+    let pipeline = inputs.shaders.graphics(fill_key)?;
     graph
         .pass("floor fill")
         // Reads the sums, though the shader doesn't: so that nothing is culled and they are stored.
@@ -130,12 +150,11 @@ pub fn floor_frame<'a>(
 /// The body that draws the points.
 fn draw_points<'a>(
     inputs: Inputs<'a>,
-    fragment: &'static shaders::Shader,
     key: GraphicsKey,
     points: &[FloorPoints<'_>],
 ) -> Result<Body<'a>> {
     let layout = &inputs.shaders.splat_layout;
-    let pipeline = inputs.shaders.graphics(&shaders::FLOOR_POINTS_VERT, fragment, layout, key)?;
+    let pipeline = inputs.shaders.graphics(key)?;
     let chunks: Vec<_> = points.iter().map(|chunk| (chunk.buffer.id(), chunk.count)).collect();
     Ok(Box::new(move |context| {
         let (device, commands) = (context.device(), context.commands());

@@ -3,11 +3,16 @@
 
 use ash::vk;
 
-use super::{Inputs, pipelines::GraphicsKey, variant::kernel_constants};
+use super::{
+    Inputs,
+    pipelines::{GraphicsKey, Layout},
+    variant::kernel_constants,
+};
 use crate::{
     error::Result,
     graph::{Access, Graph, Handle, Image, ImageDesc, Start, execute::Body},
-    shaders,
+    scene::Kernel,
+    shaders::Shader,
 };
 
 /// Texels along a side, as in `glsl/inc/kernel_texture.glsl`.
@@ -16,16 +21,21 @@ const SIDE: u32 = 256;
 /// Half floats: every device filters them.
 const FORMAT: vk::Format = vk::Format::R16_SFLOAT;
 
-/// Declares the pass; returns the texture.
-pub(super) fn kernel_texture<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Result<Handle<Image>> {
-    // The shader reads no set and no push constants: any layout will do.
-    let layout = &inputs.shaders.finalize_layout;
-    let key = GraphicsKey {
+/// What the pipeline is of a shader that writes a kernel. It reads no set and no push constants: any layout will do.
+pub(super) fn key(shader: &'static Shader, kernel: Kernel) -> GraphicsKey {
+    GraphicsKey {
         color_formats: vec![FORMAT],
-        ..GraphicsKey::new(vk::PrimitiveTopology::TRIANGLE_LIST, kernel_constants(inputs.settings.kernel))
-    };
-    let pipeline =
-        inputs.shaders.graphics(&shaders::FULLSCREEN_VERT, &shaders::KERNEL_TEXTURE_FRAG, layout, key)?;
+        ..GraphicsKey::fullscreen(shader, Layout::Finalize, kernel_constants(kernel))
+    }
+}
+
+/// Declares the pass; returns the texture.
+pub(super) fn kernel_texture<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    shader: &'static Shader,
+) -> Result<Handle<Image>> {
+    let pipeline = inputs.shaders.graphics(key(shader, inputs.settings.kernel))?;
     let extent = vk::Extent2D { width: SIDE, height: SIDE };
     let mut texture = graph.create_image("kernel", ImageDesc { format: FORMAT, extent });
     graph.pass("kernel texture").write(&mut texture, Access::ColorAttachment, Start::Discard).finish(

@@ -4,7 +4,11 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::{Draw, Inputs};
+use super::{
+    Draw, Inputs,
+    pipelines::{ComputeKey, Layout},
+    variant::Constants,
+};
 use crate::{
     error::Result,
     graph::{
@@ -82,6 +86,18 @@ pub(super) fn ids_of(lists: &[Option<LargeList>]) -> Vec<Option<LargeIds>> {
     lists.iter().map(|list| list.as_ref().map(LargeList::ids)).collect()
 }
 
+/// What the pipelines of the three passes are, in their order.
+pub(super) fn keys(variant: &Constants) -> [ComputeKey; 3] {
+    [&shaders::LARGE_COUNT_COMP, &shaders::LARGE_SCAN_COMP, &shaders::LARGE_LIST_COMP]
+        .map(|shader| key(shader, variant))
+}
+
+/// Only the first sets splats up and so has the variants of the splat passes.
+fn key(shader: &'static Shader, variant: &Constants) -> ComputeKey {
+    let constants = if shader == &shaders::LARGE_COUNT_COMP { variant.clone() } else { Vec::new() };
+    ComputeKey { shader, layout: Layout::List, constants }
+}
+
 /// Declares the three passes that list large splats; none where no chunk may have any. One list (or none) a draw.
 pub(super) fn list_large<'a>(
     graph: &mut Graph<Body<'a>>,
@@ -98,7 +114,7 @@ pub(super) fn list_large<'a>(
     }
     let ids = ids_of(&lists);
 
-    let count = Dispatches::new(inputs, &ids, &shaders::LARGE_COUNT_COMP, true)?;
+    let count = Dispatches::new(inputs, &ids, &shaders::LARGE_COUNT_COMP)?;
     let mut pass = graph.pass("count large splats");
     for list in lists.iter_mut().flatten() {
         pass = pass.write(&mut list.bits, Access::StorageWriteCompute, Start::Discard).write(
@@ -111,7 +127,7 @@ pub(super) fn list_large<'a>(
         count.record(context, |ids| vec![(0, ids.bits), (1, ids.counts)], blocks_of)
     }));
 
-    let scan = Dispatches::new(inputs, &ids, &shaders::LARGE_SCAN_COMP, false)?;
+    let scan = Dispatches::new(inputs, &ids, &shaders::LARGE_SCAN_COMP)?;
     let mut pass = graph.pass("scan large splats");
     for list in lists.iter_mut().flatten() {
         pass = pass.write(&mut list.counts, Access::StorageReadWriteCompute, Start::Load).write(
@@ -124,7 +140,7 @@ pub(super) fn list_large<'a>(
         scan.record(context, |ids| vec![(1, ids.counts), (3, ids.arguments)], |_| 1)
     }));
 
-    let place = Dispatches::new(inputs, &ids, &shaders::LARGE_LIST_COMP, false)?;
+    let place = Dispatches::new(inputs, &ids, &shaders::LARGE_LIST_COMP)?;
     let mut pass = graph.pass("list large splats");
     for list in lists.iter_mut().flatten() {
         pass = pass
@@ -145,18 +161,11 @@ struct Dispatches<'a> {
 }
 
 impl<'a> Dispatches<'a> {
-    /// `set_up`: the shader sets splats up and so has the variants of the splat passes.
-    fn new(
-        inputs: Inputs<'a>,
-        ids: &[Option<LargeIds>],
-        shader: &'static Shader,
-        set_up: bool,
-    ) -> Result<Self> {
+    fn new(inputs: Inputs<'a>, ids: &[Option<LargeIds>], shader: &'static Shader) -> Result<Self> {
         let mut chunks = Vec::new();
         for (draw, ids) in inputs.draws.iter().zip(ids) {
             if let Some(ids) = ids {
-                let constants = if set_up { draw.variant.clone() } else { Vec::new() };
-                let pipeline = inputs.shaders.compute(shader, &inputs.shaders.list_layout, constants)?;
+                let pipeline = inputs.shaders.compute(key(shader, &draw.variant))?;
                 chunks.push((draw, *ids, pipeline));
             }
         }

@@ -1,6 +1,7 @@
 //! The passes of a frame: one pass, one file, one function that declares it.
 
 mod accumulate;
+mod catalog;
 mod constants;
 mod draws;
 mod export;
@@ -9,8 +10,11 @@ mod floor;
 #[cfg(feature = "test-formulas")]
 mod formula;
 mod fullscreen;
+#[cfg(feature = "counts")]
+mod instructions;
 mod kernel_texture;
 mod list_large;
+mod paper;
 mod pipelines;
 mod readback;
 mod splat_shaders;
@@ -19,12 +23,16 @@ mod visibility;
 
 use ash::vk;
 
-pub use constants::{ExportConstants, FinalizeConstants, FrameConstants};
+pub use catalog::{PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines};
+pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
 pub use floor::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points};
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
+#[cfg(feature = "counts")]
+pub use instructions::{counts_of, counts_of_pipeline};
+pub use paper::paper_frame;
 pub use pipelines::Shaders;
 pub use readback::readback;
 
@@ -59,13 +67,13 @@ impl Inputs<'_> {
     fn image(&self, format: vk::Format) -> ImageDesc {
         ImageDesc { format, extent: self.extent() }
     }
+}
 
-    /// The format of the sums.
-    fn sum_format(&self) -> vk::Format {
-        match self.settings.accumulate {
-            Accumulate::F16 => vk::Format::R16G16B16A16_SFLOAT,
-            Accumulate::F32 => vk::Format::R32G32B32A32_SFLOAT,
-        }
+/// The format of the sums.
+fn sum_format(settings: &Settings) -> vk::Format {
+    match settings.accumulate {
+        Accumulate::F16 => vk::Format::R16G16B16A16_SFLOAT,
+        Accumulate::F32 => vk::Format::R32G32B32A32_SFLOAT,
     }
 }
 

@@ -8,11 +8,11 @@ use std::{
 
 use ash::vk;
 
-use super::{constants, variant::Constants};
+use super::{constants, splat_shaders::Stages, variant::Constants};
 use crate::{
     error::Result,
     prepare::SplatSetLayout,
-    shaders::Shader,
+    shaders::{self, Shader},
     vk::{
         Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
         GraphicsPipelineDesc, PipelineCache, PipelineLayout, SetLayout, Stage,
@@ -46,23 +46,35 @@ pub struct Shaders {
     pub perturbed: Option<super::Formula>,
 }
 
-/// What a graphics pipeline is made of, apart from its layout, which follows from the shaders.
-#[derive(Clone, PartialEq, Eq, Hash)]
+/// One of the layouts that pipelines share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Layout {
+    Splat,
+    List,
+    Finalize,
+    Export,
+}
+
+/// All that a graphics pipeline is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct GraphicsKey {
-    pub vertex: &'static str,
-    pub fragment: &'static str,
+    pub vertex: &'static Shader,
+    pub fragment: &'static Shader,
+    pub layout: Layout,
     pub constants: Constants,
     pub topology: vk::PrimitiveTopology,
     pub color_formats: Vec<vk::Format>,
-    pub add: bool,
+    pub blend: Blend,
     /// The depth test: the comparison and whether it writes.
     pub depth: Option<(vk::CompareOp, bool)>,
 }
 
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct ComputeKey {
-    shader: &'static str,
-    constants: Constants,
+/// All that a compute pipeline is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct ComputeKey {
+    pub shader: &'static Shader,
+    pub layout: Layout,
+    pub constants: Constants,
 }
 
 impl Shaders {
@@ -140,21 +152,22 @@ impl Shaders {
     pub fn pipeline_names(&self) -> Vec<String> {
         let graphics = lock(&self.graphics);
         let compute = lock(&self.compute);
-        let mut names: Vec<_> =
-            graphics.keys().map(|key| format!("{} + {}", key.vertex, key.fragment)).collect();
-        names.extend(compute.keys().map(|key| key.shader.to_owned()));
+        let mut names: Vec<_> = graphics.keys().map(GraphicsKey::name).collect();
+        names.extend(compute.keys().map(|key| key.shader.name.to_owned()));
         names.sort();
         names
     }
 
-    pub(super) fn graphics(
-        &self,
-        vertex: &'static Shader,
-        fragment: &'static Shader,
-        layout: &PipelineLayout,
-        mut key: GraphicsKey,
-    ) -> Result<Arc<GraphicsPipeline>> {
-        (key.vertex, key.fragment) = (vertex.name, fragment.name);
+    pub(super) fn layout(&self, layout: Layout) -> &PipelineLayout {
+        match layout {
+            Layout::Splat => &self.splat_layout,
+            Layout::List => &self.list_layout,
+            Layout::Finalize => &self.finalize_layout,
+            Layout::Export => &self.export_layout,
+        }
+    }
+
+    pub(super) fn graphics(&self, mut key: GraphicsKey) -> Result<Arc<GraphicsPipeline>> {
         self.perturb(&mut key.constants);
         let mut made = lock(&self.graphics);
         if let Some(pipeline) = made.get(&key) {
@@ -162,38 +175,35 @@ impl Shaders {
         }
         let constants = &key.constants;
         let desc = GraphicsPipelineDesc {
-            name: &format!("{} + {}", key.vertex, key.fragment),
-            vertex: Stage { name: vertex.name, spirv: vertex.spirv, constants },
-            fragment: Stage { name: fragment.name, spirv: fragment.spirv, constants },
+            name: &key.name(),
+            vertex: key.vertex.stage(constants),
+            fragment: key.fragment.stage(constants),
             topology: key.topology,
             color_formats: &key.color_formats,
-            blend: if key.add { Blend::Add } else { Blend::Replace },
+            blend: key.blend,
             depth: key.depth.map(|(compare, write)| DepthState {
                 format: super::DEPTH_FORMAT,
                 compare,
                 write,
             }),
-            layout,
+            layout: self.layout(key.layout),
         };
         let pipeline = Arc::new(GraphicsPipeline::new(&self.device, &self.cache, &desc)?);
         made.insert(key, Arc::clone(&pipeline));
         Ok(pipeline)
     }
 
-    pub(super) fn compute(
-        &self,
-        shader: &'static Shader,
-        layout: &PipelineLayout,
-        mut constants: Constants,
-    ) -> Result<Arc<ComputePipeline>> {
-        self.perturb(&mut constants);
-        let key = ComputeKey { shader: shader.name, constants };
+    pub(super) fn compute(&self, mut key: ComputeKey) -> Result<Arc<ComputePipeline>> {
+        self.perturb(&mut key.constants);
         let mut made = lock(&self.compute);
         if let Some(pipeline) = made.get(&key) {
             return Ok(Arc::clone(pipeline));
         }
-        let stage = Stage { name: shader.name, spirv: shader.spirv, constants: &key.constants };
-        let desc = ComputePipelineDesc { name: shader.name, stage, layout };
+        let desc = ComputePipelineDesc {
+            name: key.shader.name,
+            stage: key.shader.stage(&key.constants),
+            layout: self.layout(key.layout),
+        };
         let pipeline = Arc::new(ComputePipeline::new(&self.device, &self.cache, &desc)?);
         made.insert(key, Arc::clone(&pipeline));
         Ok(pipeline)
@@ -211,17 +221,41 @@ impl Shaders {
 }
 
 impl GraphicsKey {
+    /// A triangle over the whole target without blending and depth: to be completed.
+    pub fn fullscreen(fragment: &'static Shader, layout: Layout, constants: Constants) -> Self {
+        let stages = (&shaders::FULLSCREEN_VERT, fragment);
+        Self::new(stages, layout, vk::PrimitiveTopology::TRIANGLE_LIST, constants)
+    }
+
     /// Points, quads or triangles without color, blending and depth: to be completed.
-    pub fn new(topology: vk::PrimitiveTopology, constants: Constants) -> Self {
+    pub fn new(
+        (vertex, fragment): Stages,
+        layout: Layout,
+        topology: vk::PrimitiveTopology,
+        constants: Constants,
+    ) -> Self {
         Self {
-            vertex: "",
-            fragment: "",
+            vertex,
+            fragment,
+            layout,
             constants,
             topology,
             color_formats: Vec::new(),
-            add: false,
+            blend: Blend::Replace,
             depth: None,
         }
+    }
+
+    /// The names of its shaders.
+    pub fn name(&self) -> String {
+        format!("{} + {}", self.vertex.name, self.fragment.name)
+    }
+}
+
+impl Shader {
+    /// The stage of a pipeline with these specialization constants.
+    fn stage<'a>(&'static self, constants: &'a Constants) -> Stage<'a> {
+        Stage { name: self.name, spirv: self.spirv, constants }
     }
 }
 

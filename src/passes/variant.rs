@@ -13,6 +13,9 @@ pub type Constants = Vec<(u32, u32)>;
 /// Where a kernel is as steep as f32 lets it be: infinity times a radius of 0 would be NaN.
 const STEEPEST: f64 = 1e30;
 
+/// The number of the rasterizer's constant, which all that sets splats up or draws them has.
+pub const RASTERIZER: u32 = 7;
+
 /// The constants of the splat passes for one kind of chunk.
 pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
     let cull = match settings.backfaces {
@@ -41,7 +44,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         (0, u32::from(ellipses)),
         (1, u32::from(cull)),
         (2, filter),
-        (7, rasterizer),
+        (RASTERIZER, rasterizer),
         (8, u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area)),
         (9, u32::from(settings.early_depth)),
         (11, u32::from(may_count_from_corner(settings))),

@@ -11,7 +11,18 @@ use super::{
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    scene::Settings,
 };
+
+/// What the pass is made of.
+pub(super) fn splat_pass(settings: &Settings) -> Result<SplatPass> {
+    let words: Vec<_> = early_word(settings).into_iter().collect();
+    Ok(SplatPass {
+        shaders: splat_shaders("visibility", settings, &words)?,
+        color_formats: Vec::new(),
+        depth: (vk::CompareOp::GREATER, true),
+    })
+}
 
 /// Declares the pass; returns its reversed depth: near / z, 0 where there is nothing.
 pub(super) fn visibility<'a>(
@@ -19,13 +30,7 @@ pub(super) fn visibility<'a>(
     inputs: Inputs<'a>,
     large: &[Option<LargeList>],
 ) -> Result<Handle<Image>> {
-    let words: Vec<_> = early_word(inputs.settings).into_iter().collect();
-    let splats = SplatPass {
-        shaders: splat_shaders("visibility", inputs.settings, &words)?,
-        color_formats: Vec::new(),
-        depth: (vk::CompareOp::GREATER, true),
-    };
-    let pipelines = splats.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings)?.pipelines(inputs)?;
     let large_ids = ids_of(large);
 
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));

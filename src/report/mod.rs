@@ -12,6 +12,8 @@ mod floor;
 mod frames;
 pub mod gate;
 mod grid;
+#[cfg(feature = "counts")]
+mod instructions;
 mod options;
 #[cfg(feature = "compare")]
 mod plot;
@@ -29,6 +31,8 @@ pub use bench::{BenchReport, floor_gate, throughput_gate};
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
 pub use grid::{Grid, NONE, cell, count_cell};
+#[cfg(feature = "counts")]
+pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
 pub use spread::Spread;

@@ -14,6 +14,21 @@ pub struct Shader {
     pub spirv: &'static [u32],
 }
 
+/// Names are unique.
+impl PartialEq for Shader {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Shader {}
+
+impl std::hash::Hash for Shader {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+    }
+}
+
 /// The shader of that name.
 pub fn by_name(name: &str) -> Option<&'static Shader> {
     ALL.binary_search_by(|shader| shader.name.cmp(name)).ok().map(|found| ALL[found])

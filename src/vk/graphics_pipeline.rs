@@ -9,12 +9,14 @@ use super::{
 use crate::error::Result;
 
 /// How a fragment's color meets the attachment's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Blend {
     /// It replaces it.
     Replace,
     /// It is added, all four components.
     Add,
+    /// It is added, the first three components times the fourth.
+    AddWeighted,
 }
 
 /// The depth test.
@@ -84,8 +86,11 @@ impl GraphicsPipeline {
                 .depth_compare_op(state.compare)
         });
         let add = vk::PipelineColorBlendAttachmentState::default()
-            .blend_enable(desc.blend == Blend::Add)
-            .src_color_blend_factor(vk::BlendFactor::ONE)
+            .blend_enable(desc.blend != Blend::Replace)
+            .src_color_blend_factor(match desc.blend {
+                Blend::AddWeighted => vk::BlendFactor::SRC_ALPHA,
+                Blend::Add | Blend::Replace => vk::BlendFactor::ONE,
+            })
             .dst_color_blend_factor(vk::BlendFactor::ONE)
             .color_blend_op(vk::BlendOp::ADD)
             .src_alpha_blend_factor(vk::BlendFactor::ONE)

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::{
     bench::BenchArguments,
     compare::CompareArguments,
+    counts::CountsArguments,
     figure::FigureArguments,
     parse,
     picture_arguments::PictureArguments,

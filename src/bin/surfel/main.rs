@@ -8,6 +8,7 @@ mod camera;
 mod compare;
 mod console;
 mod convert;
+mod counts;
 mod explain;
 mod figure;
 mod info;

@@ -8,7 +8,7 @@ use surfel::{
     scene::{Accumulate, Filter, Settings},
 };
 
-use crate::{parse, picture_arguments::choice};
+use crate::{counts::CountsArguments, parse, picture_arguments::choice};
 
 /// Options of `surfel bench`.
 #[derive(Debug, Args)]
@@ -83,6 +83,10 @@ pub struct BenchArguments {
     /// Draw milliseconds over numbers of splats (table1)
     #[arg(long, value_name = "FILE.svg", help_heading = "Results")]
     pub plot: Option<PathBuf>,
+
+    /// Of `bench counts`.
+    #[command(flatten)]
+    pub counts: CountsArguments,
 }
 
 /// What can be measured.
@@ -94,6 +98,8 @@ pub enum Bench {
     Table1,
     /// The five methods of the paper's slides side by side
     Slides,
+    /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
+    Counts,
     /// All of them
     All,
 }
@@ -104,13 +110,19 @@ pub struct Tables {
     pub floor: bool,
     pub table1: bool,
     pub slides: bool,
+    pub counts: bool,
 }
 
 impl Bench {
     /// The tables of this name.
     pub fn tables(self) -> Tables {
         let is = |one| self == one || self == Self::All;
-        Tables { floor: is(Self::Floor), table1: is(Self::Table1), slides: is(Self::Slides) }
+        Tables {
+            floor: is(Self::Floor),
+            table1: is(Self::Table1),
+            slides: is(Self::Slides),
+            counts: is(Self::Counts),
+        }
     }
 
     /// As it is written on the command line.
@@ -119,6 +131,7 @@ impl Bench {
             Self::Floor => "floor",
             Self::Table1 => "table1",
             Self::Slides => "slides",
+            Self::Counts => "counts",
             Self::All => "all",
         }
     }

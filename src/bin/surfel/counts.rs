@@ -1,0 +1,182 @@
+//! `surfel bench counts`: the instructions of every pipeline, by the two rules and as drivers' compilers have them.
+
+use std::collections::HashSet;
+
+use clap::Args;
+use std::path::PathBuf;
+use surfel::{
+    Progress as _, Result, Settings,
+    passes::{PipelineRecipe, PipelineStages, Traits, counts_of_pipeline, frame_pipelines, papers_pipelines},
+    report::{InstructionReport, InstructionRow, PipelineNames},
+    save,
+    scene::{Filter, FilterWeight, KernelEval, Rasterizer, Shading},
+};
+
+use crate::{
+    arguments::BenchArguments,
+    console::{self, Bars},
+    json::to_json,
+    outputs,
+};
+
+/// Options of `surfel bench counts` alone.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "counts")]
+pub struct CountsArguments {
+    /// Every pipeline: ellipses too, lists of large splats, weights, early depth, shadings [default: small disks]
+    #[arg(long)]
+    pub all: bool,
+
+    /// Write the counts as CSV
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// A file that can't be written.
+pub fn run(arguments: &BenchArguments) -> Result<()> {
+    let counts = &arguments.counts;
+    for file in [&arguments.json, &counts.csv].into_iter().flatten() {
+        outputs::check_file(file)?;
+    }
+    let bars = Bars::new();
+    let pipelines = pipelines(counts.all)?;
+    let total = pipelines.len() as u64;
+    let mut rows = Vec::new();
+    for ((names, recipe), done) in pipelines.into_iter().zip(1..) {
+        rows.push(InstructionRow {
+            names,
+            counts: counts_of_pipeline(&recipe)?,
+            published: recipe.published(),
+            isa: Vec::new(),
+        });
+        bars.step("count", done, total);
+    }
+    let report = InstructionReport {
+        surfel: env!("CARGO_PKG_VERSION").to_owned(),
+        rows,
+        notes: vec![
+            "VP/FP: instructions of ARB programs, an upper bound: see benches/INSTRUCTIONS.md".to_owned(),
+            "published: Guennebaud, Barthe, Paulin 2006, table 1".to_owned(),
+        ],
+    };
+    console::print(&report.to_string())?;
+    if let Some(path) = &counts.csv {
+        save::text(path, &report.csv())?;
+    }
+    if let Some(path) = &arguments.json {
+        save::text(path, &to_json(&report)?)?;
+    }
+    Ok(())
+}
+
+/// The pipelines of all methods, each once, and those of the papers' own programs.
+fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
+    let mut found = Vec::new();
+    let mut seen = HashSet::new();
+    for recipe in papers_pipelines() {
+        let names = PipelineNames {
+            pass: recipe.pass.to_owned(),
+            draws: "points".to_owned(),
+            rasterizer: "as published".to_owned(),
+            shaders: shaders(&recipe),
+            ..PipelineNames::default()
+        };
+        found.push((names, recipe));
+    }
+    for settings in every_settings(all) {
+        if settings.validate().is_err() {
+            continue;
+        }
+        for traits in every_traits(all) {
+            if settings.check_object("", traits.ellipses).is_err() {
+                continue;
+            }
+            for recipe in frame_pipelines(&settings, traits)? {
+                if seen.insert(recipe.clone()) {
+                    found.push((names(&settings, traits, &recipe), recipe));
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn every_settings(all: bool) -> Vec<Settings> {
+    let mut every = Vec::new();
+    let weights: &[FilterWeight] =
+        if all { &[FilterWeight::Area, FilterWeight::Unit] } else { &[FilterWeight::Area] };
+    let early: &[bool] = if all { &[false, true] } else { &[false] };
+    for (_, rasterizer) in Rasterizer::NAMES {
+        for (_, filter) in Filter::NAMES {
+            for (_, kernel_eval) in KernelEval::NAMES {
+                for filter_weight in weights {
+                    for early_depth in early {
+                        every.push(Settings {
+                            rasterizer: *rasterizer,
+                            filter: *filter,
+                            kernel_eval: *kernel_eval,
+                            filter_weight: *filter_weight,
+                            early_depth: *early_depth,
+                            ..Settings::default()
+                        });
+                    }
+                }
+            }
+        }
+    }
+    if all {
+        let shadings = [Shading::Lambert, Shading::Normals, Shading::Albedo];
+        every.extend(shadings.map(|shading| Settings { shading, ..Settings::default() }));
+    }
+    every
+}
+
+fn every_traits(all: bool) -> Vec<Traits> {
+    if !all {
+        return vec![Traits::default()];
+    }
+    let mut every = Vec::new();
+    for ellipses in [false, true] {
+        for may_be_large in [false, true] {
+            for export in [false, true] {
+                every.push(Traits { ellipses, may_be_large, export, floor: export, ..Traits::default() });
+            }
+        }
+    }
+    every
+}
+
+/// What tells a pipeline from others.
+fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> PipelineNames {
+    let splats = if traits.ellipses { "ellipses" } else { "disks" };
+    let mut names = PipelineNames {
+        pass: recipe.pass.to_owned(),
+        draws: recipe.draws.to_owned(),
+        shaders: shaders(recipe),
+        ..PipelineNames::default()
+    };
+    if recipe.sets_splats_up() {
+        names.rasterizer = settings.rasterizer.name().to_owned();
+        names.filter = match settings.filter_weight == FilterWeight::default() {
+            true => settings.filter.name().to_owned(),
+            false => format!("{} {}", settings.filter.name(), settings.filter_weight.name()),
+        };
+        names.kernel_eval = settings.kernel_eval.name().to_owned();
+        names.early_depth = if settings.early_depth { "on" } else { "off" }.to_owned();
+        names.splats = splats.to_owned();
+    }
+    if recipe.pass == "finalize" {
+        names.shading = surfel::report::settings_as_options(settings)["shading"].clone();
+    }
+    names
+}
+
+fn shaders(recipe: &PipelineRecipe) -> String {
+    match recipe.stages() {
+        PipelineStages::Graphics(vertex, fragment) => format!("{} + {}", vertex.name, fragment.name),
+        PipelineStages::Compute(shader) => shader.name.to_owned(),
+    }
+}

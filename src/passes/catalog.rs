@@ -1,0 +1,235 @@
+//! Every pipeline that a frame would be drawn with, without a scene: the passes' own recipes, for whoever counts them or
+//! compiles them ahead.
+
+use ash::vk;
+
+use super::{
+    accumulate,
+    draws::SplatPass,
+    export, finalize, floor, kernel_texture, list_large, paper,
+    pipelines::{ComputeKey, GraphicsKey, Shaders},
+    splat_shaders::{Primitive, Stages},
+    variant::{Constants, RASTERIZER, splat_constants},
+    visibility,
+};
+use crate::{
+    error::Result,
+    scene::{KernelEval, Settings},
+    shaders::{self, Shader},
+};
+
+/// What scene and caller decide about a frame's pipelines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Traits {
+    /// Splats are ellipses; else disks.
+    pub ellipses: bool,
+    /// Their surface is closed.
+    pub closed: bool,
+    /// Some may be too large or too near to be drawn as the rasterizer's own primitive.
+    pub may_be_large: bool,
+    /// The surface is wanted as data.
+    pub export: bool,
+    /// The floor benchmark's pipelines too.
+    pub floor: bool,
+}
+
+impl Default for Traits {
+    /// A closed surface of disks, all of them small and in front of the eye.
+    fn default() -> Self {
+        Self { ellipses: false, closed: true, may_be_large: false, export: false, floor: false }
+    }
+}
+
+/// A pipeline of a pass.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct PipelineRecipe {
+    /// The pass.
+    pub pass: &'static str,
+    /// What it draws: `points`, `small points`, `listed quads` and so on; empty where that is the whole target.
+    pub draws: &'static str,
+    key: Key,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Key {
+    Graphics(GraphicsKey),
+    Compute(ComputeKey),
+    /// Never drawn, only counted.
+    Counted(Stages),
+}
+
+/// The shaders of a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PipelineStages {
+    /// A vertex and a fragment stage.
+    Graphics(&'static Shader, &'static Shader),
+    /// A compute stage.
+    Compute(&'static Shader),
+}
+
+impl PipelineRecipe {
+    /// The shaders.
+    pub fn stages(&self) -> PipelineStages {
+        match &self.key {
+            Key::Graphics(key) => PipelineStages::Graphics(key.vertex, key.fragment),
+            Key::Compute(key) => PipelineStages::Compute(key.shader),
+            Key::Counted((vertex, fragment)) => PipelineStages::Graphics(vertex, fragment),
+        }
+    }
+
+    /// The specialization constants of all stages: number and 32-bit pattern.
+    pub fn constants(&self) -> &[(u32, u32)] {
+        match &self.key {
+            Key::Graphics(key) => &key.constants,
+            Key::Compute(key) => &key.constants,
+            Key::Counted(_) => &[],
+        }
+    }
+
+    /// Whether it sets splats up or draws them, and so depends on rasterizer and filter.
+    pub fn sets_splats_up(&self) -> bool {
+        self.constants().iter().any(|(number, _)| *number == RASTERIZER)
+    }
+
+    /// What table 1 of Guennebaud et al. 2006 has for it: instructions of the vertex and the fragment program.
+    pub fn published(&self) -> Option<[u32; 2]> {
+        match (self.pass, self.draws) {
+            ("paper visibility", _) => Some([46, 3]),
+            ("paper accumulate", _) => Some([58, 3]),
+            ("botsch visibility", _) => Some([34, 9]),
+            ("botsch accumulate", _) => Some([35, 13]),
+            _ => None,
+        }
+    }
+
+    /// Makes the pipeline, where it was not made yet; none of programs that are only counted.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn make(&self, shaders: &Shaders) -> Result<Option<vk::Pipeline>> {
+        Ok(match &self.key {
+            Key::Graphics(key) => Some(shaders.graphics(key.clone())?.raw()),
+            Key::Compute(key) => Some(shaders.compute(key.clone())?.raw()),
+            Key::Counted(_) => None,
+        })
+    }
+}
+
+/// The pipelines of the papers' own programs: perspective splatting as Guennebaud et al. 2006 publish it, and the ray
+/// casting of Botsch et al. 2005, with which they compare it.
+pub fn papers_pipelines() -> Vec<PipelineRecipe> {
+    let [visibility, accumulate] = paper::keys(&Settings::default());
+    let rays = |vertex, fragment| Key::Counted((vertex, fragment));
+    [
+        ("paper visibility", Key::Graphics(visibility)),
+        ("paper accumulate", Key::Graphics(accumulate)),
+        ("botsch visibility", rays(&shaders::BOTSCH_VISIBILITY_VERT, &shaders::BOTSCH_VISIBILITY_FRAG)),
+        ("botsch accumulate", rays(&shaders::BOTSCH_ACCUMULATE_VERT, &shaders::BOTSCH_ACCUMULATE_FRAG)),
+    ]
+    .map(|(pass, key)| PipelineRecipe { pass, draws: "points", key })
+    .to_vec()
+}
+
+/// The pipelines of a frame, pass by pass.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Option`] for settings that have no picture.
+pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
+    settings.validate()?;
+    let target = vk::Format::R8G8B8A8_SRGB;
+    let variant = splat_constants(settings, traits.ellipses, traits.closed);
+    let mut all = Vec::new();
+    let graphics = |pass, draws, key| PipelineRecipe { pass, draws, key: Key::Graphics(key) };
+    let compute = |pass, key| PipelineRecipe { pass, draws: "", key: Key::Compute(key) };
+    let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
+    if has_list {
+        let [count, scan, list] = list_large::keys(&variant);
+        all.push(compute("count large splats", count));
+        all.push(compute("scan large splats", scan));
+        all.push(compute("list large splats", list));
+    }
+    let splat_passes = [
+        ("visibility", visibility::splat_pass(settings)?),
+        ("accumulate", accumulate::splat_pass(settings, traits.export)?),
+    ];
+    for (pass, splats) in splat_passes {
+        if pass == "accumulate" && settings.kernel_eval == KernelEval::Texture {
+            all.push(graphics(
+                "kernel texture",
+                "",
+                kernel_texture::key(&shaders::KERNEL_TEXTURE_FRAG, settings.kernel),
+            ));
+        }
+        let keys = splat_keys(&splats, settings, &variant, has_list);
+        all.extend(keys.into_iter().map(|(draws, key)| graphics(pass, draws, key)));
+    }
+    all.push(graphics("finalize", "", finalize::key(settings, target)));
+    if traits.export {
+        all.push(graphics("export", "", export::key()));
+    }
+    if traits.floor {
+        let [depth, add, fill] = floor::keys(settings, target);
+        all.push(compute("floor points", floor::points_key(&variant)));
+        all.push(graphics("floor depth", "points", depth));
+        all.push(graphics("floor add", "points", add));
+        all.push(graphics("floor fill", "", fill));
+    }
+    Ok(all)
+}
+
+/// The pipelines of a splat pass, each with what it draws.
+fn splat_keys(
+    pass: &SplatPass,
+    settings: &Settings,
+    variant: &Constants,
+    has_list: bool,
+) -> Vec<(&'static str, GraphicsKey)> {
+    let own = Primitive::of(settings.rasterizer);
+    let (all, small) = match own {
+        Primitive::Point => ("points", "small points"),
+        Primitive::Quad => ("quads", "quads"),
+        Primitive::Triangle => ("triangles", "small triangles"),
+    };
+    match has_list {
+        false => vec![(all, pass.key(pass.shaders.all, own, variant))],
+        true => vec![
+            (small, pass.key(pass.shaders.small, own, variant)),
+            ("listed quads", pass.key(pass.shaders.listed, Primitive::Quad, variant)),
+        ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_has_the_pipelines_of_its_passes() {
+        let of = |settings: &Settings, traits| -> Vec<String> {
+            let all = frame_pipelines(settings, traits).unwrap();
+            all.iter().map(|recipe| format!("{} {}", recipe.pass, recipe.draws)).collect()
+        };
+        let settings = Settings::default();
+        assert_eq!(of(&settings, Traits::default()), ["visibility points", "accumulate points", "finalize "]);
+        let all = Traits { may_be_large: true, export: true, floor: true, ..Traits::default() };
+        assert_eq!(
+            of(&Settings { kernel_eval: KernelEval::Texture, ..settings }, all),
+            [
+                "count large splats ",
+                "scan large splats ",
+                "list large splats ",
+                "visibility small points",
+                "visibility listed quads",
+                "kernel texture ",
+                "accumulate small points",
+                "accumulate listed quads",
+                "finalize ",
+                "export ",
+                "floor points ",
+                "floor depth points",
+                "floor add points",
+                "floor fill ",
+            ]
+        );
+    }
+}

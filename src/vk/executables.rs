@@ -1,0 +1,77 @@
+//! What a driver's compiler made of a pipeline: `VK_KHR_pipeline_executable_properties`, where a device has it and was
+//! opened for it.
+
+use std::ffi::c_char;
+
+use ash::{khr, vk};
+
+use super::{device::Device, result::VkResultExt};
+use crate::error::{Error, Result};
+
+/// One of the programs that a pipeline became.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Executable {
+    /// The driver's name for it.
+    pub name: String,
+    /// The stages that it is.
+    pub stages: vk::ShaderStageFlags,
+    /// Invocations that run together.
+    pub subgroup_size: u32,
+    /// Figures by the driver's names: instructions, registers and the like.
+    pub statistics: Vec<(String, f64)>,
+    /// Texts by the driver's names: the assembly.
+    pub representations: Vec<(String, String)>,
+}
+
+/// What a pipeline became.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Option`] if the device was not opened with [`Device::with_executables`]; whatever the
+/// driver answers.
+pub fn executables(device: &Device, pipeline: vk::Pipeline) -> Result<Vec<Executable>> {
+    if !device.captures_executables() {
+        let problem = "the device was not opened with pipeline executable properties";
+        return Err(Error::option("executables", problem));
+    }
+    let api = khr::pipeline_executable_properties::Device::new(device.instance().raw(), device.raw());
+    let name = &device.facts().name;
+    let info = vk::PipelineInfoKHR::default().pipeline(pipeline);
+    // SAFETY: the extension is enabled; the pipeline is alive, of this device, and was made to be asked.
+    let all = unsafe { api.get_pipeline_executable_properties(&info) }
+        .of_call("vkGetPipelineExecutablePropertiesKHR", name)?;
+    let mut found = Vec::new();
+    for (properties, index) in all.iter().zip(0..) {
+        let info = vk::PipelineExecutableInfoKHR::default().pipeline(pipeline).executable_index(index);
+        // SAFETY: as above; statistics were captured.
+        let statistics = unsafe { api.get_pipeline_executable_statistics(&info) }
+            .of_call("vkGetPipelineExecutableStatisticsKHR", name)?;
+        // SAFETY: as above; representations were captured.
+        let texts = unsafe { api.get_pipeline_executable_internal_representations(&info) }
+            .of_call("vkGetPipelineExecutableInternalRepresentationsKHR", name)?;
+        found.push(Executable {
+            name: text(&properties.name),
+            stages: properties.stages,
+            subgroup_size: properties.subgroup_size,
+            statistics: statistics.iter().map(|one| (text(&one.name), figure(one))).collect(),
+            representations: texts.iter().map(|one| (text(&one.name), String::new())).collect(),
+        });
+    }
+    Ok(found)
+}
+
+fn figure(statistic: &vk::PipelineExecutableStatisticKHR<'_>) -> f64 {
+    // SAFETY: the format says which of the union's members was written.
+    unsafe {
+        match statistic.format {
+            vk::PipelineExecutableStatisticFormatKHR::BOOL32 => f64::from(statistic.value.b32),
+            vk::PipelineExecutableStatisticFormatKHR::INT64 => statistic.value.i64 as f64,
+            vk::PipelineExecutableStatisticFormatKHR::UINT64 => statistic.value.u64 as f64,
+            _ => statistic.value.f64,
+        }
+    }
+}
+
+fn text(raw: &[c_char]) -> String {
+    let bytes: Vec<u8> = raw.iter().take_while(|c| **c != 0).map(|c| *c as u8).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
