@@ -89,6 +89,14 @@ impl PassCounts {
     }
 }
 
+/// The numbers of a shader's specialization constants.
+///
+/// # Errors
+/// A sentence, where the words are not SPIR-V.
+pub fn constant_numbers(spirv: &[u32]) -> Result<Vec<u32>, String> {
+    module::constant_numbers(spirv)
+}
+
 /// Counts a shader as a pipeline with these specialization constants (id, 32-bit pattern) has it.
 ///
 /// # Errors

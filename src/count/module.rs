@@ -106,11 +106,32 @@ pub fn literals(instruction: &Instruction) -> impl Iterator<Item = u32> {
     })
 }
 
+/// The numbers of a module's specialization constants.
+pub fn constant_numbers(spirv: &[u32]) -> Result<Vec<u32>, String> {
+    let numbers = instructions(spirv)?.into_iter().filter_map(|instruction| spec_id(&instruction));
+    Ok(numbers.map(|(_, number)| number).collect())
+}
+
+fn instructions(spirv: &[u32]) -> Result<Vec<Instruction>, String> {
+    let mut all = Collector::default();
+    parse_words(spirv, &mut all).map_err(|state| format!("not SPIR-V: {state}"))?;
+    Ok(all.0)
+}
+
+/// The constant that an instruction makes one of specialization, and its number.
+fn spec_id(instruction: &Instruction) -> Option<(Id, u32)> {
+    match (instruction.class.opcode, instruction.operands.as_slice()) {
+        (
+            Op::Decorate,
+            [Operand::IdRef(id), Operand::Decoration(Decoration::SpecId), Operand::LiteralBit32(number)],
+        ) => Some((*id, *number)),
+        _ => None,
+    }
+}
+
 impl Module {
     /// Parses a module and gives its specialization constants these values.
     pub fn parse(spirv: &[u32], specialization: &[(u32, u32)]) -> Result<Self, String> {
-        let mut all = Collector::default();
-        parse_words(spirv, &mut all).map_err(|state| format!("not SPIR-V: {state}"))?;
         let mut module = Self {
             stage: ExecutionModel::GLCompute,
             types: HashMap::new(),
@@ -121,21 +142,12 @@ impl Module {
             blocks: Vec::new(),
         };
         let mut spec_ids = HashMap::new();
-        let mut rest = all.0.into_iter();
+        let mut rest = instructions(spirv)?.into_iter();
         for instruction in rest.by_ref() {
             match (instruction.class.opcode, instruction.operands.as_slice()) {
                 (Op::Function, _) => break,
                 (Op::EntryPoint, [Operand::ExecutionModel(stage), ..]) => module.stage = *stage,
-                (
-                    Op::Decorate,
-                    [
-                        Operand::IdRef(id),
-                        Operand::Decoration(Decoration::SpecId),
-                        Operand::LiteralBit32(number),
-                    ],
-                ) => {
-                    spec_ids.insert(*id, *number);
-                }
+                (Op::Decorate, _) => spec_ids.extend(spec_id(&instruction)),
                 _ => module.global(&instruction, &spec_ids, specialization)?,
             }
         }

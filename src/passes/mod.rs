@@ -31,7 +31,7 @@ pub use floor::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points};
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
 #[cfg(feature = "counts")]
-pub use instructions::{counts_of, counts_of_pipeline};
+pub use instructions::{Counter, counts_of};
 pub use paper::paper_frame;
 pub use pipelines::Shaders;
 pub use readback::readback;

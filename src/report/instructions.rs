@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write as _};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::count::{Counts, PassCounts};
 
@@ -55,7 +55,7 @@ pub struct InstructionRow {
 }
 
 /// A shader as a driver's compiler made it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct IsaRow {
     /// The device.
     pub device: String,

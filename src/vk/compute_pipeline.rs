@@ -34,6 +34,7 @@ impl ComputePipeline {
         let stage = CompiledStage::new(device, desc.stage)?;
         let constants = stage.specialization();
         let info = vk::ComputePipelineCreateInfo::default()
+            .flags(device.pipeline_flags())
             .stage(stage.info(vk::ShaderStageFlags::COMPUTE, &constants))
             .layout(desc.layout.raw());
         // SAFETY: everything the info points to lives until the call returns and belongs to this device.

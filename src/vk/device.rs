@@ -1,14 +1,11 @@
 //! The logical device, owned or borrowed, with its allocator and its deferred destruction.
 
-use std::{
-    ffi::CString,
-    sync::{
-        Arc, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicBool, AtomicU64, Ordering},
-    },
+use std::sync::{
+    Arc, Mutex, MutexGuard, PoisonError,
+    atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, AllocatorCreateDesc};
 
 use super::{
@@ -17,6 +14,7 @@ use super::{
     facts::{all_facts, facts},
     garbage::{Garbage, Retired},
     instance::Instance,
+    memory::block_sizes,
     result::VkResultExt,
 };
 use crate::error::{Error, ErrorKind, Result};
@@ -39,7 +37,19 @@ struct Shared {
     memory: Mutex<Option<(Allocator, Garbage)>>,
     /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
     queue_taken: AtomicBool,
-    owned: bool,
+    origin: Origin,
+}
+
+/// The epoch before the first submission.
+const FIRST_EPOCH: u64 = 1;
+
+/// Whose device it is, and what more it can be asked.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    /// It is destroyed with us.
+    Ours { executables: bool },
+    /// The host destroys it.
+    Host,
 }
 
 impl Device {
@@ -48,6 +58,18 @@ impl Device {
     /// # Errors
     /// As [`choose`], or whatever the driver answers.
     pub fn new(instance: &Instance, asked: Option<&str>) -> Result<Self> {
+        Self::open(instance, asked, false)
+    }
+
+    /// As [`Self::new`], and all pipelines can be asked what they became ([`super::executables`]), which costs time.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and where the driver lacks the extension.
+    pub fn with_executables(instance: &Instance, asked: Option<&str>) -> Result<Self> {
+        Self::open(instance, asked, true)
+    }
+
+    fn open(instance: &Instance, asked: Option<&str>, executables: bool) -> Result<Self> {
         let mut all = all_facts(instance)?;
         let facts: Vec<_> = all.iter().map(|(_, facts)| facts.clone()).collect();
         let (physical, facts) = all.swap_remove(choose(&facts, asked)?);
@@ -67,17 +89,23 @@ impl Device {
             .dynamic_rendering(true)
             .maintenance4(true)
             .shader_terminate_invocation(true);
+        let mut executable_info = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
+            .pipeline_executable_info(true);
+        let extensions = [khr::pipeline_executable_properties::NAME.as_ptr()];
         let queues =
             [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
-        let info = vk::DeviceCreateInfo::default()
+        let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&core)
             .push_next(&mut features12)
             .push_next(&mut features13);
+        if executables {
+            info = info.enabled_extension_names(&extensions).push_next(&mut executable_info);
+        }
         // SAFETY: `physical` was enumerated from this instance and offers all that is enabled here.
         let raw = unsafe { instance.raw().create_device(physical, &info, None) }
             .of_call("vkCreateDevice", &facts.name)?;
-        Self::assemble(instance, physical, facts, raw, queue_family, features, true)
+        Self::assemble(instance, physical, facts, raw, queue_family, features, Origin::Ours { executables })
     }
 
     /// Takes a host's device, which the host destroys after everything of ours is dropped.
@@ -102,7 +130,15 @@ impl Device {
         if !host.features.large_points {
             facts.limits.point_size_range = [1.0, 1.0];
         }
-        Self::assemble(instance, host.physical, facts, host.raw, host.queue_family, host.features, false)
+        Self::assemble(
+            instance,
+            host.physical,
+            facts,
+            host.raw,
+            host.queue_family,
+            host.features,
+            Origin::Host,
+        )
     }
 
     fn assemble(
@@ -112,8 +148,9 @@ impl Device {
         raw: ash::Device,
         queue_family: u32,
         features: EnabledFeatures,
-        owned: bool,
+        origin: Origin,
     ) -> Result<Self> {
+        let owned = origin != Origin::Host;
         let allocator = Allocator::new(&AllocatorCreateDesc {
             instance: instance.raw().clone(),
             device: raw.clone(),
@@ -138,11 +175,24 @@ impl Device {
             queue_family,
             features,
             names,
-            epoch: AtomicU64::new(1),
+            epoch: AtomicU64::new(FIRST_EPOCH),
             memory: Mutex::new(Some((allocator, Garbage::default()))),
             queue_taken: AtomicBool::new(!owned),
-            owned,
+            origin,
         })))
+    }
+
+    /// Whether pipelines can be asked what they became.
+    pub fn captures_executables(&self) -> bool {
+        self.0.origin == Origin::Ours { executables: true }
+    }
+
+    /// What all pipelines are made with.
+    pub(super) fn pipeline_flags(&self) -> vk::PipelineCreateFlags {
+        match self.captures_executables() {
+            true => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
+            false => vk::PipelineCreateFlags::empty(),
+        }
     }
 
     /// The raw device.
@@ -175,33 +225,9 @@ impl Device {
         self.0.queue_family
     }
 
-    /// Gives an object its debug name.
-    pub(crate) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
-        if let Some(names) = &self.0.names {
-            let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
-            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&text);
-            // A name is a help for people: failing to set one changes nothing.
-            // SAFETY: the object is alive and belongs to this device; the extension is enabled.
-            let _ = unsafe { names.set_debug_utils_object_name(&info) };
-        }
-    }
-
-    /// Begins a debug label in a command buffer; nothing without the debug extension.
-    pub(crate) fn begin_label(&self, commands: vk::CommandBuffer, name: &str) {
-        if let Some(names) = &self.0.names {
-            let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
-            let label = vk::DebugUtilsLabelEXT::default().label_name(&text);
-            // SAFETY: `commands` is recording (every caller records into it); the extension is enabled.
-            unsafe { names.cmd_begin_debug_utils_label(commands, &label) };
-        }
-    }
-
-    /// Ends the label begun last.
-    pub(crate) fn end_label(&self, commands: vk::CommandBuffer) {
-        if let Some(names) = &self.0.names {
-            // SAFETY: as in `begin_label`, which came before.
-            unsafe { names.cmd_end_debug_utils_label(commands) };
-        }
+    /// Names and labels for people, where the extension is enabled.
+    pub(super) fn debug_utils(&self) -> Option<&ext::debug_utils::Device> {
+        self.0.names.as_ref()
     }
 
     /// Ends the epoch in which commands were recorded and returns its number. Whoever submits (our queue, or the
@@ -267,22 +293,14 @@ impl Device {
     }
 }
 
-/// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a
-/// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
-fn block_sizes() -> gpu_allocator::AllocationSizes {
-    const FIRST_BYTES: u64 = 8 << 20;
-    const MOST_BYTES: u64 = 64 << 20;
-    gpu_allocator::AllocationSizes::new(FIRST_BYTES, FIRST_BYTES)
-        .with_max_device_memblock_size(MOST_BYTES)
-        .with_max_host_memblock_size(MOST_BYTES)
-}
-
 impl Drop for Shared {
     fn drop(&mut self) {
         // Every object holds a clone of the `Arc` around this, so all of them are retired by now.
         // A lost device answers with an error and is idle all the same. For a borrowed device the host's
         // contract says that its submissions have finished.
-        if self.owned {
+        let owned = self.origin != Origin::Host;
+        // Where nothing was submitted there is nothing to wait for; RADV without hardware crashes in this call.
+        if owned && *self.epoch.get_mut() > FIRST_EPOCH {
             // SAFETY: the device is alive.
             let _ = unsafe { self.raw.device_wait_idle() };
         }
@@ -292,7 +310,7 @@ impl Drop for Shared {
             unsafe { garbage.collect(u64::MAX, &self.raw, &mut allocator) };
             drop(allocator);
         }
-        if self.owned {
+        if owned {
             // SAFETY: all children are destroyed.
             unsafe { self.raw.destroy_device(None) };
         }

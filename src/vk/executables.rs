@@ -19,8 +19,6 @@ pub struct Executable {
     pub subgroup_size: u32,
     /// Figures by the driver's names: instructions, registers and the like.
     pub statistics: Vec<(String, f64)>,
-    /// Texts by the driver's names: the assembly.
-    pub representations: Vec<(String, String)>,
 }
 
 /// What a pipeline became.
@@ -45,15 +43,11 @@ pub fn executables(device: &Device, pipeline: vk::Pipeline) -> Result<Vec<Execut
         // SAFETY: as above; statistics were captured.
         let statistics = unsafe { api.get_pipeline_executable_statistics(&info) }
             .of_call("vkGetPipelineExecutableStatisticsKHR", name)?;
-        // SAFETY: as above; representations were captured.
-        let texts = unsafe { api.get_pipeline_executable_internal_representations(&info) }
-            .of_call("vkGetPipelineExecutableInternalRepresentationsKHR", name)?;
         found.push(Executable {
             name: text(&properties.name),
             stages: properties.stages,
             subgroup_size: properties.subgroup_size,
             statistics: statistics.iter().map(|one| (text(&one.name), figure(one))).collect(),
-            representations: texts.iter().map(|one| (text(&one.name), String::new())).collect(),
         });
     }
     Ok(found)

@@ -105,6 +105,7 @@ impl GraphicsPipeline {
             .color_attachment_formats(desc.color_formats)
             .depth_attachment_format(desc.depth.map_or(vk::Format::UNDEFINED, |state| state.format));
         let info = vk::GraphicsPipelineCreateInfo::default()
+            .flags(device.pipeline_flags())
             .stages(&stages)
             .vertex_input_state(&vertex_input)
             .input_assembly_state(&assembly)

@@ -1,12 +1,13 @@
 //! `surfel bench counts`: the instructions of every pipeline, by the two rules and as drivers' compilers have them.
 
-use std::collections::HashSet;
+mod isa;
+
+use std::{collections::HashSet, path::PathBuf};
 
 use clap::Args;
-use std::path::PathBuf;
 use surfel::{
     Progress as _, Result, Settings,
-    passes::{PipelineRecipe, PipelineStages, Traits, counts_of_pipeline, frame_pipelines, papers_pipelines},
+    passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
     save,
     scene::{Filter, FilterWeight, KernelEval, Rasterizer, Shading},
@@ -27,6 +28,15 @@ pub struct CountsArguments {
     #[arg(long)]
     pub all: bool,
 
+    /// What compilers of these chips make of every pipeline: RADV's names, such as NAVI21 (RDNA2), VEGA10 (GCN 5), POLARIS10,
+    /// GFX1100; or `here` for the device of this machine. No such chip is needed, but RADV (package mesa-vulkan-drivers)
+    #[arg(long, value_name = "CHIP,...", value_delimiter = ',')]
+    pub isa: Vec<String>,
+
+    /// What a process of ours does for one chip: prints the rows as JSON.
+    #[arg(long, hide = true)]
+    pub isa_rows: bool,
+
     /// Write the counts as CSV
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
@@ -38,6 +48,10 @@ pub struct CountsArguments {
 /// A file that can't be written.
 pub fn run(arguments: &BenchArguments) -> Result<()> {
     let counts = &arguments.counts;
+    if counts.isa_rows {
+        let rows = isa::rows_here(&pipelines(counts.all)?, arguments.device.as_deref())?;
+        return console::print(&to_json(&rows)?);
+    }
     for file in [&arguments.json, &counts.csv].into_iter().flatten() {
         outputs::check_file(file)?;
     }
@@ -45,23 +59,34 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     let pipelines = pipelines(counts.all)?;
     let total = pipelines.len() as u64;
     let mut rows = Vec::new();
+    let mut counter = Counter::default();
     for ((names, recipe), done) in pipelines.into_iter().zip(1..) {
         rows.push(InstructionRow {
             names,
-            counts: counts_of_pipeline(&recipe)?,
+            counts: counter.pipeline(&recipe)?,
             published: recipe.published(),
             isa: Vec::new(),
         });
         bars.step("count", done, total);
     }
-    let report = InstructionReport {
-        surfel: env!("CARGO_PKG_VERSION").to_owned(),
-        rows,
-        notes: vec![
-            "VP/FP: instructions of ARB programs, an upper bound: see benches/INSTRUCTIONS.md".to_owned(),
-            "published: Guennebaud, Barthe, Paulin 2006, table 1".to_owned(),
-        ],
-    };
+    let mut notes = vec![
+        "VP/FP: instructions of ARB programs, an upper bound: see benches/INSTRUCTIONS.md".to_owned(),
+        "published: Guennebaud, Barthe, Paulin 2006, table 1".to_owned(),
+    ];
+    for (chip, done) in counts.isa.iter().zip(1..) {
+        let found = isa::rows_of(chip, counts.all, arguments.device.as_deref())?;
+        for (row, isa) in rows.iter_mut().zip(found) {
+            row.isa.extend(isa);
+        }
+        bars.step("compile", done, counts.isa.len() as u64);
+    }
+    if !counts.isa.is_empty() {
+        notes.push(
+            "chips: as the driver's compiler tells it; latency and throughput are its estimates in cycles"
+                .to_owned(),
+        );
+    }
+    let report = InstructionReport { surfel: env!("CARGO_PKG_VERSION").to_owned(), rows, notes };
     console::print(&report.to_string())?;
     if let Some(path) = &counts.csv {
         save::text(path, &report.csv())?;
