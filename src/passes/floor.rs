@@ -148,11 +148,7 @@ pub fn floor_frame<'a>(
 }
 
 /// The body that draws the points.
-fn draw_points<'a>(
-    inputs: Inputs<'a>,
-    key: GraphicsKey,
-    points: &[FloorPoints<'_>],
-) -> Result<Body<'a>> {
+fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, points: &[FloorPoints<'_>]) -> Result<Body<'a>> {
     let layout = &inputs.shaders.splat_layout;
     let pipeline = inputs.shaders.graphics(key)?;
     let chunks: Vec<_> = points.iter().map(|chunk| (chunk.buffer.id(), chunk.count)).collect();

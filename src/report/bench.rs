@@ -8,8 +8,10 @@ use super::{
     DeviceReport, FloorReport, InputReport, Machine, ThroughputRow, TrustLimits,
     gate::{Gate, GateFigure, GateKind, Judgement},
     grid::Grid,
-    passes_grid, throughput_grid,
+    passes_grid, slides_grid, throughput_grid,
 };
+#[cfg(feature = "counts")]
+use super::{InstructionReport, InstructionRow};
 
 /// Everything that is needed to understand, repeat and judge a benchmark.
 #[derive(Clone, Debug, Serialize)]
@@ -39,6 +41,10 @@ pub struct BenchReport {
     /// `slides`: methods side by side at one number of splats.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slides: Option<ThroughputRow>,
+    /// `counts`: the instructions of every pipeline.
+    #[cfg(feature = "counts")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub counts: Option<InstructionReport>,
     /// Why figures are doubtful, a sentence each; empty where they are not.
     pub flags: Vec<String>,
     /// What a later run is judged by.
@@ -59,6 +65,7 @@ impl BenchReport {
         }
         if let Some(row) = &self.slides {
             let rows = std::slice::from_ref(row);
+            grids.push(slides_grid(row));
             grids.push(throughput_grid("the slides' methods: throughput", rows));
             grids.push(passes_grid("the slides' methods: where the time goes", rows));
         }
@@ -71,6 +78,10 @@ impl BenchReport {
         let mut text = format!("{name} ({driver}); {} frames of each, in turn\n", self.frames);
         for grid in self.grids() {
             text += &format!("\n{grid}");
+        }
+        #[cfg(feature = "counts")]
+        if let Some(counts) = &self.counts {
+            text += &format!("\n{counts}");
         }
         for flag in &self.flags {
             text += &format!("note: {flag}\n");
@@ -109,6 +120,10 @@ pub fn throughput_gate(table: &str, rows: &[ThroughputRow]) -> Vec<GateFigure> {
             for (pass, over) in passes.zip(&method.over_floor) {
                 figures.extend(GateFigure::time(name(&format!("{pass}, x floor")), over.as_ref()));
             }
+            #[cfg(feature = "counts")]
+            for pass in &method.instructions {
+                figures.extend(instruction_figures(&name(&pass.pass), pass));
+            }
             for pass in &method.frames.passes {
                 let count = |what: &str, count| {
                     GateFigure::count(name(&format!("{}, {what}", pass.name)), GateKind::Work, count)
@@ -132,4 +147,45 @@ pub fn floor_gate(floor: &FloorReport) -> Vec<GateFigure> {
         GateFigure::count(format!("floor, {}, fragments", row.name), GateKind::Work, row.fragments)
     };
     floor.rows.iter().flat_map(|row| [time(row), work(row)]).flatten().collect()
+}
+
+/// The figures by which the instructions of all pipelines are judged.
+#[cfg(feature = "counts")]
+pub fn counts_gate(counts: &InstructionReport) -> Vec<GateFigure> {
+    let of = |row: &InstructionRow| {
+        let names = &row.names;
+        let parts = [
+            &names.pass,
+            &names.draws,
+            &names.rasterizer,
+            &names.filter,
+            &names.kernel_eval,
+            &names.early_depth,
+            &names.shading,
+            &names.splats,
+            &names.shaders,
+        ];
+        let parts: Vec<&str> =
+            parts.into_iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
+        instruction_figures(&format!("counts, {}", parts.join(" ")), &row.counts)
+    };
+    counts.rows.iter().flat_map(of).collect()
+}
+
+/// Each stage's instructions, by both rules.
+#[cfg(feature = "counts")]
+fn instruction_figures(name: &str, counts: &crate::count::PassCounts) -> Vec<GateFigure> {
+    let stages = [("vertex", &counts.vertex), ("fragment", &counts.fragment), ("compute", &counts.compute)];
+    let figure = |stage: &str, rule: &str, count: Option<u32>| {
+        let name = format!("{name}, {stage} stage, {rule} instructions");
+        GateFigure::count(name, GateKind::Instructions, count.map(u64::from))
+    };
+    stages
+        .into_iter()
+        .filter_map(|(stage, counts)| counts.as_ref().map(|counts| (stage, counts)))
+        .flat_map(|(stage, counts)| {
+            [figure(stage, "ARB", counts.arb), figure(stage, "scalar", Some(counts.scalar))]
+        })
+        .flatten()
+        .collect()
 }

@@ -9,8 +9,6 @@ use crate::count::{Counts, PassCounts};
 /// The instructions of all pipelines.
 #[derive(Clone, Debug, Serialize)]
 pub struct InstructionReport {
-    /// The version of surfel.
-    pub surfel: String,
     /// One row a pipeline.
     pub rows: Vec<InstructionRow>,
     /// What a reader has to know, a sentence each.

@@ -18,6 +18,7 @@ mod options;
 #[cfg(feature = "compare")]
 mod plot;
 mod run;
+mod slides;
 mod spread;
 mod table;
 mod throughput;
@@ -27,6 +28,8 @@ mod trust;
 #[cfg(feature = "compare")]
 pub mod zoom;
 
+#[cfg(feature = "counts")]
+pub use bench::counts_gate;
 pub use bench::{BenchReport, floor_gate, throughput_gate};
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
@@ -35,6 +38,7 @@ pub use grid::{Grid, NONE, cell, count_cell};
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
+pub use slides::{SLIDES, Slide, slides_grid};
 pub use spread::Spread;
 pub use throughput::{
     Measured, MethodThroughput, PAPER_SPLATS, PaperThroughput, ThroughputRow, paper_throughput, passes_grid,

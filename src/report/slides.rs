@@ -2,8 +2,9 @@
 //! methods beside what they cost here.
 
 use super::{
-    MethodThroughput, ThroughputRow,
-    grid::{Grid, NONE, cell},
+    ThroughputRow,
+    grid::{Grid, cell},
+    throughput::instructions_cell,
 };
 
 /// What the slides say of a method.
@@ -62,7 +63,7 @@ pub fn slides_grid(row: &ThroughputRow) -> Grid {
             slide.ewa.to_owned(),
             slide.incremental.to_owned(),
             said,
-            accumulate_instructions(method),
+            instructions_cell(method, "accumulate"),
             ms("visibility"),
             ms("accumulate"),
             cell(method.frames.sum_of_passes_ms.map(|ms| ms.median), 2),
@@ -74,10 +75,4 @@ pub fn slides_grid(row: &ThroughputRow) -> Grid {
             .to_owned(),
     );
     grid
-}
-
-/// Paper-comparable instructions of accumulation, as `58/3`.
-fn accumulate_instructions(method: &MethodThroughput) -> String {
-    let counts = method.instructions.iter().find(|counts| counts.pass == "accumulate");
-    counts.map_or_else(|| NONE.to_owned(), |counts| counts.vertex_and_fragment())
 }

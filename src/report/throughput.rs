@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     FrameSample, FrameTimes, Spread,
-    grid::{Grid, cell, count_cell},
+    grid::{Grid, NONE, cell, count_cell},
 };
 
 /// One number of splats.
@@ -38,6 +38,9 @@ pub struct MethodThroughput {
     pub fps: Option<f64>,
     /// Million splats a second, drawn or culled.
     pub million_splats_per_sec: Option<f64>,
+    /// The instructions of its passes.
+    #[cfg(feature = "counts")]
+    pub instructions: Vec<crate::count::PassCounts>,
     /// What the paper has for it at about this number of splats.
     pub paper: Option<PaperThroughput>,
 }
@@ -79,6 +82,9 @@ pub struct Measured<'a> {
     pub rounds: &'a [Vec<FrameSample>],
     /// Vertices and fragments of each pass.
     pub counts: &'a [Option<[u64; 2]>],
+    /// Instructions of its passes, where they were counted.
+    #[cfg(feature = "counts")]
+    pub instructions: &'a [crate::count::PassCounts],
 }
 
 impl Measured<'_> {
@@ -136,6 +142,8 @@ impl ThroughputRow {
                         }
                     })
                     .collect(),
+                #[cfg(feature = "counts")]
+                instructions: measured.instructions.to_vec(),
                 fps: secs.map(|secs| 1.0 / secs),
                 million_splats_per_sec: secs.map(|secs| 1e-6 * splats as f64 / secs),
                 paper: paper.and_then(|both| both.get(number).copied()),
@@ -211,22 +219,74 @@ pub fn throughput_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
 
 /// Every pass of every method: where the time goes. The floor's passes follow each number of splats.
 pub fn passes_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
-    let head = ["splats", "method", "pass", "ms", "min", "max", "x floor", "vertices", "fragments"];
+    let head = [
+        "splats",
+        "method",
+        "pass",
+        "ms",
+        "min",
+        "max",
+        "x floor",
+        "vertices",
+        "fragments",
+        "VP/FP",
+        "(paper)",
+    ];
     let mut grid = Grid::new(title, &head);
     for row in rows {
-        for method in &row.methods {
-            rows_of(&mut grid, row.splats, &method.name, &method.frames, &method.over_floor);
+        for (number, method) in row.methods.iter().enumerate() {
+            let own =
+                |pass: &str| [instructions_cell(method, pass), paper_instructions(method, number, pass)];
+            rows_of(
+                &mut grid,
+                [&row.splats.to_string(), &method.name],
+                &method.frames,
+                &method.over_floor,
+                &own,
+            );
         }
-        rows_of(&mut grid, row.splats, "floor", &row.floor, &[]);
+        let none = |_: &str| [NONE.to_owned(), String::new()];
+        rows_of(&mut grid, [&row.splats.to_string(), "floor"], &row.floor, &[], &none);
     }
+    grid.notes.push("VP/FP: instructions of the pass's programs, counted as the paper does".to_owned());
     grid
 }
 
-fn rows_of(grid: &mut Grid, splats: u64, name: &str, frames: &FrameTimes, over_floor: &[Option<Spread>]) {
+/// What the paper has for a method's passes: vertex and fragment program of visibility, then of accumulation.
+const PAPER_INSTRUCTIONS: [[&str; 2]; 2] = [["46/3", "58/3"], ["34/9", "35/13"]];
+
+/// The paper's instructions where it has the method.
+fn paper_instructions(method: &MethodThroughput, number: usize, pass: &str) -> String {
+    let column = ["visibility", "accumulate"].iter().position(|name| *name == pass);
+    let known = method.paper.and(PAPER_INSTRUCTIONS.get(number)).zip(column);
+    known.map_or_else(String::new, |(passes, column)| format!("({})", passes[column]))
+}
+
+/// The instructions of a pass, as `46/3`.
+#[cfg(feature = "counts")]
+pub(super) fn instructions_cell(method: &MethodThroughput, pass: &str) -> String {
+    let counts = method.instructions.iter().find(|counts| counts.pass == pass);
+    counts.map_or_else(|| NONE.to_owned(), |counts| counts.vertex_and_fragment())
+}
+
+/// Nothing is counted.
+#[cfg(not(feature = "counts"))]
+pub(super) fn instructions_cell(_: &MethodThroughput, _: &str) -> String {
+    NONE.to_owned()
+}
+
+fn rows_of(
+    grid: &mut Grid,
+    [splats, name]: [&str; 2],
+    frames: &FrameTimes,
+    over_floor: &[Option<Spread>],
+    instructions: &dyn Fn(&str) -> [String; 2],
+) {
     for (i, pass) in frames.passes.iter().enumerate() {
         let over = over_floor.get(i).copied().flatten();
+        let [own, paper] = instructions(&pass.name);
         grid.row([
-            splats.to_string(),
+            splats.to_owned(),
             name.to_owned(),
             pass.name.clone(),
             cell(pass.ms.map(|ms| ms.median), 2),
@@ -235,6 +295,8 @@ fn rows_of(grid: &mut Grid, splats: u64, name: &str, frames: &FrameTimes, over_f
             cell(over.map(|spread| spread.median), 2),
             count_cell(pass.vertices),
             count_cell(pass.fragments),
+            own,
+            paper,
         ]);
     }
 }
@@ -247,7 +309,7 @@ fn bracketed(figure: Option<f64>, decimals: usize) -> String {
 fn interval_cell(spread: Option<&Spread>) -> String {
     match spread.and_then(|spread| spread.interval) {
         Some([low, high]) => format!("{low:.2} to {high:.2}"),
-        None => super::grid::NONE.to_owned(),
+        None => NONE.to_owned(),
     }
 }
 
@@ -270,7 +332,14 @@ mod tests {
         let names = ["visibility", "accumulate", "finalize"].map(str::to_owned);
         let counts = [Some([7, 70]); 3];
         let all = [rounds(2.0), rounds(3.0), rounds(1.0)];
-        let measured = |name, i: usize| Measured { name, passes: &names, rounds: &all[i], counts: &counts };
+        let measured = |name, i: usize| Measured {
+            name,
+            passes: &names,
+            rounds: &all[i],
+            counts: &counts,
+            #[cfg(feature = "counts")]
+            instructions: &[],
+        };
         let methods = [measured("perspective", 0), measured("raycast", 1)];
         ThroughputRow::of(154_000, &methods, &measured("floor", 2), [1_000_000, 500_000])
     }

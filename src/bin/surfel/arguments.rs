@@ -7,7 +7,6 @@ use clap::{Args, Parser, Subcommand};
 use crate::{
     bench::BenchArguments,
     compare::CompareArguments,
-    counts::CountsArguments,
     figure::FigureArguments,
     parse,
     picture_arguments::PictureArguments,

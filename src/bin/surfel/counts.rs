@@ -2,22 +2,20 @@
 
 mod isa;
 
-use std::{collections::HashSet, path::PathBuf};
+use std::collections::HashSet;
 
 use clap::Args;
 use surfel::{
     Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
-    save,
     scene::{Filter, FilterWeight, KernelEval, Rasterizer, Shading},
 };
 
 use crate::{
-    arguments::BenchArguments,
+    bench::BenchArguments,
     console::{self, Bars},
     json::to_json,
-    outputs,
 };
 
 /// Options of `surfel bench counts` alone.
@@ -36,26 +34,23 @@ pub struct CountsArguments {
     /// What a process of ours does for one chip: prints the rows as JSON.
     #[arg(long, hide = true)]
     pub isa_rows: bool,
-
-    /// Write the counts as CSV
-    #[arg(long, value_name = "FILE.csv")]
-    pub csv: Option<PathBuf>,
 }
 
-/// Runs the subcommand.
+/// What a process of ours does for one chip.
 ///
 /// # Errors
-/// A file that can't be written.
-pub fn run(arguments: &BenchArguments) -> Result<()> {
+/// As [`isa::rows_here`].
+pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
+    let rows = isa::rows_here(&pipelines(arguments.counts.all)?, arguments.device.as_deref())?;
+    console::print(&to_json(&rows)?)
+}
+
+/// Counts every pipeline.
+///
+/// # Errors
+/// A chip that no compiler here knows.
+pub fn gather(arguments: &BenchArguments, bars: &Bars) -> Result<InstructionReport> {
     let counts = &arguments.counts;
-    if counts.isa_rows {
-        let rows = isa::rows_here(&pipelines(counts.all)?, arguments.device.as_deref())?;
-        return console::print(&to_json(&rows)?);
-    }
-    for file in [&arguments.json, &counts.csv].into_iter().flatten() {
-        outputs::check_file(file)?;
-    }
-    let bars = Bars::new();
     let pipelines = pipelines(counts.all)?;
     let total = pipelines.len() as u64;
     let mut rows = Vec::new();
@@ -86,15 +81,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
                 .to_owned(),
         );
     }
-    let report = InstructionReport { surfel: env!("CARGO_PKG_VERSION").to_owned(), rows, notes };
-    console::print(&report.to_string())?;
-    if let Some(path) = &counts.csv {
-        save::text(path, &report.csv())?;
-    }
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
-    }
-    Ok(())
+    Ok(InstructionReport { rows, notes })
 }
 
 /// The pipelines of all methods, each once, and those of the papers' own programs.

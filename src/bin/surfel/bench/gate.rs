@@ -6,7 +6,7 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     report::{
-        BenchReport, floor_gate,
+        BenchReport, counts_gate, floor_gate,
         gate::{Gate, Judgement, Verdict},
         throughput_gate,
     },
@@ -47,6 +47,7 @@ pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
     let mut figures = throughput_gate("table1", &report.table1);
     figures.extend(report.slides.iter().flat_map(|row| throughput_gate("slides", std::slice::from_ref(row))));
     figures.extend(report.floor.iter().flat_map(floor_gate));
+    figures.extend(report.counts.iter().flat_map(counts_gate));
     Gate {
         subject: subject(arguments, Some(report)),
         circumstances: circumstances.map(|(name, value)| (name.to_owned(), value)).into(),
@@ -107,6 +108,9 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
         let splats: Vec<String> = arguments.splats.iter().map(u64::to_string).collect();
         let splats = if splats.is_empty() { "default".to_owned() } else { splats.join(",") };
         subject.insert("splats".to_owned(), splats);
+    }
+    if tables.counts {
+        subject.insert("all pipelines".to_owned(), arguments.counts.all.to_string());
     }
     if let Some(report) = report {
         let inputs: Vec<&str> = report.inputs.iter().map(|input| input.summary.as_str()).collect();

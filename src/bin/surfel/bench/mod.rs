@@ -21,6 +21,7 @@ pub use arguments::BenchArguments;
 use crate::{
     cache,
     console::{self, Bars},
+    counts,
     machine::Watch,
     reports::device_report,
     validation,
@@ -43,6 +44,9 @@ struct Stage<'a> {
 /// # Errors
 /// Whatever goes wrong; a regression, where there is a baseline; doubtful figures, where they are refused.
 pub fn run(arguments: &BenchArguments) -> Result<()> {
+    if arguments.counts.isa_rows {
+        return counts::print_isa_rows(arguments);
+    }
     let settings = arguments.settings();
     settings.validate()?;
     outputs::check(arguments)?;
@@ -69,8 +73,10 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
         let slides = tables.slides.then(|| slides::measure(&mut headless, &mut stage)).transpose()?;
         Ok((floor, rows, slides))
     });
+    let counts = tables.counts.then(|| counts::gather(arguments, &stage.bars)).transpose();
     stage.bars.clear();
     let (floor, table1, slides) = all?;
+    let counts = counts?;
 
     let machine = watch.end();
     let mut flags = machine.flags(&limits);
@@ -87,6 +93,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
         floor,
         table1,
         slides,
+        counts,
         flags,
         gate: surfel::report::gate::Gate::default(),
         judgement: None,

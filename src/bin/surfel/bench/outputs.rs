@@ -27,12 +27,14 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// The files of `--csv`, and how the titles of their tables begin.
-const TABLES: [(&str, &str); 5] = [
+const TABLES: [(&str, &str); 7] = [
     ("floor.csv", "floor: "),
     ("table1.csv", "table 1: throughput"),
     ("table1-passes.csv", "table 1: where"),
-    ("slides.csv", "the slides' methods: throughput"),
+    ("slides.csv", "the slides' methods, "),
+    ("slides-throughput.csv", "the slides' methods: throughput"),
     ("slides-passes.csv", "the slides' methods: where"),
+    ("counts.csv", "counts: "),
 ];
 
 /// Writes them.
@@ -55,6 +57,9 @@ pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
             if let Some((name, _)) = TABLES.iter().find(|(_, title)| grid.title.starts_with(title)) {
                 save::text(&folder.join(name), &grid.csv())?;
             }
+        }
+        if let Some(counts) = &report.counts {
+            save::text(&folder.join("counts.csv"), &counts.csv())?;
         }
     }
     Ok(())

@@ -4,6 +4,7 @@
 use surfel::{
     Result,
     graph::execute::Profile,
+    passes::counts_of,
     renderer::{Floor, Headless},
     report::{Measured, ThroughputRow, drift_flag, spread_flag},
     scene::{Camera, Rasterizer, Settings},
@@ -62,14 +63,19 @@ pub fn row(
     let timed = turns::take(headless, contestants, stage.arguments.frames, &task, &stage.bars);
     let timed: Vec<turns::Timed> = timed.into_iter().collect::<Result<_>>()?;
 
+    let instructions: Vec<_> =
+        methods.iter().map(|(_, settings)| counts_of(settings)).collect::<Result<_>>()?;
     let names = methods.iter().map(|(name, _)| name.as_str()).chain(["floor"]);
+    let instructions = instructions.iter().map(Vec::as_slice).chain([&[][..]]);
     let measured: Vec<Measured<'_>> = names
         .zip(&timed)
-        .map(|(name, timed)| Measured {
+        .zip(instructions)
+        .map(|((name, timed), instructions)| Measured {
             name,
             passes: &timed.names,
             rounds: &timed.rounds,
             counts: &timed.counts,
+            instructions,
         })
         .collect();
     let Some((floor, methods)) = measured.split_last() else {
