@@ -118,6 +118,21 @@ fn what_the_layer_says_fails_the_case_during_which_it_is_said() {
     assert_eq!(results.len(), 7);
 }
 
+#[test]
+fn what_the_layer_says_outside_of_cases_can_be_known_and_is_no_other_cases() {
+    let headless = headless();
+    let device = headless.device().clone();
+    let list = "skip device # the loader's own layers talk\n";
+    for result in results(headless, SPHERE, list, &mut |case| {
+        if case.starts_with("device") {
+            record_what_is_not_allowed(&device);
+        }
+    }) {
+        let expected = if result.name == SPHERE { Status::Pass } else { Status::Skip };
+        assert_eq!(result.status, expected, "{}", result.line());
+    }
+}
+
 /// A fill of a buffer that was not made for that; never submitted.
 fn record_what_is_not_allowed(device: &Device) {
     let desc = BufferDesc { name: "the buffer", size: 4096, usage: vk::BufferUsageFlags::TRANSFER_SRC };

@@ -92,6 +92,10 @@ impl Run<'_> {
             result.settings = settings_as_options(&drawing.settings);
         }
         if let Some(why) = self.why_not(case, entry) {
+            if case.is_always_run() {
+                // Done, but not judged: what the layer says of it is no other case's.
+                self.attempt(case);
+            }
             (result.status, result.reason) = (Status::Skip, Some(why));
             return result;
         }
