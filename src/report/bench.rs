@@ -14,22 +14,22 @@ use super::{
 use super::{InstructionReport, InstructionRow};
 
 /// Everything that is needed to understand, repeat and judge a benchmark.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct BenchReport {
     /// The version of surfel.
     pub surfel: String,
     /// The commit that it was built from; `None` outside of a checkout.
     pub commit: Option<String>,
-    /// What it ran on.
-    pub device: DeviceReport,
+    /// What it ran on; `None` where nothing was timed.
+    pub device: Option<DeviceReport>,
     /// The settings that all methods share, by the names of their options.
     pub settings: BTreeMap<&'static str, String>,
     /// What was drawn.
     pub inputs: Vec<InputReport>,
     /// Frames timed of each method.
     pub frames: u32,
-    /// What the machine did meanwhile.
-    pub machine: Machine,
+    /// What the machine did meanwhile; `None` where nothing was timed.
+    pub machine: Option<Machine>,
     /// Beyond which figures are flagged.
     pub limits: TrustLimits,
     /// `floor`: the three passes against the floor under them.
@@ -74,14 +74,18 @@ impl BenchReport {
 
     /// As text: what it ran on, every table, the flags, the judgement.
     pub fn text(&self) -> String {
-        let DeviceReport { name, driver, .. } = &self.device;
-        let mut text = format!("{name} ({driver}); {} frames of each, in turn\n", self.frames);
-        for grid in self.grids() {
-            text += &format!("\n{grid}");
-        }
+        let mut text = match &self.device {
+            Some(DeviceReport { name, driver, .. }) => {
+                format!("{name} ({driver}); {} frames of each, in turn\n\n", self.frames)
+            }
+            None => String::new(),
+        };
+        let grids: Vec<String> = self.grids().iter().map(Grid::to_string).collect();
+        text += &grids.join("\n");
         #[cfg(feature = "counts")]
         if let Some(counts) = &self.counts {
-            text += &format!("\n{counts}");
+            let gap = if text.is_empty() { "" } else { "\n" };
+            text += &format!("{gap}{counts}");
         }
         for flag in &self.flags {
             text += &format!("note: {flag}\n");
@@ -94,14 +98,19 @@ impl BenchReport {
 
     /// As Markdown.
     pub fn markdown(&self) -> String {
-        let DeviceReport { name, driver, api_version, .. } = &self.device;
         let commit = self.commit.as_ref().map_or_else(String::new, |commit| format!(" ({commit})"));
-        let mut text = format!(
-            "surfel {}{commit} on {name}, {driver}, Vulkan {api_version}; {} frames of each, in turn.\n",
-            self.surfel, self.frames
-        );
+        let mut text = format!("surfel {}{commit}", self.surfel);
+        if let Some(DeviceReport { name, driver, api_version, .. }) = &self.device {
+            let frames = self.frames;
+            text += &format!(" on {name}, {driver}, Vulkan {api_version}; {frames} frames of each, in turn");
+        }
+        text += ".\n";
         for grid in self.grids() {
             text += &format!("\n{}", grid.markdown());
+        }
+        #[cfg(feature = "counts")]
+        if let Some(counts) = &self.counts {
+            text += &format!("\n```\n{counts}```\n");
         }
         for flag in &self.flags {
             text += &format!("\nNote: {flag}.\n");

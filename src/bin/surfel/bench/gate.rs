@@ -6,7 +6,7 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     report::{
-        BenchReport, counts_gate, floor_gate,
+        BenchReport, DeviceReport, counts_gate, floor_gate,
         gate::{Gate, Judgement, Verdict},
         throughput_gate,
     },
@@ -38,9 +38,12 @@ pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
 
 /// What a later run is judged by.
 pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
+    let device = |of: fn(&DeviceReport) -> &String| {
+        report.device.as_ref().map_or_else(|| "none".to_owned(), |device| of(device).clone())
+    };
     let circumstances = [
-        ("device", report.device.name.clone()),
-        ("driver", report.device.driver.clone()),
+        ("device", device(|device| &device.name)),
+        ("driver", device(|device| &device.driver)),
         ("surfel", report.surfel.clone()),
         ("commit", report.commit.clone().unwrap_or_else(|| "unknown".to_owned())),
     ];

@@ -8,12 +8,14 @@ mod outputs;
 mod slides;
 mod table1;
 
+use std::sync::Arc;
+
 use surfel::{
     Result,
     renderer::{Headless, HeadlessOptions},
     report::{BenchReport, InputReport, TrustLimits, settings_as_options},
     scene::Settings,
-    vk::Validation,
+    vk::{Messages, Validation},
 };
 
 pub use arguments::BenchArguments;
@@ -51,59 +53,63 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     settings.validate()?;
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
+    let limits = TrustLimits { uncertainty: 0.01 * arguments.max_spread, ..TrustLimits::default() };
+    let mut report = BenchReport {
+        surfel: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: option_env!("SURFEL_COMMIT").map(str::to_owned),
+        settings: settings_as_options(&settings),
+        frames: arguments.frames,
+        limits,
+        ..BenchReport::default()
+    };
+    let mut stage =
+        Stage { arguments, settings, bars: Bars::new(), inputs: Vec::new(), flags: Vec::new(), limits };
+    let tables = arguments.table.tables();
+    // Instructions are counted without a device.
+    let done = match tables.floor || tables.table1 || tables.slides {
+        true => measure(&mut stage, &mut report).map(Some),
+        false => Ok(None),
+    };
+    let counts = tables.counts.then(|| counts::gather(arguments, &stage.bars)).transpose();
+    stage.bars.clear();
+    let messages = done?;
+    report.counts = counts?;
+    report.gate = gate::gate(arguments, &report);
+    report.judgement = baseline.map(|before| gate::judge(arguments, &report.gate, &before)).transpose()?;
+    console::print(&report.text())?;
+    outputs::write(arguments, &report)?;
+    if let (true, Some(messages)) = (arguments.validate, messages) {
+        validation::conclude(&messages)?;
+    }
+    gate::conclude(arguments, &report)
+}
+
+/// Measures the tables whose figures are times. Answers with what the validation layer said.
+fn measure(stage: &mut Stage<'_>, report: &mut BenchReport) -> Result<Arc<Messages>> {
+    let arguments = stage.arguments;
     let mut headless = Headless::new(&HeadlessOptions {
         validation: if arguments.validate { Validation::On } else { Validation::Off },
         device: arguments.device.clone(),
         cache_folder: cache::folder(),
     })?;
-    headless.renderer.check_settings(&settings)?;
+    headless.renderer.check_settings(&stage.settings)?;
     let facts = headless.device().facts().clone();
-    let limits = TrustLimits { uncertainty: 0.01 * arguments.max_spread, ..TrustLimits::default() };
-    let mut stage =
-        Stage { arguments, settings, bars: Bars::new(), inputs: Vec::new(), flags: Vec::new(), limits };
-
+    report.device = Some(device_report(&facts));
     let watch = Watch::begin(&facts);
     let tables = arguments.table.tables();
-    let floor = tables.floor.then(|| floor::measure(&mut headless, &mut stage)).transpose();
-    let table1 = floor.and_then(|floor| {
-        let rows = if tables.table1 { table1::measure(&mut headless, &mut stage)? } else { Vec::new() };
-        Ok((floor, rows))
-    });
-    let all = table1.and_then(|(floor, rows)| {
-        let slides = tables.slides.then(|| slides::measure(&mut headless, &mut stage)).transpose()?;
-        Ok((floor, rows, slides))
-    });
-    let counts = tables.counts.then(|| counts::gather(arguments, &stage.bars)).transpose();
-    stage.bars.clear();
-    let (floor, table1, slides) = all?;
-    let counts = counts?;
-
-    let machine = watch.end();
-    let mut flags = machine.flags(&limits);
-    flags.append(&mut stage.flags);
-    let mut report = BenchReport {
-        surfel: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("SURFEL_COMMIT").map(str::to_owned),
-        device: device_report(&facts),
-        settings: settings_as_options(&stage.settings),
-        inputs: stage.inputs,
-        frames: arguments.frames,
-        machine,
-        limits,
-        floor,
-        table1,
-        slides,
-        counts,
-        flags,
-        gate: surfel::report::gate::Gate::default(),
-        judgement: None,
-    };
-    report.gate = gate::gate(arguments, &report);
-    report.judgement = baseline.map(|before| gate::judge(arguments, &report.gate, &before)).transpose()?;
-    console::print(&report.text())?;
-    outputs::write(arguments, &report)?;
-    if arguments.validate {
-        validation::conclude(&headless.device().instance().messages())?;
+    if tables.floor {
+        report.floor = Some(floor::measure(&mut headless, stage)?);
     }
-    gate::conclude(arguments, &report)
+    if tables.table1 {
+        report.table1 = table1::measure(&mut headless, stage)?;
+    }
+    if tables.slides {
+        report.slides = Some(slides::measure(&mut headless, stage)?);
+    }
+    let machine = watch.end();
+    report.flags = machine.flags(&stage.limits);
+    report.flags.append(&mut stage.flags);
+    report.inputs = std::mem::take(&mut stage.inputs);
+    report.machine = Some(machine);
+    Ok(headless.device().instance().messages())
 }

@@ -49,7 +49,8 @@ pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
         save::text(path, &report.markdown())?;
     }
     if let Some(path) = &arguments.plot {
-        save::text(path, &throughput_plot(&report.table1, &report.device.name)?)?;
+        let name = report.device.as_ref().map_or("", |device| device.name.as_str());
+        save::text(path, &throughput_plot(&report.table1, name)?)?;
     }
     if let Some(folder) = &arguments.csv {
         std::fs::create_dir_all(folder).map_err(|e| Error::file(folder, "write", e))?;
