@@ -10,12 +10,15 @@
 
 mod arb;
 mod fold;
+mod listed;
 mod live;
 mod module;
 mod numbering;
 mod patterns;
+mod reader;
 mod scalar;
 mod specialize;
+mod tally;
 #[cfg(test)]
 mod tests;
 
@@ -94,7 +97,7 @@ impl PassCounts {
 /// # Errors
 /// A sentence, where the words are not SPIR-V.
 pub fn constant_numbers(spirv: &[u32]) -> Result<Vec<u32>, String> {
-    module::constant_numbers(spirv)
+    reader::constant_numbers(spirv)
 }
 
 /// Counts a shader as a pipeline with these specialization constants (id, 32-bit pattern) has it.
@@ -106,7 +109,7 @@ pub fn count(spirv: &[u32], constants: &[(u32, u32)]) -> Result<Counts, String> 
     let module = Module::parse(spirv, constants)?;
     let specialized = specialize::specialize(&module)?;
     let live = live::live(&specialized);
-    let mut counts = arb::count(&specialized, &live)?;
+    let mut counts = tally::count(&specialized, &live)?;
     counts.scalar = scalar::count(&specialized, &live)?;
     Ok(counts)
 }

@@ -1,16 +1,17 @@
 //! A module as rspirv parses it, arranged for counting: types, constants with their values, the blocks of its one function.
-//!
-//! rspirv's own loader refuses `OpExecutionModeId`, which compute shaders have in SPIR-V 1.6; its parser does not.
 
 use std::collections::{HashMap, HashSet};
 
 use rspirv::{
-    binary::{Consumer, ParseAction, parse_words},
-    dr::{Instruction, ModuleHeader, Operand},
-    spirv::{Decoration, ExecutionModel, Op, StorageClass},
+    dr::{Instruction, Operand},
+    spirv::{ExecutionModel, Op, StorageClass},
 };
 
-use super::{fold, numbering::has_effect};
+use super::{
+    fold,
+    numbering::has_effect,
+    reader::{instructions, spec_id},
+};
 
 /// An id of SPIR-V.
 pub type Id = u32;
@@ -68,28 +69,6 @@ pub struct Module {
     pub blocks: Vec<Block>,
 }
 
-#[derive(Default)]
-struct Collector(Vec<Instruction>);
-
-impl Consumer for Collector {
-    fn initialize(&mut self) -> ParseAction {
-        ParseAction::Continue
-    }
-
-    fn finalize(&mut self) -> ParseAction {
-        ParseAction::Continue
-    }
-
-    fn consume_header(&mut self, _: ModuleHeader) -> ParseAction {
-        ParseAction::Continue
-    }
-
-    fn consume_instruction(&mut self, instruction: Instruction) -> ParseAction {
-        self.0.push(instruction);
-        ParseAction::Continue
-    }
-}
-
 /// The ids among the operands, in order.
 pub fn ids(instruction: &Instruction) -> impl Iterator<Item = Id> {
     instruction.operands.iter().filter_map(|operand| match operand {
@@ -104,29 +83,6 @@ pub fn literals(instruction: &Instruction) -> impl Iterator<Item = u32> {
         Operand::LiteralBit32(number) | Operand::LiteralExtInstInteger(number) => Some(*number),
         _ => None,
     })
-}
-
-/// The numbers of a module's specialization constants.
-pub fn constant_numbers(spirv: &[u32]) -> Result<Vec<u32>, String> {
-    let numbers = instructions(spirv)?.into_iter().filter_map(|instruction| spec_id(&instruction));
-    Ok(numbers.map(|(_, number)| number).collect())
-}
-
-fn instructions(spirv: &[u32]) -> Result<Vec<Instruction>, String> {
-    let mut all = Collector::default();
-    parse_words(spirv, &mut all).map_err(|state| format!("not SPIR-V: {state}"))?;
-    Ok(all.0)
-}
-
-/// The constant that an instruction makes one of specialization, and its number.
-fn spec_id(instruction: &Instruction) -> Option<(Id, u32)> {
-    match (instruction.class.opcode, instruction.operands.as_slice()) {
-        (
-            Op::Decorate,
-            [Operand::IdRef(id), Operand::Decoration(Decoration::SpecId), Operand::LiteralBit32(number)],
-        ) => Some((*id, *number)),
-        _ => None,
-    }
 }
 
 impl Module {

@@ -184,9 +184,12 @@ enum Operand {
     Opaque(Id),
 }
 
+/// What is computed: the operation, its type, its literal numbers and its operands.
+type Computation = (Op, Option<Id>, Vec<u32>, Vec<Operand>);
+
 /// Makes each value that repeats an earlier one stand for it.
 pub fn share_equal_values(specialized: &mut Specialized<'_>) {
-    let mut seen: HashMap<(Op, Option<Id>, Vec<u32>, Vec<Operand>), Id> = HashMap::new();
+    let mut seen: HashMap<Computation, Id> = HashMap::new();
     let blocks: Vec<_> = specialized.blocks().collect();
     for block in blocks {
         for instruction in &block.body {

@@ -4,12 +4,14 @@
 mod explain;
 mod floor;
 mod headless;
+mod paper;
 
 use ash::vk;
 
 pub use explain::{ExplainedChunk, ExplainedPass, ExplainedUse, Explanation};
 pub use floor::Floor;
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
+pub use paper::draw_as_published;
 
 use crate::{
     error::{Error, Result},

@@ -45,7 +45,7 @@ const FIRST_EPOCH: u64 = 1;
 
 /// Whose device it is, and what more it can be asked.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Origin {
+pub(super) enum Origin {
     /// It is destroyed with us.
     Ours { executables: bool },
     /// The host destroys it.
@@ -61,15 +61,7 @@ impl Device {
         Self::open(instance, asked, false)
     }
 
-    /// As [`Self::new`], and all pipelines can be asked what they became ([`super::executables`]), which costs time.
-    ///
-    /// # Errors
-    /// As [`Self::new`], and where the driver lacks the extension.
-    pub fn with_executables(instance: &Instance, asked: Option<&str>) -> Result<Self> {
-        Self::open(instance, asked, true)
-    }
-
-    fn open(instance: &Instance, asked: Option<&str>, executables: bool) -> Result<Self> {
+    pub(super) fn open(instance: &Instance, asked: Option<&str>, executables: bool) -> Result<Self> {
         let mut all = all_facts(instance)?;
         let facts: Vec<_> = all.iter().map(|(_, facts)| facts.clone()).collect();
         let (physical, facts) = all.swap_remove(choose(&facts, asked)?);
@@ -182,17 +174,9 @@ impl Device {
         })))
     }
 
-    /// Whether pipelines can be asked what they became.
-    pub fn captures_executables(&self) -> bool {
-        self.0.origin == Origin::Ours { executables: true }
-    }
-
-    /// What all pipelines are made with.
-    pub(super) fn pipeline_flags(&self) -> vk::PipelineCreateFlags {
-        match self.captures_executables() {
-            true => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
-            false => vk::PipelineCreateFlags::empty(),
-        }
+    /// Whose device it is.
+    pub(super) fn origin(&self) -> Origin {
+        self.0.origin
     }
 
     /// The raw device.

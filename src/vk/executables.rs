@@ -5,7 +5,11 @@ use std::ffi::c_char;
 
 use ash::{khr, vk};
 
-use super::{device::Device, result::VkResultExt};
+use super::{
+    device::{Device, Origin},
+    instance::Instance,
+    result::VkResultExt,
+};
 use crate::error::{Error, Result};
 
 /// One of the programs that a pipeline became.
@@ -19,6 +23,29 @@ pub struct Executable {
     pub subgroup_size: u32,
     /// Figures by the driver's names: instructions, registers and the like.
     pub statistics: Vec<(String, f64)>,
+}
+
+impl Device {
+    /// As [`Self::new`], and all pipelines can be asked what they became ([`executables`]), which costs time.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and where the driver lacks the extension.
+    pub fn with_executables(instance: &Instance, asked: Option<&str>) -> Result<Self> {
+        Self::open(instance, asked, true)
+    }
+
+    /// Whether pipelines can be asked what they became.
+    pub fn captures_executables(&self) -> bool {
+        self.origin() == Origin::Ours { executables: true }
+    }
+
+    /// What all pipelines are made with.
+    pub(super) fn pipeline_flags(&self) -> vk::PipelineCreateFlags {
+        match self.captures_executables() {
+            true => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
+            false => vk::PipelineCreateFlags::empty(),
+        }
+    }
 }
 
 /// What a pipeline became.

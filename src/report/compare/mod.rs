@@ -87,8 +87,10 @@ pub struct PassRow {
     pub vertices: Option<u64>,
     /// Invocations of the fragment stage in one frame; `None` where not counted.
     pub fragments: Option<u64>,
-    /// Instructions of its shaders; `None` where not counted.
-    pub instructions: Option<u64>,
+    /// Instructions of its vertex stage, paper-comparable ([`crate::passes::counts_of`]); `None` where not counted.
+    pub vertex_instructions: Option<u32>,
+    /// The same of its fragment stage.
+    pub fragment_instructions: Option<u32>,
 }
 
 /// A method that could not be compared.
@@ -111,7 +113,7 @@ impl MethodRow {
     ) -> Self {
         let pass = |pass: PassFigures| {
             let PassFigures { name, ms, vertices, fragments } = pass;
-            PassRow { name, ms, vertices, fragments, instructions: None }
+            PassRow { name, ms, vertices, fragments, vertex_instructions: None, fragment_instructions: None }
         };
         Self {
             method,
@@ -127,6 +129,26 @@ impl MethodRow {
     /// Milliseconds of a frame (median) and the RMS of the method error's image; `None` where one is missing.
     pub fn speed_and_error(&self) -> Option<[f64; 2]> {
         Some([self.frame_ms?.median, self.method_error.image?.rms])
+    }
+
+    /// Takes over what was counted of its passes.
+    #[cfg(feature = "counts")]
+    pub fn set_instructions(&mut self, counted: &[crate::count::PassCounts]) {
+        for pass in &mut self.passes {
+            if let Some(counts) = counted.iter().find(|counts| counts.pass == pass.name) {
+                pass.vertex_instructions = counts.vertex.as_ref().and_then(|counts| counts.arb);
+                pass.fragment_instructions = counts.fragment.as_ref().and_then(|counts| counts.arb);
+            }
+        }
+    }
+
+    /// Instructions of the pass of this name, as `46/3`; `-` where not counted.
+    fn instructions(&self, pass: &str) -> String {
+        let row = self.passes.iter().find(|row| row.name == pass);
+        match row.and_then(|row| row.vertex_instructions.zip(row.fragment_instructions)) {
+            Some((vertex, fragment)) => format!("{vertex}/{fragment}"),
+            None => "-".to_owned(),
+        }
     }
 
     /// Fragments of the pass of this name.

@@ -11,7 +11,7 @@ const COMMON_PASSES: [&str; 3] = ["visibility", "accumulate", "finalize"];
 /// What the columns mean.
 const FOOT: &str = "\
 ms: milliseconds, medians, each with how far the smallest and the largest lie from it; other: all further passes together
-fragments: invocations of the fragment stage in one frame
+fragments: invocations of the fragment stage in one frame; VP/FP: instructions as in vertex and fragment programs of 2006
 implementation error: against the 64-bit oracle of the same method; method error: against the ground truth
 max, rms: linear color, white is 1; psnr: decibels below white; ssim: 1 for equal pictures, over the whole picture
 normal: degrees, rms; depth: relative, rms; both and the color over pixels that both pictures cover
@@ -61,7 +61,7 @@ impl CompareReport {
     fn times(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{} {:>8} {:9} {:>8} {:9} {:>8} {:9} {:>8} {:>8} {:9} {:>11} {:>11} {:>11}",
+            "{} {:>8} {:9} {:>8} {:9} {:>8} {:9} {:>8} {:>8} {:9} {:>11} {:>11} {:>11} {:>10} {:>10}",
             heads(),
             "vis. ms",
             "",
@@ -75,6 +75,8 @@ impl CompareReport {
             "vis. frag.",
             "acc. frag.",
             "fin. frag.",
+            "vis. VP/FP",
+            "acc. VP/FP",
         )?;
         for row in &self.methods {
             let ms = |name: &str| {
@@ -88,7 +90,7 @@ impl CompareReport {
             let [vis_fragments, acc_fragments, fin_fragments] = COMMON_PASSES.map(|name| row.fragments(name));
             writeln!(
                 f,
-                "{} {} {} {} {} {} {} {} {} {} {} {} {}",
+                "{} {} {} {} {} {} {} {} {} {} {} {} {} {:>10} {:>10}",
                 names(row),
                 ms_column(visibility),
                 spread(COMMON_PASSES[0]),
@@ -102,6 +104,8 @@ impl CompareReport {
                 count(vis_fragments),
                 count(acc_fragments),
                 count(fin_fragments),
+                row.instructions(COMMON_PASSES[0]),
+                row.instructions(COMMON_PASSES[1]),
             )?;
         }
         Ok(())

@@ -105,7 +105,7 @@ fn what_was_not_measured_is_a_dash() {
     let dashes = |line: &str| line.split_whitespace().filter(|word| *word == "-").count();
     let rows: Vec<usize> =
         table.lines().filter(|line| line.starts_with("  perspective")).map(dashes).collect();
-    assert_eq!(rows, [8, 5], "{table}");
+    assert_eq!(rows, [10, 7], "{table}");
     assert!(report.plot_svg().unwrap().contains("Pareto front"));
 }
 
@@ -115,7 +115,7 @@ fn json_has_names_units_and_null_for_what_is_not_counted() {
     let first = &json["methods"][0];
     assert_eq!((&first["rasterizer"], &first["early_depth"]), (&"perspective".into(), &"off".into()));
     assert_eq!(first["frame_ms"]["min"], 30.75);
-    assert!(first["passes"][0]["instructions"].is_null() && first["passes"][3]["fragments"].is_null());
+    assert!(first["passes"][0]["vertex_instructions"].is_null() && first["passes"][3]["fragments"].is_null());
     assert_eq!(first["passes"][1]["fragments"], 3000);
     assert_eq!((&first["pareto"], &json["methods"][2]["pareto"]), (&true.into(), &false.into()));
     assert_eq!(first["method_error"]["color"]["rms"], 0.01);

@@ -1,0 +1,72 @@
+//! Draws with the splat passes as published in 2006; see [`passes::paper_frame`].
+
+use ash::vk;
+
+use super::{Headless, headless::submit_and_wait, import_readback};
+use crate::{
+    error::{Error, Result},
+    frame::{FrameSlot, HeadlessTarget},
+    graph::{
+        Graph, ImageDesc,
+        execute::{Physical, Transients, execute, memory_need},
+    },
+    passes::{self, Inputs},
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
+};
+
+/// The picture that the paper's own programs draw: RGBA, linear, row by row from the top. Of the settings that concern splats,
+/// kernel and ε count; the filter is the paper's.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Option`] for ellipses, which the paper's filter does not know; whatever the driver answers.
+pub fn draw_as_published(
+    headless: &Headless,
+    scene: &PreparedScene,
+    camera: &Camera,
+    settings: &Settings,
+) -> Result<Vec<[f32; 4]>> {
+    headless.renderer.check(camera, settings)?;
+    if scene.chunks.iter().any(|chunk| chunk.ellipses) {
+        return Err(Error::option(
+            "as published",
+            "the scene has elliptic splats, the paper's filter is for disks",
+        ));
+    }
+    let device = headless.device();
+    let format = vk::Format::R32G32B32A32_SFLOAT;
+    let drawn = HeadlessTarget::new(device, format, settings.size_px)?;
+    let [width, height] = settings.size_px.map(u64::from);
+    let size = width * height * super::bytes_per_pixel(format);
+    let desc = BufferDesc { name: "read-back", size, usage: vk::BufferUsageFlags::TRANSFER_DST };
+    let pixels = Buffer::new(device, desc, MemoryUse::Readback)?;
+    let mut slot = FrameSlot::new(device);
+
+    let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
+    // Two sets with the kernel, one with the sums.
+    let room = PoolRoom { sets: 3, images: 4, filtered_images: 2, ..PoolRoom::default() };
+    // SAFETY: the slot is new.
+    unsafe { slot.begin(room, None) }?;
+    let (descriptors, _, profiler) = slot.parts()?;
+    let shaders = &headless.renderer.shaders;
+    let inputs = Inputs { draws: &draws, camera, settings, shaders, descriptors };
+    let mut graph = Graph::new();
+    let target = drawn.target();
+    let desc = ImageDesc { format, extent: target.extent };
+    let mut image = graph.import_image("target", desc, target.initial, None);
+    passes::paper_frame(&mut graph, inputs, &mut image, format)?;
+    let mut buffer = import_readback(&mut graph, "target", format, target.extent);
+    let imports = [
+        (image.id(), Physical::Image(target.image, target.view)),
+        (buffer.id(), Physical::Buffer(pixels.raw())),
+    ];
+    passes::readback(&mut graph, "read back target", &image, format, target.extent, &mut buffer);
+    let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
+    let transients = Transients::new(device, &compiled.plan)?;
+    submit_and_wait(headless, |commands| {
+        // SAFETY: recording; all that is used is alive until the wait.
+        unsafe { execute(device, commands, compiled, &transients, &imports, profiler) }
+    })?;
+    Ok(pixels.bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
+}

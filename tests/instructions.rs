@@ -1,0 +1,111 @@
+//! Instructions of the renderer's pipelines: what the papers publish, ours pinned, and what compilers of real chips make of
+//! every pipeline. The rule itself is tested on shaders counted by hand in `src/count/tests.rs`.
+
+use std::{fmt::Write as _, fs, path::PathBuf, process::Command};
+
+use surfel::{
+    count::{Counts, PassCounts},
+    passes::{Counter, counts_of, papers_pipelines},
+    scene::{Filter, KernelEval, Rasterizer, Settings},
+};
+
+fn arb(counts: &Option<Counts>) -> u32 {
+    counts.as_ref().and_then(|counts| counts.arb).unwrap()
+}
+
+#[test]
+fn the_published_programs_have_the_published_counts() {
+    let mut counter = Counter::default();
+    let mut checked = 0;
+    for recipe in papers_pipelines() {
+        let counts = counter.pipeline(&recipe).unwrap();
+        let [vertex, fragment] = [arb(&counts.vertex), arb(&counts.fragment)];
+        let [published_vertex, published_fragment] = recipe.published().unwrap();
+        if recipe.pass.starts_with("paper") {
+            let fits = vertex <= published_vertex && fragment <= published_fragment;
+            assert!(fits, "{}: {vertex}/{fragment}", recipe.pass);
+        } else {
+            let fits = vertex.abs_diff(published_vertex) <= 2 && fragment.abs_diff(published_fragment) <= 2;
+            assert!(fits, "{}: {vertex}/{fragment}", recipe.pass);
+        }
+        checked += 1;
+    }
+    assert_eq!(checked, 4);
+}
+
+/// Each rasterizer with its default filter, then each filter with the default rasterizer.
+fn pinned() -> Vec<Settings> {
+    let rasterizers = Rasterizer::NAMES.iter().map(|(_, rasterizer)| {
+        let filter = if *rasterizer == Rasterizer::Raycast { Filter::Max } else { Filter::default() };
+        Settings { rasterizer: *rasterizer, filter, ..Settings::default() }
+    });
+    let filters =
+        Filter::NAMES.iter().skip(1).map(|(_, filter)| Settings { filter: *filter, ..Settings::default() });
+    let textured = Settings { kernel_eval: KernelEval::Texture, ..Settings::default() };
+    rasterizers.chain(filters).chain([textured]).filter(|settings| settings.validate().is_ok()).collect()
+}
+
+/// A change of these figures is a change of what every splat or fragment costs: it must be seen, and may then be pinned
+/// anew with SURFEL_UPDATE_SNAPSHOTS=1.
+#[test]
+fn our_pipelines_have_the_pinned_counts() {
+    let mut text = "pass: vertex/fragment, paper-comparable; scalar\n".to_owned();
+    for settings in pinned() {
+        let kernel = settings.kernel_eval.name();
+        let (rasterizer, filter) = (settings.rasterizer.name(), settings.filter.name());
+        writeln!(text, "{rasterizer}, {filter}, {kernel}").unwrap();
+        for counts in counts_of(&settings).unwrap() {
+            let scalar = counts.of_stages(|counts| Some(counts.scalar));
+            writeln!(text, "  {}: {}; {scalar}", counts.pass, PassCounts::vertex_and_fragment(&counts))
+                .unwrap();
+        }
+    }
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests/snapshots/instructions.txt"].iter().collect();
+    if std::env::var_os("SURFEL_UPDATE_SNAPSHOTS").is_some() {
+        fs::write(&path, &text).unwrap();
+    }
+    assert_eq!(fs::read_to_string(&path).unwrap_or_default(), text, "{}", path.display());
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn compilers_of_real_chips_make_instructions_of_every_pipeline() {
+    let radv = PathBuf::from("/usr/share/vulkan/icd.d");
+    let mut drivers = fs::read_dir(radv).into_iter().flatten().flatten();
+    if !drivers.any(|file| file.file_name().to_string_lossy().starts_with("radeon_icd")) {
+        assert!(std::env::var_os("CI").is_none(), "RADV is not installed (package mesa-vulkan-drivers)");
+        eprintln!("NOT CHECKED: RADV is not installed (package mesa-vulkan-drivers)");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let json = folder.path().join("counts.json");
+    let mut surfel = Command::new(env!("CARGO_BIN_EXE_surfel"));
+    // RDNA2 and GCN 5.
+    surfel.args(["bench", "counts", "--isa", "NAVI21,vega10", "--json"]).arg(&json);
+    let output = surfel.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(json).unwrap()).unwrap();
+    let mut compiled = 0;
+    for row in report["rows"].as_array().unwrap() {
+        let programs = row["isa"].as_array().unwrap();
+        // The ray casting of 2005 is only counted.
+        let stages = if row["pass"].as_str().unwrap().starts_with("botsch") { 0 } else { 2 };
+        for chip in ["NAVI21", "VEGA10"] {
+            let own: Vec<_> = programs.iter().filter(|program| program["device"] == chip).collect();
+            assert_eq!(own.len(), stages, "{row}");
+            for program in own {
+                let statistics = program["statistics"].as_array().unwrap();
+                let figure = |name: &str| {
+                    let found = statistics.iter().find(|one| one[0] == name).unwrap();
+                    found[1].as_f64().unwrap()
+                };
+                let all_above_0 = ["Instructions", "VGPRs", "SGPRs", "Code size", "Latency"]
+                    .iter()
+                    .all(|name| figure(name) > 0.0);
+                assert!(all_above_0, "{program}");
+                compiled += 1;
+            }
+        }
+    }
+    assert!(compiled > 100, "{compiled}");
+}
