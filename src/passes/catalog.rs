@@ -118,7 +118,7 @@ impl PipelineRecipe {
 /// The pipelines of the papers' own programs: perspective splatting as Guennebaud et al. 2006 publish it, and the ray
 /// casting of Botsch et al. 2005, with which they compare it.
 pub fn papers_pipelines() -> Vec<PipelineRecipe> {
-    let [visibility, accumulate] = paper::keys(&Settings::default());
+    let [visibility, accumulate] = paper::keys(&Settings::default(), false);
     let rays = |vertex, fragment| Key::Counted((vertex, fragment));
     [
         ("paper visibility", Key::Graphics(visibility)),

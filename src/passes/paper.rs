@@ -18,15 +18,15 @@ use crate::{
     vk::{Blend, Descriptor},
 };
 
-/// What the pipelines of visibility and accumulation are.
-pub(super) fn keys(settings: &Settings) -> [GraphicsKey; 2] {
+/// What the pipelines of visibility and accumulation are. `filtered`: visibility too.
+pub(super) fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
     let points = vk::PrimitiveTopology::POINT_LIST;
     let visibility = (&shaders::PAPER_VISIBILITY_VERT, &shaders::PAPER_VISIBILITY_FRAG);
     let accumulate = (&shaders::PAPER_ACCUMULATE_VERT, &shaders::PAPER_ACCUMULATE_FRAG);
     [
         GraphicsKey {
             depth: Some((vk::CompareOp::GREATER, true)),
-            ..GraphicsKey::new(visibility, Layout::Splat, points, Vec::new())
+            ..GraphicsKey::new(visibility, Layout::Splat, points, vec![(0, u32::from(filtered))])
         },
         GraphicsKey {
             color_formats: vec![sum_format(settings); 2],
@@ -37,7 +37,8 @@ pub(super) fn keys(settings: &Settings) -> [GraphicsKey; 2] {
     ]
 }
 
-/// Declares the frame: the kernel's texture, both splat passes, our own finalization.
+/// Declares the frame: the kernel's texture, both splat passes, our own finalization. `filtered`: visibility is filtered, which
+/// the paper's is not.
 ///
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
@@ -46,9 +47,10 @@ pub fn paper_frame<'a>(
     inputs: Inputs<'a>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
+    filtered: bool,
 ) -> Result<()> {
     let kernel = kernel_texture::kernel_texture(graph, inputs, &shaders::PAPER_KERNEL_FRAG)?;
-    let [visibility_key, accumulate_key] = keys(inputs.settings);
+    let [visibility_key, accumulate_key] = keys(inputs.settings, filtered);
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
     let body = draw_points(inputs, visibility_key, kernel.id())?;
     graph

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// The picture that the paper's own programs draw: RGBA, linear, row by row from the top. Of the settings that concern splats,
-/// kernel and ε count; the filter is the paper's.
+/// kernel and ε count; the filter is the paper's. `filtered`: visibility is filtered too, which theirs is not.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] for ellipses, which the paper's filter does not know; whatever the driver answers.
@@ -26,6 +26,7 @@ pub fn draw_as_published(
     scene: &PreparedScene,
     camera: &Camera,
     settings: &Settings,
+    filtered: bool,
 ) -> Result<Vec<[f32; 4]>> {
     headless.renderer.check(camera, settings)?;
     if scene.chunks.iter().any(|chunk| chunk.ellipses) {
@@ -55,7 +56,7 @@ pub fn draw_as_published(
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };
     let mut image = graph.import_image("target", desc, target.initial, None);
-    passes::paper_frame(&mut graph, inputs, &mut image, format)?;
+    passes::paper_frame(&mut graph, inputs, &mut image, format, filtered)?;
     let mut buffer = import_readback(&mut graph, "target", format, target.extent);
     let imports = [
         (image.id(), Physical::Image(target.image, target.view)),
