@@ -1,9 +1,9 @@
 //! What a shader costs in instructions, counted on its SPIR-V, so that the same text gives the same figure everywhere.
 //!
 //! Two rules. The **paper-comparable** count is that of the programs of 2006: vec4 operations of `ARB_vertex_program` and
-//! `ARB_fragment_program`, one each ([`arb`] is the table). The **scalar** count is what a scalar processor executes: each
-//! operation times its components ([`scalar`]). Both are taken of one pipeline's variant: constants are substituted, what
-//! can't be reached and what nothing depends on is gone ([`specialize`], [`live`]).
+//! `ARB_fragment_program`, one each (`arb.rs` is the table). The **scalar** count is what a scalar processor executes: each
+//! operation times its components (`scalar.rs`). Both are taken of one pipeline's variant: constants are substituted, what
+//! can't be reached and what nothing depends on is gone (`specialize.rs`, `live.rs`).
 //!
 //! Branches: ARB has none. Both sides of one that is left count, and each value that it decides is one selection more. The
 //! longest path says what one invocation executes at most. A loop's body counts once.

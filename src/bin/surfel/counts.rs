@@ -6,14 +6,14 @@ use std::collections::HashSet;
 
 use clap::Args;
 use surfel::{
-    Progress as _, Result, Settings,
+    Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
     scene::{Filter, FilterWeight, KernelEval, Rasterizer, Shading},
 };
 
 use crate::{
-    bench::BenchArguments,
+    bench::{Bench, BenchArguments},
     console::{self, Bars},
     json::to_json,
 };
@@ -48,9 +48,13 @@ pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
 /// Counts every pipeline.
 ///
 /// # Errors
-/// A chip that no compiler here knows.
+/// A chip that no compiler here knows; options that need a scene.
 pub fn gather(arguments: &BenchArguments, bars: &Bars) -> Result<InstructionReport> {
     let counts = &arguments.counts;
+    let alone = arguments.table == Bench::Counts;
+    if alone && (arguments.model.is_some() || arguments.validate) {
+        return Err(Error::option("--model, --validate", "bench counts draws nothing"));
+    }
     let pipelines = pipelines(counts.all)?;
     let total = pipelines.len() as u64;
     let mut rows = Vec::new();

@@ -18,7 +18,7 @@ use surfel::{
     vk::{Messages, Validation},
 };
 
-pub use arguments::BenchArguments;
+pub use arguments::{Bench, BenchArguments};
 
 use crate::{
     cache,
