@@ -6,7 +6,7 @@ mod splats;
 mod whole;
 
 pub use exr::exr;
-pub use png::png;
+pub use png::{png, png_bytes};
 pub use splats::{WrittenSplats, splats};
 
 use std::{io::Write as _, path::Path};

@@ -1,6 +1,9 @@
 //! PNG pictures.
 
-use std::{io, path::Path};
+use std::{
+    io::{self, Write as _},
+    path::Path,
+};
 
 use image::{ExtendedColorType, ImageEncoder as _, codecs::png::PngEncoder};
 
@@ -14,16 +17,26 @@ use crate::error::{Error, Result};
 /// [`crate::ErrorKind::Option`] for another number of channels or bytes; [`crate::ErrorKind::File`] if the file can't be written,
 /// nothing is left behind then.
 pub fn png(path: &Path, size_px: [u32; 2], channels: usize, pixels: &[u8]) -> Result<()> {
+    let bytes = png_bytes(size_px, channels, pixels)?;
+    whole::write(path, |file| file.write_all(&bytes))
+}
+
+/// The same as the bytes of a file, for a picture within something else.
+///
+/// # Errors
+/// [`crate::ErrorKind::Option`] for another number of channels or bytes.
+pub fn png_bytes(size_px: [u32; 2], channels: usize, pixels: &[u8]) -> Result<Vec<u8>> {
     check_size(size_px, channels, pixels.len())?;
     let color = match channels {
         3 => ExtendedColorType::Rgb8,
         4 => ExtendedColorType::Rgba8,
         _ => return Err(Error::option("picture", format!("{channels} channels, expected 3 or 4"))),
     };
-    whole::write(path, |file| {
-        let encoder = PngEncoder::new(file);
-        encoder.write_image(pixels, size_px[0], size_px[1], color).map_err(io::Error::other)
-    })
+    let mut bytes = Vec::new();
+    let encoder = PngEncoder::new(&mut bytes);
+    let done = encoder.write_image(pixels, size_px[0], size_px[1], color);
+    done.map_err(|e| Error::file("PNG", "write", io::Error::other(e)))?;
+    Ok(bytes)
 }
 
 #[cfg(test)]

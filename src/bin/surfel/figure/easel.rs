@@ -15,9 +15,9 @@ use crate::console::Bars;
 /// A device, and what the command line says.
 pub struct Easel<'a> {
     /// The device.
-    pub headless: Headless,
+    pub headless: &'a mut Headless,
     /// Progress.
-    pub bars: Bars,
+    pub bars: &'a Bars,
     /// Width and height of a panel or plot.
     pub size_px: [u32; 2],
     /// The file to show in place of the built-in model.

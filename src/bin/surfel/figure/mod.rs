@@ -28,20 +28,22 @@ use surfel::{
     vk::Validation,
 };
 
-pub use arguments::FigureArguments;
+pub use arguments::{Figure, FigureArguments};
+pub use raster::Raster;
+pub use sheet::{Panel, Sheet};
 
 use crate::{
     cache,
     console::{self, Bars},
     outputs, validation,
 };
-use arguments::Figure;
 use easel::Easel;
-use sheet::Sheet;
 
 /// What a figure is before it is a file.
-enum Drawn {
+pub enum Drawn {
+    /// Pictures side by side.
     Sheet(Sheet),
+    /// Curves.
     Plot(CurvePlot),
 }
 
@@ -68,14 +70,31 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     };
     let headless = Headless::new(&options)?;
     let messages = headless.device().instance().messages();
-    let easel = Easel { headless, bars: Bars::new(), size_px, model: arguments.model.as_deref() };
-    let done = draw(easel, figure).and_then(|drawn| write(&drawn, &output, size_px));
+    let done = draw_once(headless, arguments, figure).and_then(|drawn| write(&drawn, &output, size_px));
     // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
     let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
     done.and(said)
 }
 
-fn draw(mut easel: Easel<'_>, figure: Figure) -> Result<Drawn> {
+fn draw_once(mut headless: Headless, arguments: &FigureArguments, figure: Figure) -> Result<Drawn> {
+    let drawn = draw(&mut headless, &Bars::new(), arguments, figure);
+    // A lost cache costs the next run some time, that is all.
+    let _ = headless.renderer.shaders.save_cache();
+    drawn
+}
+
+/// Draws a figure.
+///
+/// # Errors
+/// A size out of range; whatever goes wrong with the device.
+pub fn draw(
+    headless: &mut Headless,
+    bars: &Bars,
+    arguments: &FigureArguments,
+    figure: Figure,
+) -> Result<Drawn> {
+    let size_px = arguments.size_px(figure)?;
+    let mut easel = Easel { headless, bars, size_px, model: arguments.model.as_deref() };
     let drawn = match figure {
         Figure::G1 => g1::draw(&mut easel).map(Drawn::Sheet),
         Figure::G3 => g3::draw(&mut easel).map(Drawn::Sheet),
@@ -85,9 +104,7 @@ fn draw(mut easel: Easel<'_>, figure: Figure) -> Result<Drawn> {
         Figure::P18 => p18::draw(&mut easel).map(Drawn::Sheet),
         Figure::P19 => p19::draw(&mut easel).map(Drawn::Sheet),
     };
-    easel.bars.clear();
-    // A lost cache costs the next run some time, that is all.
-    let _ = easel.headless.renderer.shaders.save_cache();
+    bars.clear();
     drawn
 }
 
