@@ -5,7 +5,7 @@ mod candidates;
 mod pictures;
 mod references;
 mod turns;
-mod zoom;
+pub mod zoom;
 
 use std::path::Path;
 
@@ -24,6 +24,7 @@ use surfel::{
 };
 
 pub use arguments::CompareArguments;
+pub use pictures::{MAGNIFIED, Shown, difference};
 
 use crate::{
     cache,
@@ -36,10 +37,10 @@ use crate::{
     steps::Steps,
     validation,
 };
-use pictures::Pictures;
+use pictures::Show;
 
 /// White, linear: what the pictures are compared over.
-const BACKGROUND: [f32; 3] = [1.0; 3];
+pub const BACKGROUND: [f32; 3] = [1.0; 3];
 
 /// How much larger frames are timed than compared where nothing is said.
 const TIME_SCALE: u32 = 4;
@@ -60,8 +61,8 @@ pub fn run(arguments: &CompareArguments) -> Result<()> {
     let headless = Headless::new(&options)?;
     let messages = headless.device().instance().messages();
     let done = match arguments.zoom {
-        true => zoom::run(headless, arguments, &base),
-        false => compare(headless, arguments, &base),
+        true => zoom::run(headless, arguments),
+        false => compare(headless, arguments),
     };
     // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
     let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
@@ -106,32 +107,72 @@ struct Stage<'a> {
     bars: &'a Bars,
 }
 
-fn compare(mut headless: Headless, arguments: &CompareArguments, base: &Settings) -> Result<()> {
-    let time_size_px = time_size(arguments)?;
-    let timed = Settings { size_px: time_size_px, ..base.clone() };
+fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
+    timed_settings(&headless, arguments)?; // before anything takes long
+    let choice = CameraChoice::of(&arguments.camera)?;
+    let bars = Bars::new();
+    let loaded = load_scene(&arguments.inputs, &bars, &mut Steps::default())?;
+    let camera = choice.camera(&loaded.ball, arguments.size)?;
+    let mut show = |shown: Shown<'_>| match &arguments.pictures {
+        Some(folder) => pictures::write(folder, &shown),
+        None => Ok(()),
+    };
+    let report = gather(&mut headless, arguments, &loaded, &camera, &bars, &mut show)?;
+    console::print(&report.to_string())?;
+    if let Some(path) = &arguments.json {
+        save::text(path, &to_json(&report)?)?;
+    }
+    if let Some(path) = &arguments.plot {
+        save::text(path, &report.plot_svg()?)?;
+    }
+    // A lost cache costs the next run some time, that is all.
+    let _ = headless.renderer.shaders.save_cache();
+    Ok(())
+}
+
+/// The settings that frames are timed with, but for the method.
+///
+/// # Errors
+/// A size of other proportions than `--size`, or that the device can't draw.
+fn timed_settings(headless: &Headless, arguments: &CompareArguments) -> Result<Settings> {
+    let timed = Settings { size_px: time_size(arguments)?, ..arguments.settings() };
     headless.renderer.check_settings(&timed).map_err(|error| match arguments.time_size {
         None => Error::option("--time-size", format!("4 times --size by default: {error}")),
         // It is this option's size that was checked.
         Some(_) => Error::option("--time-size", error.to_string().trim_start_matches("--size: ")),
     })?;
-    let choice = CameraChoice::of(&arguments.camera)?;
-    let bars = Bars::new();
-    let Loaded { scene, ball, inputs } = load_scene(&arguments.inputs, &bars, &mut Steps::default())?;
-    let camera = choice.camera(&ball, base.size_px)?;
-    let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total));
+    Ok(timed)
+}
+
+/// Compares the methods on a scene; what is compared is shown on the way.
+///
+/// # Errors
+/// Whatever goes wrong; a method that fails is listed with the reason unless none is left.
+pub fn gather(
+    headless: &mut Headless,
+    arguments: &CompareArguments,
+    loaded: &Loaded,
+    camera: &Camera,
+    bars: &Bars,
+    show: Show<'_>,
+) -> Result<CompareReport> {
+    let base = &arguments.settings();
+    let timed = timed_settings(headless, arguments)?;
+    let Loaded { scene, inputs, .. } = loaded;
+    let prepared = headless.prepare(scene, &|done, total| bars.step("upload", done, total));
     bars.clear();
     let prepared = prepared?;
 
     let selection = arguments.selection();
     let wanted = if arguments.methods.quick { selection.one_at_a_time() } else { selection.product() };
-    let (methods, mut skipped) = candidates::split(wanted, base, &scene, &headless.renderer);
+    let (methods, mut skipped) = candidates::split(wanted, base, scene, &headless.renderer);
     candidates::some_left(methods.len(), &skipped)?;
 
-    let stage = Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars: &bars };
-    let found = find_errors(&mut headless, &stage, &methods, &mut skipped);
+    let stage = Stage { arguments, scene, prepared: &prepared, camera, base, bars };
+    let found = find_errors(headless, &stage, &methods, &mut skipped, show);
     bars.clear();
     let found = found?;
-    let turns = turns::take(&mut headless, &stage, &timed, &found, arguments.frames);
+    let turns = turns::take(headless, &stage, &timed, &found, arguments.frames);
     bars.clear();
 
     let mut rows = Vec::new();
@@ -150,11 +191,11 @@ fn compare(mut headless: Headless, arguments: &CompareArguments, base: &Settings
         surfel: env!("CARGO_PKG_VERSION").to_owned(),
         device: device_report(headless.device().facts()),
         settings: candidates::common_options(settings_as_options(base)),
-        camera: (&camera).into(),
-        inputs,
+        camera: camera.into(),
+        inputs: inputs.clone(),
         splats: prepared.splat_count(),
         error_size_px: base.size_px,
-        time_size_px,
+        time_size_px: timed.size_px,
         samples_per_side: arguments.samples,
         timed_frames: arguments.frames,
         methods: rows,
@@ -162,16 +203,7 @@ fn compare(mut headless: Headless, arguments: &CompareArguments, base: &Settings
         notes: notes(arguments),
     };
     report.mark_front();
-    console::print(&report.to_string())?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
-    }
-    if let Some(path) = &arguments.plot {
-        save::text(path, &report.plot_svg()?)?;
-    }
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
+    Ok(report)
 }
 
 /// What a reader of the figures has to know.
@@ -189,14 +221,11 @@ fn find_errors(
     stage: &Stage<'_>,
     methods: &[Method],
     skipped: &mut Vec<Skipped>,
+    show: Show<'_>,
 ) -> Result<Vec<(Method, [ErrorFigures; 2])>> {
     let Stage { arguments, scene, camera, base, bars, .. } = *stage;
     let truth = references::truth(scene, camera, base, arguments.samples, "ground truth", bars)?;
-    let pictures =
-        arguments.pictures.as_deref().map(|folder| Pictures::new(folder, BACKGROUND)).transpose()?;
-    if let Some(pictures) = &pictures {
-        pictures.write("truth", &truth)?;
-    }
+    show(Shown::Truth(&truth))?;
     let mut keys: Vec<PictureKey> = Vec::new();
     for key in methods.iter().map(Method::picture_key) {
         if !keys.contains(&key) {
@@ -221,9 +250,7 @@ fn find_errors(
                 Ok((oracle, drawn)) => {
                     let own = errors(&drawn, &oracle.surface, &oracle.undecided, BACKGROUND);
                     *figures = Some([own, errors(&drawn, &truth, &[], BACKGROUND)]);
-                    if let Some(pictures) = &pictures {
-                        pictures.write_method(method, &drawn, &oracle.surface, &truth)?;
-                    }
+                    show(Shown::Method { method, drawn: &drawn, oracle: &oracle.surface, truth: &truth })?;
                 }
                 Err(reason) => skipped.push(Skipped { method: method.names(), reason }),
             }

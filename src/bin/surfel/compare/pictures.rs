@@ -1,9 +1,6 @@
 //! The pictures that were compared, for people to look at.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{fs, path::Path};
 
 use surfel::{
     Error, Result,
@@ -11,60 +8,61 @@ use surfel::{
     save,
 };
 
-/// How much differences are magnified, so that they are seen.
-const MAGNIFIED: u8 = 4;
+use super::BACKGROUND;
 
-/// A folder of pictures over one background.
-pub struct Pictures {
-    folder: PathBuf,
-    background: [f32; 3],
+/// How much differences are magnified, so that they are seen.
+pub const MAGNIFIED: u8 = 4;
+
+/// What there is to see while methods are compared.
+pub enum Shown<'a> {
+    /// The ground truth, once and first.
+    Truth(&'a Surface),
+    /// A method.
+    Method {
+        /// Which.
+        method: &'a Method,
+        /// What the device has drawn.
+        drawn: &'a Surface,
+        /// The same, exact.
+        oracle: &'a Surface,
+        /// What it aims at.
+        truth: &'a Surface,
+    },
 }
 
-impl Pictures {
-    /// Makes the folder where it is missing.
-    ///
-    /// # Errors
-    /// A folder that can't be made.
-    pub fn new(folder: &Path, background: [f32; 3]) -> Result<Self> {
-        fs::create_dir_all(folder).map_err(|e| Error::file(folder, "write", e))?;
-        Ok(Self { folder: folder.to_owned(), background })
-    }
+/// Does something with it.
+pub type Show<'a> = &'a mut dyn FnMut(Shown<'_>) -> Result<()>;
 
-    /// Writes one picture.
-    ///
-    /// # Errors
-    /// As [`save::png`].
-    pub fn write(&self, name: &str, surface: &Surface) -> Result<()> {
-        self.png(name, surface.size_px, &surface.srgb_over(self.background))
-    }
-
-    /// Writes a method's picture, that of its oracle, and its difference from the truth: the bytes' distance, four times.
-    ///
-    /// # Errors
-    /// As [`save::png`].
-    pub fn write_method(
-        &self,
-        method: &Method,
-        drawn: &Surface,
-        oracle: &Surface,
-        truth: &Surface,
-    ) -> Result<()> {
-        let names = method.names();
-        let filter = names.filter_and_weight();
-        let exact = format!("{} {filter} oracle", method.picture_key().rasterizer.name());
-        let name = names.line();
-        let [own, expected] = [drawn, truth].map(|surface| surface.srgb_over(self.background));
-        let distance = |(own, expected): (&[u8; 3], &[u8; 3])| {
-            [0, 1, 2].map(|c: usize| own[c].abs_diff(expected[c]).saturating_mul(MAGNIFIED))
-        };
-        let difference: Vec<[u8; 3]> = own.iter().zip(&expected).map(distance).collect();
-        self.write(&exact, oracle)?;
-        self.png(&name, drawn.size_px, &own)?;
-        self.png(&format!("{name} difference"), drawn.size_px, &difference)
-    }
-
-    fn png(&self, name: &str, size_px: [u32; 2], pixels: &[[u8; 3]]) -> Result<()> {
+/// Writes what is shown into a folder, which is made where it is missing: the truth; or a method's picture, that of its
+/// oracle, and its difference from the truth.
+///
+/// # Errors
+/// As [`save::png`]; a folder that can't be made.
+pub fn write(folder: &Path, shown: &Shown<'_>) -> Result<()> {
+    fs::create_dir_all(folder).map_err(|e| Error::file(folder, "write", e))?;
+    let png = |name: &str, surface: &Surface, pixels: &[[u8; 3]]| {
         let name = name.replace(", ", "-").replace(' ', "-");
-        save::png(&self.folder.join(format!("{name}.png")), size_px, 3, pixels.as_flattened())
+        save::png(&folder.join(format!("{name}.png")), surface.size_px, 3, pixels.as_flattened())
+    };
+    match shown {
+        Shown::Truth(truth) => png("truth", truth, &truth.srgb_over(BACKGROUND)),
+        Shown::Method { method, drawn, oracle, truth } => {
+            let names = method.names();
+            let filter = names.filter_and_weight();
+            let exact = format!("{} {filter} oracle", method.picture_key().rasterizer.name());
+            let name = names.line();
+            png(&exact, oracle, &oracle.srgb_over(BACKGROUND))?;
+            png(&name, drawn, &drawn.srgb_over(BACKGROUND))?;
+            png(&format!("{name} difference"), drawn, &difference(drawn, truth))
+        }
     }
+}
+
+/// The distance of the bytes of two pictures, [`MAGNIFIED`] times.
+pub fn difference(drawn: &Surface, truth: &Surface) -> Vec<[u8; 3]> {
+    let [own, expected] = [drawn, truth].map(|surface| surface.srgb_over(BACKGROUND));
+    let distance = |(own, expected): (&[u8; 3], &[u8; 3])| {
+        [0, 1, 2].map(|c: usize| own[c].abs_diff(expected[c]).saturating_mul(MAGNIFIED))
+    };
+    own.iter().zip(&expected).map(distance).collect()
 }

@@ -33,28 +33,44 @@ const SHIFT: DVec3 = DVec3::new(0.31, 0.17, 0.0);
 /// How far beyond the picture's border splats count: more than the reach of any filter and of the ground truth.
 const MARGIN_PX: f64 = 16.0;
 
+/// Compares all filters at all distances, and tells of it.
+///
+/// # Errors
+/// As [`gather`]; results that can't be written.
+pub fn run(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
+    let report = gather(&mut headless, arguments, &Bars::new())?;
+    console::print(&report.to_string())?;
+    if let Some(path) = &arguments.json {
+        save::text(path, &to_json(&report)?)?;
+    }
+    if let Some(path) = &arguments.plot {
+        save::text(path, &report.plot_svg()?)?;
+    }
+    let _ = headless.renderer.shaders.save_cache();
+    Ok(())
+}
+
 /// Compares all filters at all distances.
 ///
 /// # Errors
 /// Whatever goes wrong; a filter that can't be drawn has no figures.
-pub fn run(mut headless: Headless, arguments: &CompareArguments, base: &Settings) -> Result<()> {
+pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars) -> Result<ZoomReport> {
+    let base = &arguments.settings();
     let side = arguments.zoom_splats.unwrap_or(600) as usize;
     let tilt_deg = arguments.zoom_tilt.unwrap_or(DEFAULT_TILT_DEG);
     let board = Scene { objects: vec![checkerboard(side)] };
     let (methods, skipped) =
         candidates::split(arguments.selection().product(), base, &board, &headless.renderer);
     candidates::some_left(methods.len(), &skipped)?;
-    let bars = Bars::new();
     let mut steps = Vec::new();
     let path = zoom_path(arguments.zoom_steps.unwrap_or(25));
     for (number, pixels_per_splat) in path.iter().copied().enumerate() {
         let camera = camera(pixels_per_splat, tilt_deg, base.size_px);
         let scene = in_view(&board, &camera, base.size_px);
         let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
-        let stage =
-            Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars: &bars };
+        let stage = Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars };
         let task = format!("ground truth {} of {}", number + 1, path.len());
-        let step = step(&mut headless, &stage, &methods, [pixels_per_splat, tilt_deg], &task);
+        let step = step(headless, &stage, &methods, [pixels_per_splat, tilt_deg], &task);
         bars.clear();
         steps.push(step?);
     }
@@ -79,15 +95,7 @@ pub fn run(mut headless: Headless, arguments: &CompareArguments, base: &Settings
         claims: Vec::new(),
     };
     report.claims = report.judge();
-    console::print(&report.to_string())?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
-    }
-    if let Some(path) = &arguments.plot {
-        save::text(path, &report.plot_svg()?)?;
-    }
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
+    Ok(report)
 }
 
 /// Everything but the filter.
