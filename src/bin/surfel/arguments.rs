@@ -10,6 +10,7 @@ use crate::{
     figure::FigureArguments,
     parse,
     picture_arguments::PictureArguments,
+    report::ReportArguments,
     selftest::{self, SelftestArguments},
 };
 
@@ -57,6 +58,9 @@ pub enum Command {
     /// Compare every method with the oracle on every hard scene, under validation: for the CI of drivers
     #[command(long_about = selftest::HELP, after_help = selftest::EXAMPLES)]
     Selftest(SelftestArguments),
+    /// All of it as one page: pictures, tables, and plots of speed against error
+    #[command(long_about = REPORT_HELP, after_help = REPORT_EXAMPLES)]
+    Report(ReportArguments),
     /// List devices, drivers and limits, and what a device lacks
     Info(InfoArguments),
 }
@@ -154,6 +158,20 @@ const BENCH_EXAMPLES: &str = "Examples:
   surfel bench table1 --splats 154k,460k --baseline before.json
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
+
+const REPORT_HELP: &str = "\
+Make a page of what this device can do: the model in pictures; every method's speed against its error; the filters over \
+distance; the papers' figures; what frames cost beside the least that the same pixels can cost; numerical stability. It says \
+first what makes its times doubtful, and last what to type for each part by itself.
+
+The page is one file that loads nothing: it opens offline, on a phone and on paper, and can be sent as it is. It holds \
+no date: two runs differ in times, and what is told of them, alone. It takes many minutes; --quick, one or two. Nothing is \
+written before all is done.";
+
+const REPORT_EXAMPLES: &str = "Examples:
+  surfel report --quick                      surfel-report/index.html, of the built-in model
+  surfel report --model igea.ply -o igea     of a scan, every method
+  surfel report --device 1 --frames 50 -o b  of another device, with more frames";
 
 /// Options of `surfel render`.
 #[derive(Debug, Args)]

@@ -21,6 +21,7 @@ mod picture_arguments;
 mod pictures;
 mod reference;
 mod render;
+mod report;
 mod reports;
 mod scene;
 mod selftest;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         Command::Figure(arguments) => figure::run(arguments),
         Command::Bench(arguments) => bench::run(arguments),
         Command::Selftest(arguments) => selftest::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
     match done {

@@ -134,7 +134,7 @@ fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
 ///
 /// # Errors
 /// A size of other proportions than `--size`, or that the device can't draw.
-fn timed_settings(headless: &Headless, arguments: &CompareArguments) -> Result<Settings> {
+pub fn timed_settings(headless: &Headless, arguments: &CompareArguments) -> Result<Settings> {
     let timed = Settings { size_px: time_size(arguments)?, ..arguments.settings() };
     headless.renderer.check_settings(&timed).map_err(|error| match arguments.time_size {
         None => Error::option("--time-size", format!("4 times --size by default: {error}")),

@@ -29,7 +29,6 @@ use surfel::{
 };
 
 pub use arguments::{Figure, FigureArguments};
-pub use raster::Raster;
 pub use sheet::{Panel, Sheet};
 
 use crate::{

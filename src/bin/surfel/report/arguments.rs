@@ -1,0 +1,120 @@
+//! The options of `surfel report`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::command_line::CommandLine;
+use crate::parse;
+
+/// Options of `surfel report`.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// The folder: index.html is the page, report.json has all figures; made where it is missing, old ones are replaced
+    #[arg(short, long, value_name = "DIR", default_value = "surfel-report")]
+    pub output: PathBuf,
+
+    /// A PLY or OBJ file [default: the built-in model]
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+
+    /// Fewer methods, distances and frames, in smaller pictures: a minute or two in place of many
+    #[arg(long)]
+    pub quick: bool,
+
+    /// Width and height of the pictures whose errors are found, in pixels [default: 256x256; with --quick: 128x128]
+    #[arg(long, value_name = "WxH", value_parser = parse::size)]
+    pub size: Option<[u32; 2]>,
+
+    /// Samples along a pixel's side in the ground truth [default: 16; with --quick: 8]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=64), allow_hyphen_values = true)]
+    pub samples: Option<u32>,
+
+    /// Frames timed of each method and rounds of each bench; below 6 no median's interval is known [default: 10 and
+    /// 20; with --quick: 6]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
+    pub frames: Option<u32>,
+
+    /// The device: its number or a part of its name, see `surfel info` [default: the best]
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub device: Option<String>,
+
+    /// Have the Vulkan validation layer watch, which makes the times worthless; any message makes the exit code 3
+    #[arg(long)]
+    pub validate: bool,
+}
+
+/// How much larger the model is shown than its errors are found.
+const PICTURE_SCALE: u32 = 3;
+
+impl ReportArguments {
+    /// Width and height of the pictures whose errors are found.
+    pub fn size_px(&self) -> [u32; 2] {
+        self.size.unwrap_or(if self.quick { [128, 128] } else { [256, 256] })
+    }
+
+    /// The command line that draws the model with a shading.
+    pub fn render(&self, shading: &str) -> CommandLine {
+        let [width, height] = self.size_px().map(|side| side.saturating_mul(PICTURE_SCALE));
+        let line = CommandLine::new(["render"]).input(self.model.as_deref());
+        let line = line.word("-o").word(format!("{shading}.png"));
+        self.on_device(line.option("--size", format!("{width}x{height}")).option("--shading", shading))
+    }
+
+    /// The command line that compares the methods.
+    pub fn compare(&self) -> CommandLine {
+        let line = CommandLine::new(["compare"]).input(self.model.as_deref());
+        let line = if self.quick { line.word("--quick") } else { line };
+        self.on_device(self.with_frames(self.with_size(line)))
+    }
+
+    /// The command line that compares the filters over distance.
+    pub fn zoom(&self) -> CommandLine {
+        let mut line = CommandLine::new(["compare", "--zoom"]);
+        if self.quick {
+            line = line.option("--zoom-steps", "9").option("--zoom-splats", "300");
+        }
+        self.on_device(self.with_size(line))
+    }
+
+    /// The command line that draws a figure.
+    pub fn figure(&self, name: &str) -> CommandLine {
+        self.on_device(CommandLine::new(["figure", name]))
+    }
+
+    /// The command line that measures a table.
+    pub fn bench(&self, name: &str) -> CommandLine {
+        let line = CommandLine::new(["bench", name]);
+        let line = match &self.model {
+            Some(model) => line.option("--model", model),
+            None => line,
+        };
+        self.on_device(self.with_frames(line))
+    }
+
+    fn with_size(&self, line: CommandLine) -> CommandLine {
+        let [width, height] = self.size_px();
+        let line = match self.quick || self.size.is_some() {
+            true => line.option("--size", format!("{width}x{height}")),
+            false => line,
+        };
+        match self.samples.or(self.quick.then_some(8)) {
+            Some(samples) => line.option("--samples", samples.to_string()),
+            None => line,
+        }
+    }
+
+    fn with_frames(&self, line: CommandLine) -> CommandLine {
+        match self.frames.or(self.quick.then_some(6)) {
+            Some(frames) => line.option("--frames", frames.to_string()),
+            None => line,
+        }
+    }
+
+    fn on_device(&self, line: CommandLine) -> CommandLine {
+        match &self.device {
+            Some(device) => line.option("--device", device),
+            None => line,
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The papers' figures, as this device draws them.
+
+use surfel::{Result, report::curves::CurvePlot};
+
+use super::{
+    part::{Block, Panel, Part},
+    session::Session,
+};
+use crate::{
+    arguments::Command,
+    figure::{self, Drawn, Sheet},
+};
+
+/// Figures by their names, with what one sees and what follows.
+const FIGURES: [(&str, &str); 5] = [
+    (
+        "g1",
+        "Where a splat is magnified all filters agree, but for a trace. Where it is far below a pixel, no filter leaves it so \
+         thin that it slips between the pixel centers. Where it is both, in the last row, the maximum is as thin as no filter; \
+         tangent adjustment has nearly the footprint of full EWA.",
+    ),
+    (
+        "g3",
+        "Toward the horizon fields become finer than pixels and should fade to gray. No filter shows patterns that are not on \
+         the board; EWA and tangent adjustment fade; the maximum stays ragged where splats are wider than pixels but not \
+         higher.",
+    ),
+    (
+        "g4",
+        "Close up, with single pixels visible: the edges are stepped and speckled under the maximum, and smooth under tangent \
+         adjustment and full EWA.",
+    ),
+    (
+        "p9",
+        "Gaussian kernels of several widths. A narrow one keeps details and leaves gaps between the weights of neighbors, a wide \
+         one blurs.",
+    ),
+    (
+        "p10",
+        "Kernels with a plateau: flat where the splat is surely the surface, falling where neighbors take over. They blur less \
+         than a Gaussian of the same support.",
+    ),
+];
+
+/// Gathers the part.
+///
+/// # Errors
+/// Whatever goes wrong.
+pub fn gather(session: &mut Session<'_>) -> Result<Part> {
+    let mut part = Part {
+        finding: "Everything shown was drawn by this device, curves included: they are weights that it has written. G: \
+                  Guennebaud, Barthe, Paulin 2006; P: Pajarola, Sainz, Guidotti 2003."
+            .to_owned(),
+        ..Part::default()
+    };
+    for (name, caption) in FIGURES {
+        let line = session.arguments.figure(name);
+        let Command::Figure(arguments) = line.command()? else { return Err(line.unexpected()) };
+        let Some(figure) = arguments.name else { return Err(line.unexpected()) };
+        match figure::draw(session.headless, session.bars, &arguments, figure)? {
+            Drawn::Sheet(sheet) => sheet_blocks(&mut part, &sheet, caption)?,
+            Drawn::Plot(plot) => plot_blocks(&mut part, &plot, arguments.size_px(figure)?, caption)?,
+        }
+        part.commands.push(line);
+    }
+    Ok(part)
+}
+
+fn sheet_blocks(part: &mut Part, sheet: &Sheet, caption: &str) -> Result<()> {
+    part.blocks.push(Block::Heading(sheet.title.clone()));
+    let rows: Vec<_> = match sheet.headings.is_empty() {
+        true => vec![&sheet.panels[..]],
+        false => sheet.panels.chunks(sheet.columns.max(1)).collect(),
+    };
+    let last = rows.len().saturating_sub(1);
+    for (i, row) in rows.into_iter().enumerate() {
+        if let Some(heading) = sheet.headings.get(i) {
+            part.blocks.push(Block::Text(heading.clone()));
+        }
+        let panel = |panel: &figure::Panel| {
+            let about = match sheet.headings.get(i) {
+                Some(heading) => format!("{}, {heading}", sheet.title),
+                None => sheet.title.clone(),
+            };
+            let picture = &panel.picture;
+            Panel::new(&panel.name, &panel.caption, &about, picture.size_px, &picture.pixels)
+        };
+        part.blocks.push(Block::Pictures {
+            columns: sheet.columns,
+            panels: row.iter().map(panel).collect::<Result<_>>()?,
+            caption: if i == last { caption.to_owned() } else { String::new() },
+        });
+    }
+    part.blocks.push(Block::List(sheet.notes.clone()));
+    Ok(())
+}
+
+fn plot_blocks(part: &mut Part, plot: &CurvePlot, size_px: [u32; 2], caption: &str) -> Result<()> {
+    let title = plot.title.first().cloned().unwrap_or_default();
+    part.blocks.push(Block::Heading(title.clone()));
+    let names: Vec<&str> = plot.curves.iter().map(|curve| curve.name.as_str()).collect();
+    part.blocks.push(Block::Plot {
+        svg: plot.svg(size_px)?,
+        alt: format!("{title}: {} over {}, curves for {}", plot.y_label, plot.x_label, names.join("; ")),
+        caption: caption.to_owned(),
+    });
+    Ok(())
+}

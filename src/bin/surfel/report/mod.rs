@@ -1,0 +1,144 @@
+//! `surfel report`: pictures, tables and plots of one device on one page.
+//!
+//! One file a part, which gathers it and says what one sees; [`CHAPTERS`] lists them in the page's order. What a part shows
+//! is what its command lines give by themselves: they are parsed for it, and printed in it.
+
+mod arguments;
+mod bench;
+mod cells;
+mod command_line;
+mod comparison;
+mod distance;
+mod figures;
+mod head;
+mod markdown;
+mod methods;
+mod page;
+mod part;
+mod pictures;
+mod session;
+mod stability;
+
+use std::{collections::BTreeMap, fs};
+
+use serde::Serialize;
+use serde_json::Value;
+use surfel::{
+    Error, Result,
+    renderer::{Headless, HeadlessOptions},
+    save,
+    scene::Camera,
+    vk::Validation,
+};
+
+pub use arguments::ReportArguments;
+
+use crate::{
+    arguments::Command,
+    cache, compare,
+    console::{self, Bars},
+    json::to_json,
+    outputs,
+    scene::load_scene,
+    steps::Steps,
+    validation,
+};
+use head::Head;
+use part::{Chapter, Part};
+use session::Session;
+
+/// The parts of the page.
+const CHAPTERS: &[Chapter] = &[
+    Chapter { id: "pictures", title: "Pictures", gather: pictures::gather },
+    Chapter { id: "methods", title: "Methods: speed against error", gather: methods::gather },
+    Chapter { id: "distance", title: "Filters over distance", gather: distance::gather },
+    Chapter { id: "figures", title: "The papers' figures", gather: figures::gather },
+    Chapter { id: "bench", title: "What frames cost", gather: bench::gather },
+    Chapter { id: "stability", title: "Numerical stability", gather: stability::gather },
+];
+
+/// The files in the folder.
+const FILES: [&str; 2] = ["index.html", "report.json"];
+
+/// All figures of the page.
+#[derive(Serialize)]
+struct Data<'a> {
+    head: &'a Head,
+    flags: BTreeMap<&'a str, &'a [String]>,
+    parts: BTreeMap<&'a str, &'a Value>,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Whatever goes wrong; a part that does not exist on this device or for this model says so on the page instead.
+pub fn run(arguments: &ReportArguments) -> Result<()> {
+    let inputs: Vec<_> = arguments.model.iter().cloned().collect();
+    let in_the_way: Vec<_> = outputs::paths(&inputs).collect();
+    outputs::check_places(&[], Some(&arguments.output), &FILES, &in_the_way)?;
+    let options = HeadlessOptions {
+        validation: if arguments.validate { Validation::On } else { Validation::Off },
+        device: arguments.device.clone(),
+        cache_folder: cache::folder(),
+    };
+    let headless = Headless::new(&options)?;
+    let messages = headless.device().instance().messages();
+    let done = make(headless, arguments);
+    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
+    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
+    done.and(said)
+}
+
+fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
+    check_sizes(&headless, arguments)?;
+    let bars = Bars::new();
+    let inputs: Vec<_> = arguments.model.iter().cloned().collect();
+    let loaded = load_scene(&inputs, &bars, &mut Steps::default())?;
+    let camera = Camera::fit(&loaded.ball, arguments.size_px(), Camera::DEFAULT_FOV_Y_RAD);
+    let head = Head::of(headless.device().facts(), arguments, &loaded);
+    let mut session = Session::new(&mut headless, arguments, &loaded, &camera, &bars);
+    let mut parts = Vec::new();
+    for (number, chapter) in CHAPTERS.iter().enumerate() {
+        console::say(&format!("part {} of {}: {}", number + 1, CHAPTERS.len(), chapter.title));
+        let gathered = (chapter.gather)(&mut session);
+        bars.clear();
+        parts.push(match gathered {
+            // The input or an option, not the device: other parts may do without it.
+            Err(error) if error.exit_code() == 1 => {
+                console::say(&format!("{}: {error}", chapter.title));
+                Part::missing(&error)
+            }
+            gathered => gathered?,
+        });
+    }
+    write(arguments, &head, &parts)?;
+    // A lost cache costs the next run some time, that is all.
+    let _ = headless.renderer.shaders.save_cache();
+    Ok(())
+}
+
+/// Refuses sizes that only a later part would find too large.
+fn check_sizes(headless: &Headless, arguments: &ReportArguments) -> Result<()> {
+    let line = arguments.compare();
+    let Command::Compare(arguments) = line.command()? else { return Err(line.unexpected()) };
+    arguments.settings().validate()?;
+    compare::timed_settings(headless, &arguments).map(|_| ())
+}
+
+/// The page last: where it is, all is.
+fn write(arguments: &ReportArguments, head: &Head, parts: &[Part]) -> Result<()> {
+    let both = || CHAPTERS.iter().zip(parts);
+    let data = Data {
+        head,
+        flags: both().map(|(chapter, part)| (chapter.id, part.flags.as_slice())).collect(),
+        parts: both().map(|(chapter, part)| (chapter.id, &part.data)).collect(),
+    };
+    let [page, json] = FILES.map(|name| arguments.output.join(name));
+    let texts = [page::html(head, CHAPTERS, parts), to_json(&data)?];
+    fs::create_dir_all(&arguments.output).map_err(|e| Error::file(&arguments.output, "write", e))?;
+    save::text(&json, &texts[1])?;
+    save::text(&page, &texts[0])?;
+    let megabytes = texts[0].len() as f64 * 1e-6;
+    console::say(&format!("wrote {}, {megabytes:.1} MB, and {}", page.display(), json.display()));
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! The page as HTML: one file that loads nothing. All text is escaped.
+
+use base64::{Engine as _, prelude::BASE64_STANDARD};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use surfel::report::Grid;
+
+use super::{
+    head::Head,
+    part::{Block, Chapter, Panel, Part},
+};
+
+const STYLE: &str = include_str!("style.css");
+
+/// Nothing but what is in the page is ever loaded; a browser is told to see to that.
+const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
+
+/// The whole page.
+pub fn html(head: &Head, chapters: &[Chapter], parts: &[Part]) -> String {
+    let both = || chapters.iter().zip(parts);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { "surfel: " (head.title()) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                nav aria-label="Contents" {
+                    a href="#top" { "surfel report" }
+                    ol {
+                        @for (chapter, part) in both() {
+                            li { a href={ "#" (chapter.id) } { (chapter.title) @if !part.flags.is_empty() { " ⚠" } } }
+                        }
+                        li { a href="#repeat" { "How to repeat this" } }
+                    }
+                }
+                main {
+                    (header(head, chapters, parts))
+                    @for (chapter, part) in both() { (section(chapter, part)) }
+                    (repeat(head, chapters, parts))
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// What it is about, what follows, and what to doubt.
+fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
+    let both = || chapters.iter().zip(parts);
+    let doubtful = parts.iter().any(|part| !part.flags.is_empty());
+    html! {
+        header id="top" {
+            h1 { "surfel report" }
+            p class="subtitle" { (head.title()) }
+            aside class=(if doubtful { "trust doubt" } else { "trust" }) {
+                h2 { "Can these figures be trusted?" }
+                @if doubtful {
+                    p { "Not all of them. Ratios within one table hold better than milliseconds: methods took turns." }
+                    ul {
+                        @for (chapter, part) in both() {
+                            @for flag in &part.flags {
+                                li { a href={ "#" (chapter.id) } { (chapter.title) } ": " (rich(flag)) }
+                            }
+                        }
+                    }
+                } @else {
+                    p { "Nothing was seen that speaks against them: no other work on the processor, no moving clock, no wide \
+                         spread." }
+                }
+                @if head.is_processor {
+                    p { "The device is the processor itself: times rank the methods for this driver, not for graphics cards. \
+                         Errors are the same on all." }
+                }
+            }
+            h2 { "What follows" }
+            dl class="findings" {
+                @for (chapter, part) in both() {
+                    dt { a href={ "#" (chapter.id) } { (chapter.title) } }
+                    dd { (rich(&part.finding)) }
+                }
+            }
+            h2 { "What was measured" }
+            dl class="facts" {
+                @for (name, value) in head.facts() {
+                    dt { (name) }
+                    dd { (rich(&value)) }
+                }
+            }
+        }
+    }
+}
+
+fn section(chapter: &Chapter, part: &Part) -> Markup {
+    html! {
+        section id=(chapter.id) {
+            h2 { (chapter.title) }
+            p class="finding" { (rich(&part.finding)) }
+            @if !part.flags.is_empty() {
+                ul class="doubt" { @for flag in &part.flags { li { (rich(flag)) } } }
+            }
+            @for shown in &part.blocks { (block(shown)) }
+            @if !part.commands.is_empty() {
+                p class="repeat" { "The same again:" }
+                pre { @for line in &part.commands { (line.to_string()) "\n" } }
+            }
+        }
+    }
+}
+
+/// All command lines at one place.
+fn repeat(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
+    html! {
+        section id="repeat" {
+            h2 { "How to repeat this" }
+            p { "The page:" }
+            pre { (head.command) }
+            p { "Its parts, each by itself; two runs differ in times and what is told of them, in nothing else:" }
+            pre {
+                @for (chapter, part) in chapters.iter().zip(parts) {
+                    @if !part.commands.is_empty() {
+                        "# " (chapter.title) "\n"
+                        @for line in &part.commands { (line.to_string()) "\n" }
+                    }
+                }
+            }
+            p { "All figures of this page are in " code { "report.json" } " beside it. Versions and settings are at the " a href="#top" { "top" } "." }
+        }
+    }
+}
+
+fn block(block: &Block) -> Markup {
+    match block {
+        Block::Heading(text) => html! { h3 { (rich(text)) } },
+        Block::Text(text) => html! { p { (rich(text)) } },
+        Block::List(lines) => html! { ul class="notes" { @for line in lines { li { (rich(line)) } } } },
+        Block::Claims(claims) => html! {
+            ul class="claims" { @for (holds, text) in claims { (claim(*holds, text)) } }
+        },
+        Block::Table(grid, marked) => table(grid, marked),
+        Block::Plot { svg, alt, caption } => html! {
+            figure class="plot" {
+                (PreEscaped(labeled(svg, alt)))
+                figcaption { (rich(caption)) }
+            }
+        },
+        Block::Pictures { columns, panels, caption } => html! {
+            figure {
+                div class="pictures" style={ "--columns:" (columns) } {
+                    @for panel in panels { (picture(panel)) }
+                }
+                @if !caption.is_empty() { figcaption { (rich(caption)) } }
+            }
+        },
+    }
+}
+
+fn claim(holds: Option<bool>, text: &str) -> Markup {
+    let (class, sign) = match holds {
+        Some(true) => ("holds", "✓ "),
+        Some(false) => ("fails", "✗ "),
+        None => ("unknown", "– "),
+    };
+    html! { li class=(class) { (sign) (rich(text)) } }
+}
+
+fn picture(panel: &Panel) -> Markup {
+    let [width, height] = panel.size_px;
+    let source = format!("data:image/png;base64,{}", BASE64_STANDARD.encode(&panel.png));
+    html! {
+        figure {
+            img src=(source) width=(width) height=(height) alt=(panel.alt);
+            figcaption {
+                b { (panel.name) }
+                @if !panel.caption.is_empty() { " " (rich(&panel.caption)) }
+            }
+        }
+    }
+}
+
+/// A table; the first column names the row.
+fn table(grid: &Grid, marked: &[usize]) -> Markup {
+    html! {
+        div class="table" tabindex="0" {
+            table {
+                caption { (rich(&grid.title)) }
+                thead { tr { @for name in &grid.head { th scope="col" { (name) } } } }
+                tbody {
+                    @for (i, row) in grid.rows.iter().enumerate() {
+                        tr class=[marked.contains(&i).then_some("marked")] {
+                            @for (column, cell) in row.iter().enumerate() {
+                                @if column == 0 { th scope="row" { (cell) } } @else { td { (cell) } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        @if !grid.notes.is_empty() {
+            ul class="notes" { @for note in &grid.notes { li { (rich(note)) } } }
+        }
+    }
+}
+
+/// Text in which what is between backticks is code.
+fn rich(text: &str) -> Markup {
+    html! {
+        @for (i, piece) in text.split('`').enumerate() {
+            @if i % 2 == 1 { code { (piece) } } @else { (piece) }
+        }
+    }
+}
+
+/// A plot that says what it is to those who can't see it.
+fn labeled(svg: &str, alt: &str) -> String {
+    let alt = html! { (alt) }.into_string();
+    svg.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{}\" ", alt.replace('"', "&quot;")), 1)
+}

@@ -1,0 +1,107 @@
+//! What a part of the page is before it is HTML.
+
+use surfel::{Error, Result, report::Grid, save};
+
+use super::{command_line::CommandLine, session::Session};
+
+/// A part of the page: an entry of the table of contents.
+pub struct Chapter {
+    /// Its name in links and in the JSON.
+    pub id: &'static str,
+    /// Its heading.
+    pub title: &'static str,
+    /// Gathers it.
+    pub gather: fn(&mut Session<'_>) -> Result<Part>,
+}
+
+/// A part, gathered.
+#[derive(Default)]
+pub struct Part {
+    /// What follows from it, in a sentence or two: stands in the summary, too.
+    pub finding: String,
+    /// What there is to see, in order.
+    pub blocks: Vec<Block>,
+    /// What to type for the same.
+    pub commands: Vec<CommandLine>,
+    /// What makes its times doubtful, a sentence each.
+    pub flags: Vec<String>,
+    /// All its figures.
+    pub data: serde_json::Value,
+}
+
+/// Something to see. In all texts, what is between backticks is code.
+pub enum Block {
+    /// A heading within the part.
+    Heading(String),
+    /// A paragraph.
+    Text(String),
+    /// Sentences, a line each.
+    List(Vec<String>),
+    /// Sentences, and whether they are true.
+    Claims(Vec<(Option<bool>, String)>),
+    /// A table, and which of its rows stand out.
+    Table(Grid, Vec<usize>),
+    /// A plot.
+    Plot {
+        /// SVG.
+        svg: String,
+        /// What those hear who can't see it.
+        alt: String,
+        /// What one sees and what follows.
+        caption: String,
+    },
+    /// Pictures side by side.
+    Pictures {
+        /// In a row, where there is room.
+        columns: usize,
+        /// Row by row.
+        panels: Vec<Panel>,
+        /// What one sees and what follows.
+        caption: String,
+    },
+}
+
+/// A picture with what it shows.
+pub struct Panel {
+    /// What it is.
+    pub name: String,
+    /// What else is to be said; may be empty.
+    pub caption: String,
+    /// What those hear who can't see it.
+    pub alt: String,
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// The file.
+    pub png: Vec<u8>,
+}
+
+impl Panel {
+    /// Of opaque sRGB bytes. Its alternative text is made of `about` and the name.
+    ///
+    /// # Errors
+    /// As [`save::png_bytes`].
+    pub fn new(
+        name: impl Into<String>,
+        caption: impl Into<String>,
+        about: &str,
+        size_px: [u32; 2],
+        pixels: &[[u8; 3]],
+    ) -> Result<Self> {
+        let (name, caption) = (name.into(), caption.into());
+        let png = save::png_bytes(size_px, 3, pixels.as_flattened())?;
+        Ok(Self { alt: format!("{about}: {name}"), name, caption, size_px, png })
+    }
+}
+
+impl Part {
+    /// One that could not be gathered.
+    pub fn missing(error: &Error) -> Self {
+        let finding = format!("Not on this page: {error}");
+        Self { flags: vec![finding.clone()], finding, ..Self::default() }
+    }
+
+    /// Adds a table of which no row stands out.
+    pub fn table(&mut self, grid: Grid) {
+        self.blocks.push(Block::Table(grid, Vec::new()));
+    }
+}

@@ -1,0 +1,92 @@
+//! The model, and what each method makes of it.
+
+use serde::Serialize;
+use surfel::{
+    Progress as _, Result,
+    prepare::PreparedScene,
+    renderer::Wanted,
+    report::{CameraReport, InputReport},
+};
+
+use super::{
+    command_line::CommandLine,
+    part::{Block, Panel, Part},
+    session::Session,
+};
+use crate::arguments::Command;
+
+/// The shadings shown, with what they show.
+const SHADINGS: [(&str, &str); 3] = [
+    ("phong", "lit by one light at the eye: how the surface looks"),
+    ("normals", "each direction has a color: where it jumps, the surface or its normals do"),
+    ("albedo", "the model's own colors, blended between splats, without light"),
+];
+
+/// What the page says of the model.
+#[derive(Serialize)]
+struct Data<'a> {
+    camera: CameraReport,
+    inputs: &'a [InputReport],
+}
+
+/// Gathers the part.
+///
+/// # Errors
+/// Whatever goes wrong.
+pub fn gather(session: &mut Session<'_>) -> Result<Part> {
+    let mut part = Part::default();
+    let inputs = &session.loaded.inputs;
+    part.finding = inputs.iter().map(|input| input.summary.as_str()).collect::<Vec<_>>().join("; ") + ".";
+    let mut panels = Vec::new();
+    let Session { headless, loaded, bars, .. } = session;
+    let scene = headless.prepare(&loaded.scene, &|done, total| bars.step("upload", done, total));
+    bars.clear();
+    let scene = scene?;
+    for (shading, about) in SHADINGS {
+        let line = session.arguments.render(shading);
+        panels.push(picture(session, &scene, &line, [shading, about])?);
+        part.commands.push(line);
+    }
+    part.blocks.push(Block::Pictures {
+        columns: 3,
+        panels,
+        caption:
+            "The model with the default method. What is wrong with a scan or its normals is seen here before \
+                  any figure tells it."
+                .to_owned(),
+    });
+    part.data = crate::json::to_value(&Data { camera: session.camera.into(), inputs })?;
+
+    let comparison = session.comparison()?;
+    part.commands.push(comparison.line.clone());
+    part.blocks.push(Block::Heading("What each filter and each rasterizer draws".to_owned()));
+    let mut panels: Vec<Panel> = comparison.truth.take().into_iter().collect();
+    for picture in comparison.pictures.drain(..) {
+        panels.extend([picture.drawn, picture.difference]);
+    }
+    part.blocks.push(Block::Pictures {
+        columns: 7,
+        panels,
+        caption: "Each method beside its distance from the ground truth, the continuous surface under the filter's \
+                  Gaussian at many samples a pixel. Black is equal. Rims are where filters widen the surface; light \
+                  inside is blur or aliasing. Rasterizers of one filter should look alike: they differ in speed."
+            .to_owned(),
+    });
+    Ok(part)
+}
+
+/// Draws one picture.
+fn picture(
+    session: &mut Session<'_>,
+    scene: &PreparedScene,
+    line: &CommandLine,
+    [shading, about]: [&str; 2],
+) -> Result<Panel> {
+    let Command::Render(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let settings = arguments.picture.settings();
+    settings.check_scene(&session.loaded.scene)?;
+    let wanted = Wanted { picture: true, ..Wanted::default() };
+    let frame = session.headless.render(scene, session.camera, &settings, wanted)?;
+    let pixels: Vec<[u8; 3]> = frame.srgb.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    Panel::new(shading, about, "The model", frame.size_px, &pixels)
+}
