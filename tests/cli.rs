@@ -17,6 +17,8 @@ mod figure;
 mod files;
 #[path = "cli/program.rs"]
 mod program;
+#[path = "cli/report.rs"]
+mod report;
 #[path = "cli/selftest.rs"]
 mod selftest;
 
@@ -251,7 +253,8 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    let subcommands = ["render", "reference", "compare", "convert", "figure", "bench", "selftest", "info"];
+    let subcommands =
+        ["render", "reference", "compare", "convert", "figure", "bench", "report", "selftest", "info"];
     let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
     for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);

@@ -22,13 +22,18 @@ pub struct ReportArguments {
     #[arg(long)]
     pub quick: bool,
 
-    /// Width and height of the pictures whose errors are found, in pixels [default: 256x256; with --quick: 128x128]
+    /// Width and height of the pictures whose errors are found, in pixels [default: 256x256; with --quick
+    /// 128x128 over distance]
     #[arg(long, value_name = "WxH", value_parser = parse::size)]
     pub size: Option<[u32; 2]>,
 
     /// Samples along a pixel's side in the ground truth [default: 16; with --quick: 8]
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=64), allow_hyphen_values = true)]
     pub samples: Option<u32>,
+
+    /// Distances at which filters are compared [default: 25; with --quick: 9]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(2..=1000), allow_hyphen_values = true)]
+    pub zoom_steps: Option<u32>,
 
     /// Frames timed of each method and rounds of each bench; below 6 no median's interval is known [default: 10 and
     /// 20; with --quick: 6]
@@ -47,34 +52,51 @@ pub struct ReportArguments {
 /// How much larger the model is shown than its errors are found.
 const PICTURE_SCALE: u32 = 3;
 
+/// How much larger frames are timed than their errors are found, in the short form.
+const QUICK_TIME_SCALE: u32 = 2;
+
 impl ReportArguments {
     /// Width and height of the pictures whose errors are found.
     pub fn size_px(&self) -> [u32; 2] {
-        self.size.unwrap_or(if self.quick { [128, 128] } else { [256, 256] })
+        self.size.unwrap_or([256, 256])
     }
 
     /// The command line that draws the model with a shading.
     pub fn render(&self, shading: &str) -> CommandLine {
-        let [width, height] = self.size_px().map(|side| side.saturating_mul(PICTURE_SCALE));
+        let size_px = self.size_px().map(|side| side.saturating_mul(PICTURE_SCALE));
         let line = CommandLine::new(["render"]).input(self.model.as_deref());
         let line = line.word("-o").word(format!("{shading}.png"));
-        self.on_device(line.option("--size", format!("{width}x{height}")).option("--shading", shading))
+        self.on_device(line.option("--size", text(size_px)).option("--shading", shading))
     }
 
     /// The command line that compares the methods.
     pub fn compare(&self) -> CommandLine {
         let line = CommandLine::new(["compare"]).input(self.model.as_deref());
-        let line = if self.quick { line.word("--quick") } else { line };
-        self.on_device(self.with_frames(self.with_size(line)))
+        let line = self.with_samples(self.with_size(line));
+        let time_size_px = self.size_px().map(|side| side.saturating_mul(QUICK_TIME_SCALE));
+        let line = match self.quick {
+            true => line.word("--quick").option("--time-size", text(time_size_px)),
+            false => line,
+        };
+        self.on_device(self.with_frames(line))
     }
 
     /// The command line that compares the filters over distance.
     pub fn zoom(&self) -> CommandLine {
-        let mut line = CommandLine::new(["compare", "--zoom"]);
-        if self.quick {
-            line = line.option("--zoom-steps", "9").option("--zoom-splats", "300");
-        }
-        self.on_device(self.with_size(line))
+        let line = self.with_size(CommandLine::new(["compare", "--zoom"]));
+        let line = match self.quick {
+            true => line.option("--zoom-splats", "300"),
+            false => line,
+        };
+        let line = match self.zoom_steps.or(self.quick.then_some(9)) {
+            Some(steps) => line.option("--zoom-steps", steps.to_string()),
+            None => line,
+        };
+        let line = match self.quick && self.size.is_none() {
+            true => line.option("--size", "128x128"),
+            false => line,
+        };
+        self.on_device(self.with_samples(line))
     }
 
     /// The command line that draws a figure.
@@ -93,11 +115,13 @@ impl ReportArguments {
     }
 
     fn with_size(&self, line: CommandLine) -> CommandLine {
-        let [width, height] = self.size_px();
-        let line = match self.quick || self.size.is_some() {
-            true => line.option("--size", format!("{width}x{height}")),
-            false => line,
-        };
+        match self.size {
+            Some(size_px) => line.option("--size", text(size_px)),
+            None => line,
+        }
+    }
+
+    fn with_samples(&self, line: CommandLine) -> CommandLine {
         match self.samples.or(self.quick.then_some(8)) {
             Some(samples) => line.option("--samples", samples.to_string()),
             None => line,
@@ -117,4 +141,8 @@ impl ReportArguments {
             None => line,
         }
     }
+}
+
+fn text([width, height]: [u32; 2]) -> String {
+    format!("{width}x{height}")
 }

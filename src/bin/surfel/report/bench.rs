@@ -2,15 +2,15 @@
 
 use surfel::{
     Result,
-    report::{FloorReport, Grid, Spread, TrustLimits, cell, count_cell, spread_flag},
+    report::{FloorReport, FloorRow, Grid, Spread, TrustLimits, cell, count_cell, spread_flag},
 };
 
 use super::{
     cells::interval_cell,
     part::{Block, Part},
-    session::Session,
+    session::{Session, shortened},
 };
-use crate::{arguments::Command, bench};
+use crate::{arguments::Command, bench, json::to_value};
 
 /// Gathers the part.
 ///
@@ -26,12 +26,14 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     session.bars.clear();
     let (report, machine, mut flags) = measured?;
     let limits = TrustLimits::default();
-    flags.extend(report.rows.iter().filter_map(|row| spread_flag(&row.name, row.ms.as_ref(), &limits)));
+    let doubt = |row: &FloorRow| spread_flag(&row.name, row.ms.as_ref(), &limits);
+    flags.extend(shortened(report.rows.iter().filter_map(doubt).collect()));
     let mut part = Part {
         finding: finding(&report),
         commands: vec![line],
         flags,
-        data: crate::json::to_value(&(&report, &machine))?,
+        machine: Some(machine),
+        data: to_value(&report)?,
         ..Part::default()
     };
     part.blocks.push(Block::Text(format!(
@@ -53,7 +55,7 @@ fn finding(report: &FloorReport) -> String {
     match ratio {
         Some([floor, strict]) => format!(
             "A frame takes {floor:.2} times what the same points cost with nothing computed, {strict:.2} times the strict \
-             floor: no shader on this device can be faster than by that factor."
+             floor: whatever is done to the shaders, no more than that can be gained."
         ),
         None => "The device tells no times.".to_owned(),
     }

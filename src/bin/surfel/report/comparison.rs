@@ -38,8 +38,6 @@ pub struct Comparison {
 
 /// What a method draws.
 pub struct MethodPicture {
-    /// Its names in a line.
-    pub line: String,
     /// Its picture.
     pub drawn: Panel,
     /// How far that is from the truth.
@@ -69,7 +67,6 @@ pub fn gather(session: &mut Session<'_>) -> Result<Comparison> {
                 let far = difference(drawn, exact);
                 let caption = format!("from the ground truth, {MAGNIFIED} times");
                 pictures.push(MethodPicture {
-                    line: names.line(),
                     difference: Panel::new("difference", caption, &name, size_px, &far)?,
                     drawn: Panel::new(name, "", "The model", size_px, &pixels)?,
                 });

@@ -13,7 +13,7 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
-use crate::{arguments::Command, compare::zoom};
+use crate::{arguments::Command, compare::zoom, json::to_value};
 
 /// A figure of a filter at a distance.
 type Figure = fn(&ZoomStep, usize) -> Option<String>;
@@ -27,12 +27,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let Command::Compare(arguments) = line.command()? else { return Err(line.unexpected()) };
     let report = zoom::gather(session.headless, &arguments, session.bars)?;
     session.bars.clear();
-    let mut part = Part {
-        finding: finding(&report),
-        commands: vec![line],
-        data: crate::json::to_value(&report)?,
-        ..Part::default()
-    };
+    let mut part =
+        Part { finding: finding(&report), commands: vec![line], data: to_value(&report)?, ..Part::default() };
     part.blocks.push(Block::Text(text(&report)));
     part.blocks.push(Block::Plot {
         svg: report.plot_svg()?,

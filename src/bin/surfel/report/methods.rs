@@ -14,6 +14,7 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
+use crate::json::to_value;
 
 /// The passes that every frame has.
 const PASSES: [&str; 3] = ["visibility", "accumulate", "finalize"];
@@ -30,7 +31,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
         finding: finding(report),
         commands: vec![comparison.line.clone()],
         flags: comparison.flags.clone(),
-        data: crate::json::to_value(&(report, &comparison.machine))?,
+        machine: Some(comparison.machine.clone()),
+        data: to_value(report)?,
         ..Part::default()
     };
     part.blocks.push(Block::Text(comparison.text()));

@@ -26,6 +26,7 @@ use serde_json::Value;
 use surfel::{
     Error, Result,
     renderer::{Headless, HeadlessOptions},
+    report::Machine,
     save,
     scene::Camera,
     vk::Validation,
@@ -65,6 +66,7 @@ const FILES: [&str; 2] = ["index.html", "report.json"];
 struct Data<'a> {
     head: &'a Head,
     flags: BTreeMap<&'a str, &'a [String]>,
+    machine: BTreeMap<&'a str, &'a Machine>,
     parts: BTreeMap<&'a str, &'a Value>,
 }
 
@@ -131,6 +133,7 @@ fn write(arguments: &ReportArguments, head: &Head, parts: &[Part]) -> Result<()>
     let data = Data {
         head,
         flags: both().map(|(chapter, part)| (chapter.id, part.flags.as_slice())).collect(),
+        machine: both().filter_map(|(chapter, part)| Some((chapter.id, part.machine.as_ref()?))).collect(),
         parts: both().map(|(chapter, part)| (chapter.id, &part.data)).collect(),
     };
     let [page, json] = FILES.map(|name| arguments.output.join(name));

@@ -69,8 +69,8 @@ fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
                         }
                     }
                 } @else {
-                    p { "Nothing was seen that speaks against them: no other work on the processor, no moving clock, no wide \
-                         spread." }
+                    p { "As far as this system tells, nothing speaks against them: no other work on the processor, no moving \
+                         clock, no wide spread." }
                 }
                 @if head.is_processor {
                     p { "The device is the processor itself: times rank the methods for this driver, not for graphics cards. \
@@ -150,7 +150,7 @@ fn block(block: &Block) -> Markup {
         },
         Block::Pictures { columns, panels, caption } => html! {
             figure {
-                div class="pictures" style={ "--columns:" (columns) } {
+                div class="pictures" style={ "--columns:" (columns) ";--narrow:" ((*columns).min(2)) } {
                     @for panel in panels { (picture(panel)) }
                 }
                 @if !caption.is_empty() { figcaption { (rich(caption)) } }
@@ -219,4 +219,39 @@ fn rich(text: &str) -> Markup {
 fn labeled(svg: &str, alt: &str) -> String {
     let alt = html! { (alt) }.into_string();
     svg.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{}\" ", alt.replace('"', "&quot;")), 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_name_their_rows_and_mark_some_and_escape_all() {
+        let mut grid = Grid::new("a `b` <c>", &["name", "x & y, ms"]);
+        grid.row(["<i>".to_owned(), "1".to_owned()]);
+        grid.row(["two".to_owned(), "2".to_owned()]);
+        let shown = table(&grid, &[1]).into_string();
+        for expected in [
+            "<caption>a <code>b</code> &lt;c&gt;</caption>",
+            "<th scope=\"col\">x &amp; y, ms</th>",
+            "<tr><th scope=\"row\">&lt;i&gt;</th><td>1</td></tr>",
+            "<tr class=\"marked\"><th scope=\"row\">two</th>",
+        ] {
+            assert!(shown.contains(expected), "{expected} is not in {shown}");
+        }
+    }
+
+    #[test]
+    fn a_part_that_could_not_be_gathered_says_why() {
+        let chapter = Chapter { id: "x", title: "X", gather: |_| Ok(Part::default()) };
+        let part = Part::missing(&surfel::Error::option("bench", "no <timestamps>"));
+        let shown = section(&chapter, &part).into_string();
+        assert!(shown.contains("Not on this page: bench: no &lt;timestamps&gt;"), "{shown}");
+    }
+
+    #[test]
+    fn a_plot_is_labeled_and_the_label_ends_nothing() {
+        let svg = labeled("<svg width=\"1\"><svg /></svg>", "\"a\" < b");
+        assert_eq!(svg, "<svg role=\"img\" aria-label=\"&quot;a&quot; &lt; b\" width=\"1\"><svg /></svg>");
+    }
 }

@@ -1,6 +1,10 @@
 //! What a part of the page is before it is HTML.
 
-use surfel::{Error, Result, report::Grid, save};
+use surfel::{
+    Error, Result,
+    report::{Grid, Machine},
+    save,
+};
 
 use super::{command_line::CommandLine, session::Session};
 
@@ -25,7 +29,9 @@ pub struct Part {
     pub commands: Vec<CommandLine>,
     /// What makes its times doubtful, a sentence each.
     pub flags: Vec<String>,
-    /// All its figures.
+    /// The machine while it was timed.
+    pub machine: Option<Machine>,
+    /// All its figures, as the JSON of its subcommand has them.
     pub data: serde_json::Value,
 }
 

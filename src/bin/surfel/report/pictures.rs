@@ -13,7 +13,7 @@ use super::{
     part::{Block, Panel, Part},
     session::Session,
 };
-use crate::arguments::Command;
+use crate::{arguments::Command, json::to_value};
 
 /// The shadings shown, with what they show.
 const SHADINGS: [(&str, &str); 3] = [
@@ -55,17 +55,17 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
                   any figure tells it."
                 .to_owned(),
     });
-    part.data = crate::json::to_value(&Data { camera: session.camera.into(), inputs })?;
+    part.data = to_value(&Data { camera: session.camera.into(), inputs })?;
 
     let comparison = session.comparison()?;
     part.commands.push(comparison.line.clone());
     part.blocks.push(Block::Heading("What each filter and each rasterizer draws".to_owned()));
-    let mut panels: Vec<Panel> = comparison.truth.take().into_iter().collect();
-    for picture in comparison.pictures.drain(..) {
-        panels.extend([picture.drawn, picture.difference]);
-    }
+    let pairs = comparison.pictures.drain(..);
+    let (columns, panels) = (6, pairs.flat_map(|picture| [picture.drawn, picture.difference]).collect());
+    let truth: Vec<Panel> = comparison.truth.take().into_iter().collect();
+    part.blocks.push(Block::Pictures { columns, panels: truth, caption: String::new() });
     part.blocks.push(Block::Pictures {
-        columns: 7,
+        columns,
         panels,
         caption: "Each method beside its distance from the ground truth, the continuous surface under the filter's \
                   Gaussian at many samples a pixel. Black is equal. Rims are where filters widen the surface; light \

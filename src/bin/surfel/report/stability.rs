@@ -7,6 +7,7 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
+use crate::json::to_value;
 
 /// What the test has written.
 const TABLES: &str = include_str!("../../../../tests/stability/README.md");
@@ -30,7 +31,7 @@ pub fn gather(_: &mut Session<'_>) -> Result<Part> {
     let grids = grids();
     let mut part = Part {
         finding: finding(&grids),
-        data: crate::json::to_value(&grids.iter().map(Grid::csv).collect::<Vec<_>>())?,
+        data: to_value(&grids.iter().map(Grid::csv).collect::<Vec<_>>())?,
         ..Part::default()
     };
     part.blocks.push(Block::Text(
