@@ -78,7 +78,7 @@ impl ReportArguments {
             true => line.word("--quick").option("--time-size", text(time_size_px)),
             false => line,
         };
-        self.on_device(self.with_frames(line))
+        self.on_device(self.with_frames(line)).option("--plot", "methods.svg")
     }
 
     /// The command line that compares the filters over distance.
@@ -96,7 +96,7 @@ impl ReportArguments {
             true => line.option("--size", "128x128"),
             false => line,
         };
-        self.on_device(self.with_samples(line))
+        self.on_device(self.with_samples(line)).option("--plot", "distance.svg")
     }
 
     /// The command line that draws a figure.

@@ -34,8 +34,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
         svg: report.plot_svg()?,
         alt: "Pixels a splat, across, against the error, upward; a line for each filter".to_owned(),
         caption: "Low is better. On the left splats are far below a pixel: without a filter they alias. On the right they \
-                  are large: filters should do nothing there, and lines that stay high are blur. In the gray band splats \
-                  are larger than the filter along one axis only, where the maximum fails."
+                  are large and filters should do nothing: what stays high there is blur, or, of `ewa`, its affine map. In \
+                  the gray band splats are larger than the filter along one axis only, where the maximum fails."
             .to_owned(),
     });
     let claims = report.claims.iter().map(|claim| (claim.holds(), claim.to_string())).collect();

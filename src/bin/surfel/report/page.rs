@@ -74,7 +74,7 @@ fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
                 }
                 @if head.is_processor {
                     p { "The device is the processor itself: times rank the methods for this driver, not for graphics cards. \
-                         Errors are the same on all." }
+                         Errors differ by rounding only." }
                 }
             }
             h2 { "What follows" }

@@ -58,7 +58,7 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     part.data = to_value(&Data { camera: session.camera.into(), inputs })?;
 
     let comparison = session.comparison()?;
-    part.commands.push(comparison.line.clone());
+    part.commands.push(comparison.line.clone().option("-o", "pictures"));
     part.blocks.push(Block::Heading("What each filter and each rasterizer draws".to_owned()));
     let pairs = comparison.pictures.drain(..);
     let (columns, panels) = (6, pairs.flat_map(|picture| [picture.drawn, picture.difference]).collect());
