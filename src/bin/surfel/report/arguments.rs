@@ -146,3 +146,45 @@ impl ReportArguments {
 fn text([width, height]: [u32; 2]) -> String {
     format!("{width}x{height}")
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser as _;
+
+    use super::*;
+    use crate::arguments::{Arguments, Command};
+
+    fn report(words: &[&str]) -> ReportArguments {
+        match Arguments::try_parse_from(["surfel", "report"].iter().chain(words)).unwrap().command {
+            Command::Report(arguments) => arguments,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn every_line_is_one_of_the_program_in_both_forms() {
+        let given =
+            ["--model", "a b.ply", "--device", "1", "--frames", "7", "--size", "9x9", "--samples", "3"];
+        for words in [&[][..], &["--quick"], &given] {
+            let arguments = report(words);
+            assert!(matches!(arguments.render("normals").command(), Ok(Command::Render(_))), "{words:?}");
+            assert!(matches!(arguments.figure("g1").command(), Ok(Command::Figure(_))), "{words:?}");
+            assert!(matches!(arguments.bench("floor").command(), Ok(Command::Bench(_))), "{words:?}");
+            for line in [arguments.compare(), arguments.zoom()] {
+                assert!(matches!(line.command(), Ok(Command::Compare(_))), "{line}");
+            }
+        }
+        let line = report(&given).compare().to_string();
+        let expected =
+            "surfel compare 'a b.ply' --size 9x9 --samples 3 --frames 7 --device 1 --plot methods.svg";
+        assert_eq!(line, expected);
+    }
+
+    #[test]
+    fn the_full_form_is_what_the_subcommands_do_by_themselves() {
+        let full = report(&[]);
+        assert_eq!(full.compare().to_string(), "surfel compare --plot methods.svg");
+        assert_eq!(full.zoom().to_string(), "surfel compare --zoom --plot distance.svg");
+        assert_eq!(full.bench("floor").to_string(), "surfel bench floor");
+    }
+}

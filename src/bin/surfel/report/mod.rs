@@ -1,7 +1,8 @@
 //! `surfel report`: pictures, tables and plots of one device on one page.
 //!
-//! One file a part, which gathers it and says what one sees; [`CHAPTERS`] lists them in the page's order. What a part shows
-//! is what its command lines give by themselves: they are parsed for it, and printed in it.
+//! One file a part, which gathers it and says what one sees; [`CHAPTERS`] lists them in the page's order: a new part is a
+//! file and a line there. What a part shows is what its command lines give by themselves: they are parsed for it, and
+//! printed in it.
 
 mod arguments;
 mod bench;
