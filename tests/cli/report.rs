@@ -10,12 +10,14 @@ use super::{
 };
 
 /// The parts of the page, by their names in links and in the JSON.
-const PARTS: [(&str, &str); 6] = [
+const PARTS: [(&str, &str); 8] = [
     ("pictures", "Pictures"),
     ("methods", "Methods: speed against error"),
     ("distance", "Filters over distance"),
     ("figures", "The papers' figures"),
     ("bench", "What frames cost"),
+    ("tables", "The paper's tables"),
+    ("counts", "Instructions"),
     ("stability", "Numerical stability"),
 ];
 

@@ -8,14 +8,12 @@ mod outputs;
 mod slides;
 mod table1;
 
-use std::sync::Arc;
-
 use surfel::{
     Result,
     renderer::{Headless, HeadlessOptions},
     report::{BenchReport, InputReport, TrustLimits, settings_as_options},
     scene::Settings,
-    vk::{Messages, Validation},
+    vk::Validation,
 };
 
 pub use arguments::{Bench, BenchArguments};
@@ -49,10 +47,36 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     if arguments.counts.isa_rows {
         return counts::print_isa_rows(arguments);
     }
-    let settings = arguments.settings();
-    settings.validate()?;
+    arguments.settings().validate()?;
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
+    let tables = arguments.table.tables();
+    // Instructions are counted without a device.
+    let mut headless = match tables.floor || tables.table1 || tables.slides {
+        true => Some(Headless::new(&HeadlessOptions {
+            validation: if arguments.validate { Validation::On } else { Validation::Off },
+            device: arguments.device.clone(),
+            cache_folder: cache::folder(),
+        })?),
+        false => None,
+    };
+    let mut report = gather(headless.as_mut(), arguments)?;
+    report.gate = gate::gate(arguments, &report);
+    report.judgement = baseline.map(|before| gate::judge(arguments, &report.gate, &before)).transpose()?;
+    console::print(&report.text())?;
+    outputs::write(arguments, &report)?;
+    if let (true, Some(headless)) = (arguments.validate, headless) {
+        validation::conclude(&headless.device().instance().messages())?;
+    }
+    gate::conclude(arguments, &report)
+}
+
+/// Measures and counts what the command line names. Tables of times are left out where no device is given.
+///
+/// # Errors
+/// Whatever goes wrong.
+pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Result<BenchReport> {
+    let settings = arguments.settings();
     let limits = TrustLimits { uncertainty: 0.01 * arguments.max_spread, ..TrustLimits::default() };
     let mut report = BenchReport {
         surfel: env!("CARGO_PKG_VERSION").to_owned(),
@@ -64,52 +88,34 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     };
     let mut stage =
         Stage { arguments, settings, bars: Bars::new(), inputs: Vec::new(), flags: Vec::new(), limits };
-    let tables = arguments.table.tables();
-    // Instructions are counted without a device.
-    let done = match tables.floor || tables.table1 || tables.slides {
-        true => measure(&mut stage, &mut report).map(Some),
-        false => Ok(None),
-    };
-    let counts = tables.counts.then(|| counts::gather(arguments, &stage.bars)).transpose();
+    let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut stage, &mut report));
+    let counts = arguments.table.tables().counts.then(|| counts::gather(arguments, &stage.bars)).transpose();
     stage.bars.clear();
-    let messages = done?;
+    measured?;
     report.counts = counts?;
-    report.gate = gate::gate(arguments, &report);
-    report.judgement = baseline.map(|before| gate::judge(arguments, &report.gate, &before)).transpose()?;
-    console::print(&report.text())?;
-    outputs::write(arguments, &report)?;
-    if let (true, Some(messages)) = (arguments.validate, messages) {
-        validation::conclude(&messages)?;
-    }
-    gate::conclude(arguments, &report)
+    Ok(report)
 }
 
-/// Measures the tables whose figures are times. Answers with what the validation layer said.
-fn measure(stage: &mut Stage<'_>, report: &mut BenchReport) -> Result<Arc<Messages>> {
-    let arguments = stage.arguments;
-    let mut headless = Headless::new(&HeadlessOptions {
-        validation: if arguments.validate { Validation::On } else { Validation::Off },
-        device: arguments.device.clone(),
-        cache_folder: cache::folder(),
-    })?;
+/// Measures the tables whose figures are times.
+fn measure(headless: &mut Headless, stage: &mut Stage<'_>, report: &mut BenchReport) -> Result<()> {
     headless.renderer.check_settings(&stage.settings)?;
     let facts = headless.device().facts().clone();
     report.device = Some(device_report(&facts));
     let watch = Watch::begin(&facts);
-    let tables = arguments.table.tables();
+    let tables = stage.arguments.table.tables();
     if tables.floor {
-        report.floor = Some(floor::measure(&mut headless, stage)?);
+        report.floor = Some(floor::measure(headless, stage)?);
     }
     if tables.table1 {
-        report.table1 = table1::measure(&mut headless, stage)?;
+        report.table1 = table1::measure(headless, stage)?;
     }
     if tables.slides {
-        report.slides = Some(slides::measure(&mut headless, stage)?);
+        report.slides = Some(slides::measure(headless, stage)?);
     }
     let machine = watch.end();
     report.flags = machine.flags(&stage.limits);
     report.flags.append(&mut stage.flags);
     report.inputs = std::mem::take(&mut stage.inputs);
     report.machine = Some(machine);
-    Ok(headless.device().instance().messages())
+    Ok(())
 }

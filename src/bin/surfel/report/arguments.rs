@@ -111,7 +111,27 @@ impl ReportArguments {
             Some(model) => line.option("--model", model),
             None => line,
         };
-        self.on_device(self.with_frames(line))
+        let line = match self.splats(name) {
+            Some(splats) => line.option("--splats", splats),
+            None => line,
+        };
+        let line = match name == "table1" {
+            true => line.option("--plot", "table1.svg"),
+            false => line,
+        };
+        match name == "counts" {
+            true => CommandLine::new(["bench", name]),
+            false => self.on_device(self.with_frames(line)),
+        }
+    }
+
+    /// Fewer splats in the short form.
+    fn splats(&self, table: &str) -> Option<&'static str> {
+        match table {
+            "table1" if self.quick => Some("20k,154k"),
+            "slides" if self.quick => Some("154k"),
+            _ => None,
+        }
     }
 
     fn with_size(&self, line: CommandLine) -> CommandLine {

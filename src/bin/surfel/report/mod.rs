@@ -9,6 +9,7 @@ mod bench;
 mod cells;
 mod command_line;
 mod comparison;
+mod counts;
 mod distance;
 mod figures;
 mod head;
@@ -19,6 +20,7 @@ mod part;
 mod pictures;
 mod session;
 mod stability;
+mod table1;
 
 use std::{collections::BTreeMap, fs};
 
@@ -56,6 +58,8 @@ const CHAPTERS: &[Chapter] = &[
     Chapter { id: "distance", title: "Filters over distance", gather: distance::gather },
     Chapter { id: "figures", title: "The papers' figures", gather: figures::gather },
     Chapter { id: "bench", title: "What frames cost", gather: bench::gather },
+    Chapter { id: "tables", title: "The paper's tables", gather: table1::gather },
+    Chapter { id: "counts", title: "Instructions", gather: counts::gather },
     Chapter { id: "stability", title: "Numerical stability", gather: stability::gather },
 ];
 
