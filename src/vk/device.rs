@@ -11,6 +11,7 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, Allocat
 use super::{
     borrowed::{BorrowedDevice, EnabledFeatures},
     choose::{DeviceFacts, choose},
+    executables::check_executables,
     facts::{all_facts, facts},
     garbage::{Garbage, Retired},
     instance::Instance,
@@ -68,6 +69,9 @@ impl Device {
         let Some(queue_family) = facts.queue_family else {
             return Err(ErrorKind::NoDevice { reasons: facts.refusals() }.into());
         };
+        if executables {
+            check_executables(instance, physical, &facts)?;
+        }
         let features = EnabledFeatures {
             large_points: facts.large_points,
             pipeline_statistics: facts.pipeline_statistics,
@@ -231,19 +235,6 @@ impl Device {
         }
     }
 
-    /// Bytes of device memory that are allocated now, and how many allocations they are.
-    pub fn memory_in_use(&self) -> (u64, usize) {
-        self.memory().as_ref().map_or((0, 0), |(allocator, _)| {
-            let report = allocator.generate_report();
-            (report.total_allocated_bytes, report.allocations.len())
-        })
-    }
-
-    /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks.
-    pub fn memory_held(&self) -> u64 {
-        self.memory().as_ref().map_or(0, |(allocator, _)| allocator.capacity())
-    }
-
     /// Whether the queue was free; it is taken now.
     pub(super) fn take_queue(&self) -> bool {
         !self.0.queue_taken.swap(true, Ordering::AcqRel)
@@ -272,7 +263,7 @@ impl Device {
         }
     }
 
-    fn memory(&self) -> MutexGuard<'_, Option<(Allocator, Garbage)>> {
+    pub(super) fn memory(&self) -> MutexGuard<'_, Option<(Allocator, Garbage)>> {
         self.0.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

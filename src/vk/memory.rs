@@ -96,6 +96,21 @@ impl Drop for Memory {
     }
 }
 
+impl Device {
+    /// Bytes of device memory that are allocated now, and how many allocations they are.
+    pub fn memory_in_use(&self) -> (u64, usize) {
+        self.memory().as_ref().map_or((0, 0), |(allocator, _)| {
+            let report = allocator.generate_report();
+            (report.total_allocated_bytes, report.allocations.len())
+        })
+    }
+
+    /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks.
+    pub fn memory_held(&self) -> u64 {
+        self.memory().as_ref().map_or(0, |(allocator, _)| allocator.capacity())
+    }
+}
+
 /// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a
 /// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
 pub(super) fn block_sizes() -> gpu_allocator::AllocationSizes {
