@@ -18,7 +18,7 @@ pub struct ReportArguments {
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
-    /// Fewer methods, distances and frames, in smaller pictures: a minute or two in place of many
+    /// Fewer methods, distances, frames and samples: a minute or two in place of many
     #[arg(long)]
     pub quick: bool,
 

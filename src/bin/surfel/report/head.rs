@@ -71,7 +71,7 @@ impl Head {
         };
         let options: Vec<String> =
             self.settings.iter().map(|(name, value)| format!("--{name} {value}")).collect();
-        let form = if self.quick { "quick: fewer methods and frames, small pictures" } else { "full" };
+        let form = if self.quick { "quick: fewer methods, distances, frames and samples" } else { "full" };
         let mut facts = vec![
             ("device", device.name.clone()),
             ("driver", device.driver.clone()),

@@ -185,7 +185,7 @@ fn picture(panel: &Panel) -> Markup {
 /// A table; the first column names the row.
 fn table(grid: &Grid, marked: &[usize]) -> Markup {
     html! {
-        div class="table" tabindex="0" {
+        div class="table" role="region" aria-label=(grid.title) tabindex="0" {
             table {
                 caption { (rich(&grid.title)) }
                 thead { tr { @for name in &grid.head { th scope="col" { (name) } } } }
