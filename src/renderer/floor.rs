@@ -120,9 +120,10 @@ impl<'a> Floor<'a> {
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut imports = Vec::new();
         let mut handles = Vec::new();
-        for chunk in &self.chunks {
+        for (number, chunk) in self.chunks.iter().enumerate() {
+            let name = format!("floor points {number}");
             let desc = GraphBufferDesc { size_bytes: chunk.buffer.size() };
-            let handle = graph.import_buffer("floor points", desc, BufferState::default(), Some(host));
+            let handle = graph.import_buffer(&name, desc, BufferState::default(), Some(host));
             imports.push((handle.id(), Physical::Buffer(chunk.buffer.raw())));
             handles.push(handle);
         }

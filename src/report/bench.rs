@@ -162,20 +162,7 @@ pub fn floor_gate(floor: &FloorReport) -> Vec<GateFigure> {
 #[cfg(feature = "counts")]
 pub fn counts_gate(counts: &InstructionReport) -> Vec<GateFigure> {
     let of = |row: &InstructionRow| {
-        let names = &row.names;
-        let parts = [
-            &names.pass,
-            &names.draws,
-            &names.rasterizer,
-            &names.filter,
-            &names.kernel_eval,
-            &names.early_depth,
-            &names.shading,
-            &names.splats,
-            &names.shaders,
-        ];
-        let parts: Vec<&str> =
-            parts.into_iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
+        let parts: Vec<&str> = row.names.parts().into_iter().filter(|part| !part.is_empty()).collect();
         instruction_figures(&format!("counts, {}", parts.join(" ")), &row.counts)
     };
     counts.rows.iter().flat_map(of).collect()

@@ -38,6 +38,23 @@ pub struct PipelineNames {
     pub shaders: String,
 }
 
+impl PipelineNames {
+    /// All of them, in the order of their columns.
+    pub fn parts(&self) -> [&str; 9] {
+        [
+            &self.pass,
+            &self.draws,
+            &self.rasterizer,
+            &self.filter,
+            &self.kernel_eval,
+            &self.early_depth,
+            &self.shading,
+            &self.splats,
+            &self.shaders,
+        ]
+    }
+}
+
 /// A pipeline's instructions.
 #[derive(Clone, Debug, Serialize)]
 pub struct InstructionRow {
@@ -138,19 +155,7 @@ impl IsaRow {
 
 impl InstructionRow {
     fn columns(&self) -> String {
-        let names = &self.names;
-        let texts = [
-            &names.pass,
-            &names.draws,
-            &names.rasterizer,
-            &names.filter,
-            &names.kernel_eval,
-            &names.early_depth,
-            &names.shading,
-            &names.splats,
-            &names.shaders,
-        ];
-        let mut columns: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
+        let mut columns: Vec<String> = self.names.parts().map(quoted).to_vec();
         for stage in [&self.counts.vertex, &self.counts.fragment, &self.counts.compute] {
             columns.extend(stage_columns(stage.as_ref()));
         }

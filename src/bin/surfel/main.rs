@@ -9,6 +9,7 @@ mod compare;
 mod console;
 mod convert;
 mod counts;
+mod device;
 mod explain;
 mod figure;
 mod info;

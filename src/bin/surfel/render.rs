@@ -2,19 +2,17 @@
 
 use surfel::{
     Progress as _, Result,
-    renderer::{Headless, HeadlessOptions, Wanted},
+    renderer::{Headless, Wanted},
     report::{RunReport, settings_as_options},
     save,
     scene::Settings,
-    vk::Validation,
 };
 
 use crate::{
     arguments::RenderArguments,
-    cache,
     camera::CameraChoice,
     console::{self, Bars},
-    explain,
+    device, explain,
     json::to_json,
     measure::{self, View},
     outputs::{self, PictureFormat},
@@ -38,12 +36,8 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let camera = CameraChoice::of(&arguments.picture.camera)?;
     let format = outputs::check(&arguments.picture, arguments.timings.as_deref())?;
     let mut steps = Steps::default();
-    let options = HeadlessOptions {
-        validation: if arguments.validate { Validation::On } else { Validation::Off },
-        device: arguments.device.clone(),
-        cache_folder: cache::folder(),
-    };
-    let headless = steps.time("open the device", || Headless::new(&options))?;
+    let headless =
+        steps.time("open the device", || device::open(arguments.device.as_deref(), arguments.validate))?;
     let messages = headless.device().instance().messages();
     let done = headless
         .renderer

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use surfel::{
     report::PAPER_SPLATS,
-    scene::{Accumulate, Filter, Settings},
+    scene::{Accumulate, Filter, KernelEval, Settings},
 };
 
 use crate::{counts::CountsArguments, parse, picture_arguments::choice};
@@ -32,6 +32,10 @@ pub struct BenchArguments {
     /// The filter of floor and table1; slides has each method's own
     #[arg(long, value_name = "FILTER", default_value = "adjust", value_parser = choice(Filter::NAMES))]
     pub filter: Filter,
+
+    /// How the kernel is evaluated
+    #[arg(long, value_name = "HOW", default_value = "analytic", value_parser = choice(KernelEval::NAMES))]
+    pub kernel_eval: KernelEval,
 
     /// The precision of the sums
     #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
@@ -143,6 +147,7 @@ impl BenchArguments {
         Settings {
             size_px: self.size,
             filter: self.filter,
+            kernel_eval: self.kernel_eval,
             accumulate: self.accumulate,
             ..Settings::default()
         }

@@ -10,18 +10,16 @@ mod table1;
 
 use surfel::{
     Result,
-    renderer::{Headless, HeadlessOptions},
+    renderer::Headless,
     report::{BenchReport, InputReport, TrustLimits, settings_as_options},
     scene::Settings,
-    vk::Validation,
 };
 
 pub use arguments::{Bench, BenchArguments};
 
 use crate::{
-    cache,
     console::{self, Bars},
-    counts,
+    counts, device,
     machine::Watch,
     reports::device_report,
     validation,
@@ -53,11 +51,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     let tables = arguments.table.tables();
     // Instructions are counted without a device.
     let mut headless = match tables.floor || tables.table1 || tables.slides {
-        true => Some(Headless::new(&HeadlessOptions {
-            validation: if arguments.validate { Validation::On } else { Validation::Off },
-            device: arguments.device.clone(),
-            cache_folder: cache::folder(),
-        })?),
+        true => Some(device::open(arguments.device.as_deref(), arguments.validate)?),
         false => None,
     };
     let mut report = gather(headless.as_mut(), arguments)?;

@@ -13,23 +13,22 @@ use surfel::{
     Error, Progress as _, Result,
     passes::counts_of,
     prepare::PreparedScene,
-    renderer::{Headless, HeadlessOptions, Wanted},
+    renderer::{Headless, Wanted},
     report::{
         compare::{CompareReport, ErrorFigures, Method, MethodRow, PictureKey, Skipped, Surface, errors},
         settings_as_options,
     },
     save,
     scene::{Camera, Scene, Settings},
-    vk::Validation,
 };
 
 pub use arguments::CompareArguments;
 pub use pictures::{MAGNIFIED, Shown, difference};
 
 use crate::{
-    cache,
     camera::CameraChoice,
     console::{self, Bars},
+    device,
     json::to_json,
     outputs,
     reports::device_report,
@@ -53,12 +52,7 @@ pub fn run(arguments: &CompareArguments) -> Result<()> {
     let base = arguments.settings();
     base.validate()?;
     check_outputs(arguments)?;
-    let options = HeadlessOptions {
-        validation: if arguments.validate { Validation::On } else { Validation::Off },
-        device: arguments.device.clone(),
-        cache_folder: cache::folder(),
-    };
-    let headless = Headless::new(&options)?;
+    let headless = device::open(arguments.device.as_deref(), arguments.validate)?;
     let messages = headless.device().instance().messages();
     let done = match arguments.zoom {
         true => zoom::run(headless, arguments),

@@ -20,21 +20,14 @@ mod sheet;
 
 use std::path::Path;
 
-use surfel::{
-    Error, Result,
-    renderer::{Headless, HeadlessOptions},
-    report::curves::CurvePlot,
-    save,
-    vk::Validation,
-};
+use surfel::{Error, Result, renderer::Headless, report::curves::CurvePlot, save};
 
 pub use arguments::{Figure, FigureArguments};
 pub use sheet::{Panel, Sheet};
 
 use crate::{
-    cache,
     console::{self, Bars},
-    outputs, validation,
+    device, outputs, validation,
 };
 use easel::Easel;
 
@@ -62,12 +55,7 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     }
     let inputs: Vec<&Path> = arguments.model.as_deref().into_iter().collect();
     outputs::check_places(&[&output], None, &[], &inputs)?;
-    let options = HeadlessOptions {
-        validation: if arguments.validate { Validation::On } else { Validation::Off },
-        device: arguments.device.clone(),
-        cache_folder: cache::folder(),
-    };
-    let headless = Headless::new(&options)?;
+    let headless = device::open(arguments.device.as_deref(), arguments.validate)?;
     let messages = headless.device().instance().messages();
     let done = draw_once(headless, arguments, figure).and_then(|drawn| write(&drawn, &output, size_px));
     // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.

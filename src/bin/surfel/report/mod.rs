@@ -26,21 +26,15 @@ use std::{collections::BTreeMap, fs};
 
 use serde::Serialize;
 use serde_json::Value;
-use surfel::{
-    Error, Result,
-    renderer::{Headless, HeadlessOptions},
-    report::Machine,
-    save,
-    scene::Camera,
-    vk::Validation,
-};
+use surfel::{Error, Result, renderer::Headless, report::Machine, save, scene::Camera};
 
 pub use arguments::ReportArguments;
 
 use crate::{
     arguments::Command,
-    cache, compare,
+    compare,
     console::{self, Bars},
+    device,
     json::to_json,
     outputs,
     scene::load_scene,
@@ -83,12 +77,7 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
     let in_the_way: Vec<_> = outputs::paths(&inputs).collect();
     outputs::check_places(&[], Some(&arguments.output), &FILES, &in_the_way)?;
-    let options = HeadlessOptions {
-        validation: if arguments.validate { Validation::On } else { Validation::Off },
-        device: arguments.device.clone(),
-        cache_folder: cache::folder(),
-    };
-    let headless = Headless::new(&options)?;
+    let headless = device::open(arguments.device.as_deref(), arguments.validate)?;
     let messages = headless.device().instance().messages();
     let done = make(headless, arguments);
     // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
