@@ -11,7 +11,7 @@ mod test_meshes;
 mod topology;
 
 pub use mesh_splats::{DEFAULT_OVERLAP, splats_from_mesh};
-pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, resample};
+pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};
 pub use surface::MeshReport;
 
 use glam::DVec3;

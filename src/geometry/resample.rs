@@ -76,15 +76,24 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     Ok((splats, surface.report))
 }
 
-/// Asks for all the memory at once: systems refuse what they can't have, but not its parts one after the other.
 fn check_memory(count: usize, colors: bool) -> Result<()> {
     let each = size_of::<(DVec3, Vec3, f32)>() + if colors { size_of::<[f32; 4]>() } else { 0 };
-    let needed = count.checked_mul(each + Tree::BYTES_PER_POINT);
+    check_memory_for(count, each + Tree::BYTES_PER_POINT)
+        .map_err(|problem| Error::option("--resample", problem))
+}
+
+/// Asks for all the memory of `count` splats at once: systems refuse what they can't have, but not its parts one after
+/// the other.
+///
+/// # Errors
+/// A sentence, where there is less.
+pub fn check_memory_for(count: usize, bytes_each: usize) -> Result<(), String> {
+    let needed = count.checked_mul(bytes_each);
     if needed.is_some_and(|needed| Vec::<u8>::new().try_reserve_exact(needed).is_ok()) {
         return Ok(());
     }
-    let needed = count as u128 * (each + Tree::BYTES_PER_POINT) as u128;
-    Err(Error::option("--resample", format!("no memory for {count} samples ({needed} bytes)")))
+    let needed = count as u128 * bytes_each as u128;
+    Err(format!("no memory for {count} samples ({needed} bytes)"))
 }
 
 /// The areas of all triangles in a row.

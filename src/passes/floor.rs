@@ -61,7 +61,7 @@ pub struct FloorPoints<'a> {
     pub count: u32,
 }
 
-/// Declares the pass that precomputes the points of one chunk.
+/// Declares the pass that precomputes the points of one chunk, the one with this number.
 ///
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
@@ -69,13 +69,16 @@ pub fn floor_points<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     draw: &'a Draw<'a>,
+    number: usize,
     points: &mut Handle<Buffer>,
 ) -> Result<()> {
     let layout = &inputs.shaders.list_layout;
     let pipeline = inputs.shaders.compute(points_key(&draw.variant))?;
     let id = points.id();
-    graph.pass("floor points").write(points, Access::StorageWriteCompute, Start::Discard).finish(Box::new(
-        move |context| {
+    graph
+        .pass(&format!("floor points {number}"))
+        .write(points, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| {
             let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
             let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.large_set, &given)?];
             let (device, commands) = (context.device(), context.commands());
@@ -89,8 +92,7 @@ pub fn floor_points<'a>(
                 device.cmd_dispatch(commands, draw.chunk.count.div_ceil(GROUP), 1, 1);
             }
             Ok(())
-        },
-    ));
+        }));
     Ok(())
 }
 

@@ -128,8 +128,8 @@ impl<'a> Floor<'a> {
             handles.push(handle);
         }
         if precompute {
-            for (draw, points) in draws.iter().zip(&mut handles) {
-                passes::floor_points(&mut graph, inputs, draw, points)?;
+            for (number, (draw, points)) in draws.iter().zip(&mut handles).enumerate() {
+                passes::floor_points(&mut graph, inputs, draw, number, points)?;
             }
         } else {
             let target = self.target.target();

@@ -41,8 +41,8 @@ pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, S
 pub use slides::{SLIDES, Slide, slides_grid};
 pub use spread::Spread;
 pub use throughput::{
-    Measured, MethodThroughput, PAPER_SPLATS, PaperThroughput, ThroughputRow, paper_throughput, passes_grid,
-    throughput_grid,
+    Measured, MethodThroughput, PAPER_SPLATS, PaperMethod, PaperThroughput, ThroughputRow, paper_throughput,
+    passes_grid, throughput_grid,
 };
 #[cfg(feature = "compare")]
 pub use throughput_plot::throughput_plot;

@@ -41,7 +41,9 @@ pub struct MethodThroughput {
     /// The instructions of its passes.
     #[cfg(feature = "counts")]
     pub instructions: Vec<crate::count::PassCounts>,
-    /// What the paper has for it at about this number of splats.
+    /// Which of the paper's methods it is.
+    pub paper_method: Option<PaperMethod>,
+    /// What the paper has for it at this number of splats.
     pub paper: Option<PaperThroughput>,
 }
 
@@ -63,19 +65,32 @@ const PAPER: [(u64, [f64; 2]); 5] = [
     (5_000_000, [6.5, 5.0]),
 ];
 
+/// The methods of the paper's table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PaperMethod {
+    /// Perspective splatting.
+    Perspective,
+    /// Ray casting.
+    Raycast,
+}
+
 /// The paper's numbers of splats.
 pub const PAPER_SPLATS: [u64; 5] = [154_000, 460_000, 1_400_000, 2_500_000, 5_000_000];
 
-/// The paper's figures at a number of splats: of perspective splatting, and of ray casting.
-pub fn paper_throughput(splats: u64) -> Option<[PaperThroughput; 2]> {
+/// The paper's figures of a method at a number of splats, where it has them.
+pub fn paper_throughput(method: PaperMethod, splats: u64) -> Option<PaperThroughput> {
     let (count, fps) = PAPER.iter().find(|(count, _)| *count == splats)?;
-    Some(fps.map(|fps| PaperThroughput { fps, million_splats_per_sec: fps * *count as f64 * 1e-6 }))
+    let fps = fps[method as usize];
+    Some(PaperThroughput { fps, million_splats_per_sec: fps * *count as f64 * 1e-6 })
 }
 
 /// What was measured of one contestant: its passes' names, its frames round by round, its counts.
 pub struct Measured<'a> {
     /// The method in words.
     pub name: &'a str,
+    /// Which of the paper's methods it is.
+    pub paper: Option<PaperMethod>,
     /// Its passes.
     pub passes: &'a [String],
     /// Frames of each round.
@@ -103,11 +118,25 @@ impl Measured<'_> {
         self.rounds.iter().map(round).collect()
     }
 
+    fn place_of(&self, pass: &str) -> Option<usize> {
+        self.passes.iter().position(|own| own == pass)
+    }
+
     /// Milliseconds of the frame in each round; empty where not measured.
     pub fn frame_ms(&self) -> Vec<f64> {
         let all: Option<Vec<f64>> =
             self.rounds_ms().iter().map(|round| round.last().copied().flatten()).collect();
         all.unwrap_or_default()
+    }
+}
+
+/// The floor's pass that draws what a pass draws.
+fn floor_pass(pass: &str) -> Option<&'static str> {
+    match pass {
+        "visibility" => Some("floor depth"),
+        "accumulate" => Some("floor add"),
+        "finalize" => Some("floor fill"),
+        _ => None,
     }
 }
 
@@ -126,27 +155,25 @@ impl ThroughputRow {
     /// Of methods and their floor, measured in turn.
     pub fn of(splats: u64, methods: &[Measured<'_>], floor: &Measured<'_>, bytes: [u64; 2]) -> Self {
         let floor_ms = floor.rounds_ms();
-        let paper = paper_throughput(splats);
-        let method = |(number, measured): (usize, &Measured<'_>)| {
+        let method = |measured: &Measured<'_>| {
             let own_ms = measured.rounds_ms();
             let frames = measured.times();
             let secs = frames.sum_of_passes_ms.map(|spread| 1e-3 * spread.median).filter(|secs| *secs > 0.0);
             MethodThroughput {
                 name: measured.name.to_owned(),
-                // Passes meet the floor's by their order; a method with others has no such ratio but the frame's.
-                over_floor: (0..=measured.passes.len())
-                    .map(|i| {
-                        match measured.passes.len() == floor.passes.len() || i == measured.passes.len() {
-                            true => ratio(&own_ms, &floor_ms, i, i.min(floor.passes.len())),
-                            false => None,
-                        }
-                    })
+                over_floor: measured
+                    .passes
+                    .iter()
+                    .enumerate()
+                    .map(|(i, pass)| ratio(&own_ms, &floor_ms, i, floor.place_of(floor_pass(pass)?)?))
+                    .chain([ratio(&own_ms, &floor_ms, measured.passes.len(), floor.passes.len())])
                     .collect(),
                 #[cfg(feature = "counts")]
                 instructions: measured.instructions.to_vec(),
                 fps: secs.map(|secs| 1.0 / secs),
                 million_splats_per_sec: secs.map(|secs| 1e-6 * splats as f64 / secs),
-                paper: paper.and_then(|both| both.get(number).copied()),
+                paper_method: measured.paper,
+                paper: measured.paper.and_then(|method| paper_throughput(method, splats)),
                 frames,
             }
         };
@@ -157,7 +184,7 @@ impl ThroughputRow {
         };
         Self {
             splats,
-            methods: methods.iter().enumerate().map(method).collect(),
+            methods: methods.iter().map(method).collect(),
             floor: floor.times(),
             beside_first: methods.iter().map(beside).collect(),
             splat_bytes: bytes[0],
@@ -234,9 +261,8 @@ pub fn passes_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
     ];
     let mut grid = Grid::new(title, &head);
     for row in rows {
-        for (number, method) in row.methods.iter().enumerate() {
-            let own =
-                |pass: &str| [instructions_cell(method, pass), paper_instructions(method, number, pass)];
+        for method in &row.methods {
+            let own = |pass: &str| [instructions_cell(method, pass), paper_instructions(method, pass)];
             rows_of(
                 &mut grid,
                 [&row.splats.to_string(), &method.name],
@@ -256,10 +282,11 @@ pub fn passes_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
 const PAPER_INSTRUCTIONS: [[&str; 2]; 2] = [["46/3", "58/3"], ["34/9", "35/13"]];
 
 /// The paper's instructions where it has the method.
-fn paper_instructions(method: &MethodThroughput, number: usize, pass: &str) -> String {
+fn paper_instructions(method: &MethodThroughput, pass: &str) -> String {
     let column = ["visibility", "accumulate"].iter().position(|name| *name == pass);
-    let known = method.paper.and(PAPER_INSTRUCTIONS.get(number)).zip(column);
-    known.map_or_else(String::new, |(passes, column)| format!("({})", passes[column]))
+    method.paper_method.zip(column).map_or_else(String::new, |(method, column)| {
+        format!("({})", PAPER_INSTRUCTIONS[method as usize][column])
+    })
 }
 
 /// The instructions of a pass, as `46/3`.
@@ -330,30 +357,37 @@ mod tests {
 
     fn row() -> ThroughputRow {
         let names = ["visibility", "accumulate", "finalize"].map(str::to_owned);
+        let floor_names = ["floor depth", "floor add", "floor fill"].map(str::to_owned);
         let counts = [Some([7, 70]); 3];
         let all = [rounds(2.0), rounds(3.0), rounds(1.0)];
-        let measured = |name, i: usize| Measured {
+        let measured = |name, paper, i: usize| Measured {
             name,
-            passes: &names,
+            paper,
+            passes: if i == 2 { &floor_names } else { &names },
             rounds: &all[i],
             counts: &counts,
             #[cfg(feature = "counts")]
             instructions: &[],
         };
-        let methods = [measured("perspective", 0), measured("raycast", 1)];
-        ThroughputRow::of(154_000, &methods, &measured("floor", 2), [1_000_000, 500_000])
+        let methods = [
+            measured("perspective", Some(PaperMethod::Perspective), 0),
+            measured("other", None, 1),
+            measured("raycast", Some(PaperMethod::Raycast), 1),
+        ];
+        ThroughputRow::of(154_000, &methods, &measured("floor", None, 2), [1_000_000, 500_000])
     }
 
     #[test]
     fn ratios_are_those_of_each_round() {
         let row = row();
-        assert_eq!(row.beside_first, [Spread::of([1.0; 6]), Spread::of([1.5; 6])]);
+        assert_eq!(row.beside_first, [1.0, 1.5, 1.5].map(|ratio| Spread::of([ratio; 6])));
         assert_eq!(row.methods[0].over_floor, vec![Spread::of([2.0; 6]); 4]);
         // 12 frames from 7 to 63 ms.
         let median = row.methods[0].frames.sum_of_passes_ms.unwrap().median;
         assert!((row.methods[0].fps.unwrap() - 1e3 / median).abs() < 1e-9);
+        assert_eq!(row.methods[1].paper, None);
         assert_eq!(
-            row.methods[1].paper,
+            row.methods[2].paper,
             Some(PaperThroughput { fps: 33.0, million_splats_per_sec: 33.0 * 0.154 })
         );
     }
@@ -363,20 +397,27 @@ mod tests {
         // As printed: 50 (7.7), 40 (18.4), 22 (31), 15 (37.5), 6.5 (32.5); 33 (5), 26 (12), 13 (18.2), 9.2 (23), 5 (25).
         let printed = [[7.7, 5.0], [18.4, 12.0], [31.0, 18.2], [37.5, 23.0], [32.5, 25.0]];
         for (splats, printed) in PAPER_SPLATS.into_iter().zip(printed) {
-            for (figure, printed) in paper_throughput(splats).unwrap().iter().zip(printed) {
+            for (method, printed) in [PaperMethod::Perspective, PaperMethod::Raycast].into_iter().zip(printed)
+            {
+                let figure = paper_throughput(method, splats).unwrap();
                 let near = (figure.million_splats_per_sec / printed - 1.0).abs() < 0.02;
                 assert!(near, "{splats}: {figure:?} {printed}");
             }
         }
-        assert_eq!(paper_throughput(150_000), None);
+        assert_eq!(paper_throughput(PaperMethod::Raycast, 150_000), None);
     }
 
     #[test]
     fn every_pass_of_every_method_has_a_row() {
         let rows = [row()];
-        assert_eq!(passes_grid("t", &rows).rows.len(), 9);
+        assert_eq!(passes_grid("t", &rows).rows.len(), 12);
         let grid = throughput_grid("t", &rows);
         assert!(grid.rows.iter().all(|row| row.len() == grid.head.len()));
-        assert_eq!(grid.rows[1][..4], ["154000", "raycast", grid.rows[1][2].as_str(), "(33.0)"]);
+        assert_eq!(grid.rows[2][..4], ["154000", "raycast", grid.rows[2][2].as_str(), "(33.0)"]);
+        // What the paper does not have is not beside another's.
+        assert_eq!(grid.rows[1][3], "");
+        let passes = passes_grid("t", &rows);
+        let paper: Vec<&str> = passes.rows.iter().map(|row| row[10].as_str()).collect();
+        assert_eq!(paper[..9], ["(46/3)", "(58/3)", "", "", "", "", "(34/9)", "(35/13)", ""]);
     }
 }

@@ -141,3 +141,21 @@ fn a_file_of_splats_has_no_area_to_resample() {
     assert_eq!(refused.code, 1, "{}", refused.stderr);
     assert!(refused.stderr.contains("one.ply: the file holds splats; expected a mesh"), "{}", refused.stderr);
 }
+
+#[test]
+fn more_splats_than_there_is_memory_for_are_refused() {
+    let folder = Folder::new();
+    folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let program = env!("CARGO_BIN_EXE_surfel");
+    for model in ["", "--model one.obj"] {
+        // Systems that promise more memory than they have are kept from it.
+        let command = format!(
+            "ulimit -v 8000000; exec '{program}' bench table1 --size 96x96 --splats 4294967295 {model}"
+        );
+        let mut shell = std::process::Command::new("sh");
+        let output = shell.args(["-c", &command]).current_dir(folder.path(".")).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("no memory for 4294967295 samples"), "{said}");
+    }
+}

@@ -1,7 +1,8 @@
 //! The model of a table at a number of splats.
 
 use surfel::{
-    Result,
+    Error, Result,
+    geometry::check_memory_for,
     load::{Model, builtin, load},
     report::InputReport,
     scene::{Ball, Mesh, Object, Scene},
@@ -12,6 +13,9 @@ use crate::{
     convert::resample_mesh,
     scene::{Loaded, finish},
 };
+
+/// What the built-in model takes of memory for each splat while it is made: a point of the surface, and the splat.
+const BUILT_IN_BYTES: usize = 64 + 56;
 
 /// What a table draws.
 pub enum Source {
@@ -42,6 +46,8 @@ impl Source {
         let (object, report): (Object, InputReport) = match self {
             Self::BuiltIn => {
                 let count = usize::try_from(splats).unwrap_or(usize::MAX);
+                check_memory_for(count, BUILT_IN_BYTES)
+                    .map_err(|problem| Error::option("--splats", problem))?;
                 finish(builtin::relief(count), String::new(), None)
             }
             Self::Mesh(mesh, path) => resample_mesh(mesh, path, splats, 0, &stage.bars)?,

@@ -4,7 +4,7 @@
 use surfel::{
     Result,
     renderer::Headless,
-    report::ThroughputRow,
+    report::{PaperMethod, ThroughputRow},
     scene::{Filter, Rasterizer, Settings},
 };
 
@@ -31,7 +31,13 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<Through
     let source = Source::open(stage)?;
     let method = |(rasterizer, filter, paper): (Rasterizer, Filter, &str)| {
         let settings = Settings { rasterizer, filter, ..stage.settings.clone() };
-        (format!("{}, {} ({paper})", rasterizer.name(), filter.name()), settings)
+        let name = format!("{}, {} ({paper})", rasterizer.name(), filter.name());
+        let paper = match paper {
+            "PBG06" => Some(PaperMethod::Perspective),
+            "BHZK05" => Some(PaperMethod::Raycast),
+            _ => None,
+        };
+        table1::Contestant { name, paper, settings }
     };
     let splats = stage.arguments.splats.first().copied().unwrap_or(SPLATS);
     table1::row(headless, stage, &source, splats, &METHODS.map(method))

@@ -6,7 +6,7 @@ use surfel::{
     graph::execute::Profile,
     passes::counts_of,
     renderer::{Floor, Headless},
-    report::{Measured, ThroughputRow, drift_flag, spread_flag},
+    report::{Measured, PaperMethod, ThroughputRow, drift_flag, spread_flag},
     scene::{Camera, Rasterizer, Settings},
 };
 
@@ -16,8 +16,15 @@ use crate::{
     turns::{self, Draw, Drawn},
 };
 
-/// A method and what it is called.
-pub type Contestant = (String, Settings);
+/// A method.
+pub struct Contestant {
+    /// What it is called; unique in its table.
+    pub name: String,
+    /// Which of the paper's it is.
+    pub paper: Option<PaperMethod>,
+    /// How it is drawn.
+    pub settings: Settings,
+}
 
 /// Measures all numbers of splats, one after the other.
 ///
@@ -25,11 +32,14 @@ pub type Contestant = (String, Settings);
 /// Whatever goes wrong.
 pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<Vec<ThroughputRow>> {
     let source = Source::open(stage)?;
-    let method = |rasterizer: Rasterizer| {
+    let method = |(rasterizer, paper): (Rasterizer, PaperMethod)| {
         let settings = Settings { rasterizer, ..stage.settings.clone() };
-        (format!("{}, {}", rasterizer.name(), settings.filter.name()), settings)
+        let name = format!("{}, {}", rasterizer.name(), settings.filter.name());
+        Contestant { name, paper: Some(paper), settings }
     };
-    let methods = [Rasterizer::Perspective, Rasterizer::Raycast].map(method);
+    let methods =
+        [(Rasterizer::Perspective, PaperMethod::Perspective), (Rasterizer::Raycast, PaperMethod::Raycast)]
+            .map(method);
     let counts = stage.arguments.splat_counts();
     counts.into_iter().map(|splats| row(headless, stage, &source, splats, &methods)).collect()
 }
@@ -47,31 +57,32 @@ pub fn row(
 ) -> Result<ThroughputRow> {
     let Loaded { scene, ball, inputs } = source.scene(splats, stage)?;
     let camera = Camera::fit(&ball, stage.settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
-    for (_, settings) in methods {
-        headless.renderer.check(&camera, settings)?;
-        settings.check_scene(&scene)?;
+    for method in methods {
+        headless.renderer.check(&camera, &method.settings)?;
+        method.settings.check_scene(&scene)?;
     }
     let prepared = headless
         .prepare(&scene, &|done, total| surfel::Progress::step(&stage.bars, "upload", done, total))?;
     drop(scene);
-    let floor_settings = methods.first().map_or(&stage.settings, |(_, settings)| settings);
+    let floor_settings = methods.first().map_or(&stage.settings, |method| &method.settings);
     let floor = Floor::new(headless, &prepared, &camera, floor_settings, false)?;
     let mut contestants: Vec<Draw<'_>> =
-        methods.iter().map(|(_, settings)| turns::frames(&prepared, &camera, settings.clone())).collect();
+        methods.iter().map(|method| turns::frames(&prepared, &camera, method.settings.clone())).collect();
     contestants.push(floor_frames(floor));
     let task = format!("{splats} splats: frames");
     let timed = turns::take(headless, contestants, stage.arguments.frames, &task, &stage.bars);
     let timed: Vec<turns::Timed> = timed.into_iter().collect::<Result<_>>()?;
 
     let instructions: Vec<_> =
-        methods.iter().map(|(_, settings)| counts_of(settings)).collect::<Result<_>>()?;
-    let names = methods.iter().map(|(name, _)| name.as_str()).chain(["floor"]);
+        methods.iter().map(|method| counts_of(&method.settings)).collect::<Result<_>>()?;
+    let names = methods.iter().map(|method| (method.name.as_str(), method.paper)).chain([("floor", None)]);
     let instructions = instructions.iter().map(Vec::as_slice).chain([&[][..]]);
     let measured: Vec<Measured<'_>> = names
         .zip(&timed)
         .zip(instructions)
-        .map(|((name, timed), instructions)| Measured {
+        .map(|(((name, paper), timed), instructions)| Measured {
             name,
+            paper,
             passes: &timed.names,
             rounds: &timed.rounds,
             counts: &timed.counts,
