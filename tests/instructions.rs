@@ -54,7 +54,7 @@ fn our_pipelines_have_the_pinned_counts() {
         let kernel = settings.kernel_eval.name();
         let (rasterizer, filter) = (settings.rasterizer.name(), settings.filter.name());
         writeln!(text, "{rasterizer}, {filter}, {kernel}").unwrap();
-        for counts in counts_of(&settings).unwrap() {
+        for counts in counts_of(&settings, true).unwrap() {
             let scalar = counts.of_stages(|counts| Some(counts.scalar));
             writeln!(text, "  {}: {}; {scalar}", counts.pass, PassCounts::vertex_and_fragment(&counts))
                 .unwrap();

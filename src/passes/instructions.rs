@@ -51,11 +51,14 @@ impl Counter {
     }
 }
 
-/// The instructions of a frame of small disks on a closed surface, pass by pass.
+/// The instructions of a frame of small disks, pass by pass; `closed`: on a closed surface, whose back is not drawn.
 ///
 /// # Errors
 /// As [`frame_pipelines`] and [`Counter::pipeline`].
-pub fn counts_of(settings: &Settings) -> Result<Vec<PassCounts>> {
+pub fn counts_of(settings: &Settings, closed: bool) -> Result<Vec<PassCounts>> {
     let mut counter = Counter::default();
-    frame_pipelines(settings, Traits::default())?.iter().map(|recipe| counter.pipeline(recipe)).collect()
+    frame_pipelines(settings, Traits { closed, ..Traits::default() })?
+        .iter()
+        .map(|recipe| counter.pipeline(recipe))
+        .collect()
 }

@@ -13,7 +13,7 @@ use crate::{
     passes::{self, FLOOR_POINT_BYTES, FloorPoints, Inputs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
-    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
+    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom, Staging},
 };
 
 /// The floor of one scene, camera and choice of settings, ready to be drawn again and again.
@@ -30,6 +30,26 @@ pub struct Floor<'a> {
 struct Points {
     buffer: Buffer,
     count: u32,
+}
+
+impl Points {
+    /// In memory of the device, as the splats are: what the host can see too may be slow for it.
+    fn upload(headless: &Headless, points: &[[f32; 4]]) -> Result<Self> {
+        let bytes: &[u8] = bytemuck::cast_slice(points);
+        // A buffer has at least a byte, also where nothing is drawn.
+        let size = (bytes.len() as u64).max(FLOOR_POINT_BYTES);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let desc = BufferDesc { name: "floor points", size, usage };
+        let buffer = Buffer::new(headless.device(), desc, MemoryUse::Device)?;
+        let mut staging = Staging::new(headless.device(), "upload of floor points", size)?;
+        staging.push(&buffer, 0, bytes)?;
+        headless.queue().run_once("upload of floor points", |commands| {
+            // SAFETY: recording; `run_once` waits, and the buffer is alive till then.
+            unsafe { staging.record(commands) };
+            Ok(())
+        })?;
+        Ok(Self { buffer, count: points.len() as u32 })
+    }
 }
 
 impl<'a> Floor<'a> {
@@ -52,36 +72,28 @@ impl<'a> Floor<'a> {
             let problem = "a splat may exceed the device's largest point: choose a farther camera";
             return Err(Error::option("bench", problem));
         }
-        let buffer = |count: u32, memory| {
+        let points = |draw: &passes::Draw<'_>| {
+            let count = draw.chunk.count;
             let size = u64::from(count) * FLOOR_POINT_BYTES;
             let desc = BufferDesc { name: "floor points", size, usage: vk::BufferUsageFlags::STORAGE_BUFFER };
-            Buffer::new(device, desc, memory)
+            Ok(Points { buffer: Buffer::new(device, desc, MemoryUse::Readback)?, count })
         };
-        let points = |count| Ok(Points { buffer: buffer(count, MemoryUse::Readback)?, count });
         let mut floor = Self {
             scene,
             camera: *camera,
             settings: settings.clone(),
-            chunks: draws.iter().map(|draw| points(draw.chunk.count)).collect::<Result<_>>()?,
+            chunks: draws.iter().map(points).collect::<Result<_>>()?,
             target: HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?,
             slot: FrameSlot::new(device),
         };
         floor.record(headless, None, true)?;
-        if survivors {
-            for chunk in &mut floor.chunks {
-                let drawn: Vec<[f32; 4]> = chunk
-                    .buffer
-                    .bytes()
-                    .chunks_exact(FLOOR_POINT_BYTES as usize)
-                    .map(bytemuck::pod_read_unaligned::<[f32; 4]>)
-                    .filter(|point| point[0] < 2.0)
-                    .collect();
-                let bytes: &[u8] = bytemuck::cast_slice(&drawn);
-                // A buffer has at least a byte, also where nothing is drawn.
-                let mut kept = buffer((drawn.len() as u32).max(1), MemoryUse::Upload)?;
-                kept.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
-                *chunk = Points { buffer: kept, count: drawn.len() as u32 };
-            }
+        for chunk in &mut floor.chunks {
+            let all = chunk.buffer.bytes().chunks_exact(FLOOR_POINT_BYTES as usize);
+            let kept: Vec<[f32; 4]> = all
+                .map(bytemuck::pod_read_unaligned::<[f32; 4]>)
+                .filter(|point| !survivors || point[0] < 2.0)
+                .collect();
+            *chunk = Points::upload(headless, &kept)?;
         }
         Ok(floor)
     }
@@ -106,7 +118,9 @@ impl<'a> Floor<'a> {
         // Each chunk's points are a set in both passes that draw them.
         let sets = 2 * self.chunks.len() as u32;
         let room = PoolRoom { sets, buffers: 4 * sets, ..PoolRoom::default() };
-        // SAFETY: every frame is waited for.
+        // Once more, in case that the wait for the frame before failed.
+        headless.queue().wait_submitted()?;
+        // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(room, profile) }?;
         let (descriptors, transients, profiler) = self.slot.parts()?;
         let inputs = Inputs {
@@ -123,7 +137,8 @@ impl<'a> Floor<'a> {
         for (number, chunk) in self.chunks.iter().enumerate() {
             let name = format!("floor points {number}");
             let desc = GraphBufferDesc { size_bytes: chunk.buffer.size() };
-            let handle = graph.import_buffer(&name, desc, BufferState::default(), Some(host));
+            let last = precompute.then_some(host);
+            let handle = graph.import_buffer(&name, desc, BufferState::default(), last);
             imports.push((handle.id(), Physical::Buffer(chunk.buffer.raw())));
             handles.push(handle);
         }

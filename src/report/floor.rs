@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{
     CameraReport, SceneReport, Spread,
     grid::{Grid, cell, count_cell},
+    throughput::floor_pass,
 };
 
 /// How many times the floor a pass, or the frame, takes.
@@ -51,36 +52,53 @@ pub type Round = [Vec<f64>; 3];
 impl FloorRow {
     /// The rows of all passes and of the frame. `fragments` are those of frame and floor, pass by pass.
     pub fn rows(names: &[String], rounds: &[Round], fragments: [&[Option<u64>]; 2]) -> Vec<Self> {
-        let row = |name: &str, figure: &dyn Fn(&[f64]) -> Option<f64>, counts: [Option<u64>; 2]| {
-            let of = |kind: usize| Spread::of(rounds.iter().filter_map(|round| figure(&round[kind])));
+        type Figure<'f> = &'f dyn Fn(&[f64]) -> Option<f64>;
+        // The frame's own figure, and that of both floors.
+        let row = |name: &str, [own, floor]: [Figure<'_>; 2], counts: [Option<u64>; 2]| {
+            let of = |kind: usize, figure: Figure<'_>| {
+                let all: Vec<f64> = rounds.iter().filter_map(|round| figure(&round[kind])).collect();
+                Spread::of(all)
+            };
             let ratio = |kind: usize| {
                 let ratios = rounds.iter().filter_map(|round| {
-                    figure(&round[0]).zip(figure(&round[kind])).map(|(own, floor)| own / floor)
+                    let floor_ms = floor(&round[kind]).filter(|ms| *ms > 0.0)?;
+                    Some(own(&round[0])? / floor_ms)
                 });
                 Spread::of(ratios)
             };
             Self {
                 name: name.to_owned(),
-                ms: of(0),
-                floor_ms: of(1),
-                strict_floor_ms: of(2),
+                ms: of(0, own),
+                floor_ms: of(1, floor),
+                strict_floor_ms: of(2, floor),
                 ratio: ratio(1),
                 strict_ratio: ratio(2),
                 fragments: counts[0],
                 floor_fragments: counts[1],
             }
         };
-        let count = |kind: usize, i: usize| fragments[kind].get(i).copied().flatten();
         let mut rows: Vec<_> = names
             .iter()
             .enumerate()
-            .map(|(i, name)| row(name, &|ms| ms.get(i).copied(), [count(0, i), count(1, i)]))
+            .map(|(i, name)| {
+                // Further passes, such as that of the kernel's texture, have no floor.
+                let place = FLOOR_PASSES.iter().position(|pass| Some(*pass) == floor_pass(name));
+                let counts = [
+                    fragments[0].get(i).copied().flatten(),
+                    place.and_then(|place| fragments[1].get(place).copied().flatten()),
+                ];
+                row(name, [&|ms| ms.get(i).copied(), &|ms| ms.get(place?).copied()], counts)
+            })
             .collect();
         let total = |kind: usize| fragments[kind].iter().copied().sum();
-        rows.push(row("frame", &|ms| Some(ms.iter().sum()), [total(0), total(1)]));
+        let sum = |ms: &[f64]| Some(ms.iter().sum());
+        rows.push(row("frame", [&sum; 2], [total(0), total(1)]));
         rows
     }
 }
+
+/// The floor's passes, in their order.
+const FLOOR_PASSES: [&str; 3] = ["floor depth", "floor add", "floor fill"];
 
 impl FloorReport {
     /// The table.
@@ -121,12 +139,20 @@ mod tests {
             [vec![2.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0]],
             [vec![6.0, 12.0], vec![3.0, 12.0], vec![3.0, 6.0]],
         ];
-        let names = ["a".to_owned(), "b".to_owned()];
+        let names = ["visibility".to_owned(), "accumulate".to_owned()];
         let rows = FloorRow::rows(&names, &rounds, [&[Some(5), Some(7)], &[Some(5), None]]);
         let same = |value| Spread::of([value; 2]);
         assert_eq!((rows[0].ratio, rows[1].ratio, rows[2].ratio), (same(2.0), same(1.0), same(6.0 / 5.0)));
         assert_eq!(rows[2].strict_ratio, same(2.0));
         assert_eq!((rows[2].fragments, rows[2].floor_fragments), (Some(12), None));
         assert_eq!(rows[2].name, "frame");
+
+        // A pass without a floor takes none from the others.
+        let rounds = [[vec![9.0, 2.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0]]];
+        let names = ["kernel texture", "visibility", "accumulate"].map(str::to_owned);
+        let rows = FloorRow::rows(&names, &rounds, [&[Some(1), Some(5), Some(7)], &[Some(5), Some(7)]]);
+        assert_eq!((rows[0].ratio, rows[0].floor_fragments), (None, None));
+        assert_eq!((rows[1].ratio, rows[2].ratio), (Spread::of([2.0]), Spread::of([1.0])));
+        assert_eq!(rows[2].floor_fragments, Some(7));
     }
 }

@@ -61,7 +61,7 @@ pub enum Verdict {
     Better,
     /// Worse: a regression.
     Worse,
-    /// One of the two runs has no interval: it can't be judged.
+    /// One of the two runs has no interval, or one too wide to see a regression: it can't be judged.
     NotJudged,
 }
 
@@ -93,7 +93,21 @@ pub struct Judgement {
     pub differs: Vec<String>,
 }
 
+/// What a gate allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GateLimits {
+    /// By which part times may grow, beside their intervals.
+    pub tolerance: f64,
+    /// Half the width of an interval, as a part of its time, beyond which nothing can be seen.
+    pub uncertainty: f64,
+}
+
 impl GateFigure {
+    /// Whether its interval is narrow enough.
+    fn is_certain(&self, limits: GateLimits) -> bool {
+        self.uncertainty().is_some_and(|part| part <= limits.uncertainty)
+    }
+
     /// A time over the floor; `None` where not measured.
     pub fn time(name: String, spread: Option<&Spread>) -> Option<Self> {
         let spread = spread?;
@@ -106,8 +120,13 @@ impl GateFigure {
         Some(Self { name, kind, value: count? as f64, interval: None })
     }
 
-    /// How it does beside what it was. `tolerance`: by which part times may grow, beside their intervals.
-    fn verdict(&self, before: &Self, tolerance: f64) -> Verdict {
+    /// Half the interval's width as a part of the value.
+    fn uncertainty(&self) -> Option<f64> {
+        self.interval.map(|[low, high]| 0.5 * (high - low) / self.value)
+    }
+
+    /// How it does beside what it was.
+    fn verdict(&self, before: &Self, limits: GateLimits) -> Verdict {
         let outside = |now: [f64; 2], before: [f64; 2], allowed: f64| {
             if now[0] > before[1] * (1.0 + allowed) {
                 Verdict::Worse
@@ -122,7 +141,13 @@ impl GateFigure {
             GateKind::Instructions => exact(0.0),
             GateKind::Work => exact(WORK_TOLERANCE),
             GateKind::TimeOverFloor => match self.interval.zip(before.interval) {
-                Some((now, before)) => outside(now, before, tolerance),
+                // What is certainly worse is so, however uncertain it is by how much.
+                Some((now, then)) => match outside(now, then, limits.tolerance) {
+                    Verdict::Same if !self.is_certain(limits) || !before.is_certain(limits) => {
+                        Verdict::NotJudged
+                    }
+                    verdict => verdict,
+                },
                 None => Verdict::NotJudged,
             },
         }
@@ -136,14 +161,14 @@ impl Gate {
     }
 
     /// Judges every figure against an earlier run's.
-    pub fn judge(&self, before: &Self, tolerance: f64) -> Judgement {
+    pub fn judge(&self, before: &Self, limits: GateLimits) -> Judgement {
         let of = |gate: &Self| -> BTreeMap<String, GateFigure> {
             gate.figures.iter().map(|figure| (figure.name.clone(), figure.clone())).collect()
         };
         let (then, now) = (of(before), of(self));
         let judge = |figure: &GateFigure| {
             let before = then.get(&figure.name)?;
-            let verdict = figure.verdict(before, tolerance);
+            let verdict = figure.verdict(before, limits);
             let (name, kind) = (figure.name.clone(), figure.kind);
             Some(Judged { name, kind, before: before.value, now: figure.value, verdict })
         };
@@ -210,7 +235,7 @@ impl Judgement {
             let verdict = match judged.verdict {
                 Verdict::Worse => "WORSE",
                 Verdict::Better => "better",
-                Verdict::NotJudged => "not judged: too few rounds",
+                Verdict::NotJudged => "not judged: too uncertain",
                 Verdict::Same => "same",
             };
             grid.row([
@@ -244,8 +269,10 @@ mod tests {
         Gate { figures, ..Gate::default() }
     }
 
+    const LIMITS: GateLimits = GateLimits { tolerance: 0.03, uncertainty: 0.15 };
+
     fn verdict(before: GateFigure, now: GateFigure) -> Verdict {
-        gate(vec![now]).judge(&gate(vec![before]), 0.03).judged[0].verdict
+        gate(vec![now]).judge(&gate(vec![before]), LIMITS).judged[0].verdict
     }
 
     #[test]
@@ -254,6 +281,10 @@ mod tests {
         assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 2.05, 2.2)), Verdict::Same);
         assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 2.07, 2.2)), Verdict::Worse);
         assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 1.5, 1.7)), Verdict::Better);
+        // Neither may an outlier blind the gate, nor hide what is worse all the same.
+        assert_eq!(verdict(time("a", 1.8, 2.8), time("a", 2.2, 2.4)), Verdict::NotJudged);
+        assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 1.5, 2.5)), Verdict::NotJudged);
+        assert_eq!(verdict(time("a", 1.8, 2.0), time("a", 2.2, 3.9)), Verdict::Worse);
         let unknown = GateFigure { interval: None, ..time("a", 1.0, 1.0) };
         assert_eq!(verdict(time("a", 1.8, 2.0), unknown), Verdict::NotJudged);
     }
@@ -271,15 +302,15 @@ mod tests {
     #[test]
     fn what_is_gone_or_not_judged_or_worse_does_not_pass() {
         let before = gate(vec![time("a", 1.0, 1.1), time("b", 1.0, 1.1)]);
-        assert!(before.judge(&before, 0.0).passes());
-        assert!(!gate(vec![time("a", 1.0, 1.1)]).judge(&before, 0.0).passes());
-        let worse = gate(vec![time("a", 1.0, 1.1), time("b", 2.0, 2.1)]).judge(&before, 0.0);
+        assert!(before.judge(&before, LIMITS).passes());
+        assert!(!gate(vec![time("a", 1.0, 1.1)]).judge(&before, LIMITS).passes());
+        let worse = gate(vec![time("a", 1.0, 1.1), time("b", 2.0, 2.1)]).judge(&before, LIMITS);
         assert!(!worse.passes());
         assert!(worse.grid().to_string().contains("WORSE") && worse.summary().contains("1 worse"));
         // An empty baseline proves nothing.
-        assert!(!gate(Vec::new()).judge(&gate(Vec::new()), 0.0).passes());
+        assert!(!gate(Vec::new()).judge(&gate(Vec::new()), LIMITS).passes());
         let more = gate(vec![time("a", 1.0, 1.1), time("b", 1.0, 1.1), time("c", 9.0, 9.1)]);
-        assert!(more.judge(&before, 0.0).passes());
+        assert!(more.judge(&before, LIMITS).passes());
     }
 
     #[test]
@@ -291,7 +322,7 @@ mod tests {
         };
         assert_eq!(with("2x2", "x").mismatch(&with("1x1", "x")), ["size: 1x1, now 2x2"]);
         assert!(with("1x1", "x").mismatch(&with("1x1", "y")).is_empty());
-        let judged = with("1x1", "new").judge(&with("1x1", "old"), 0.0);
+        let judged = with("1x1", "new").judge(&with("1x1", "old"), LIMITS);
         assert_eq!(judged.differs, ["driver: old, now new"]);
         assert!(judged.passes());
     }

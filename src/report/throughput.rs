@@ -131,7 +131,7 @@ impl Measured<'_> {
 }
 
 /// The floor's pass that draws what a pass draws.
-fn floor_pass(pass: &str) -> Option<&'static str> {
+pub(super) fn floor_pass(pass: &str) -> Option<&'static str> {
     match pass {
         "visibility" => Some("floor depth"),
         "accumulate" => Some("floor add"),
@@ -146,9 +146,9 @@ fn least(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
 
 /// Figure `i` of one contestant over that of another, round by round.
 fn ratio(own: &[Vec<Option<f64>>], other: &[Vec<Option<f64>>], i: usize, j: usize) -> Option<Spread> {
-    let ratios: Option<Vec<f64>> =
-        own.iter().zip(other).map(|(own, other)| Some((*own.get(i)?)? / (*other.get(j)?)?)).collect();
-    ratios.and_then(Spread::of)
+    // A round in which a timestamp was lost, or did not move, tells nothing of either.
+    let figure = |round: &[Option<f64>], i: usize| round.get(i).copied().flatten().filter(|ms| *ms > 0.0);
+    Spread::of(own.iter().zip(other).filter_map(|(own, other)| Some(figure(own, i)? / figure(other, j)?)))
 }
 
 impl ThroughputRow {
@@ -237,8 +237,8 @@ pub fn throughput_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
         }
     }
     grid.notes.push(
-        "medians; in brackets the paper's; ratios are medians of the rounds' own ratios: x first beside the first method, x floor beside the same \
-         points and formats with nothing computed"
+        "medians; in brackets the paper's; ratios are medians of the rounds' own, each of the least of its frames: x first \
+         beside the first method, x floor beside that one's points and formats with nothing computed"
             .to_owned(),
     );
     grid

@@ -79,7 +79,7 @@ fn throughput_is_told_in_every_form_of_every_pass() {
 fn a_gate_passes_what_is_the_same_and_stops_what_became_worse() {
     let folder = Folder::new();
     // On a busy machine intervals are wide; times are not what is tested here.
-    let wide = ["--tolerance", "400"];
+    let wide = ["--tolerance", "400", "--max-spread", "1000"];
     assert_eq!(bench(&folder, &[&TABLE1[..], &["--json", "before.json"]].concat()).code, 0);
     let same = bench(&folder, &[&TABLE1[..], &["--baseline", "before.json"], &wide].concat());
     assert_eq!(same.code, 0, "{} {}", same.stdout, same.stderr);
@@ -106,12 +106,18 @@ fn a_gate_passes_what_is_the_same_and_stops_what_became_worse() {
 #[test]
 fn a_baseline_of_something_else_is_refused_before_the_long_work() {
     let folder = Folder::new();
-    let report = r#"{"gate": {"subject": {"table": "floor"}, "circumstances": {}, "figures": []}}"#;
-    folder.write("floor.json", report);
+    let gate = |figures: &str| {
+        format!(
+            r#"{{"gate": {{"subject": {{"table": "floor"}}, "circumstances": {{}}, "figures": [{figures}]}}}}"#
+        )
+    };
+    folder.write("floor.json", gate(r#"{"name": "x", "kind": "work", "value": 1.0, "interval": null}"#));
+    folder.write("empty.json", gate(""));
     folder.write("broken.json", "{\n\"gate\": 7}");
     for (file, expected) in [
         ("floor.json", "the baseline is of something else"),
         ("broken.json", "broken.json: line 2: "),
+        ("empty.json", "has no figures to judge by"),
         ("missing.json", "cannot read"),
     ] {
         let refused = bench(&folder, &[&TABLE1[..], &["--baseline", file]].concat());

@@ -116,11 +116,14 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
     let json: Value =
         serde_json::from_slice(&fs::read(folder.path("new/folder/report.json")).unwrap()).unwrap();
     assert_eq!(json["head"]["surfel"], env!("CARGO_PKG_VERSION"));
-    assert!(json["flags"]["methods"].as_array().is_some_and(|flags| !flags.is_empty()));
+    for part in ["methods", "bench"] {
+        let flags = json["flags"][part].as_array().unwrap();
+        assert!(flags.iter().any(|flag| flag.as_str().unwrap().contains("validation")), "{part}: {flags:?}");
+    }
     let parts = &json["parts"];
     assert_eq!(parts["methods"]["methods"].as_array().map(Vec::len), Some(14));
     assert_eq!(parts["distance"]["steps"].as_array().map(Vec::len), Some(2));
-    assert_eq!(parts["bench"]["rows"].as_array().map(Vec::len), Some(4));
+    assert_eq!(parts["bench"]["floor"]["rows"].as_array().map(Vec::len), Some(4));
     assert!(json["machine"]["bench"]["threads"].as_u64() > Some(0));
 }
 

@@ -158,7 +158,9 @@ fn every_traits(all: bool) -> Vec<Traits> {
     for ellipses in [false, true] {
         for may_be_large in [false, true] {
             for export in [false, true] {
-                every.push(Traits { ellipses, may_be_large, export, floor: export, ..Traits::default() });
+                for closed in [true, false] {
+                    every.push(Traits { ellipses, closed, may_be_large, export, floor: export });
+                }
             }
         }
     }
@@ -167,7 +169,12 @@ fn every_traits(all: bool) -> Vec<Traits> {
 
 /// What tells a pipeline from others.
 fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> PipelineNames {
-    let splats = if traits.ellipses { "ellipses" } else { "disks" };
+    let splats = match (traits.ellipses, traits.closed) {
+        (false, true) => "disks",
+        (true, true) => "ellipses",
+        (false, false) => "open disks",
+        (true, false) => "open ellipses",
+    };
     let mut names = PipelineNames {
         pass: recipe.pass.to_owned(),
         draws: recipe.draws.to_owned(),

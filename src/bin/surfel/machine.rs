@@ -39,12 +39,15 @@ impl<'a> Watch<'a> {
 
     /// What was seen till now.
     pub fn end(&self) -> Machine {
-        let taken_by_others = self.times.zip(Times::now()).and_then(|(begin, end)| {
-            let all = end.all.checked_sub(begin.all).filter(|all| *all > 0)?;
-            let busy = end.busy.saturating_sub(begin.busy);
-            let own = end.own.saturating_sub(begin.own);
-            Some(busy.saturating_sub(own) as f64 / all as f64)
-        });
+        // A graphics card may be shared whatever the processor does, and is not by what the processor does.
+        let is_processor = self.facts.kind == DeviceKind::Cpu;
+        let taken_by_others =
+            self.times.filter(|_| is_processor).zip(Times::now()).and_then(|(begin, end)| {
+                let all = end.all.checked_sub(begin.all).filter(|all| *all > 0)?;
+                let busy = end.busy.saturating_sub(begin.busy);
+                let own = end.own.saturating_sub(begin.own);
+                Some(busy.saturating_sub(own) as f64 / all as f64)
+            });
         Machine {
             threads: thread::available_parallelism().map_or(1, Into::into),
             taken_by_others,

@@ -1,6 +1,6 @@
 //! The options of `surfel bench`.
 
-use std::path::PathBuf;
+use std::{collections::HashSet, path::PathBuf};
 
 use clap::Args;
 use surfel::{
@@ -21,7 +21,7 @@ pub struct BenchArguments {
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
-    /// Numbers of splats of table1, with commas between, such as 154k,1.4M [default: the paper's]
+    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first [default: the paper's]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -41,7 +41,8 @@ pub struct BenchArguments {
     #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
     pub accumulate: Accumulate,
 
-    /// Frames timed of each method, in pairs: methods and floor take turns; an untimed frame before each pair
+    /// Frames timed of each method, in turn with the floor: in pairs after an untimed one, but for floor, which has as many
+    /// rounds of single frames
     #[arg(long, value_name = "N", default_value_t = 20, help_heading = "Device and measurement")]
     #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
@@ -50,7 +51,7 @@ pub struct BenchArguments {
     #[arg(long, value_name = "NAME|INDEX", help_heading = "Device and measurement")]
     pub device: Option<String>,
 
-    /// How uncertain a median may be without a note: half its 95% interval, in percent
+    /// How uncertain a median may be without a note: half its 95% interval, in percent; three times that ends a gate
     #[arg(long, value_name = "PERCENT", default_value_t = 5.0, help_heading = "Device and measurement")]
     #[arg(value_parser = parse::percent, allow_hyphen_values = true)]
     pub max_spread: f64,
@@ -155,6 +156,9 @@ impl BenchArguments {
 
     /// The numbers of splats of table1.
     pub fn splat_counts(&self) -> Vec<u64> {
-        if self.splats.is_empty() { PAPER_SPLATS.to_vec() } else { self.splats.clone() }
+        let mut counts = if self.splats.is_empty() { PAPER_SPLATS.to_vec() } else { self.splats.clone() };
+        let mut seen = HashSet::new();
+        counts.retain(|count| seen.insert(*count));
+        counts
     }
 }

@@ -6,13 +6,19 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     report::{
-        BenchReport, DeviceReport, counts_gate, floor_gate,
-        gate::{Gate, Judgement, Verdict},
+        BenchReport, DeviceReport, InputReport, counts_gate, floor_gate,
+        gate::{Gate, GateLimits, Judgement, Verdict},
         throughput_gate,
     },
 };
 
 use super::arguments::BenchArguments;
+
+/// How many times --max-spread an interval may be wide, for the gate to see through it.
+const WIDEST: f64 = 3.0;
+
+/// Frames that give an interval: 6 rounds of pairs.
+const FEWEST_FRAMES: u32 = 12;
 
 /// The part of a report that is read.
 #[derive(Deserialize)]
@@ -31,6 +37,23 @@ pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
         let place = format!("line {}", e.line());
         Error::input(path, place, format!("{e}; expected a file of `surfel bench ... --json`"))
     })?;
+    if report.gate.figures.is_empty() {
+        return Err(Error::input(path, "", "has no figures to judge by"));
+    }
+    let mut names: Vec<&str> = report.gate.figures.iter().map(|figure| figure.name.as_str()).collect();
+    names.sort_unstable();
+    if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(Error::input(path, "", format!("has '{}' twice", twice[0])));
+    }
+    let tables = arguments.table.tables();
+    if (tables.table1 || tables.slides) && arguments.frames < FEWEST_FRAMES
+        || tables.floor && arguments.frames < 6
+    {
+        return Err(Error::option(
+            "--frames",
+            format!("{}: a gate takes {FEWEST_FRAMES} at least", arguments.frames),
+        ));
+    }
     // All but what the run itself decides is known before it.
     check_subject(path, &subject(arguments, None), &report.gate)?;
     Ok(Some(report.gate))
@@ -66,7 +89,11 @@ pub fn judge(arguments: &BenchArguments, now: &Gate, before: &Gate) -> Result<Ju
     if let Some(path) = &arguments.baseline {
         check_subject(path, &now.subject, before)?;
     }
-    Ok(now.judge(before, 0.01 * arguments.tolerance))
+    let limits = GateLimits {
+        tolerance: 0.01 * arguments.tolerance,
+        uncertainty: WIDEST * 0.01 * arguments.max_spread,
+    };
+    Ok(now.judge(before, limits))
 }
 
 /// Ends with what was found.
@@ -107,6 +134,7 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
         .map(|(name, value)| (name.to_owned(), value))
         .collect();
     subject.insert("table".to_owned(), arguments.table.name().to_owned());
+    subject.insert("validation".to_owned(), arguments.validate.to_string());
     if tables.table1 || tables.slides {
         let splats: Vec<String> = arguments.splats.iter().map(u64::to_string).collect();
         let splats = if splats.is_empty() { "default".to_owned() } else { splats.join(",") };
@@ -116,7 +144,8 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
         subject.insert("all pipelines".to_owned(), arguments.counts.all.to_string());
     }
     if let Some(report) = report {
-        let inputs: Vec<&str> = report.inputs.iter().map(|input| input.summary.as_str()).collect();
+        let input = |input: &InputReport| format!("{}, {} splats", input.name, input.splats);
+        let inputs: Vec<String> = report.inputs.iter().map(input).collect();
         subject.insert("inputs".to_owned(), inputs.join("; "));
     }
     subject

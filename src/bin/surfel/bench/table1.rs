@@ -40,8 +40,20 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<Vec<Thr
     let methods =
         [(Rasterizer::Perspective, PaperMethod::Perspective), (Rasterizer::Raycast, PaperMethod::Raycast)]
             .map(method);
-    let counts = stage.arguments.splat_counts();
-    counts.into_iter().map(|splats| row(headless, stage, &source, splats, &methods)).collect()
+    let mut rows = Vec::new();
+    for splats in stage.arguments.splat_counts() {
+        match row(headless, stage, &source, splats, &methods) {
+            Ok(row) => rows.push(row),
+            // What was measured before is not lost: the rest is left out, and said so.
+            Err(error) if !rows.is_empty() => {
+                stage.bars.clear();
+                stage.flags.push(format!("{splats} splats and further are left out: {error}"));
+                break;
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(rows)
 }
 
 /// Measures methods in turn with the floor of the first.
@@ -63,6 +75,7 @@ pub fn row(
     }
     let prepared = headless
         .prepare(&scene, &|done, total| surfel::Progress::step(&stage.bars, "upload", done, total))?;
+    let closed = scene.objects.iter().all(|object| object.closed);
     drop(scene);
     let floor_settings = methods.first().map_or(&stage.settings, |method| &method.settings);
     let floor = Floor::new(headless, &prepared, &camera, floor_settings, false)?;
@@ -74,7 +87,7 @@ pub fn row(
     let timed: Vec<turns::Timed> = timed.into_iter().collect::<Result<_>>()?;
 
     let instructions: Vec<_> =
-        methods.iter().map(|method| counts_of(&method.settings)).collect::<Result<_>>()?;
+        methods.iter().map(|method| counts_of(&method.settings, closed)).collect::<Result<_>>()?;
     let names = methods.iter().map(|method| (method.name.as_str(), method.paper)).chain([("floor", None)]);
     let instructions = instructions.iter().map(Vec::as_slice).chain([&[][..]]);
     let measured: Vec<Measured<'_>> = names
@@ -110,7 +123,7 @@ fn floor_frames(mut floor: Floor<'_>) -> Draw<'_> {
         let begun = std::time::Instant::now();
         let profile = floor.frame(headless, profile)?;
         // What the host does for it is not told apart from the wait.
-        let sample = turns::sample(&profile, begun.elapsed().as_secs_f64(), 0.0);
+        let sample = turns::sample(&profile, begun.elapsed().as_secs_f64(), f64::NAN);
         Ok(Drawn { profile, sample })
     })
 }

@@ -169,12 +169,13 @@ pub fn gather(
     let turns = turns::take(headless, &stage, &timed, &found, arguments.frames);
     bars.clear();
 
+    let closed = scene.objects.iter().all(|object| object.closed);
     let mut rows = Vec::new();
     for ((method, [own, truth]), times) in found.into_iter().zip(turns) {
         match times {
             Ok(times) => {
                 let mut row = MethodRow::new(method.names(), times, own, truth);
-                row.set_instructions(&counts_of(&method.settings(base))?);
+                row.set_instructions(&counts_of(&method.settings(base), closed)?);
                 rows.push(row);
             }
             Err(error) => skipped.push(Skipped { method: method.names(), reason: error.to_string() }),

@@ -121,7 +121,10 @@ impl ReportArguments {
         };
         match name == "counts" {
             true => CommandLine::new(["bench", name]),
-            false => self.on_device(self.with_frames(line)),
+            false => {
+                let line = self.on_device(self.with_frames(line));
+                if self.validate { line.word("--validate") } else { line }
+            }
         }
     }
 

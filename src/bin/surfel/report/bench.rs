@@ -4,7 +4,7 @@ use surfel::{Result, report::FloorReport};
 
 use super::{
     part::{Block, Part},
-    session::{Session, shortened},
+    session::Session,
 };
 use crate::{arguments::Command, bench, json::to_value};
 
@@ -30,7 +30,7 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     for grid in report.grids() {
         part.table(grid);
     }
-    part.flags = shortened(report.flags);
+    part.flags = report.flags;
     part.machine = report.machine;
     Ok(part)
 }

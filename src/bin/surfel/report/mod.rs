@@ -99,8 +99,8 @@ fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
         let gathered = (chapter.gather)(&mut session);
         bars.clear();
         parts.push(match gathered {
-            // The input or an option, not the device: other parts may do without it.
-            Err(error) if error.exit_code() == 1 => {
+            // The input or an option, or too little memory for what this part draws: other parts may do without it.
+            Err(error) if error.exit_code() == 1 || matches!(error.kind(), ErrorKind::Memory { .. }) => {
                 console::say(&format!("{}: {error}", chapter.title));
                 Part::missing(&error)
             }

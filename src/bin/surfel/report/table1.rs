@@ -7,7 +7,7 @@ use surfel::{
 
 use super::{
     part::{Block, Part},
-    session::{Session, shortened},
+    session::Session,
 };
 use crate::{arguments::Command, bench, json::to_value};
 
@@ -38,10 +38,9 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
             part.table(grid);
         }
         part.flags.extend(report.flags);
-        part.machine = report.machine.or(part.machine);
+        part.machine = part.machine.or(report.machine);
         part.commands.push(line);
     }
-    part.flags = shortened(part.flags);
     part.data = data.into();
     Ok(part)
 }
