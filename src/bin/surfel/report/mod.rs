@@ -26,7 +26,7 @@ use std::{collections::BTreeMap, fs};
 
 use serde::Serialize;
 use serde_json::Value;
-use surfel::{Error, Result, renderer::Headless, report::Machine, save, scene::Camera};
+use surfel::{Error, ErrorKind, Result, renderer::Headless, report::Machine, save, scene::Camera};
 
 pub use arguments::ReportArguments;
 
