@@ -15,7 +15,8 @@ pub struct Machine {
     pub threads: usize,
     /// The part of the processor's time that other processes took; `None` where the system does not tell.
     pub taken_by_others: Option<f64>,
-    /// Megahertz before and after: of the graphics clock, or of the processor where that draws; `None` where unknown.
+    /// The slowest and the fastest clock seen while the device worked, in megahertz: of the graphics, or of the processor
+    /// where that draws; `None` where unknown.
     pub clock_mhz: Option<[f64; 2]>,
     /// The most memory that this process has held so far, in bytes; `None` where the system does not tell.
     pub peak_host_bytes: Option<u64>,
@@ -28,7 +29,7 @@ pub struct TrustLimits {
     pub uncertainty: f64,
     /// How much the machine's speed may change from the first third of the rounds to the last.
     pub drift: f64,
-    /// How much the clock may differ, after from before.
+    /// By how much the fastest clock may exceed the slowest.
     pub clock: f64,
     /// The part of the processor's time that other processes may take.
     pub others: f64,
@@ -76,11 +77,11 @@ impl Machine {
                  fine)"
             ));
         }
-        if let Some([before, after]) = self.clock_mhz
-            && (after / before - 1.0).abs() > limits.clock
+        if let Some([slowest, fastest]) = self.clock_mhz
+            && fastest / slowest - 1.0 > limits.clock
         {
             flags.push(format!(
-                "the clock moved: {before:.0} MHz before, {after:.0} MHz after (up to {:.0}% is fine)",
+                "the clock moved: from {slowest:.0} to {fastest:.0} MHz (up to {:.0}% is fine)",
                 100.0 * limits.clock
             ));
         }
@@ -146,9 +147,9 @@ mod tests {
             peak_host_bytes: None,
         };
         assert!(quiet.flags(&limits).is_empty());
-        let loud = Machine { taken_by_others: Some(0.4), clock_mhz: Some([2000.0, 1500.0]), ..quiet.clone() };
+        let loud = Machine { taken_by_others: Some(0.4), clock_mhz: Some([1500.0, 2000.0]), ..quiet.clone() };
         let flags = loud.flags(&limits);
-        assert!(flags[0].contains("took 40%") && flags[1].contains("1500 MHz after"), "{flags:?}");
+        assert!(flags[0].contains("took 40%") && flags[1].contains("from 1500 to 2000 MHz"), "{flags:?}");
         let unknown = Machine { taken_by_others: None, clock_mhz: None, ..quiet };
         assert!(unknown.flags(&limits).is_empty());
 

@@ -9,7 +9,7 @@ use std::{
 };
 
 use surfel::{
-    report::Machine,
+    report::{Machine, Spread},
     vk::{DeviceFacts, DeviceKind},
 };
 
@@ -20,7 +20,6 @@ const NVIDIA: u32 = 0x10de;
 pub struct Watch<'a> {
     facts: &'a DeviceFacts,
     times: Option<Times>,
-    clock_mhz: Option<f64>,
 }
 
 /// Clock ticks of the processor's threads together.
@@ -34,11 +33,11 @@ struct Times {
 impl<'a> Watch<'a> {
     /// Begins to watch.
     pub fn begin(facts: &'a DeviceFacts) -> Self {
-        Self { facts, times: Times::now(), clock_mhz: clock_mhz(facts) }
+        Self { facts, times: Times::now() }
     }
 
-    /// What was seen till now.
-    pub fn end(&self) -> Machine {
+    /// What was seen till now. `clocks_mhz` were taken while the device worked: idle ones are slow, and tell nothing.
+    pub fn end(&self, clocks_mhz: &[f64]) -> Machine {
         // A graphics card may be shared whatever the processor does, and is not by what the processor does.
         let is_processor = self.facts.kind == DeviceKind::Cpu;
         let taken_by_others =
@@ -51,7 +50,7 @@ impl<'a> Watch<'a> {
         Machine {
             threads: thread::available_parallelism().map_or(1, Into::into),
             taken_by_others,
-            clock_mhz: self.clock_mhz.zip(clock_mhz(self.facts)).map(Into::into),
+            clock_mhz: Spread::of(clocks_mhz.iter().copied()).map(|clock| [clock.min, clock.max]),
             peak_host_bytes: peak_host_bytes(),
         }
     }
@@ -85,8 +84,8 @@ impl Times {
     }
 }
 
-/// The clock that decides how fast the device draws.
-fn clock_mhz(facts: &DeviceFacts) -> Option<f64> {
+/// The clock that decides how fast the device draws; `None` where the system does not tell.
+pub fn clock_mhz(facts: &DeviceFacts) -> Option<f64> {
     match facts.kind {
         DeviceKind::Cpu => processor_mhz(&fs::read_to_string("/proc/cpuinfo").ok()?),
         _ if facts.ids[0] == NVIDIA => nvidia_mhz(),

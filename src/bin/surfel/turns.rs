@@ -70,13 +70,15 @@ pub fn sample(profile: &FrameProfile, wall_secs: f64, record_secs: f64) -> Frame
 }
 
 /// Times `frames` frames of each contestant and counts vertices and fragments of one more. One that fails is left out of
-/// the rounds that follow. A first round, in which pipelines are made, is not timed.
+/// the rounds that follow. A first round, in which pipelines are made, is not timed. `under_load` is called after it and after
+/// the last, while the device is warm.
 pub fn take(
     headless: &mut Headless,
     mut contestants: Vec<Draw<'_>>,
     frames: u32,
     what: &str,
     bars: &Bars,
+    under_load: &mut dyn FnMut(),
 ) -> Vec<Result<Timed>> {
     let mut all: Vec<Result<Timed>> = contestants.iter().map(|_| Ok(Timed::default())).collect();
     let rounds = frames.div_ceil(FRAMES_A_TURN);
@@ -95,6 +97,9 @@ pub fn take(
             }
             done += 1;
             bars.step(what, done, total);
+        }
+        if round == 0 || round == rounds {
+            under_load();
         }
     }
     for (draw, result) in contestants.iter_mut().zip(&mut all) {

@@ -10,6 +10,7 @@ use surfel::{
 
 use super::Stage;
 use crate::{
+    machine::clock_mhz,
     reports::scene_report,
     scene::{Loaded, load_scene},
     steps::Steps,
@@ -34,6 +35,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
 
     let mut rounds = Vec::new();
     let mut names = Vec::new();
+    let facts = headless.device().facts().clone();
     for round in 0..WARM_UP_ROUNDS + arguments.frames {
         bars.step("rounds", round.into(), (WARM_UP_ROUNDS + arguments.frames).into());
         let wanted = Wanted { profile: Some(Profile::Times), ..Wanted::default() };
@@ -48,6 +50,9 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
             rounds.push(times);
         }
         names = profile.passes.into_iter().map(|pass| pass.name).collect();
+        if round == WARM_UP_ROUNDS || round + 1 == WARM_UP_ROUNDS + arguments.frames {
+            stage.clocks_mhz.extend(clock_mhz(&facts));
+        }
     }
     bars.clear();
     let transient_bytes = headless.transient_bytes();

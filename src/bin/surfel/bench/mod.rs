@@ -9,7 +9,7 @@ mod slides;
 mod table1;
 
 use surfel::{
-    Result,
+    Error, Result,
     renderer::Headless,
     report::{BenchReport, InputReport, TrustLimits, settings_as_options},
     scene::Settings,
@@ -34,6 +34,8 @@ struct Stage<'a> {
     inputs: Vec<InputReport>,
     /// What makes figures doubtful so far.
     flags: Vec<String>,
+    /// The clock, whenever the device had just worked.
+    clocks_mhz: Vec<f64>,
     limits: TrustLimits,
 }
 
@@ -46,6 +48,10 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
         return counts::print_isa_rows(arguments);
     }
     arguments.settings().validate()?;
+    let counts = &arguments.counts;
+    if !arguments.table.tables().counts && (counts.all || !counts.isa.is_empty()) {
+        return Err(Error::option("--isa, --all", format!("{} counts nothing", arguments.table.name())));
+    }
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
     let tables = arguments.table.tables();
@@ -83,8 +89,15 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
         limits,
         ..BenchReport::default()
     };
-    let mut stage =
-        Stage { arguments, settings, bars: Bars::new(), inputs: Vec::new(), flags: Vec::new(), limits };
+    let mut stage = Stage {
+        arguments,
+        settings,
+        bars: Bars::new(),
+        inputs: Vec::new(),
+        flags: Vec::new(),
+        clocks_mhz: Vec::new(),
+        limits,
+    };
     // First, since it takes no time to find that a chip is unknown.
     report.counts =
         arguments.table.tables().counts.then(|| counts::gather(arguments, &stage.bars)).transpose()?;
@@ -113,7 +126,7 @@ fn measure(headless: &mut Headless, stage: &mut Stage<'_>, report: &mut BenchRep
     if tables.slides {
         report.slides = Some(slides::measure(headless, stage)?);
     }
-    let machine = watch.end();
+    let machine = watch.end(&stage.clocks_mhz);
     report.flags = machine.flags(&stage.limits);
     report.flags.append(&mut stage.flags);
     report.inputs = std::mem::take(&mut stage.inputs);

@@ -12,6 +12,7 @@ use surfel::{
 
 use super::{Stage, model::Source};
 use crate::{
+    machine::clock_mhz,
     scene::Loaded,
     turns::{self, Draw, Drawn},
 };
@@ -83,7 +84,11 @@ pub fn row(
         methods.iter().map(|method| turns::frames(&prepared, &camera, method.settings.clone())).collect();
     contestants.push(floor_frames(floor));
     let task = format!("{splats} splats: frames");
-    let timed = turns::take(headless, contestants, stage.arguments.frames, &task, &stage.bars);
+    let facts = headless.device().facts().clone();
+    let (frames, clocks) = (stage.arguments.frames, &mut stage.clocks_mhz);
+    let timed = turns::take(headless, contestants, frames, &task, &stage.bars, &mut || {
+        clocks.extend(clock_mhz(&facts));
+    });
     let timed: Vec<turns::Timed> = timed.into_iter().collect::<Result<_>>()?;
 
     let instructions: Vec<_> =

@@ -25,7 +25,7 @@ pub fn take(
         .iter()
         .map(|(method, _)| turns::frames(stage.prepared, stage.camera, method.settings(base)))
         .collect();
-    let timed = turns::take(headless, contestants, frames, "frames of all methods", stage.bars);
+    let timed = turns::take(headless, contestants, frames, "frames of all methods", stage.bars, &mut || {});
     let times = |timed: Result<turns::Timed>| {
         timed.map(|timed| FrameTimes::of(&timed.names, UNTIMED_A_TURN, &timed.samples(), &timed.counts))
     };

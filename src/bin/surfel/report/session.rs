@@ -64,7 +64,7 @@ impl<'a> Session<'a> {
         let device = self.headless.device().clone();
         let watch = Watch::begin(device.facts());
         let measured = measure(self)?;
-        let machine = watch.end();
+        let machine = watch.end(&[]);
         let mut flags = machine.flags(&TrustLimits::default());
         if self.arguments.validate {
             flags.push("measured under validation: the times are worthless".to_owned());
