@@ -1,10 +1,19 @@
 //! Instructions of the renderer's pipelines: what the papers publish, ours pinned, and what compilers of real chips make of
 //! every pipeline. The rule itself is tested on shaders counted by hand in `src/count/tests.rs`.
 
-use std::{fmt::Write as _, fs, path::PathBuf, process::Command};
+#[path = "../src/shaders/build/mod.rs"]
+#[allow(dead_code, reason = "only the build of a folder is used here")]
+mod shader_build;
+
+use std::{
+    fmt::Write as _,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
 
 use surfel::{
-    count::{Counts, PassCounts},
+    count::{Counts, PassCounts, count},
     passes::{Counter, counts_of, papers_pipelines},
     scene::{Filter, KernelEval, Rasterizer, Settings},
 };
@@ -65,6 +74,40 @@ fn our_pipelines_have_the_pinned_counts() {
         fs::write(&path, &text).unwrap();
     }
     assert_eq!(fs::read_to_string(&path).unwrap_or_default(), text, "{}", path.display());
+}
+
+/// The instructions of the fragment stage of accumulation, with this text in place of another.
+fn accumulation_with(old: &str, new: &str) -> Counts {
+    let glsl = Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl");
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("inc")).unwrap();
+    for file in fs::read_dir(glsl.join("inc")).unwrap() {
+        let file = file.unwrap();
+        fs::copy(file.path(), folder.path().join("inc").join(file.file_name())).unwrap();
+    }
+    let name = "accumulate.frag.glsl";
+    let text = fs::read_to_string(glsl.join(name)).unwrap();
+    assert!(text.contains(old), "{old}");
+    // One permutation will do.
+    let lines = text.lines().filter(|line| !line.starts_with("// Permutations:"));
+    let text = lines.collect::<Vec<_>>().join("\n").replace(old, new);
+    fs::write(folder.path().join(name), format!("// Permutations: plain | textured\n{text}\n")).unwrap();
+    let rust = shader_build::build(folder.path(), &[], &[]).unwrap();
+    let (_, words) = rust.split_once("spirv: &[").unwrap();
+    let (words, _) = words.split_once(']').unwrap();
+    let word = |word: &str| u32::from_str_radix(word.trim_start_matches("0x"), 16).unwrap();
+    count(&words.split(',').map(word).collect::<Vec<_>>(), &[]).unwrap()
+}
+
+#[test]
+fn one_more_fetch_in_a_fragment_of_ours_shows_in_the_count() {
+    let weight = "kernel_from_texture(fragment.uv);";
+    let before = accumulation_with(weight, weight);
+    let fetch = "textureLod(kernel_texture, fragment.uv, 0.0).r +";
+    let after = accumulation_with(weight, &format!("{fetch} {weight}"));
+    assert_eq!((before.mnemonics["TEX"], after.mnemonics["TEX"]), (1, 2));
+    // The fetch, and its sum.
+    assert_eq!(after.arb, before.arb.map(|count| count + 2));
 }
 
 #[cfg(feature = "cli")]

@@ -46,7 +46,6 @@ pub fn simple(op: Op, width: u32, operand_width: u32) -> Option<Vec<&'static str
         }
         // A column a component.
         Op::VectorTimesMatrix => each(if operand_width <= 3 { "DP3" } else { "DP4" }),
-        Op::FMod | Op::FRem => vec!["MUL", "FLR", "MAD"],
         Op::SDiv | Op::UDiv => vec!["RCP", "MUL", "FLR"],
         Op::UMod | Op::SMod | Op::SRem => vec!["RCP", "MUL", "FLR", "MAD"],
         Op::FOrdLessThan | Op::FUnordLessThan | Op::FOrdGreaterThan | Op::FUnordGreaterThan => vec!["SLT"],

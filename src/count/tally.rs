@@ -117,6 +117,10 @@ impl Tally<'_, '_> {
                     self.add(label, ["MUL"]);
                 }
             }
+            Op::FMod | Op::FRem => {
+                self.reciprocals(label, instruction);
+                self.add(label, ["MUL", "FLR", "MAD"]);
+            }
             Op::LogicalNot => {
                 let turned =
                     first.and_then(|operand| self.specialized.instruction(self.specialized.resolve(operand)));

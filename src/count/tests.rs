@@ -87,6 +87,7 @@ fn each_line_has_the_count_that_was_made_by_hand() {
         ("o = vec4(pow(a.x, b.x));", "POW", 1),
         ("o = vec4(sin(a.xy), 0.0, 0.0);", "SIN*2", 2), // a scalar instruction
         ("o = mod(a, 2.0);", "FLR MAD MUL", 4),
+        ("o = mod(a, b.x);", "FLR MAD MUL RCP", 4),
         ("o = a.x < b.x ? a : b;", "CMP SLT", 5),
         ("o = vec4(a.x >= b.x ? 1.0 : 0.0);", "CMP SGE", 2),
         ("o = vec4(float(int(floor(a.x)) + 1));", "ADD FLR", 4), // integers are floats there
