@@ -76,11 +76,16 @@ pub fn rows_here(
             device: device.facts().name.clone(),
             executable: program.name,
             subgroup: program.subgroup_size,
-            statistics: program.statistics,
+            // A hash is no figure.
+            statistics: program.statistics.into_iter().filter(|(name, _)| !is_hash(name)).collect(),
         };
         rows.push(programs.into_iter().map(row).collect());
     }
     Ok(rows)
+}
+
+fn is_hash(statistic: &str) -> bool {
+    statistic.to_ascii_lowercase().contains("hash")
 }
 
 /// RADV's file for the loader.
