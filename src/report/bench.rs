@@ -115,6 +115,9 @@ impl BenchReport {
         for flag in &self.flags {
             text += &format!("\nNote: {flag}.\n");
         }
+        if let Some(judgement) = &self.judgement {
+            text += &format!("\n{}", judgement.grid().markdown());
+        }
         text
     }
 }

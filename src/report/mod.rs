@@ -24,6 +24,7 @@ mod table;
 mod throughput;
 #[cfg(feature = "compare")]
 mod throughput_plot;
+mod throughput_table;
 mod trust;
 #[cfg(feature = "compare")]
 pub mod zoom;
@@ -42,8 +43,8 @@ pub use slides::{SLIDES, Slide, slides_grid};
 pub use spread::Spread;
 pub use throughput::{
     Measured, MethodThroughput, PAPER_SPLATS, PaperMethod, PaperThroughput, ThroughputRow, paper_throughput,
-    passes_grid, throughput_grid,
 };
 #[cfg(feature = "compare")]
 pub use throughput_plot::throughput_plot;
+pub use throughput_table::{passes_grid, throughput_grid};
 pub use trust::{Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};

@@ -4,7 +4,7 @@
 use super::{
     ThroughputRow,
     grid::{Grid, cell},
-    throughput::instructions_cell,
+    throughput_table::instructions_cell,
 };
 
 /// What the slides say of a method.
