@@ -34,7 +34,7 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
         way(
             "Tangent adjustment, surfel's adjust",
             Filter::Adjust,
-            "orthogonal axes, as long as EWA's but for 3%",
+            "orthogonal axes, as long as EWA's but for 0.2%",
         ),
         way(
             "Maximum of kernel and low-pass filter [Botsch et al. 2005]",
