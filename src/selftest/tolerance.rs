@@ -17,10 +17,10 @@ pub fn of(hard: &Hard) -> Errors {
 
 /// How much larger than [`F32`] errors may be.
 ///
-/// Disks seen within 1° of grazing are 0.02 px thin where nothing widens them. A triangle's vertices are placed to half a
-/// step of f32 in pixels, 3.8e-6 at 64 px, which is 2e-4 of such an axis; both ends of the kernel's slope of 4 see it, and
-/// no expansion about the center takes it out, since (u, v) are interpolated between them: 1.03e-3 of the weight. (A device
-/// that snaps vertices to 1/256 px will be wrong by more than that.)
+/// Disks seen within 1° of grazing are 0.02 px thin where nothing widens them. A triangle's corners are made of tangent vectors
+/// rounded to f32, whose plane is not quite the splat's, and each is placed to half a step of f32 in pixels, 3.8e-6 at 64 px,
+/// which is 2e-4 of such an axis: 1.03e-3 of the weight. (Ray casting had the same figure before it took the splat's exact
+/// determinant; whether that helps a triangle is not tried. A device that snaps vertices to 1/256 px will be wrong by more.)
 fn factor(hard: &Hard) -> f64 {
     let thin = hard.name == "edge-on disks" && !matches!(hard.settings.filter, Filter::Adjust | Filter::Ewa);
     if thin && hard.settings.rasterizer == Rasterizer::Triangle { 1.1 } else { 1.0 }

@@ -9,7 +9,7 @@ use surfel::{
     Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
-    scene::{Filter, FilterWeight, KernelEval, Rasterizer, Shading},
+    scene::{Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading},
 };
 
 use crate::{
@@ -22,7 +22,7 @@ use crate::{
 #[derive(Debug, Args)]
 #[command(next_help_heading = "counts")]
 pub struct CountsArguments {
-    /// Every pipeline: ellipses too, lists of large splats, weights, early depth, shadings [default: small disks]
+    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, early depth, shadings [default: small disks]
     #[arg(long)]
     pub all: bool,
 
@@ -120,6 +120,9 @@ fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
     Ok(found)
 }
 
+/// The kernel of Pajarola et al. 2003 with its default parameters, which change no instruction.
+const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
+
 fn every_settings(all: bool) -> Vec<Settings> {
     let mut every = Vec::new();
     let weights: &[FilterWeight] =
@@ -145,6 +148,9 @@ fn every_settings(all: bool) -> Vec<Settings> {
     }
     if all {
         let shadings = [Shading::Lambert, Shading::Normals, Shading::Albedo];
+        // The other kernel is another pipeline of each.
+        let with_psi_e = |settings: &Settings| Settings { kernel: PSI_E, ..settings.clone() };
+        every.extend(every.iter().map(with_psi_e).collect::<Vec<_>>());
         every.extend(shadings.map(|shading| Settings { shading, ..Settings::default() }));
     }
     every
@@ -181,13 +187,21 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         shaders: shaders(recipe),
         ..PipelineNames::default()
     };
+    let kernel_eval = settings.kernel_eval.name();
+    let kernel_eval = match settings.kernel {
+        Kernel::Gaussian { .. } => kernel_eval.to_owned(),
+        Kernel::PsiE { .. } => format!("psi_e {kernel_eval}"),
+    };
+    if recipe.pass == "kernel texture" && settings.kernel == PSI_E {
+        names.kernel_eval = kernel_eval.clone();
+    }
     if recipe.sets_splats_up() {
         names.rasterizer = settings.rasterizer.name().to_owned();
         names.filter = match settings.filter_weight == FilterWeight::default() {
             true => settings.filter.name().to_owned(),
             false => format!("{} {}", settings.filter.name(), settings.filter_weight.name()),
         };
-        names.kernel_eval = settings.kernel_eval.name().to_owned();
+        names.kernel_eval = kernel_eval;
         names.early_depth = if settings.early_depth { "on" } else { "off" }.to_owned();
         names.splats = splats.to_owned();
     }
@@ -201,5 +215,21 @@ fn shaders(recipe: &PipelineRecipe) -> String {
     match recipe.stages() {
         PipelineStages::Graphics(vertex, fragment) => format!("{} + {}", vertex.name, fragment.name),
         PipelineStages::Compute(shader) => shader.name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A gate finds a figure by its name.
+    #[test]
+    fn every_pipeline_has_a_name_of_its_own() {
+        for (all, at_least) in [(false, 100), (true, 5000)] {
+            let pipelines = pipelines(all).unwrap();
+            let names: HashSet<_> = pipelines.iter().map(|(names, _)| names).collect();
+            assert_eq!(names.len(), pipelines.len());
+            assert!(names.len() > at_least, "{}", names.len());
+        }
     }
 }

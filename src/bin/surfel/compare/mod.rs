@@ -7,8 +7,9 @@ mod references;
 mod turns;
 pub mod zoom;
 
-use std::path::Path;
+use std::{fmt::Display, path::Path};
 
+use serde::Serialize;
 use surfel::{
     Error, Progress as _, Result,
     passes::counts_of,
@@ -112,12 +113,25 @@ fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
         None => Ok(()),
     };
     let report = gather(&mut headless, arguments, &loaded, &camera, &bars, &mut show)?;
+    tell(&headless, arguments, &report, || report.plot_svg())
+}
+
+/// Prints what was found, and writes what is asked for.
+///
+/// # Errors
+/// Results that can't be written.
+fn tell<R: Display + Serialize>(
+    headless: &Headless,
+    arguments: &CompareArguments,
+    report: &R,
+    plot_svg: impl FnOnce() -> Result<String>,
+) -> Result<()> {
     console::print(&report.to_string())?;
     if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
+        save::text(path, &to_json(report)?)?;
     }
     if let Some(path) = &arguments.plot {
-        save::text(path, &report.plot_svg()?)?;
+        save::text(path, &plot_svg()?)?;
     }
     // A lost cache costs the next run some time, that is all.
     let _ = headless.renderer.shaders.save_cache();

@@ -14,16 +14,11 @@ use surfel::{
             zoom_path,
         },
     },
-    save,
     scene::{Camera, Scene, Settings},
 };
 
 use super::{BACKGROUND, CompareArguments, Stage, candidates, references, surface};
-use crate::{
-    console::{self, Bars},
-    json::to_json,
-    reports::device_report,
-};
+use crate::{console::Bars, reports::device_report};
 
 /// Turns the board about its normal and shifts it, in degrees and spacings, so that no row of splats coincides with a row
 /// of pixels.
@@ -39,15 +34,7 @@ const MARGIN_PX: f64 = 16.0;
 /// As [`gather`]; results that can't be written.
 pub fn run(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
     let report = gather(&mut headless, arguments, &Bars::new())?;
-    console::print(&report.to_string())?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
-    }
-    if let Some(path) = &arguments.plot {
-        save::text(path, &report.plot_svg()?)?;
-    }
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
+    super::tell(&headless, arguments, &report, || report.plot_svg())
 }
 
 /// Compares all filters at all distances.
