@@ -20,7 +20,7 @@ use surfel::{
 const POINTS: EnabledFeatures = EnabledFeatures { large_points: true, pipeline_statistics: false };
 
 fn scene() -> Scene {
-    Scene { objects: vec![scenes::sphere(3000, DVec3::ZERO)] }
+    Scene { objects: vec![scenes::sphere(3000, DVec3::ZERO)], ..Scene::default() }
 }
 
 /// The scene from another side for each frame.

@@ -18,14 +18,14 @@ use surfel::{
 };
 
 fn sphere(count: usize) -> Scene {
-    Scene { objects: vec![scenes::sphere(count, DVec3::ZERO)] }
+    Scene { objects: vec![scenes::sphere(count, DVec3::ZERO)], ..Scene::default() }
 }
 
 /// A sphere before a disk larger than any point.
 fn with_a_large_disk() -> Scene {
     let mut builder = builder::Builder::default();
     builder.disk(DVec3::new(0.0, 0.0, -1.0), DVec3::Z, 300.0, [0.5, 0.5, 0.5, 1.0]);
-    Scene { objects: vec![builder.object(false), scenes::sphere(500, DVec3::ZERO)] }
+    Scene { objects: vec![builder.object(false), scenes::sphere(500, DVec3::ZERO)], ..Scene::default() }
 }
 
 fn camera() -> surfel::scene::Camera {

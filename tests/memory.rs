@@ -105,7 +105,8 @@ fn a_million_splats_need_little_more_than_themselves() {
         splats.drop_defective();
         assert_eq!((splats.len(), closed), (MILLION, true));
         let own_bytes = splats.bytes() as f64;
-        let scene = Scene { objects: vec![Object { name: what.to_owned(), splats, closed }] };
+        let scene =
+            Scene { objects: vec![Object { name: what.to_owned(), splats, closed }], ..Scene::default() };
         let ball = scene.ball().unwrap();
 
         let held_before = headless.device().memory_held();

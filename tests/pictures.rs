@@ -17,7 +17,7 @@ const BOTH: Wanted = Wanted { picture: true, linear: false, surface: true, profi
 /// Draws an object as the program does when it is given nothing else.
 fn draw(object: Object, size_px: [u32; 2]) -> Frame {
     let mut headless = headless();
-    let scene = Scene { objects: vec![object] };
+    let scene = Scene { objects: vec![object], ..Scene::default() };
     let prepared = headless.prepare(&scene, &|_, _| {}).unwrap();
     let settings = Settings { size_px, ..Settings::default() };
     let camera = Camera::fit(&scene.ball().unwrap(), size_px, Camera::DEFAULT_FOV_Y_RAD);

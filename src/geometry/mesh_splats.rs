@@ -47,7 +47,7 @@ fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap
         MeshColors::PerVertex(colors) if colors.len() == used.len() => {
             Colors::PerSplat(kept().map(|i| colors[i]).collect())
         }
-        MeshColors::PerVertex(_) | MeshColors::None => Colors::unknown(),
+        _ => one_color(mesh),
     };
     Splats {
         positions: kept().map(|i| mesh.positions[i]).collect(),
@@ -56,6 +56,14 @@ fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap
             radii: kept().map(|i| (overlap * radii[i]) as f32).collect(),
         },
         colors,
+    }
+}
+
+/// The color of all splats of a mesh that has none at its vertices.
+pub(super) fn one_color(mesh: &Mesh) -> Colors {
+    match mesh.colors {
+        MeshColors::Uniform(color) => Colors::Uniform(color),
+        MeshColors::PerVertex(_) | MeshColors::None => Colors::unknown(),
     }
 }
 

@@ -5,6 +5,7 @@ mod neighbors;
 mod normals;
 mod radii;
 mod resample;
+mod shaded_mesh;
 mod surface;
 #[cfg(test)]
 mod test_meshes;
@@ -12,6 +13,7 @@ mod topology;
 
 pub use mesh_splats::{DEFAULT_OVERLAP, splats_from_mesh};
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};
+pub use shaded_mesh::shaded_mesh;
 pub use surface::MeshReport;
 
 use glam::DVec3;

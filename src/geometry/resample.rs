@@ -21,6 +21,7 @@ use glam::{DVec3, Vec3};
 
 use super::{
     corners,
+    mesh_splats::one_color,
     neighbors::Tree,
     surface::{MeshReport, Surface},
 };
@@ -61,7 +62,7 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
         })?;
     let colors = match &mesh.colors {
         MeshColors::PerVertex(colors) if colors.len() == mesh.positions.len() => Some(colors.as_slice()),
-        MeshColors::PerVertex(_) | MeshColors::None => None,
+        MeshColors::PerVertex(_) | MeshColors::Uniform(_) | MeshColors::None => None,
     };
     check_memory(count, colors.is_some())?;
     let areas = Areas::of(mesh)?;
@@ -71,7 +72,7 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     let splats = Splats {
         positions: samples.positions,
         shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(Colors::unknown, Colors::PerSplat),
+        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::PerSplat),
     };
     Ok((splats, surface.report))
 }

@@ -67,7 +67,7 @@ impl Builder {
 
     /// A scene of that object alone.
     pub fn scene(self, closed: bool) -> Scene {
-        Scene { objects: vec![self.object(closed)] }
+        Scene { objects: vec![self.object(closed)], ..Scene::default() }
     }
 }
 

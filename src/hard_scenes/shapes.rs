@@ -30,14 +30,14 @@ pub fn sphere(count: usize, center: DVec3) -> Object {
 
 /// A closed surface of disks that overlap: the ordinary case.
 pub fn sphere_of_disks() -> Hard {
-    let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)] };
+    let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)], ..Scene::default() };
     Hard { name: "sphere of disks", scene, camera: camera([0.0, 0.0, 3.2], [0.0; 3]), settings: settings() }
 }
 
 /// The same sphere where a step of f32 is half a unit.
 pub fn far_from_the_origin() -> Hard {
     let offset = DVec3::new(500_000.0, 4_600_000.0, 300.0);
-    let scene = Scene { objects: vec![sphere(3000, offset)] };
+    let scene = Scene { objects: vec![sphere(3000, offset)], ..Scene::default() };
     let mut camera = camera([0.0, 0.0, 3.2], [0.0; 3]);
     camera.eye += offset;
     camera.target += offset;
@@ -127,7 +127,7 @@ pub fn degenerate() -> Hard {
     }
     Hard {
         name: "degenerate splats among good ones",
-        scene: Scene { objects: vec![builder.object(false), ellipses.object(false)] },
+        scene: Scene { objects: vec![builder.object(false), ellipses.object(false)], ..Scene::default() },
         camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
         settings: settings(),
     }

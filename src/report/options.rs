@@ -33,6 +33,9 @@ pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String
         ("accumulate", settings.accumulate.name().to_owned()),
         ("epsilon", epsilon_option(settings.epsilon)),
         ("backfaces", backfaces.to_owned()),
+        ("layers", settings.layers.to_string()),
+        ("last-layer", settings.last_layer.name().to_owned()),
+        ("transition", settings.transition.name().to_owned()),
         ("shading", shading.to_owned()),
         ("background", background),
     ])

@@ -103,6 +103,31 @@ named! {
     }
 }
 
+named! {
+    /// What becomes of the transparent surfaces behind the last layer but one.
+    LastLayer {
+        /// They are all blended in the last layer, weighted by alpha and lit a splat at a time (Guennebaud et al. 2006,
+        /// section 6).
+        Blend = "blend",
+        /// The last layer is one surface like the others; what is behind it is lost.
+        Drop = "drop",
+    }
+}
+
+named! {
+    /// How splats and polygons of one surface meet (Guennebaud et al. 2006, section 5.1).
+    Transition {
+        /// Their shaded colors are blended by the splats' sum of weights, where a polygon covers the pixel.
+        Color = "color",
+        /// Their albedos and normals are blended so, and shaded then.
+        Attributes = "attributes",
+        /// Not at all: where a polygon is seen, it is all that is seen.
+        None = "none",
+        /// As `Color`, with splats shifted toward the viewer everywhere: pixels of splats alone have twice the ε.
+        Paper = "paper",
+    }
+}
+
 /// The smallest share of its weight that a filter leaves to a splat: 1/16. Normalization by area or determinant would
 /// let the smallest splats fall below what 16-bit sums can hold, and lose dark colors long before.
 pub const LEAST_SHARE: f64 = 1.0 / 16.0;

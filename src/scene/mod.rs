@@ -5,15 +5,24 @@
 
 mod bounds;
 mod camera;
+mod layers;
+mod light;
 mod mesh;
 mod methods;
+mod opacity;
 mod settings;
 mod splats;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
+pub use layers::{Layers, MOST_LAYERS};
+pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::{Mesh, MeshColors};
-pub use methods::{Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, Rasterizer};
+pub use methods::{
+    Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer, Rasterizer,
+    Transition,
+};
+pub use opacity::Opacity;
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
 
@@ -29,11 +38,28 @@ pub struct Object {
     pub closed: bool,
 }
 
+/// A thing in a scene that is drawn as triangles.
+#[derive(Clone, Debug)]
+pub struct MeshObject {
+    /// Shown in messages: the file's name, or that of the built-in model.
+    pub name: String,
+    /// The surface. Its normals are there, one a vertex, unit or zero, on the side from which its triangles are
+    /// counterclockwise: [`crate::geometry::shaded_mesh`] makes a file's mesh so.
+    pub mesh: Mesh,
+    /// The surface is closed and its triangles are counterclockwise seen from outside: if it is opaque,
+    /// [`Backfaces::Auto`] culls those that face away.
+    pub closed: bool,
+}
+
 /// All that is rendered together.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// In the order in which they are drawn; the image does not depend on it but for rounding.
+    /// What is drawn as splats, in the order in which they are drawn; the image does not depend on it but for rounding.
     pub objects: Vec<Object>,
+    /// What is drawn as triangles.
+    pub meshes: Vec<MeshObject>,
+    /// None: [`Light::DEFAULT`]. At most [`MOST_LIGHTS`].
+    pub lights: Vec<Light>,
 }
 
 impl Scene {
@@ -42,20 +68,26 @@ impl Scene {
         self.objects.iter().map(|object| object.splats.len()).sum()
     }
 
-    /// The box around all disks; `None` where there is no splat.
+    /// The box around all disks and triangles; `None` where there is neither.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.objects.iter().filter_map(|object| object.splats.bounds()).reduce(Bounds::union)
+        let disks = self.objects.iter().filter_map(|object| object.splats.bounds());
+        disks.chain(self.meshes.iter().filter_map(|object| object.mesh.bounds())).reduce(Bounds::union)
     }
 
-    /// The smallest ball around all disks that has its center in the middle of [`Scene::bounds`]: less than the ball
-    /// around that box, for a round thing by √3. `None` where there is no splat.
+    /// The smallest ball around all disks and triangles that has its center in the middle of [`Scene::bounds`]: less
+    /// than the ball around that box, for a round thing by √3. `None` where there is neither.
     pub fn ball(&self) -> Option<Ball> {
         let center = self.bounds()?.center();
         let reach = |splats: &Splats| {
             let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
             drawn.map(|i| splats.positions[i].distance(center) + splats.major_radius(i)).fold(0.0, f64::max)
         };
-        let radius = self.objects.iter().map(|object| reach(&object.splats)).fold(0.0, f64::max);
+        let reach_of_triangles = |mesh: &Mesh| {
+            let corners = (0..mesh.triangles.len()).filter_map(|i| mesh.corners(i)).flatten();
+            corners.map(|corner| corner.distance(center)).fold(0.0, f64::max)
+        };
+        let disks = self.objects.iter().map(|object| reach(&object.splats)).fold(0.0, f64::max);
+        let radius = self.meshes.iter().map(|object| reach_of_triangles(&object.mesh)).fold(disks, f64::max);
         Some(Ball { center, radius })
     }
 }
@@ -81,7 +113,10 @@ mod tests {
         };
         let ends = [[2.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, -2.0, 0.0]];
         let defective = disks(&[[f64::NAN, 0.0, 0.0], [9.0, f64::INFINITY, 0.0]], 1.0);
-        let scene = Scene { objects: vec![disks(&ends, 0.5), defective, disks(&[[0.0; 3]], 0.5)] };
+        let scene = Scene {
+            objects: vec![disks(&ends, 0.5), defective, disks(&[[0.0; 3]], 0.5)],
+            ..Scene::default()
+        };
         assert_eq!(scene.ball(), Some(Ball { center: DVec3::ZERO, radius: 2.5 }));
         assert!(scene.bounds().unwrap().radius() > 3.5);
         assert_eq!(Scene::default().ball(), None);

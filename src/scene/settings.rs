@@ -1,8 +1,8 @@
 //! How a scene is rendered. The default of each setting is the first value of its option in the manual.
 
 use super::{
-    Object, Scene, Shapes,
-    methods::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer},
+    Layers, Light, MOST_LIGHTS, Object, Scene, Shapes,
+    methods::{Accumulate, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Transition},
 };
 use crate::error::{Error, Result};
 
@@ -30,6 +30,12 @@ pub struct Settings {
     pub epsilon: Epsilon,
     /// What happens to splats that face away.
     pub backfaces: Backfaces,
+    /// How many transparent surfaces of a pixel are told apart.
+    pub layers: Layers,
+    /// What becomes of those behind them.
+    pub last_layer: LastLayer,
+    /// How splats and polygons of one surface meet.
+    pub transition: Transition,
     /// How a surface becomes a color.
     pub shading: Shading,
     /// The color of empty pixels as sRGB values 0–1; `None` leaves them transparent (and black).
@@ -49,6 +55,9 @@ impl Default for Settings {
             accumulate: Accumulate::default(),
             epsilon: Epsilon::Radii(1.0),
             backfaces: Backfaces::Auto,
+            layers: Layers::default(),
+            last_layer: LastLayer::default(),
+            transition: Transition::default(),
             shading: Shading::Phong,
             background: Some([1.0; 3]),
         }
@@ -84,6 +93,7 @@ impl Settings {
                 format!("{epsilon}: expected a finite number, at least 0"),
             ));
         }
+        self.layers.validate()?;
         if let Some(color) = self.background
             && !color.iter().all(|component| (0.0..=1.0).contains(component))
         {
@@ -97,8 +107,14 @@ impl Settings {
     /// Refuses a filter that the splats of an object rule out.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where an object has elliptic splats.
+    /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where an object has elliptic splats; for lights that are
+    /// none, or too many.
     pub fn check_scene(&self, scene: &Scene) -> Result<()> {
+        scene.lights.iter().try_for_each(Light::validate)?;
+        if scene.lights.len() > MOST_LIGHTS {
+            let problem = format!("{}: expected at most {MOST_LIGHTS}", scene.lights.len());
+            return Err(Error::option("lights", problem));
+        }
         let is_elliptic = |object: &Object| matches!(object.splats.shapes, Shapes::Ellipses { .. });
         scene.objects.iter().try_for_each(|object| self.check_object(&object.name, is_elliptic(object)))
     }
@@ -173,7 +189,7 @@ pub enum Epsilon {
 /// What happens to splats whose normal points away from the eye.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Backfaces {
-    /// `Cull` for objects that are closed, `Flip` for the others.
+    /// `Cull` for objects that are closed and opaque, `Flip` for the others.
     #[default]
     Auto,
     /// Their normal is turned to the eye.
@@ -234,6 +250,8 @@ mod tests {
             ("--epsilon", Settings { epsilon: Epsilon::Radii(-1e-9), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::NAN), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::INFINITY), ..good() }),
+            ("--layers", Settings { layers: Layers::Fixed(0), ..good() }),
+            ("--layers", Settings { layers: Layers::Auto(257), ..good() }),
             ("--background", background(1.1)),
             ("--background", background(-0.1)),
             ("--background", background(f32::NAN)),

@@ -62,7 +62,7 @@ fn n09_a_scene_moved_by_a_representable_offset_gives_the_same_bits() {
         let mut camera = camera([0.5, 0.25, 3.0], [0.0; 3]);
         camera.eye += offset;
         camera.target += offset;
-        let scene = Scene { objects: vec![sphere(1000, offset)] };
+        let scene = Scene { objects: vec![sphere(1000, offset)], ..Scene::default() };
         Hard { name: "moved", scene, camera, settings: settings() }
     };
     let here = render(&mut headless, &at(DVec3::ZERO));

@@ -66,7 +66,10 @@ fn n11_normals_along_axes_and_diagonals_of_every_length_agree() {
             colors: Colors::Uniform(GRAY),
         };
         let objects = vec![Object { name: "normals".to_owned(), splats, closed: false }];
-        let hard = Hard { scene: Scene { objects }, ..hard("26 normals", Builder::default(), settings()) };
+        let hard = Hard {
+            scene: Scene { objects, ..Default::default() },
+            ..hard("26 normals", Builder::default(), settings())
+        };
         let (frame, _) = assert_agrees(&mut headless, &hard, 1000);
         assert_finite(&frame, "26 normals");
         frames.push(frame);

@@ -33,7 +33,7 @@ pub fn scene() -> surfel::scene::Scene {
     builder.disk(DVec3::new(0.0, 0.0, -1.0), DVec3::Z, 300.0, [0.5; 4]);
     let mut objects = vec![builder.object(false)];
     objects.push(scenes::sphere(500, DVec3::ZERO));
-    surfel::scene::Scene { objects }
+    surfel::scene::Scene { objects, ..Default::default() }
 }
 
 pub fn pixels(device: &surfel::vk::Device, name: &str, bytes_per_pixel: u64) -> Result<Buffer, Error> {

@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
-use surfel::scene::{Epsilon, Kernel};
+use surfel::scene::{Epsilon, Kernel, Layers};
 
 /// `1024x768`.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
@@ -61,6 +61,15 @@ pub fn epsilon(text: &str) -> Result<Epsilon, String> {
     parsed.map_err(|_| {
         "expected multiples of a splat's radius, such as 1r, or a length, such as 0.02".to_owned()
     })
+}
+
+/// `4`, or `auto:16`: at most so many.
+pub fn layers(text: &str) -> Result<Layers, String> {
+    let parsed = match text.strip_prefix("auto:") {
+        Some(most) => most.parse().map(Layers::Auto),
+        None => text.parse().map(Layers::Fixed),
+    };
+    parsed.map_err(|_| "expected a number of layers, or auto:MAX, such as 4 or auto:16".to_owned())
 }
 
 /// `gaussian:S` or `psi_e:A,B,N`.

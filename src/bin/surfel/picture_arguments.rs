@@ -7,7 +7,8 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 use surfel::scene::{
-    Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, Shading,
+    Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers, Rasterizer,
+    Settings, Shading, Transition,
 };
 
 use crate::parse::{self, Background};
@@ -114,6 +115,20 @@ pub struct StyleArguments {
     #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(BACKFACES))]
     pub backfaces: Backfaces,
 
+    /// In how many layers transparent things are drawn, the nearest first: a number, or auto:MAX for as many as the view
+    /// needs. Without transparent things there is none
+    #[arg(long, value_name = "N|auto:MAX", default_value = "4", value_parser = parse::layers)]
+    pub layers: Layers,
+
+    /// What is behind the last layer but one: all blended in the last layer, or one more surface and the rest lost
+    #[arg(long, value_name = "WHAT", default_value = "blend", value_parser = choice(LastLayer::NAMES))]
+    pub last_layer: LastLayer,
+
+    /// How splats and polygons of one surface meet: their colors or their attributes blended by the splats' weights, not
+    /// at all, or as the paper has it (twice the epsilon where there are splats alone)
+    #[arg(long, value_name = "HOW", default_value = "color", value_parser = choice(Transition::NAMES))]
+    pub transition: Transition,
+
     /// How the surface is colored, with one light at the eye
     #[arg(long, value_name = "NAME", default_value = "phong", value_parser = choice(SHADINGS))]
     pub shading: Shading,
@@ -162,6 +177,9 @@ impl PictureArguments {
             accumulate: style.accumulate,
             epsilon: style.epsilon,
             backfaces: style.backfaces,
+            layers: style.layers,
+            last_layer: style.last_layer,
+            transition: style.transition,
             shading: style.shading,
             background: style.background.0,
         }
@@ -200,11 +218,15 @@ mod tests {
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,
+            layers: Layers::Fixed(7),
+            last_layer: LastLayer::Drop,
+            transition: Transition::Attributes,
             shading: Shading::Normals,
             background: None,
         };
         let others = Settings {
             backfaces: Backfaces::Flip,
+            layers: Layers::Auto(16),
             shading: Shading::Albedo,
             background: Some([0.5, 0.25, 0.0]),
             ..settings.clone()

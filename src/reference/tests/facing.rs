@@ -81,7 +81,7 @@ fn sphere(count: u32, radius: f32) -> Scene {
         },
         colors: Colors::Uniform(GRAY),
     };
-    Scene { objects: vec![Object { name: "sphere".into(), splats, closed: false }] }
+    Scene { objects: vec![Object { name: "sphere".into(), splats, closed: false }], ..Scene::default() }
 }
 
 #[test]

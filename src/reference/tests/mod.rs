@@ -57,7 +57,7 @@ pub(super) fn ellipses(list: &[Ellipse]) -> Scene {
         },
         colors: Colors::PerSplat(list.iter().map(|e| e.3).collect()),
     };
-    Scene { objects: vec![Object { name: "test".into(), splats, closed: false }] }
+    Scene { objects: vec![Object { name: "test".into(), splats, closed: false }], ..Scene::default() }
 }
 
 /// A disk parallel to the screen that faces the eye.

@@ -52,7 +52,7 @@ impl Source {
             }
             Self::Mesh(mesh, path) => resample_mesh(mesh, path, splats, 0, &stage.bars)?,
         };
-        let scene = Scene { objects: vec![object] };
+        let scene = Scene { objects: vec![object], ..Scene::default() };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
         Ok(Loaded { scene, ball, inputs: vec![report] })
     }

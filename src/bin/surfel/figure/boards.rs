@@ -39,7 +39,7 @@ impl Board {
     /// # Errors
     /// As the easel's.
     pub fn panels(&self, easel: &mut Easel<'_>, enlarge: u32, ways: &[Way]) -> Result<Vec<Panel>> {
-        let scene = easel.prepare(&Scene { objects: vec![checkerboard(self.side)] })?;
+        let scene = easel.prepare(&Scene { objects: vec![checkerboard(self.side)], ..Scene::default() })?;
         let size_px = easel.size_px.map(|side| (side / enlarge).max(1));
         ways.iter()
             .map(|Way { name, caption, settings }| {

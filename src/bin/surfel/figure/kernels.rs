@@ -66,7 +66,7 @@ impl Bench {
         let fov_y_rad = 2.0 * (0.5 / (RADIUS_PX * distance)).atan();
         let camera =
             Camera { eye: DVec3::Z * distance, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad, near: None };
-        Ok(Self { scene: easel.prepare(&Scene { objects: vec![object] })?, camera })
+        Ok(Self { scene: easel.prepare(&Scene { objects: vec![object], ..Scene::default() })?, camera })
     }
 
     /// The weights over r, in units in which the disk's rim is at [`SUPPORT`].

@@ -34,7 +34,10 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
         None => {
             let Object { splats, .. } = relief(FEW_SPLATS);
             let object = Object { name: "built-in relief".to_owned(), splats, closed: true };
-            (Scene { objects: vec![object] }, format!("the built-in relief with {FEW_SPLATS} splats"))
+            (
+                Scene { objects: vec![object], ..Scene::default() },
+                format!("the built-in relief with {FEW_SPLATS} splats"),
+            )
         }
     };
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;

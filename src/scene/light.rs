@@ -1,0 +1,50 @@
+//! What shines on a scene.
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+
+/// The most lights of a scene: the device is told of them in a small buffer that each frame fills.
+pub const MOST_LIGHTS: usize = 16;
+
+/// A light. There is no attenuation and no shadow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// From where.
+    pub kind: LightKind,
+    /// Linear red, green and blue, each at least 0; 1 is white at full strength.
+    pub color: [f32; 3],
+}
+
+/// Where a light is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightKind {
+    /// At the eye, wherever that is.
+    Eye,
+    /// Infinitely far; it shines in this direction of world space, of any length above 0.
+    Directional(DVec3),
+}
+
+impl Light {
+    /// White, at the eye: what a scene without lights has.
+    pub const DEFAULT: Self = Self { kind: LightKind::Eye, color: [1.0; 3] };
+
+    /// Refuses a light without a direction, or of a color that is no light.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub fn validate(&self) -> Result<()> {
+        if !self.color.iter().all(|c| *c >= 0.0 && c.is_finite()) {
+            let [red, green, blue] = self.color;
+            let problem = format!("color {red},{green},{blue}: expected finite numbers, at least 0");
+            return Err(Error::option("light", problem));
+        }
+        match self.kind {
+            LightKind::Directional(direction) if direction.try_normalize().is_none() => {
+                let problem = format!("direction {direction}: expected a finite vector of a length above 0");
+                Err(Error::option("light", problem))
+            }
+            _ => Ok(()),
+        }
+    }
+}
