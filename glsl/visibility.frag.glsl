@@ -2,13 +2,18 @@
 // Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is 1 / f.
 //
 // EARLY: the vertex stage's depth is a bound of this one, by which the device may test before this stage.
-// Permutations: plain full center rays | _ early
-// Permutations: triangles
+// PEELED: only what is behind the layer before this one; see peel.glsl.
+// Permutations: plain full center rays | _ early | _ peeled
+// Permutations: triangles | _ peeled
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
 #include "inc/variant.glsl"
 #include "inc/coverage.glsl"
+#if defined(PEELED)
+#include "inc/peel.glsl"
+#endif
 
 #if defined(EARLY)
 layout(depth_less) out float gl_FragDepth;
@@ -21,7 +26,10 @@ const float HAIR = 1.0 - 4e-6;
 void main()
 {
     Covered fragment = covered(HAIR * COVERAGE_R2);
-#if !defined(TRIANGLES)
+#if defined(PEELED)
+    peel(fragment.w);
+#endif
+#if !defined(TRIANGLES) || defined(PEELED)
     gl_FragDepth = fragment.w * extra().x;
 #endif
 }

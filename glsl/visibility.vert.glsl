@@ -1,8 +1,9 @@
-// Visibility splatting: sets splats up and hands 1 / f on, with which their depth is moved away from the eye.
+// Visibility splatting: sets splats up and hands 1 / f on, with which their depth is moved away from the eye. The
+// fragments of triangles have it from the rasterizer; but where a layer was PEELED off, their own depth is compared with it.
 // Permutations: points small_points | plain center rays
 // Permutations: quads listed_quads | full center
 // Permutations: listed_quads | rays
-// Permutations: triangles small_triangles
+// Permutations: triangles small_triangles | _ peeled
 #version 460
 #include "inc/setup.glsl"
 #include "inc/emit.glsl"
@@ -12,7 +13,12 @@ void main()
     uint index = splat_index();
     Mapping m;
     if (!is_drawn_elsewhere(index) && map_splat(index, m)) {
-        emit(m, vec3(m.inverse_shift, 0.0, 0.0), m.inverse_shift);
+#if defined(PEELED)
+        const float depth_factor = 1.0;
+#else
+        float depth_factor = m.inverse_shift;
+#endif
+        emit(m, vec3(m.inverse_shift, 0.0, 0.0), depth_factor);
     } else {
         emit_nothing();
     }

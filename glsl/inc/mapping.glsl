@@ -23,6 +23,7 @@ struct Mapping {
     vec3 normal;         // unit, view space, turned to the eye
     float share;         // of its weight that the filter leaves to the splat
     bool regular;        // see below
+    bool faces_away;     // the normal was turned
     bool edge_on;        // the plane holds the eye, as far as can be told: only a filter makes the splat visible
 };
 
@@ -50,6 +51,7 @@ bool map_splat(uint index, out Mapping m)
     }
     vec3 normal = vec3(FORMULA(FORMULA_NORMAL, splat.normal.xy), splat.normal.z);
     m.normal = faces_away ? -normal : normal;
+    m.faces_away = faces_away;
 
     // No filter makes a splat deeper: what is regular stays so.
     float depth_radius = sqrt(s.z * s.z + t.z * t.z);

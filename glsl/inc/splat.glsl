@@ -4,6 +4,8 @@
 // "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017: orthonormal to f32 precision for every unit normal,
 // also along the axes, where normalize(cross(n, z)) fails.
 
+#include "inc/view.glsl"
+
 layout(set = 0, binding = 0, std430) readonly buffer Shapes { vec4 shapes[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
 
@@ -17,26 +19,10 @@ struct Splat {
     float det;    // (s x t) . p, with all its digits also where the splat is seen edge-on
 };
 
-// Written out, because the compiler marks no built-in function as exact: depth depends on these.
-float precise_dot(vec3 a, vec3 b)
-{
-    float sum = a.x * b.x + a.y * b.y + a.z * b.z;
-    return sum;
-}
-
 vec3 precise_cross(vec3 a, vec3 b)
 {
     vec3 product = a.yzx * b.zxy - a.zxy * b.yzx;
     return product;
-}
-
-vec3 rotated(vec3 v)
-{
-    vec3 view = vec3(
-        precise_dot(frame.view_from_local_x.xyz, v),
-        precise_dot(frame.view_from_local_y.xyz, v),
-        precise_dot(frame.view_from_local_z.xyz, v));
-    return view;
 }
 
 // Scaled by the largest component first, so that nothing under- or overflows on the way.
@@ -131,4 +117,11 @@ vec3 load_color(uint index)
 {
     uvec2 packed = colors[frame.uniform_color != 0 ? 0 : index];
     return FORMULA(FORMULA_COLOR, vec3(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y).x));
+}
+
+// Its alpha.
+float load_alpha(uint index)
+{
+    uvec2 packed = colors[frame.uniform_color != 0 ? 0 : index];
+    return FORMULA(FORMULA_ALPHA, unpackUnorm2x16(packed.y).y);
 }

@@ -12,6 +12,8 @@ layout(constant_id = 8) const bool WEIGHT_BY_AREA = false; // adjusted splats we
 layout(constant_id = 9) const bool EARLY_DEPTH = false;    // the vertex stage bounds the fragments' depth; else any will do
 layout(constant_id = 10) const float COVERAGE_R2 = 1.0;    // largest u^2 + v^2 that covers: less where the kernel ends earlier
 layout(constant_id = 11) const bool FROM_CORNER = false;   // places may be counted from the corner (varyings.glsl)
+layout(constant_id = 12) const uint TRANSITION = 0;        // TRANSITION_COLOR ...
+layout(constant_id = 13) const bool OUTWARD = false;       // transparent and closed: normals stay outward in layers (shown.glsl)
 
 #define FILTER_NONE 0
 #define FILTER_ADJUST 1
@@ -24,6 +26,9 @@ layout(constant_id = 11) const bool FROM_CORNER = false;   // places may be coun
 #define SHADING_LAMBERT 1
 #define SHADING_NORMALS 2
 #define SHADING_ALBEDO 3
+#define TRANSITION_COLOR 0
+#define TRANSITION_ATTRIBUTES 1
+#define TRANSITION_NONE 2
 #define RASTERIZER_PERSPECTIVE 0
 #define RASTERIZER_PERSPECTIVE_PAPER 1
 #define RASTERIZER_RAYCAST 2

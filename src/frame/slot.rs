@@ -3,7 +3,8 @@
 use crate::{
     error::{ErrorKind, Result},
     graph::execute::{Profile, Profiler, Transients},
-    vk::{DescriptorPool, Device, PoolRoom},
+    passes::Needs,
+    vk::{DescriptorPool, Device, Occlusion, PoolRoom},
 };
 
 /// Descriptor sets, queries and transients of one frame at a time.
@@ -11,13 +12,28 @@ pub struct FrameSlot {
     device: Device,
     descriptors: Option<(DescriptorPool, PoolRoom)>,
     profiler: Option<(Profiler, Profile)>,
+    occlusion: Option<Occlusion>,
     transients: Option<Transients>,
+}
+
+/// The parts of a slot, each to be borrowed by itself.
+pub(crate) struct SlotParts<'a> {
+    pub descriptors: &'a DescriptorPool,
+    pub occlusion: Option<&'a Occlusion>,
+    pub transients: &'a mut Option<Transients>,
+    pub profiler: Option<&'a mut Profiler>,
 }
 
 impl FrameSlot {
     /// An empty slot.
     pub fn new(device: &Device) -> Self {
-        Self { device: device.clone(), descriptors: None, profiler: None, transients: None }
+        Self {
+            device: device.clone(),
+            descriptors: None,
+            profiler: None,
+            occlusion: None,
+            transients: None,
+        }
     }
 
     /// The profiler of the frame recorded last, if it was measured.
@@ -30,14 +46,20 @@ impl FrameSlot {
         self.transients.as_ref().map_or(0, Transients::bytes)
     }
 
-    /// Makes the slot ready for a frame that takes so much from its pool.
+    /// Makes the slot ready for a frame that takes so much from it.
     ///
     /// # Safety
     /// The frame recorded last in this slot has finished.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub(crate) unsafe fn begin(&mut self, wanted: PoolRoom, profile: Option<Profile>) -> Result<()> {
+    pub(crate) unsafe fn begin(&mut self, needs: Needs, profile: Option<Profile>) -> Result<()> {
+        let wanted = needs.room;
+        if needs.occlusion_queries == 0 {
+            self.occlusion = None;
+        } else if self.occlusion.as_ref().is_none_or(|pool| pool.count() < needs.occlusion_queries) {
+            self.occlusion = Some(Occlusion::new(&self.device, "layers", needs.occlusion_queries)?);
+        }
         match &self.descriptors {
             // SAFETY: this function's contract.
             Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
@@ -57,18 +79,20 @@ impl FrameSlot {
         Ok(())
     }
 
-    /// Sets, transients and profiler, each to be borrowed by itself.
+    /// Its parts.
     ///
     /// # Errors
     /// [`ErrorKind::Graph`] before [`FrameSlot::begin`].
-    pub(crate) fn parts(
-        &mut self,
-    ) -> Result<(&DescriptorPool, &mut Option<Transients>, Option<&mut Profiler>)> {
+    pub(crate) fn parts(&mut self) -> Result<SlotParts<'_>> {
         let Some((descriptors, _)) = &self.descriptors else {
             let reason = "the frame slot was not begun".to_owned();
             return Err(ErrorKind::Graph { pass: String::new(), resource: String::new(), reason }.into());
         };
-        let profiler = self.profiler.as_mut().map(|(profiler, _)| profiler);
-        Ok((descriptors, &mut self.transients, profiler))
+        Ok(SlotParts {
+            descriptors,
+            occlusion: self.occlusion.as_ref(),
+            transients: &mut self.transients,
+            profiler: self.profiler.as_mut().map(|(profiler, _)| profiler),
+        })
     }
 }

@@ -7,13 +7,16 @@ use super::{
     draws::{SplatPass, draw_splats},
     kernel_texture::kernel_texture,
     list_large::{LargeList, ids_of, read_lists},
-    splat_shaders::{accumulate_words, splat_shaders},
+    splat_shaders::{Summed, Words, splat_shaders},
     sum_format,
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    scene::{KernelEval, Settings},
+    graph::{
+        Access, ClearValue, Graph, Handle, Image, ResourceId, Start,
+        execute::{Body, PassContext},
+    },
+    scene::{KernelEval, Settings, Transition},
     shaders,
     vk::Descriptor,
 };
@@ -22,36 +25,54 @@ use crate::{
 pub(super) struct Sums {
     /// Σ weight · linear albedo, Σ weight.
     pub color: Handle<Image>,
-    /// Σ weight · normal (view space); Σ weight · z / z_visible where depth is summed, else 0.
+    /// Σ weight · normal (view space); Σ weight · z / z_visible where depth is summed, Σ weight · alpha of a layer.
     pub normal: Handle<Image>,
 }
 
 /// What the pass is made of.
-pub(super) fn splat_pass(settings: &Settings, with_depth: bool) -> Result<SplatPass> {
+pub(super) fn splat_pass(settings: &Settings, summed: Summed) -> Result<SplatPass> {
+    let depth = match summed {
+        // The paper's shift toward the viewer is for all fragments, so that the shader compares alone.
+        Summed::Opaque { beside_polygons: true, .. } if settings.transition == Transition::Paper => {
+            vk::CompareOp::ALWAYS
+        }
+        _ => vk::CompareOp::GREATER_OR_EQUAL,
+    };
     Ok(SplatPass {
-        shaders: splat_shaders("accumulate", settings, &accumulate_words(settings, with_depth))?,
+        shaders: splat_shaders(settings, &Words::accumulate(settings, summed))?,
         color_formats: vec![sum_format(settings); 2],
-        depth: (vk::CompareOp::GREATER_OR_EQUAL, false),
+        depth: Some((depth, false)),
+        constants: Vec::new(),
     })
 }
 
-/// Declares the pass. `with_depth`: something reads the surface's depth, so it is summed too.
+/// The kernel's texture, where it is evaluated so.
+pub(super) fn kernel_of<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+) -> Result<Option<Handle<Image>>> {
+    match inputs.settings.kernel_eval {
+        KernelEval::Analytic => Ok(None),
+        KernelEval::Texture => kernel_texture(graph, inputs, &shaders::KERNEL_TEXTURE_FRAG).map(Some),
+    }
+}
+
+/// Declares the pass. `polygons`: the larger one of the splats' visible depth and that of polygons, where there are any;
+/// `with_depth`: something reads the surface's depth, so it is summed too.
 pub(super) fn accumulate<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     large: &[Option<LargeList>],
     depth: &Handle<Image>,
+    polygons: Option<&Handle<Image>>,
+    kernel: Option<&Handle<Image>>,
     with_depth: bool,
 ) -> Result<Sums> {
     let format = sum_format(inputs.settings);
-    let kernel = match inputs.settings.kernel_eval {
-        KernelEval::Analytic => None,
-        KernelEval::Texture => Some(kernel_texture(graph, inputs, &shaders::KERNEL_TEXTURE_FRAG)?),
-    };
-    let kernel_id = kernel.as_ref().map(Handle::id);
-    let pipelines = splat_pass(inputs.settings, with_depth)?.pipelines(inputs)?;
+    let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
+    let pipelines = splat_pass(inputs.settings, summed)?.pipelines(inputs)?;
     let large_ids = ids_of(large);
-    let depth_id = depth.id();
+    let sampled = [with_depth.then(|| depth.id()), kernel.map(Handle::id), polygons.map(Handle::id)];
 
     let mut sums = Sums {
         color: graph.create_image("color sums", inputs.image(format)),
@@ -64,28 +85,38 @@ pub(super) fn accumulate<'a>(
         .write(&mut sums.color, Access::ColorAttachment, zero)
         .write(&mut sums.normal, Access::ColorAttachment, zero)
         .read(depth, access);
-    if let Some(kernel) = &kernel {
-        pass = pass.read(kernel, Access::SampledFragment);
+    for image in [kernel, polygons].into_iter().flatten() {
+        pass = pass.read(image, Access::SampledFragment);
     }
     read_lists(pass, large).finish(Box::new(move |context| {
-        let mut given = Vec::new();
-        for (number, id) in [(0, with_depth.then_some(depth_id)), (1, kernel_id)] {
-            if let Some(id) = id {
-                let (_, view) = context.image(id)?;
-                given.push((number, Descriptor::Sampled(view, context.layout(id))));
-            }
-        }
-        if !given.is_empty() {
-            let set = inputs.descriptors.set(&inputs.shaders.read_set, &given)?;
-            let layout = inputs.shaders.splat_layout.raw();
-            let bind_point = vk::PipelineBindPoint::GRAPHICS;
-            // SAFETY: set 2 of the splat passes' layout; stays bound while the sets below it change.
-            unsafe {
-                let device = context.device();
-                device.cmd_bind_descriptor_sets(context.commands(), bind_point, layout, 2, &[set], &[]);
-            }
-        }
-        draw_splats(context, inputs, &pipelines, &large_ids)
+        bind_sampled(context, inputs, sampled)?;
+        draw_splats(context, inputs, &pipelines, &large_ids, None)
     }));
     Ok(sums)
+}
+
+/// Binds what fragments of splats or polygons read: set 2 of their layout, which stays bound while the sets below it
+/// change.
+pub(super) fn bind_sampled(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    images: [Option<ResourceId>; 3],
+) -> Result<()> {
+    let mut given = Vec::new();
+    for (number, id) in (0..).zip(images) {
+        if let Some(id) = id {
+            given.push((number, Descriptor::Sampled(context.image(id)?.1, context.layout(id))));
+        }
+    }
+    if !given.is_empty() {
+        let set = inputs.descriptors.set(&inputs.shaders.read_set, &given)?;
+        let layout = inputs.shaders.splat_layout.raw();
+        let bind_point = vk::PipelineBindPoint::GRAPHICS;
+        // SAFETY: set 2 of the splat passes' layout.
+        unsafe {
+            let device = context.device();
+            device.cmd_bind_descriptor_sets(context.commands(), bind_point, layout, 2, &[set], &[]);
+        }
+    }
+    Ok(())
 }

@@ -6,10 +6,13 @@ use ash::vk;
 use super::{
     accumulate,
     draws::SplatPass,
-    export, finalize, floor, kernel_texture, list_large, paper,
+    export, finalize, floor, kernel_texture, layer_accumulate,
+    layer_compose::{self, LayerKind},
+    layer_rest, layer_visibility, list_large, paper,
     pipelines::{ComputeKey, GraphicsKey, Shaders},
-    splat_shaders::{Primitive, Stages},
-    variant::{Constants, RASTERIZER, splat_constants},
+    polygons,
+    splat_shaders::{Primitive, Stages, Summed},
+    variant::{Constants, OUTWARD, RASTERIZER, splat_constants},
     visibility,
 };
 use crate::{
@@ -27,6 +30,10 @@ pub struct Traits {
     pub closed: bool,
     /// Some may be too large or too near to be drawn as the rasterizer's own primitive.
     pub may_be_large: bool,
+    /// There are polygons beside the splats.
+    pub polygons: bool,
+    /// There are transparent things beside the opaque ones, and layers enough to peel one off another.
+    pub transparent: bool,
     /// The surface is wanted as data.
     pub export: bool,
     /// The floor benchmark's pipelines too.
@@ -36,7 +43,15 @@ pub struct Traits {
 impl Default for Traits {
     /// A closed surface of disks, all of them small and in front of the eye.
     fn default() -> Self {
-        Self { ellipses: false, closed: true, may_be_large: false, export: false, floor: false }
+        Self {
+            ellipses: false,
+            closed: true,
+            may_be_large: false,
+            polygons: false,
+            transparent: false,
+            export: false,
+            floor: false,
+        }
     }
 }
 
@@ -148,9 +163,10 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.push(compute("scan large splats", scan));
         all.push(compute("list large splats", list));
     }
+    let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
     let splat_passes = [
-        ("visibility", visibility::splat_pass(settings)?),
-        ("accumulate", accumulate::splat_pass(settings, traits.export)?),
+        ("visibility", visibility::splat_pass(settings, false)?),
+        ("accumulate", accumulate::splat_pass(settings, summed)?),
     ];
     for (pass, splats) in splat_passes {
         if pass == "accumulate" && settings.kernel_eval == KernelEval::Texture {
@@ -163,7 +179,44 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         let keys = splat_keys(&splats, settings, &variant, has_list);
         all.extend(keys.into_iter().map(|(draws, key)| graphics(pass, draws, key)));
     }
-    all.push(graphics("finalize", "", finalize::key(settings, target)));
+    if traits.polygons {
+        all.push(graphics("polygons", "triangles", polygons::mesh_pass(settings).key(traits.closed, false)));
+    }
+    if traits.transparent {
+        let mut open = splat_constants(settings, traits.ellipses, false);
+        open.push((OUTWARD, u32::from(traits.closed)));
+        let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
+        for peeled in [false, true] {
+            let names = if peeled {
+                ["visibility of a layer", "accumulate a layer", "polygons of a layer"]
+            } else {
+                ["visibility of layer 1", "accumulate layer 1", "polygons of layer 1"]
+            };
+            let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
+            let of_splats = [
+                (names[0], visibility::splat_pass(settings, peeled)?),
+                (names[1], layer_accumulate::splat_pass(settings, peeled)?),
+                (rest, layer_rest::splat_pass(settings, peeled, true)?),
+            ];
+            for (name, pass) in &of_splats {
+                all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
+            }
+            let of_polygons = [
+                (names[0], layer_visibility::mesh_pass(peeled)),
+                (names[2], layer_accumulate::mesh_pass(settings, peeled)),
+                (rest, layer_rest::mesh_pass(settings, peeled, true)),
+            ];
+            for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
+                all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
+            }
+        }
+        let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
+        all.push(graphics("compose a layer", "", layer_compose::key(settings, surface)));
+        all.push(graphics("compose the last layer", "", layer_compose::key(settings, LayerKind::Rest)));
+    }
+    let shown =
+        finalize::Traits { splats: true, polygons: traits.polygons, layered: traits.transparent };
+    all.extend(finalize::key(settings, target, shown).map(|key| graphics("finalize", "", key)));
     if traits.export {
         all.push(graphics("export", "", export::key()));
     }

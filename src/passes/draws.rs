@@ -8,10 +8,11 @@ use glam::DVec3;
 use super::{
     Inputs,
     constants::FrameConstants,
+    gate::Gate,
     list_large::LargeIds,
     pipelines::{GraphicsKey, Layout},
     splat_shaders::{Primitive, SplatShaders, Stages},
-    variant::{Constants, splat_constants},
+    variant::{Constants, OUTWARD, splat_constants},
 };
 use crate::{
     error::Result,
@@ -44,7 +45,7 @@ const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
 /// surface long before, and f32 ends at 3e38.
 const LARGEST_EPSILON: f64 = 1e30;
 
-/// All chunks as seen from a camera.
+/// All chunks of splats as seen from a camera.
 pub fn draws<'a>(
     scene: &'a PreparedScene,
     camera: &Camera,
@@ -55,11 +56,10 @@ pub fn draws<'a>(
     let primitive = Primitive::of(settings.rasterizer);
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
-        // Nearer than that f32 ends; the eye is about 1 away.
-        let near = (camera.near() * view.view_from_world_scale).max(1e-37);
-        let (epsilon_radii, epsilon_length) = match settings.epsilon {
+        let near = near_in_view(camera, &view);
+        let epsilon = match settings.epsilon {
             Epsilon::Radii(radii) => (radii, 0.0),
-            Epsilon::Length(length) => (0.0, length * view.view_from_world_scale),
+            Epsilon::Length(length) => (0.0, length),
         };
         let bound = SizeBound {
             nearest_z: nearest_z(chunk, &view),
@@ -74,21 +74,9 @@ pub fn draws<'a>(
         Draw {
             chunk,
             constants: FrameConstants {
-                view_from_local_x: view.rows[0],
-                view_from_local_y: view.rows[1],
-                view_from_local_z: view.rows[2],
-                size_px: settings.size_px.map(|side| side as f32),
-                focal_px: focal_px as f32,
-                near: near as f32,
-                filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
-                epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
-                epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
-                point_cap_px,
-                point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
                 splat_count: chunk.count,
                 uniform_color: u32::from(chunk.uniform_color),
-                view_from_local_scale: view.view_from_local_scale as f32,
-                origin_from_eye: in_two_parts(view.origin_from_eye),
+                ..frame_constants(&view, camera, settings, limits, epsilon)
             },
             largest_box_px,
             may_be_large: match primitive {
@@ -96,10 +84,51 @@ pub fn draws<'a>(
                 Primitive::Triangle => largest_box_px.is_infinite(),
                 Primitive::Quad => false,
             },
-            variant: splat_constants(settings, chunk.ellipses, chunk.closed),
+            variant: match chunk.transparent {
+                false => splat_constants(settings, chunk.ellipses, chunk.closed),
+                true => {
+                    let mut constants = splat_constants(settings, chunk.ellipses, false);
+                    constants.push((OUTWARD, u32::from(chunk.closed)));
+                    constants
+                }
+            },
         }
     };
     scene.chunks.iter().map(draw).collect()
+}
+
+/// The depth of the near plane in view space. Nearer than that f32 ends; the eye is about 1 away.
+fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
+    (camera.near() * view.view_from_world_scale).max(1e-37)
+}
+
+/// What is the same for all that is drawn in one local space; ε in radii and as a world length.
+pub(super) fn frame_constants(
+    view: &ViewFromLocal,
+    camera: &Camera,
+    settings: &Settings,
+    limits: &Limits,
+    (epsilon_radii, epsilon_length): (f64, f64),
+) -> FrameConstants {
+    let focal_px = camera.focal_px(settings.size_px[1]);
+    let epsilon_length = epsilon_length * view.view_from_world_scale;
+    FrameConstants {
+        view_from_local_x: view.rows[0],
+        view_from_local_y: view.rows[1],
+        view_from_local_z: view.rows[2],
+        size_px: settings.size_px.map(|side| side as f32),
+        focal_px: focal_px as f32,
+        near: near_in_view(camera, view) as f32,
+        filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
+        epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
+        epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
+        point_cap_px: limits.point_size_range[1],
+        point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
+        splat_count: 0,
+        uniform_color: 0,
+        view_from_local_scale: view.view_from_local_scale as f32,
+        origin_from_eye: in_two_parts(view.origin_from_eye),
+    }
 }
 
 /// A vector in f32, and what that leaves of it.
@@ -123,7 +152,10 @@ fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
 pub(super) struct SplatPass {
     pub shaders: SplatShaders,
     pub color_formats: Vec<vk::Format>,
-    pub depth: (vk::CompareOp, bool),
+    /// The depth test and whether it writes, where there is one.
+    pub depth: Option<(vk::CompareOp, bool)>,
+    /// Specialization constants beside those of the splats.
+    pub constants: Constants,
 }
 
 /// The pipelines for one draw: of the rasterizer's own primitive, and quads where there may be large splats.
@@ -136,11 +168,12 @@ pub(super) struct DrawPipelines {
 impl SplatPass {
     /// What the pipeline is that draws splats of a variant as a primitive.
     pub fn key(&self, stages: Stages, primitive: Primitive, variant: &Constants) -> GraphicsKey {
+        let constants = [variant.as_slice(), &self.constants].concat();
         GraphicsKey {
             color_formats: self.color_formats.clone(),
             blend: Blend::Add,
-            depth: Some(self.depth),
-            ..GraphicsKey::new(stages, Layout::Splat, primitive.topology(), variant.clone())
+            depth: self.depth,
+            ..GraphicsKey::new(stages, Layout::Splat, primitive.topology(), constants)
         }
     }
 
@@ -163,17 +196,18 @@ impl SplatPass {
     }
 }
 
-/// Records the draws of all chunks.
+/// Records the draws of all chunks; behind a gate, the device leaves them out where it is closed.
 pub(super) fn draw_splats(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipelines: &[DrawPipelines],
     large: &[Option<LargeIds>],
+    gate: Option<Gate>,
 ) -> Result<()> {
     let (device, commands) = (context.device(), context.commands());
     let layout = &inputs.shaders.splat_layout;
     let bind_point = vk::PipelineBindPoint::GRAPHICS;
-    for ((draw, pipelines), large) in inputs.draws.iter().zip(pipelines).zip(large) {
+    for (((number, draw), pipelines), large) in inputs.draws.iter().enumerate().zip(pipelines).zip(large) {
         let mut sets = vec![draw.chunk.set()];
         let mut arguments = None;
         if let Some(large) = large {
@@ -189,11 +223,19 @@ pub(super) fn draw_splats(
             let constants = bytemuck::bytes_of(&draw.constants);
             device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
             device.cmd_bind_pipeline(commands, bind_point, pipelines.own.raw());
-            let [vertices, instances] = pipelines.primitive.counts(draw.chunk.count);
-            device.cmd_draw(commands, vertices, instances, 0, 0);
+            match gate {
+                None => {
+                    let [vertices, instances] = pipelines.primitive.counts(draw.chunk.count);
+                    device.cmd_draw(commands, vertices, instances, 0, 0);
+                }
+                Some(gate) => gate.draw_splats(context, number)?,
+            }
             if let (Some(quads), Some(arguments)) = (&pipelines.quads, arguments) {
                 device.cmd_bind_pipeline(commands, bind_point, quads.raw());
-                device.cmd_draw_indirect(commands, arguments, 0, 1, 16);
+                match gate {
+                    None => device.cmd_draw_indirect(commands, arguments, 0, 1, 16),
+                    Some(gate) => gate.draw_listed(context, arguments)?,
+                }
             }
         }
     }

@@ -6,14 +6,13 @@ use super::{
     Inputs,
     accumulate::Sums,
     constants::ExportConstants,
-    fullscreen::draw_fullscreen,
+    fullscreen::{bind, sampled_set},
     pipelines::{GraphicsKey, Layout},
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     shaders,
-    vk::Descriptor,
 };
 
 /// The images that the export leaves.
@@ -46,6 +45,32 @@ pub(super) fn key() -> GraphicsKey {
     }
 }
 
+fn images(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>) -> Exported {
+    let mut image = |name: &str, format| graph.create_image(name, inputs.image(format));
+    let [weight, albedo, normal, depth] = Exported::FORMATS;
+    Exported {
+        weight: image("exported weight", weight),
+        albedo: image("exported albedo", albedo),
+        normal: image("exported normal", normal),
+        depth: image("exported depth", depth),
+    }
+}
+
+/// Declares the pass of a scene without opaque splats: their surface is empty.
+pub(super) fn export_nothing<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Exported {
+    let mut exported = images(graph, inputs);
+    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
+    let far = Start::Clear(ClearValue::Color([f32::INFINITY; 4]));
+    graph
+        .pass("export")
+        .write(&mut exported.weight, Access::ColorAttachment, zero)
+        .write(&mut exported.albedo, Access::ColorAttachment, zero)
+        .write(&mut exported.normal, Access::ColorAttachment, zero)
+        .write(&mut exported.depth, Access::ColorAttachment, far)
+        .finish(Box::new(|_| Ok(())));
+    exported
+}
+
 /// Declares the pass.
 pub(super) fn export<'a>(
     graph: &mut Graph<Body<'a>>,
@@ -57,13 +82,7 @@ pub(super) fn export<'a>(
     let pipeline = inputs.shaders.graphics(key())?;
     let constants = ExportConstants { near: inputs.camera.near() as f32 };
     let ids = [sums.color.id(), sums.normal.id(), depth.id()];
-    let [weight, albedo, normal, depth_format] = Exported::FORMATS;
-    let mut exported = Exported {
-        weight: graph.create_image("exported weight", inputs.image(weight)),
-        albedo: graph.create_image("exported albedo", inputs.image(albedo)),
-        normal: graph.create_image("exported normal", inputs.image(normal)),
-        depth: graph.create_image("exported depth", inputs.image(depth_format)),
-    };
+    let mut exported = images(graph, inputs);
     graph
         .pass("export")
         .read(&sums.color, Access::SampledFragment)
@@ -74,12 +93,11 @@ pub(super) fn export<'a>(
         .write(&mut exported.normal, Access::ColorAttachment, Start::Discard)
         .write(&mut exported.depth, Access::ColorAttachment, Start::Discard)
         .finish(Box::new(move |context| {
-            let mut given = Vec::new();
-            for (number, id) in (0..).zip(ids) {
-                given.push((number, Descriptor::Sampled(context.image(id)?.1, context.layout(id))));
-            }
-            let set = inputs.descriptors.set(&inputs.shaders.surface_set, &given)?;
-            draw_fullscreen(context, &pipeline, layout, set, bytemuck::bytes_of(&constants));
+            let images: Vec<_> = (0..).zip(ids).collect();
+            let set = sampled_set(context, inputs, &inputs.shaders.surface_set, &images)?;
+            bind(context, &pipeline, layout, set, bytemuck::bytes_of(&constants));
+            // SAFETY: inside of rendering, with all bound that the pipeline needs.
+            unsafe { context.device().cmd_draw(context.commands(), 3, 1, 0, 0) };
             Ok(())
         }));
     Ok(exported)

@@ -1,7 +1,7 @@
-//! Normalization and shading: from sums to the picture.
+//! Normalization and shading of the opaque part, under the transparent layers: from sums to the picture.
 //!
-//! Pixels without any splat are not shaded: the target is cleared to the background, and a triangle at depth 0 (infinitely
-//! far) is drawn where the visible depth is above 0 (something is there).
+//! Without layers, pixels without any surface are not shaded: the target is cleared to the background, and a triangle at
+//! depth 0 (infinitely far) is drawn where the visible depth is above 0 (something is there).
 
 use ash::vk;
 
@@ -11,64 +11,135 @@ use super::{
     constants::FinalizeConstants,
     fullscreen::draw_fullscreen,
     pipelines::{GraphicsKey, Layout},
-    variant::shading_constants,
+    variant::{Constants, shading_constants, transition_constant},
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
     math::srgb::linear_from_srgb,
     scene::Settings,
     shaders,
-    vk::Descriptor,
 };
 
-/// What its pipeline is.
-pub(super) fn key(settings: &Settings, target_format: vk::Format) -> GraphicsKey {
-    let constants = shading_constants(settings.shading);
-    GraphicsKey {
-        color_formats: vec![target_format],
-        depth: Some((vk::CompareOp::LESS, false)),
-        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, constants)
+/// What the opaque passes leave.
+#[derive(Default)]
+pub(super) struct Opaque {
+    /// Of splats.
+    pub splats: Option<Sums>,
+    /// The polygons that are seen.
+    pub polygons: Option<Sums>,
+    /// The depth of splats, moved away from the eye by ε.
+    pub splat_depth: Option<Handle<Image>>,
+    /// The depth of polygons, or of the splats where those are nearer.
+    pub polygon_depth: Option<Handle<Image>>,
+}
+
+impl Opaque {
+    /// The depth that hides what is behind it; none where there is nothing opaque.
+    pub fn depth(&self) -> Option<&Handle<Image>> {
+        self.polygon_depth.as_ref().or(self.splat_depth.as_ref())
     }
 }
 
-/// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept.
+/// What is opaque in a scene, for the pipeline alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Traits {
+    pub splats: bool,
+    pub polygons: bool,
+    /// There are transparent layers.
+    pub layered: bool,
+}
+
+/// What its pipeline is; none where the background is all that is seen.
+pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option<GraphicsKey> {
+    let Traits { splats, polygons, layered } = traits;
+    let fragment = match (splats, polygons, layered) {
+        (true, false, false) => &shaders::FINALIZE_SPLATS_FRAG,
+        (false, true, false) => &shaders::FINALIZE_POLYGONS_FRAG,
+        (true, true, false) => &shaders::FINALIZE_HYBRID_FRAG,
+        (true, false, true) => &shaders::FINALIZE_SPLATS_LAYERED_FRAG,
+        (false, true, true) => &shaders::FINALIZE_POLYGONS_LAYERED_FRAG,
+        (true, true, true) => &shaders::FINALIZE_HYBRID_LAYERED_FRAG,
+        (false, false, true) => &shaders::FINALIZE_NOTHING_LAYERED_FRAG,
+        (false, false, false) => return None,
+    };
+    let constants = shown_constants(settings, splats && polygons);
+    Some(GraphicsKey {
+        color_formats: vec![target_format],
+        depth: (!layered).then_some((vk::CompareOp::LESS, false)),
+        ..GraphicsKey::fullscreen(fragment, Layout::Finalize, constants)
+    })
+}
+
+/// The specialization constants of what shades sums; `hybrid`: of splats and polygons.
+pub(super) fn shown_constants(settings: &Settings, hybrid: bool) -> Constants {
+    let mut constants = shading_constants(settings.shading);
+    if hybrid {
+        constants.push(transition_constant(settings.transition));
+    }
+    constants
+}
+
+/// What passes over the whole image are told of it.
+pub(super) fn constants(inputs: Inputs<'_>) -> FinalizeConstants {
+    let [width, height] = inputs.settings.size_px;
+    FinalizeConstants {
+        background: inputs.settings.background.map_or([0.0; 4], |srgb| {
+            let [r, g, b] = srgb.map(linear_from_srgb);
+            [r, g, b, 1.0]
+        }),
+        half_size_px: [0.5 * width as f32, 0.5 * height as f32],
+        focal_px: inputs.camera.focal_px(height) as f32,
+        padding: 0,
+    }
+}
+
+/// The images of set 0 by their bindings.
+pub(super) fn sums_descriptors(
+    splats: Option<&Sums>,
+    polygons: Option<&Sums>,
+    layers: Option<&Handle<Image>>,
+) -> Vec<(u32, ResourceId)> {
+    let of = |sums: &Sums, first: u32| [(first, sums.color.id()), (first + 1, sums.normal.id())];
+    let splats = splats.map(|sums| of(sums, 0));
+    let polygons = polygons.map(|sums| of(sums, 2));
+    let sums = splats.into_iter().chain(polygons).flatten();
+    sums.chain(layers.map(|layers| (4, layers.id()))).collect()
+}
+
+/// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept. `layers`:
+/// what transparent layers add up to.
 pub(super) fn finalize<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    sums: &Sums,
-    depth: &Handle<Image>,
+    opaque: &Opaque,
+    layers: Option<&Handle<Image>>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
     let layout = &inputs.shaders.finalize_layout;
-    let pipeline = inputs.shaders.graphics(key(inputs.settings, target_format))?;
-    let [width, height] = inputs.settings.size_px;
-    let background = inputs.settings.background.map_or([0.0; 4], |srgb| {
-        let [r, g, b] = srgb.map(linear_from_srgb);
-        [r, g, b, 1.0]
-    });
-    let constants = FinalizeConstants {
-        background,
-        half_size_px: [0.5 * width as f32, 0.5 * height as f32],
-        focal_px: inputs.camera.focal_px(height) as f32,
-        padding: 0,
-    };
-    let ids = [sums.color.id(), sums.normal.id()];
-    graph
-        .pass("finalize")
-        .read(&sums.color, Access::SampledFragment)
-        .read(&sums.normal, Access::SampledFragment)
-        .read(depth, Access::DepthTest)
-        .write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(background)))
-        .finish(Box::new(move |context| {
-            let mut given = Vec::new();
-            for (number, id) in (0..).zip(ids) {
-                given.push((number, Descriptor::Sampled(context.image(id)?.1, context.layout(id))));
+    let (splats, polygons) = (opaque.splats.as_ref(), opaque.polygons.as_ref());
+    let traits =
+        Traits { splats: splats.is_some(), polygons: polygons.is_some(), layered: layers.is_some() };
+    let pipeline =
+        key(inputs.settings, target_format, traits).map(|key| inputs.shaders.graphics(key)).transpose()?;
+    let constants = constants(inputs);
+    let ids = sums_descriptors(splats, polygons, layers);
+    let mut pass = graph.pass("finalize");
+    for image in [splats, polygons].into_iter().flatten().flat_map(|sums| [&sums.color, &sums.normal]) {
+        pass = pass.read(image, Access::SampledFragment);
+    }
+    match (layers, opaque.depth()) {
+        (Some(layers), _) => pass = pass.read(layers, Access::SampledFragment),
+        (None, Some(depth)) => pass = pass.read(depth, Access::DepthTest),
+        (None, None) => {}
+    }
+    pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
+        .finish(Box::new(move |context| match &pipeline {
+            Some(pipeline) => {
+                draw_fullscreen(context, inputs, pipeline, layout, &ids, bytemuck::bytes_of(&constants))
             }
-            let set = inputs.descriptors.set(&inputs.shaders.sums_set, &given)?;
-            draw_fullscreen(context, &pipeline, layout, set, bytemuck::bytes_of(&constants));
-            Ok(())
+            None => Ok(()),
         }));
     Ok(())
 }

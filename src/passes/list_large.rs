@@ -44,10 +44,10 @@ pub(super) struct LargeIds {
 }
 
 impl LargeList {
-    fn create(graph: &mut Graph<Body<'_>>, number: usize, draw: &Draw<'_>) -> Self {
+    fn create(graph: &mut Graph<Body<'_>>, kind: &str, number: usize, draw: &Draw<'_>) -> Self {
         let blocks = u64::from(blocks_of(draw));
         let mut buffer = |what: &str, size_bytes| {
-            graph.create_buffer(&format!("large {what} of chunk {number}"), BufferDesc { size_bytes })
+            graph.create_buffer(&format!("large {what} of {kind}chunk {number}"), BufferDesc { size_bytes })
         };
         Self {
             bits: buffer("bits", blocks * u64::from(BLOCK) / 8),
@@ -98,16 +98,18 @@ fn key(shader: &'static Shader, variant: &Constants) -> ComputeKey {
     ComputeKey { shader, layout: Layout::List, constants }
 }
 
-/// Declares the three passes that list large splats; none where no chunk may have any. One list (or none) a draw.
+/// Declares the three passes that list large splats; none where no chunk may have any. One list (or none) a draw. `kind`, in
+/// front of the names, tells several such lists of a frame apart.
 pub(super) fn list_large<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
+    kind: &str,
 ) -> Result<Vec<Option<LargeList>>> {
     let mut lists: Vec<_> = inputs
         .draws
         .iter()
         .enumerate()
-        .map(|(number, draw)| draw.may_be_large.then(|| LargeList::create(graph, number, draw)))
+        .map(|(number, draw)| draw.may_be_large.then(|| LargeList::create(graph, kind, number, draw)))
         .collect();
     if lists.iter().all(Option::is_none) {
         return Ok(lists);
@@ -115,7 +117,7 @@ pub(super) fn list_large<'a>(
     let ids = ids_of(&lists);
 
     let count = Dispatches::new(inputs, &ids, &shaders::LARGE_COUNT_COMP)?;
-    let mut pass = graph.pass("count large splats");
+    let mut pass = graph.pass(&format!("count large {kind}splats"));
     for list in lists.iter_mut().flatten() {
         pass = pass.write(&mut list.bits, Access::StorageWriteCompute, Start::Discard).write(
             &mut list.counts,
@@ -128,7 +130,7 @@ pub(super) fn list_large<'a>(
     }));
 
     let scan = Dispatches::new(inputs, &ids, &shaders::LARGE_SCAN_COMP)?;
-    let mut pass = graph.pass("scan large splats");
+    let mut pass = graph.pass(&format!("scan large {kind}splats"));
     for list in lists.iter_mut().flatten() {
         pass = pass.write(&mut list.counts, Access::StorageReadWriteCompute, Start::Load).write(
             &mut list.arguments,
@@ -141,7 +143,7 @@ pub(super) fn list_large<'a>(
     }));
 
     let place = Dispatches::new(inputs, &ids, &shaders::LARGE_LIST_COMP)?;
-    let mut pass = graph.pass("list large splats");
+    let mut pass = graph.pass(&format!("list large {kind}splats"));
     for list in lists.iter_mut().flatten() {
         pass = pass
             .read(&list.bits, Access::StorageReadCompute)

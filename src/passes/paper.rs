@@ -6,7 +6,8 @@ use ash::vk;
 use super::{
     DEPTH_FORMAT, Draw, Inputs, PaperConstants,
     accumulate::Sums,
-    finalize, kernel_texture,
+    finalize::{Opaque, finalize},
+    kernel_texture,
     pipelines::{GraphicsKey, Layout},
     sum_format,
 };
@@ -73,7 +74,8 @@ pub fn paper_frame<'a>(
         .read(&depth, Access::DepthTest)
         .read(&kernel, Access::SampledFragment)
         .finish(body);
-    finalize::finalize(graph, inputs, &sums, &depth, target, target_format)
+    let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::default() };
+    finalize(graph, inputs, &opaque, None, target, target_format)
 }
 
 /// The body that draws all chunks.

@@ -29,9 +29,10 @@ pub struct Shaders {
     pub splat_set: SplatSetLayout,
     /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats.
     pub(super) large_set: SetLayout,
-    /// Set 2 of accumulation: the visible depth, where depth is summed, and the kernel, where it is a texture.
+    /// Set 2 of the splat passes and of polygons: a depth to compare with (the visible one where depth is summed, that
+    /// of the layer before where layers are peeled), the kernel where it is a texture, the depth of polygons.
     pub(super) read_set: SetLayout,
-    /// Set 0 of finalization: the sums of colors and normals.
+    /// Set 0 of finalization and of layers: the sums of splats and of polygons, each of colors and normals; the layers.
     pub(super) sums_set: SetLayout,
     /// Set 0 of export: the sums and the visible depth.
     pub(super) surface_set: SetLayout,
@@ -63,6 +64,8 @@ pub(super) struct GraphicsKey {
     pub layout: Layout,
     pub constants: Constants,
     pub topology: vk::PrimitiveTopology,
+    /// Polygons that face away are not drawn.
+    pub cull_clockwise: bool,
     pub color_formats: Vec<vk::Format>,
     pub blend: Blend,
     /// The depth test: the comparison and whether it writes.
@@ -90,8 +93,8 @@ impl Shaders {
         let splat_set = SplatSetLayout::new(device)?;
         let large_set = SetLayout::new(device, "large splats", &[buffer; 4])?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
-        let read_set = SetLayout::new(device, "read by accumulation", &[image, filtered])?;
-        let sums_set = SetLayout::new(device, "sums", &[image; 2])?;
+        let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image])?;
+        let sums_set = SetLayout::new(device, "sums", &[image; 5])?;
         let surface_set = SetLayout::new(device, "surface", &[image; 3])?;
         let splat_layout = PipelineLayout::new(
             device,
@@ -179,6 +182,7 @@ impl Shaders {
             vertex: key.vertex.stage(constants),
             fragment: key.fragment.stage(constants),
             topology: key.topology,
+            cull_clockwise: key.cull_clockwise,
             color_formats: &key.color_formats,
             blend: key.blend,
             depth: key.depth.map(|(compare, write)| DepthState {
@@ -240,6 +244,7 @@ impl GraphicsKey {
             layout,
             constants,
             topology,
+            cull_clockwise: false,
             color_formats: Vec::new(),
             blend: Blend::Replace,
             depth: None,

@@ -61,12 +61,75 @@ pub(super) struct SplatShaders {
     pub listed: Stages,
 }
 
-/// The shaders of `pass` ("visibility" or "accumulate"); `options` are the words of its fragment stage, in their order.
-pub(super) fn splat_shaders(pass: &str, settings: &Settings, options: &[&str]) -> Result<SplatShaders> {
+/// The words that choose among the permutations of a splat pass, beside primitive and interface.
+pub(super) struct Words {
+    /// `visibility` or `accumulate`.
+    pub pass: &'static str,
+    /// Of the vertex stage.
+    pub vertex: Option<&'static str>,
+    /// Of the vertex stage of triangles.
+    pub triangle_vertex: Option<&'static str>,
+    /// Of the fragment stage, in their order.
+    pub fragment: Vec<&'static str>,
+}
+
+/// What accumulation sums, and of which fragments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Summed {
+    /// The opaque surface: color and normal.
+    Opaque {
+        /// Depth too.
+        with_depth: bool,
+        /// Where it is not behind polygons.
+        beside_polygons: bool,
+    },
+    /// A transparent layer: color, normal and alpha.
+    Layer {
+        /// Behind the one before.
+        peeled: bool,
+    },
+    /// All that is left for the last layer: lit colors, weighted by alpha.
+    Rest {
+        /// Behind the layer before.
+        peeled: bool,
+    },
+}
+
+impl Words {
+    /// Of visibility. `peeled`: behind a layer.
+    pub fn visibility(settings: &Settings, peeled: bool) -> Self {
+        let peeled = peeled.then_some("peeled");
+        let fragment = [early_word(settings), peeled].into_iter().flatten().collect();
+        Self { pass: "visibility", vertex: None, triangle_vertex: peeled, fragment }
+    }
+
+    /// Of accumulation.
+    pub fn accumulate(settings: &Settings, summed: Summed) -> Self {
+        let textured = (settings.kernel_eval == KernelEval::Texture).then_some("textured");
+        let (kind, [third, fourth]) = match summed {
+            Summed::Opaque { with_depth, beside_polygons } => {
+                let beside = beside_polygons.then_some("beside");
+                (beside, [with_depth.then_some("with_depth"), beside])
+            }
+            Summed::Layer { peeled } => (Some("layer"), [Some("layer"), peeled.then_some("peeled")]),
+            Summed::Rest { peeled } => (Some("blended"), [Some("blended"), peeled.then_some("peeled")]),
+        };
+        let fragment = [early_word(settings), textured, third, fourth].into_iter().flatten().collect();
+        Self { pass: "accumulate", vertex: kind, triangle_vertex: kind, fragment }
+    }
+}
+
+/// The shaders of a splat pass.
+pub(super) fn splat_shaders(settings: &Settings, words: &Words) -> Result<SplatShaders> {
+    let pass = words.pass;
     let [own, quads] = interfaces(settings);
     let stages = |vertex: &str, interface: &str| {
-        let fragment: String = options.iter().map(|word| format!("_{word}")).collect();
-        Ok((find(&format!("{pass}_{vertex}.vert"))?, find(&format!("{pass}_{interface}{fragment}.frag"))?))
+        let fragment: String = words.fragment.iter().map(|word| format!("_{word}")).collect();
+        let kind = words.vertex.map(|word| format!("_{word}")).unwrap_or_default();
+        Ok((
+            find(&format!("{pass}_{vertex}{kind}.vert"))?,
+            find(&format!("{pass}_{interface}{fragment}.frag"))?,
+        ))
     };
     let (all, small) = match Primitive::of(settings.rasterizer) {
         Primitive::Point => {
@@ -78,29 +141,24 @@ pub(super) fn splat_shaders(pass: &str, settings: &Settings, options: &[&str]) -
             (all(), all())
         }
         Primitive::Triangle => {
-            let all = stages_of_triangles(pass, "triangles", options);
-            (all, stages_of_triangles(pass, "small_triangles", options))
+            (stages_of_triangles("triangles", words), stages_of_triangles("small_triangles", words))
         }
     };
     Ok(SplatShaders { all: all?, small: small?, listed: stages(&format!("listed_quads_{quads}"), quads)? })
 }
 
-/// The words that both passes share of their fragment stage's options.
-pub(super) fn early_word(settings: &Settings) -> Option<&'static str> {
+/// The word that both passes share.
+fn early_word(settings: &Settings) -> Option<&'static str> {
     settings.early_depth.then_some("early")
 }
 
-/// The words of accumulation's fragment stage.
-pub(super) fn accumulate_words(settings: &Settings, with_depth: bool) -> Vec<&'static str> {
-    let textured = (settings.kernel_eval == KernelEval::Texture).then_some("textured");
-    [early_word(settings), textured, with_depth.then_some("with_depth")].into_iter().flatten().collect()
-}
-
-fn stages_of_triangles(pass: &str, vertex: &str, options: &[&str]) -> Result<Stages> {
+fn stages_of_triangles(vertex: &str, words: &Words) -> Result<Stages> {
+    let pass = words.pass;
+    let kind = words.triangle_vertex.map(|word| format!("_{word}")).unwrap_or_default();
     // Their depth is the rasterizer's own, so that tests are early anyway.
-    let words: String =
-        options.iter().filter(|word| **word != "early").map(|word| format!("_{word}")).collect();
-    Ok((find(&format!("{pass}_{vertex}.vert"))?, find(&format!("{pass}_triangles{words}.frag"))?))
+    let fragment: String =
+        words.fragment.iter().filter(|word| **word != "early").map(|word| format!("_{word}")).collect();
+    Ok((find(&format!("{pass}_{vertex}{kind}.vert"))?, find(&format!("{pass}_triangles{fragment}.frag"))?))
 }
 
 /// What the vertex stage hands over (`glsl/inc/varyings.glsl`) of points, and of quads.
@@ -141,11 +199,16 @@ mod tests {
                         if settings.validate().is_err() {
                             continue;
                         }
-                        let early: Vec<_> = early_word(&settings).into_iter().collect();
-                        splat_shaders("visibility", &settings, &early).unwrap();
-                        for with_depth in [false, true] {
-                            let words = accumulate_words(&settings, with_depth);
-                            splat_shaders("accumulate", &settings, &words).unwrap();
+                        for choice in [false, true] {
+                            splat_shaders(&settings, &Words::visibility(&settings, choice)).unwrap();
+                            for other in [false, true] {
+                                let opaque = Summed::Opaque { with_depth: choice, beside_polygons: other };
+                                let [layer, rest] =
+                                    [Summed::Layer { peeled: choice }, Summed::Rest { peeled: choice }];
+                                for summed in [opaque, layer, rest] {
+                                    splat_shaders(&settings, &Words::accumulate(&settings, summed)).unwrap();
+                                }
+                            }
                         }
                         checked += 1;
                     }

@@ -4,7 +4,7 @@ use std::f64::consts::LOG2_E;
 
 use crate::{
     math::kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
-    scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading},
+    scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, Transition},
 };
 
 /// Specialization constants: number and 32-bit pattern.
@@ -15,6 +15,9 @@ const STEEPEST: f64 = 1e30;
 
 /// The number of the rasterizer's constant, which all that sets splats up or draws them has.
 pub const RASTERIZER: u32 = 7;
+
+/// The number of the constant that tells closed transparent things.
+pub const OUTWARD: u32 = 13;
 
 /// The constants of the splat passes for one kind of chunk.
 pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
@@ -78,7 +81,17 @@ pub fn kernel_constants(kernel: Kernel) -> Constants {
     vec![(3, kernel), (4, (a.min(STEEPEST) as f32).to_bits()), (5, n.to_bits())]
 }
 
-/// The constants of finalization.
+/// The constant of where splats and polygons meet.
+pub fn transition_constant(transition: Transition) -> (u32, u32) {
+    let number = match transition {
+        Transition::Color | Transition::Paper => 0,
+        Transition::Attributes => 1,
+        Transition::None => 2,
+    };
+    (12, number)
+}
+
+/// The constants of what shades.
 pub fn shading_constants(shading: Shading) -> Constants {
     let number = match shading {
         Shading::Phong => 0,

@@ -6,7 +6,7 @@ use super::{
     DEPTH_FORMAT, Inputs,
     draws::{SplatPass, draw_splats},
     list_large::{LargeList, ids_of, read_lists},
-    splat_shaders::{early_word, splat_shaders},
+    splat_shaders::{Words, splat_shaders},
 };
 use crate::{
     error::Result,
@@ -14,13 +14,13 @@ use crate::{
     scene::Settings,
 };
 
-/// What the pass is made of.
-pub(super) fn splat_pass(settings: &Settings) -> Result<SplatPass> {
-    let words: Vec<_> = early_word(settings).into_iter().collect();
+/// What the pass is made of. `peeled`: only what is behind a layer.
+pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> Result<SplatPass> {
     Ok(SplatPass {
-        shaders: splat_shaders("visibility", settings, &words)?,
+        shaders: splat_shaders(settings, &Words::visibility(settings, peeled))?,
         color_formats: Vec::new(),
-        depth: (vk::CompareOp::GREATER, true),
+        depth: Some((vk::CompareOp::GREATER, true)),
+        constants: Vec::new(),
     })
 }
 
@@ -30,7 +30,7 @@ pub(super) fn visibility<'a>(
     inputs: Inputs<'a>,
     large: &[Option<LargeList>],
 ) -> Result<Handle<Image>> {
-    let pipelines = splat_pass(inputs.settings)?.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings, false)?.pipelines(inputs)?;
     let large_ids = ids_of(large);
 
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
@@ -40,6 +40,6 @@ pub(super) fn visibility<'a>(
         Start::Clear(ClearValue::Depth(0.0)),
     );
     read_lists(pass, large)
-        .finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &large_ids)));
+        .finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &large_ids, None)));
     Ok(depth)
 }

@@ -54,6 +54,8 @@ pub struct Chunk {
     pub ellipses: bool,
     /// Whether they belong to a closed, outward-oriented surface.
     pub closed: bool,
+    /// Some of the object is transparent.
+    pub transparent: bool,
     /// One color for all.
     pub uniform_color: bool,
     /// The box of the centers, local space.
@@ -72,7 +74,7 @@ impl Chunk {
         device: &Device,
         layout: &SplatSetLayout,
         number: usize,
-        closed: bool,
+        (closed, transparent): (bool, bool),
         survey: &Survey,
     ) -> Result<Self> {
         let colors = if survey.uniform_color { 1 } else { survey.count };
@@ -98,6 +100,7 @@ impl Chunk {
             count: survey.count,
             ellipses: survey.ellipses,
             closed,
+            transparent,
             uniform_color: survey.uniform_color,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,

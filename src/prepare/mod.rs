@@ -5,24 +5,35 @@
 //! that origin.
 
 mod chunk;
+mod mesh_chunk;
 mod pack;
 mod rebase;
 
 pub use chunk::{Chunk, SplatSetLayout};
+pub use mesh_chunk::MeshChunk;
 pub use rebase::{Rebase, ViewFromLocal};
 
 use std::ops::Range;
 
+use mesh_chunk::PackedMesh;
+
 use crate::{
     error::Result,
-    scene::{DefectCounts, Scene},
+    scene::{DefectCounts, Light, Opacity, Scene},
     vk::{Device, Limits, Staging},
 };
 
 /// A scene on the device. Chunks keep the scene's order.
 pub struct PreparedScene {
-    /// Pieces of objects, each within the device's limits.
+    /// Pieces of objects, each within the device's limits. What is invisible has none.
     pub chunks: Vec<Chunk>,
+    /// Pieces of meshes alike.
+    pub meshes: Vec<MeshChunk>,
+    /// The scene's lights.
+    pub lights: Vec<Light>,
+    /// The mean of the major radii of all transparent splats, world space; 0 where there is none. So thick is a
+    /// transparent polygon where ε is told in radii.
+    pub mean_transparent_radius: f64,
     /// What was left out, in all objects together.
     pub defects: DefectCounts,
 }
@@ -33,9 +44,15 @@ impl PreparedScene {
         self.chunks.iter().map(|chunk| u64::from(chunk.count)).sum()
     }
 
-    /// Bytes of device memory in splat buffers.
+    /// How many triangles are drawn.
+    pub fn triangle_count(&self) -> u64 {
+        self.meshes.iter().map(|chunk| u64::from(chunk.triangles)).sum()
+    }
+
+    /// Bytes of device memory in buffers of splats and meshes.
     pub fn bytes(&self) -> u64 {
-        self.chunks.iter().map(Chunk::bytes).sum()
+        let meshes = self.meshes.iter().map(MeshChunk::bytes).sum::<u64>();
+        self.chunks.iter().map(Chunk::bytes).sum::<u64>() + meshes
     }
 }
 
@@ -59,10 +76,24 @@ pub fn prepare(
 ) -> Result<PreparedScene> {
     let total = scene.splat_count() as u64;
     let capacity = chunk::capacity(limits.max_storage_buffer_range);
-    let mut prepared = PreparedScene { chunks: Vec::new(), defects: DefectCounts::default() };
+    let mut prepared = PreparedScene {
+        chunks: Vec::new(),
+        meshes: Vec::new(),
+        lights: scene.lights.clone(),
+        mean_transparent_radius: 0.0,
+        defects: DefectCounts::default(),
+    };
     let mut done = 0;
+    let (mut transparent_splats, mut transparent_radii) = (0, 0.0);
     for object in &scene.objects {
         let splats = &object.splats;
+        let opacity = splats.colors.opacity();
+        if opacity == Opacity::Invisible {
+            done += splats.len() as u64;
+            progress(done, total);
+            continue;
+        }
+        let transparent = opacity == Opacity::Transparent;
         for range in pieces(0..splats.len(), capacity) {
             let survey = pack::survey(splats, range.clone(), Rebase::of(splats, range.clone()));
             prepared.defects.merge(&survey.defects);
@@ -71,7 +102,12 @@ pub fn prepare(
                 progress(done, total);
                 continue;
             }
-            let chunk = Chunk::new(device, layout, prepared.chunks.len(), object.closed, &survey)?;
+            if transparent {
+                transparent_splats += survey.count;
+                transparent_radii += survey.sum_of_radii;
+            }
+            let number = prepared.chunks.len();
+            let chunk = Chunk::new(device, layout, number, (object.closed, transparent), &survey)?;
             let mut first = 0;
             for batch in pieces(range, BATCH_SPLATS) {
                 done += batch.len() as u64;
@@ -84,6 +120,18 @@ pub fn prepare(
                 progress(done, total);
             }
             prepared.chunks.push(chunk);
+        }
+    }
+    prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
+    for object in &scene.meshes {
+        let opacity = object.mesh.colors.opacity();
+        if opacity == Opacity::Invisible {
+            continue;
+        }
+        for packed in PackedMesh::pieces(&object.mesh, capacity).filter(|packed| !packed.is_empty()) {
+            let number = prepared.meshes.len();
+            let traits = (object.closed, opacity == Opacity::Transparent);
+            prepared.meshes.push(MeshChunk::new(device, layout, number, traits, &packed, submit)?);
         }
     }
     Ok(prepared)

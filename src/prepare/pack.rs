@@ -24,6 +24,8 @@ pub struct Survey {
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
     pub largest_radius: f64,
+    /// The sum of the major radii, world space.
+    pub sum_of_radii: f64,
     /// What is left out.
     pub defects: DefectCounts,
 }
@@ -66,6 +68,7 @@ pub fn survey(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Survey {
         uniform_color: matches!(splats.colors, Colors::Uniform(_)),
         bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         largest_radius: 0.0,
+        sum_of_radii: 0.0,
         defects: DefectCounts::default(),
     };
     for i in range {
@@ -73,6 +76,7 @@ pub fn survey(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Survey {
             Ok((position, radius)) => {
                 survey.bounds = [survey.bounds[0].min(position), survey.bounds[1].max(position)];
                 survey.largest_radius = survey.largest_radius.max(radius);
+                survey.sum_of_radii += splats.major_radius(i);
                 survey.count += 1;
             }
             Err(defect) => survey.defects.add(Some(defect)),
@@ -119,10 +123,15 @@ pub fn pack(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Packed {
             }
         }
         if !uniform_color || packed.colors.is_empty() {
-            packed.colors.push(splats.color(i).map(|c| (c.clamp(0.0, 1.0) * 65535.0).round() as u16));
+            packed.colors.push(packed_color(splats.color(i)));
         }
     }
     packed
+}
+
+/// A color as 16-bit fractions; what is no number is 0.
+pub fn packed_color(color: [f32; 4]) -> [u16; 4] {
+    color.map(|c| (c.clamp(0.0, 1.0) * 65535.0).round() as u16)
 }
 
 #[cfg(test)]

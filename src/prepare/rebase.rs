@@ -46,18 +46,29 @@ impl Rebase {
     pub fn of(splats: &Splats, range: Range<usize>) -> Self {
         let stride = range.len().div_ceil(SAMPLES).max(1);
         let sampled: Vec<usize> = range.step_by(stride).filter(|&i| splats.defect(i).is_none()).collect();
+        Self::of_balls(&sampled, |i| (splats.positions[i], splats.major_radius(i)))
+    }
+
+    /// The local space of some points, all finite; the world itself where there is none.
+    pub fn of_points(points: &[DVec3]) -> Self {
+        let sampled: Vec<usize> = (0..points.len()).step_by(points.len().div_ceil(SAMPLES).max(1)).collect();
+        Self::of_balls(&sampled, |i| (points[i], 0.0))
+    }
+
+    /// Of balls, each a center and a radius.
+    fn of_balls(sampled: &[usize], ball: impl Fn(usize) -> (DVec3, f64)) -> Self {
         let median = |value: &dyn Fn(usize) -> f64| {
             let mut values: Vec<f64> = sampled.iter().map(|&i| value(i)).collect();
             let middle = values.len() / 2;
             (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
         };
-        let axis = |axis: usize| median(&|i| splats.positions[i][axis]);
+        let axis = |axis: usize| median(&|i| ball(i).0[axis]);
         let (Some(x), Some(y), Some(z)) = (axis(0), axis(1), axis(2)) else {
             return Self { origin: DVec3::ZERO, scale: 1.0 };
         };
         let middle = DVec3::new(x, y, z);
         // For splats at one place the radius is the only length there is.
-        let size = median(&|i| splats.positions[i].distance(middle).max(splats.major_radius(i)));
+        let size = median(&|i| ball(i).0.distance(middle).max(ball(i).1));
         let unit = power_of_two_above(size.unwrap_or(1.0));
         let step = unit * ORIGIN_STEP;
         let rounded = (middle / step).round() * step;

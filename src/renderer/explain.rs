@@ -128,14 +128,31 @@ fn explain_passes(plan: &Plan) -> Vec<ExplainedPass> {
 /// Why a frame has the pass of this name.
 fn reason(pass: &str) -> &'static str {
     match pass {
-        "visibility" => "every scene: the depth of the nearest surface, shifted by epsilon",
-        "accumulate" => "every scene: sums of weights, colors and normals of the nearest surface",
-        "finalize" => "every scene: normalizes and shades the sums",
+        "visibility" => "opaque splats: the depth of the nearest surface, shifted by epsilon",
+        "accumulate" => "opaque splats: sums of weights, colors and normals of the nearest surface",
+        "begin depth with polygons" => "splats beside polygons: accumulation needs the depth of both",
+        "polygons" => "opaque polygons: their colors and normals, where they are seen",
+        "kernel texture" => "the kernel is read from a texture",
+        "finalize" => "every scene: normalizes and shades the sums, and puts transparent layers over them",
+        "arguments of layers" => "--layers auto: layers are left out on the device where there is none",
         "export" => "the surface itself was asked for",
         "count large splats" | "scan large splats" | "list large splats" => {
             "a splat may exceed the device's largest point, or come near the eye plane"
         }
         name if name.starts_with("read back") => "the host reads it",
+        name if name.starts_with("count large") || name.contains(" large transparent") => {
+            "a transparent splat may exceed the device's largest point, or come near the eye plane"
+        }
+        name if name.starts_with("begin depth of layer") => "opaque things hide transparent ones behind them",
+        name if name.starts_with("visibility of layer") => {
+            "transparent things: the depth of the nearest surface behind the layer before, shifted by epsilon"
+        }
+        name if name.starts_with("accumulate of layer") => {
+            "transparent splats: sums of weights, colors, normals and alphas of the layer"
+        }
+        name if name.starts_with("polygons of layer") => "transparent polygons: their sums in the layer",
+        name if name.starts_with("compose of layer") => "transparent things: shades the layer, under those before",
+        name if name.starts_with("count layer") => "--layers auto: whether the layer is empty",
         _ => "",
     }
 }

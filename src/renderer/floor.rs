@@ -5,12 +5,12 @@ use ash::vk;
 use super::{Headless, headless::submit_and_wait};
 use crate::{
     error::{Error, Result},
-    frame::{FrameSlot, HeadlessTarget},
+    frame::{FrameSlot, SlotParts, HeadlessTarget},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
         execute::{FrameProfile, Physical, Profile, Transients, execute, memory_need},
     },
-    passes::{self, FLOOR_POINT_BYTES, FloorPoints, Inputs},
+    passes::{self, FLOOR_POINT_BYTES, FloorPoints, Inputs, Needs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, PoolRoom, Staging},
@@ -121,10 +121,12 @@ impl<'a> Floor<'a> {
         // Once more, in case that the wait for the frame before failed.
         headless.queue().wait_submitted()?;
         // SAFETY: every submission was waited for.
-        unsafe { self.slot.begin(room, profile) }?;
-        let (descriptors, transients, profiler) = self.slot.parts()?;
+        unsafe { self.slot.begin(Needs { room, ..Needs::default() }, profile) }?;
+        let SlotParts { descriptors, transients, profiler, .. } = self.slot.parts()?;
         let inputs = Inputs {
             draws: &draws,
+            meshes: &[],
+            occlusion: None,
             camera: &self.camera,
             settings: &self.settings,
             shaders: &headless.renderer.shaders,

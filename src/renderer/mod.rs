@@ -15,12 +15,12 @@ pub use paper::draw_as_published;
 
 use crate::{
     error::{Error, Result},
-    frame::{FrameSlot, Target},
+    frame::{FrameSlot, SlotParts, Target},
     graph::{
         Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan,
         execute::{Body, Physical, Profile, Transients, execute, memory_need},
     },
-    passes::{self, Exported, Inputs, Shaders},
+    passes::{self, Exported, Inputs, Parts, Shaders},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Scene, Settings},
     vk::{Device, Limits, Staging},
@@ -140,13 +140,16 @@ impl Renderer {
         for chunk in &scene.chunks {
             settings.check_object("the scene", chunk.ellipses)?;
         }
-        let draws = passes::draws(scene, camera, settings, &self.limits);
+        let parts = Parts::of(scene, camera, settings, &self.limits);
+        let counts_draws = self.device.features().draw_indirect_count;
         // SAFETY: this function's contract.
-        unsafe { slot.begin(passes::room_needed(&draws, settings), profile) }?;
+        unsafe { slot.begin(passes::needs(&parts, settings, counts_draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
-        let (descriptors, transients, profiler) = slot.parts()?;
-        let inputs = Inputs { draws: &draws, camera, settings, shaders: &self.shaders, descriptors };
-        let (graph, imports) = declare(inputs, target, readbacks)?;
+        let SlotParts { descriptors, occlusion, transients, profiler } = slot.parts()?;
+        let shaders = &self.shaders;
+        let inputs =
+            Inputs { draws: &[], meshes: &[], camera, settings, shaders, descriptors, occlusion };
+        let (graph, imports) = declare(inputs, &parts, target, readbacks)?;
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
         let plan = compiled.plan.clone();
         let transients = match transients {
@@ -162,9 +165,10 @@ impl Renderer {
 
 type Imports = Vec<(crate::graph::ResourceId, Physical)>;
 
-/// The whole frame: the opaque passes, and a copy for each thing that the host wants to read.
+/// The whole frame: its passes, and a copy for each thing that the host wants to read.
 fn declare<'a>(
     inputs: Inputs<'a>,
+    parts: &'a Parts<'a>,
     target: &Target,
     readbacks: Readbacks,
 ) -> Result<(Graph<Body<'a>>, Imports)> {
@@ -175,7 +179,7 @@ fn declare<'a>(
     imports.push((image.id(), Physical::Image(target.image, target.view)));
 
     let exported =
-        passes::opaque_frame(&mut graph, inputs, &mut image, target.format, readbacks.surface.is_some())?;
+        passes::frame(&mut graph, inputs, parts, &mut image, target.format, readbacks.surface.is_some())?;
 
     let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
         let mut destination = import_readback(graph, what, format, target.extent);

@@ -5,12 +5,12 @@ use ash::vk;
 use super::{Headless, headless::submit_and_wait, import_readback};
 use crate::{
     error::{Error, Result},
-    frame::{FrameSlot, HeadlessTarget},
+    frame::{FrameSlot, SlotParts, HeadlessTarget},
     graph::{
         Graph, ImageDesc,
         execute::{Physical, Transients, execute, memory_need},
     },
-    passes::{self, Inputs},
+    passes::{self, Inputs, Needs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
@@ -48,10 +48,10 @@ pub fn draw_as_published(
     // Two sets with the kernel, one with the sums.
     let room = PoolRoom { sets: 3, images: 4, filtered_images: 2, ..PoolRoom::default() };
     // SAFETY: the slot is new.
-    unsafe { slot.begin(room, None) }?;
-    let (descriptors, _, profiler) = slot.parts()?;
+    unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
+    let SlotParts { descriptors, profiler, .. } = slot.parts()?;
     let shaders = &headless.renderer.shaders;
-    let inputs = Inputs { draws: &draws, camera, settings, shaders, descriptors };
+    let inputs = Inputs { draws: &draws, meshes: &[], occlusion: None, camera, settings, shaders, descriptors };
     let mut graph = Graph::new();
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };

@@ -9,6 +9,8 @@ pub struct EnabledFeatures {
     pub large_points: bool,
     /// Counts of vertices and fragments.
     pub pipeline_statistics: bool,
+    /// `drawIndirectCount` of Vulkan 1.2: without it all layers of `--layers auto` are drawn, the empty ones too.
+    pub draw_indirect_count: bool,
 }
 
 /// A host's device, for [`Device::borrow`](super::Device::borrow).

@@ -38,6 +38,8 @@ pub struct DeviceFacts {
     pub large_points: bool,
     /// Counts of fragments (`pipelineStatisticsQuery`).
     pub pipeline_statistics: bool,
+    /// The number of indirect draws can be read from a buffer.
+    pub draw_indirect_count: bool,
     /// 32-bit float targets can be blended: `--accumulate f32`.
     pub blend_f32: bool,
     /// Limits that the renderer respects.
@@ -149,6 +151,7 @@ mod tests {
             missing: Vec::new(),
             large_points: true,
             pipeline_statistics: true,
+            draw_indirect_count: true,
             blend_f32: true,
             limits: Limits {
                 max_storage_buffer_range: 1 << 27,

@@ -75,11 +75,14 @@ impl Device {
         let features = EnabledFeatures {
             large_points: facts.large_points,
             pipeline_statistics: facts.pipeline_statistics,
+            draw_indirect_count: facts.draw_indirect_count,
         };
         let core = vk::PhysicalDeviceFeatures::default()
             .large_points(features.large_points)
             .pipeline_statistics_query(features.pipeline_statistics);
-        let mut features12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
+        let mut features12 = vk::PhysicalDeviceVulkan12Features::default()
+            .timeline_semaphore(true)
+            .draw_indirect_count(features.draw_indirect_count);
         let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
             .synchronization2(true)
             .dynamic_rendering(true)
@@ -123,6 +126,7 @@ impl Device {
         }
         facts.large_points = host.features.large_points;
         facts.pipeline_statistics = host.features.pipeline_statistics;
+        facts.draw_indirect_count = host.features.draw_indirect_count;
         if !host.features.large_points {
             facts.limits.point_size_range = [1.0, 1.0];
         }

@@ -100,7 +100,10 @@ pub(super) unsafe fn facts(
         missing: needed.iter().filter(|(there, _)| !there).map(|(_, name)| (*name).to_owned()).collect(),
         large_points: core.large_points == vk::TRUE,
         pipeline_statistics: core.pipeline_statistics_query == vk::TRUE,
-        blend_f32: format(vk::Format::R32G32B32A32_SFLOAT).contains(blended),
+        draw_indirect_count: features12.draw_indirect_count == vk::TRUE,
+        blend_f32: [vk::Format::R32G32B32A32_SFLOAT, vk::Format::R32_SFLOAT]
+            .into_iter()
+            .all(|sums| format(sums).contains(blended)),
         limits: Limits {
             max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
             point_size_range: match core.large_points == vk::TRUE {

@@ -1,4 +1,4 @@
-//! Graphics pipelines for dynamic rendering: no vertex buffers, no culling, dynamic viewport and scissor.
+//! Graphics pipelines for dynamic rendering: no vertex buffers, dynamic viewport and scissor.
 
 use ash::vk;
 
@@ -17,6 +17,8 @@ pub enum Blend {
     Add,
     /// It is added, the first three components times the fourth.
     AddWeighted,
+    /// It is put under it: added, all four components times what the attachment's fourth leaves of 1.
+    Under,
 }
 
 /// The depth test.
@@ -41,6 +43,8 @@ pub struct GraphicsPipelineDesc<'a> {
     pub fragment: Stage<'a>,
     /// What the vertices form.
     pub topology: vk::PrimitiveTopology,
+    /// Triangles whose corners are clockwise, as the picture shows them, are not drawn.
+    pub cull_clockwise: bool,
     /// Formats of the color attachments.
     pub color_formats: &'a [vk::Format],
     /// How colors are written, the same for each attachment.
@@ -75,7 +79,8 @@ impl GraphicsPipeline {
         let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let raster = vk::PipelineRasterizationStateCreateInfo::default()
             .polygon_mode(vk::PolygonMode::FILL)
-            .cull_mode(vk::CullModeFlags::NONE)
+            .cull_mode(if desc.cull_clockwise { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
+            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0);
         let samples = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
@@ -89,11 +94,15 @@ impl GraphicsPipeline {
             .blend_enable(desc.blend != Blend::Replace)
             .src_color_blend_factor(match desc.blend {
                 Blend::AddWeighted => vk::BlendFactor::SRC_ALPHA,
+                Blend::Under => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
                 Blend::Add | Blend::Replace => vk::BlendFactor::ONE,
             })
             .dst_color_blend_factor(vk::BlendFactor::ONE)
             .color_blend_op(vk::BlendOp::ADD)
-            .src_alpha_blend_factor(vk::BlendFactor::ONE)
+            .src_alpha_blend_factor(match desc.blend {
+                Blend::Under => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
+                _ => vk::BlendFactor::ONE,
+            })
             .dst_alpha_blend_factor(vk::BlendFactor::ONE)
             .alpha_blend_op(vk::BlendOp::ADD)
             .color_write_mask(vk::ColorComponentFlags::RGBA);

@@ -49,7 +49,7 @@ pub use loader::{LoaderFacts, loader_facts};
 pub use memory::{Memory, MemoryUse};
 pub use messages::{Message, Messages};
 pub use pipeline_cache::PipelineCache;
-pub use queries::{Statistics, Timestamps};
+pub use queries::{Occlusion, Statistics, Timestamps};
 pub use queue::Queue;
 pub use result::VkResultExt;
 pub use sampler::Sampler;

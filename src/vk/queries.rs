@@ -139,6 +139,68 @@ impl Statistics {
     }
 }
 
+/// A pool of queries whether anything was drawn. Their results stay on the device.
+pub struct Occlusion {
+    pool: QueryPool,
+}
+
+impl Occlusion {
+    /// A pool of `count` queries.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, name: &str, count: u32) -> Result<Self> {
+        let info =
+            vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::OCCLUSION).query_count(count);
+        Ok(Self { pool: QueryPool::new(device, name, info)? })
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u32 {
+        self.pool.count
+    }
+
+    /// Records the reset of all.
+    ///
+    /// # Safety
+    /// As [`Timestamps::reset`].
+    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
+        // SAFETY: this function's contract.
+        unsafe { self.pool.reset(commands) };
+    }
+
+    /// Records the begin of a query.
+    ///
+    /// # Safety
+    /// As [`Statistics::begin`].
+    pub unsafe fn begin(&self, commands: vk::CommandBuffer, index: u32) {
+        let flags = vk::QueryControlFlags::empty();
+        // SAFETY: this function's contract.
+        unsafe { self.pool.device.raw().cmd_begin_query(commands, self.pool.raw, index, flags) };
+    }
+
+    /// Records the end of a query.
+    ///
+    /// # Safety
+    /// As [`Occlusion::begin`]; the query is active.
+    pub unsafe fn end(&self, commands: vk::CommandBuffer, index: u32) {
+        // SAFETY: this function's contract.
+        unsafe { self.pool.device.raw().cmd_end_query(commands, self.pool.raw, index) };
+    }
+
+    /// Records the copy of a result: 32 bits, 0 where nothing was drawn. The device waits for it, not the host.
+    ///
+    /// # Safety
+    /// `commands` must be recording outside of rendering, after the query's end; `target` has 4 bytes and the usage
+    /// `TRANSFER_DST`.
+    pub unsafe fn copy(&self, commands: vk::CommandBuffer, index: u32, target: vk::Buffer) {
+        let flags = vk::QueryResultFlags::WAIT;
+        let raw = self.pool.device.raw();
+        // SAFETY: this function's contract.
+        unsafe { raw.cmd_copy_query_pool_results(commands, self.pool.raw, index, 1, target, 0, 4, flags) };
+    }
+}
+
 struct QueryPool {
     device: Device,
     raw: vk::QueryPool,

@@ -51,7 +51,8 @@ impl Staging {
         Ok(())
     }
 
-    /// Records all copies and what makes them visible to the vertex and compute stages of every later command.
+    /// Records all copies and what makes them visible to the vertex and compute stages of every later command, and as
+    /// indices.
     ///
     /// # Safety
     /// `commands` must be recording outside of rendering; the targets are alive until it has run.
@@ -59,8 +60,12 @@ impl Staging {
         let barriers = [vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::COPY)
             .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::VERTEX_SHADER | vk::PipelineStageFlags2::COMPUTE_SHADER)
-            .dst_access_mask(vk::AccessFlags2::SHADER_STORAGE_READ)];
+            .dst_stage_mask(
+                vk::PipelineStageFlags2::INDEX_INPUT
+                    | vk::PipelineStageFlags2::VERTEX_SHADER
+                    | vk::PipelineStageFlags2::COMPUTE_SHADER,
+            )
+            .dst_access_mask(vk::AccessFlags2::INDEX_READ | vk::AccessFlags2::SHADER_STORAGE_READ)];
         let info = vk::DependencyInfo::default().memory_barriers(&barriers);
         let device = self.device.raw();
         // SAFETY: this function's contract; each region lies within both buffers.

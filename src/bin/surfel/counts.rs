@@ -165,7 +165,13 @@ fn every_traits(all: bool) -> Vec<Traits> {
         for may_be_large in [false, true] {
             for export in [false, true] {
                 for closed in [true, false] {
-                    every.push(Traits { ellipses, closed, may_be_large, export, floor: export });
+                    let traits = Traits { ellipses, closed, may_be_large, ..Traits::default() };
+                    every.push(Traits { export, floor: export, ..traits });
+                    every.push(Traits { export, polygons: true, ..traits });
+                    if !export {
+                        every.push(Traits { transparent: true, ..traits });
+                        every.push(Traits { transparent: true, polygons: true, ..traits });
+                    }
                 }
             }
         }

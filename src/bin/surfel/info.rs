@@ -181,6 +181,7 @@ mod tests {
             missing: Vec::new(),
             large_points: true,
             pipeline_statistics: false,
+            draw_indirect_count: false,
             blend_f32: true,
             limits: Limits {
                 max_storage_buffer_range: 1 << 27,

@@ -1,0 +1,16 @@
+// What the passes over the whole image are told of it. The host's mirror is `FinalizeConstants` in
+// src/passes/constants.rs; the build compares the offsets.
+
+struct FinalizeConstants {
+    vec4 background; // linear, straight alpha
+    vec2 half_size_px;
+    float focal_px;
+    uint padding;
+};
+layout(push_constant, std430) uniform Push { FinalizeConstants push; };
+
+// The direction from the surface to the eye, view space.
+vec3 to_eye()
+{
+    return -normalize(vec3(FORMULA(FORMULA_EYE_DIRECTION, (gl_FragCoord.xy - push.half_size_px) / push.focal_px), 1.0));
+}

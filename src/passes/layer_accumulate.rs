@@ -1,0 +1,103 @@
+//! Attribute accumulation of a transparent layer: as that of opaque splats, with the sum of alphas, for what is behind the
+//! layer before; and the same for polygons, each of weight 1, into images of their own.
+
+use ash::vk;
+
+use super::{
+    accumulate::{Sums, bind_sampled},
+    draws::{SplatPass, draw_splats},
+    layers::Layer,
+    mesh_draws::{MeshPass, draw_meshes},
+    splat_shaders::{Summed, Words, splat_shaders},
+    sum_format,
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    scene::Settings,
+    shaders,
+    vk::Blend,
+};
+
+/// What belongs to a layer is not behind its depth.
+const IN_LAYER: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER_OR_EQUAL, false));
+
+/// What the pass over splats is made of. `peeled`: only what is behind a layer.
+pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> Result<SplatPass> {
+    Ok(SplatPass {
+        shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Layer { peeled }))?,
+        color_formats: vec![sum_format(settings); 2],
+        depth: IN_LAYER,
+        constants: Vec::new(),
+    })
+}
+
+/// What the pass over polygons is made of. `peeled`: only what is behind a layer.
+pub(super) fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
+    MeshPass {
+        fragment: if peeled { &shaders::POLYGONS_LAYER_PEELED_FRAG } else { &shaders::POLYGONS_LAYER_FRAG },
+        color_formats: vec![sum_format(settings); 2],
+        blend: Blend::Add,
+        depth: IN_LAYER,
+        constants: Vec::new(),
+    }
+}
+
+/// Declares the pass over the splats of a layer of this depth.
+pub(super) fn layer_accumulate<'a>(
+    graph: &mut Graph<Body<'a>>,
+    layer: &Layer<'a, '_>,
+    depth: &Handle<Image>,
+) -> Result<Sums> {
+    let inputs = layer.inputs;
+    let pipelines = splat_pass(inputs.settings, layer.before.is_some())?.pipelines(inputs)?;
+    let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
+    let (large, gate) = (layer.large_ids(), layer.gate());
+    declare(graph, layer, depth, ["color sums", "normal sums", "accumulate"], layer.kernel, move |context| {
+        bind_sampled(context, inputs, sampled)?;
+        draw_splats(context, inputs, &pipelines, &large, gate)
+    })
+}
+
+/// Declares the pass over the polygons of a layer of this depth.
+pub(super) fn layer_polygons<'a>(
+    graph: &mut Graph<Body<'a>>,
+    layer: &Layer<'a, '_>,
+    depth: &Handle<Image>,
+) -> Result<Sums> {
+    let inputs = layer.inputs;
+    let pipelines = mesh_pass(inputs.settings, layer.before.is_some()).pipelines(inputs)?;
+    let sampled = [layer.before.map(Handle::id), None, None];
+    let gate = layer.gate();
+    declare(graph, layer, depth, ["polygon colors", "polygon normals", "polygons"], None, move |context| {
+        bind_sampled(context, inputs, sampled)?;
+        draw_meshes(context, inputs, &pipelines, gate)
+    })
+}
+
+/// Declares one of the passes; the names are those of both images and of the pass.
+fn declare<'a>(
+    graph: &mut Graph<Body<'a>>,
+    layer: &Layer<'a, '_>,
+    depth: &Handle<Image>,
+    [color, normal, pass]: [&str; 3],
+    kernel: Option<&Handle<Image>>,
+    body: impl FnOnce(&crate::graph::execute::PassContext<'_>) -> Result<()> + 'a,
+) -> Result<Sums> {
+    let desc = layer.inputs.image(sum_format(layer.inputs.settings));
+    let mut sums = Sums {
+        color: graph.create_image(&layer.name(color), desc),
+        normal: graph.create_image(&layer.name(normal), desc),
+    };
+    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
+    let mut pass = graph
+        .pass(&layer.name(pass))
+        .write(&mut sums.color, Access::ColorAttachment, zero)
+        .write(&mut sums.normal, Access::ColorAttachment, zero)
+        .read(depth, Access::DepthTest);
+    if let Some(kernel) = kernel {
+        pass = pass.read(kernel, Access::SampledFragment);
+    }
+    layer.read(pass).finish(Box::new(body));
+    Ok(sums)
+}

@@ -1,0 +1,107 @@
+//! A transparent layer from sums to light, put under the layers before it.
+
+use super::{
+    accumulate::Sums,
+    finalize::{constants, shown_constants, sums_descriptors},
+    fullscreen::bind_fullscreen,
+    layers::Layer,
+    pipelines::{GraphicsKey, Layout},
+    sum_format,
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    scene::Settings,
+    shaders,
+    vk::Blend,
+};
+
+/// What a layer is made of.
+pub(super) enum LayerSums {
+    /// One surface: the sums of its splats and of its polygons, one at least.
+    Surface(Option<Sums>, Option<Sums>),
+    /// All that is left.
+    Rest(Sums),
+}
+
+/// What kind of sums there are, for the pipeline alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LayerKind {
+    Splats,
+    Polygons,
+    Hybrid,
+    Rest,
+}
+
+/// What its pipeline is.
+pub(super) fn key(settings: &Settings, kind: LayerKind) -> GraphicsKey {
+    let (fragment, hybrid) = match kind {
+        LayerKind::Splats => (&shaders::LAYER_SPLATS_FRAG, false),
+        LayerKind::Polygons => (&shaders::LAYER_POLYGONS_FRAG, false),
+        LayerKind::Hybrid => (&shaders::LAYER_HYBRID_FRAG, true),
+        LayerKind::Rest => (&shaders::LAYER_BLENDED_FRAG, false),
+    };
+    GraphicsKey {
+        color_formats: vec![sum_format(settings)],
+        blend: Blend::Under,
+        ..GraphicsKey::fullscreen(fragment, Layout::Finalize, shown_constants(settings, hybrid))
+    }
+}
+
+/// Declares the pass. `composed`: the layers before; `None` for the first.
+pub(super) fn layer_compose<'a>(
+    graph: &mut Graph<Body<'a>>,
+    layer: &Layer<'a, '_>,
+    sums: &LayerSums,
+    composed: Option<Handle<Image>>,
+) -> Result<Handle<Image>> {
+    let inputs = layer.inputs;
+    let settings = inputs.settings;
+    let (kind, splats, polygons) = match sums {
+        LayerSums::Surface(splats, polygons) => {
+            let kind = match (splats.is_some(), polygons.is_some()) {
+                (true, true) => LayerKind::Hybrid,
+                (false, true) => LayerKind::Polygons,
+                _ => LayerKind::Splats,
+            };
+            (kind, splats.as_ref(), polygons.as_ref())
+        }
+        LayerSums::Rest(sums) => (LayerKind::Rest, Some(sums), None),
+    };
+    let pipeline = inputs.shaders.graphics(key(settings, kind))?;
+    let push = constants(inputs);
+    let (mut target, start) = match composed {
+        Some(composed) => (composed, Start::Load),
+        None => {
+            let image = graph.create_image("layers", inputs.image(sum_format(settings)));
+            (image, Start::Clear(ClearValue::Color([0.0; 4])))
+        }
+    };
+    let mut pass =
+        graph.pass(&layer.name("compose")).write(&mut target, Access::ColorAttachment, start);
+    for image in [splats, polygons].into_iter().flatten().flat_map(|sums| [&sums.color, &sums.normal]) {
+        pass = pass.read(image, Access::SampledFragment);
+    }
+    let ids = sums_descriptors(splats, polygons, None);
+    let (gate, query) = (layer.gate(), layer.query());
+    let pass = layer.read_gate(pass);
+    pass.finish(Box::new(move |context| {
+        let layout = &inputs.shaders.finalize_layout;
+        bind_fullscreen(context, inputs, &pipeline, layout, &ids, bytemuck::bytes_of(&push))?;
+        let (device, commands) = (context.device(), context.commands());
+        // SAFETY: inside of rendering, with all bound; the query was reset at the frame's begin, and begins once.
+        unsafe {
+            query.inspect(|(queries, index)| queries.begin(commands, *index));
+            let drawn = match gate {
+                None => {
+                    device.cmd_draw(commands, 3, 1, 0, 0);
+                    Ok(())
+                }
+                Some(gate) => gate.draw_fullscreen(context),
+            };
+            query.inspect(|(queries, index)| queries.end(commands, *index));
+            drawn
+        }
+    }));
+    Ok(target)
+}

@@ -1,0 +1,90 @@
+//! The last layer (Guennebaud et al. 2006, section 6): all that is behind the layers before, in one sum, without visibility.
+//! Weights are multiplied by alpha, so that what hides more counts more, and each splat is lit by itself: normals of
+//! surfaces behind each other have no meaningful mean.
+
+use ash::vk;
+
+use super::{
+    accumulate::{Sums, bind_sampled},
+    draws::{SplatPass, draw_splats},
+    layers::Layer,
+    mesh_draws::{MeshPass, draw_meshes},
+    splat_shaders::{Summed, Words, splat_shaders},
+    sum_format,
+    variant::shading_constants,
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Start, execute::Body},
+    scene::{Accumulate, Settings},
+    shaders,
+    vk::Blend,
+};
+
+/// The format of the sum of weights.
+fn weight_format(settings: &Settings) -> vk::Format {
+    match settings.accumulate {
+        Accumulate::F16 => vk::Format::R16_SFLOAT,
+        Accumulate::F32 => vk::Format::R32_SFLOAT,
+    }
+}
+
+/// In front of opaque things, where there are any.
+fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
+    opaque.then_some((vk::CompareOp::GREATER_OR_EQUAL, false))
+}
+
+/// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things.
+pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool) -> Result<SplatPass> {
+    Ok(SplatPass {
+        shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Rest { peeled }))?,
+        color_formats: vec![sum_format(settings), weight_format(settings)],
+        depth: depth_test(opaque),
+        constants: shading_constants(settings.shading),
+    })
+}
+
+/// What it is made of for polygons.
+pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool) -> MeshPass {
+    let fragment =
+        if peeled { &shaders::POLYGONS_BLENDED_PEELED_FRAG } else { &shaders::POLYGONS_BLENDED_FRAG };
+    MeshPass {
+        fragment,
+        color_formats: vec![sum_format(settings), weight_format(settings)],
+        blend: Blend::Add,
+        depth: depth_test(opaque),
+        constants: shading_constants(settings.shading),
+    }
+}
+
+/// Declares the pass; returns Σ weight · alpha · color with Σ weight · alpha, and Σ weight.
+pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>) -> Result<Sums> {
+    let inputs = layer.inputs;
+    let settings = inputs.settings;
+    let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
+    let splats = splat_pass(settings, peeled, opaque)?.pipelines(inputs)?;
+    let meshes = mesh_pass(settings, peeled, opaque).pipelines(inputs)?;
+    let mut sums = Sums {
+        color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings))),
+        normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),
+    };
+    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
+    let mut pass = graph
+        .pass(&layer.name("accumulate"))
+        .write(&mut sums.color, Access::ColorAttachment, zero)
+        .write(&mut sums.normal, Access::ColorAttachment, zero);
+    if let Some(opaque) = layer.opaque {
+        pass = pass.read(opaque, Access::DepthTest);
+    }
+    if let Some(kernel) = layer.kernel {
+        pass = pass.read(kernel, Access::SampledFragment);
+    }
+    let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
+    let (large, gate) = (layer.large_ids(), layer.gate());
+    layer.read(pass).finish(Box::new(move |context| {
+        bind_sampled(context, inputs, sampled)?;
+        draw_splats(context, inputs, &splats, &large, gate)?;
+        draw_meshes(context, inputs, &meshes, gate)
+    }));
+    Ok(sums)
+}

@@ -1,0 +1,58 @@
+//! Visibility of a transparent layer: the depth of the nearest surface behind the layer before, moved away from the eye by
+//! ε, or the opaque things' depth where that is nearer. Why no surface is lost or taken twice: `glsl/inc/peel.glsl`.
+
+use ash::vk;
+
+use super::{
+    DEPTH_FORMAT,
+    accumulate::bind_sampled,
+    copy_depth::copy_depth,
+    draws::draw_splats,
+    layers::Layer,
+    mesh_draws::{MeshPass, draw_meshes},
+    visibility,
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    shaders,
+    vk::Blend,
+};
+
+/// What it is made of for polygons. `peeled`: only what is behind a layer.
+pub(super) fn mesh_pass(peeled: bool) -> MeshPass {
+    MeshPass {
+        fragment: if peeled { &shaders::POLYGONS_DEPTH_PEELED_FRAG } else { &shaders::POLYGONS_DEPTH_FRAG },
+        color_formats: Vec::new(),
+        blend: Blend::Replace,
+        depth: Some((vk::CompareOp::GREATER, true)),
+        constants: Vec::new(),
+    }
+}
+
+/// Declares the pass, and before it, where there are opaque things, the copy of their depth; returns the layer's depth.
+pub(super) fn layer_visibility<'a>(
+    graph: &mut Graph<Body<'a>>,
+    layer: &Layer<'a, '_>,
+) -> Result<Handle<Image>> {
+    let inputs = layer.inputs;
+    let peeled = layer.before.is_some();
+    let splats = visibility::splat_pass(inputs.settings, peeled)?.pipelines(inputs)?;
+    let meshes = mesh_pass(peeled).pipelines(inputs)?;
+    let name = layer.name("depth");
+    let (mut depth, start) = match layer.opaque {
+        Some(opaque) => (copy_depth(graph, inputs, &name, opaque), Start::Load),
+        None => {
+            (graph.create_image(&name, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0)))
+        }
+    };
+    let sampled = [layer.before.map(Handle::id), None, None];
+    let (large, gate) = (layer.large_ids(), layer.gate());
+    let pass = graph.pass(&layer.name("visibility")).write(&mut depth, Access::DepthAttachment, start);
+    layer.read(pass).finish(Box::new(move |context| {
+        bind_sampled(context, inputs, sampled)?;
+        draw_splats(context, inputs, &splats, &large, gate)?;
+        draw_meshes(context, inputs, &meshes, gate)
+    }));
+    Ok(depth)
+}

@@ -1,0 +1,219 @@
+//! A piece of a mesh within the device's limits.
+//!
+//! Vertices, 32 bytes: `position 0`, `normal 0`, in local space, f32, as disks have them. Colors as splats have them.
+//! Indices, 32 bits.
+
+use std::ops::Range;
+
+use ash::vk;
+
+use super::{
+    chunk::SplatSetLayout,
+    pack::{COLOR_BYTES, packed_color},
+    rebase::Rebase,
+};
+use crate::{
+    error::Result,
+    scene::{Colors, Mesh, MeshColors},
+    vk::{Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool, Staging},
+};
+
+/// Bytes of a vertex.
+const VERTEX_BYTES: u64 = 32;
+
+/// What is uploaded at once.
+const BATCH_BYTES: usize = 1 << 22;
+
+/// Triangles of one object in buffers of their own.
+pub struct MeshChunk {
+    /// Its local space.
+    pub rebase: Rebase,
+    /// How many triangles.
+    pub triangles: u32,
+    /// How many vertices.
+    pub vertices: u32,
+    /// They belong to a closed surface whose triangles are counterclockwise seen from outside.
+    pub closed: bool,
+    /// Some of the object is transparent.
+    pub transparent: bool,
+    /// One color for all.
+    pub uniform_color: bool,
+    set: vk::DescriptorSet,
+    _pool: SealedPool,
+    /// Vertices, colors, indices. Not read by the host, but the set names the first two.
+    buffers: [Buffer; 3],
+}
+
+/// A piece of a mesh as bytes for the device.
+pub(super) struct PackedMesh {
+    rebase: Rebase,
+    vertices: Vec<[f32; 4]>,
+    colors: Vec<[u16; 4]>,
+    indices: Vec<[u32; 3]>,
+}
+
+impl PackedMesh {
+    /// The triangles of a range of a mesh that can be drawn. Where one color is for all, it is packed once.
+    fn of(mesh: &Mesh, range: Range<usize>) -> Self {
+        let corners = range.clone().filter_map(|i| mesh.corners(i)).flatten();
+        let rebase = Rebase::of_points(&corners.collect::<Vec<_>>());
+        let uniform = match mesh.colors {
+            MeshColors::PerVertex(_) => None,
+            MeshColors::Uniform(color) => Some(color),
+            MeshColors::None => match Colors::unknown() {
+                Colors::Uniform(color) => Some(color),
+                Colors::PerSplat(_) => None,
+            },
+        };
+        let mut packed = Self {
+            rebase,
+            vertices: Vec::new(),
+            colors: uniform.map(packed_color).into_iter().collect(),
+            indices: Vec::new(),
+        };
+        let mut places = std::collections::HashMap::new();
+        for i in range {
+            let Some(corners) = mesh.corners(i).map(|corners| corners.map(|p| rebase.point(p).as_vec3())) else {
+                continue;
+            };
+            // Beyond f32 from where the others are: no shader may meet an infinity.
+            if !corners.iter().all(|corner| corner.is_finite()) {
+                continue;
+            }
+            let mut triangle = [0; 3];
+            for ((index, vertex), corner) in triangle.iter_mut().zip(mesh.triangles[i]).zip(corners) {
+                *index = *places.entry(vertex).or_insert_with(|| {
+                    let place = packed.vertices.len() / 2;
+                    let normals = mesh.normals.as_deref().unwrap_or_default();
+                    let normal = normals.get(vertex as usize).copied().unwrap_or_default();
+                    packed.vertices.push(corner.extend(0.0).into());
+                    packed.vertices.push(normal.extend(0.0).into());
+                    if let MeshColors::PerVertex(colors) = &mesh.colors {
+                        packed.colors.push(packed_color(colors.get(vertex as usize).copied().unwrap_or_default()));
+                    }
+                    u32::try_from(place).unwrap_or(u32::MAX)
+                });
+            }
+            packed.indices.push(triangle);
+        }
+        packed
+    }
+
+    /// The pieces of a mesh, none with more vertices than `capacity`, which is at least 3.
+    pub fn pieces(mesh: &Mesh, capacity: usize) -> impl Iterator<Item = Self> + '_ {
+        // A triangle brings three vertices at most.
+        let triangles = (capacity / 3).max(1);
+        super::pieces(0..mesh.triangles.len(), triangles).map(|range| Self::of(mesh, range))
+    }
+
+    /// Nothing of it can be drawn.
+    pub fn is_empty(&self) -> bool {
+        self.indices.is_empty()
+    }
+}
+
+impl MeshChunk {
+    /// Puts a piece of an object on the device; it has one triangle at least.
+    pub(super) fn new(
+        device: &Device,
+        layout: &SplatSetLayout,
+        number: usize,
+        (closed, transparent): (bool, bool),
+        packed: &PackedMesh,
+        submit: &mut dyn FnMut(Staging) -> Result<()>,
+    ) -> Result<Self> {
+        let vertices = (packed.vertices.len() / 2) as u64;
+        let buffer = |what: &str, size: u64, usage: vk::BufferUsageFlags| {
+            let name = format!("{what} of mesh {number}");
+            let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
+            Buffer::new(device, BufferDesc { name: &name, size, usage }, MemoryUse::Device)
+        };
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let buffers = [
+            buffer("vertices", vertices * VERTEX_BYTES, storage)?,
+            buffer("colors", (packed.colors.len() * COLOR_BYTES) as u64, storage)?,
+            buffer("indices", packed.indices.len() as u64 * 12, vk::BufferUsageFlags::INDEX_BUFFER)?,
+        ];
+        let contents: [&[u8]; 3] = [
+            bytemuck::cast_slice(&packed.vertices),
+            bytemuck::cast_slice(&packed.colors),
+            bytemuck::cast_slice(&packed.indices),
+        ];
+        for (buffer, content) in buffers.iter().zip(contents) {
+            for (i, batch) in content.chunks(BATCH_BYTES).enumerate() {
+                let mut staging = Staging::new(device, "upload of a mesh", batch.len() as u64)?;
+                staging.push(buffer, (i * BATCH_BYTES) as u64, batch)?;
+                submit(staging)?;
+            }
+        }
+        let room = PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() };
+        let pool = DescriptorPool::new(device, &format!("set of mesh {number}"), room)?;
+        let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
+        let set = pool.set(layout.set(), &given)?;
+        Ok(Self {
+            rebase: packed.rebase,
+            triangles: packed.indices.len() as u32,
+            vertices: vertices as u32,
+            closed,
+            transparent,
+            uniform_color: packed.colors.len() == 1,
+            set,
+            _pool: pool.seal(),
+            buffers,
+        })
+    }
+
+    /// The descriptor set.
+    pub fn set(&self) -> vk::DescriptorSet {
+        self.set
+    }
+
+    /// Three 32-bit indices a triangle.
+    pub fn indices(&self) -> vk::Buffer {
+        self.buffers[2].raw()
+    }
+
+    /// Bytes of device memory.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(Buffer::size).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3};
+
+    fn mesh() -> Mesh {
+        let positions = vec![
+            DVec3::ZERO,
+            DVec3::X,
+            DVec3::Y,
+            DVec3::new(f64::NAN, 0.0, 0.0),
+            DVec3::splat(1e300),
+            DVec3::X + DVec3::Y,
+        ];
+        Mesh {
+            normals: Some(vec![Vec3::Z; positions.len()]),
+            triangles: vec![[0, 1, 2], [0, 1, 3], [0, 1, 4], [1, 5, 2], [7, 0, 1]],
+            positions,
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn shared_vertices_are_kept_once_and_what_cannot_be_drawn_is_left_out() {
+        let packed = PackedMesh::of(&mesh(), 0..5);
+        assert_eq!(packed.indices, [[0, 1, 2], [1, 3, 2]]);
+        assert_eq!((packed.vertices.len(), packed.colors.len()), (8, 1));
+        assert!(packed.vertices.iter().flatten().all(|x| x.is_finite()));
+    }
+
+    #[test]
+    fn pieces_hold_all_triangles_within_the_limit() {
+        let pieces: Vec<_> = PackedMesh::pieces(&mesh(), 3).collect();
+        assert_eq!(pieces.len(), 5);
+        assert_eq!(pieces.iter().map(|piece| piece.indices.len()).sum::<usize>(), 2);
+        assert!(pieces.iter().all(|piece| piece.vertices.len() <= 6));
+    }
+}
