@@ -2,14 +2,21 @@
 //
 // BESIDE: there are polygons, against which depth is shifted toward the viewer. LAYER: the splats are transparent. BLENDED: they
 // are in the last layer, where surfaces mix, so that each is lit by itself, at its center.
-// Permutations: points small_points | plain center rays | _ beside layer blended
-// Permutations: quads listed_quads | full center | _ beside layer blended
-// Permutations: listed_quads | rays | _ beside layer blended
-// Permutations: triangles small_triangles | _ beside layer blended
+// LIT: by lights of the scene's own.
+// Permutations: points small_points | plain center rays | _ beside layer blended blended_lit
+// Permutations: quads listed_quads | full center | _ beside layer blended blended_lit
+// Permutations: listed_quads | rays | _ beside layer blended blended_lit
+// Permutations: triangles small_triangles | _ beside layer blended blended_lit
 #version 460
 #include "inc/setup.glsl"
 #include "inc/emit.glsl"
+#if defined(BLENDED_LIT)
+#define BLENDED
+#define LIT
+#endif
 #if defined(BLENDED)
+#define LIGHTS_SET 2
+#define LIGHTS_BINDING 3
 #include "inc/shading.glsl"
 #endif
 

@@ -3,13 +3,16 @@
 //
 // SPLATS, POLYGONS, HYBRID: what the opaque part has; NOTHING: none of it. LAYERED: there are transparent layers, composed
 // already, with their alpha multiplied in: what is below them shows through by what they leave.
-// Permutations: splats polygons hybrid | _ layered
+// LIT: the scene has lights of its own.
+// Permutations: splats polygons hybrid | _ layered | _ lit
 // Permutations: nothing | layered
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
 #include "inc/variant.glsl"
 #include "inc/image_plane.glsl"
+#define LIGHTS_SET 0
+#define LIGHTS_BINDING 5
 #include "inc/shading.glsl"
 #if !defined(NOTHING)
 #include "inc/shown.glsl"

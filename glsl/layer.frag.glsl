@@ -7,7 +7,9 @@
 // one sum, lit already: color sum(w a C) / sum(w a), alpha sum(w a) / sum(w).
 //
 // A pixel without a surface is discarded: whoever counts the fragments knows whether the layer is empty.
-// Permutations: splats polygons hybrid blended
+// LIT: the scene has lights of its own.
+// Permutations: splats polygons hybrid | _ lit
+// Permutations: blended
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #define LAYER
@@ -18,6 +20,8 @@
 layout(set = 0, binding = 0) uniform texture2D color_sums;  // sum of weight * alpha * color, sum of weight * alpha
 layout(set = 0, binding = 1) uniform texture2D weight_sums; // sum of weight
 #else
+#define LIGHTS_SET 0
+#define LIGHTS_BINDING 5
 #include "inc/shading.glsl"
 #include "inc/shown.glsl"
 #endif

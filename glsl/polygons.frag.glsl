@@ -4,13 +4,17 @@
 // OPAQUE: the nearest one's. LAYER: those of a transparent layer, added. BLENDED: added to all that is left for the last
 // layer, lit. PEELED: only what is behind the layer before; see peel.glsl.
 // Permutations: opaque
+// LIT: by lights of the scene's own.
 // Permutations: layer blended | _ peeled
+// Permutations: blended | _ peeled | lit
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
 #include "inc/variant.glsl"
 #if defined(BLENDED)
+#define LIGHTS_SET 2
+#define LIGHTS_BINDING 3
 #include "inc/shading.glsl"
 #endif
 #if defined(PEELED)

@@ -168,7 +168,11 @@ fn set_up_and_record(device: &surfel::vk::Device) -> Result<(), Error> {
 /// The n-th call that makes something fails, for every n that there is.
 #[test]
 fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
-    let host = Host::new(EnabledFeatures { large_points: true, pipeline_statistics: false, draw_indirect_count: false });
+    let host = Host::new(EnabledFeatures {
+        large_points: true,
+        pipeline_statistics: false,
+        draw_indirect_count: false,
+    });
     let mut failed = Vec::new();
     for succeed in 0.. {
         assert!(succeed < 1000, "there is no end");

@@ -1,5 +1,15 @@
-// From a surface to its color: one white light at the eye, no attenuation, so that l = v. Phong's mirror direction is
-// r = 2 (n.l) n - l, hence r.v = 2 (n.l)^2 - 1.
+// From a surface to its color. Phong's mirror direction is r = 2 (n.l) n - l.
+//
+// Without LIT there is one white light at the eye, no attenuation, so that l = v and r.v = 2 (n.l)^2 - 1. With it there are
+// those of the scene; LIGHTS_SET and LIGHTS_BINDING say where.
+
+#if defined(LIT)
+struct Light {
+    vec4 to_light_eye; // the unit direction to the light, view space; 1: it is at the eye, whatever the direction
+    vec4 color;        // linear, 0
+};
+layout(set = LIGHTS_SET, binding = LIGHTS_BINDING, std430) readonly buffer Lights { Light lights[]; };
+#endif
 
 // Linear light. `normal` and `v`, the direction to the eye, are unit vectors in view space.
 vec3 shaded(vec3 albedo, vec3 normal, vec3 v)
@@ -10,6 +20,23 @@ vec3 shaded(vec3 albedo, vec3 normal, vec3 v)
     if (SHADING == SHADING_NORMALS) {
         return 0.5 * vec3(normal.x, -normal.y, -normal.z) + 0.5;
     }
+#if defined(LIT)
+    vec3 diffuse = vec3(0.0);
+    vec3 specular = vec3(0.0);
+    for (int i = 0; i < lights.length(); ++i) {
+        vec3 l = lights[i].to_light_eye.w > 0.0 ? v : lights[i].to_light_eye.xyz;
+        float n_l = dot(normal, l);
+        if (n_l > 0.0) {
+            diffuse += n_l * lights[i].color.rgb;
+            float r_v = max(dot(2.0 * n_l * normal - l, v), 0.0);
+            float r_v_4 = r_v * r_v * r_v * r_v;
+            float r_v_16 = r_v_4 * r_v_4 * r_v_4 * r_v_4;
+            specular += FORMULA(FORMULA_LIT_SPECULAR, r_v_16 * r_v_16) * lights[i].color.rgb;
+        }
+    }
+    vec3 lambert = albedo * (0.1 + FORMULA(FORMULA_LIT_DIFFUSE, 0.9 * diffuse));
+    return SHADING == SHADING_LAMBERT ? lambert : lambert + 0.2 * specular;
+#else
     float n_l = max(dot(normal, v), 0.0);
     vec3 lambert = albedo * (0.1 + FORMULA(FORMULA_DIFFUSE, 0.9 * n_l));
     if (SHADING == SHADING_LAMBERT) {
@@ -19,4 +46,5 @@ vec3 shaded(vec3 albedo, vec3 normal, vec3 v)
     float r_v_4 = r_v * r_v * r_v * r_v;
     float r_v_16 = r_v_4 * r_v_4 * r_v_4 * r_v_4;
     return lambert + FORMULA(FORMULA_SPECULAR, 0.2 * r_v_16 * r_v_16);
+#endif
 }

@@ -27,13 +27,7 @@ pub(crate) struct SlotParts<'a> {
 impl FrameSlot {
     /// An empty slot.
     pub fn new(device: &Device) -> Self {
-        Self {
-            device: device.clone(),
-            descriptors: None,
-            profiler: None,
-            occlusion: None,
-            transients: None,
-        }
+        Self { device: device.clone(), descriptors: None, profiler: None, occlusion: None, transients: None }
     }
 
     /// The profiler of the frame recorded last, if it was measured.

@@ -102,7 +102,20 @@ pub(super) fn bind_sampled(
     inputs: Inputs<'_>,
     images: [Option<ResourceId>; 3],
 ) -> Result<()> {
+    bind_read(context, inputs, images, None)
+}
+
+/// As [`bind_sampled`], with lights.
+pub(super) fn bind_read(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    images: [Option<ResourceId>; 3],
+    lights: Option<ResourceId>,
+) -> Result<()> {
     let mut given = Vec::new();
+    if let Some(lights) = lights {
+        given.push((3, Descriptor::Buffer(context.buffer(lights)?)));
+    }
     for (number, id) in (0..).zip(images) {
         if let Some(id) = id {
             given.push((number, Descriptor::Sampled(context.image(id)?.1, context.layout(id))));

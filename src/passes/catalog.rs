@@ -34,6 +34,8 @@ pub struct Traits {
     pub polygons: bool,
     /// There are transparent things beside the opaque ones, and layers enough to peel one off another.
     pub transparent: bool,
+    /// The scene has lights of its own.
+    pub lit: bool,
     /// The surface is wanted as data.
     pub export: bool,
     /// The floor benchmark's pipelines too.
@@ -49,6 +51,7 @@ impl Default for Traits {
             may_be_large: false,
             polygons: false,
             transparent: false,
+            lit: false,
             export: false,
             floor: false,
         }
@@ -196,7 +199,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
             let of_splats = [
                 (names[0], visibility::splat_pass(settings, peeled)?),
                 (names[1], layer_accumulate::splat_pass(settings, peeled)?),
-                (rest, layer_rest::splat_pass(settings, peeled, true)?),
+                (rest, layer_rest::splat_pass(settings, peeled, true, traits.lit)?),
             ];
             for (name, pass) in &of_splats {
                 all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
@@ -204,18 +207,26 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
             let of_polygons = [
                 (names[0], layer_visibility::mesh_pass(peeled)),
                 (names[2], layer_accumulate::mesh_pass(settings, peeled)),
-                (rest, layer_rest::mesh_pass(settings, peeled, true)),
+                (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lit)),
             ];
             for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
                 all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
             }
         }
         let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
-        all.push(graphics("compose a layer", "", layer_compose::key(settings, surface)));
-        all.push(graphics("compose the last layer", "", layer_compose::key(settings, LayerKind::Rest)));
+        all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lit)));
+        all.push(graphics(
+            "compose the last layer",
+            "",
+            layer_compose::key(settings, LayerKind::Rest, traits.lit),
+        ));
     }
-    let shown =
-        finalize::Traits { splats: true, polygons: traits.polygons, layered: traits.transparent };
+    let shown = finalize::Traits {
+        splats: true,
+        polygons: traits.polygons,
+        layered: traits.transparent,
+        lit: traits.lit,
+    };
     all.extend(finalize::key(settings, target, shown).map(|key| graphics("finalize", "", key)));
     if traits.export {
         all.push(graphics("export", "", export::key()));

@@ -6,7 +6,7 @@ use super::{
     Inputs,
     accumulate::Sums,
     constants::ExportConstants,
-    fullscreen::{bind, sampled_set},
+    fullscreen::{bind, read_set},
     pipelines::{GraphicsKey, Layout},
 };
 use crate::{
@@ -94,7 +94,7 @@ pub(super) fn export<'a>(
         .write(&mut exported.depth, Access::ColorAttachment, Start::Discard)
         .finish(Box::new(move |context| {
             let images: Vec<_> = (0..).zip(ids).collect();
-            let set = sampled_set(context, inputs, &inputs.shaders.surface_set, &images)?;
+            let set = read_set(context, inputs, &inputs.shaders.surface_set, (&images, None))?;
             bind(context, &pipeline, layout, set, bytemuck::bytes_of(&constants));
             // SAFETY: inside of rendering, with all bound that the pipeline needs.
             unsafe { context.device().cmd_draw(context.commands(), 3, 1, 0, 0) };

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
+    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
     math::srgb::linear_from_srgb,
     scene::Settings,
     shaders,
@@ -48,20 +48,28 @@ pub(super) struct Traits {
     pub polygons: bool,
     /// There are transparent layers.
     pub layered: bool,
+    /// The scene has lights of its own.
+    pub lit: bool,
 }
 
 /// What its pipeline is; none where the background is all that is seen.
 pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option<GraphicsKey> {
-    let Traits { splats, polygons, layered } = traits;
-    let fragment = match (splats, polygons, layered) {
-        (true, false, false) => &shaders::FINALIZE_SPLATS_FRAG,
-        (false, true, false) => &shaders::FINALIZE_POLYGONS_FRAG,
-        (true, true, false) => &shaders::FINALIZE_HYBRID_FRAG,
-        (true, false, true) => &shaders::FINALIZE_SPLATS_LAYERED_FRAG,
-        (false, true, true) => &shaders::FINALIZE_POLYGONS_LAYERED_FRAG,
-        (true, true, true) => &shaders::FINALIZE_HYBRID_LAYERED_FRAG,
-        (false, false, true) => &shaders::FINALIZE_NOTHING_LAYERED_FRAG,
-        (false, false, false) => return None,
+    let Traits { splats, polygons, layered, lit } = traits;
+    let fragment = match (splats, polygons, layered, lit) {
+        (true, false, false, false) => &shaders::FINALIZE_SPLATS_FRAG,
+        (false, true, false, false) => &shaders::FINALIZE_POLYGONS_FRAG,
+        (true, true, false, false) => &shaders::FINALIZE_HYBRID_FRAG,
+        (true, false, true, false) => &shaders::FINALIZE_SPLATS_LAYERED_FRAG,
+        (false, true, true, false) => &shaders::FINALIZE_POLYGONS_LAYERED_FRAG,
+        (true, true, true, false) => &shaders::FINALIZE_HYBRID_LAYERED_FRAG,
+        (true, false, false, true) => &shaders::FINALIZE_SPLATS_LIT_FRAG,
+        (false, true, false, true) => &shaders::FINALIZE_POLYGONS_LIT_FRAG,
+        (true, true, false, true) => &shaders::FINALIZE_HYBRID_LIT_FRAG,
+        (true, false, true, true) => &shaders::FINALIZE_SPLATS_LAYERED_LIT_FRAG,
+        (false, true, true, true) => &shaders::FINALIZE_POLYGONS_LAYERED_LIT_FRAG,
+        (true, true, true, true) => &shaders::FINALIZE_HYBRID_LAYERED_LIT_FRAG,
+        (false, false, true, _) => &shaders::FINALIZE_NOTHING_LAYERED_FRAG,
+        (false, false, false, _) => return None,
     };
     let constants = shown_constants(settings, splats && polygons);
     Some(GraphicsKey {
@@ -114,13 +122,19 @@ pub(super) fn finalize<'a>(
     inputs: Inputs<'a>,
     opaque: &Opaque,
     layers: Option<&Handle<Image>>,
+    lights: Option<&Handle<Buffer>>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
     let layout = &inputs.shaders.finalize_layout;
     let (splats, polygons) = (opaque.splats.as_ref(), opaque.polygons.as_ref());
-    let traits =
-        Traits { splats: splats.is_some(), polygons: polygons.is_some(), layered: layers.is_some() };
+    let lights = lights.filter(|_| splats.is_some() || polygons.is_some());
+    let traits = Traits {
+        splats: splats.is_some(),
+        polygons: polygons.is_some(),
+        layered: layers.is_some(),
+        lit: lights.is_some(),
+    };
     let pipeline =
         key(inputs.settings, target_format, traits).map(|key| inputs.shaders.graphics(key)).transpose()?;
     let constants = constants(inputs);
@@ -129,6 +143,10 @@ pub(super) fn finalize<'a>(
     for image in [splats, polygons].into_iter().flatten().flat_map(|sums| [&sums.color, &sums.normal]) {
         pass = pass.read(image, Access::SampledFragment);
     }
+    if let Some(lights) = lights {
+        pass = pass.read(lights, Access::StorageReadFragment);
+    }
+    let lights = lights.map(Handle::id);
     match (layers, opaque.depth()) {
         (Some(layers), _) => pass = pass.read(layers, Access::SampledFragment),
         (None, Some(depth)) => pass = pass.read(depth, Access::DepthTest),
@@ -136,9 +154,14 @@ pub(super) fn finalize<'a>(
     }
     pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| match &pipeline {
-            Some(pipeline) => {
-                draw_fullscreen(context, inputs, pipeline, layout, &ids, bytemuck::bytes_of(&constants))
-            }
+            Some(pipeline) => draw_fullscreen(
+                context,
+                inputs,
+                pipeline,
+                layout,
+                (&ids, lights),
+                bytemuck::bytes_of(&constants),
+            ),
             None => Ok(()),
         }));
     Ok(())

@@ -9,17 +9,17 @@ use crate::{
     vk::{Descriptor, GraphicsPipeline, PipelineLayout, SetLayout},
 };
 
-/// Records the draw. The pipeline's vertex stage is `glsl/fullscreen.vert.glsl`; its images, by their bindings in set 0, and
-/// its push constants are those of `layout`, which is finalization's.
+/// Records the draw. The pipeline's vertex stage is `glsl/fullscreen.vert.glsl`; what it reads and its push constants are
+/// those of `layout`, which is finalization's.
 pub(super) fn draw_fullscreen(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipeline: &GraphicsPipeline,
     layout: &PipelineLayout,
-    images: &[(u32, ResourceId)],
+    read: Read<'_>,
     constants: &[u8],
 ) -> Result<()> {
-    bind_fullscreen(context, inputs, pipeline, layout, images, constants)?;
+    bind_fullscreen(context, inputs, pipeline, layout, read, constants)?;
     // SAFETY: inside of rendering, with all bound that the pipeline needs.
     unsafe { context.device().cmd_draw(context.commands(), 3, 1, 0, 0) };
     Ok(())
@@ -31,22 +31,31 @@ pub(super) fn bind_fullscreen(
     inputs: Inputs<'_>,
     pipeline: &GraphicsPipeline,
     layout: &PipelineLayout,
-    images: &[(u32, ResourceId)],
+    read: Read<'_>,
     constants: &[u8],
 ) -> Result<()> {
-    let set = sampled_set(context, inputs, &inputs.shaders.sums_set, images)?;
+    let set = read_set(context, inputs, &inputs.shaders.sums_set, read)?;
     bind(context, pipeline, layout, set, constants);
     Ok(())
 }
 
-/// A set of sampled images, by their bindings.
-pub(super) fn sampled_set(
+/// What such a draw reads: images by their bindings in set 0, and the scene's own lights.
+pub(super) type Read<'a> = (&'a [(u32, ResourceId)], Option<ResourceId>);
+
+/// The binding of lights.
+const LIGHTS: u32 = 5;
+
+/// A set of what is read.
+pub(super) fn read_set(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     layout: &SetLayout,
-    images: &[(u32, ResourceId)],
+    (images, lights): Read<'_>,
 ) -> Result<vk::DescriptorSet> {
     let mut given = Vec::new();
+    if let Some(lights) = lights {
+        given.push((LIGHTS, Descriptor::Buffer(context.buffer(lights)?)));
+    }
     for (number, id) in images {
         given.push((*number, Descriptor::Sampled(context.image(*id)?.1, context.layout(*id))));
     }

@@ -33,14 +33,19 @@ pub(super) enum LayerKind {
     Rest,
 }
 
-/// What its pipeline is.
-pub(super) fn key(settings: &Settings, kind: LayerKind) -> GraphicsKey {
-    let (fragment, hybrid) = match kind {
-        LayerKind::Splats => (&shaders::LAYER_SPLATS_FRAG, false),
-        LayerKind::Polygons => (&shaders::LAYER_POLYGONS_FRAG, false),
-        LayerKind::Hybrid => (&shaders::LAYER_HYBRID_FRAG, true),
-        LayerKind::Rest => (&shaders::LAYER_BLENDED_FRAG, false),
+/// What its pipeline is. `lit`: by lights of the scene's own.
+pub(super) fn key(settings: &Settings, kind: LayerKind, lit: bool) -> GraphicsKey {
+    let fragment = match (kind, lit) {
+        (LayerKind::Splats, false) => &shaders::LAYER_SPLATS_FRAG,
+        (LayerKind::Polygons, false) => &shaders::LAYER_POLYGONS_FRAG,
+        (LayerKind::Hybrid, false) => &shaders::LAYER_HYBRID_FRAG,
+        (LayerKind::Splats, true) => &shaders::LAYER_SPLATS_LIT_FRAG,
+        (LayerKind::Polygons, true) => &shaders::LAYER_POLYGONS_LIT_FRAG,
+        (LayerKind::Hybrid, true) => &shaders::LAYER_HYBRID_LIT_FRAG,
+        // Lit already.
+        (LayerKind::Rest, _) => &shaders::LAYER_BLENDED_FRAG,
     };
+    let hybrid = kind == LayerKind::Hybrid;
     GraphicsKey {
         color_formats: vec![sum_format(settings)],
         blend: Blend::Under,
@@ -68,7 +73,7 @@ pub(super) fn layer_compose<'a>(
         }
         LayerSums::Rest(sums) => (LayerKind::Rest, Some(sums), None),
     };
-    let pipeline = inputs.shaders.graphics(key(settings, kind))?;
+    let pipeline = inputs.shaders.graphics(key(settings, kind, layer.lights.is_some()))?;
     let push = constants(inputs);
     let (mut target, start) = match composed {
         Some(composed) => (composed, Start::Load),
@@ -77,17 +82,21 @@ pub(super) fn layer_compose<'a>(
             (image, Start::Clear(ClearValue::Color([0.0; 4])))
         }
     };
-    let mut pass =
-        graph.pass(&layer.name("compose")).write(&mut target, Access::ColorAttachment, start);
+    let mut pass = graph.pass(&layer.name("compose")).write(&mut target, Access::ColorAttachment, start);
     for image in [splats, polygons].into_iter().flatten().flat_map(|sums| [&sums.color, &sums.normal]) {
         pass = pass.read(image, Access::SampledFragment);
     }
+    let lights = layer.lights.filter(|_| kind != LayerKind::Rest);
+    if let Some(lights) = lights {
+        pass = pass.read(lights, Access::StorageReadFragment);
+    }
+    let lights = lights.map(Handle::id);
     let ids = sums_descriptors(splats, polygons, None);
     let (gate, query) = (layer.gate(), layer.query());
     let pass = layer.read_gate(pass);
     pass.finish(Box::new(move |context| {
         let layout = &inputs.shaders.finalize_layout;
-        bind_fullscreen(context, inputs, &pipeline, layout, &ids, bytemuck::bytes_of(&push))?;
+        bind_fullscreen(context, inputs, &pipeline, layout, (&ids, lights), bytemuck::bytes_of(&push))?;
         let (device, commands) = (context.device(), context.commands());
         // SAFETY: inside of rendering, with all bound; the query was reset at the frame's begin, and begins once.
         unsafe {

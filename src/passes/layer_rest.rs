@@ -5,7 +5,7 @@
 use ash::vk;
 
 use super::{
-    accumulate::{Sums, bind_sampled},
+    accumulate::{Sums, bind_read},
     draws::{SplatPass, draw_splats},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
@@ -34,10 +34,11 @@ fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
     opaque.then_some((vk::CompareOp::GREATER_OR_EQUAL, false))
 }
 
-/// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things.
-pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool) -> Result<SplatPass> {
+/// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things; `lit`: by lights of
+/// the scene's own.
+pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bool) -> Result<SplatPass> {
     Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Rest { peeled }))?,
+        shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Rest { peeled, lit }))?,
         color_formats: vec![sum_format(settings), weight_format(settings)],
         depth: depth_test(opaque),
         constants: shading_constants(settings.shading),
@@ -45,9 +46,13 @@ pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool) -> Res
 }
 
 /// What it is made of for polygons.
-pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool) -> MeshPass {
-    let fragment =
-        if peeled { &shaders::POLYGONS_BLENDED_PEELED_FRAG } else { &shaders::POLYGONS_BLENDED_FRAG };
+pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bool) -> MeshPass {
+    let fragment = match (peeled, lit) {
+        (false, false) => &shaders::POLYGONS_BLENDED_FRAG,
+        (true, false) => &shaders::POLYGONS_BLENDED_PEELED_FRAG,
+        (false, true) => &shaders::POLYGONS_BLENDED_LIT_FRAG,
+        (true, true) => &shaders::POLYGONS_BLENDED_PEELED_LIT_FRAG,
+    };
     MeshPass {
         fragment,
         color_formats: vec![sum_format(settings), weight_format(settings)],
@@ -62,8 +67,9 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let inputs = layer.inputs;
     let settings = inputs.settings;
     let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
-    let splats = splat_pass(settings, peeled, opaque)?.pipelines(inputs)?;
-    let meshes = mesh_pass(settings, peeled, opaque).pipelines(inputs)?;
+    let lit = layer.lights.is_some();
+    let splats = splat_pass(settings, peeled, opaque, lit)?.pipelines(inputs)?;
+    let meshes = mesh_pass(settings, peeled, opaque, lit).pipelines(inputs)?;
     let mut sums = Sums {
         color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings))),
         normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),
@@ -79,10 +85,15 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     if let Some(kernel) = layer.kernel {
         pass = pass.read(kernel, Access::SampledFragment);
     }
+    if let Some(lights) = layer.lights {
+        // Splats are lit in the vertex stage, polygons in the fragment stage.
+        pass = pass.read(lights, Access::StorageReadVertex).read(lights, Access::StorageReadFragment);
+    }
+    let lights = layer.lights.map(Handle::id);
     let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
     let (large, gate) = (layer.large_ids(), layer.gate());
     layer.read(pass).finish(Box::new(move |context| {
-        bind_sampled(context, inputs, sampled)?;
+        bind_read(context, inputs, sampled, lights)?;
         draw_splats(context, inputs, &splats, &large, gate)?;
         draw_meshes(context, inputs, &meshes, gate)
     }));

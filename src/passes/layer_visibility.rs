@@ -42,9 +42,7 @@ pub(super) fn layer_visibility<'a>(
     let name = layer.name("depth");
     let (mut depth, start) = match layer.opaque {
         Some(opaque) => (copy_depth(graph, inputs, &name, opaque), Start::Load),
-        None => {
-            (graph.create_image(&name, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0)))
-        }
+        None => (graph.create_image(&name, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0))),
     };
     let sampled = [layer.before.map(Handle::id), None, None];
     let (large, gate) = (layer.large_ids(), layer.gate());

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    graph::{Graph, Handle, Image, PassBuilder, execute::Body},
+    graph::{Buffer, Graph, Handle, Image, PassBuilder, execute::Body},
     scene::{LastLayer, Layers, Settings},
     vk::Occlusion,
 };
@@ -33,6 +33,8 @@ pub(super) struct Layer<'a, 'f> {
     pub opaque: Option<&'f Handle<Image>>,
     /// The kernel, where it is a texture.
     pub kernel: Option<&'f Handle<Image>>,
+    /// Those of the scene's own.
+    pub lights: Option<&'f Handle<Buffer>>,
     large: &'f [Option<LargeList>],
     gates: Option<&'f Gates<'a>>,
     /// Another layer follows, and wants to know whether this one is empty.
@@ -93,6 +95,7 @@ pub(super) fn layers<'a>(
     inputs: Inputs<'a>,
     opaque: Option<&Handle<Image>>,
     kernel: Option<&Handle<Image>>,
+    lights: Option<&Handle<Buffer>>,
 ) -> Result<Option<Handle<Image>>> {
     let large = list_large(graph, inputs, "transparent ")?;
     let mut gates = inputs.occlusion.map(|queries| Gates::new(graph, inputs, queries));
@@ -106,6 +109,7 @@ pub(super) fn layers<'a>(
             before: before.as_ref(),
             opaque,
             kernel,
+            lights,
             large: &large,
             gates: gates.as_ref(),
             counted,

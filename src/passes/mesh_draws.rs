@@ -89,11 +89,7 @@ impl MeshPass {
     /// The pipelines of every draw, in their order.
     pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<Arc<GraphicsPipeline>>> {
         let outward = |draw: &MeshDraw<'_>| draw.chunk.closed && draw.chunk.transparent;
-        inputs
-            .meshes
-            .iter()
-            .map(|draw| inputs.shaders.graphics(self.key(draw.cull, outward(draw))))
-            .collect()
+        inputs.meshes.iter().map(|draw| inputs.shaders.graphics(self.key(draw.cull, outward(draw)))).collect()
     }
 }
 
@@ -112,14 +108,7 @@ pub(super) fn draw_meshes(
         // SAFETY: inside of rendering, with pipeline, set and push constants of one layout, and three indices a triangle,
         // each below the number of vertices.
         unsafe {
-            device.cmd_bind_descriptor_sets(
-                commands,
-                bind_point,
-                layout.raw(),
-                0,
-                &[draw.chunk.set()],
-                &[],
-            );
+            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &[draw.chunk.set()], &[]);
             device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
             device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
             device.cmd_bind_index_buffer(commands, draw.chunk.indices(), 0, vk::IndexType::UINT32);

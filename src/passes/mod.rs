@@ -20,6 +20,7 @@ mod layer_compose;
 mod layer_rest;
 mod layer_visibility;
 mod layers;
+mod lights;
 mod list_large;
 mod mesh_draws;
 mod paper;
@@ -36,12 +37,12 @@ pub use catalog::{PipelineRecipe, PipelineStages, Traits, frame_pipelines, paper
 pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
-pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use floor::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points};
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
 #[cfg(feature = "counts")]
 pub use instructions::{Counter, counts_of};
+pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use paper::paper_frame;
 pub use pipelines::Shaders;
 pub use readback::readback;
@@ -71,16 +72,13 @@ pub struct Parts<'a> {
     pub opaque: Part<'a>,
     /// What is drawn in layers.
     pub transparent: Part<'a>,
+    /// What shines on both, where the scene has lights of its own.
+    pub lights: Vec<lights::ShaderLight>,
 }
 
 impl<'a> Parts<'a> {
     /// The parts of a scene.
-    pub fn of(
-        scene: &'a PreparedScene,
-        camera: &Camera,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Self {
+    pub fn of(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
         let all = draws(scene, camera, settings, limits).into_iter();
         let (clear_splats, splats) = all.partition(|draw| draw.chunk.transparent);
         let all = mesh_draws(scene, camera, settings, limits).into_iter();
@@ -88,6 +86,7 @@ impl<'a> Parts<'a> {
         Self {
             opaque: Part { splats, meshes },
             transparent: Part { splats: clear_splats, meshes: clear_meshes },
+            lights: lights::shader_lights(&scene.lights, camera),
         }
     }
 }
@@ -168,7 +167,7 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     Needs {
         room: PoolRoom {
             sets: lists + reads + sums + 1,
-            buffers: 4 * lists,
+            buffers: 4 * lists + reads + sums,
             images: 2 * reads + 5 * sums + 3,
             filtered_images: reads,
         },
@@ -194,12 +193,16 @@ pub fn frame<'a>(
         true => None,
         false => accumulate::kernel_of(graph, inputs)?,
     };
+    let lights = lights::lights(graph, &parts.lights);
     let opaque = opaque(graph, inputs.of(&parts.opaque), kernel.as_ref(), export)?;
     let layers = match parts.transparent.is_empty() {
         true => None,
-        false => layers::layers(graph, inputs.of(&parts.transparent), opaque.depth(), kernel.as_ref())?,
+        false => {
+            let inputs = inputs.of(&parts.transparent);
+            layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?
+        }
     };
-    finalize::finalize(graph, inputs, &opaque, layers.as_ref(), target, target_format)?;
+    finalize::finalize(graph, inputs, &opaque, layers.as_ref(), lights.as_ref(), target, target_format)?;
     match (export, &opaque.splats, &opaque.splat_depth) {
         (false, ..) => Ok(None),
         (true, Some(sums), Some(depth)) => export::export(graph, inputs, sums, depth).map(Some),

@@ -75,7 +75,7 @@ pub fn paper_frame<'a>(
         .read(&kernel, Access::SampledFragment)
         .finish(body);
     let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::default() };
-    finalize(graph, inputs, &opaque, None, target, target_format)
+    finalize(graph, inputs, &opaque, None, None, target, target_format)
 }
 
 /// The body that draws all chunks.

@@ -30,9 +30,10 @@ pub struct Shaders {
     /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats.
     pub(super) large_set: SetLayout,
     /// Set 2 of the splat passes and of polygons: a depth to compare with (the visible one where depth is summed, that
-    /// of the layer before where layers are peeled), the kernel where it is a texture, the depth of polygons.
+    /// of the layer before where layers are peeled), the kernel where it is a texture, the depth of polygons, lights.
     pub(super) read_set: SetLayout,
-    /// Set 0 of finalization and of layers: the sums of splats and of polygons, each of colors and normals; the layers.
+    /// Set 0 of finalization and of layers: the sums of splats and of polygons, each of colors and normals; the layers;
+    /// lights.
     pub(super) sums_set: SetLayout,
     /// Set 0 of export: the sums and the visible depth.
     pub(super) surface_set: SetLayout,
@@ -89,12 +90,13 @@ impl Shaders {
         let (vertex, fragment, compute) =
             (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
         let buffer = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | compute };
+        let lights = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
         let large_set = SetLayout::new(device, "large splats", &[buffer; 4])?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
-        let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image])?;
-        let sums_set = SetLayout::new(device, "sums", &[image; 5])?;
+        let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image, lights])?;
+        let sums_set = SetLayout::new(device, "sums", &[image, image, image, image, image, lights])?;
         let surface_set = SetLayout::new(device, "surface", &[image; 3])?;
         let splat_layout = PipelineLayout::new(
             device,

@@ -45,9 +45,7 @@ pub(super) fn polygons<'a>(
     };
     let (mut depth, start) = match splats {
         Some(splats) => (copy_depth(graph, inputs, NAME, splats), Start::Load),
-        None => {
-            (graph.create_image(NAME, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0)))
-        }
+        None => (graph.create_image(NAME, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0))),
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
     graph

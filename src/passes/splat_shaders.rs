@@ -92,6 +92,8 @@ pub(super) enum Summed {
     Rest {
         /// Behind the layer before.
         peeled: bool,
+        /// By lights of the scene's own.
+        lit: bool,
     },
 }
 
@@ -112,7 +114,10 @@ impl Words {
                 (beside, [with_depth.then_some("with_depth"), beside])
             }
             Summed::Layer { peeled } => (Some("layer"), [Some("layer"), peeled.then_some("peeled")]),
-            Summed::Rest { peeled } => (Some("blended"), [Some("blended"), peeled.then_some("peeled")]),
+            Summed::Rest { peeled, lit } => {
+                let vertex = if lit { "blended_lit" } else { "blended" };
+                (Some(vertex), [Some("blended"), peeled.then_some("peeled")])
+            }
         };
         let fragment = [early_word(settings), textured, third, fourth].into_iter().flatten().collect();
         Self { pass: "accumulate", vertex: kind, triangle_vertex: kind, fragment }
@@ -203,8 +208,8 @@ mod tests {
                             splat_shaders(&settings, &Words::visibility(&settings, choice)).unwrap();
                             for other in [false, true] {
                                 let opaque = Summed::Opaque { with_depth: choice, beside_polygons: other };
-                                let [layer, rest] =
-                                    [Summed::Layer { peeled: choice }, Summed::Rest { peeled: choice }];
+                                let layer = Summed::Layer { peeled: choice };
+                                let rest = Summed::Rest { peeled: choice, lit: other };
                                 for summed in [opaque, layer, rest] {
                                     splat_shaders(&settings, &Words::accumulate(&settings, summed)).unwrap();
                                 }

@@ -73,7 +73,8 @@ impl PackedMesh {
         };
         let mut places = std::collections::HashMap::new();
         for i in range {
-            let Some(corners) = mesh.corners(i).map(|corners| corners.map(|p| rebase.point(p).as_vec3())) else {
+            let Some(corners) = mesh.corners(i).map(|corners| corners.map(|p| rebase.point(p).as_vec3()))
+            else {
                 continue;
             };
             // Beyond f32 from where the others are: no shader may meet an infinity.
@@ -89,7 +90,9 @@ impl PackedMesh {
                     packed.vertices.push(corner.extend(0.0).into());
                     packed.vertices.push(normal.extend(0.0).into());
                     if let MeshColors::PerVertex(colors) = &mesh.colors {
-                        packed.colors.push(packed_color(colors.get(vertex as usize).copied().unwrap_or_default()));
+                        packed
+                            .colors
+                            .push(packed_color(colors.get(vertex as usize).copied().unwrap_or_default()));
                     }
                     u32::try_from(place).unwrap_or(u32::MAX)
                 });

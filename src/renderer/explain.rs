@@ -134,6 +134,7 @@ fn reason(pass: &str) -> &'static str {
         "polygons" => "opaque polygons: their colors and normals, where they are seen",
         "kernel texture" => "the kernel is read from a texture",
         "finalize" => "every scene: normalizes and shades the sums, and puts transparent layers over them",
+        "lights" => "the scene has lights of its own",
         "arguments of layers" => "--layers auto: layers are left out on the device where there is none",
         "export" => "the surface itself was asked for",
         "count large splats" | "scan large splats" | "list large splats" => {
@@ -151,7 +152,9 @@ fn reason(pass: &str) -> &'static str {
             "transparent splats: sums of weights, colors, normals and alphas of the layer"
         }
         name if name.starts_with("polygons of layer") => "transparent polygons: their sums in the layer",
-        name if name.starts_with("compose of layer") => "transparent things: shades the layer, under those before",
+        name if name.starts_with("compose of layer") => {
+            "transparent things: shades the layer, under those before"
+        }
         name if name.starts_with("count layer") => "--layers auto: whether the layer is empty",
         _ => "",
     }

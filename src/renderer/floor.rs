@@ -5,7 +5,7 @@ use ash::vk;
 use super::{Headless, headless::submit_and_wait};
 use crate::{
     error::{Error, Result},
-    frame::{FrameSlot, SlotParts, HeadlessTarget},
+    frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
         execute::{FrameProfile, Physical, Profile, Transients, execute, memory_need},

@@ -147,8 +147,7 @@ impl Renderer {
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, transients, profiler } = slot.parts()?;
         let shaders = &self.shaders;
-        let inputs =
-            Inputs { draws: &[], meshes: &[], camera, settings, shaders, descriptors, occlusion };
+        let inputs = Inputs { draws: &[], meshes: &[], camera, settings, shaders, descriptors, occlusion };
         let (graph, imports) = declare(inputs, &parts, target, readbacks)?;
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
         let plan = compiled.plan.clone();

@@ -5,7 +5,7 @@ use ash::vk;
 use super::{Headless, headless::submit_and_wait, import_readback};
 use crate::{
     error::{Error, Result},
-    frame::{FrameSlot, SlotParts, HeadlessTarget},
+    frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{
         Graph, ImageDesc,
         execute::{Physical, Transients, execute, memory_need},
@@ -51,7 +51,8 @@ pub fn draw_as_published(
     unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
     let SlotParts { descriptors, profiler, .. } = slot.parts()?;
     let shaders = &headless.renderer.shaders;
-    let inputs = Inputs { draws: &draws, meshes: &[], occlusion: None, camera, settings, shaders, descriptors };
+    let inputs =
+        Inputs { draws: &draws, meshes: &[], occlusion: None, camera, settings, shaders, descriptors };
     let mut graph = Graph::new();
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };

@@ -150,8 +150,7 @@ impl Occlusion {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, count: u32) -> Result<Self> {
-        let info =
-            vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::OCCLUSION).query_count(count);
+        let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::OCCLUSION).query_count(count);
         Ok(Self { pool: QueryPool::new(device, name, info)? })
     }
 

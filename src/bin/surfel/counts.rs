@@ -171,6 +171,7 @@ fn every_traits(all: bool) -> Vec<Traits> {
                     if !export {
                         every.push(Traits { transparent: true, ..traits });
                         every.push(Traits { transparent: true, polygons: true, ..traits });
+                        every.push(Traits { transparent: true, polygons: true, lit: true, ..traits });
                     }
                 }
             }
