@@ -1,51 +1,89 @@
-//! Some rows of the picture: the nearest surface first, then the sums over its fragments, then the colors.
+//! Some rows of the picture: what is in front first, then the sums over the fragments of the opaque surface, then its
+//! color, then what is transparent before it.
 
 use std::ops::Range;
 
+use glam::DVec3;
+
+use super::front::Front;
 use super::kernel::limit_r2;
+use super::layers::{Source, Translucent, Transparent};
 use super::picture::Pixel;
+use super::polygons;
 use super::search_box::SearchBox;
+use super::shade::Shader;
 use super::splat::DrawnSplat;
-use super::surface::{Nearest, Sums};
+use super::surface::{Attributes, Nearest, Sums};
+use super::transition::{Splatted, join};
+use super::triangle::DrawnTriangle;
 use super::view::View;
 use crate::scene::Settings;
+
+/// Things to draw, and where each is to be looked for, in the same order.
+pub(super) struct Drawn<T> {
+    pub things: Vec<T>,
+    pub boxes: Vec<SearchBox>,
+}
 
 /// All that every band reads.
 pub(super) struct Frame<'a> {
     pub view: View,
     pub settings: &'a Settings,
-    pub splats: Vec<DrawnSplat>,
-    /// Of `splats`, in their order.
-    pub boxes: Vec<SearchBox>,
+    pub shader: Shader,
+    pub splats: Drawn<DrawnSplat>,
+    pub triangles: Drawn<DrawnTriangle>,
+    pub transparent_splats: Drawn<DrawnSplat>,
+    pub transparent_triangles: Drawn<DrawnTriangle>,
+    /// See [`super::mesh::Triangles::has_opaque`].
+    pub has_opaque_polygons: bool,
+    /// The ε of transparent polygons: a length.
+    pub polygon_epsilon: f64,
 }
 
 /// Renders `rows` into `pixels`, which must be empty pixels of exactly these rows.
 pub(super) fn render(frame: &Frame, rows: Range<u32>, pixels: &mut [Pixel]) {
-    let nearest = nearest_surface(frame, &rows, pixels.len());
-    let sums = accumulate(frame, &rows, &nearest, pixels);
-    let width = frame.view.size_px[0] as usize;
+    let fronts = fronts(frame, &rows, pixels);
+    let sums = accumulate(frame, &rows, &fronts, pixels);
     for (i, (pixel, sums)) in pixels.iter_mut().zip(&sums).enumerate() {
-        let (column, row) = ((i % width) as u32, rows.start + (i / width) as u32);
-        let ray = frame.view.ray(column, row);
-        if let Some(surface) = sums.surface(frame.settings.shading, ray) {
-            pixel.weight = sums.weight;
-            pixel.fragments = sums.fragments;
-            pixel.albedo = surface.albedo.to_array();
-            pixel.normal = surface.normal.to_array();
-            pixel.normal_length = surface.normal_length;
-            pixel.depth = surface.depth;
-            pixel.color = surface.color.extend(1.0).to_array();
-            pixel.alpha = surface.alpha;
-        }
+        finish_opaque(frame, frame.ray(&rows, i), &fronts[i], sums, pixel);
     }
+    polygons::mark_borders(frame, &frame.triangles, &rows, &fronts, pixels);
+    if !frame.transparent_splats.things.is_empty() || !frame.transparent_triangles.things.is_empty() {
+        put_layers(frame, &rows, &fronts, pixels);
+    }
+}
+
+impl Frame<'_> {
+    /// Through a pixel of the band.
+    fn ray(&self, rows: &Range<u32>, pixel: usize) -> DVec3 {
+        let width = self.view.size_px[0] as usize;
+        self.view.ray((pixel % width) as u32, rows.start + (pixel / width) as u32)
+    }
+}
+
+/// What hides other things, in every pixel.
+fn fronts(frame: &Frame, rows: &Range<u32>, pixels: &mut [Pixel]) -> Vec<Front> {
+    let splats = nearest_surface(frame, rows, pixels.len());
+    let polygons = polygons::nearest(frame, rows, pixels);
+    let fronts = splats.into_iter().enumerate().map(|(i, splats)| {
+        let polygon = polygons.get(i).copied().flatten();
+        let (transition, visible) = (frame.settings.transition, polygon.map(|polygon| polygon.nearest));
+        let (front, margin) = Front::new(splats, visible, transition, frame.has_opaque_polygons);
+        pixels[i].note_margin(margin);
+        if let (Some(polygon), Some(_)) = (polygon, front.polygon) {
+            pixels[i].note_margin(polygon.margin);
+        }
+        front
+    });
+    fronts.collect()
 }
 
 /// For every pixel the smallest `z · f` of its covering fragments (the ε-shift along the projector; Pajarola et al.
 /// 2003, figure 15).
 fn nearest_surface(frame: &Frame, rows: &Range<u32>, pixels: usize) -> Vec<Nearest> {
     let mut nearest = vec![Nearest::NONE; pixels];
-    for_each_candidate(frame, rows, |splat_index, pixel, column, row| {
-        let splat = &frame.splats[splat_index];
+    for_each_candidate(frame, &frame.splats.boxes, rows, |splat_index, pixel, column, row| {
+        let splat = &frame.splats.things[splat_index];
         let ray = frame.view.ray(column, row);
         let Some(fragment) = splat.fragment(ray, frame.view.near, frame.settings.kernel) else { return };
         let z_shifted = fragment.z * splat.shift;
@@ -56,42 +94,120 @@ fn nearest_surface(frame: &Frame, rows: &Range<u32>, pixels: usize) -> Vec<Neare
     nearest
 }
 
-/// The sums over all fragments at or before the nearest shifted depth; writes the two diagnostics into `pixels`.
-fn accumulate(frame: &Frame, rows: &Range<u32>, nearest: &[Nearest], pixels: &mut [Pixel]) -> Vec<Sums> {
+/// The sums over all fragments of the opaque surface; writes the two diagnostics into `pixels`.
+fn accumulate(frame: &Frame, rows: &Range<u32>, fronts: &[Front], pixels: &mut [Pixel]) -> Vec<Sums> {
     let view = &frame.view;
     let limit_r2 = limit_r2(frame.settings.kernel);
     let mut all = vec![Sums::default(); pixels.len()];
-    for_each_candidate(frame, rows, |splat_index, i, column, row| {
-        let splat = &frame.splats[splat_index];
+    for_each_candidate(frame, &frame.splats.boxes, rows, |splat_index, i, column, row| {
+        let splat = &frame.splats.things[splat_index];
         let ray = view.ray(column, row);
-        let (nearest, pixel) = (&nearest[i], &mut pixels[i]);
+        let (front, pixel) = (&fronts[i], &mut pixels[i]);
 
         let [x_px, y_px] = view.offset_px(column, row);
         if let Some(rim) = splat.rim(ray, x_px.hypot(y_px), limit_r2, view)
-            && rim.z <= nearest.z_shifted * (1.0 + rim.margin)
+            && front.may_count(rim.z, splat.shift, rim.margin)
         {
             pixel.rim = true;
         }
         let Some(fragment) = splat.fragment(ray, view.near, frame.settings.kernel) else { return };
-        if splat_index != nearest.splat {
-            let margin = (fragment.z - nearest.z_shifted).abs() / nearest.z_shifted;
-            pixel.epsilon_margin = pixel.epsilon_margin.min(margin);
-        }
-        if fragment.z <= nearest.z_shifted {
+        let counts = front.counts(splat_index, fragment.z, splat.shift);
+        pixel.note_margin(counts.margin);
+        if counts.holds {
             all[i].add(fragment, splat);
         }
     });
     all
 }
 
-/// Calls `f(splat, pixel within the band, column, row)` for every pixel of every splat's search box.
-fn for_each_candidate(frame: &Frame, rows: &Range<u32>, mut f: impl FnMut(usize, usize, u32, u32)) {
+/// Writes the surface of the opaque splats, and the color of all that is opaque.
+fn finish_opaque(frame: &Frame, ray: DVec3, front: &Front, sums: &Sums, pixel: &mut Pixel) {
+    let surface = sums.surface(&frame.shader, ray);
+    if let Some(surface) = &surface {
+        pixel.weight = sums.weight;
+        pixel.fragments = sums.fragments;
+        pixel.albedo = surface.albedo.to_array();
+        pixel.normal = surface.normal.to_array();
+        pixel.normal_length = surface.normal_length;
+        pixel.depth = surface.depth;
+        pixel.color = surface.color.extend(1.0).to_array();
+        pixel.alpha = surface.alpha;
+    }
+    if let Some(polygon) = front.polygon {
+        pixel.polygon = true;
+        let opaque = |attributes| Attributes { alpha: 1.0, ..attributes };
+        let splats =
+            surface.map(|surface| Splatted { attributes: opaque(surface.attributes()), weight: sums.weight });
+        let polygon = opaque(frame.triangles.things[polygon.triangle].attributes(ray, polygon.z));
+        let shade = |a: &Attributes| frame.shader.shade(a.albedo, a.normal, ray);
+        let joined = join(frame.settings.transition, splats, Some(polygon), shade);
+        pixel.color = joined.color.extend(1.0).to_array();
+    }
+}
+
+/// Puts what is transparent, and not behind something opaque, over the pixels' colors.
+fn put_layers(frame: &Frame, rows: &Range<u32>, fronts: &[Front], pixels: &mut [Pixel]) {
+    let mut fragments = vec![Vec::new(); pixels.len()];
+    collect_splats(frame, rows, fronts, pixels, &mut fragments);
+    polygons::collect(frame, rows, fronts, pixels, &mut fragments);
+    polygons::mark_borders(frame, &frame.transparent_triangles, rows, fronts, pixels);
+    let transparent = Transparent {
+        splats: &frame.transparent_splats.things,
+        triangles: &frame.transparent_triangles.things,
+        settings: frame.settings,
+        shader: &frame.shader,
+    };
+    for (i, (pixel, fragments)) in pixels.iter_mut().zip(fragments).enumerate() {
+        if !fragments.is_empty() {
+            let stack = transparent.stack(frame.ray(rows, i), fragments);
+            pixel.color = stack.over(pixel.color);
+            pixel.layers = stack.layers;
+            pixel.note_margin(stack.margin);
+        }
+    }
+}
+
+fn collect_splats(
+    frame: &Frame,
+    rows: &Range<u32>,
+    fronts: &[Front],
+    pixels: &mut [Pixel],
+    fragments: &mut [Vec<Translucent>],
+) {
+    let view = &frame.view;
+    let limit_r2 = limit_r2(frame.settings.kernel);
+    for_each_candidate(frame, &frame.transparent_splats.boxes, rows, |splat_index, i, column, row| {
+        let splat = &frame.transparent_splats.things[splat_index];
+        let ray = view.ray(column, row);
+        let [x_px, y_px] = view.offset_px(column, row);
+        if let Some(rim) = splat.rim(ray, x_px.hypot(y_px), limit_r2, view)
+            && fronts[i].may_be_seen(rim.z, rim.margin)
+        {
+            pixels[i].rim = true;
+        }
+        let Some(fragment) = splat.fragment(ray, view.near, frame.settings.kernel) else { return };
+        let seen = fronts[i].shows(fragment.z);
+        pixels[i].note_margin(seen.margin);
+        if seen.holds {
+            let (z, weight, source) = (fragment.z, fragment.weight, Source::Splat(splat_index));
+            fragments[i].push(Translucent { z, z_shifted: z * splat.shift, weight, source });
+        }
+    });
+}
+
+/// Calls `f(thing, pixel within the band, column, row)` for every pixel of every search box.
+pub(super) fn for_each_candidate(
+    frame: &Frame,
+    boxes: &[SearchBox],
+    rows: &Range<u32>,
+    mut f: impl FnMut(usize, usize, u32, u32),
+) {
     let width = frame.view.size_px[0] as usize;
-    for (splat_index, search) in frame.boxes.iter().enumerate() {
+    for (index, search) in boxes.iter().enumerate() {
         for row in search.clipped(rows) {
             let first = (row - rows.start) as usize * width;
             for column in search.columns.clone() {
-                f(splat_index, first + column as usize, column, row);
+                f(index, first + column as usize, column, row);
             }
         }
     }

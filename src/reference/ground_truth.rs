@@ -18,12 +18,13 @@ use super::kernel::limit_r2;
 use super::low_pass_taps::Taps;
 use super::row_span::row_span;
 use super::search_box::SearchBox;
+use super::shade::Shader;
 use super::splat::{self, DrawnSplat};
 use super::surface::{Nearest, Sums};
 use super::true_pixel::{Channels, GroundTruth, TruePixel, add, channels};
 use super::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings, Shading};
+use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings};
 
 /// Pixel rows that a thread takes at a time. The sample rows that the filter reaches beyond them are sampled twice.
 const BAND_ROWS: usize = 32;
@@ -45,7 +46,7 @@ struct Field<'a> {
     width_px: usize,
     kernel: Kernel,
     limit_r2: f64,
-    shading: Shading,
+    shader: Shader,
     taps: &'a Taps,
     splats: Vec<DrawnSplat>,
     /// Of `splats`, in samples.
@@ -57,7 +58,7 @@ struct Field<'a> {
 /// Renders what every filter of `scene`, seen by `camera`, aims at, with `samples_per_side` squared samples a
 /// pixel: 16 and more for a picture that others are judged by.
 ///
-/// Of the settings it reads size, kernel, ε, back faces and shading. The filter's standard deviation is `σ h`, with
+/// It draws every splat as opaque, and no mesh. Of the settings it reads size, kernel, ε, back faces and shading. The filter's standard deviation is `σ h`, with
 /// h = √2 pixels and σ that of a Gaussian kernel, or ½ for another; it is cut off at 4 of them. Splats with a
 /// [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on how many.
 /// `progress(done, total)` is called from several threads, with rows.
@@ -95,7 +96,7 @@ pub fn ground_truth(
         width_px: width as usize,
         kernel: settings.kernel,
         limit_r2,
-        shading: settings.shading,
+        shader: Shader::new(settings.shading, scene, view.from_world.rotation),
         taps: &taps,
         boxes: splats.iter().map(|splat| SearchBox::of_disk(splat, limit_r2, &view)).collect(),
         splats,
@@ -199,7 +200,7 @@ impl Field<'_> {
         {
             let y = self.view.ray(0, row).y;
             for ((sample, sums), x) in samples.iter_mut().zip(sums).zip(&self.columns) {
-                let Some(surface) = sums.surface(self.shading, DVec3::new(*x, y, 1.0)) else { continue };
+                let Some(surface) = sums.surface(&self.shader, DVec3::new(*x, y, 1.0)) else { continue };
                 *sample = channels(&surface);
             }
         }

@@ -14,6 +14,10 @@
 //! plane, or whose depth radius is above 0.9 of its center's depth, has no affine map worth the name: the affine
 //! rasterizers draw it by its rays, and `ewa` leaves it as it is.
 //!
+//! Polygons are drawn by rays too (`triangle`, `polygons`); one that is in front of the splats, or within ε behind them,
+//! is blended with them by their sum of weights (`front`, `transition`). Transparent fragments are all kept, a pixel at
+//! a time, and grouped into layers by ε (`layers`): nothing is peeled.
+//!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
@@ -23,21 +27,28 @@
 mod affine;
 mod band;
 mod bands;
+mod decision;
 mod ewa;
 mod filter;
 mod fragment;
+mod front;
 mod ground_truth;
 mod intersect;
 mod kernel;
+mod layers;
 mod low_pass;
 mod low_pass_taps;
+mod mesh;
 mod paper_filter;
 mod picture;
+mod polygons;
 mod row_span;
 mod search_box;
 mod shade;
 mod splat;
 mod surface;
+mod transition;
+mod triangle;
 mod true_pixel;
 mod view;
 
@@ -50,8 +61,11 @@ pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
 pub use picture::{Picture, Pixel};
 pub use true_pixel::{GroundTruth, TruePixel};
 
-use self::band::Frame;
+use self::band::{Drawn, Frame};
 use self::search_box::SearchBox;
+use self::shade::Shader;
+use self::splat::DrawnSplat;
+use self::triangle::DrawnTriangle;
 use self::view::View;
 use crate::error::{Error, Result};
 use crate::scene::{Camera, Scene, Settings};
@@ -81,9 +95,7 @@ pub fn render(
     let [width, height] = settings.size_px;
     let view = View::new(camera, settings.size_px);
     let (splats, defects) = splat::prepare(scene, &view, settings);
-    let limit_r2 = kernel::limit_r2(settings.kernel);
-    let boxes = splats.iter().map(|splat| SearchBox::of(splat, limit_r2, &view)).collect();
-    let frame = Frame { view, settings, splats, boxes };
+    let frame = frame(scene, view, settings, splats);
 
     let mut pixels = empty_pixels(settings)?;
     let rows_done = AtomicU64::new(0);
@@ -96,6 +108,36 @@ pub fn render(
         progress(done, u64::from(height));
     });
     Ok(Picture { size_px: settings.size_px, pixels, defects })
+}
+
+/// What all bands read.
+fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<DrawnSplat>) -> Frame<'a> {
+    // Without anything transparent nothing is moved.
+    let (transparent, opaque) = match splats.iter().any(|splat| splat.transparent) {
+        true => splats.into_iter().partition(|splat| splat.transparent),
+        false => (Vec::new(), splats),
+    };
+    let limit_r2 = kernel::limit_r2(settings.kernel);
+    let drawn_splats = |things: Vec<DrawnSplat>| Drawn {
+        boxes: things.iter().map(|splat| SearchBox::of(splat, limit_r2, &view)).collect(),
+        things,
+    };
+    let drawn_triangles = |things: Vec<DrawnTriangle>| Drawn {
+        boxes: things.iter().map(|triangle| SearchBox::of_triangle(&triangle.corners, &view)).collect(),
+        things,
+    };
+    let triangles = mesh::prepare(scene, &view, settings);
+    Frame {
+        view,
+        settings,
+        shader: Shader::new(settings.shading, scene, view.from_world.rotation),
+        splats: drawn_splats(opaque),
+        triangles: drawn_triangles(triangles.opaque),
+        transparent_splats: drawn_splats(transparent),
+        transparent_triangles: drawn_triangles(triangles.transparent),
+        has_opaque_polygons: triangles.has_opaque,
+        polygon_epsilon: splat::mean_epsilon(scene, settings.epsilon),
+    }
 }
 
 /// A picture of background only.

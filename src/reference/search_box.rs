@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::affine::ImageEllipse;
 use super::intersect::{Map, r2_margin};
@@ -57,6 +57,22 @@ impl SearchBox {
         };
         let ([left, right], [top, bottom]) = (ends(center.x), ends(center.y));
         Self::between(DVec2::new(left, top), DVec2::new(right, bottom), view)
+    }
+
+    /// Holds every pixel whose center is in the triangle or less than a pixel beside it. A triangle that reaches the near
+    /// plane takes the whole image.
+    pub fn of_triangle(corners: &[DVec3; 3], view: &View) -> Self {
+        if corners.iter().all(|corner| corner.z < view.near) {
+            return Self { columns: 0..0, rows: 0..0 };
+        }
+        if corners.iter().any(|corner| corner.z < view.near) {
+            return Self::whole(view);
+        }
+        let [a, b, c] = corners.map(|corner| corner.truncate() / corner.z);
+        if !(a.is_finite() && b.is_finite() && c.is_finite()) {
+            return Self::whole(view);
+        }
+        Self::between(a.min(b).min(c), a.max(b).max(c), view)
     }
 
     /// The enlarged ellipse lies in the circle of its long axis.

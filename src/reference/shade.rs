@@ -1,26 +1,75 @@
-//! From a surface to a color: one white light at the eye, no attenuation.
+//! From a surface to a color. The lights are infinitely far or at the eye, without attenuation or shadow; the ambient
+//! one is white.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use crate::scene::Shading;
+use crate::scene::{Light, LightKind, Scene, Shading};
 
-/// The linear color of a surface with linear `albedo` and unit view-space `normal`, seen along `ray = (x, y, 1)`.
-///
-/// A normal that points away from the eye, which weights of turned splats can produce, gets no light: `n·l` is taken
-/// as at least 0.
-pub(super) fn shade(shading: Shading, albedo: DVec3, normal: DVec3, ray: DVec3) -> DVec3 {
-    let to_eye = -ray.normalize();
-    let to_light = to_eye;
-    let n_dot_l = normal.dot(to_light).max(0.0);
-    let lambert = albedo * (0.1 + 0.9 * n_dot_l);
-    match shading {
-        Shading::Lambert => lambert,
-        Shading::Phong => {
-            let reflected = 2.0 * n_dot_l * normal - to_light;
-            lambert + 0.2 * reflected.dot(to_eye).max(0.0).powi(32)
+/// How surfaces become colors.
+#[derive(Clone, Debug)]
+pub(super) struct Shader {
+    shading: Shading,
+    lights: Vec<ViewLight>,
+}
+
+/// A light as seen from the eye.
+#[derive(Clone, Copy, Debug)]
+struct ViewLight {
+    /// Unit, in view space; `None` for a light at the eye, which is where the eye is seen from the surface.
+    to_light: Option<DVec3>,
+    /// Linear.
+    color: DVec3,
+}
+
+impl Shader {
+    /// With the lights of the scene, or the one at the eye where it has none. `view_from_world` turns directions.
+    pub fn new(shading: Shading, scene: &Scene, view_from_world: DMat3) -> Self {
+        let given = if scene.lights.is_empty() { &[Light::DEFAULT][..] } else { &scene.lights };
+        let lights = given.iter().map(|light| ViewLight {
+            to_light: match light.kind {
+                LightKind::Eye => None,
+                LightKind::Directional(direction) => Some(-(view_from_world * direction).normalize()),
+            },
+            color: DVec3::from(light.color.map(f64::from)),
+        });
+        Self { shading, lights: lights.collect() }
+    }
+
+    /// The linear color of a surface with linear `albedo` and unit view-space `normal`, seen along `ray`, a view-space
+    /// vector of any length from the eye to it.
+    ///
+    /// `albedo (0.1 + 0.9 Σ c n·l)`, for [`Shading::Phong`] and `0.2 Σ c (r·v)³²` with `r = 2(n·l)n − l`. A normal that
+    /// points away from a light, which weights of turned splats can produce, gets nothing of it: `n·l` is taken as at
+    /// least 0, and a highlight is only where it is above 0.
+    pub fn shade(&self, albedo: DVec3, normal: DVec3, ray: DVec3) -> DVec3 {
+        let to_eye = -ray.normalize();
+        match self.shading {
+            Shading::Lambert => self.lambert(albedo, normal, to_eye),
+            Shading::Phong => self.lambert(albedo, normal, to_eye) + 0.2 * self.highlights(normal, to_eye),
+            Shading::Normals => 0.5 * DVec3::new(normal.x, -normal.y, -normal.z) + 0.5,
+            Shading::Albedo => albedo,
         }
-        Shading::Normals => 0.5 * DVec3::new(normal.x, -normal.y, -normal.z) + 0.5,
-        Shading::Albedo => albedo,
+    }
+
+    fn lambert(&self, albedo: DVec3, normal: DVec3, to_eye: DVec3) -> DVec3 {
+        let mut light = DVec3::ZERO;
+        for ViewLight { to_light, color } in &self.lights {
+            light += color * normal.dot(to_light.unwrap_or(to_eye)).max(0.0);
+        }
+        albedo * (0.1 + 0.9 * light)
+    }
+
+    fn highlights(&self, normal: DVec3, to_eye: DVec3) -> DVec3 {
+        let mut light = DVec3::ZERO;
+        for ViewLight { to_light, color } in &self.lights {
+            let to_light = to_light.unwrap_or(to_eye);
+            let n_dot_l = normal.dot(to_light);
+            if n_dot_l > 0.0 {
+                let reflected = 2.0 * n_dot_l * normal - to_light;
+                light += color * reflected.dot(to_eye).max(0.0).powi(32);
+            }
+        }
+        light
     }
 }
 
@@ -34,6 +83,11 @@ mod tests {
     use super::*;
 
     const ALBEDO: DVec3 = DVec3::new(0.5, 0.25, 1.0);
+
+    /// By the light at the eye.
+    fn shade(shading: Shading, albedo: DVec3, normal: DVec3, ray: DVec3) -> DVec3 {
+        Shader::new(shading, &Scene::default(), DMat3::IDENTITY).shade(albedo, normal, ray)
+    }
 
     fn close(a: DVec3, b: DVec3) -> bool {
         (a - b).abs().max_element() < 1e-12

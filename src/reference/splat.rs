@@ -8,9 +8,11 @@ use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
 use super::paper_filter::adjust_paper;
+use super::surface::Attributes;
 use super::view::View;
 use crate::scene::{
-    Backfaces, DefectCounts, Epsilon, Filter, FilterWeight, Object, Rasterizer, Scene, Settings, Shapes,
+    Backfaces, DefectCounts, Epsilon, Filter, FilterWeight, Object, Opacity, Rasterizer, Scene, Settings,
+    Shapes,
 };
 
 /// A splat in view space. A point of it is `center + u·s + v·t`.
@@ -31,8 +33,10 @@ pub(super) struct DrawnSplat {
     pub normal: DVec3,
     /// Linear.
     pub albedo: DVec3,
-    /// Straight.
+    /// Straight, 0–1.
     pub alpha: f64,
+    /// Whether it belongs to an object that is drawn in layers.
+    pub transparent: bool,
     /// The depth of the visibility test is this times the fragment's own; at least 1.
     pub shift: f64,
     /// How the image is mapped onto it.
@@ -48,28 +52,70 @@ pub(super) struct DrawnSplat {
     pub minor_px: Option<f64>,
 }
 
+impl DrawnSplat {
+    pub fn attributes(&self) -> Attributes {
+        Attributes { albedo: self.albedo, normal: self.normal, alpha: self.alpha }
+    }
+
+    /// A vector from the eye toward the center; forward where they are the same point.
+    pub fn toward_center(&self) -> DVec3 {
+        // The largest component becomes 1 first: a square of it would leave the range of f64.
+        let largest = self.center.abs().max_element();
+        if largest > 0.0 { self.center / largest } else { DVec3::Z }
+    }
+}
+
 /// The largest depth radius over the center's depth at which a splat is still taken for an ellipse.
 const REGULAR_DEPTH_RATIO: f64 = 0.9;
 
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
+/// Objects whose every alpha is 0 have none.
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
     let mut drawn = Vec::new();
     let mut defects = DefectCounts::default();
     for object in &scene.objects {
-        let cull = match settings.backfaces {
-            Backfaces::Auto => object.closed,
-            Backfaces::Flip => false,
-            Backfaces::Cull => true,
-        };
+        let opacity = object.splats.colors.opacity();
+        let cull = culls(settings.backfaces, object.closed, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
-            if defect.is_none() {
-                drawn.extend(prepare_one(object, i, cull, view, settings));
+            if defect.is_none() && opacity != Opacity::Invisible {
+                let splat = prepare_one(object, i, cull, view, settings);
+                drawn.extend(
+                    splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
+                );
             }
         }
     }
     (drawn, defects)
+}
+
+/// The ε of transparent polygons, which have no radius: with one in radii the mean of transparent splats, of all that can
+/// be drawn; 0 where there is none.
+pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
+    let factor = match epsilon {
+        Epsilon::Length(length) => return length,
+        Epsilon::Radii(factor) => factor,
+    };
+    let (mut sum, mut count) = (0.0, 0_u64);
+    let transparent =
+        scene.objects.iter().filter(|object| object.splats.colors.opacity() == Opacity::Transparent);
+    for Object { splats, .. } in transparent {
+        for i in (0..splats.len()).filter(|&i| splats.defect(i).is_none()) {
+            sum += splats.major_radius(i);
+            count += 1;
+        }
+    }
+    if count > 0 { factor * sum / count as f64 } else { 0.0 }
+}
+
+/// Whether what faces away is not drawn. Through a transparent surface its far side is seen.
+pub(super) fn culls(backfaces: Backfaces, closed: bool, opacity: Opacity) -> bool {
+    match backfaces {
+        Backfaces::Auto => closed && opacity == Opacity::Opaque,
+        Backfaces::Flip => false,
+        Backfaces::Cull => true,
+    }
 }
 
 /// `None` where the splat faces away and is culled.
@@ -146,7 +192,8 @@ fn prepare_one(
         v_axis: v_direction / v_direction.dot(t),
         normal,
         albedo: DVec3::new(red, green, blue),
-        alpha,
+        alpha: alpha.clamp(0.0, 1.0),
+        transparent: false,
         shift,
         map,
         share,

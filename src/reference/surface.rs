@@ -3,9 +3,8 @@
 use glam::DVec3;
 
 use super::fragment::Fragment;
-use super::shade::shade;
+use super::shade::Shader;
 use super::splat::DrawnSplat;
-use crate::scene::Shading;
 
 /// The shifted depth that a fragment must not exceed, and whose it is.
 #[derive(Clone, Copy)]
@@ -45,6 +44,23 @@ pub(super) struct Surface {
     pub color: DVec3,
 }
 
+/// What of a surface point is shaded and blended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Attributes {
+    /// Linear.
+    pub albedo: DVec3,
+    /// Unit, in view space.
+    pub normal: DVec3,
+    /// Straight.
+    pub alpha: f64,
+}
+
+impl Surface {
+    pub fn attributes(&self) -> Attributes {
+        Attributes { albedo: self.albedo, normal: self.normal, alpha: self.alpha }
+    }
+}
+
 /// A sum of normals shorter than this share of the sum of weights is rounding noise and has no direction.
 const VANISHING: f64 = 1e-12;
 
@@ -59,7 +75,7 @@ impl Sums {
     }
 
     /// Guennebaud et al. 2006, eq. 1, then the shading; `None` where nothing was added.
-    pub fn surface(&self, shading: Shading, ray: DVec3) -> Option<Surface> {
+    pub fn surface(&self, shader: &Shader, ray: DVec3) -> Option<Surface> {
         if self.weight <= 0.0 {
             return None;
         }
@@ -71,7 +87,7 @@ impl Sums {
             normal_length: self.normal.length() / self.weight,
             depth: self.z / self.weight,
             alpha: self.alpha / self.weight,
-            color: shade(shading, albedo, normal, ray),
+            color: shader.shade(albedo, normal, ray),
         })
     }
 }

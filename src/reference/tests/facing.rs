@@ -95,7 +95,7 @@ fn scene_and_camera_turned_together_give_the_same_picture() {
             DVec3::new(-0.5, 0.2, 2.5),
             Vec3::new(0.3, 0.5, 0.2),
             Vec3::new(0.6, -0.2, 0.4),
-            [1.0, 0.0, 0.0, 0.5],
+            [1.0, 0.0, 0.0, 1.0],
         ),
     ];
     let turned = list.map(|(center, s, t, color)| (turn(center), turn_f32(s), turn_f32(t), color));

@@ -131,7 +131,7 @@ fn where_the_surface_is_smooth_it_is_the_picture_and_half_the_variance_of_its_cu
     // Two Gaussians of 80 pixels, overlapping all over the picture of 48.
     let scene = ellipses(&[
         facing_disk(DVec3::new(-1.0, 0.3, 1.0), 2.5, [0.0, 0.1, 0.0, 1.0]),
-        facing_disk(DVec3::new(0.9, -0.2, 1.0), 2.5, [1.0, 0.9, 0.2, 0.5]),
+        facing_disk(DVec3::new(0.9, -0.2, 1.0), 2.5, [1.0, 0.9, 0.2, 1.0]),
     ]);
     let settings = Settings { shading: Shading::Albedo, ..settings(48) };
     let (picture, truth) = (picture(&scene, &settings), truth(&scene, &settings));

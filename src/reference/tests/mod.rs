@@ -2,6 +2,7 @@
 
 mod affine;
 mod attributes;
+mod borders;
 mod chopped;
 mod coverage;
 mod depth;
@@ -12,8 +13,15 @@ mod ewa;
 mod facing;
 mod ground_truth;
 mod hostile;
+mod hybrid;
+mod last_layer;
+mod layers;
+mod lights;
 mod low_pass;
+mod meshes;
+mod mixed_layers;
 mod near_plane;
+mod order;
 mod paper_filter;
 
 use glam::{DVec3, Vec3};
@@ -22,8 +30,8 @@ use super::splat::{DrawnSplat, prepare};
 use super::view::View;
 use super::{Picture, Pixel, render};
 use crate::scene::{
-    Camera, Colors, Epsilon, Filter, FilterWeight, Kernel, Object, Rasterizer, Scene, Settings, Shapes,
-    Splats,
+    Camera, Colors, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshColors, MeshObject, Object, Rasterizer,
+    Scene, Settings, Shapes, Splats,
 };
 
 /// World space is view space; 90° in both directions for a square picture: the focal length is half its side.
@@ -58,6 +66,45 @@ pub(super) fn ellipses(list: &[Ellipse]) -> Scene {
         colors: Colors::PerSplat(list.iter().map(|e| e.3).collect()),
     };
     Scene { objects: vec![Object { name: "test".into(), splats, closed: false }], ..Scene::default() }
+}
+
+/// An object each.
+pub(super) fn objects(lists: &[&[Ellipse]]) -> Scene {
+    Scene { objects: lists.iter().flat_map(|list| ellipses(list).objects).collect(), ..Scene::default() }
+}
+
+/// With one color and one normal a vertex.
+pub(super) fn mesh(vertices: &[(DVec3, Vec3)], triangles: &[[u32; 3]], color: [f32; 4]) -> MeshObject {
+    let mesh = Mesh {
+        positions: vertices.iter().map(|vertex| vertex.0).collect(),
+        normals: Some(vertices.iter().map(|vertex| vertex.1).collect()),
+        colors: MeshColors::Uniform(color),
+        triangles: triangles.to_vec(),
+    };
+    MeshObject { name: "test".into(), mesh, closed: false }
+}
+
+/// A square parallel to the screen, about the axis, that faces the eye; of two triangles.
+pub(super) fn square(z: f64, half_side: f64, color: [f32; 4]) -> MeshObject {
+    let corner = |x: f64, y: f64| (DVec3::new(x * half_side, y * half_side, z), Vec3::NEG_Z);
+    let corners = [corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
+    mesh(&corners, &[[0, 1, 2], [0, 2, 3]], color)
+}
+
+pub(super) fn meshes(list: Vec<MeshObject>) -> Scene {
+    Scene { meshes: list, ..Scene::default() }
+}
+
+/// The pixel in the middle of an odd picture, through which the axis goes.
+pub(super) fn middle(scene: &Scene, settings: &Settings) -> Pixel {
+    let [width, height] = settings.size_px;
+    *picture(scene, settings).pixel(width / 2, height / 2).unwrap()
+}
+
+#[track_caller]
+pub(super) fn assert_color(pixel: &Pixel, expected: [f64; 4]) {
+    let close = pixel.color.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-7);
+    assert!(close, "{:?}, expected {expected:?}", pixel.color);
 }
 
 /// A disk parallel to the screen that faces the eye.

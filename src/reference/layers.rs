@@ -1,0 +1,160 @@
+//! The transparent surfaces of one pixel, one behind the other (Guennebaud, Barthe, Paulin 2006, section 6): all its
+//! fragments are at hand, so that layers are groups of them and no pass repeats.
+
+use glam::DVec3;
+
+use super::decision::Decision;
+use super::fragment::Fragment;
+use super::shade::Shader;
+use super::splat::DrawnSplat;
+use super::surface::{Attributes, Sums, direction};
+use super::transition::{Premultiplied, Splatted, join};
+use super::triangle::DrawnTriangle;
+use crate::scene::{LastLayer, Settings};
+
+/// A fragment of something transparent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Translucent {
+    pub z: f64,
+    /// By ε: what is nearer belongs to the layer of this fragment, if this is the nearest.
+    pub z_shifted: f64,
+    /// 1 for a polygon.
+    pub weight: f64,
+    pub source: Source,
+}
+
+/// What a fragment is of, by its place in the list of all that is transparent.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Source {
+    Splat(usize),
+    Triangle(usize),
+}
+
+/// What fragments are looked up in.
+pub(super) struct Transparent<'a> {
+    pub splats: &'a [DrawnSplat],
+    pub triangles: &'a [DrawnTriangle],
+    pub settings: &'a Settings,
+    pub shader: &'a Shader,
+}
+
+/// The layers of a pixel, over whatever is behind them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stack {
+    /// Linear, multiplied by alpha.
+    color: DVec3,
+    /// How much is seen through all of them: the product of `1 − α`.
+    transmittance: f64,
+    /// How many there are, drawn or not.
+    pub layers: u32,
+    /// The smallest margin of a decision which layer a fragment belongs to.
+    pub margin: f64,
+}
+
+impl Stack {
+    const EMPTY: Self = Self { color: DVec3::ZERO, transmittance: 1.0, layers: 0, margin: f64::INFINITY };
+
+    fn put_behind(&mut self, layer: Premultiplied) {
+        self.color += self.transmittance * layer.color;
+        self.transmittance *= 1.0 - layer.alpha;
+    }
+
+    /// Over a straight color with alpha, straight again; black where nothing is seen.
+    pub fn over(&self, [red, green, blue, alpha]: [f64; 4]) -> [f64; 4] {
+        let color = self.color + self.transmittance * alpha * DVec3::new(red, green, blue);
+        let alpha = 1.0 - self.transmittance * (1.0 - alpha);
+        if alpha > 0.0 { (color / alpha).extend(alpha).to_array() } else { [0.0; 4] }
+    }
+}
+
+/// Takes the nearest layer out of `remaining`: all that is not behind the smallest shifted depth. The second value is the
+/// smallest margin of that; the fragment whose shifted depth it is has none.
+pub(super) fn take_nearest(remaining: &mut Vec<Translucent>) -> (Vec<Translucent>, f64) {
+    let shifted = |i: usize| remaining[i].z_shifted;
+    let Some(owner) = (0..remaining.len()).reduce(|a, b| if shifted(b) < shifted(a) { b } else { a }) else {
+        return (Vec::new(), f64::INFINITY);
+    };
+    let threshold = shifted(owner);
+    let mut margin = f64::INFINITY;
+    let (mut layer, mut behind) = (Vec::new(), Vec::new());
+    for (i, fragment) in remaining.drain(..).enumerate() {
+        let decision = if i == owner { Decision::CERTAIN } else { Decision::at_most(fragment.z, threshold) };
+        margin = margin.min(decision.margin);
+        if decision.holds { layer.push(fragment) } else { behind.push(fragment) }
+    }
+    *remaining = behind;
+    (layer, margin)
+}
+
+impl Transparent<'_> {
+    /// All layers of a pixel whose transparent fragments are `remaining`, those behind something opaque left out.
+    pub fn stack(&self, ray: DVec3, mut remaining: Vec<Translucent>) -> Stack {
+        let most = self.settings.layers.most();
+        let (surfaces, blends_rest) = match self.settings.last_layer {
+            LastLayer::Drop => (most, false),
+            LastLayer::Blend => (most - 1, true),
+        };
+        let mut stack = Stack::EMPTY;
+        while !remaining.is_empty() {
+            if stack.layers == surfaces && blends_rest {
+                stack.put_behind(self.blend(ray, &remaining));
+            }
+            let (layer, margin) = take_nearest(&mut remaining);
+            if stack.layers < surfaces {
+                stack.put_behind(self.surface(ray, &layer));
+                stack.margin = stack.margin.min(margin);
+            }
+            stack.layers += 1;
+        }
+        stack
+    }
+
+    /// One layer as one surface.
+    fn surface(&self, ray: DVec3, layer: &[Translucent]) -> Premultiplied {
+        let mut sums = Sums::default();
+        let mut polygons = Vec::new();
+        for fragment in layer {
+            match fragment.source {
+                Source::Splat(i) => {
+                    sums.add(Fragment { z: fragment.z, weight: fragment.weight }, &self.splats[i]);
+                }
+                Source::Triangle(i) => polygons.push(self.triangles[i].attributes(ray, fragment.z)),
+            }
+        }
+        let splats = sums.surface(self.shader, ray).map(|surface| Splatted {
+            attributes: Attributes { alpha: surface.alpha.min(1.0), ..surface.attributes() },
+            weight: sums.weight,
+        });
+        let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
+        join(self.settings.transition, splats, mean(&polygons), shade)
+    }
+
+    /// All fragments at once, each lit by itself, as the last layer: `C = Σ wα·shade / Σ wα`, `α = Σ wα / Σ w`, whose
+    /// product is `Σ wα·shade / Σ w`. A splat is lit at its center.
+    fn blend(&self, ray: DVec3, fragments: &[Translucent]) -> Premultiplied {
+        let (mut weight, mut alpha, mut color) = (0.0, 0.0, DVec3::ZERO);
+        for fragment in fragments {
+            let (attributes, seen_along) = match fragment.source {
+                Source::Splat(i) => (self.splats[i].attributes(), self.splats[i].toward_center()),
+                Source::Triangle(i) => (self.triangles[i].attributes(ray, fragment.z), ray),
+            };
+            let shaded = self.shader.shade(attributes.albedo, attributes.normal, seen_along);
+            weight += fragment.weight;
+            alpha += fragment.weight * attributes.alpha;
+            color += fragment.weight * attributes.alpha * shaded;
+        }
+        Premultiplied { color: color / weight, alpha: (alpha / weight).min(1.0) }
+    }
+}
+
+/// `None` of none.
+fn mean(polygons: &[Attributes]) -> Option<Attributes> {
+    let count = polygons.len() as f64;
+    let sum = |value: fn(&Attributes) -> DVec3| -> DVec3 { polygons.iter().map(value).sum() };
+    let alpha: f64 = polygons.iter().map(|polygon| polygon.alpha).sum();
+    (!polygons.is_empty()).then(|| Attributes {
+        albedo: sum(|polygon| polygon.albedo) / count,
+        normal: direction(sum(|polygon| polygon.normal), count),
+        alpha: (alpha / count).min(1.0),
+    })
+}
