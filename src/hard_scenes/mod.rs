@@ -4,6 +4,7 @@
 pub mod builder;
 mod shapes;
 mod sizes;
+pub mod transparent;
 mod views;
 
 pub use shapes::{coincident, degenerate, far_from_the_origin, random_ellipses, sphere, sphere_of_disks};

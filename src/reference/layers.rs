@@ -116,17 +116,18 @@ impl Transparent<'_> {
         for fragment in layer {
             match fragment.source {
                 Source::Splat(i) => {
-                    sums.add(Fragment { z: fragment.z, weight: fragment.weight }, &self.splats[i]);
+                    sums.add_in_layer(Fragment { z: fragment.z, weight: fragment.weight }, &self.splats[i]);
                 }
-                Source::Triangle(i) => polygons.push(self.triangles[i].attributes(ray, fragment.z)),
+                Source::Triangle(i) => polygons.push(self.triangles[i].attributes_in_layer(ray, fragment.z)),
             }
         }
         let splats = sums.surface(self.shader, ray).map(|surface| Splatted {
-            attributes: Attributes { alpha: surface.alpha.min(1.0), ..surface.attributes() },
+            attributes: turned(Attributes { alpha: surface.alpha.min(1.0), ..surface.attributes() }, ray),
             weight: sums.weight,
         });
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
-        join(self.settings.transition, splats, mean(&polygons), shade)
+        let polygons = mean(&polygons).map(|polygon| turned(polygon, ray));
+        join(self.settings.transition, splats, polygons, shade)
     }
 
     /// All fragments at once, each lit by itself, as the last layer: `C = Σ wα·shade / Σ wα`, `α = Σ wα / Σ w`, whose
@@ -145,6 +146,12 @@ impl Transparent<'_> {
         }
         Premultiplied { color: color / weight, alpha: (alpha / weight).min(1.0) }
     }
+}
+
+/// With the normal to the eye.
+fn turned(attributes: Attributes, ray: DVec3) -> Attributes {
+    let away = attributes.normal.dot(ray) > 0.0;
+    Attributes { normal: if away { -attributes.normal } else { attributes.normal }, ..attributes }
 }
 
 /// `None` of none.

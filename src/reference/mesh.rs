@@ -33,7 +33,10 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> Triang
         let mut drawn = usable;
         drawn.retain(|(_, triangle)| !(cull && triangle.faces_away()));
         find_borders(&mut drawn);
-        let drawn = drawn.into_iter().map(|(_, triangle)| triangle);
+        let drawn = drawn.into_iter().map(|(_, mut triangle)| {
+            triangle.outward = object.closed;
+            triangle
+        });
         match opacity {
             Opacity::Invisible => {}
             Opacity::Transparent => triangles.transparent.extend(drawn),

@@ -31,6 +31,9 @@ pub(super) struct DrawnSplat {
     pub v_axis: DVec3,
     /// Unit normal of the surface, toward the eye.
     pub normal: DVec3,
+    /// The normal that a transparent layer sums: outward of what is closed, else that toward the eye. At a silhouette front
+    /// and back are one surface within ε; turned before, what is left of their sum would face the eye and shine.
+    pub normal_in_layer: DVec3,
     /// Linear.
     pub albedo: DVec3,
     /// Straight, 0–1.
@@ -137,6 +140,7 @@ fn prepare_one(
         return None;
     }
     let normal = if faces_away { -outward } else { outward };
+    let normal_in_layer = if object.closed { outward } else { normal };
 
     let epsilon = match settings.epsilon {
         Epsilon::Radii(factor) => factor * splats.major_radius(i),
@@ -191,6 +195,7 @@ fn prepare_one(
         u_axis: u_direction / u_direction.dot(s),
         v_axis: v_direction / v_direction.dot(t),
         normal,
+        normal_in_layer,
         albedo: DVec3::new(red, green, blue),
         alpha: alpha.clamp(0.0, 1.0),
         transparent: false,

@@ -65,6 +65,11 @@ impl Surface {
 const VANISHING: f64 = 1e-12;
 
 impl Sums {
+    /// A fragment of a transparent layer.
+    pub fn add_in_layer(&mut self, fragment: Fragment, splat: &DrawnSplat) {
+        self.add(fragment, &DrawnSplat { normal: splat.normal_in_layer, ..*splat });
+    }
+
     pub fn add(&mut self, fragment: Fragment, splat: &DrawnSplat) {
         self.weight += fragment.weight;
         self.fragments += 1;

@@ -20,6 +20,8 @@ pub(super) struct DrawnTriangle {
     attributes: [Attributes; 3],
     /// The cross product of the edges from the first corner: twice the area.
     plane_normal: DVec3,
+    /// Of a closed surface: in transparent layers its normals stay outward.
+    pub outward: bool,
     /// Normals, toward the triangle, of the planes through the eye and the edge opposite to each corner.
     inward: [DVec3; 3],
     /// Of the same edges, whether nothing of the object is drawn beyond it. True until told otherwise.
@@ -57,6 +59,7 @@ impl DrawnTriangle {
             corners,
             attributes: attributes.map(turned),
             plane_normal,
+            outward: false,
             inward: [b.cross(c), c.cross(a), a.cross(b)].map(|edge| side * edge),
             is_border: [true; 3],
         })
@@ -99,6 +102,13 @@ impl DrawnTriangle {
             normal: direction(sum(|corner| corner.normal), 1.0),
             alpha: alpha.min(1.0),
         }
+    }
+
+    /// The same with the normal that a transparent layer sums: outward of what is closed.
+    pub fn attributes_in_layer(&self, ray: DVec3, z: f64) -> Attributes {
+        let attributes = self.attributes(ray, z);
+        let turned = self.outward && self.faces_away();
+        Attributes { normal: if turned { -attributes.normal } else { attributes.normal }, ..attributes }
     }
 
     /// `None` where no border is within [`BORDER_REACH_PX`]. A border reaches as far beyond the end of its edge.

@@ -17,6 +17,7 @@ mod case;
 mod check;
 pub mod half;
 mod known;
+pub mod light;
 mod pattern;
 mod report;
 mod run;
