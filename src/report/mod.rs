@@ -47,4 +47,4 @@ pub use throughput::{
 #[cfg(feature = "compare")]
 pub use throughput_plot::throughput_plot;
 pub use throughput_table::{passes_grid, throughput_grid};
-pub use trust::{Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};
+pub use trust::{CardUse, Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};

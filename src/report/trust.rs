@@ -15,11 +15,24 @@ pub struct Machine {
     pub threads: usize,
     /// The part of the processor's time that other processes took; `None` where the system does not tell.
     pub taken_by_others: Option<f64>,
+    /// What was seen of the graphics card while we left it idle; `None` where the processor draws.
+    pub card: Option<CardUse>,
     /// The slowest and the fastest clock seen while the device worked, in megahertz: of the graphics, or of the processor
     /// where that draws; `None` where unknown.
     pub clock_mhz: Option<[f64; 2]>,
     /// The most memory that this process has held so far, in bytes; `None` where the system does not tell.
     pub peak_host_bytes: Option<u64>,
+}
+
+/// What others do with a graphics card, seen while we do nothing with it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CardUse {
+    /// The part of the time that the card was busy before our first frame; `None` where the system does not tell.
+    pub busy_before: Option<f64>,
+    /// The same after our last.
+    pub busy_after: Option<f64>,
+    /// Other processes that could compute on it, at the beginning; `None` where the system does not tell. They may be idle.
+    pub other_processes: Option<usize>,
 }
 
 /// The limits beyond which figures are flagged.
@@ -33,11 +46,13 @@ pub struct TrustLimits {
     pub clock: f64,
     /// The part of the processor's time that other processes may take.
     pub others: f64,
+    /// The part of the time that a graphics card may be busy while we leave it idle.
+    pub busy: f64,
 }
 
 impl Default for TrustLimits {
     fn default() -> Self {
-        Self { uncertainty: 0.05, drift: 0.05, clock: 0.05, others: 0.1 }
+        Self { uncertainty: 0.05, drift: 0.05, clock: 0.05, others: 0.1, busy: 0.05 }
     }
 }
 
@@ -77,6 +92,7 @@ impl Machine {
                  fine)"
             ));
         }
+        flags.extend(self.card.iter().flat_map(|card| card.flags(limits)));
         if let Some([slowest, fastest]) = self.clock_mhz
             && fastest / slowest - 1.0 > limits.clock
         {
@@ -86,6 +102,28 @@ impl Machine {
             ));
         }
         flags
+    }
+}
+
+impl CardUse {
+    /// A sentence for each time at which others were at work.
+    fn flags(&self, limits: &TrustLimits) -> Vec<String> {
+        let others = match self.other_processes {
+            None | Some(0) => String::new(),
+            Some(1) => "; 1 other process could compute on it".to_owned(),
+            Some(count) => format!("; {count} other processes could compute on it"),
+        };
+        [(self.busy_before, "before our first frame"), (self.busy_after, "after our last frame")]
+            .into_iter()
+            .filter_map(|(busy, when)| Some((busy.filter(|busy| *busy > limits.busy)?, when)))
+            .map(|(busy, when)| {
+                format!(
+                    "the graphics card was shared: {:.0}% busy {when} (up to {:.0}% is fine){others}",
+                    100.0 * busy,
+                    100.0 * limits.busy
+                )
+            })
+            .collect()
     }
 }
 
@@ -143,6 +181,7 @@ mod tests {
         let quiet = Machine {
             threads: 2,
             taken_by_others: Some(0.05),
+            card: None,
             clock_mhz: Some([2000.0, 2050.0]),
             peak_host_bytes: None,
         };
@@ -152,6 +191,16 @@ mod tests {
         assert!(flags[0].contains("took 40%") && flags[1].contains("from 1500 to 2000 MHz"), "{flags:?}");
         let unknown = Machine { taken_by_others: None, clock_mhz: None, ..quiet };
         assert!(unknown.flags(&limits).is_empty());
+
+        let card = CardUse { busy_before: Some(0.05), busy_after: None, other_processes: Some(3) };
+        let beside = |card: CardUse| Machine { card: Some(card), ..unknown.clone() }.flags(&limits);
+        assert!(beside(CardUse::default()).is_empty() && beside(card.clone()).is_empty());
+        let flags = beside(CardUse { busy_before: Some(0.4), busy_after: Some(0.3), ..card });
+        assert!(
+            flags[0].contains("40% busy before our first frame")
+                && flags[0].ends_with("3 other processes could compute on it")
+        );
+        assert!(flags[1].contains("30% busy after our last frame"), "{flags:?}");
 
         assert_eq!(spread_flag("frame", Spread::of([1.0; 6]).as_ref(), &limits), None);
         let few = spread_flag("frame", Spread::of([1.0; 5]).as_ref(), &limits).unwrap();

@@ -30,6 +30,9 @@ pub struct DeviceFacts {
     pub api_version: [u32; 3],
     /// The PCI vendor and device, and the driver's version number: the key of its caches.
     pub ids: [u32; 3],
+    /// Where it sits on the PCI bus, as domain, bus, device and function; `None` where the driver does not tell
+    /// (`VK_EXT_pci_bus_info`).
+    pub pci: Option<[u32; 4]>,
     /// A queue family with graphics and compute.
     pub queue_family: Option<u32>,
     /// Features and formats that are needed and missing, by name.
@@ -147,6 +150,7 @@ mod tests {
             driver: String::new(),
             api_version: [1, 3, 0],
             ids: [0; 3],
+            pci: None,
             queue_family: Some(0),
             missing: Vec::new(),
             large_points: true,

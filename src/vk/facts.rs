@@ -1,6 +1,8 @@
 //! Asks a physical device for the facts that [`choose`](super::choose) weighs.
 
-use ash::vk;
+use std::ffi::CStr;
+
+use ash::{ext, vk};
 
 use super::{
     choose::{DeviceFacts, DeviceKind, Limits},
@@ -43,10 +45,16 @@ pub(super) unsafe fn facts(
     let mut features12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut features13 = vk::PhysicalDeviceVulkan13Features::default();
     let mut features = vk::PhysicalDeviceFeatures2::default();
+    let mut bus = vk::PhysicalDevicePCIBusInfoPropertiesEXT::default();
+    // SAFETY: as above.
+    let tells_bus = modern && unsafe { has_extension(instance, device, ext::pci_bus_info::NAME) };
     if modern {
         let mut extended = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
         if version >= vk::API_VERSION_1_3 {
             extended = extended.push_next(&mut maintenance4);
+        }
+        if tells_bus {
+            extended = extended.push_next(&mut bus);
         }
         // SAFETY: as above; the chain lives until the call returns.
         unsafe { instance.get_physical_device_properties2(device, &mut extended) };
@@ -96,6 +104,7 @@ pub(super) unsafe fn facts(
             .to_owned(),
         api_version,
         ids: [properties.vendor_id, properties.device_id, properties.driver_version],
+        pci: tells_bus.then_some([bus.pci_domain, bus.pci_bus, bus.pci_device, bus.pci_function]),
         queue_family: queue_family.and_then(|index| u32::try_from(index).ok()),
         missing: needed.iter().filter(|(there, _)| !there).map(|(_, name)| (*name).to_owned()).collect(),
         large_points: core.large_points == vk::TRUE,
@@ -124,6 +133,14 @@ pub(super) unsafe fn facts(
     }
 }
 
+/// # Safety
+/// As [`facts`].
+unsafe fn has_extension(instance: &ash::Instance, device: vk::PhysicalDevice, name: &CStr) -> bool {
+    // SAFETY: this function's contract.
+    let extensions = unsafe { instance.enumerate_device_extension_properties(device) };
+    extensions.is_ok_and(|all| all.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)))
+}
+
 fn kind(kind: vk::PhysicalDeviceType) -> DeviceKind {
     match kind {
         vk::PhysicalDeviceType::DISCRETE_GPU => DeviceKind::Discrete,
@@ -134,6 +151,6 @@ fn kind(kind: vk::PhysicalDeviceType) -> DeviceKind {
     }
 }
 
-fn text(raw: std::result::Result<&std::ffi::CStr, std::ffi::FromBytesUntilNulError>) -> String {
+fn text(raw: std::result::Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
     raw.map(|text| text.to_string_lossy().into_owned()).unwrap_or_default()
 }

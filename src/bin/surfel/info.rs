@@ -177,6 +177,7 @@ mod tests {
             driver: "driver 1".to_owned(),
             api_version: [1, 3, 7],
             ids: [1, 2, 3],
+            pci: None,
             queue_family,
             missing: Vec::new(),
             large_points: true,

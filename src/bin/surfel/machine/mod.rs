@@ -1,25 +1,22 @@
 //! What the machine does while something is measured, as far as the system tells: Linux's `/proc` and `/sys`, and
 //! `nvidia-smi` where it is installed. Elsewhere nothing is known, and said so.
 
-use std::{
-    fs,
-    path::Path,
-    process::{Command, Stdio},
-    thread,
-};
+mod card;
+mod nvidia;
+mod pci;
+
+use std::{fs, path::Path, thread};
 
 use surfel::{
-    report::{Machine, Spread},
+    report::{CardUse, Machine, Spread},
     vk::{DeviceFacts, DeviceKind},
 };
-
-/// PCI's number for NVIDIA.
-const NVIDIA: u32 = 0x10de;
 
 /// The state at the begin of a measurement.
 pub struct Watch<'a> {
     facts: &'a DeviceFacts,
     times: Option<Times>,
+    card: Option<CardUse>,
 }
 
 /// Clock ticks of the processor's threads together.
@@ -31,9 +28,10 @@ struct Times {
 }
 
 impl<'a> Watch<'a> {
-    /// Begins to watch.
+    /// Begins to watch. Nothing may be under way on the device.
     pub fn begin(facts: &'a DeviceFacts) -> Self {
-        Self { facts, times: Times::now() }
+        let card = card::before(facts);
+        Self { facts, times: Times::now(), card }
     }
 
     /// What was seen till now. `clocks_mhz` were taken while the device worked: idle ones are slow, and tell nothing.
@@ -50,6 +48,7 @@ impl<'a> Watch<'a> {
         Machine {
             threads: thread::available_parallelism().map_or(1, Into::into),
             taken_by_others,
+            card: self.card.as_ref().map(|before| card::after(self.facts, before)),
             clock_mhz: Spread::of(clocks_mhz.iter().copied()).map(|clock| [clock.min, clock.max]),
             peak_host_bytes: peak_host_bytes(),
         }
@@ -88,7 +87,7 @@ impl Times {
 pub fn clock_mhz(facts: &DeviceFacts) -> Option<f64> {
     match facts.kind {
         DeviceKind::Cpu => processor_mhz(&fs::read_to_string("/proc/cpuinfo").ok()?),
-        _ if facts.ids[0] == NVIDIA => nvidia_mhz(),
+        _ if facts.ids[0] == nvidia::VENDOR => Some(nvidia::property("clocks.sm", facts.pci)?.0),
         _ => card_mhz(facts),
     }
 }
@@ -100,20 +99,6 @@ fn processor_mhz(cpuinfo: &str) -> Option<f64> {
         .filter_map(|line| line.strip_prefix("cpu MHz")?.split_once(':')?.1.trim().parse().ok())
         .collect();
     (!mhz.is_empty()).then(|| mhz.iter().sum::<f64>() / mhz.len() as f64)
-}
-
-fn nvidia_mhz() -> Option<f64> {
-    let output = Command::new("nvidia-smi")
-        .args(["--query-gpu=clocks.sm", "--format=csv,noheader,nounits"])
-        .stdin(Stdio::null())
-        .stderr(Stdio::null())
-        .output()
-        .ok()?;
-    // Of several cards it is not known which one this is.
-    let text = String::from_utf8(output.stdout).ok()?;
-    let mut lines = text.lines();
-    let mhz = lines.next()?.trim().parse().ok()?;
-    lines.next().is_none().then_some(mhz)
 }
 
 /// Of the card with this device's PCI numbers: amdgpu's list of levels, or i915's file.
