@@ -30,6 +30,8 @@ pub struct PipelineNames {
     pub kernel_eval: String,
     /// `--early-depth`.
     pub early_depth: String,
+    /// `--accumulate`, where that is not the default.
+    pub accumulate: String,
     /// `--shading`.
     pub shading: String,
     /// `disks` or `ellipses`.
@@ -40,7 +42,7 @@ pub struct PipelineNames {
 
 impl PipelineNames {
     /// All of them, in the order of their columns.
-    pub fn parts(&self) -> [&str; 9] {
+    pub fn parts(&self) -> [&str; 10] {
         [
             &self.pass,
             &self.draws,
@@ -48,6 +50,7 @@ impl PipelineNames {
             &self.filter,
             &self.kernel_eval,
             &self.early_depth,
+            &self.accumulate,
             &self.shading,
             &self.splats,
             &self.shaders,
@@ -101,7 +104,8 @@ impl InstructionReport {
     /// One line a pipeline, or for each shader of each device where drivers were asked.
     pub fn csv(&self) -> String {
         let mut csv =
-            "pass,draws,rasterizer,filter,kernel_eval,early_depth,shading,splats,shaders".to_owned();
+            "pass,draws,rasterizer,filter,kernel_eval,early_depth,accumulate,shading,splats,shaders"
+                .to_owned();
         for stage in ["vertex", "fragment", "compute"] {
             for column in STAGE_COLUMNS {
                 // Writing to a string can't fail, here and below.
@@ -197,12 +201,13 @@ impl fmt::Display for InstructionReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{:18} {:15} {:21} {:17} {:8} {:8} {:>9} {:>9} {:>11} {:>7} {:>5} {:>6} {:>5} {:>6}",
+            "{:18} {:15} {:21} {:17} {:8} {:4} {:8} {:>9} {:>9} {:>11} {:>7} {:>5} {:>6} {:>5} {:>6}",
             "pass",
             "draws",
             "rasterizer",
             "filter",
             "kernel",
+            "sums",
             "splats",
             "VP/FP",
             "published",
@@ -217,12 +222,13 @@ impl fmt::Display for InstructionReport {
             let names = &row.names;
             writeln!(
                 f,
-                "{:18} {:15} {:21} {:17} {:8} {:8} {:>9} {:>9} {:>11} {:>7} {:>5} {:>6} {:>5} {:>6}",
+                "{:18} {:15} {:21} {:17} {:8} {:4} {:8} {:>9} {:>9} {:>11} {:>7} {:>5} {:>6} {:>5} {:>6}",
                 names.pass,
                 names.draws,
                 names.rasterizer,
                 names.filter,
                 names.kernel_eval,
+                names.accumulate,
                 names.splats,
                 row.counts.vertex_and_fragment(),
                 row.published.map_or_else(String::new, |[vertex, fragment]| format!("{vertex}/{fragment}")),
@@ -253,8 +259,8 @@ impl InstructionReport {
     fn isa(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{:18} {:15} {:21} {:17} {:24}",
-            "pass", "draws", "rasterizer", "filter", "device: shader"
+            "{:18} {:15} {:21} {:17} {:4} {:24}",
+            "pass", "draws", "rasterizer", "filter", "sums", "device: shader"
         )?;
         for name in SHOWN_STATISTICS {
             write!(f, " {name:>12.12}")?;
@@ -267,8 +273,8 @@ impl InstructionReport {
                 let shader = format!("{}: {}", device, isa.executable);
                 write!(
                     f,
-                    "{:18} {:15} {:21} {:17} {:24}",
-                    names.pass, names.draws, names.rasterizer, names.filter, shader
+                    "{:18} {:15} {:21} {:17} {:4} {:24}",
+                    names.pass, names.draws, names.rasterizer, names.filter, names.accumulate, shader
                 )?;
                 for name in SHOWN_STATISTICS {
                     match isa.statistic(name) {

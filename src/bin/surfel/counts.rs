@@ -9,7 +9,7 @@ use surfel::{
     Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
-    scene::{Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading},
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading},
 };
 
 use crate::{
@@ -22,7 +22,7 @@ use crate::{
 #[derive(Debug, Args)]
 #[command(next_help_heading = "counts")]
 pub struct CountsArguments {
-    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, early depth, shadings [default: small disks]
+    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, early depth, 32-bit sums, shadings [default: small disks]
     #[arg(long)]
     pub all: bool,
 
@@ -151,6 +151,9 @@ fn every_settings(all: bool) -> Vec<Settings> {
         // The other kernel is another pipeline of each.
         let with_psi_e = |settings: &Settings| Settings { kernel: PSI_E, ..settings.clone() };
         every.extend(every.iter().map(with_psi_e).collect::<Vec<_>>());
+        // So are sums in targets of another format, though their stages are the same.
+        let with_f32 = |settings: &Settings| Settings { accumulate: Accumulate::F32, ..settings.clone() };
+        every.extend(every.iter().map(with_f32).collect::<Vec<_>>());
         every.extend(shadings.map(|shading| Settings { shading, ..Settings::default() }));
     }
     every
@@ -212,6 +215,9 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.early_depth = if settings.early_depth { "on" } else { "off" }.to_owned();
         names.splats = splats.to_owned();
     }
+    if matches!(recipe.pass, "accumulate" | "floor add") && settings.accumulate != Accumulate::default() {
+        names.accumulate = settings.accumulate.name().to_owned();
+    }
     if recipe.pass == "finalize" {
         names.shading = surfel::report::settings_as_options(settings)["shading"].clone();
     }
@@ -232,11 +238,27 @@ mod tests {
     /// A gate finds a figure by its name.
     #[test]
     fn every_pipeline_has_a_name_of_its_own() {
-        for (all, at_least) in [(false, 100), (true, 5000)] {
+        for (all, at_least) in [(false, 100), (true, 9000)] {
             let pipelines = pipelines(all).unwrap();
             let names: HashSet<_> = pipelines.iter().map(|(names, _)| names).collect();
             assert_eq!(names.len(), pipelines.len());
             assert!(names.len() > at_least, "{}", names.len());
+        }
+    }
+
+    #[test]
+    fn sums_of_either_width_have_rows() {
+        let all = pipelines(true).unwrap();
+        let rows = |pass: &str, accumulate: &str| -> HashSet<PipelineNames> {
+            let of = all.iter().filter(|(names, _)| names.pass == pass && names.accumulate == accumulate);
+            of.map(|(names, _)| PipelineNames { accumulate: String::new(), ..names.clone() }).collect()
+        };
+        for pass in ["accumulate", "floor add"] {
+            assert_eq!(rows(pass, ""), rows(pass, "f32"), "{pass}");
+            assert!(!rows(pass, "").is_empty(), "{pass}");
+        }
+        for pass in ["visibility", "finalize", "export", "kernel texture", "floor depth"] {
+            assert!(!rows(pass, "").is_empty() && rows(pass, "f32").is_empty(), "{pass}");
         }
     }
 }
