@@ -5,6 +5,9 @@
 #[allow(dead_code, reason = "only the build of a folder is used here")]
 mod shader_build;
 
+#[path = "instructions/by_function.rs"]
+mod by_function;
+
 use std::{
     fmt::Write as _,
     fs,
@@ -83,6 +86,21 @@ fn our_pipelines_have_the_pinned_counts() {
         fs::write(&path, &text).unwrap();
     }
     assert_eq!(fs::read_to_string(&path).unwrap_or_default(), text, "{}", path.display());
+}
+
+/// Pinned anew as the counts are.
+#[test]
+fn the_table_of_functions_is_that_of_the_shaders() {
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "benches/INSTRUCTIONS.md"].iter().collect();
+    let text = fs::read_to_string(&path).unwrap();
+    let (before, rest) = text.split_once("<!-- by function -->\n").unwrap();
+    let (_, after) = rest.split_once("<!-- end -->\n").unwrap();
+    let table = by_function::table();
+    let expected = format!("{before}<!-- by function -->\n{table}<!-- end -->\n{after}");
+    if std::env::var_os("SURFEL_UPDATE_SNAPSHOTS").is_some() {
+        fs::write(&path, &expected).unwrap();
+    }
+    assert!(fs::read_to_string(&path).unwrap() == expected, "{}: should be\n{table}", path.display());
 }
 
 /// The instructions of the fragment stage of accumulation, with this text in place of another.

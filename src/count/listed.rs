@@ -59,8 +59,8 @@ impl Tally<'_, '_> {
     /// Instructions along the longest way from the start to an end; loops once.
     pub fn longest_path(&self) -> u32 {
         let mut own: HashMap<Id, u32> = HashMap::new();
-        for (label, _) in &self.all {
-            *own.entry(*label).or_default() += 1;
+        for counted in &self.all {
+            *own.entry(counted.label).or_default() += 1;
         }
         let blocks: Vec<_> = self.specialized.blocks().collect();
         let mut to_start: HashMap<Id, u32> = HashMap::new();

@@ -10,6 +10,7 @@
 
 mod arb;
 mod fold;
+mod lines;
 mod listed;
 mod live;
 mod module;
@@ -25,6 +26,8 @@ mod tests;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+
+pub use lines::SourceLine;
 
 use module::Module;
 
@@ -98,6 +101,21 @@ impl PassCounts {
 /// A sentence, where the words are not SPIR-V.
 pub fn constant_numbers(spirv: &[u32]) -> Result<Vec<u32>, String> {
     reader::constant_numbers(spirv)
+}
+
+/// The paper-comparable count by lines of the source, of a shader that was compiled with debug information. The sum is
+/// [`Counts::arb`].
+///
+/// # Errors
+/// As [`count`].
+pub fn count_by_line(
+    spirv: &[u32],
+    constants: &[(u32, u32)],
+) -> Result<BTreeMap<Option<SourceLine>, u32>, String> {
+    let module = Module::parse(spirv, constants)?;
+    let specialized = specialize::specialize(&module)?;
+    let live = live::live(&specialized);
+    Ok(lines::by_line(&tally::tally(&specialized, &live)?))
 }
 
 /// Counts a shader as a pipeline with these specialization constants (id, 32-bit pattern) has it.

@@ -67,6 +67,10 @@ pub struct Module {
     /// The type of each result.
     pub type_of: HashMap<Id, Id>,
     pub blocks: Vec<Block>,
+    /// File (a string's id) and line of each result, where the compiler kept them.
+    pub lines: HashMap<Id, (Id, u32)>,
+    /// Strings: names of files.
+    pub strings: HashMap<Id, String>,
 }
 
 /// The ids among the operands, in order.
@@ -96,6 +100,8 @@ impl Module {
             written: HashSet::new(),
             type_of: HashMap::new(),
             blocks: Vec::new(),
+            lines: HashMap::new(),
+            strings: HashMap::new(),
         };
         let mut spec_ids = HashMap::new();
         let mut rest = instructions(spirv)?.into_iter();
@@ -103,6 +109,9 @@ impl Module {
             match (instruction.class.opcode, instruction.operands.as_slice()) {
                 (Op::Function, _) => break,
                 (Op::EntryPoint, [Operand::ExecutionModel(stage), ..]) => module.stage = *stage,
+                (Op::String, [Operand::LiteralString(text)]) => {
+                    module.strings.extend(instruction.result_id.map(|id| (id, text.clone())));
+                }
                 (Op::Decorate, _) => spec_ids.extend(spec_id(&instruction)),
                 _ => module.global(&instruction, &spec_ids, specialization)?,
             }
@@ -196,12 +205,15 @@ impl Module {
 
     fn function(&mut self, instructions: impl Iterator<Item = Instruction>) -> Result<(), String> {
         let mut open: Option<Block> = None;
+        let mut line: Option<(Id, u32)> = None;
         for instruction in instructions {
+            self.lines.extend(instruction.result_id.zip(line));
             if let (Some(id), Some(type_)) = (instruction.result_id, instruction.result_type) {
                 self.type_of.insert(id, type_);
             }
             match instruction.class.opcode {
                 Op::Label => {
+                    line = None; // holds to the end of a block
                     let label = instruction.result_id.unwrap_or_default();
                     let terminator = instruction;
                     open = Some(Block { label, body: Vec::new(), merge: None, is_loop: false, terminator });
@@ -227,7 +239,9 @@ impl Module {
                 Op::Function | Op::FunctionCall => {
                     return Err("a call was not inlined: only one function can be counted".to_owned());
                 }
-                Op::FunctionEnd | Op::Line | Op::NoLine | Op::Nop => {}
+                Op::Line => line = ids(&instruction).next().zip(literals(&instruction).next()),
+                Op::NoLine => line = None,
+                Op::FunctionEnd | Op::Nop => {}
                 _ => {
                     if let Some(block) = &mut open {
                         block.body.push(instruction);

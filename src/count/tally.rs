@@ -22,20 +22,9 @@ use super::{
 /// # Errors
 /// An instruction that the tables lack.
 pub fn count(specialized: &Specialized<'_>, live: &Live<'_>) -> Result<Counts, String> {
-    let mut tally = Tally {
-        specialized,
-        live,
-        patterns: patterns::find(specialized, live),
-        taken: HashSet::new(),
-        all: Vec::new(),
-        listed: Listed::default(),
-    };
-    for (label, instruction) in &live.instructions {
-        tally.instruction(*label, instruction)?;
-    }
-    tally.list_control();
+    let tally = tally(specialized, live)?;
     let mut mnemonics = BTreeMap::new();
-    for (_, name) in &tally.all {
+    for Counted { name, .. } in &tally.all {
         *mnemonics.entry(*name).or_insert(0) += 1;
     }
     let has_arb = specialized.module.stage != ExecutionModel::GLCompute;
@@ -48,6 +37,39 @@ pub fn count(specialized: &Specialized<'_>, live: &Live<'_>) -> Result<Counts, S
     })
 }
 
+/// Counts by the rule, each instruction by itself.
+///
+/// # Errors
+/// An instruction that the tables lack.
+pub(super) fn tally<'s, 'a>(
+    specialized: &'s Specialized<'a>,
+    live: &'s Live<'a>,
+) -> Result<Tally<'s, 'a>, String> {
+    let mut tally = Tally {
+        specialized,
+        live,
+        patterns: patterns::find(specialized, live),
+        taken: HashSet::new(),
+        all: Vec::new(),
+        at: 0,
+        listed: Listed::default(),
+    };
+    for (label, instruction) in &live.instructions {
+        tally.instruction(*label, instruction)?;
+    }
+    tally.list_control();
+    Ok(tally)
+}
+
+/// An ARB instruction.
+pub(super) struct Counted {
+    /// The block that it is in.
+    pub label: Id,
+    pub name: &'static str,
+    /// The result of SPIR-V for which it was counted.
+    pub at: Id,
+}
+
 /// What was counted so far.
 pub(super) struct Tally<'s, 'a> {
     pub specialized: &'s Specialized<'a>,
@@ -55,20 +77,23 @@ pub(super) struct Tally<'s, 'a> {
     patterns: HashMap<Id, Pattern>,
     /// Reciprocals and roots that were counted.
     taken: HashSet<(&'static str, Scalar)>,
-    /// Every ARB instruction with the block that it is in.
-    pub all: Vec<(Id, &'static str)>,
+    pub all: Vec<Counted>,
+    /// The result that is looked at.
+    at: Id,
     pub listed: Listed,
 }
 
 impl Tally<'_, '_> {
     fn add(&mut self, label: Id, names: impl IntoIterator<Item = &'static str>) {
-        self.all.extend(names.into_iter().map(|name| (label, name)));
+        let at = self.at;
+        self.all.extend(names.into_iter().map(|name| Counted { label, name, at }));
     }
 
     fn instruction(&mut self, label: Id, instruction: &Instruction) -> Result<(), String> {
         let op = instruction.class.opcode;
         self.list(instruction);
         let Some(id) = instruction.result_id else { return Ok(()) };
+        self.at = id;
         match self.patterns.get(&id) {
             Some(Pattern::Part) => return Ok(()),
             Some(Pattern::Whole(name)) => {
