@@ -5,6 +5,7 @@
 
 mod bounds;
 mod camera;
+mod camera_parts;
 mod layers;
 mod light;
 mod mesh;
@@ -12,9 +13,12 @@ mod methods;
 mod opacity;
 mod settings;
 mod splats;
+mod tint;
+mod transform;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
+pub use camera_parts::CameraParts;
 pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::{Mesh, MeshColors};
@@ -25,6 +29,7 @@ pub use methods::{
 pub use opacity::Opacity;
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
+pub use transform::is_invertible;
 
 /// One thing in a scene: splats and how they are to be treated.
 #[derive(Clone, Debug)]

@@ -2,8 +2,12 @@
 
 mod checkerboard;
 mod relief;
+mod sphere;
 
 pub use checkerboard::{CHECKERBOARD_FIELD, CHECKERBOARD_RADIUS, checkerboard};
+pub use sphere::{
+    DEFAULT_SPHERE_SPLATS, DEFAULT_SPHERE_TRIANGLES, MOST_SPHERE_TRIANGLES, sphere, sphere_mesh,
+};
 
 use std::{num::NonZero, thread};
 
@@ -61,12 +65,23 @@ fn fibonacci_direction(i: usize, count: usize) -> DVec3 {
 }
 
 /// The lattice's spacing on the unit sphere, grown by the distance from the center, and along a slope by its steepness.
-#[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "a radius kept as f32")]
+#[expect(clippy::cast_possible_truncation, reason = "a radius kept as f32")]
 fn radius(point: &SurfacePoint, count: usize) -> f32 {
     let distance = point.position.length();
     let cos_slope = point.normal.dot(point.position) / distance;
-    let spacing = (4.0 * std::f64::consts::PI / count as f64).sqrt();
-    (RADIUS_PER_SPACING * spacing * distance / cos_slope) as f32
+    (RADIUS_PER_SPACING * spacing(count) * distance / cos_slope) as f32
+}
+
+/// The radius of `count` disks on the unit sphere.
+#[expect(clippy::cast_possible_truncation, reason = "a radius kept as f32")]
+fn radius_on_unit_sphere(count: usize) -> f32 {
+    (RADIUS_PER_SPACING * spacing(count)) as f32
+}
+
+/// The square root of the share that each of `count` points has of the unit sphere's area.
+#[expect(clippy::cast_precision_loss, reason = "counts of splats are far below 2⁵³")]
+fn spacing(count: usize) -> f64 {
+    (4.0 * std::f64::consts::PI / count as f64).sqrt()
 }
 
 #[cfg(test)]
