@@ -33,6 +33,8 @@
 //! plane is z = 1. Depth is reversed and infinite, near / z. Colors are linear inside, sRGB in files. Pixel centers lie at
 //! half integers.
 
+#[cfg(feature = "files")]
+pub mod compose;
 #[cfg(feature = "counts")]
 pub mod count;
 pub mod error;

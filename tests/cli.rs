@@ -19,6 +19,8 @@ mod files;
 mod program;
 #[path = "cli/report.rs"]
 mod report;
+#[path = "cli/scene_file.rs"]
+mod scene_file;
 #[path = "cli/selftest.rs"]
 mod selftest;
 

@@ -19,6 +19,7 @@ const LAYERS: &[&[&str]] = &[
     &["reference"],
     &["count"],
     &["report"],
+    &["compose"],
     &["vk"],
     &["graph"],
     &["shaders"],

@@ -1,10 +1,12 @@
 //! Models from files, and the one that needs none.
 //!
-//! The format is told by the content, not by the name alone. No file is opened because another one names it.
+//! The format is told by the content, not by the name alone. No file is opened because another one names it, but for
+//! those of a scene file, which lie in its folder or below.
 
 pub mod builtin;
 mod obj;
 mod ply;
+mod scene_file;
 mod sniff;
 
 use std::{fs, path::Path};
@@ -13,6 +15,11 @@ use crate::{
     error::{Error, Result},
     progress::Progress,
     scene::{Mesh, Splats},
+};
+
+pub use scene_file::{
+    BuiltIn, MOST_BUILT_IN_SPLATS, MOST_OBJECTS, MOST_SCENE_FILE_BYTES, ObjectDescription, Polygons,
+    Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
 };
 
 /// What a file holds.

@@ -47,6 +47,7 @@ pub(super) fn format(path: &Path, bytes: &[u8]) -> Result<Format> {
         "obj" if !bytes[..bytes.len().min(TEXT_PROBE_BYTES)].contains(&0) => Ok(Format::Obj),
         "obj" => refuse("named .obj, but its content is binary"),
         "ply" => refuse("named .ply, but its first line is not 'ply'"),
+        "toml" => refuse("this is a scene file"),
         _ => refuse("unknown format"),
     }
 }
@@ -82,7 +83,7 @@ mod tests {
 
     #[test]
     fn what_is_no_model_is_named() {
-        let cases: [(&str, &[u8], &str); 7] = [
+        let cases: [(&str, &[u8], &str); 8] = [
             ("a.ply", b"", "the file is empty"),
             ("a.ply", TRIANGLE_OBJ, "named .ply, but its first line is not 'ply'"),
             ("a.ply", b"plywood", "named .ply, but its first line is not 'ply'"),
@@ -94,6 +95,7 @@ mod tests {
             ("a.obj", b"\x89PNG\r\n\x1a\n", "this is a PNG picture"),
             ("a.obj", b"v 0 0 0\0", "named .obj, but its content is binary"),
             ("a", TRIANGLE_OBJ, "unknown format"),
+            ("a.toml", b"[[object]]\n", "this is a scene file"),
         ];
         for (name, bytes, found) in cases {
             let expected = format!("/{name}: {found}; expected a PLY or OBJ file");

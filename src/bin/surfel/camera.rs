@@ -6,10 +6,10 @@ use glam::DVec3;
 use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
-    scene::{Ball, Camera},
+    scene::{Camera, CameraParts},
 };
 
-use crate::picture_arguments::CameraArguments;
+use crate::{picture_arguments::CameraArguments, scene::Loaded};
 
 /// More than any camera file holds: what is larger is something else.
 const MAX_FILE_BYTES: u64 = 1 << 16;
@@ -25,24 +25,20 @@ struct CameraFile {
     near: Option<f64>,
 }
 
-/// What is known of the camera before there is a scene.
+/// What the command line says of the camera, before there is a scene.
 pub enum CameraChoice {
     /// All of it, from a file.
     File(Camera),
     /// What the options say; the rest comes from the scene.
-    Options {
-        /// Where the eye is.
-        eye: Option<DVec3>,
-        /// What it looks at.
-        target: Option<DVec3>,
-        /// What is up.
-        up: Option<DVec3>,
-        /// The vertical field of view in radians.
-        fov_y_rad: Option<f64>,
-    },
+    Options(CameraParts),
 }
 
 impl CameraChoice {
+    /// Nothing is said.
+    pub fn none() -> Self {
+        Self::Options(CameraParts::default())
+    }
+
     /// Reads the camera file, if one is named.
     ///
     /// # Errors
@@ -57,31 +53,31 @@ impl CameraChoice {
             return Err(Error::option("--fov", format!("{degrees}: expected degrees between 1e-10 and 180")));
         }
         let vector = |given: Option<[f64; 3]>| given.map(DVec3::from);
-        Ok(Self::Options {
+        Ok(Self::Options(CameraParts {
             eye: vector(arguments.eye),
             target: vector(arguments.target),
             up: vector(arguments.up),
             fov_y_rad: arguments.fov.map(f64::to_radians),
-        })
+            near: None,
+        }))
     }
 
-    /// The camera for a scene within a ball. Options that were not given: the target is the middle of the scene; the
-    /// eye looks from +z, from so far that the scene fits; up is +y; the angle is 45°.
+    /// The camera for a scene. What the command line leaves out is as a scene file says, and what that leaves out too is
+    /// chosen so that all is seen, see [`CameraParts`].
     ///
     /// # Errors
     /// A camera without a picture, such as an eye at the target.
-    pub fn camera(&self, ball: &Ball, size_px: [u32; 2]) -> Result<Camera> {
-        let camera = match *self {
-            Self::File(camera) => camera,
-            Self::Options { eye, target, up, fov_y_rad } => {
-                let fit = Camera::fit(ball, size_px, fov_y_rad.unwrap_or(Camera::DEFAULT_FOV_Y_RAD));
-                let target = target.unwrap_or(fit.target);
-                let eye = eye.unwrap_or(target + (fit.eye - fit.target));
-                Camera { eye, target, up: up.unwrap_or(fit.up), ..fit }
+    pub fn camera(&self, loaded: &Loaded, size_px: [u32; 2]) -> Result<Camera> {
+        match (self, &loaded.camera) {
+            (Self::File(camera), _) => Ok(*camera),
+            (Self::Options(options), None) => options.camera(&loaded.ball, size_px),
+            (Self::Options(options), Some((path, parts))) => {
+                options.or(*parts).camera(&loaded.ball, size_px).map_err(|error| match error.kind() {
+                    ErrorKind::Option { problem, .. } => Error::input(path, "camera", problem),
+                    _ => error,
+                })
             }
-        };
-        camera.validate()?;
-        Ok(camera)
+        }
     }
 }
 
@@ -115,6 +111,10 @@ fn read(path: &Path) -> Result<Camera> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use surfel::scene::{Ball, Scene};
+
     use super::*;
 
     fn parsed(text: &str) -> std::result::Result<Camera, String> {
@@ -165,20 +165,26 @@ mod tests {
     }
 
     #[test]
-    fn options_that_are_left_out_come_from_the_scene() {
+    fn the_command_line_comes_before_the_scene_file_and_that_before_the_scene() {
         let ball = Ball { center: DVec3::new(5.0, 0.0, 0.0), radius: 1.0 };
-        let fit = Camera::fit(&ball, [8, 8], Camera::DEFAULT_FOV_Y_RAD);
-        let none = CameraChoice::Options { eye: None, target: None, up: None, fov_y_rad: None };
-        assert_eq!(none.camera(&ball, [8, 8]).unwrap(), fit);
-        let eye = Some(DVec3::new(1.0, 1.0, 1.0));
-        let only_eye = CameraChoice::Options { eye, target: None, up: None, fov_y_rad: None };
-        assert_eq!(only_eye.camera(&ball, [8, 8]).unwrap().target, ball.center);
-        let narrow = CameraChoice::Options { eye: None, target: None, up: None, fov_y_rad: Some(0.1) };
-        let narrow = narrow.camera(&ball, [8, 8]).unwrap();
-        // The same scene fits a narrow view from further away.
-        assert!(narrow.eye.z > 5.0 * fit.eye.z && narrow.fov_y_rad == 0.1);
-        let inside =
-            CameraChoice::Options { eye: Some(ball.center), target: None, up: None, fov_y_rad: None };
-        assert_eq!(inside.camera(&ball, [8, 8]).unwrap_err().exit_code(), 1);
+        let of_file = |parts| Loaded {
+            scene: Scene::default(),
+            ball,
+            camera: Some((PathBuf::from("a.toml"), parts)),
+            inputs: Vec::new(),
+        };
+        let eye = |x: f64| Some(DVec3::new(x, 1.0, 1.0));
+        let parts = CameraParts { eye: eye(7.0), fov_y_rad: Some(0.5), ..CameraParts::default() };
+        let options =
+            CameraChoice::Options(CameraParts { eye: eye(9.0), near: Some(0.1), ..CameraParts::default() });
+        let camera = options.camera(&of_file(parts), [8, 8]).unwrap();
+        assert_eq!((Some(camera.eye), camera.target), (eye(9.0), ball.center));
+        assert_eq!((camera.fov_y_rad, camera.near), (0.5, Some(0.1)));
+        assert_eq!(CameraChoice::none().camera(&of_file(parts), [8, 8]).unwrap().eye.x, 7.0);
+        assert_eq!(CameraChoice::File(camera).camera(&of_file(parts), [8, 8]).unwrap(), camera);
+        let inside = CameraParts { eye: Some(ball.center), ..CameraParts::default() };
+        let refused = CameraChoice::none().camera(&of_file(inside), [8, 8]).unwrap_err();
+        assert_eq!(refused.exit_code(), 1);
+        assert_eq!(refused.to_string(), "a.toml: camera: eye and target must be two different points");
     }
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use surfel::{
     Error, ErrorKind, Result,
-    geometry::resample,
-    load::{Model, load},
+    compose::{resampled, splats_kind},
+    load::{Model, Samples, load},
     report::InputReport,
     save,
     scene::{Mesh, Object},
@@ -15,7 +15,7 @@ use crate::{
     arguments::ConvertArguments,
     console::{self, Bars},
     outputs,
-    scene::{finish, kind, load_object, mesh_head},
+    scene::load_object,
     steps::Steps,
 };
 
@@ -27,7 +27,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     outputs::check_converted(&arguments.input, &arguments.output)?;
     let bars = Bars::new();
     let made = match arguments.resample {
-        Some(count) => resampled(&arguments.input, count, arguments.seed, &bars),
+        Some(count) => resampled_file(&arguments.input, count, arguments.seed, &bars),
         None => load_object(&arguments.input, &bars, &mut Steps::default())
             .map(|(object, report)| (object, report.summary)),
     };
@@ -36,7 +36,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     let written = save::splats(&arguments.output, &object.splats, object.closed, &bars);
     bars.clear();
     let written = written?;
-    let kind = kind(&object.splats);
+    let kind = splats_kind(&object.splats);
     let positions = if written.double_positions { ", 64-bit positions" } else { "" };
     let closed = if object.closed { ", marked as closed" } else { "" };
     let (count, bytes) = (object.splats.len(), written.bytes);
@@ -45,7 +45,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
 }
 
 /// Splats spread evenly over the mesh in a file, and what was done in words.
-fn resampled(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
+fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
     let mesh = match load(path, bars)? {
         Model::Mesh(mesh) => mesh,
         Model::Splats { .. } => return Err(not_a_mesh(path)),
@@ -70,13 +70,10 @@ pub fn resample_mesh(
     seed: u64,
     bars: &Bars,
 ) -> Result<(Object, InputReport)> {
-    let (splats, report) = resample(mesh, count, seed, bars).map_err(|error| match error.kind() {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    resampled(mesh, name, Samples { count, seed }, bars).map_err(|error| match error.kind() {
         // The library knows no file.
         ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
         _ => error,
-    })?;
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let head = format!("{}; resampled with seed {seed}", mesh_head(mesh, &report));
-    let counts = [mesh.positions.len(), mesh.triangles.len()];
-    Ok(finish(Object { name, splats, closed: report.closed }, head, Some(counts)))
+    })
 }

@@ -8,7 +8,10 @@ use std::{
     process,
 };
 
-use surfel::{Error, Result};
+use surfel::{
+    Error, Result,
+    load::{ObjectDescription, Source, is_scene_file, load_scene_file},
+};
 
 use crate::picture_arguments::PictureArguments;
 
@@ -42,8 +45,8 @@ pub fn paths(owned: &[PathBuf]) -> impl Iterator<Item = &Path> {
     owned.iter().map(PathBuf::as_path)
 }
 
-/// Checks that `files`, and those of these names in `folder`, can be written, and that none of them is an input or
-/// written twice.
+/// Checks that `files`, and those of these names in `folder`, can be written, and that none of them is an input (a model
+/// of a scene file is one too) or written twice.
 ///
 /// # Errors
 /// As [`check`].
@@ -55,6 +58,7 @@ pub fn check_places(files: &[&Path], folder: Option<&Path>, names: &[&str], inpu
         check_folder(folder)?;
     }
     let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
+    taken.extend(inputs.iter().filter(|input| is_scene_file(input)).flat_map(|input| models_of(input)));
     let in_folder: Vec<PathBuf> =
         folder.iter().flat_map(|folder| names.iter().map(|name| folder.join(name))).collect();
     for file in &in_folder {
@@ -70,6 +74,16 @@ pub fn check_places(files: &[&Path], folder: Option<&Path>, names: &[&str], inpu
         taken.push(place);
     }
     Ok(())
+}
+
+/// The files that a scene file names. What is wrong with it is told when it is loaded.
+fn models_of(scene_file: &Path) -> Vec<PathBuf> {
+    let objects = load_scene_file(scene_file).map(|file| file.objects).unwrap_or_default();
+    let model = |object: ObjectDescription| match object.source {
+        Source::File(path) => Some(path),
+        Source::BuiltIn { .. } => None,
+    };
+    objects.into_iter().filter_map(model).collect()
 }
 
 /// Checks that a file of splats can be written, and that it is not the input.

@@ -6,9 +6,12 @@ use clap::{
     Args,
     builder::{PossibleValuesParser, TypedValueParser},
 };
-use surfel::scene::{
-    Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers, Rasterizer,
-    Settings, Shading, Transition,
+use surfel::{
+    load::Representation,
+    scene::{
+        Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
+        Rasterizer, Settings, Shading, Transition,
+    },
 };
 
 use crate::parse::{self, Background};
@@ -16,9 +19,14 @@ use crate::parse::{self, Background};
 /// What is drawn, from where and how: the same for every way of drawing.
 #[derive(Debug, Args)]
 pub struct PictureArguments {
-    /// PLY or OBJ files; none is the built-in model
+    /// PLY, OBJ or scene files (.toml); none is the built-in model
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
+
+    /// As what inputs are drawn that are no scene files: as splats, a mesh with a disk at each vertex, or as the triangles
+    /// of a mesh
+    #[arg(long, value_name = "WHAT", default_value = "splats", value_parser = choice(REPRESENTATIONS))]
+    pub representation: Representation,
 
     /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats
     #[arg(short, long, value_name = "FILE", default_value = "surfel.png")]
@@ -139,6 +147,9 @@ pub struct StyleArguments {
     pub background: Background,
 }
 
+/// The values of `--representation`.
+pub const REPRESENTATIONS: &[(&str, Representation)] =
+    &[("splats", Representation::Splats), ("mesh", Representation::Mesh)];
 /// The values of switches.
 pub const ON_OFF: &[(&str, bool)] = &[("off", false), ("on", true)];
 /// The values of `--backfaces`.

@@ -11,7 +11,7 @@ use crate::{
     console::Bars,
     outputs,
     pictures::{self, Colors, Dump},
-    scene::{Loaded, load_scene},
+    scene::load_scene,
     steps::Steps,
 };
 
@@ -26,10 +26,10 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let camera = CameraChoice::of(&picture.camera)?;
     let format = outputs::check(picture, None)?;
     let bars = Bars::new();
-    let Loaded { scene, ball, .. } = load_scene(&picture.inputs, &bars, &mut Steps::default())?;
-    let camera = camera.camera(&ball, settings.size_px)?;
+    let loaded = load_scene(&picture.inputs, picture.representation, &bars, &mut Steps::default())?;
+    let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
-    let drawn = reference::render(&scene, &camera, &settings, &progress);
+    let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);
     bars.clear();
     let dump = dump(&drawn?);
     let transparent = settings.background.is_none();

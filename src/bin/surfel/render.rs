@@ -58,9 +58,10 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let Loaded { scene, ball, inputs } = load_scene(&picture.inputs, &bars, &mut steps)?;
-    settings.check_scene(&scene)?; // names the object, which the renderer does not know
-    let camera = camera.camera(&ball, settings.size_px)?;
+    let loaded = load_scene(&picture.inputs, picture.representation, &bars, &mut steps)?;
+    settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
+    let camera = camera.camera(&loaded, settings.size_px)?;
+    let Loaded { scene, inputs, .. } = loaded;
     let prepared =
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
     bars.clear();

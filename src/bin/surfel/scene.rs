@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use surfel::{
     Error, Result,
-    geometry::{DEFAULT_OVERLAP, MeshReport, splats_from_mesh},
-    load::{Model, builtin, load},
+    compose::{Made, check_memory, make},
+    load::{BuiltIn, ObjectDescription, Representation, is_scene_file, load_scene_file},
     report::InputReport,
-    scene::{Ball, Mesh, Object, Scene, Shapes, Splats},
+    scene::{Ball, CameraParts, Light, Object, Scene},
 };
 
 use crate::{
@@ -19,109 +19,91 @@ use crate::{
 pub struct Loaded {
     /// The scene; every splat of it can be drawn.
     pub scene: Scene,
-    /// A ball around all disks.
+    /// A ball around all disks and triangles.
     pub ball: Ball,
+    /// What a scene file says of the camera, and which one.
+    pub camera: Option<(PathBuf, CameraParts)>,
     /// One an object.
     pub inputs: Vec<InputReport>,
 }
 
-/// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it.
+/// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it. Meshes are
+/// drawn as `meshes` says, but for those of scene files, which say it themselves.
 ///
 /// # Errors
-/// As [`load`]; an input without any splat that can be drawn.
-pub fn load_scene(inputs: &[PathBuf], bars: &Bars, steps: &mut Steps) -> Result<Loaded> {
-    let mut scene = Scene::default();
+/// As [`load_scene_file`], [`check_memory`] and [`make`]; two scene files that both have a camera.
+pub fn load_scene(
+    inputs: &[PathBuf],
+    meshes: Representation,
+    bars: &Bars,
+    steps: &mut Steps,
+) -> Result<Loaded> {
+    let Described { objects, lights, camera } = describe(inputs, meshes)?;
+    check_memory(&objects)?;
+    let mut scene = Scene { lights, ..Scene::default() };
     let mut reports = Vec::new();
-    let mut take = |(object, report): (Object, InputReport)| {
-        console::say(&report.summary);
-        scene.objects.push(object);
-        reports.push(report);
-    };
+    for object in &objects {
+        let made = made(object, bars, steps)?;
+        console::say(&made.report.summary);
+        reports.push(made.report.clone());
+        made.add_to(&mut scene);
+    }
+    let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
+    Ok(Loaded { scene, ball, camera, inputs: reports })
+}
+
+/// The splats of one input that is no scene file, without those that can't be drawn.
+///
+/// # Errors
+/// As [`make`].
+pub fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, InputReport)> {
+    let made = made(&ObjectDescription::of_file(path), bars, steps)?;
+    let splats = made.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
+    Ok((splats, made.report))
+}
+
+fn made(object: &ObjectDescription, bars: &Bars, steps: &mut Steps) -> Result<Made> {
+    let made = make(object, bars);
+    bars.clear();
+    let mut made = made?;
+    steps.0.append(&mut made.steps);
+    Ok(made)
+}
+
+/// All that the inputs describe.
+struct Described {
+    objects: Vec<ObjectDescription>,
+    lights: Vec<Light>,
+    camera: Option<(PathBuf, CameraParts)>,
+}
+
+fn describe(inputs: &[PathBuf], meshes: Representation) -> Result<Described> {
+    let mut described = Described { objects: Vec::new(), lights: Vec::new(), camera: None };
     if inputs.is_empty() {
-        let object =
-            steps.time("make the built-in model", || builtin::relief(builtin::DEFAULT_RELIEF_SPLATS));
-        take(finish(object, String::new(), None));
+        if meshes != Representation::Splats {
+            let problem = "mesh: the built-in model is made of splats; expected an input";
+            return Err(Error::option("--representation", problem));
+        }
+        described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief));
     }
     for path in inputs {
-        let loaded = load_object(path, bars, steps);
-        bars.clear();
-        take(loaded?);
-    }
-    let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
-    Ok(Loaded { scene, ball, inputs: reports })
-}
-
-/// The splats of one input, without those that can't be drawn.
-///
-/// # Errors
-/// As [`load_scene`].
-pub fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, InputReport)> {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let model = steps.time(format!("read {name}"), || load(path, bars))?;
-    let (object, report) = match model {
-        Model::Splats { splats, closed } => finish(Object { name, splats, closed }, String::new(), None),
-        Model::Mesh(mesh) => {
-            let step = format!("normals and radii of {name}");
-            let (splats, report) = steps.time(step, || splats_from_mesh(&mesh, DEFAULT_OVERLAP, bars));
-            let done = format!("; {}", computed(&report, splats.len()));
-            let counts = [mesh.positions.len(), mesh.triangles.len()];
-            let head = mesh_head(&mesh, &report);
-            finish(Object { name, splats, closed: report.closed }, head + &done, Some(counts))
+        if !is_scene_file(path) {
+            let representation = meshes;
+            described.objects.push(ObjectDescription { representation, ..ObjectDescription::of_file(path) });
+            continue;
         }
-    };
-    match report.splats {
-        0 => Err(Error::input(path, "", format!("no splat can be drawn ({})", report.summary))),
-        _ => Ok((object, report)),
+        let file = load_scene_file(path)?;
+        described.objects.extend(file.objects);
+        described.lights.extend(file.lights);
+        if let Some(camera) = file.camera {
+            if let Some((other, _)) = &described.camera {
+                let problem = format!("{} has one too; expected one camera", other.display());
+                return Err(Error::input(path, "camera", problem));
+            }
+            described.camera = Some((file.path, camera));
+        }
     }
-}
-
-/// Drops what can't be drawn and puts it all in words. `head` is what a mesh was, empty for splats.
-pub fn finish(mut object: Object, head: String, mesh: Option<[usize; 2]>) -> (Object, InputReport) {
-    let defects = object.splats.drop_defective();
-    let mut summary = match head.is_empty() {
-        true => format!("{}: {}", object.name, splats_head(&object)),
-        false => format!("{}: {head}", object.name),
-    };
-    if defects.total() > 0 {
-        summary += &format!("; {} splats left out: {defects}", defects.total());
-    }
-    let report = InputReport {
-        name: object.name.clone(),
-        vertices: mesh.map(|[vertices, _]| vertices),
-        triangles: mesh.map(|[_, triangles]| triangles),
-        splats: object.splats.len(),
-        dropped: defects.total(),
-        summary,
-    };
-    (object, report)
-}
-
-/// A file of splats in words.
-fn splats_head(object: &Object) -> String {
-    let closed = if object.closed { ", closed" } else { "" };
-    format!("{} {}{closed}", object.splats.len(), kind(&object.splats))
-}
-
-/// What splats are, in the plural.
-pub fn kind(splats: &Splats) -> &'static str {
-    match splats.shapes {
-        Shapes::Disks { .. } => "disks",
-        Shapes::Ellipses { .. } => "ellipses",
-    }
-}
-
-/// A mesh in words.
-pub fn mesh_head(mesh: &Mesh, report: &MeshReport) -> String {
-    format!("{} vertices, {} triangles: {report}", mesh.positions.len(), mesh.triangles.len())
-}
-
-/// What was missing in the file.
-fn computed(report: &MeshReport, splats: usize) -> String {
-    match report.normals_from_file {
-        0 => "normals and radii computed".to_owned(),
-        n if n >= splats => "radii computed".to_owned(),
-        n => format!("{} normals and all radii computed", splats - n),
-    }
+    Ok(described)
 }
 
 #[cfg(test)]

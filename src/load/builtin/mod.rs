@@ -19,6 +19,9 @@ use relief::{Relief, SurfacePoint};
 /// How many splats the built-in model has where nothing else is asked for.
 pub const DEFAULT_RELIEF_SPLATS: usize = 150_000;
 
+/// What the built-in models take of memory for each splat while they are made: a point of the surface, and the splat.
+pub const BYTES_PER_SPLAT: usize = 64 + 56;
+
 /// A radius in units of the square root of a splat's share of the area. The lattice leaves no hole down to 0.7 (measured
 /// in the tests); at 1 a point is in π disks on the unrelieved sphere, about as in a mesh's splats.
 const RADIUS_PER_SPACING: f64 = 1.0;

@@ -3,13 +3,14 @@
 use surfel::{
     Error, Progress as _, Result,
     graph::execute::{FrameProfile, Profile},
+    load::Representation,
     renderer::{Floor, Headless, Wanted},
     report::{FloorReport, FloorRow, drift_flag, spread_flag},
-    scene::Camera,
 };
 
 use super::Stage;
 use crate::{
+    camera::CameraChoice,
     machine::clock_mhz,
     reports::scene_report,
     scene::{Loaded, load_scene},
@@ -26,8 +27,9 @@ const WARM_UP_ROUNDS: u32 = 3;
 pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorReport> {
     let (arguments, settings, bars) = (stage.arguments, &stage.settings, &stage.bars);
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let Loaded { scene, ball, inputs } = load_scene(&inputs, bars, &mut Steps::default())?;
-    let camera = Camera::fit(&ball, settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let loaded = load_scene(&inputs, Representation::Splats, bars, &mut Steps::default())?;
+    let camera = CameraChoice::none().camera(&loaded, settings.size_px)?;
+    let Loaded { scene, inputs, .. } = loaded;
     let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
     drop(scene);
     let mut floor = Floor::new(headless, &prepared, &camera, settings, false)?;

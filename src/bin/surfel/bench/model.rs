@@ -2,6 +2,7 @@
 
 use surfel::{
     Error, Result,
+    compose::finish,
     geometry::check_memory_for,
     load::{Model, builtin, load},
     report::InputReport,
@@ -9,13 +10,7 @@ use surfel::{
 };
 
 use super::Stage;
-use crate::{
-    convert::resample_mesh,
-    scene::{Loaded, finish},
-};
-
-/// What the built-in model takes of memory for each splat while it is made: a point of the surface, and the splat.
-const BUILT_IN_BYTES: usize = 64 + 56;
+use crate::{convert::resample_mesh, scene::Loaded};
 
 /// What a table draws.
 pub enum Source {
@@ -46,7 +41,7 @@ impl Source {
         let (object, report): (Object, InputReport) = match self {
             Self::BuiltIn => {
                 let count = usize::try_from(splats).unwrap_or(usize::MAX);
-                check_memory_for(count, BUILT_IN_BYTES)
+                check_memory_for(count, builtin::BYTES_PER_SPLAT)
                     .map_err(|problem| Error::option("--splats", problem))?;
                 finish(builtin::relief(count), String::new(), None)
             }
@@ -54,6 +49,6 @@ impl Source {
         };
         let scene = Scene { objects: vec![object], ..Scene::default() };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
-        Ok(Loaded { scene, ball, inputs: vec![report] })
+        Ok(Loaded { scene, ball, camera: None, inputs: vec![report] })
     }
 }

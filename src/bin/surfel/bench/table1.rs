@@ -68,7 +68,7 @@ pub fn row(
     splats: u64,
     methods: &[Contestant],
 ) -> Result<ThroughputRow> {
-    let Loaded { scene, ball, inputs } = source.scene(splats, stage)?;
+    let Loaded { scene, ball, inputs, .. } = source.scene(splats, stage)?;
     let camera = Camera::fit(&ball, stage.settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
     for method in methods {
         headless.renderer.check(&camera, &method.settings)?;

@@ -7,6 +7,7 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 use surfel::{
+    load::Representation,
     report::compare::Selection,
     scene::{
         Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings,
@@ -16,12 +17,13 @@ use surfel::{
 
 use crate::{
     parse,
-    picture_arguments::{BACKFACES, CameraArguments, ON_OFF, SHADINGS, choice},
+    picture_arguments::{BACKFACES, CameraArguments, ON_OFF, REPRESENTATIONS, SHADINGS, choice},
 };
 
 /// What `--zoom` decides by itself.
-const ZOOM_HAS_ITS_OWN: [&str; 15] = [
+const ZOOM_HAS_ITS_OWN: [&str; 16] = [
     "inputs",
+    "representation",
     "time_size",
     "camera",
     "eye",
@@ -41,9 +43,14 @@ const ZOOM_HAS_ITS_OWN: [&str; 15] = [
 /// Options of `surfel compare`.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
-    /// PLY or OBJ files; none is the built-in model
+    /// PLY, OBJ or scene files (.toml); none is the built-in model
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
+
+    /// As what inputs are drawn that are no scene files: as splats, a mesh with a disk at each vertex, or as the triangles
+    /// of a mesh
+    #[arg(long, value_name = "WHAT", default_value = "splats", value_parser = choice(REPRESENTATIONS))]
+    pub representation: Representation,
 
     /// Width and height of the pictures whose errors are found, in pixels; references take long
     #[arg(long, value_name = "WxH", default_value = "256x256", value_parser = parse::size)]

@@ -106,8 +106,8 @@ fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
     timed_settings(&headless, arguments)?; // before anything takes long
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
-    let loaded = load_scene(&arguments.inputs, &bars, &mut Steps::default())?;
-    let camera = choice.camera(&loaded.ball, arguments.size)?;
+    let loaded = load_scene(&arguments.inputs, arguments.representation, &bars, &mut Steps::default())?;
+    let camera = choice.camera(&loaded, arguments.size)?;
     let mut show = |shown: Shown<'_>| match &arguments.pictures {
         Some(folder) => pictures::write(folder, &shown),
         None => Ok(()),

@@ -2,7 +2,7 @@
 
 use surfel::{
     Error, Result,
-    load::builtin::relief,
+    load::{Representation, builtin::relief},
     scene::{Accumulate, Camera, Filter, KernelEval, Object, Rasterizer, Scene, Settings},
 };
 
@@ -26,7 +26,9 @@ const NEARER: f64 = 0.5;
 pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
     let (scene, what) = match easel.model {
         Some(path) => {
-            let scene = load_scene(&[path.to_owned()], easel.bars, &mut Steps::default())?.scene;
+            let scene =
+                load_scene(&[path.to_owned()], Representation::Splats, easel.bars, &mut Steps::default())?
+                    .scene;
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
             let what = format!("{name}, {} splats", scene.splat_count());
             (scene, what)

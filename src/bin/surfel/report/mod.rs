@@ -26,12 +26,13 @@ use std::{collections::BTreeMap, fs};
 
 use serde::Serialize;
 use serde_json::Value;
-use surfel::{Error, ErrorKind, Result, renderer::Headless, report::Machine, save, scene::Camera};
+use surfel::{Error, ErrorKind, Result, load::Representation, renderer::Headless, report::Machine, save};
 
 pub use arguments::ReportArguments;
 
 use crate::{
     arguments::Command,
+    camera::CameraChoice,
     compare,
     console::{self, Bars},
     device,
@@ -89,8 +90,8 @@ fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
     check_sizes(&headless, arguments)?;
     let bars = Bars::new();
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, &bars, &mut Steps::default())?;
-    let camera = Camera::fit(&loaded.ball, arguments.size_px(), Camera::DEFAULT_FOV_Y_RAD);
+    let loaded = load_scene(&inputs, Representation::Splats, &bars, &mut Steps::default())?;
+    let camera = CameraChoice::none().camera(&loaded, arguments.size_px())?;
     let head = Head::of(headless.device().facts(), arguments, &loaded);
     let mut session = Session::new(&mut headless, arguments, &loaded, &camera, &bars);
     let mut parts = Vec::new();

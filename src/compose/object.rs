@@ -1,0 +1,144 @@
+//! One object: its model loaded or made, placed, colored, and turned into what is drawn.
+
+use std::{path::Path, time::Instant};
+
+use super::{from_mesh, words::finish_splats};
+use crate::{
+    error::{Error, ErrorKind, Result},
+    load::{
+        BuiltIn, Model, ObjectDescription, Representation, Source,
+        builtin::{checkerboard, relief, sphere, sphere_mesh},
+        load,
+    },
+    progress::Progress,
+    report::{InputReport, Step},
+    scene::{MeshObject, Object, Scene},
+};
+
+/// What an object became; at least one of the two has something to draw.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// What is drawn of it as splats; each can be drawn.
+    pub splats: Option<Object>,
+    /// What is drawn of it as triangles.
+    pub triangles: Option<MeshObject>,
+    /// The same in numbers and words.
+    pub report: InputReport,
+    /// How long each step took.
+    pub steps: Vec<Step>,
+}
+
+impl Made {
+    /// Puts it into a scene.
+    pub fn add_to(self, scene: &mut Scene) {
+        scene.objects.extend(self.splats);
+        scene.meshes.extend(self.triangles);
+    }
+}
+
+/// Loads or makes a model and makes of it what its description says.
+///
+/// # Errors
+/// As [`load`] and [`crate::geometry::resample`]; [`ErrorKind::Input`] for splats that should be resampled or drawn as
+/// triangles, and for a model of which nothing can be drawn.
+pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<Made> {
+    let mut work = Work { progress, steps: Vec::new() };
+    let (model, name) = open(object, &mut work)?;
+    let parts = match model {
+        Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
+        Model::Mesh(mesh) => from_mesh::parts(mesh, name, object, &mut work),
+    };
+    let Parts { splats, triangles, report } = parts.map_err(|error| of_object(error, object))?;
+    let nothing =
+        report.splats == 0 && triangles.as_ref().is_none_or(|object| object.mesh.triangles.is_empty());
+    if nothing {
+        let what = if object.representation == Representation::Splats { "splat" } else { "triangle" };
+        let problem = format!("no {what} can be drawn ({})", report.summary);
+        return Err(of_object(Error::input("", "", problem), object));
+    }
+    Ok(Made { splats, triangles, report, steps: work.steps })
+}
+
+/// Both parts, and what was done.
+pub(super) struct Parts {
+    pub splats: Option<Object>,
+    pub triangles: Option<MeshObject>,
+    pub report: InputReport,
+}
+
+/// Long work, with its times.
+pub(super) struct Work<'a> {
+    pub progress: &'a dyn Progress,
+    steps: Vec<Step>,
+}
+
+impl Work<'_> {
+    /// Does a step and notes its time.
+    pub(super) fn time<T>(&mut self, name: String, work: impl FnOnce(&dyn Progress) -> T) -> T {
+        let start = Instant::now();
+        let done = work(self.progress);
+        self.steps.push(Step { name, secs: start.elapsed().as_secs_f64() });
+        done
+    }
+}
+
+/// The model and its name, as it is before it is placed.
+fn open(object: &ObjectDescription, work: &mut Work<'_>) -> Result<(Model, String)> {
+    let own = match &object.source {
+        Source::File(path) => file_name(path),
+        Source::BuiltIn { model, .. } => format!("built-in {}", model.name()),
+    };
+    let name = object.name.clone().unwrap_or(own);
+    let model = match &object.source {
+        Source::File(path) => work.time(format!("read {name}"), |progress| load(path, progress))?,
+        Source::BuiltIn { model, splats, triangles } => {
+            work.time(format!("make the {name}"), |_| match object.representation {
+                Representation::Splats => splats_of(*model, *splats),
+                // Other models have none, and no scene file asks them for any.
+                Representation::Mesh | Representation::Hybrid(_) => Model::Mesh(sphere_mesh(*triangles)),
+            })
+        }
+    };
+    Ok((model, name))
+}
+
+fn splats_of(model: BuiltIn, splats: u64) -> Model {
+    let count = usize::try_from(splats).unwrap_or(usize::MAX);
+    let Object { splats, closed, .. } = match model {
+        BuiltIn::Relief => relief(count),
+        BuiltIn::Sphere => sphere(count),
+        BuiltIn::Checkerboard => checkerboard(count.isqrt().max(1)),
+    };
+    Model::Splats { splats, closed }
+}
+
+fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts> {
+    let purpose = match (object.representation, object.samples) {
+        (Representation::Splats, None) => "",
+        (Representation::Splats, Some(_)) => "to take samples of its triangles",
+        _ => "to draw its triangles",
+    };
+    if !purpose.is_empty() {
+        let problem = format!("the file holds splats; expected a mesh, {purpose}");
+        return Err(Error::input("", "", problem));
+    }
+    // Told by what they are in the file, before they become something else.
+    let defects = splats.splats.drop_defective();
+    splats.splats = splats.splats.transformed(&object.world_from_object);
+    splats.splats.colors.tint(object.color, object.alpha);
+    let (splats, report) = finish_splats(splats, String::new(), None, defects);
+    Ok(Parts { splats: Some(splats), triangles: None, report })
+}
+
+/// What is wrong with an object's model, in the name of its file: what makes splats of it knows none.
+fn of_object(error: Error, object: &ObjectDescription) -> Error {
+    let ErrorKind::Input { problem, .. } = error.kind() else { return error };
+    match &object.source {
+        Source::File(path) => Error::input(path, "", problem),
+        Source::BuiltIn { model, .. } => Error::input(format!("built-in {}", model.name()), "", problem),
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

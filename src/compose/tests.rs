@@ -1,0 +1,161 @@
+use std::{fs, path::PathBuf};
+
+use glam::{DAffine3, DVec3};
+
+use super::*;
+use crate::{
+    load::{BuiltIn, ObjectDescription, Polygons, Representation, Samples, Source},
+    math::srgb::linear_from_srgb,
+    scene::{Colors, MeshColors, Shapes},
+};
+
+const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n\
+    f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n";
+
+const SPLATS: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty \
+    float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float radius\nend_header\n\
+    0 0 0 0 0 1 1\n1 0 0 0 1 0 1\n2 0 0 0 0 0 1\n";
+
+/// A folder with a mesh and splats.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mesh.obj"), OCTAHEDRON).unwrap();
+    fs::write(folder.path().join("splats.ply"), SPLATS).unwrap();
+    folder
+}
+
+fn of_file(folder: &tempfile::TempDir, name: &str) -> ObjectDescription {
+    ObjectDescription::of_file(folder.path().join(name))
+}
+
+fn stretched() -> DAffine3 {
+    DAffine3 { matrix3: glam::DMat3::from_diagonal(DVec3::new(2.0, -1.0, 1.0)), translation: DVec3::X }
+}
+
+#[test]
+fn a_scene_file_becomes_a_scene() {
+    let folder = folder();
+    let path = folder.path().join("scene.toml");
+    let text = "[camera]\nfov_deg = 30\n[[light]]\nkind = \"eye\"\nintensity = 0.5\n\
+        [[object]]\nfile = \"splats.ply\"\nname = \"two\"\ncolor = [1, 0, 0]\nscale = [1, 1, 0.01]\n\
+        [[object]]\nfile = \"mesh.obj\"\nrepresentation = \"mesh\"\nalpha = 0.5\ntranslate = [0, 0, 5]\n\
+        [[object]]\nbuiltin = \"sphere\"\nsplats = 500\n";
+    fs::write(&path, text).unwrap();
+    let Composed { scene, camera, reports } = compose(&path, &()).unwrap();
+    assert_eq!(camera, CameraParts { fov_y_rad: Some(30_f64.to_radians()), ..CameraParts::default() });
+    assert_eq!(scene.lights[0].color, [0.5; 3]);
+    assert_eq!((scene.objects.len(), scene.meshes.len(), scene.splat_count()), (2, 1, 502));
+    assert!(matches!(scene.objects[0].splats.shapes, Shapes::Ellipses { .. }));
+    assert!(matches!(scene.objects[0].splats.colors, Colors::Uniform([1.0, 0.0, 0.0, 1.0])));
+    assert_eq!(scene.meshes[0].mesh.bounds().unwrap().max.z, 6.0);
+    let summaries: Vec<&str> = reports.iter().map(|report| report.summary.as_str()).collect();
+    let expected = [
+        "two: 2 ellipses; 1 splats left out: 1 normal zero or not finite",
+        "mesh.obj: 6 vertices, 8 triangles: closed; normals computed; drawn as 8 triangles; transparent, alpha 0.5",
+        "built-in sphere: 500 disks, closed",
+    ];
+    assert_eq!(summaries, expected);
+    assert_eq!((reports[0].splats, reports[0].dropped, reports[1].splats), (2, 1, 0));
+    assert_eq!((reports[1].vertices, reports[1].triangles), (Some(6), Some(8)));
+}
+
+#[test]
+fn a_mesh_is_placed_before_it_becomes_splats() {
+    let folder = folder();
+    let object = ObjectDescription { world_from_object: stretched(), ..of_file(&folder, "mesh.obj") };
+    let made = make(&object, &()).unwrap();
+    let splats = made.splats.unwrap();
+    assert!(splats.closed && made.triangles.is_none());
+    let Shapes::Disks { normals, .. } = &splats.splats.shapes else { panic!("ellipses") };
+    assert_eq!(splats.splats.positions[0], DVec3::new(3.0, 0.0, 0.0));
+    for (position, normal) in splats.splats.positions.iter().zip(normals) {
+        assert!(normal.as_dvec3().dot(*position - DVec3::X) > 0.0, "mirrored, and still facing outward");
+    }
+    let samples = Some(Samples { count: 300, seed: 1 });
+    let sampled = make(&ObjectDescription { samples, ..object.clone() }, &()).unwrap();
+    assert_eq!(sampled.report.splats, 300);
+    assert!(sampled.report.summary.ends_with(": closed; resampled with seed 1"));
+    let representation = Representation::Mesh;
+    let drawn = make(&ObjectDescription { representation, ..object }, &()).unwrap();
+    let triangles = drawn.triangles.unwrap();
+    assert!(triangles.closed && drawn.splats.is_none());
+    let steps: Vec<&str> = drawn.steps.iter().map(|step| step.name.as_str()).collect();
+    assert_eq!(steps, ["read mesh.obj", "normals of mesh.obj"]);
+    for i in 0..8 {
+        let [a, b, c] = triangles.mesh.corners(i).unwrap();
+        assert!((b - a).cross(c - a).dot(a - DVec3::X) > 0.0);
+    }
+}
+
+#[test]
+fn the_built_in_ball_is_drawn_as_either() {
+    let ball = ObjectDescription {
+        alpha: 0.0,
+        color: Some([linear_from_srgb(0.5), 0.0, 1.0]),
+        ..ObjectDescription::of_built_in(BuiltIn::Sphere)
+    };
+    let splats = make(&ball, &()).unwrap();
+    assert_eq!(splats.report.summary, "built-in sphere: 20000 disks, closed; invisible, alpha 0");
+    let mesh = make(&ObjectDescription { representation: Representation::Mesh, ..ball }, &()).unwrap();
+    let expected = "built-in sphere: 10242 vertices, 20480 triangles: closed; normals given; drawn as 20480 \
+        triangles; invisible, alpha 0";
+    assert_eq!(mesh.report.summary, expected);
+    let MeshColors::Uniform(color) = mesh.triangles.unwrap().mesh.colors else { panic!("one color") };
+    assert_eq!(color, [linear_from_srgb(0.5), 0.0, 1.0, 0.0]);
+    let board = make(&ObjectDescription::of_built_in(BuiltIn::Checkerboard), &()).unwrap();
+    assert_eq!(board.report.summary, "built-in checkerboard: 10000 disks");
+}
+
+#[test]
+fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
+    let folder = folder();
+    fs::write(folder.path().join("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
+    let refused = |object: ObjectDescription| {
+        let error = make(&object, &()).unwrap_err();
+        assert_eq!(error.exit_code(), 1);
+        error.to_string().replace(&format!("{}/", folder.path().display()), "")
+    };
+    let samples = Some(Samples { count: 9, seed: 0 });
+    let splats = || of_file(&folder, "splats.ply");
+    let flat = || of_file(&folder, "flat.obj");
+    let mesh = Representation::Mesh;
+    let hybrid = Representation::Hybrid(Polygons::LongerThan(1.0));
+    let cases = [
+        (
+            ObjectDescription { samples, ..splats() },
+            "splats.ply: the file holds splats; expected a mesh, to take samples of its triangles",
+        ),
+        (
+            ObjectDescription { representation: mesh, ..splats() },
+            "splats.ply: the file holds splats; expected a mesh, to draw its triangles",
+        ),
+        (flat(), "flat.obj: no splat can be drawn (flat.obj: 3 vertices, 1 triangles: "),
+        (
+            ObjectDescription { representation: mesh, ..flat() },
+            "flat.obj: no triangle can be drawn (flat.obj: 3 vertices, 1 triangles: ",
+        ),
+        (ObjectDescription { samples, ..flat() }, "flat.obj: no area to take samples of in 1 triangle"),
+        (
+            ObjectDescription { representation: hybrid, samples, ..of_file(&folder, "mesh.obj") },
+            "representation: hybrid: not supported yet; expected splats or mesh",
+        ),
+        (of_file(&folder, "none.ply"), "none.ply: cannot read: No such file"),
+        (of_file(&folder, "scene.toml"), "scene.toml: this is a scene file; expected a PLY or OBJ file"),
+    ];
+    fs::write(folder.path().join("scene.toml"), "[[object]]\n").unwrap();
+    for (object, expected) in cases {
+        let error = refused(object);
+        assert!(error.starts_with(expected), "{error}");
+    }
+}
+
+#[test]
+fn more_than_there_is_memory_for_is_refused_before_anything_is_made() {
+    let splats = u64::from(u32::MAX);
+    let source = Source::BuiltIn { model: BuiltIn::Sphere, splats, triangles: 1 };
+    let large = ObjectDescription { source, ..ObjectDescription::of_built_in(BuiltIn::Sphere) };
+    let error = check_memory(&vec![large; 1024]).unwrap_err();
+    assert_eq!(error.exit_code(), 1);
+    assert_eq!(error.to_string(), "objects: no memory for the 1024 described (527765581209600 bytes)");
+    check_memory(&[ObjectDescription::of_file(PathBuf::from("none"))]).unwrap();
+}

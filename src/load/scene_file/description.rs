@@ -1,0 +1,165 @@
+//! What a scene file says, as plain data.
+
+use std::path::PathBuf;
+
+use glam::{DAffine3, DVec3};
+
+use crate::{
+    load::builtin::{DEFAULT_RELIEF_SPLATS, DEFAULT_SPHERE_SPLATS},
+    scene::{CameraParts, Light},
+};
+
+/// A scene file: what is drawn, under which light and from where.
+#[derive(Clone, Debug)]
+pub struct SceneFile {
+    /// Where it was read.
+    pub path: PathBuf,
+    /// The camera, where it says anything of it.
+    pub camera: Option<CameraParts>,
+    /// At most [`crate::scene::MOST_LIGHTS`]; none: [`Light::DEFAULT`].
+    pub lights: Vec<Light>,
+    /// At least one, at most [`super::MOST_OBJECTS`], in the order of the file.
+    pub objects: Vec<ObjectDescription>,
+}
+
+/// One object: a model, and how it is placed, colored and drawn. [`crate::compose::make`] makes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectDescription {
+    /// The model.
+    pub source: Source,
+    /// Its name in messages; without, that of its file or built-in model.
+    pub name: Option<String>,
+    /// As what it is drawn.
+    pub representation: Representation,
+    /// New splats of a mesh's surface; without, a disk at each vertex. Only for meshes that are not drawn as triangles.
+    pub samples: Option<Samples>,
+    /// Where it is: from the model's own coordinates to the world's; invertible.
+    pub world_from_object: DAffine3,
+    /// Replaces its own colors: linear, 0–1.
+    pub color: Option<[f32; 3]>,
+    /// Multiplies its own alpha: 0–1.
+    pub alpha: f32,
+}
+
+/// Where a model comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// From a PLY or OBJ file. A scene file's are canonical paths: no link is followed any more when they are opened.
+    File(PathBuf),
+    /// From the program itself.
+    BuiltIn {
+        /// Which.
+        model: BuiltIn,
+        /// How many splats, if it is made of splats: 1 to [`MOST_BUILT_IN_SPLATS`].
+        splats: u64,
+        /// How many triangles at least, if it is made of triangles: at least 1.
+        triangles: u64,
+    },
+}
+
+/// The built-in models, see [`crate::load::builtin`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BuiltIn {
+    /// A ball carved like agate; splats alone.
+    Relief,
+    /// A ball of radius 1, as splats or triangles.
+    Sphere,
+    /// A flat board of splats one unit apart: as many as fit a square of the number that is asked for.
+    Checkerboard,
+}
+
+impl BuiltIn {
+    /// All, by their names in scene files.
+    pub const NAMES: &'static [(&'static str, Self)] = &[
+        (Self::Relief.name(), Self::Relief),
+        (Self::Sphere.name(), Self::Sphere),
+        (Self::Checkerboard.name(), Self::Checkerboard),
+    ];
+
+    /// Its name in scene files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Relief => "relief",
+            Self::Sphere => "sphere",
+            Self::Checkerboard => "checkerboard",
+        }
+    }
+
+    /// How many splats it has where no number is given.
+    pub fn default_splats(self) -> u64 {
+        let splats = match self {
+            Self::Relief => DEFAULT_RELIEF_SPLATS,
+            Self::Sphere => DEFAULT_SPHERE_SPLATS,
+            Self::Checkerboard => 10_000,
+        };
+        splats as u64
+    }
+
+    /// Whether it can be made of triangles.
+    pub fn has_triangles(self) -> bool {
+        self == Self::Sphere
+    }
+}
+
+/// The most splats of a built-in model: their numbers are kept in 32 bits.
+pub const MOST_BUILT_IN_SPLATS: u64 = u32::MAX as u64;
+
+/// As what an object is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Representation {
+    /// Splats; a mesh becomes disks.
+    #[default]
+    Splats,
+    /// The triangles of a mesh.
+    Mesh,
+    /// Some triangles of a mesh as they are, splats in place of the others, with a smooth transition.
+    Hybrid(Polygons),
+}
+
+/// Which triangles of a mesh stay polygons, in the mesh's own coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Polygons {
+    /// Those whose middle (the mean of the corners) `x` has `normal · x ≥ d`.
+    Plane {
+        /// Of any length above 0.
+        normal: DVec3,
+        /// In the normal's length times the model's unit.
+        d: f64,
+    },
+    /// Those with an edge longer than that, in the model's unit.
+    LongerThan(f64),
+}
+
+/// New splats, spread evenly over a mesh's area.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples {
+    /// How many: 1 to 2³² − 1.
+    pub count: u64,
+    /// Which: the same seed gives the same splats.
+    pub seed: u64,
+}
+
+impl ObjectDescription {
+    /// A file as it is.
+    pub fn of_file(path: impl Into<PathBuf>) -> Self {
+        Self::of(Source::File(path.into()))
+    }
+
+    /// A built-in model with its usual number of splats.
+    pub fn of_built_in(model: BuiltIn) -> Self {
+        let triangles = crate::load::builtin::DEFAULT_SPHERE_TRIANGLES;
+        Self::of(Source::BuiltIn { model, splats: model.default_splats(), triangles })
+    }
+
+    fn of(source: Source) -> Self {
+        Self {
+            source,
+            name: None,
+            representation: Representation::default(),
+            samples: None,
+            world_from_object: DAffine3::IDENTITY,
+            color: None,
+            alpha: 1.0,
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Scene files: objects, lights and a camera in TOML. `surfel render --help` has the table of all keys.
+//!
+//! What is read here are descriptions, checked as far as they can be without opening a model; [`crate::compose`] makes
+//! a scene of them. An object's file lies in the scene file's folder or below it, links followed: a scene from elsewhere
+//! opens nothing else.
+
+mod camera;
+mod description;
+mod document;
+mod light;
+mod nearest;
+mod object;
+mod source;
+#[cfg(test)]
+mod tests;
+mod transform;
+
+use std::{fs, path::Path};
+
+use toml::de::DeTable;
+
+pub use description::{
+    BuiltIn, MOST_BUILT_IN_SPLATS, ObjectDescription, Polygons, Representation, Samples, SceneFile, Source,
+};
+
+use crate::error::{Error, Result};
+use document::{Document, Table, one_line};
+
+/// More than a thousand objects take: what is larger is something else.
+pub const MOST_SCENE_FILE_BYTES: u64 = 1 << 20;
+
+/// The most objects of a scene file.
+pub const MOST_OBJECTS: usize = 1024;
+
+/// Whether a path names a scene file: its name ends in `.toml`.
+pub fn is_scene_file(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Reads a scene file. No model is opened; whether their files are there and where they may be is looked at.
+///
+/// # Errors
+/// [`crate::ErrorKind::File`] if it can't be read; [`crate::ErrorKind::Input`], naming the line, the object and the key,
+/// for what is no TOML, a key that is unknown (with the nearest known one), missing or out of its range, an object's file
+/// that is not there or not within the scene file's folder, and more than [`MOST_OBJECTS`].
+pub fn load_scene_file(path: &Path) -> Result<SceneFile> {
+    let metadata = fs::metadata(path).map_err(|e| Error::file(path, "read", e))?;
+    if !metadata.is_file() {
+        return Err(Error::input(path, "", "not a file; expected a scene file"));
+    }
+    if metadata.len() > MOST_SCENE_FILE_BYTES {
+        let problem =
+            format!("{} bytes; expected a scene file, at most {MOST_SCENE_FILE_BYTES}", metadata.len());
+        return Err(Error::input(path, "", problem));
+    }
+    let bytes = fs::read(path).map_err(|e| Error::file(path, "read", e))?;
+    parse(path, &bytes)
+}
+
+fn parse(path: &Path, bytes: &[u8]) -> Result<SceneFile> {
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        let line = 1 + bytes[..e.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+        Error::input(path, format!("line {line}"), "not UTF-8; expected a scene file, which is text")
+    })?;
+    let document = Document { path, text };
+    let parsed = DeTable::parse(text).map_err(|e| {
+        let at = e.span().map_or(0, |span| span.start);
+        document.fault(at, "", &format!("not TOML: {}", one_line(e.message())))
+    })?;
+    let root = Table::of(&document, parsed.get_ref(), 0, "", &["camera", "light", "object"])?;
+    let camera = root.table("camera", camera::KEYS)?.map(|table| camera::read(&table)).transpose()?;
+    let lights = root.tables("light", light::KEYS, crate::scene::MOST_LIGHTS)?;
+    let lights = lights.iter().map(light::read).collect::<Result<_>>()?;
+    let objects = root.tables("object", object::KEYS, MOST_OBJECTS)?;
+    if objects.is_empty() {
+        return Err(document.fault(0, "", "no [[object]]; expected at least one"));
+    }
+    let objects = objects.iter().map(object::read).collect::<Result<_>>()?;
+    Ok(SceneFile { path: path.to_owned(), camera, lights, objects })
+}

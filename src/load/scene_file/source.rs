@@ -1,0 +1,54 @@
+//! Where an object's model comes from.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    description::{BuiltIn, MOST_BUILT_IN_SPLATS, Source},
+    document::{Table, Value},
+};
+use crate::{
+    error::Result,
+    load::builtin::{DEFAULT_SPHERE_TRIANGLES, MOST_SPHERE_TRIANGLES},
+};
+
+pub(super) fn read(table: &Table<'_>) -> Result<Source> {
+    match (table.get("file"), table.get("builtin")) {
+        (Some(file), None) => {
+            table.refuse("splats", "for a file; expected resample, which spreads splats over a mesh")?;
+            table.refuse("triangles", "for a file")?;
+            inside(table.document.path, &file).map(Source::File)
+        }
+        (None, Some(name)) => {
+            let model = name.one_of(BuiltIn::NAMES)?;
+            let count = |key, most| table.get(key).map(|value| value.whole(1, most)).transpose();
+            let splats = count("splats", MOST_BUILT_IN_SPLATS)?.unwrap_or(model.default_splats());
+            let triangles = count("triangles", MOST_SPHERE_TRIANGLES)?.unwrap_or(DEFAULT_SPHERE_TRIANGLES);
+            Ok(Source::BuiltIn { model, splats, triangles })
+        }
+        (Some(file), Some(_)) => Err(file.fault("beside builtin; expected one or the other")),
+        (None, None) => Err(table.fault("neither file nor builtin; expected one of them")),
+    }
+}
+
+/// The one name of a file in the scene file's folder or below. Links are followed first, so that none leads out.
+fn inside(scene_file: &Path, file: &Value<'_>) -> Result<PathBuf> {
+    let name = Path::new(file.text("the name of a PLY or OBJ file")?);
+    if name.is_absolute() || name.has_root() {
+        return Err(file.expected("a path relative to the scene file's folder"));
+    }
+    let folder = match scene_file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let one_name = |path: &Path| {
+        fs::canonicalize(path).map_err(|e| file.fault(&format!("{}: cannot read: {e}", path.display())))
+    };
+    let (folder, found) = (one_name(folder)?, one_name(&folder.join(name))?);
+    match found.starts_with(&folder) {
+        true => Ok(found),
+        false => Err(file.expected("a file within the scene file's folder, links followed")),
+    }
+}
