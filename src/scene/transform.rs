@@ -94,7 +94,7 @@ impl Linear {
         let [x, y, z] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
         let orthogonal = [x.dot(y), y.dot(z), z.dot(x)].iter().all(|cosine| cosine.abs() <= SIMILARITY);
         let (longest, shortest) = (self.lengths.max_element(), self.lengths.min_element());
-        (orthogonal && longest - shortest <= SIMILARITY * longest).then(|| 0.5 * longest + 0.5 * shortest)
+        (orthogonal && longest - shortest <= SIMILARITY * longest).then_some(0.5 * longest + 0.5 * shortest)
     }
 
     /// The image of a normal of any length: unit, or zero where it has no direction.

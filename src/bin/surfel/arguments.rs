@@ -11,6 +11,7 @@ use crate::{
     parse,
     picture_arguments::PictureArguments,
     report::ReportArguments,
+    scene_file_keys::KEYS,
     selftest::{self, SelftestArguments},
 };
 
@@ -36,7 +37,7 @@ pub struct Arguments {
 pub enum Command {
     /// Draw a scene on a Vulkan device
     #[command(long_about = format!("Draw a scene on a Vulkan device.\n\n{SCENE_HELP}"))]
-    #[command(after_help = RENDER_EXAMPLES, after_long_help = format!("{RENDER_EXAMPLES}\n\n{SCENE_FILE_HELP}"))]
+    #[command(after_help = RENDER_EXAMPLES, after_long_help = format!("{RENDER_EXAMPLES}\n\n{KEYS}"))]
     Render(RenderArguments),
     /// Draw the same with the reference: in 64 bits on the processor, slow and obvious
     #[command(long_about = format!("Draw the same with the reference. {REFERENCE_HELP}\n\n{SCENE_HELP}"))]
@@ -95,44 +96,12 @@ const RENDER_EXAMPLES: &str = "Examples:
   surfel render
   surfel render igea.ply -o igea.png --size 1920x1080
   surfel render a.ply b.obj --eye 0,1,4 --target 0,0,0 --fov 60
-  surfel render scene.toml                                the keys of scene files: surfel render --help
+  surfel render scene.toml              all keys of scene files: surfel render --help
   surfel render igea.ply --shading normals --background none -o normals.exr
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
 
 A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\":45, \"near\":0.01}; near may be left out.";
-
-const SCENE_FILE_HELP: &str = "\
-A scene file, in TOML. Every key may be left out but for an object's file or builtin and a light's kind. Unknown keys are
-faults. Colors are sRGB from 0 to 1, points and directions in world space, places such as [1, 2, 3].
-
-[camera]                          replaced by options key by key, and by --camera as a whole
-  eye, target, up                 places; default as those of the options
-  fov_deg = 45                    the vertical field of view in degrees
-  near                            the depth of the near plane
-[[light]]                         at most 16; without any, a white one at the eye
-  kind = \"eye\"                    or \"directional\"
-  direction                       of a directional light: in which it travels
-  color = [1, 1, 1]
-  intensity = 1                   multiplies the color as linear light, at least 0
-[[object]]                        at least one, at most 1024
-  file                            PLY or OBJ, in the scene file's folder or below it, links followed; or else
-  builtin                         \"relief\", \"sphere\" (radius 1) or \"checkerboard\"
-  splats                          of a built-in model [150000, 20000, 10000]
-  triangles = 20480               of the sphere drawn as triangles, at least so many
-  name                            in messages [the file's name]
-  representation = \"splats\"       or \"mesh\": as triangles; or \"hybrid\": some triangles, splats for the others (not yet)
-  polygons                        of a hybrid, which triangles stay: { plane = [nx, ny, nz, d] }: those whose middle x has
-                                  n.x >= d in the model's own space; or { longer_than = length }: those with a longer edge
-  resample                        of a mesh: so many splats, spread evenly [a disk at each vertex]
-  seed = 0                        which ones
-  scale = 1                       or [x, y, z]; negative ones mirror. First scaled, then
-  rotate_deg = [0, 0, 0]          turned about x, then y, then z, in degrees, and then
-  translate = [0, 0, 0]           moved
-  matrix                          in place of the three: three rows of four numbers (the last are the translation), or four
-                                  rows of three: where x, y, z and the origin go
-  color                           replaces the object's own colors
-  alpha = 1                       multiplies its own alpha, 0 to 1";
 
 const REFERENCE_EXAMPLES: &str = "Examples:
   surfel reference igea.ply -o igea.png --size 256x256

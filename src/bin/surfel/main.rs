@@ -25,6 +25,7 @@ mod render;
 mod report;
 mod reports;
 mod scene;
+mod scene_file_keys;
 mod selftest;
 mod steps;
 mod turns;

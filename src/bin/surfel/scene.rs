@@ -115,7 +115,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, text).unwrap();
-        let loaded = load_scene(&[path], &Bars::new(), &mut Steps::default());
+        let loaded = load_scene(&[path], Representation::Splats, &Bars::new(), &mut Steps::default());
         loaded.map(|mut loaded| loaded.inputs.remove(0)).map_err(|e| e.to_string())
     }
 

@@ -1,0 +1,47 @@
+//! The manual of scene files.
+
+/// All keys, in a table that fits the width at which help is wrapped.
+pub const KEYS: &str = "\
+A scene file, in TOML, with all its keys and their defaults; an object needs a file or a builtin,
+a light its kind. Unknown keys are faults. Points and directions, such as [1, 2, 3], are in world
+space; colors are sRGB from 0 to 1.
+
+[camera]                   options replace it key by key, --camera as a whole
+  eye, target, up          as the options
+  fov_deg = 45             the vertical field of view in degrees
+  near                     the depth of the near plane
+[[light]]                  at most 16; without any, a white one at the eye
+  kind = \"eye\"             or \"directional\"
+  direction                in which a directional light travels
+  color = [1, 1, 1]
+  intensity = 1            multiplies the color as linear light, at least 0
+[[object]]                 at least one, at most 1024
+  file                     PLY or OBJ, in the scene file's folder or below, links followed; or
+  builtin                  \"relief\", \"sphere\" (of radius 1) or \"checkerboard\"
+  splats                   of a builtin; 150000, 20000 and 10000 of these
+  triangles = 20480        of the sphere as triangles: at least so many
+  name                     in messages, in place of the file's
+  representation           \"splats\" or, of a mesh, \"mesh\": its triangles; or \"hybrid\": some
+                           triangles, splats for the others (not yet supported)
+  polygons                 of a hybrid, which triangles stay: { plane = [nx, ny, nz, d] }: those
+                           whose middle x has n.x >= d, or { longer_than = LENGTH }: those with a
+                           longer edge; before the object is placed
+  resample                 of a mesh: so many splats, spread evenly, not a disk at each vertex
+  seed = 0                 which ones
+  scale = 1                or [x, y, z]; negative numbers mirror
+  rotate_deg = [0, 0, 0]   then turned about x, then y, then z, in degrees
+  translate = [0, 0, 0]    then moved
+  matrix                   in place of these three: three rows of four numbers, the last of which
+                           move, or four rows of three: where x, y, z and the origin go
+  color                    replaces the object's own
+  alpha = 1                multiplies its own, 0 to 1";
+
+#[cfg(test)]
+mod tests {
+    use super::KEYS;
+
+    #[test]
+    fn no_line_is_wrapped() {
+        assert!(KEYS.lines().all(|line| line.chars().count() <= 98));
+    }
+}
