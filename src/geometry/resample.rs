@@ -13,7 +13,7 @@
 //! Only additions, multiplications, divisions and square roots are used, which are the same on every machine. One thread
 //! does it all: the search for neighbors takes most of the time.
 
-mod radii;
+pub(super) mod radii;
 #[cfg(test)]
 mod tests;
 
@@ -44,7 +44,7 @@ const GOLDEN_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 const PROGRESS_SAMPLES: usize = 1 << 16;
 
 /// The length below which an interpolated normal is taken as rounding: normals of the corners that cancel.
-const SHORTEST_NORMAL: f64 = 1e-6;
+pub(super) const SHORTEST_NORMAL: f64 = 1e-6;
 
 /// Makes `count` disks at points spread evenly over a mesh's area, the same for the same `seed`.
 ///
@@ -56,16 +56,10 @@ const SHORTEST_NORMAL: f64 = 1e-6;
 /// [`crate::error::ErrorKind::Option`] for a count of 0, above [`MOST_SAMPLES`], or of more than there is memory for;
 /// [`crate::error::ErrorKind::Input`] for a mesh without area.
 pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> Result<(Splats, MeshReport)> {
-    let count =
-        usize::try_from(count).ok().filter(|_| (1..=MOST_SAMPLES).contains(&count)).ok_or_else(|| {
-            Error::option("--resample", format!("{count} samples, expected 1 to {MOST_SAMPLES}"))
-        })?;
-    let colors = match &mesh.colors {
-        MeshColors::PerVertex(colors) if colors.len() == mesh.positions.len() => Some(colors.as_slice()),
-        MeshColors::PerVertex(_) | MeshColors::Uniform(_) | MeshColors::None => None,
-    };
-    check_memory(count, colors.is_some())?;
-    let areas = Areas::of(mesh)?;
+    let count = check_count(count, "--resample")?;
+    let colors = vertex_colors(mesh);
+    check_memory(count, colors.is_some(), "--resample")?;
+    let areas = Areas::of(mesh, &|_| true)?;
     let surface = Surface::of(mesh, || {});
     let samples = sample(mesh, colors, &surface.normals, &areas, count, seed, progress);
     let radii = radii::radii(&samples.positions, areas.total / count as f64, progress);
@@ -77,10 +71,24 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     Ok((splats, surface.report))
 }
 
-fn check_memory(count: usize, colors: bool) -> Result<()> {
+/// A number of samples that `option` may ask for.
+pub(super) fn check_count(count: u64, option: &str) -> Result<usize> {
+    let possible = usize::try_from(count).ok().filter(|_| (1..=MOST_SAMPLES).contains(&count));
+    possible.ok_or_else(|| Error::option(option, format!("{count} samples, expected 1 to {MOST_SAMPLES}")))
+}
+
+/// The mesh's colors, where there is one for each vertex.
+pub(super) fn vertex_colors(mesh: &Mesh) -> Option<&[[f32; 4]]> {
+    match &mesh.colors {
+        MeshColors::PerVertex(colors) if colors.len() == mesh.positions.len() => Some(colors),
+        MeshColors::PerVertex(_) | MeshColors::Uniform(_) | MeshColors::None => None,
+    }
+}
+
+/// Asks for the memory of `count` samples, with a color each or not, and of the search for their neighbors.
+pub(super) fn check_memory(count: usize, colors: bool, option: &str) -> Result<()> {
     let each = size_of::<(DVec3, Vec3, f32)>() + if colors { size_of::<[f32; 4]>() } else { 0 };
-    check_memory_for(count, each + Tree::BYTES_PER_POINT)
-        .map_err(|problem| Error::option("--resample", problem))
+    check_memory_for(count, each + Tree::BYTES_PER_POINT).map_err(|problem| Error::option(option, problem))
 }
 
 /// Asks for all the memory of `count` splats at once: systems refuse what they can't have, but not its parts one after
@@ -97,50 +105,52 @@ pub fn check_memory_for(count: usize, bytes_each: usize) -> Result<(), String> {
     Err(format!("no memory for {count} samples ({needed} bytes)"))
 }
 
-/// The areas of all triangles in a row.
-struct Areas {
+/// The areas of triangles in a row.
+pub(super) struct Areas {
     /// Where each triangle's part ends; a degenerate one has none.
     ends: Vec<f64>,
     /// Of all, above 0.
-    total: f64,
+    pub(super) total: f64,
 }
 
 impl Areas {
-    fn of(mesh: &Mesh) -> Result<Self> {
+    /// Of those of the mesh's triangles that are `part` of what is sampled; the others are as if they had no area.
+    pub(super) fn of(mesh: &Mesh, part: &dyn Fn(usize) -> bool) -> Result<Self> {
         let mut total = 0.0;
         let mut ends = Vec::with_capacity(mesh.triangles.len());
-        for &triangle in &mesh.triangles {
-            if let Some([a, b, c]) = corners(mesh, triangle) {
+        for (i, &triangle) in mesh.triangles.iter().enumerate() {
+            if let Some([a, b, c]) = corners(mesh, triangle).filter(|_| part(i)) {
                 total += 0.5 * (b - a).cross(c - a).length();
             }
             ends.push(total);
         }
-        match total > 0.0 && total.is_finite() {
-            true => Ok(Self { ends, total }),
-            false => {
-                let count = mesh.triangles.len();
-                let plural = if count == 1 { "" } else { "s" };
-                let wrong = mesh.positions.iter().position(|vertex| !vertex.is_finite());
-                let because = match wrong {
-                    Some(vertex) => format!(" (vertex {vertex} is {:?})", mesh.positions[vertex].to_array()),
-                    None if count > 0 => " (none has an area within the range of 64-bit numbers)".to_owned(),
-                    None => String::new(),
-                };
-                let problem = format!("no area to take samples of in {count} triangle{plural}{because}");
-                Err(Error::input("mesh", "", problem))
-            }
-        }
+        if total > 0.0 && total.is_finite() { Ok(Self { ends, total }) } else { Err(no_area(mesh)) }
     }
 }
 
-/// Samples without radii.
-struct Samples {
-    positions: Vec<DVec3>,
-    normals: Vec<Vec3>,
-    colors: Option<Vec<[f32; 4]>>,
+/// That there is nothing of the mesh to take samples of, and why.
+pub(super) fn no_area(mesh: &Mesh) -> Error {
+    let count = mesh.triangles.len();
+    let plural = if count == 1 { "" } else { "s" };
+    let wrong = mesh.positions.iter().position(|vertex| !vertex.is_finite());
+    let because = match wrong {
+        Some(vertex) => format!(" (vertex {vertex} is {:?})", mesh.positions[vertex].to_array()),
+        None if count > 0 => " (none has an area within the range of 64-bit numbers)".to_owned(),
+        None => String::new(),
+    };
+    Error::input("mesh", "", format!("no area to take samples of in {count} triangle{plural}{because}"))
 }
 
-fn sample(
+/// Samples without radii.
+pub(super) struct Samples {
+    pub(super) positions: Vec<DVec3>,
+    /// Unit.
+    pub(super) normals: Vec<Vec3>,
+    pub(super) colors: Option<Vec<[f32; 4]>>,
+}
+
+/// `count` samples of the triangles that have a part of `areas`, in their order. `normals` are the vertices'.
+pub(super) fn sample(
     mesh: &Mesh,
     colors: Option<&[[f32; 4]]>,
     normals: &[DVec3],
