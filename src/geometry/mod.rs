@@ -1,18 +1,20 @@
 //! CPU preparation: what turns other models into splats.
 
+mod hybrid;
 mod mesh_splats;
 mod neighbors;
 mod normals;
 mod radii;
 mod resample;
+mod seams;
 mod shaded_mesh;
 mod surface;
-#[cfg(test)]
-mod test_meshes;
 mod topology;
 
+pub use hybrid::{EDGE_SPACING, Hybrid, HybridOptions, HybridReport, hybrid};
 pub use mesh_splats::{DEFAULT_OVERLAP, splats_from_mesh};
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};
+pub use seams::{Seam, seams};
 pub use shaded_mesh::shaded_mesh;
 pub use surface::MeshReport;
 

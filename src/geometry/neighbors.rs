@@ -28,6 +28,13 @@ pub(super) struct Point {
     pub number: u32,
 }
 
+/// What [`Tree::nearest_to`] finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nearest {
+    pub distance: f64,
+    pub position: DVec3,
+}
+
 /// A k-d tree.
 pub(super) struct Tree {
     points: Vec<Point>,
@@ -72,6 +79,38 @@ impl Tree {
                 take(point.number, *distances);
             }
             progress(batch.end);
+        }
+    }
+
+    /// The nearest of the points that are less than `reach` away from a place that need not be one of them.
+    pub(super) fn nearest_to(&self, target: DVec3, reach: f64) -> Option<Nearest> {
+        let mut best = Nearest { distance: reach * reach, position: DVec3::NAN };
+        self.search_near(0..self.points.len(), target, &mut best);
+        let found = !best.position.is_nan();
+        found.then(|| Nearest { distance: best.distance.sqrt(), ..best })
+    }
+
+    /// `best.distance` is squared.
+    fn search_near(&self, node: Range<usize>, target: DVec3, best: &mut Nearest) {
+        let mut take = |place: usize| {
+            let position = self.points[place].position;
+            let squared = target.distance_squared(position);
+            if squared < best.distance {
+                *best = Nearest { distance: squared, position };
+            }
+        };
+        if node.len() <= LEAF {
+            return node.for_each(take);
+        }
+        let middle = node.start + node.len() / 2;
+        take(middle);
+        let axis = usize::from(self.axes[middle]);
+        let beyond = target[axis] - self.points[middle].position[axis];
+        let (below, above) = (node.start..middle, middle + 1..node.end);
+        let (near, far) = if beyond < 0.0 { (below, above) } else { (above, below) };
+        self.search_near(near, target, best);
+        if beyond * beyond < best.distance {
+            self.search_near(far, target, best);
         }
     }
 
@@ -195,6 +234,26 @@ mod tests {
             for positions in [space, plane, grid, heap] {
                 for (i, found) in distances(&positions).into_iter().enumerate() {
                     assert_eq!(found, brute_force(&positions, i), "{count} points, {i}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_to_a_place_is_that_of_brute_force_within_reach() {
+        let mut random = SplitMix(6);
+        let mut place = move || DVec3::new(random.unit(), random.unit(), random.unit());
+        for count in [0, 1, LEAF, 50, 2000] {
+            let points: Vec<_> = (0..count).map(|_| place()).collect();
+            let numbered = (0..).zip(&points).map(|(number, &position)| Point { position, number });
+            let tree = Tree::new(numbered.collect());
+            for reach in [0.02, 0.2, f64::INFINITY] {
+                for _ in 0..50 {
+                    let target = 1.2 * place();
+                    let near = points.iter().map(|p| p.distance_squared(target).sqrt()).fold(reach, f64::min);
+                    let found = tree.nearest_to(target, reach);
+                    assert_eq!(found.map(|n| n.distance), (near < reach).then_some(near), "{count} {reach}");
+                    assert!(found.is_none_or(|n| n.position.distance_squared(target).sqrt() == n.distance));
                 }
             }
         }

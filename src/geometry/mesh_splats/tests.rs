@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::*;
-use crate::geometry::{corners, test_meshes::sphere};
+use crate::geometry::{corners, seams::sphere};
 
 /// A real model, from `SURFEL_DATA` or the folder `shared/data` beside the repository.
 #[cfg(feature = "files")]

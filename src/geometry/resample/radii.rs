@@ -21,7 +21,11 @@ const MOST_PER_EXPECTED: f64 = 3.0;
 
 /// For points that have `area_per_point` each, in world units squared.
 #[expect(clippy::cast_possible_truncation, reason = "splats keep radii as f32")]
-pub(in crate::geometry) fn radii(positions: &[DVec3], area_per_point: f64, progress: &dyn Progress) -> Vec<f32> {
+pub(in crate::geometry) fn radii(
+    positions: &[DVec3],
+    area_per_point: f64,
+    progress: &dyn Progress,
+) -> Vec<f32> {
     const TASK: &str = "distances of neighbors";
     let expected = MEAN_DISTANCE_PER_SPACING * area_per_point.sqrt();
     let mut radii = vec![(RADIUS_PER_DISTANCE * expected) as f32; positions.len()];

@@ -1,0 +1,232 @@
+//! One mesh drawn in part as splats, in part as polygons, sampled so that the seam can be smoothed (Guennebaud, Barthe,
+//! Paulin, "Splat/Mesh Blending, Perspective Rasterization and Transparency for Point-Based Rendering", 2006, section 5).
+//!
+//! The renderer fades from splats to polygons by the sum of the splats' weights, which falls from 1 to 0 beyond the edge of
+//! the splat part. For that the sum must have reached 1 **on** the edge: splats are centered on the *transition edges*,
+//! which a polygon and a splat triangle share, evenly and near enough (`spacing`). What the splat part has too close to
+//! them anyway is removed.
+
+mod border;
+mod chains;
+mod near;
+mod spacing;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec3;
+
+pub use spacing::EDGE_SPACING;
+
+use super::{
+    corners,
+    mesh_splats::one_color,
+    resample::{
+        Areas, MOST_SAMPLES, Samples, check_count, check_memory, no_area, radii::radii, sample, vertex_colors,
+    },
+    shaded_mesh::shaded_mesh,
+    surface::MeshReport,
+};
+use crate::{
+    error::{Error, Result},
+    progress::Progress,
+    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+};
+use border::Border;
+use chains::{Chains, Place};
+use near::{MARKS_PER_RADIUS, Near};
+
+/// How the splat part is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HybridOptions {
+    /// Of the splat part, spread evenly over its area as [`super::resample`] does; those on edges come on top, those
+    /// removed are missing. 1 to [`MOST_SAMPLES`].
+    pub samples: u64,
+    /// The same seed gives the same samples.
+    pub seed: u64,
+    /// Splats on the transition edges, and none too close to them. Without, the seam is the paper's figure 5d.
+    pub sample_edges: bool,
+}
+
+/// A mesh in two parts.
+#[derive(Clone, Debug)]
+pub struct Hybrid {
+    /// Those of the splat part in the order of its triangles, then those on transition edges.
+    pub splats: Splats,
+    /// The other part, as [`shaded_mesh`] makes it; its normals, and the splats', are those of the whole mesh, so that
+    /// both parts are shaded alike where they meet. Only vertices that it uses.
+    pub polygons: Mesh,
+    /// The whole mesh is closed, which neither part need be.
+    pub closed: bool,
+    /// What was done.
+    pub report: HybridReport,
+}
+
+/// What was done to make a [`Hybrid`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HybridReport {
+    /// What was found in the whole mesh.
+    pub mesh: MeshReport,
+    /// Triangles that stay polygons.
+    pub polygons: usize,
+    /// Edges that both parts have.
+    pub transition_edges: usize,
+    /// Of all of them, in world units.
+    pub transition_length: f64,
+    /// The radius of the splats on them, which is the median inside; 0 where there is no splat part.
+    pub edge_radius: f64,
+    /// Splats on them.
+    pub edge_splats: usize,
+    /// Samples of the splat part left out because they were too close to them.
+    pub removed: usize,
+}
+
+/// Makes splats of a mesh's triangles but for those which `stays_polygon`, by their number in `mesh.triangles`; it is
+/// asked once for each that can be drawn.
+///
+/// Splats are as those of [`super::resample`]: radii are 1.5 times the mean distance to the 6 nearest neighbors. Where
+/// the splat part ends at a transition edge the neighbors missing beyond it are made up for (`near`), so that radii are
+/// there as inside. One part may have everything; the other is empty then.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Option`] for a number of samples out of range or of more than there is memory for;
+/// [`crate::error::ErrorKind::Input`] for a mesh, or a splat part, without area.
+pub fn hybrid(
+    mesh: &Mesh,
+    stays_polygon: &dyn Fn(usize) -> bool,
+    options: &HybridOptions,
+    progress: &dyn Progress,
+) -> Result<Hybrid> {
+    let count = check_count(options.samples, SAMPLES)?;
+    let drawn = (0..mesh.triangles.len()).filter(|&i| corners(mesh, mesh.triangles[i]).is_some());
+    let polygon: Vec<bool> = drawn.map(stays_polygon).collect();
+    if polygon.is_empty() {
+        return Err(no_area(mesh));
+    }
+    // Leaves out the same triangles.
+    let (whole, mesh_report) = shaded_mesh(mesh.clone());
+    let mut report = HybridReport { mesh: mesh_report, ..HybridReport::default() };
+    let splats = match polygon.iter().all(|polygon| *polygon) {
+        true => empty(&whole),
+        false => splat_part(&whole, &polygon, count, options, &mut report, progress)?,
+    };
+    let polygons = polygon_part(whole, &polygon);
+    report.polygons = polygons.triangles.len();
+    Ok(Hybrid { splats, polygons, closed: mesh_report.closed, report })
+}
+
+/// As messages name it.
+const SAMPLES: &str = "samples of the splat part";
+
+fn splat_part(
+    whole: &Mesh,
+    polygon: &[bool],
+    count: usize,
+    options: &HybridOptions,
+    report: &mut HybridReport,
+    progress: &dyn Progress,
+) -> Result<Splats> {
+    let colors = vertex_colors(whole);
+    check_memory(count, colors.is_some(), SAMPLES)?;
+    let areas = Areas::of(whole, &|triangle| !polygon[triangle])?;
+    let area_per_sample = areas.total / count as f64;
+    let normals: Vec<DVec3> = whole.normals.iter().flatten().map(|normal| normal.as_dvec3()).collect();
+    let samples = sample(whole, colors, &normals, &areas, count, options.seed, progress);
+    let radii = radii(&samples.positions, area_per_sample, progress);
+    let border = Border::of(whole, polygon);
+    let chains = Chains::of(&border);
+    let edge_radius = median(&radii);
+    report.transition_edges = border.edges.len();
+    report.transition_length = chains.length();
+    report.edge_radius = f64::from(edge_radius);
+    let mut splats = collect(whole, samples, radii);
+    if border.edges.is_empty() {
+        return Ok(splats);
+    }
+    let places = places(&chains, report.edge_radius, count, colors.is_some(), options.sample_edges)?;
+    let near = Near::of(&chains.places(report.edge_radius / MARKS_PER_RADIUS), report.edge_radius);
+    if options.sample_edges {
+        report.removed = near.remove(&mut splats);
+        report.edge_splats = places.len();
+    }
+    near.correct_radii(&mut splats, &places, area_per_sample, progress);
+    add(&mut splats, &places, edge_radius);
+    Ok(splats)
+}
+
+/// Those of the splats on the edges, none without `wanted`.
+fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bool) -> Result<Vec<Place>> {
+    let marks = chains.count(radius / MARKS_PER_RADIUS);
+    // Those near the edges are there twice.
+    let all = marks + 2.0 * samples as f64;
+    if !(all <= MOST_SAMPLES as f64) {
+        let length = chains.length();
+        let problem = format!(
+            "{samples}, and {marks:.0} places on transition edges of length {length}: expected at most {MOST_SAMPLES}"
+        );
+        return Err(Error::option(SAMPLES, problem));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of 32 bits")]
+    check_memory(all as usize, colors, SAMPLES)?;
+    Ok(if wanted { chains.places(EDGE_SPACING * radius) } else { Vec::new() })
+}
+
+fn median(radii: &[f32]) -> f32 {
+    let mut sorted = radii.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f32::total_cmp).1
+}
+
+fn collect(mesh: &Mesh, samples: Samples, radii: Vec<f32>) -> Splats {
+    Splats {
+        positions: samples.positions,
+        shapes: Shapes::Disks { normals: samples.normals, radii },
+        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::PerSplat),
+    }
+}
+
+fn empty(mesh: &Mesh) -> Splats {
+    let shapes = Shapes::Disks { normals: Vec::new(), radii: Vec::new() };
+    Splats { positions: Vec::new(), shapes, colors: one_color(mesh) }
+}
+
+/// Splats at places on edges.
+fn add(splats: &mut Splats, places: &[Place], radius: f32) {
+    splats.positions.extend(places.iter().map(|place| place.position));
+    if let Shapes::Disks { normals, radii } = &mut splats.shapes {
+        normals.extend(places.iter().map(|place| place.normal.as_vec3()));
+        radii.resize(splats.positions.len(), radius);
+    }
+    if let Colors::PerSplat(colors) = &mut splats.colors {
+        #[expect(clippy::cast_possible_truncation, reason = "0–1")]
+        colors.extend(places.iter().map(|place| place.color.map(|channel| channel as f32)));
+    }
+}
+
+/// The triangles that stay, with the vertices that they have.
+fn polygon_part(mut mesh: Mesh, polygon: &[bool]) -> Mesh {
+    let mut polygon = polygon.iter();
+    mesh.triangles.retain(|_| *polygon.next().unwrap_or(&true));
+    let mut used = vec![false; mesh.positions.len()];
+    mesh.triangles.iter().flatten().for_each(|&vertex| used[vertex as usize] = true);
+    let mut next = 0;
+    let number = |&used: &bool| {
+        let number = next;
+        next += u32::from(used);
+        number
+    };
+    let numbers: Vec<u32> = used.iter().map(number).collect();
+    mesh.triangles.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
+    if let MeshColors::PerVertex(colors) = &mut mesh.colors {
+        keep(colors, &used);
+    }
+    if let Some(normals) = &mut mesh.normals {
+        keep(normals, &used);
+    }
+    keep(&mut mesh.positions, &used);
+    mesh
+}
+
+fn keep<T>(values: &mut Vec<T>, used: &[bool]) {
+    let mut used = used.iter();
+    values.retain(|_| *used.next().unwrap_or(&true));
+}
