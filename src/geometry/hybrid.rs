@@ -158,7 +158,7 @@ fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bo
     let marks = chains.count(radius / MARKS_PER_RADIUS);
     // Those near the edges are there twice.
     let all = marks + 2.0 * samples as f64;
-    if !(all <= MOST_SAMPLES as f64) {
+    if all > MOST_SAMPLES as f64 {
         let length = chains.length();
         let problem = format!(
             "{samples}, and {marks:.0} places on transition edges of length {length}: expected at most {MOST_SAMPLES}"

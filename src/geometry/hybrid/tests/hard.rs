@@ -113,12 +113,16 @@ fn an_edge_far_too_long_for_its_splats_is_refused_and_extreme_sizes_do_not_panic
 
 #[test]
 fn where_normals_cancel_the_splats_on_the_edge_have_those_of_a_face() {
-    let mut seam = named("plane, triangles larger");
-    let along = |p: &DVec3| if p.y > 0.0 { Vec3::Y } else { Vec3::NEG_Y };
-    seam.mesh.normals = Some(seam.mesh.positions.iter().map(along).collect());
-    let hybrid = of_seam(&seam, &options(5000, true));
+    // Both sides have vertices of their own on the edge, with opposite normals in the plane.
+    let seam = named("plane, triangles larger");
+    let mut mesh = split(&seam.mesh);
+    let of_triangle = |polygon: &bool| [if *polygon { Vec3::X } else { Vec3::NEG_X }; 3];
+    mesh.normals = Some(seam.polygon.iter().flat_map(of_triangle).collect());
+    let hybrid = hybrid(&mesh, &|triangle| seam.polygon[triangle], &options(5000, true), &()).unwrap();
     assert!((0..hybrid.splats.len()).all(|i| hybrid.splats.defect(i).is_none()));
-    assert!(disks(&hybrid.splats).0.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-6));
+    let (inside, on_edge) = disks(&hybrid.splats).0.split_at(hybrid.splats.len() - hybrid.report.edge_splats);
+    assert!(inside.iter().all(|normal| *normal == Vec3::NEG_X));
+    assert!(on_edge.len() > 50 && on_edge.iter().all(|normal| *normal == Vec3::Z));
 }
 
 #[test]
