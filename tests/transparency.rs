@@ -171,7 +171,7 @@ fn blending_what_is_left_into_the_last_layer_helps() {
     for hard in the_four() {
         let exact = oracle_of(&with(&hard, |settings| settings.layers = Layers::Fixed(256)));
         let mut rms = Vec::new();
-        for last_layer in [LastLayer::Drop, LastLayer::Blend] {
+        for last_layer in [LastLayer::Drop, LastLayer::Blend, LastLayer::Stack] {
             let hard = with(&hard, |settings| {
                 settings.layers = Layers::Fixed(3);
                 settings.last_layer = last_layer;
@@ -180,8 +180,12 @@ fn blending_what_is_left_into_the_last_layer_helps() {
             println!("{}", errors.row(&format!("{}, 3 layers, {last_layer:?}", hard.name)));
             rms.push(errors.rms_of_all);
         }
+        let [dropped, blended, stacked] = rms[..] else { panic!("{rms:?}") };
         // Where three layers are all there are, nothing is left to be blended or dropped.
-        assert!(rms[1] <= rms[0], "{}: blended {}, dropped {}", hard.name, rms[1], rms[0]);
+        assert!(stacked <= dropped && stacked <= blended, "{}: {rms:?}", hard.name);
+        // The paper's own heuristic does not help everywhere: blended surfaces hide no more than one of them.
+        let helps = blended <= dropped;
+        assert_eq!(helps, hard.name != "interpenetrating shells", "{}: {rms:?}", hard.name);
     }
     assert_validation_is_silent(&headless);
 }
@@ -232,12 +236,14 @@ fn the_order_of_the_input_changes_nothing_but_the_rounding_of_sums() {
     let mut hard = transparent::spheres();
     hard.settings.layers = Layers::Fixed(24);
     let in_order = render(&mut headless, &hard);
-    let merged = shuffled(&hard.scene);
+    // One object each, so that both have the same local space.
+    let [merged, shuffled] = [false, true].map(|shuffle| merged(&hard.scene, shuffle));
     // Steps of the sums: 2⁻²³ or 2⁻¹⁰ of a sum each; some 20 splats overlap, and few of their roundings add up.
     for (accumulate, limit) in [(Accumulate::F32, 1e-5), (Accumulate::F16, 2.0 / 255.0)] {
         let change = |settings: &mut Settings| settings.accumulate = accumulate;
-        let a = render(&mut headless, &with(&hard, change));
-        let b = render(&mut headless, &with(&Hard { scene: merged.clone(), ..hard.clone() }, change));
+        let [a, b] = [&merged, &shuffled].map(|scene| {
+            render(&mut headless, &with(&Hard { scene: scene.clone(), ..hard.clone() }, change))
+        });
         let differences =
             a.linear.iter().flatten().zip(b.linear.iter().flatten()).map(|(a, b)| (a - b).abs());
         let worst = differences.fold(0.0, f32::max);
@@ -249,8 +255,8 @@ fn the_order_of_the_input_changes_nothing_but_the_rounding_of_sums() {
     assert_validation_is_silent(&headless);
 }
 
-/// The splats of all objects as one object, in a random order.
-fn shuffled(scene: &Scene) -> Scene {
+/// The splats of all objects as one object, in their order or in a random one.
+fn merged(scene: &Scene, shuffle: bool) -> Scene {
     let mut all = Vec::new();
     for object in &scene.objects {
         let Shapes::Disks { normals, radii } = &object.splats.shapes else { panic!("disks") };
@@ -259,7 +265,7 @@ fn shuffled(scene: &Scene) -> Scene {
         }
     }
     let mut random = builder::Random(9);
-    for i in (1..all.len()).rev() {
+    for i in (1..if shuffle { all.len() } else { 0 }).rev() {
         all.swap(i, (random.unit() * (i + 1) as f64) as usize);
     }
     let splats = surfel::scene::Splats {

@@ -274,6 +274,15 @@ pub fn blended() -> Hard {
     Hard { name: "last layer blended", scene, camera, settings }
 }
 
+/// The same with the alpha of as many surfaces as the weights tell.
+pub fn stacked(transition: Transition) -> Hard {
+    let mut hard = blended();
+    hard.name = "last layer stacked";
+    hard.settings.last_layer = LastLayer::Stack;
+    hard.settings.transition = transition;
+    hard
+}
+
 /// All of them.
 pub fn all() -> Vec<Hard> {
     vec![
@@ -293,5 +302,6 @@ pub fn all() -> Vec<Hard> {
         hybrid(Transition::Paper),
         transparent_hybrid(Transition::Color),
         blended(),
+        stacked(Transition::Color),
     ]
 }

@@ -2,7 +2,7 @@
 
 use super::{
     accumulate::Sums,
-    finalize::{constants, shown_constants, sums_descriptors},
+    finalize::{constants, shown_constants},
     fullscreen::bind_fullscreen,
     layers::Layer,
     pipelines::{GraphicsKey, Layout},
@@ -20,8 +20,8 @@ use crate::{
 pub(super) enum LayerSums {
     /// One surface: the sums of its splats and of its polygons, one at least.
     Surface(Option<Sums>, Option<Sums>),
-    /// All that is left.
-    Rest(Sums),
+    /// All that is left; and the sums of the layer before, where their weights count surfaces.
+    Rest(Sums, Option<(Option<Sums>, Option<Sums>)>),
 }
 
 /// What kind of sums there are, for the pipeline alone.
@@ -31,6 +31,10 @@ pub(super) enum LayerKind {
     Polygons,
     Hybrid,
     Rest,
+    /// With the alpha of several surfaces; behind a layer of splats, of polygons, of both.
+    StackBehindSplats,
+    StackBehindPolygons,
+    StackBehindHybrid,
 }
 
 /// What its pipeline is. `lit`: by lights of the scene's own.
@@ -44,12 +48,45 @@ pub(super) fn key(settings: &Settings, kind: LayerKind, lit: bool) -> GraphicsKe
         (LayerKind::Hybrid, true) => &shaders::LAYER_HYBRID_LIT_FRAG,
         // Lit already.
         (LayerKind::Rest, _) => &shaders::LAYER_BLENDED_FRAG,
+        (LayerKind::StackBehindSplats, _) => &shaders::LAYER_BLENDED_STACKED_BEFORE_SPLATS_FRAG,
+        (LayerKind::StackBehindPolygons, _) => &shaders::LAYER_BLENDED_STACKED_BEFORE_POLYGONS_FRAG,
+        (LayerKind::StackBehindHybrid, _) => &shaders::LAYER_BLENDED_STACKED_BEFORE_HYBRID_FRAG,
     };
     let hybrid = kind == LayerKind::Hybrid;
     GraphicsKey {
         color_formats: vec![sum_format(settings)],
         blend: Blend::Under,
         ..GraphicsKey::fullscreen(fragment, Layout::Finalize, shown_constants(settings, hybrid))
+    }
+}
+
+/// The pipeline's kind, and the images that it reads, by their bindings.
+fn images_of(sums: &LayerSums) -> (LayerKind, Vec<(u32, &Handle<Image>)>) {
+    fn both(sums: &Sums, first: u32) -> [(u32, &Handle<Image>); 2] {
+        [(first, &sums.color), (first + 1, &sums.normal)]
+    }
+    match sums {
+        LayerSums::Surface(splats, polygons) => {
+            let kind = match (splats.is_some(), polygons.is_some()) {
+                (true, true) => LayerKind::Hybrid,
+                (false, true) => LayerKind::Polygons,
+                _ => LayerKind::Splats,
+            };
+            let splats = splats.iter().flat_map(|sums| both(sums, 0));
+            (kind, splats.chain(polygons.iter().flat_map(|sums| both(sums, 2))).collect())
+        }
+        LayerSums::Rest(sums, before) => {
+            let (splats, polygons) = before.as_ref().map_or((None, None), |(a, b)| (a.as_ref(), b.as_ref()));
+            let kind = match (splats.is_some(), polygons.is_some()) {
+                (true, true) => LayerKind::StackBehindHybrid,
+                (true, false) => LayerKind::StackBehindSplats,
+                (false, true) => LayerKind::StackBehindPolygons,
+                (false, false) => LayerKind::Rest,
+            };
+            let weights = splats.map(|sums| (2, &sums.color)).into_iter();
+            let weights = weights.chain(polygons.map(|sums| (3, &sums.color)));
+            (kind, both(sums, 0).into_iter().chain(weights).collect())
+        }
     }
 }
 
@@ -62,17 +99,7 @@ pub(super) fn layer_compose<'a>(
 ) -> Result<Handle<Image>> {
     let inputs = layer.inputs;
     let settings = inputs.settings;
-    let (kind, splats, polygons) = match sums {
-        LayerSums::Surface(splats, polygons) => {
-            let kind = match (splats.is_some(), polygons.is_some()) {
-                (true, true) => LayerKind::Hybrid,
-                (false, true) => LayerKind::Polygons,
-                _ => LayerKind::Splats,
-            };
-            (kind, splats.as_ref(), polygons.as_ref())
-        }
-        LayerSums::Rest(sums) => (LayerKind::Rest, Some(sums), None),
-    };
+    let (kind, images) = images_of(sums);
     let pipeline = inputs.shaders.graphics(key(settings, kind, layer.lights.is_some()))?;
     let push = constants(inputs);
     let (mut target, start) = match composed {
@@ -83,15 +110,15 @@ pub(super) fn layer_compose<'a>(
         }
     };
     let mut pass = graph.pass(&layer.name("compose")).write(&mut target, Access::ColorAttachment, start);
-    for image in [splats, polygons].into_iter().flatten().flat_map(|sums| [&sums.color, &sums.normal]) {
+    for (_, image) in &images {
         pass = pass.read(image, Access::SampledFragment);
     }
-    let lights = layer.lights.filter(|_| kind != LayerKind::Rest);
+    let lights = layer.lights.filter(|_| matches!(sums, LayerSums::Surface(..)));
     if let Some(lights) = lights {
         pass = pass.read(lights, Access::StorageReadFragment);
     }
     let lights = lights.map(Handle::id);
-    let ids = sums_descriptors(splats, polygons, None);
+    let ids: Vec<_> = images.iter().map(|(binding, image)| (*binding, image.id())).collect();
     let (gate, query) = (layer.gate(), layer.query());
     let pass = layer.read_gate(pass);
     pass.finish(Box::new(move |context| {

@@ -100,7 +100,7 @@ pub(super) fn layers<'a>(
     let large = list_large(graph, inputs, "transparent ")?;
     let mut gates = inputs.occlusion.map(|queries| Gates::new(graph, inputs, queries));
     let count = inputs.settings.layers.most();
-    let (mut before, mut composed) = (None, None);
+    let (mut before, mut sums_before, mut composed) = (None, None, None);
     for number in 0..count {
         let counted = number + 1 < count;
         let layer = Layer {
@@ -114,8 +114,12 @@ pub(super) fn layers<'a>(
             gates: gates.as_ref(),
             counted,
         };
-        let (depth, sums) = if inputs.settings.last_layer == LastLayer::Blend && !counted {
-            (None, LayerSums::Rest(layer_rest(graph, &layer)?))
+        let (depth, sums) = if inputs.settings.last_layer != LastLayer::Drop && !counted {
+            let before = match (inputs.settings.last_layer, sums_before.take()) {
+                (LastLayer::Stack, Some(LayerSums::Surface(splats, polygons))) => Some((splats, polygons)),
+                _ => None,
+            };
+            (None, LayerSums::Rest(layer_rest(graph, &layer)?, before))
         } else {
             let depth = layer_visibility(graph, &layer)?;
             let splats = match inputs.draws.is_empty() {
@@ -129,7 +133,7 @@ pub(super) fn layers<'a>(
             (Some(depth), LayerSums::Surface(splats, polygons))
         };
         composed = Some(layer_compose(graph, &layer, &sums, composed)?);
-        before = depth;
+        (before, sums_before) = (depth, Some(sums));
         if let Some(gates) = gates.as_mut().filter(|_| counted) {
             gates.count(graph, number);
         }

@@ -92,14 +92,20 @@ impl Transparent<'_> {
         let most = self.settings.layers.most();
         let (surfaces, blends_rest) = match self.settings.last_layer {
             LastLayer::Drop => (most, false),
-            LastLayer::Blend => (most - 1, true),
+            LastLayer::Blend | LastLayer::Stack => (most - 1, true),
         };
+        let mut weight_before = None;
         let mut stack = Stack::EMPTY;
         while !remaining.is_empty() {
             if stack.layers == surfaces && blends_rest {
-                stack.put_behind(self.blend(ray, &remaining));
+                let blended = self.blend(ray, &remaining);
+                stack.put_behind(match (self.settings.last_layer, weight_before) {
+                    (LastLayer::Stack, Some(before)) => stacked(blended, weight_of(&remaining) / before),
+                    _ => blended,
+                });
             }
             let (layer, margin) = take_nearest(&mut remaining);
+            weight_before = Some(weight_of(&layer));
             if stack.layers < surfaces {
                 stack.put_behind(self.surface(ray, &layer));
                 stack.margin = stack.margin.min(margin);
@@ -146,6 +152,18 @@ impl Transparent<'_> {
         }
         Premultiplied { color: color / weight, alpha: (alpha / weight).min(1.0) }
     }
+}
+
+/// Σw of fragments.
+fn weight_of(fragments: &[Translucent]) -> f64 {
+    fragments.iter().map(|fragment| fragment.weight).sum()
+}
+
+/// As many surfaces of one alpha and color behind each other as there are weights of one surface; 1 to 8.
+fn stacked(one: Premultiplied, surfaces: f64) -> Premultiplied {
+    let alpha = 1.0 - (1.0 - one.alpha).powf(surfaces.clamp(1.0, 8.0));
+    let scale = if one.alpha > 0.0 { alpha / one.alpha } else { 0.0 };
+    Premultiplied { color: scale * one.color, alpha }
 }
 
 /// With the normal to the eye.

@@ -106,6 +106,8 @@ named! {
 named! {
     /// What becomes of the transparent surfaces behind the last layer but one.
     LastLayer {
+        /// As `Blend`, with the alpha of several surfaces: as many as their weights are of the layer before.
+        Stack = "stack",
         /// They are all blended in the last layer, weighted by alpha and lit a splat at a time (Guennebaud et al. 2006,
         /// section 6).
         Blend = "blend",

@@ -128,8 +128,9 @@ pub struct StyleArguments {
     #[arg(long, value_name = "N|auto:MAX", default_value = "4", value_parser = parse::layers)]
     pub layers: Layers,
 
-    /// What is behind the last layer but one: all blended in the last layer, or one more surface and the rest lost
-    #[arg(long, value_name = "WHAT", default_value = "blend", value_parser = choice(LastLayer::NAMES))]
+    /// What is behind the last layer but one: all blended in the last layer, with the alpha of as many surfaces as their
+    /// weights tell, or of one (the paper's); or one more surface, and the rest lost
+    #[arg(long, value_name = "WHAT", default_value = "stack", value_parser = choice(LastLayer::NAMES))]
     pub last_layer: LastLayer,
 
     /// How splats and polygons of one surface meet: their colors or their attributes blended by the splats' weights, not
