@@ -131,6 +131,19 @@ mod tests {
     }
 
     #[test]
+    fn a_light_behind_the_surface_has_no_highlight_where_it_would_be_reflected_to_the_eye() {
+        // Seen along (10, 0, 1) the surface is nearly edge-on; the light is a hair behind it on the other side.
+        let lights = |z: f64| {
+            let kind = LightKind::Directional(-DVec3::new(1.0, 0.0, z));
+            let scene = Scene { lights: vec![Light { kind, color: [1.0; 3] }], ..Scene::default() };
+            Shader::new(Shading::Phong, &scene, DMat3::IDENTITY)
+        };
+        let ray = DVec3::new(10.0, 0.0, 1.0);
+        assert!(close(lights(0.01).shade(ALBEDO, DVec3::NEG_Z, ray), 0.1 * ALBEDO));
+        assert!(lights(-0.01).shade(ALBEDO, DVec3::NEG_Z, ray).x > 0.1 * ALBEDO.x + 0.1);
+    }
+
+    #[test]
     fn srgb_values_of_the_standard() {
         assert_eq!(linear_from_srgb(0.0), 0.0);
         assert_eq!(linear_from_srgb(1.0), 1.0);

@@ -95,6 +95,8 @@ fn a_triangle_seen_from_its_edge_covers_nothing_and_is_a_border() {
     // In the plane x = 1/32 z, in which the centers of column 16 are.
     let at = |y: f64, z: f64| (DVec3::new(z / 32.0, y, z), Vec3::NEG_X);
     let object = mesh(&[at(-1.0, 2.0), at(1.0, 2.0), at(0.0, 4.0)], &[[0, 1, 2]], RED);
+    let hidden = picture(&meshes(vec![object.clone(), square(1.5, 9.0, RED)]), &settings(32));
+    assert!(!hidden.pixel(16, 16).unwrap().rim);
     let seen = picture(&meshes(vec![object]), &settings(32));
     assert!(seen.pixel(16, 16).unwrap().rim);
     for (i, pixel) in seen.pixels.iter().enumerate() {

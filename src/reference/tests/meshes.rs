@@ -25,11 +25,14 @@ fn a_square_covers_what_is_inside_and_of_its_border_the_left_and_the_top() {
             assert_eq!(pixel.polygon, half(i % 33).max(half(i / 33)) < 4.0, "{i}");
         }
     }
-    // In numbers without rounding: 8 pixels a side, from 4 to 12 of 33, of a focal length of 16.5.
-    let view = View::new(&camera(), [32, 32]);
+    // In numbers without rounding: a focal length of 32 pixels for a picture of 32.
+    let camera = Camera { fov_y_rad: 2.0 * 0.5_f64.atan(), ..camera() };
+    let view = View::new(&camera, [32, 32]);
+    assert_eq!(view.focal_px, 32.0);
     let corner = |column: u32, row: u32| (view.ray(column, row), Vec3::NEG_Z);
     let corners = [corner(4, 4), corner(4, 12), corner(12, 12), corner(12, 4)];
-    let seen = picture(&meshes(vec![mesh(&corners, &[[0, 1, 2], [0, 2, 3]], RED)]), &albedo(32));
+    let scene = meshes(vec![mesh(&corners, &[[0, 1, 2], [0, 2, 3]], RED)]);
+    let seen = render(&scene, &camera, &albedo(32), &|_, _| ()).unwrap();
     for (i, pixel) in seen.pixels.iter().enumerate() {
         let inside = |place: usize| (4..12).contains(&place);
         assert_eq!(pixel.polygon, inside(i % 32) && inside(i / 32), "{i}");
