@@ -78,7 +78,22 @@ impl PackedMesh {
                 continue;
             };
             // Beyond f32 from where the others are: no shader may meet an infinity.
-            if !corners.iter().all(|corner| corner.is_finite()) {
+            let usable = |vertex: u32| {
+                let normal = mesh
+                    .normals
+                    .as_ref()
+                    .is_none_or(|of| of.get(vertex as usize).is_some_and(|n| n.is_finite()));
+                let color = match &mesh.colors {
+                    MeshColors::PerVertex(of) => {
+                        of.get(vertex as usize).is_some_and(|color| color.iter().all(|c| c.is_finite()))
+                    }
+                    MeshColors::Uniform(color) => color.iter().all(|c| c.is_finite()),
+                    MeshColors::None => true,
+                };
+                normal && color
+            };
+            if !corners.iter().all(|corner| corner.is_finite()) || !mesh.triangles[i].into_iter().all(usable)
+            {
                 continue;
             }
             let mut triangle = [0; 3];
@@ -210,6 +225,19 @@ mod tests {
         assert_eq!(packed.indices, [[0, 1, 2], [1, 3, 2]]);
         assert_eq!((packed.vertices.len(), packed.colors.len()), (8, 1));
         assert!(packed.vertices.iter().flatten().all(|x| x.is_finite()));
+    }
+
+    #[test]
+    fn what_has_no_finite_normal_or_color_at_a_corner_is_left_out() {
+        let mut mesh = mesh();
+        let mut normals = vec![Vec3::Z; 6];
+        normals[0].x = f32::NAN;
+        mesh.normals = Some(normals);
+        assert_eq!(PackedMesh::of(&mesh, 0..5).indices.len(), 1);
+        let mut colors = vec![[0.5; 4]; 6];
+        colors[5][1] = f32::INFINITY;
+        mesh.colors = MeshColors::PerVertex(colors);
+        assert!(PackedMesh::of(&mesh, 0..5).is_empty());
     }
 
     #[test]
