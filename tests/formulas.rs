@@ -7,13 +7,14 @@ use common::{
     assert_validation_is_silent,
     compare::{Errors, F32, compare},
     headless, render,
-    scenes::{self, Hard},
+    scenes::{self, Hard, transparent},
     with_limits,
 };
 use surfel::{
     passes::Formula,
     reference::{self, Picture},
-    scene::{Filter, Kernel, KernelEval, Rasterizer, Settings},
+    scene::{Filter, Kernel, KernelEval, Rasterizer, Settings, Transition},
+    selftest::light::{LightErrors, compare_light},
 };
 
 /// The scenes of the comparison, those that see most formulas first.
@@ -63,6 +64,42 @@ fn scenes() -> Vec<(Hard, Picture)> {
 /// Ray casting subtracts the center from a point of the plane: twice the error of an expansion about the center.
 fn limit(hard: &Hard) -> Errors {
     if hard.name.contains("raycast") { F32.times(2.0) } else { F32 }
+}
+
+#[test]
+fn every_formula_of_layers_that_is_wrong_by_one_percent_fails_the_comparison() {
+    let mut headless = headless();
+    let oracle =
+        |hard: &Hard| reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let scenes = [
+        transparent::transparent_hybrid(Transition::Color),
+        transparent::meshes_only(),
+        transparent::hybrid(Transition::Color),
+        transparent::stacked(Transition::Color),
+        transparent::crossing(),
+        transparent::upon_the_opaque(),
+    ];
+    let scenes: Vec<_> = scenes.into_iter().map(|hard| (oracle(&hard), hard)).collect();
+    // The limit of tests/transparency.rs.
+    let is_beyond = |errors: &LightErrors| errors.worst > 1.0 / 1024.0;
+    for (oracle, hard) in &scenes {
+        let errors = compare_light(&render(&mut headless, hard), oracle);
+        assert!(!is_beyond(&errors), "{} differs already: {}", hard.name, errors.row(hard.name));
+    }
+    let mut unseen = Vec::new();
+    for formula in Formula::OF_LAYERS {
+        headless.renderer.shaders.perturbed = Some(formula);
+        let caught = scenes.iter().find_map(|(oracle, hard)| {
+            let errors = compare_light(&render(&mut headless, hard), oracle);
+            is_beyond(&errors).then(|| errors.row(hard.name))
+        });
+        println!("{:20} {}", format!("{formula:?}"), caught.as_deref().unwrap_or("SEEN BY NOTHING"));
+        if caught.is_none() {
+            unseen.push(formula);
+        }
+    }
+    assert_validation_is_silent(&headless);
+    assert!(unseen.is_empty(), "{unseen:?}");
 }
 
 #[test]

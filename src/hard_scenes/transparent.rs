@@ -258,6 +258,18 @@ fn half_and_half(name: &'static str, alphas: [f32; 2], transition: Transition) -
     hard(name, scene, Settings { transition, backfaces: Backfaces::Auto, ..all_layers() })
 }
 
+/// A transparent polygon through a transparent sheet of splats: one surface where they are within ε of each other.
+pub fn crossing() -> Hard {
+    let tilted = DVec3::new(0.5, 0.1, 1.0).normalize();
+    let corners = [[-1.2, -1.0, 0.0], [1.2, -1.0, 0.0], [1.2, 1.0, 0.0], [-1.2, 1.0, 0.0]].map(DVec3::from);
+    let scene = Scene {
+        objects: vec![sheet(DVec3::ZERO, tilted, 1.2, 24, [0.9, 0.5, 0.1, 0.6])],
+        meshes: vec![rectangle(corners, [0.1, 0.3, 0.9, 0.5])],
+        ..Scene::default()
+    };
+    hard("polygon through splats", scene, Settings { epsilon: Epsilon::Length(0.3), ..all_layers() })
+}
+
 /// The last layer blends what is behind the first two, with lights of the scene's own; splats without a filter.
 pub fn blended() -> Hard {
     let Hard { mut scene, camera, .. } = interpenetrating();
@@ -301,6 +313,7 @@ pub fn all() -> Vec<Hard> {
         hybrid(Transition::None),
         hybrid(Transition::Paper),
         transparent_hybrid(Transition::Color),
+        crossing(),
         blended(),
         stacked(Transition::Color),
     ]

@@ -47,10 +47,34 @@ pub enum Formula {
     NearestDepth,
     Widened,
     KeptDepth,
+    Alpha,
+    Peeled,
+    TowardViewer,
+    Transition,
+    PolygonDepth,
+    PolygonShift,
+    Over,
+    LitDiffuse,
+    LitSpecular,
+    Stacked,
 }
 
 impl Formula {
-    /// All of them.
+    /// Those of transparency, polygons and lights.
+    pub const OF_LAYERS: [Self; 10] = [
+        Self::Alpha,
+        Self::Peeled,
+        Self::TowardViewer,
+        Self::Transition,
+        Self::PolygonDepth,
+        Self::PolygonShift,
+        Self::Over,
+        Self::LitDiffuse,
+        Self::LitSpecular,
+        Self::Stacked,
+    ];
+
+    /// Those of opaque splats.
     pub const ALL: [Self; 42] = [
         Self::InverseMappingU,
         Self::InverseMappingV,
