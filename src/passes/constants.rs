@@ -63,7 +63,7 @@ pub struct PaperConstants {
     pub epsilon_radii: f32,
 }
 
-/// What finalization is told; see `glsl/finalize.frag.glsl`.
+/// What finalization is told; see `glsl/inc/image_plane.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct FinalizeConstants {

@@ -11,8 +11,10 @@ use crate::{
 /// What a scene, a camera and settings made of a frame, and why. Lengths are in pixels, memory in bytes.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// The pieces of the scene.
+    /// The pieces of the scene that are drawn as splats.
     pub chunks: Vec<ExplainedChunk>,
+    /// Those that are drawn as polygons.
+    pub meshes: Vec<ExplainedMesh>,
     /// The device's largest point: larger splats are listed and drawn as quads.
     pub point_cap_px: f32,
     /// The passes, in order.
@@ -21,8 +23,8 @@ pub struct Explanation {
     pub culled: Vec<String>,
     /// All pipelines made so far.
     pub pipelines: Vec<String>,
-    /// Device memory of the splat buffers.
-    pub splat_bytes: u64,
+    /// Device memory of the buffers of splats and meshes.
+    pub scene_bytes: u64,
     /// Device memory of the frame's transients, as they share it.
     pub transient_bytes: u64,
     /// What the transients would take without sharing.
@@ -38,6 +40,8 @@ pub struct ExplainedChunk {
     pub ellipses: bool,
     /// They sample a closed surface.
     pub closed: bool,
+    /// They are drawn in layers.
+    pub transparent: bool,
     /// One color for all: no color buffer.
     pub uniform_color: bool,
     /// Device memory.
@@ -46,6 +50,23 @@ pub struct ExplainedChunk {
     pub largest_box_px: f64,
     /// That is above the device's largest point, so large splats are listed and drawn as quads.
     pub may_be_large: bool,
+}
+
+/// A piece of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplainedMesh {
+    /// How many triangles.
+    pub triangles: u32,
+    /// How many vertices.
+    pub vertices: u32,
+    /// The surface is closed.
+    pub closed: bool,
+    /// It is drawn in layers.
+    pub transparent: bool,
+    /// Triangles that face away are not drawn.
+    pub culled: bool,
+    /// Device memory.
+    pub bytes: u64,
 }
 
 /// A pass.
@@ -87,18 +108,29 @@ impl Renderer {
             splats: draw.chunk.count,
             ellipses: draw.chunk.ellipses,
             closed: draw.chunk.closed,
+            transparent: draw.chunk.transparent,
             uniform_color: draw.chunk.uniform_color,
             bytes: draw.chunk.bytes(),
             largest_box_px: draw.largest_box_px,
             may_be_large: draw.may_be_large,
         });
+        let meshes = passes::mesh_draws(scene, camera, settings, limits);
+        let meshes = meshes.iter().map(|draw| ExplainedMesh {
+            triangles: draw.chunk.triangles,
+            vertices: draw.chunk.vertices,
+            closed: draw.chunk.closed,
+            transparent: draw.chunk.transparent,
+            culled: draw.cull,
+            bytes: draw.chunk.bytes(),
+        });
         Explanation {
             chunks: chunks.collect(),
+            meshes: meshes.collect(),
             point_cap_px: limits.point_size_range[1],
             passes: explain_passes(plan),
             culled: plan.culled.iter().map(|pass| pass.name.clone()).collect(),
             pipelines: self.shaders.pipeline_names(),
-            splat_bytes: scene.bytes(),
+            scene_bytes: scene.bytes(),
             transient_bytes: plan.blocks.iter().map(|block| block.size_bytes).sum(),
             unshared_bytes: plan.resources.iter().filter_map(|r| r.slot).map(|slot| slot.size_bytes).sum(),
         }

@@ -8,7 +8,7 @@ mod paper;
 
 use ash::vk;
 
-pub use explain::{ExplainedChunk, ExplainedPass, ExplainedUse, Explanation};
+pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
 pub use floor::Floor;
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
 pub use paper::draw_as_published;

@@ -65,7 +65,9 @@ pub struct SceneReport {
     pub splats: u64,
     /// Splats left out because they can't be drawn.
     pub dropped: u64,
-    /// Bytes of device memory in splat buffers.
+    /// Triangles drawn as such.
+    pub triangles: u64,
+    /// Bytes of device memory in buffers of splats and triangles.
     pub splat_bytes: u64,
     /// Bytes of device memory that a frame's own images and buffers share.
     pub transient_bytes: u64,

@@ -1,5 +1,5 @@
 //! The shaders of `glsl/`, compiled to SPIR-V by `build.rs`: one `static` each, named after pass and stage, as
-//! `FINALIZE_FRAG` for `glsl/finalize.frag.glsl`. A file with a line `// Permutations:` gives several, see
+//! `EXPORT_FRAG` for `glsl/export.frag.glsl`. A file with a line `// Permutations:` gives several, see
 //! `build/permutations.rs`.
 //!
 //! Building the crate also checks that each struct which host and shaders share (`HOST_STRUCTS` in `build.rs`) has the

@@ -14,7 +14,8 @@ use surfel::{
     vk::{
         Binding, Blend, Buffer, BufferDesc, CommandPool, ComputePipeline, ComputePipelineDesc, Descriptor,
         DescriptorPool, GraphicsPipeline, GraphicsPipelineDesc, Image, ImageDesc, Memory, MemoryUse,
-        PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, Staging, Statistics, Timestamps,
+        Occlusion, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, Staging, Statistics,
+        Timestamps,
     },
 };
 
@@ -86,8 +87,9 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let desc = GraphicsPipelineDesc {
         name: "graphics",
         vertex: stage(&shaders::FULLSCREEN_VERT),
-        fragment: stage(&shaders::FINALIZE_FRAG),
+        fragment: stage(&shaders::FINALIZE_SPLATS_FRAG),
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
+        cull_clockwise: false,
         color_formats: &[FORMAT],
         blend: Blend::Replace,
         depth: None,
@@ -103,6 +105,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     if let Some(timestamps) = Timestamps::new(&device, "timestamps", 4).unwrap() {
         keep(Box::new(timestamps));
     }
+    keep(Box::new(Occlusion::new(&device, "occlusion", 4).unwrap()));
     if let Some(statistics) = Statistics::new(&device, "statistics", 4).unwrap() {
         keep(Box::new(statistics));
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use surfel::renderer::{ExplainedChunk, Explanation};
+use surfel::renderer::{ExplainedChunk, ExplainedMesh, Explanation};
 
 /// The whole explanation.
 pub fn text(explanation: &Explanation) -> String {
@@ -13,10 +13,18 @@ pub fn text(explanation: &Explanation) -> String {
 }
 
 fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
-    let Explanation { chunks, passes, culled, pipelines, splat_bytes, .. } = explanation;
+    let Explanation { chunks, meshes, passes, culled, pipelines, .. } = explanation;
+    let splat_bytes: u64 = chunks.iter().map(|chunk| chunk.bytes).sum();
     writeln!(text, "splats: {} chunk(s), {splat_bytes} bytes", chunks.len())?;
     for (number, chunk) in chunks.iter().enumerate() {
         writeln!(text, "  chunk {number}: {}", words(chunk, explanation.point_cap_px))?;
+    }
+    if !meshes.is_empty() {
+        let bytes = explanation.scene_bytes - splat_bytes;
+        writeln!(text, "polygons: {} mesh(es), {bytes} bytes", meshes.len())?;
+    }
+    for (number, mesh) in meshes.iter().enumerate() {
+        writeln!(text, "  mesh {number}: {}", mesh_words(mesh))?;
     }
     writeln!(text, "passes: {}", passes.len())?;
     for pass in passes {
@@ -55,5 +63,14 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
         }
         (true, _) => "some may reach the near plane: large ones listed, drawn as quads".to_owned(),
     };
-    format!("{} {kind}, {color}, {closed}, {} bytes; {size}", chunk.splats, chunk.bytes)
+    let layers = if chunk.transparent { ", transparent: drawn in layers" } else { "" };
+    format!("{} {kind}, {color}, {closed}{layers}, {} bytes; {size}", chunk.splats, chunk.bytes)
+}
+
+fn mesh_words(mesh: &ExplainedMesh) -> String {
+    let closed = if mesh.closed { "closed surface" } else { "open surface" };
+    let layers = if mesh.transparent { ", transparent: drawn in layers" } else { "" };
+    let culled = if mesh.culled { "what faces away is not drawn" } else { "drawn from both sides" };
+    let ExplainedMesh { triangles, vertices, bytes, .. } = mesh;
+    format!("{triangles} triangles, {vertices} vertices, {closed}{layers}, {bytes} bytes; {culled}")
 }

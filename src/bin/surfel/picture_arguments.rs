@@ -32,7 +32,8 @@ pub struct PictureArguments {
     #[arg(short, long, value_name = "FILE", default_value = "surfel.png")]
     pub output: PathBuf,
 
-    /// Also write weight, albedo, normal, depth and final .exr into this folder, linear 32-bit floats
+    /// Also write weight, albedo, normal and depth of the opaque splats' surface, and the final picture, as .exr into this
+    /// folder, linear 32-bit floats
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
 

@@ -24,6 +24,7 @@ pub fn scene_report(inputs: Vec<InputReport>, prepared: &PreparedScene, transien
         dropped: inputs.iter().map(|input| input.dropped as u64).sum(),
         inputs,
         splats: prepared.splat_count(),
+        triangles: prepared.triangle_count(),
         splat_bytes: prepared.bytes(),
         transient_bytes,
     }
