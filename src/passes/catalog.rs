@@ -167,12 +167,13 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.push(compute("list large splats", list));
     }
     let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
+    let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
     let splat_passes = [
         ("visibility", visibility::splat_pass(settings, false)?),
-        ("accumulate", accumulate::splat_pass(settings, summed)?),
+        (accumulate_name, accumulate::splat_pass(settings, summed)?),
     ];
     for (pass, splats) in splat_passes {
-        if pass == "accumulate" && settings.kernel_eval == KernelEval::Texture {
+        if pass == accumulate_name && settings.kernel_eval == KernelEval::Texture {
             all.push(graphics(
                 "kernel texture",
                 "",

@@ -107,7 +107,7 @@ fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
             continue;
         }
         for traits in every_traits(all) {
-            if settings.check_object("", traits.ellipses).is_err() {
+            if settings.check_object("", traits.ellipses).is_err() || !is_listed(&settings, traits) {
                 continue;
             }
             for recipe in frame_pipelines(&settings, traits)? {
@@ -170,17 +170,29 @@ fn every_traits(all: bool) -> Vec<Traits> {
                 for closed in [true, false] {
                     let traits = Traits { ellipses, closed, may_be_large, ..Traits::default() };
                     every.push(Traits { export, floor: export, ..traits });
-                    every.push(Traits { export, polygons: true, ..traits });
-                    if !export {
-                        every.push(Traits { transparent: true, ..traits });
-                        every.push(Traits { transparent: true, polygons: true, ..traits });
-                        every.push(Traits { transparent: true, polygons: true, lit: true, ..traits });
-                    }
+                    every.extend(beyond_opaque_splats(Traits { export, ..traits }));
                 }
             }
         }
     }
     every
+}
+
+/// The same with polygons, transparent things and lights.
+fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
+    let polygons = Traits { polygons: true, ..traits };
+    if traits.export {
+        return vec![polygons];
+    }
+    let [splats, both] = [traits, polygons].map(|traits| Traits { transparent: true, ..traits });
+    vec![polygons, splats, both, Traits { lit: true, ..both }]
+}
+
+/// Layers and polygons are listed for each rasterizer and filter; the other options change them as they change opaque splats.
+fn is_listed(settings: &Settings, traits: Traits) -> bool {
+    let Settings { rasterizer, filter, .. } = *settings;
+    let beyond = traits.polygons || traits.transparent || traits.lit;
+    !beyond || *settings == Settings { rasterizer, filter, ..Settings::default() }
 }
 
 /// What tells a pipeline from others.
@@ -214,6 +226,9 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.kernel_eval = kernel_eval;
         names.early_depth = if settings.early_depth { "on" } else { "off" }.to_owned();
         names.splats = splats.to_owned();
+    }
+    if recipe.draws == "triangles" && !recipe.sets_splats_up() {
+        names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
     if matches!(recipe.pass, "accumulate" | "floor add") && settings.accumulate != Accumulate::default() {
         names.accumulate = settings.accumulate.name().to_owned();

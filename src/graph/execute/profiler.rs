@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// The most passes of a frame that are measured; what comes after them is not.
-const MAX_PASSES: u32 = 256;
+const MAX_PASSES: u32 = 2048;
 
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
