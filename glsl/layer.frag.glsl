@@ -6,7 +6,8 @@
 // SPLATS, POLYGONS, HYBRID: what transparent things there are. BLENDED: the last layer, where surfaces behind each other are
 // one sum, lit already: color sum(w a C) / sum(w a), alpha sum(w a) / sum(w), which is that of one surface. STACKED: m surfaces
 // of that alpha hide 1 - (1 - a)^m; how many there are is told by their weights, in weights of the layer before (BEFORE_SPLATS,
-// BEFORE_POLYGONS: what it has), which every pixel that has a last layer has too.
+// BEFORE_POLYGONS: what it has), which every pixel that has a last layer has too, but
+// of 1 at least: at a rim less is left of it.
 //
 // A pixel without a surface is discarded: whoever counts the fragments knows whether the layer is empty.
 // LIT: the scene has lights of its own.
@@ -61,7 +62,7 @@ void main()
 #if defined(BEFORE_POLYGONS) || defined(BEFORE_HYBRID)
     before += texelFetch(polygons_before, pixel, 0).a;
 #endif
-    float surfaces = FORMULA(FORMULA_STACKED, before > 0.0 ? clamp(weight / before, 1.0, MOST_SURFACES) : 1.0);
+    float surfaces = FORMULA(FORMULA_STACKED, clamp(weight / max(before, 1.0), 1.0, MOST_SURFACES));
     alpha = 1.0 - pow(1.0 - alpha, surfaces);
 #endif
     layer = vec4(alpha * (sum.rgb / sum.a), alpha);

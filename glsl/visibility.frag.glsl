@@ -2,11 +2,15 @@
 // Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is 1 / f.
 //
 // EARLY: the vertex stage's depth is a bound of this one, by which the device may test before this stage.
-// PEELED: only what is behind the layer before this one; see peel.glsl.
+// LAYER: of triangles in a transparent layer; PEELED: only what is behind the layer before this one; see peel.glsl.
 // Permutations: plain full center rays | _ early | _ peeled
-// Permutations: triangles | _ peeled
+// Permutations: triangles | _ layer layer_peeled
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
+#if defined(LAYER_PEELED)
+#define LAYER
+#define PEELED
+#endif
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
 #include "inc/variant.glsl"
@@ -29,7 +33,7 @@ void main()
 #if defined(PEELED)
     peel(fragment.w);
 #endif
-#if !defined(TRIANGLES) || defined(PEELED)
+#if !defined(TRIANGLES) || defined(LAYER)
     gl_FragDepth = fragment.w * extra().x;
 #endif
 }

@@ -38,6 +38,19 @@ const float EDGE_ON = 2.4e-7; // 4 * 2^-24
 // A shift of less than a few steps of f32 would do nothing: seen from very far, a surface would hide itself in part.
 const float LEAST_SHIFT = 1e-6;
 
+// Epsilon of a transparent splat grows as the filter lengthens the minor axis of its image, from l to sqrt(l^2 + h^2): so much
+// farther neighbors reach the same pixel, at depths as much farther apart, and a slanted surface would peel again and again.
+// At most 16 times: beyond, the splat is seen edge-on.
+const float MOST_LENGTHENED = 16.0;
+
+float lengthened(vec3 p, vec3 s, vec3 t)
+{
+    float minor = abs(principal_axes(p, s, t).minor);
+    float h = frame.filter_radius;
+    float ratio = h < MOST_LENGTHENED * minor ? h / minor : MOST_LENGTHENED;
+    return min(sqrt(1.0 + ratio * ratio), MOST_LENGTHENED);
+}
+
 // False where nothing of the splat can be seen.
 bool map_splat(uint index, out Mapping m)
 {
@@ -102,7 +115,11 @@ bool map_splat(uint index, out Mapping m)
     m.n2 = n2;
     m.scale = scale;
 
-    float epsilon = frame.epsilon_radii * splat.radius + frame.epsilon_length;
+    float thickness = splat.radius;
+    if (IN_LAYERS && FILTER != FILTER_NONE && m.regular) {
+        thickness *= FORMULA(FORMULA_LENGTHENED, lengthened(splat.p, splat.s, splat.t));
+    }
+    float epsilon = frame.epsilon_radii * thickness + frame.epsilon_length;
     float relative = epsilon > 0.0 ? max(FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)), LEAST_SHIFT) : 0.0;
     // Exactly 1 without epsilon: a division need not be.
     m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;

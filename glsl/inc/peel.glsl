@@ -9,6 +9,10 @@
 // strictly, no layer peels itself again, and n fragments are gone after n layers. Opaque things only raise D_k, to their own
 // depth D: what is in front of them has w >= D, and is in a layer whose D_k is max(D, the above).
 //
+// What is said of fragments holds of surfaces as far as epsilon is as thick as one surface's fragments in a pixel spread:
+// mapping.glsl lets it grow with the filter. Visibility covers a hair less of a splat than accumulation (visibility.frag.glsl):
+// a fragment in that hair belongs to the layer in whose interval it falls, and founds none.
+//
 // All of it is comparisons, which are exact, of numbers that are bit-equal in all passes: w is (coverage.glsl), and D32 holds
 // what was written. A fragment's w' <= w also after rounding: it is w times a factor of at most 1.
 

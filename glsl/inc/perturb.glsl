@@ -66,3 +66,4 @@ layout(constant_id = 31) const uint PERTURBED_FORMULA = 0;
 #define FORMULA_LIT_DIFFUSE 50
 #define FORMULA_LIT_SPECULAR 51
 #define FORMULA_STACKED 52
+#define FORMULA_LENGTHENED 53

@@ -14,6 +14,7 @@ layout(constant_id = 10) const float COVERAGE_R2 = 1.0;    // largest u^2 + v^2 
 layout(constant_id = 11) const bool FROM_CORNER = false;   // places may be counted from the corner (varyings.glsl)
 layout(constant_id = 12) const uint TRANSITION = 0;        // TRANSITION_COLOR ...
 layout(constant_id = 13) const bool OUTWARD = false;       // transparent and closed: normals stay outward in layers (shown.glsl)
+layout(constant_id = 14) const bool IN_LAYERS = false;     // transparent: drawn in layers (mapping.glsl)
 
 #define FILTER_NONE 0
 #define FILTER_ADJUST 1

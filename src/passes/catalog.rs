@@ -12,7 +12,7 @@ use super::{
     pipelines::{ComputeKey, GraphicsKey, Shaders},
     polygons,
     splat_shaders::{Primitive, Stages, Summed},
-    variant::{Constants, OUTWARD, RASTERIZER, splat_constants},
+    variant::{Constants, IN_LAYERS, OUTWARD, RASTERIZER, splat_constants},
     visibility,
 };
 use crate::{
@@ -169,7 +169,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
     let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
     let splat_passes = [
-        ("visibility", visibility::splat_pass(settings, false)?),
+        ("visibility", visibility::splat_pass(settings, None)?),
         (accumulate_name, accumulate::splat_pass(settings, summed)?),
     ];
     for (pass, splats) in splat_passes {
@@ -188,7 +188,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     }
     if traits.transparent {
         let mut open = splat_constants(settings, traits.ellipses, false);
-        open.push((OUTWARD, u32::from(traits.closed)));
+        open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
         let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
         for peeled in [false, true] {
             let names = if peeled {
@@ -198,7 +198,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
             };
             let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
             let of_splats = [
-                (names[0], visibility::splat_pass(settings, peeled)?),
+                (names[0], visibility::splat_pass(settings, Some(peeled))?),
                 (names[1], layer_accumulate::splat_pass(settings, peeled)?),
                 (rest, layer_rest::splat_pass(settings, peeled, true, traits.lit)?),
             ];

@@ -12,7 +12,7 @@ use super::{
     list_large::LargeIds,
     pipelines::{GraphicsKey, Layout},
     splat_shaders::{Primitive, SplatShaders, Stages},
-    variant::{Constants, OUTWARD, splat_constants},
+    variant::{Constants, IN_LAYERS, OUTWARD, splat_constants},
 };
 use crate::{
     error::Result,
@@ -88,7 +88,7 @@ pub fn draws<'a>(
                 false => splat_constants(settings, chunk.ellipses, chunk.closed),
                 true => {
                     let mut constants = splat_constants(settings, chunk.ellipses, false);
-                    constants.push((OUTWARD, u32::from(chunk.closed)));
+                    constants.extend([(OUTWARD, u32::from(chunk.closed)), (IN_LAYERS, 1)]);
                     constants
                 }
             },

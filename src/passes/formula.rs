@@ -57,11 +57,12 @@ pub enum Formula {
     LitDiffuse,
     LitSpecular,
     Stacked,
+    Lengthened,
 }
 
 impl Formula {
     /// Those of transparency, polygons and lights.
-    pub const OF_LAYERS: [Self; 10] = [
+    pub const OF_LAYERS: [Self; 11] = [
         Self::Alpha,
         Self::Peeled,
         Self::TowardViewer,
@@ -72,6 +73,7 @@ impl Formula {
         Self::LitDiffuse,
         Self::LitSpecular,
         Self::Stacked,
+        Self::Lengthened,
     ];
 
     /// Those of opaque splats.

@@ -37,7 +37,7 @@ pub(super) fn layer_visibility<'a>(
 ) -> Result<Handle<Image>> {
     let inputs = layer.inputs;
     let peeled = layer.before.is_some();
-    let splats = visibility::splat_pass(inputs.settings, peeled)?.pipelines(inputs)?;
+    let splats = visibility::splat_pass(inputs.settings, Some(peeled))?.pipelines(inputs)?;
     let meshes = mesh_pass(peeled).pipelines(inputs)?;
     let name = layer.name("depth");
     let (mut depth, start) = match layer.opaque {

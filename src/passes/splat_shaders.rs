@@ -71,6 +71,8 @@ pub(super) struct Words {
     pub triangle_vertex: Option<&'static str>,
     /// Of the fragment stage, in their order.
     pub fragment: Vec<&'static str>,
+    /// Of the fragment stage of triangles.
+    pub triangle_fragment: Vec<&'static str>,
 }
 
 /// What accumulation sums, and of which fragments.
@@ -98,11 +100,19 @@ pub(super) enum Summed {
 }
 
 impl Words {
-    /// Of visibility. `peeled`: behind a layer.
-    pub fn visibility(settings: &Settings, peeled: bool) -> Self {
-        let peeled = peeled.then_some("peeled");
-        let fragment = [early_word(settings), peeled].into_iter().flatten().collect();
-        Self { pass: "visibility", vertex: None, triangle_vertex: peeled, fragment }
+    /// Of visibility: of the opaque part (`None`), or of a layer, perhaps behind one that was peeled off.
+    pub fn visibility(settings: &Settings, layer: Option<bool>) -> Self {
+        let peeled = (layer == Some(true)).then_some("peeled");
+        Self {
+            pass: "visibility",
+            vertex: None,
+            triangle_vertex: layer.map(|_| "layer"),
+            fragment: [early_word(settings), peeled].into_iter().flatten().collect(),
+            triangle_fragment: layer
+                .map(|peeled| if peeled { "layer_peeled" } else { "layer" })
+                .into_iter()
+                .collect(),
+        }
     }
 
     /// Of accumulation.
@@ -119,8 +129,11 @@ impl Words {
                 (Some(vertex), [Some("blended"), peeled.then_some("peeled")])
             }
         };
-        let fragment = [early_word(settings), textured, third, fourth].into_iter().flatten().collect();
-        Self { pass: "accumulate", vertex: kind, triangle_vertex: kind, fragment }
+        let fragment: Vec<_> =
+            [early_word(settings), textured, third, fourth].into_iter().flatten().collect();
+        // Their depth is the rasterizer's own, so that tests are early anyway.
+        let triangle_fragment = fragment.iter().copied().filter(|word| *word != "early").collect();
+        Self { pass: "accumulate", vertex: kind, triangle_vertex: kind, fragment, triangle_fragment }
     }
 }
 
@@ -160,9 +173,7 @@ fn early_word(settings: &Settings) -> Option<&'static str> {
 fn stages_of_triangles(vertex: &str, words: &Words) -> Result<Stages> {
     let pass = words.pass;
     let kind = words.triangle_vertex.map(|word| format!("_{word}")).unwrap_or_default();
-    // Their depth is the rasterizer's own, so that tests are early anyway.
-    let fragment: String =
-        words.fragment.iter().filter(|word| **word != "early").map(|word| format!("_{word}")).collect();
+    let fragment: String = words.triangle_fragment.iter().map(|word| format!("_{word}")).collect();
     Ok((find(&format!("{pass}_{vertex}{kind}.vert"))?, find(&format!("{pass}_triangles{fragment}.frag"))?))
 }
 
@@ -205,7 +216,8 @@ mod tests {
                             continue;
                         }
                         for choice in [false, true] {
-                            splat_shaders(&settings, &Words::visibility(&settings, choice)).unwrap();
+                            let of = |layer| splat_shaders(&settings, &Words::visibility(&settings, layer));
+                            of(Some(choice)).and(of(None)).unwrap();
                             for other in [false, true] {
                                 let opaque = Summed::Opaque { with_depth: choice, beside_polygons: other };
                                 let layer = Summed::Layer { peeled: choice };

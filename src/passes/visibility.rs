@@ -14,10 +14,10 @@ use crate::{
     scene::Settings,
 };
 
-/// What the pass is made of. `peeled`: only what is behind a layer.
-pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> Result<SplatPass> {
+/// What the pass is made of: for the opaque part, or for a layer, perhaps behind one that was peeled off.
+pub(super) fn splat_pass(settings: &Settings, layer: Option<bool>) -> Result<SplatPass> {
     Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::visibility(settings, peeled))?,
+        shaders: splat_shaders(settings, &Words::visibility(settings, layer))?,
         color_formats: Vec::new(),
         depth: Some((vk::CompareOp::GREATER, true)),
         constants: Vec::new(),
@@ -30,7 +30,7 @@ pub(super) fn visibility<'a>(
     inputs: Inputs<'a>,
     large: &[Option<LargeList>],
 ) -> Result<Handle<Image>> {
-    let pipelines = splat_pass(inputs.settings, false)?.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings, None)?.pipelines(inputs)?;
     let large_ids = ids_of(large);
 
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));

@@ -27,17 +27,17 @@ const BATCH_BYTES: usize = 1 << 22;
 /// Triangles of one object in buffers of their own.
 pub struct MeshChunk {
     /// Its local space.
-    pub rebase: Rebase,
+    pub(crate) rebase: Rebase,
     /// How many triangles.
-    pub triangles: u32,
+    pub(crate) triangles: u32,
     /// How many vertices.
-    pub vertices: u32,
+    pub(crate) vertices: u32,
     /// They belong to a closed surface whose triangles are counterclockwise seen from outside.
-    pub closed: bool,
+    pub(crate) closed: bool,
     /// Some of the object is transparent.
-    pub transparent: bool,
+    pub(crate) transparent: bool,
     /// One color for all.
-    pub uniform_color: bool,
+    pub(crate) uniform_color: bool,
     set: vk::DescriptorSet,
     _pool: SealedPool,
     /// Vertices, colors, indices. Not read by the host, but the set names the first two.
@@ -54,9 +54,7 @@ pub(super) struct PackedMesh {
 
 impl PackedMesh {
     /// The triangles of a range of a mesh that can be drawn. Where one color is for all, it is packed once.
-    fn of(mesh: &Mesh, range: Range<usize>) -> Self {
-        let corners = range.clone().filter_map(|i| mesh.corners(i)).flatten();
-        let rebase = Rebase::of_points(&corners.collect::<Vec<_>>());
+    fn of(mesh: &Mesh, range: Range<usize>, rebase: Rebase) -> Self {
         let uniform = match mesh.colors {
             MeshColors::PerVertex(_) => None,
             MeshColors::Uniform(color) => Some(color),
@@ -119,9 +117,12 @@ impl PackedMesh {
 
     /// The pieces of a mesh, none with more vertices than `capacity`, which is at least 3.
     pub fn pieces(mesh: &Mesh, capacity: usize) -> impl Iterator<Item = Self> + '_ {
+        // One local space for all pieces: a vertex that two of them share is rounded alike, so that no gap opens between.
+        let corners: Vec<_> = (0..mesh.triangles.len()).filter_map(|i| mesh.corners(i)).flatten().collect();
+        let rebase = Rebase::of_points(&corners);
         // A triangle brings three vertices at most.
         let triangles = (capacity / 3).max(1);
-        super::pieces(0..mesh.triangles.len(), triangles).map(|range| Self::of(mesh, range))
+        super::pieces(0..mesh.triangles.len(), triangles).map(move |range| Self::of(mesh, range, rebase))
     }
 
     /// Nothing of it can be drawn.
@@ -219,9 +220,13 @@ mod tests {
         }
     }
 
+    fn whole(mesh: &Mesh) -> PackedMesh {
+        PackedMesh::pieces(mesh, 1 << 20).next().unwrap()
+    }
+
     #[test]
     fn shared_vertices_are_kept_once_and_what_cannot_be_drawn_is_left_out() {
-        let packed = PackedMesh::of(&mesh(), 0..5);
+        let packed = whole(&mesh());
         assert_eq!(packed.indices, [[0, 1, 2], [1, 3, 2]]);
         assert_eq!((packed.vertices.len(), packed.colors.len()), (8, 1));
         assert!(packed.vertices.iter().flatten().all(|x| x.is_finite()));
@@ -233,11 +238,11 @@ mod tests {
         let mut normals = vec![Vec3::Z; 6];
         normals[0].x = f32::NAN;
         mesh.normals = Some(normals);
-        assert_eq!(PackedMesh::of(&mesh, 0..5).indices.len(), 1);
+        assert_eq!(whole(&mesh).indices.len(), 1);
         let mut colors = vec![[0.5; 4]; 6];
         colors[5][1] = f32::INFINITY;
         mesh.colors = MeshColors::PerVertex(colors);
-        assert!(PackedMesh::of(&mesh, 0..5).is_empty());
+        assert!(whole(&mesh).is_empty());
     }
 
     #[test]
@@ -245,6 +250,7 @@ mod tests {
         let pieces: Vec<_> = PackedMesh::pieces(&mesh(), 3).collect();
         assert_eq!(pieces.len(), 5);
         assert_eq!(pieces.iter().map(|piece| piece.indices.len()).sum::<usize>(), 2);
+        assert!(pieces.iter().all(|piece| piece.rebase == pieces[0].rebase));
         assert!(pieces.iter().all(|piece| piece.vertices.len() <= 6));
     }
 }

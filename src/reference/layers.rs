@@ -100,7 +100,9 @@ impl Transparent<'_> {
             if stack.layers == surfaces && blends_rest {
                 let blended = self.blend(ray, &remaining);
                 stack.put_behind(match (self.settings.last_layer, weight_before) {
-                    (LastLayer::Stack, Some(before)) => stacked(blended, weight_of(&remaining) / before),
+                    (LastLayer::Stack, Some(before)) => {
+                        stacked(blended, weight_of(&remaining) / f64::max(before, 1.0))
+                    }
                     _ => blended,
                 });
             }

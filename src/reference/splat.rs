@@ -83,7 +83,7 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
-                let splat = prepare_one(object, i, cull, view, settings);
+                let splat = prepare_one(object, i, (cull, opacity), view, settings);
                 drawn.extend(
                     splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
                 );
@@ -125,7 +125,7 @@ pub(super) fn culls(backfaces: Backfaces, closed: bool, opacity: Opacity) -> boo
 fn prepare_one(
     object: &Object,
     i: usize,
-    cull: bool,
+    (cull, opacity): (bool, Opacity),
     view: &View,
     settings: &Settings,
 ) -> Option<DrawnSplat> {
@@ -142,12 +142,6 @@ fn prepare_one(
     let normal = if faces_away { -outward } else { outward };
     let normal_in_layer = if object.closed { outward } else { normal };
 
-    let epsilon = match settings.epsilon {
-        Epsilon::Radii(factor) => factor * splats.major_radius(i),
-        Epsilon::Length(length) => length,
-    };
-    let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
-
     // The projection at a center behind the near plane has no meaning: no filter acts there, and nothing is cut off. Nor
     // has the affine approximation of a splat that is nearly as deep as it is far: its tangents stay as they are.
     let in_front = center.z > view.near;
@@ -156,6 +150,17 @@ fn prepare_one(
     let regular = in_front && !reaches_near && depth_radius <= REGULAR_DEPTH_RATIO * center.z;
     let h = view.filter_radius();
     let original = (s, t);
+    let is_layered = opacity == Opacity::Transparent;
+    let lengthened = match settings.filter {
+        Filter::None => 1.0,
+        _ if is_layered && regular => lengthened(center, s, t, h),
+        _ => 1.0,
+    };
+    let epsilon = match settings.epsilon {
+        Epsilon::Radii(factor) => factor * splats.major_radius(i) * lengthened,
+        Epsilon::Length(length) => length,
+    };
+    let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
     let (s, t) = match settings.filter {
         Filter::Adjust if regular => adjust(center, s, t, h),
         Filter::AdjustPaper if regular => adjust_paper(center, s, t, h),
@@ -222,6 +227,18 @@ fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
         }
         _ => Map::Projective,
     }
+}
+
+/// By how much a filter of radius `h` (image plane) lengthens the minor axis of a splat's image, from l to √(l² + h²); at most
+/// 16. The ε of a transparent splat grows alike: so much farther neighbors reach the same pixel, at depths as much farther
+/// apart.
+fn lengthened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
+    // The singular values of the projection's Jacobian at the center, applied to s and t.
+    let image = |v: DVec3| (v.truncate() - center.truncate() / center.z * v.z) / center.z;
+    let (a, b) = (image(s), image(t));
+    let (sum, area) = (a.length_squared() + b.length_squared(), a.perp_dot(b).abs());
+    let minor = ((sum + 2.0 * area).sqrt() - (sum - 2.0 * area).max(0.0).sqrt()) / 2.0;
+    if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 }
 }
 
 /// The scaled tangent vectors in world space, with `s × t` along the outward normal.

@@ -181,7 +181,7 @@ fn reason(pass: &str) -> &'static str {
             "transparent things: the depth of the nearest surface behind the layer before, shifted by epsilon"
         }
         name if name.starts_with("accumulate of layer") => {
-            "transparent splats: sums of weights, colors, normals and alphas of the layer"
+            "transparent things: sums of weights, colors, normals and alphas of the layer"
         }
         name if name.starts_with("polygons of layer") => "transparent polygons: their sums in the layer",
         name if name.starts_with("compose of layer") => {

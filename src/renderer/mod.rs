@@ -114,7 +114,8 @@ impl Renderer {
     /// As [`Renderer::check`], and whatever driver or allocator answer.
     ///
     /// # Safety
-    /// `commands` must be recording, outside of rendering, and be submitted to the device's queue. `scene`, the
+    /// `commands` must be a primary command buffer, recording, outside of rendering, without an active occlusion query (and,
+    /// profiled by counts, statistics query), and be submitted to the device's queue. `scene`, the
     /// target, the buffers of `readbacks`, the slot and the renderer must stay alive until it has run; the frame
     /// recorded before in this slot must have finished. The target is what it says and in its initial state; the host
     /// may read `readbacks` after its own wait.

@@ -9,7 +9,7 @@ pub struct EnabledFeatures {
     pub large_points: bool,
     /// Counts of vertices and fragments.
     pub pipeline_statistics: bool,
-    /// `drawIndirectCount` of Vulkan 1.2: without it all layers of `--layers auto` are drawn, the empty ones too.
+    /// `drawIndirectCount` of Vulkan 1.2, on a device whose `maxDrawIndirectCount` is 2³⁰ at least: without it all layers of `--layers auto` are drawn, the empty ones too.
     pub draw_indirect_count: bool,
 }
 

@@ -126,7 +126,8 @@ impl Device {
         }
         facts.large_points = host.features.large_points;
         facts.pipeline_statistics = host.features.pipeline_statistics;
-        facts.draw_indirect_count = host.features.draw_indirect_count;
+        facts.draw_indirect_count &= host.features.draw_indirect_count;
+        let draw_indirect_count = facts.draw_indirect_count;
         if !host.features.large_points {
             facts.limits.point_size_range = [1.0, 1.0];
         }
@@ -136,7 +137,7 @@ impl Device {
             facts,
             host.raw,
             host.queue_family,
-            host.features,
+            EnabledFeatures { draw_indirect_count, ..host.features },
             Origin::Host,
         )
     }

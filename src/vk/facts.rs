@@ -109,7 +109,9 @@ pub(super) unsafe fn facts(
         missing: needed.iter().filter(|(there, _)| !there).map(|(_, name)| (*name).to_owned()).collect(),
         large_points: core.large_points == vk::TRUE,
         pipeline_statistics: core.pipeline_statistics_query == vk::TRUE,
-        draw_indirect_count: features12.draw_indirect_count == vk::TRUE,
+        // Numbers of pixels are given as counts, which must not exceed the limit.
+        draw_indirect_count: features12.draw_indirect_count == vk::TRUE
+            && limits.max_draw_indirect_count >= 1 << 30,
         blend_f32: [vk::Format::R32G32B32A32_SFLOAT, vk::Format::R32_SFLOAT]
             .into_iter()
             .all(|sums| format(sums).contains(blended)),

@@ -213,11 +213,11 @@ fn n30_colors_at_the_ends_of_their_range_come_back() {
     for value in [0.0_f32, 1.0 / 65535.0, byte, 0.5, 1.0 - byte, 1.0 - 1.0 / 65535.0, 1.0] {
         for uniform in [true, false] {
             let mut builder = Builder::default();
-            builder.disk(DVec3::ZERO, DVec3::Z, 10.0, [value, 1.0 - value, value, 0.0]);
+            builder.disk(DVec3::ZERO, DVec3::Z, 10.0, [value, 1.0 - value, value, 1.0]);
             let settings = Settings { shading: Shading::Albedo, ..of_size(16) };
             let mut hard = hard("colors", builder, settings);
             if uniform {
-                hard.scene.objects[0].splats.colors = Colors::Uniform([value, 1.0 - value, value, 0.0]);
+                hard.scene.objects[0].splats.colors = Colors::Uniform([value, 1.0 - value, value, 1.0]);
             }
             let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
             let frame = headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap();

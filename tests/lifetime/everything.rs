@@ -136,7 +136,11 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         let plan = renderer
             .record(buffer, &mut slot, &prepared, &camera, &settings, &target, readbacks, Some(profile))
             .unwrap();
-        assert_eq!(plan.passes.len(), 7 + 5, "large lists, frame, export and read-backs:\n{plan}");
+        assert_eq!(
+            plan.passes.len(),
+            26,
+            "opaque splats, lists, four layers, export and read-backs:\n{plan}"
+        );
         queue.submit(commands.end().unwrap()).unwrap();
     }
     keep(Box::new((buffer, storage)));

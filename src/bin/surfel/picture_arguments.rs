@@ -139,7 +139,7 @@ pub struct StyleArguments {
     #[arg(long, value_name = "HOW", default_value = "color", value_parser = choice(Transition::NAMES))]
     pub transition: Transition,
 
-    /// How the surface is colored, with one light at the eye
+    /// How the surface is colored, with one light at the eye where a scene file has none
     #[arg(long, value_name = "NAME", default_value = "phong", value_parser = choice(SHADINGS))]
     pub shading: Shading,
 
