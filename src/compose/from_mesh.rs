@@ -1,14 +1,14 @@
 //! A mesh becomes splats, triangles, or both.
 
 use super::{
-    hybrid,
+    hybrid::{self, usual_samples},
     object::{Parts, Work},
-    words::{finish, finish_triangles, mesh_head, normals_computed, radii_computed},
+    words::{finish, finish_triangles, mesh_head, normals_computed, radii_computed, split_into},
 };
 use crate::{
     error::Result,
-    geometry::{self, DEFAULT_OVERLAP, shaded_mesh, splats_from_mesh},
-    load::{ObjectDescription, Representation, Samples, Source},
+    geometry::{self, DEFAULT_OVERLAP, Hybrid, HybridOptions, shaded_mesh, splats_from_mesh},
+    load::{ObjectDescription, Representation, Samples},
     progress::Progress,
     report::InputReport,
     scene::{Mesh, MeshObject, Object},
@@ -38,25 +38,21 @@ pub(super) fn parts(
         (Representation::Mesh, _) => {
             Ok(work.time(format!("normals of {name}"), |_| triangles(placed(own), name)))
         }
-        (Representation::Hybrid(polygons), samples) => {
-            let samples = samples.unwrap_or_else(|| built_in_samples(&object.source));
+        (Representation::Hybrid { polygons, sample_edges }, samples) => {
             let stay = hybrid::stay_polygons(&own, polygons);
-            work.time(format!("split {name}"), |progress| both(&placed(own), name, &stay, samples, progress))
+            work.time(format!("split {name}"), |progress| {
+                let mesh = placed(own);
+                let usual = || Samples { count: usual_samples(&mesh, &stay, &object.source), seed: 0 };
+                let Samples { count, seed } = samples.unwrap_or_else(usual);
+                let options = HybridOptions { samples: count, seed, sample_edges };
+                both(&mesh, name, &stay, &options, progress)
+            })
         }
     }
 }
 
 fn splats((object, report): (Object, InputReport)) -> Parts {
     Parts { splats: Some(object), triangles: None, report }
-}
-
-/// As many as the built-in model would have without triangles.
-fn built_in_samples(source: &Source) -> Samples {
-    let count = match source {
-        Source::BuiltIn { splats, .. } => *splats,
-        Source::File(_) => 0, // which is refused
-    };
-    Samples { count, seed: 0 }
 }
 
 fn splats_at_vertices(mesh: &Mesh, name: String, progress: &dyn Progress) -> (Object, InputReport) {
@@ -93,15 +89,21 @@ fn both(
     mesh: &Mesh,
     name: String,
     stay: &[bool],
-    samples: Samples,
+    options: &HybridOptions,
     progress: &dyn Progress,
 ) -> Result<Parts> {
-    let hybrid::Split { splats, polygons, report } = hybrid::split(mesh, stay, samples, progress)?;
-    let (disks, triangles) = (splats.len(), polygons.triangles.len());
-    let head = format!("{}; {disks} splats and {triangles} triangles", mesh_head(counts(mesh), &report));
-    let closed = report.closed;
+    let stays_polygon = |triangle: usize| stay.get(triangle).is_some_and(|stays| *stays);
+    let Hybrid { splats, polygons, closed, report } =
+        geometry::hybrid(mesh, &stays_polygon, options, progress)?;
+    let head = format!("{}; {}", mesh_head(counts(mesh), &report.mesh), split_into(&report, splats.len()));
     let (object, report) = finish(Object { name: name.clone(), splats, closed }, head, Some(counts(mesh)));
-    Ok(Parts { splats: Some(object), triangles: Some(MeshObject { name, mesh: polygons, closed }), report })
+    let triangles = MeshObject { name, mesh: polygons, closed };
+    // A part may have everything.
+    Ok(Parts {
+        splats: (!object.splats.is_empty()).then_some(object),
+        triangles: (!triangles.mesh.triangles.is_empty()).then_some(triangles),
+        report,
+    })
 }
 
 /// Vertices and triangles.

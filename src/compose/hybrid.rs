@@ -1,36 +1,11 @@
-//! A mesh in part as triangles, in part as splats.
+//! A mesh in part as triangles, in part as splats: which triangles stay, and how many splats take the others' place.
 
 use glam::DVec3;
 
 use crate::{
-    error::{Error, Result},
-    geometry::MeshReport,
-    load::{Polygons, Samples},
-    progress::Progress,
-    scene::{Mesh, Splats},
+    load::{Polygons, Source},
+    scene::Mesh,
 };
-
-/// The two parts, and what was found in the whole mesh.
-pub(super) struct Split {
-    pub splats: Splats,
-    pub polygons: Mesh,
-    pub report: MeshReport,
-}
-
-/// Makes both parts of a mesh that is where it is drawn. `stays_polygon` says for each triangle which part it goes to.
-///
-/// # Errors
-/// [`crate::ErrorKind::Option`]: not there yet.
-pub(super) fn split(
-    mesh: &Mesh,
-    stays_polygon: &[bool],
-    samples: Samples,
-    progress: &dyn Progress,
-) -> Result<Split> {
-    // geometry::hybrid(mesh, &|i| stays_polygon[i], &HybridOptions { .. }, progress) goes here.
-    let _ = (mesh, stays_polygon, samples, progress);
-    Err(Error::option("representation", "hybrid: not supported yet; expected splats or mesh"))
-}
 
 /// Which triangles of a mesh stay polygons; those that can't be drawn don't. The mesh is in its own coordinates.
 pub(super) fn stay_polygons(mesh: &Mesh, polygons: Polygons) -> Vec<bool> {
@@ -45,17 +20,63 @@ fn stays_polygon([a, b, c]: [DVec3; 3], polygons: Polygons) -> bool {
     }
 }
 
+/// How many splats the splat part has where nobody says it. A file's has as many as it has vertices, so that splats are
+/// about as large as those at vertices would be; a built-in model's is as dense as the model made of splats alone.
+pub(super) fn usual_samples(mesh: &Mesh, stays_polygon: &[bool], source: &Source) -> u64 {
+    let samples = match source {
+        Source::File(_) => splat_vertices(mesh, stays_polygon),
+        Source::BuiltIn { splats, .. } => share(mesh, stays_polygon, *splats),
+    };
+    samples.max(1)
+}
+
+/// The vertices of triangles that become splats.
+fn splat_vertices(mesh: &Mesh, stays_polygon: &[bool]) -> u64 {
+    let mut used = vec![false; mesh.positions.len()];
+    for (triangle, _) in mesh.triangles.iter().zip(stays_polygon).filter(|(_, stays)| !**stays) {
+        for &vertex in triangle {
+            if let Some(used) = used.get_mut(vertex as usize) {
+                *used = true;
+            }
+        }
+    }
+    used.into_iter().filter(|used| *used).count() as u64
+}
+
+/// What the splat part has of the splats of the whole, by its area.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "rounded"
+)]
+fn share(mesh: &Mesh, stays_polygon: &[bool], splats: u64) -> u64 {
+    let area = |i: usize| mesh.corners(i).map_or(0.0, |[a, b, c]| (b - a).cross(c - a).length());
+    let (mut part, mut all) = (0.0, 0.0);
+    for (i, stays) in stays_polygon.iter().enumerate() {
+        let area = area(i);
+        all += area;
+        part += if *stays { 0.0 } else { area };
+    }
+    if all > 0.0 { (splats as f64 * (part / all)).round() as u64 } else { splats }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::load::BuiltIn;
 
-    #[test]
-    fn triangles_stay_beyond_a_plane_or_with_a_long_edge() {
-        let mesh = Mesh {
+    fn mesh() -> Mesh {
+        Mesh {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, 6.0 * DVec3::X, DVec3::NAN],
             triangles: vec![[0, 1, 2], [0, 3, 2], [0, 1, 4], [0, 1, 9]],
             ..Mesh::default()
-        };
+        }
+    }
+
+    #[test]
+    fn triangles_stay_beyond_a_plane_or_with_a_long_edge() {
+        let mesh = mesh();
         // The middles have x = 1/3 and 2.
         let plane = |x, d| Polygons::Plane { normal: DVec3::new(x, 0.0, 0.0), d };
         assert_eq!(stay_polygons(&mesh, plane(1.0, 1.0)), [false, true, false, false]);
@@ -63,5 +84,19 @@ mod tests {
         assert_eq!(stay_polygons(&mesh, Polygons::LongerThan(1.5)), [false, true, false, false]);
         assert_eq!(stay_polygons(&mesh, Polygons::LongerThan(1.4)), [true, true, false, false]);
         assert_eq!(stay_polygons(&mesh, Polygons::LongerThan(9.0)), [false; 4]);
+    }
+
+    #[test]
+    fn a_file_has_a_splat_for_each_vertex_and_a_built_in_model_its_share_of_the_area() {
+        let mut mesh = mesh();
+        mesh.triangles.truncate(2);
+        let file = Source::File("a.obj".into());
+        let ball = Source::BuiltIn { model: BuiltIn::Sphere, splats: 700, triangles: 1 };
+        let samples = |stay: [bool; 2]| [&file, &ball].map(|source| usual_samples(&mesh, &stay, source));
+        // Areas of 1/2 and 3.
+        assert_eq!(samples([false, true]), [3, 100]);
+        assert_eq!(samples([true, false]), [3, 600]);
+        assert_eq!(samples([false, false]), [4, 700]);
+        assert_eq!(samples([true, true]), [1, 1]);
     }
 }

@@ -36,7 +36,7 @@ fn bytes(object: &ObjectDescription) -> u64 {
         Source::BuiltIn { splats, triangles, .. } => match object.representation {
             Representation::Splats => splats.saturating_mul(BYTES_PER_SPLAT as u64),
             Representation::Mesh => triangles.saturating_mul(BYTES_PER_TRIANGLE),
-            Representation::Hybrid(_) => {
+            Representation::Hybrid { .. } => {
                 let splats = splats.saturating_mul(BYTES_PER_SAMPLE);
                 splats.saturating_add(triangles.saturating_mul(BYTES_PER_TRIANGLE))
             }

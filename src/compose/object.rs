@@ -95,7 +95,7 @@ fn open(object: &ObjectDescription, work: &mut Work<'_>) -> Result<(Model, Strin
             work.time(format!("make the {name}"), |_| match object.representation {
                 Representation::Splats => splats_of(*model, *splats),
                 // Other models have none, and no scene file asks them for any.
-                Representation::Mesh | Representation::Hybrid(_) => Model::Mesh(sphere_mesh(*triangles)),
+                Representation::Mesh | Representation::Hybrid { .. } => Model::Mesh(sphere_mesh(*triangles)),
             })
         }
     };

@@ -107,6 +107,51 @@ fn the_built_in_ball_is_drawn_as_either() {
 }
 
 #[test]
+fn a_hybrid_is_splats_and_triangles_of_one_name() {
+    let folder = folder();
+    let x_above = |d| Polygons::Plane { normal: DVec3::X, d };
+    let of_mesh = |polygons, sample_edges| ObjectDescription {
+        representation: Representation::Hybrid { polygons, sample_edges },
+        world_from_object: stretched(),
+        alpha: 0.5,
+        ..of_file(&folder, "mesh.obj")
+    };
+    let made = make(&of_mesh(x_above(0.0), true), &()).unwrap();
+    let expected = "mesh.obj: 6 vertices, 8 triangles: closed; 9 splats and 4 triangles, which meet at 4 edges with 5 \
+        of the splats; transparent, alpha 0.5";
+    assert_eq!(made.report.summary, expected);
+    let (splats, triangles) = (made.splats.unwrap(), made.triangles.unwrap());
+    assert_eq!((splats.name.as_str(), triangles.name.as_str()), ("mesh.obj", "mesh.obj"));
+    assert!(splats.closed && triangles.closed, "as the whole mesh is");
+    // The object's plane x = 0 is at 1 in the world, and half of the octahedron on either side.
+    assert!(splats.splats.positions.iter().all(|position| position.x < 1.0 + 1e-9));
+    assert!(triangles.mesh.positions.iter().all(|position| position.x > 1.0 - 1e-9));
+    assert!(matches!(splats.splats.colors, Colors::Uniform([.., 0.5])));
+    assert!(matches!(triangles.mesh.colors, MeshColors::Uniform([.., 0.5]) | MeshColors::None));
+
+    // As many as vertices where nothing says how many, all of them where none is moved to an edge.
+    let plain = make(&of_mesh(x_above(0.0), false), &()).unwrap();
+    assert_eq!(plain.report.splats, 5);
+    let samples = Some(Samples { count: 300, seed: 1 });
+    let many = make(&ObjectDescription { samples, ..of_mesh(x_above(0.0), false) }, &()).unwrap();
+    assert_eq!(many.report.splats, 300);
+
+    // One part may have everything.
+    let all_splats = make(&of_mesh(x_above(9.0), true), &()).unwrap();
+    assert!(all_splats.triangles.is_none() && all_splats.report.splats == 6);
+    let all_triangles = make(&of_mesh(x_above(-9.0), true), &()).unwrap();
+    assert!(all_triangles.splats.is_none() && all_triangles.report.splats == 0);
+    assert!(all_triangles.report.summary.contains("; 0 splats and 8 triangles"));
+
+    let ball = ObjectDescription {
+        representation: of_mesh(x_above(0.0), false).representation,
+        ..ObjectDescription::of_built_in(BuiltIn::Sphere)
+    };
+    let half = make(&ball, &()).unwrap().report;
+    assert!(half.splats.abs_diff(10_000) < 300, "half as many as the whole has: {}", half.splats);
+}
+
+#[test]
 fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
     let folder = folder();
     fs::write(folder.path().join("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
@@ -119,7 +164,7 @@ fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
     let splats = || of_file(&folder, "splats.ply");
     let flat = || of_file(&folder, "flat.obj");
     let mesh = Representation::Mesh;
-    let hybrid = Representation::Hybrid(Polygons::LongerThan(1.0));
+    let hybrid = Representation::Hybrid { polygons: Polygons::LongerThan(1.0), sample_edges: true };
     let cases = [
         (
             ObjectDescription { samples, ..splats() },
@@ -136,8 +181,12 @@ fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
         ),
         (ObjectDescription { samples, ..flat() }, "flat.obj: no area to take samples of in 1 triangle"),
         (
-            ObjectDescription { representation: hybrid, samples, ..of_file(&folder, "mesh.obj") },
-            "representation: hybrid: not supported yet; expected splats or mesh",
+            ObjectDescription { representation: hybrid, ..splats() },
+            "splats.ply: the file holds splats; expected a mesh, to draw its triangles",
+        ),
+        (
+            ObjectDescription { representation: hybrid, ..flat() },
+            "flat.obj: no area to take samples of in 1 triangle",
         ),
         (of_file(&folder, "none.ply"), "none.ply: cannot read: No such file"),
         (of_file(&folder, "scene.toml"), "scene.toml: this is a scene file; expected a PLY or OBJ file"),

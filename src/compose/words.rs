@@ -1,7 +1,7 @@
 //! What was done with an input, in words.
 
 use crate::{
-    geometry::MeshReport,
+    geometry::{HybridReport, MeshReport},
     report::InputReport,
     scene::{Colors, DefectCounts, MeshColors, MeshObject, Object, Opacity, Shapes, Splats},
 };
@@ -88,6 +88,16 @@ pub(super) fn normals_computed(report: &MeshReport, vertices: usize) -> String {
         _ if report.normals_from_file == 0 => "normals computed".to_owned(),
         missing => format!("{missing} normals computed"),
     }
+}
+
+/// A mesh in two parts.
+pub(super) fn split_into(report: &HybridReport, splats: usize) -> String {
+    let edges = match (report.transition_edges, report.edge_splats) {
+        (0, _) => String::new(),
+        (edges, 0) => format!(", which meet at {edges} edges"),
+        (edges, on_them) => format!(", which meet at {edges} edges with {on_them} of the splats"),
+    };
+    format!("{splats} splats and {} triangles{edges}", report.polygons)
 }
 
 /// What is seen through it; nothing is said of what is opaque.

@@ -75,8 +75,12 @@ fn meshes_are_drawn_as_triangles_where_that_is_asked_for() {
 }
 
 #[test]
-fn the_example_loads() {
+fn the_examples_load() {
     let folder = Folder::new();
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/hybrid.toml");
+    let run = drawn(&folder, &["render", example]);
+    let said = run.stderr.lines().next().unwrap_or_default();
+    assert!(said.starts_with("built-in sphere: ") && said.contains(" of the splats"), "{said}");
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/spheres.toml");
     let run = drawn(&folder, &["render", example]);
     let expected = "built-in sphere: 20000 disks, closed; transparent, alpha 0.5";
@@ -94,7 +98,7 @@ fn faults_are_told_in_one_line_with_their_place() {
     );
     folder.write(
         "hybrid.toml",
-        "[[object]]\nbuiltin = \"sphere\"\nrepresentation = \"hybrid\"\npolygons.longer_than = 1\n",
+        "[[object]]\nfile = \"disk.ply\"\nrepresentation = \"hybrid\"\npolygons.longer_than = 1\n",
     );
     folder.write("itself.toml", "[[object]]\nfile = \"itself.toml\"\n");
     folder.write("same.toml", "[[object]]\nfile = \"disk.ply\"\n");
@@ -107,7 +111,7 @@ fn faults_are_told_in_one_line_with_their_place() {
             "camera.toml: camera: camera.toml has one too; expected one camera",
         ),
         (&["inside.toml"], "inside.toml: camera: eye and target must be two different points"),
-        (&["hybrid.toml"], "representation: hybrid: not supported yet; expected splats or mesh"),
+        (&["hybrid.toml"], "disk.ply: the file holds splats; expected a mesh, to draw its triangles"),
         (&["same.toml", "--timings", "disk.ply"], "disk.ply: is an input, or written twice"),
         (&["same.toml", "--timings", "./same.toml"], "./same.toml: is an input, or written twice"),
         (&["--representation", "points"], "[possible values: splats, mesh]"),

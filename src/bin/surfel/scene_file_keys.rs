@@ -18,15 +18,18 @@ space; colors are sRGB from 0 to 1.
 [[object]]                 at least one, at most 1024
   file                     PLY or OBJ, in the scene file's folder or below, links followed; or
   builtin                  \"relief\", \"sphere\" (of radius 1) or \"checkerboard\"
-  splats                   of a builtin; 150000, 20000 and 10000 of these
+  splats                   of a builtin; 150000, 20000 and 10000 of these; a hybrid has a share
+                           for the area of its splats
   triangles = 20480        of the sphere as triangles: at least so many
   name                     in messages, in place of the file's
   representation           \"splats\" or, of a mesh, \"mesh\": its triangles; or \"hybrid\": some
-                           triangles, splats for the others (not yet supported)
+                           triangles, splats for the others
   polygons                 of a hybrid, which triangles stay: { plane = [nx, ny, nz, d] }: those
                            whose middle x has n.x >= d, or { longer_than = LENGTH }: those with a
                            longer edge; before the object is placed
-  resample                 of a mesh: so many splats, spread evenly, not a disk at each vertex
+  sample_edges = true      of a hybrid: splats on the edges where both meet, for a smooth seam
+  resample                 of a mesh: so many splats, spread evenly, not a disk at each vertex; a
+                           hybrid always does, with the number of its splat part's vertices
   seed = 0                 which ones
   scale = 1                or [x, y, z]; negative numbers mirror
   rotate_deg = [0, 0, 0]   then turned about x, then y, then z, in degrees

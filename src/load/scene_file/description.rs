@@ -31,7 +31,8 @@ pub struct ObjectDescription {
     pub name: Option<String>,
     /// As what it is drawn.
     pub representation: Representation,
-    /// New splats of a mesh's surface; without, a disk at each vertex. Only for meshes that are not drawn as triangles.
+    /// New splats of a mesh's surface, or of the part of it that is drawn as splats; without, a disk at each vertex, and as
+    /// many for such a part as it has vertices. Only for meshes that are not drawn as triangles.
     pub samples: Option<Samples>,
     /// Where it is: from the model's own coordinates to the world's; invertible.
     pub world_from_object: DAffine3,
@@ -50,7 +51,7 @@ pub enum Source {
     BuiltIn {
         /// Which.
         model: BuiltIn,
-        /// How many splats, if it is made of splats: 1 to [`MOST_BUILT_IN_SPLATS`].
+        /// How many splats, if it is made of splats: 1 to [`MOST_BUILT_IN_SPLATS`]; a part has its share by area.
         splats: u64,
         /// How many triangles at least, if it is made of triangles: at least 1.
         triangles: u64,
@@ -113,7 +114,12 @@ pub enum Representation {
     /// The triangles of a mesh.
     Mesh,
     /// Some triangles of a mesh as they are, splats in place of the others, with a smooth transition.
-    Hybrid(Polygons),
+    Hybrid {
+        /// Which stay.
+        polygons: Polygons,
+        /// Splats are centered on the edges where both meet, as a smooth transition needs it.
+        sample_edges: bool,
+    },
 }
 
 /// Which triangles of a mesh stay polygons, in the mesh's own coordinates.

@@ -191,6 +191,11 @@ impl<'a> Value<'a> {
         Some(array.iter().map(element).collect())
     }
 
+    /// `true` or `false`.
+    pub(super) fn yes_or_no(&self) -> Result<bool> {
+        self.value.get_ref().as_bool().ok_or_else(|| self.expected("true or false"))
+    }
+
     /// A text.
     pub(super) fn text(&self, what: &str) -> Result<&'a str> {
         self.value.get_ref().as_str().ok_or_else(|| self.expected(what))

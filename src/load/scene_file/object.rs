@@ -17,6 +17,7 @@ pub(super) const KEYS: &[&str] = &[
     "name",
     "representation",
     "polygons",
+    "sample_edges",
     "resample",
     "seed",
     "translate",
@@ -34,7 +35,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<ObjectDescription> {
     let source = source::read(table)?;
     let representation = representation(table)?;
     let samples = samples(table)?;
-    check_together(table, &source, representation, samples)?;
+    check_together(table, &source, representation)?;
     let alpha = match table.get("alpha") {
         None => 1.0,
         Some(value) => value.number("a number from 0 to 1", |number| (0.0..=1.0).contains(&number))? as f32,
@@ -51,12 +52,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<ObjectDescription> {
 }
 
 /// Refuses what has no meaning together.
-fn check_together(
-    table: &Table<'_>,
-    source: &Source,
-    representation: Representation,
-    samples: Option<Samples>,
-) -> Result<()> {
+fn check_together(table: &Table<'_>, source: &Source, representation: Representation) -> Result<()> {
     if let Source::BuiltIn { model, .. } = source {
         if let (Some(value), false) = (table.get("representation"), model.has_triangles())
             && representation != Representation::Splats
@@ -72,10 +68,7 @@ fn check_together(
             table.refuse("splats", why)?;
             table.refuse("resample", why)
         }
-        Representation::Hybrid(_) if matches!(source, Source::File(_)) && samples.is_none() => {
-            Err(table.fault("hybrid without resample; expected how many splats its splat part has"))
-        }
-        Representation::Hybrid(_) => Ok(()),
+        Representation::Hybrid { .. } => Ok(()),
     }
 }
 
@@ -102,12 +95,17 @@ fn representation(table: &Table<'_>) -> Result<Representation> {
     let name = table.get("representation").map(|value| value.one_of(&names)).transpose()?;
     let name = name.unwrap_or(Name::Splats);
     if name != Name::Hybrid {
-        table.refuse("polygons", "without representation = \"hybrid\"")?;
+        let why = "without representation = \"hybrid\"";
+        table.refuse("polygons", why)?;
+        table.refuse("sample_edges", why)?;
     }
     Ok(match name {
         Name::Splats => Representation::Splats,
         Name::Mesh => Representation::Mesh,
-        Name::Hybrid => Representation::Hybrid(polygons(table)?),
+        Name::Hybrid => Representation::Hybrid {
+            polygons: polygons(table)?,
+            sample_edges: table.get("sample_edges").map_or(Ok(true), |value| value.yes_or_no())?,
+        },
     })
 }
 

@@ -65,7 +65,7 @@ fn everything_that_can_be_said() {
              [[object]]\nbuiltin = \"relief\"\nsplats = 5000\n\
              [[object]]\nbuiltin = \"sphere\"\nrepresentation = \"mesh\"\ntriangles = 80\n\
              [[object]]\nfile = \"models/b.obj\"\nrepresentation = \"hybrid\"\nresample = 9\n\
-             polygons = { plane = [0, 0, 2, -1] }\n\
+             polygons = { plane = [0, 0, 2, -1] }\nsample_edges = false\n\
              [[object]]\nbuiltin = \"sphere\"\nrepresentation = \"hybrid\"\npolygons.longer_than = 0.5\n",
         )
         .unwrap();
@@ -85,6 +85,7 @@ fn everything_that_can_be_said() {
     let samples = |count, seed| Some(Samples { count, seed });
     let b = ObjectDescription::of_file(place.path("scene/models/b.obj"));
     let plane = Polygons::Plane { normal: 2.0 * DVec3::Z, d: -1.0 };
+    let hybrid = |polygons, sample_edges| Representation::Hybrid { polygons, sample_edges };
     let sphere = ObjectDescription::of_built_in(BuiltIn::Sphere);
     let built_in = |model, splats, triangles| Source::BuiltIn { model, splats, triangles };
     let expected = [
@@ -101,8 +102,8 @@ fn everything_that_can_be_said() {
             representation: Representation::Mesh,
             ..sphere.clone()
         },
-        ObjectDescription { representation: Representation::Hybrid(plane), samples: samples(9, 0), ..b },
-        ObjectDescription { representation: Representation::Hybrid(Polygons::LongerThan(0.5)), ..sphere },
+        ObjectDescription { representation: hybrid(plane, false), samples: samples(9, 0), ..b },
+        ObjectDescription { representation: hybrid(Polygons::LongerThan(0.5), true), ..sphere },
     ];
     assert_eq!(file.objects, expected);
     assert_eq!(file.path, place.path("scene/scene.toml"));

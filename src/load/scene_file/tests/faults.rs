@@ -178,6 +178,14 @@ fn objects_that_cannot_be() {
             "line 3, object 1, polygons: has no meaning without representation = \"hybrid\"",
         ),
         (
+            "sample_edges = true",
+            "line 3, object 1, sample_edges: has no meaning without representation = \"hybrid\"",
+        ),
+        (
+            "representation = \"hybrid\"\npolygons.longer_than = 1\nsample_edges = 1",
+            "line 5, object 1, sample_edges: 1: expected true or false",
+        ),
+        (
             "representation = \"mesh\"\nsplats = 9",
             "line 4, object 1, splats: has no meaning for a model drawn as triangles",
         ),
@@ -222,10 +230,6 @@ fn objects_that_cannot_be() {
         (
             "file = \"a.ply\"\nrepresentation = \"mesh\"\nresample = 9",
             "line 4, object 1, resample: has no meaning for a model drawn as triangles",
-        ),
-        (
-            "file = \"a.ply\"\nrepresentation = \"hybrid\"\npolygons.longer_than = 1",
-            "line 1, object 1: hybrid without resample; expected how many splats its splat part has",
         ),
     ];
     for (keys, expected) in cases {
