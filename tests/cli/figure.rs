@@ -69,6 +69,12 @@ impl Panel {
         across.chain(down).map(|difference| difference * difference).sum::<f64>() / (2 * values.len()) as f64
     }
 
+    /// How many neighbors in a row differ by more.
+    fn steps(&self, least: f64) -> usize {
+        let rows = self.values.chunks(self.width);
+        rows.flat_map(|row| row.windows(2)).filter(|pair| (pair[1] - pair[0]).abs() > least).count()
+    }
+
     /// How many pixels are between these.
     fn count(&self, range: std::ops::Range<f64>) -> usize {
         self.values.iter().filter(|value| range.contains(value)).count()
@@ -87,7 +93,7 @@ fn without_a_name_the_figures_are_listed() {
     let run = surfel(&folder, &["figure"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let names: Vec<_> = run.stdout.lines().filter_map(|line| line.split(' ').next()).collect();
-    assert_eq!(names, ["g1", "g3", "g4", "p9", "p10", "p18", "p19"]);
+    assert_eq!(names, ["g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19"]);
     assert!(folder.names().is_empty());
 }
 
@@ -137,6 +143,51 @@ fn g4_adjustment_is_nearer_to_ewa_than_the_maximum() {
     println!("from ewa: max {:.4}, adjust {:.4}", max.distance(&ewa), adjust.distance(&ewa));
     assert!(a > 1.2 * b);
     assert!(adjust.distance(&ewa) < 0.5 * max.distance(&ewa));
+}
+
+#[test]
+fn g5_the_seam_is_seen_unless_it_is_smoothed() {
+    let [naive, smoothed, weights, plain] =
+        <[Panel; 4]>::try_from(panels("g5", [240, 200], &[])).ok().unwrap();
+    let [a, b, d] = [&naive, &smoothed, &plain].map(|panel| panel.steps(0.07));
+    println!("steps: naive {a}, smoothed {b}, edges not sampled {d}");
+    assert!(a > 5 * b.max(1) && d > b, "{a}, {b}, {d}");
+    // The weights fall from 1 to 0 in a band along the seam.
+    let [black, gray, white] = [0.0..0.001, 0.001..0.999, 0.999..1.1].map(|range| weights.count(range));
+    println!("weights: {black} black, {gray} gray, {white} white");
+    assert!(black > 10_000 && white > 10_000 && gray > 500 && gray < 5000);
+}
+
+#[test]
+fn g5_shows_another_mesh() {
+    let folder = Folder::new();
+    folder.write("ridge.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 1\nf 1 2 3\nf 2 4 3\n");
+    let run = surfel(&folder, &["figure", "g5", "--size", "64x64", "--model", "ridge.obj"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(folder.names(), ["g5.png", "ridge.obj"]);
+}
+
+#[test]
+fn g6_six_layers_are_all_and_three_are_not() {
+    let [six, dropped, blended, all] = <[Panel; 4]>::try_from(panels("g6", [240, 240], &[])).ok().unwrap();
+    let [a, b, c] = [&six, &dropped, &blended].map(|panel| panel.distance(&all));
+    let between = dropped.distance(&blended);
+    println!("from all: six {a:.4}, dropped {b:.4}, blended {c:.4}; dropped from blended {between:.4}");
+    assert!(a < 0.01 * b && b > 0.02 && c < b && between > 1e-3);
+}
+
+#[test]
+fn slides_the_last_layer_has_what_is_behind() {
+    let panels = panels("slides", [96, 96], &[]);
+    assert_eq!(panels.len(), 6);
+    let mut before = 1.0;
+    for row in panels.chunks(3) {
+        let [dropped, blended] = [&row[1], &row[2]].map(|panel| panel.distance(&row[0]));
+        println!("from all: only the first {dropped:.4}, with the blended {blended:.4}");
+        assert!(blended < 0.6 * dropped && blended < before);
+        before = blended;
+    }
+    assert_eq!(panels[0].values, panels[3].values, "all layers, twice");
 }
 
 #[test]
@@ -209,14 +260,15 @@ fn faults_are_one_line_and_leave_nothing() {
     let folder = Folder::new();
     folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n"));
     let before = folder.names();
-    let cases: [(&[&str], &str); 9] = [
-        (&["g2"], "possible values: g1, g3, g4, p9, p10, p18, p19"),
+    let cases: [(&[&str], &str); 10] = [
+        (&["g2"], "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19"),
         (&["--size", "64x64"], "required arguments"),
         (&["g3", "-o", "a.svg"], "--output: a.svg: expected a name in .png for g3"),
         (&["p9", "-o", "a.png"], "--output: a.png: expected a name in .svg for p9"),
         (&["g3", "--size", "31x64"], "--size: 31x64: expected 32 to 4096 pixels a side"),
         (&["g1", "--size", "64x32"], "--size: 64x32: expected a square"),
-        (&["g3", "--model", "model.ply"], "--model: g3 has a scene of its own"),
+        (&["g3", "--model", "model.ply"], "--model: g3 has a scene of its own; expected g5 or p19"),
+        (&["g5", "--model", "model.ply"], "model.ply: the file holds splats; expected a mesh"),
         (&["p19", "--model", "none.ply"], "none.ply: cannot read"),
         (&["g3", "-o", "no/such/a.png"], "no/such/a.png: cannot write"),
     ];

@@ -13,7 +13,7 @@ use std::{num::NonZero, thread};
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Colors, Object, Shapes, Splats};
+use crate::scene::{Colors, Mesh, MeshColors, Object, Shapes, Splats};
 use relief::{Relief, SurfacePoint};
 
 /// How many splats the built-in model has where nothing else is asked for.
@@ -54,6 +54,20 @@ pub fn relief(count: usize) -> Object {
         colors: Colors::PerSplat(points.iter().map(|p| p.color).collect()),
     };
     Object { name: "built-in relief".to_owned(), splats, closed: true }
+}
+
+/// The same surface as a mesh: [`sphere_mesh`] of so many triangles with the relief's heights, normals and colors at its
+/// vertices. Below some hundred thousand triangles the relief is finer than they are.
+pub fn relief_mesh(triangles: u64) -> Mesh {
+    let relief = Relief::new();
+    let ball = sphere_mesh(triangles);
+    let points: Vec<SurfacePoint> = ball.positions.iter().map(|position| relief.point(*position)).collect();
+    Mesh {
+        positions: points.iter().map(|point| point.position).collect(),
+        normals: Some(points.iter().map(|point| point.normal.as_vec3()).collect()),
+        colors: MeshColors::PerVertex(points.iter().map(|point| point.color).collect()),
+        triangles: ball.triangles,
+    }
 }
 
 /// Direction `i` of `count` on the unit sphere (González, "Measurement of areas on a sphere using Fibonacci and

@@ -69,6 +69,21 @@ fn no_point_of_the_surface_is_in_a_hole() {
 }
 
 #[test]
+fn the_mesh_is_the_same_surface() {
+    let (mesh, surface) = (relief_mesh(2000), Relief::new());
+    assert_eq!(mesh.triangles, sphere_mesh(2000).triangles);
+    let (normals, MeshColors::PerVertex(colors)) = (mesh.normals.unwrap(), mesh.colors) else {
+        panic!("one color")
+    };
+    for (i, position) in mesh.positions.iter().enumerate() {
+        let point = surface.point(position.normalize());
+        assert!(point.position.distance(*position) < 1e-12);
+        assert!(point.normal.distance(normals[i].as_dvec3()) < 1e-6);
+        assert!((point.color[0] - colors[i][0]).abs() < 1e-6);
+    }
+}
+
+#[test]
 fn it_is_the_same_every_time_whatever_the_count_of_threads() {
     let (a, b) = (relief(5000), relief(5000));
     assert_eq!(a.splats.positions, b.splats.positions);

@@ -14,7 +14,7 @@ pub struct FigureArguments {
     #[arg(value_name = "NAME")]
     pub name: Option<Figure>,
 
-    /// The file: .png for g1, g3, g4, p18 and p19, .svg for p9 and p10 [default: the figure's name, in the current folder]
+    /// The file: .svg for p9 and p10, .png for the others [default: the figure's name, in the current folder]
     #[arg(short, long, value_name = "FILE", requires = "name")]
     pub output: Option<PathBuf>,
 
@@ -22,7 +22,7 @@ pub struct FigureArguments {
     #[arg(long, value_name = "WxH", requires = "name", value_parser = parse::size)]
     pub size: Option<[u32; 2]>,
 
-    /// The PLY or OBJ file that p19 shows [default: the built-in model with few splats]
+    /// The PLY or OBJ file that g5 (a mesh) and p19 show [default: the built-in model with few triangles or splats]
     #[arg(long, value_name = "FILE", requires = "name")]
     pub model: Option<PathBuf>,
 
@@ -45,6 +45,14 @@ pub enum Figure {
     G3,
     /// G figure 4, splats that are magnified across and minified along the view: maximum against tangent adjustment
     G4,
+    /// G figure 5, one model half as polygons and half as splats: the seam as it is, smoothed, the weights that smooth it,
+    /// and smoothed without splats on the edges where both meet
+    G5,
+    /// G figure 6, 27 transparent balls: in 6 layers, in 3, in 3 with the rest blended into the last; and in all
+    G6,
+    /// G slides beside figure 6, depth peeling of a glass model: all layers, only the first 1 or 2, and with the rest
+    /// blended into one more
+    Slides,
     /// P figure 9, Gaussian kernels for six widths, as curves
     P9,
     /// P figure 10, the kernels psi_E for six pairs of n and a, as curves
@@ -65,6 +73,9 @@ impl Figure {
             Self::G1 => "g1",
             Self::G3 => "g3",
             Self::G4 => "g4",
+            Self::G5 => "g5",
+            Self::G6 => "g6",
+            Self::Slides => "slides",
             Self::P9 => "p9",
             Self::P10 => "p10",
             Self::P18 => "p18",
@@ -86,10 +97,18 @@ impl Figure {
             Self::G1 => [240, 240],
             Self::G3 => [800, 240],
             Self::G4 => [400, 300],
+            Self::G5 => [480, 400],
+            Self::G6 => [480, 480],
+            Self::Slides => [400, 400],
             Self::P9 | Self::P10 => [900, 600],
             Self::P18 => [512, 400],
             Self::P19 => [512, 512],
         }
+    }
+
+    /// Whether it shows another model where one is given.
+    pub fn takes_model(self) -> bool {
+        matches!(self, Self::G5 | Self::P19)
     }
 
     /// Every figure with what it shows, a line each.
@@ -97,7 +116,7 @@ impl Figure {
         let line = |figure: &Self| {
             let about =
                 figure.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
-            format!("{:<5}{}\n", figure.name(), about.unwrap_or_default())
+            format!("{:<8}{}\n", figure.name(), about.unwrap_or_default())
         };
         Self::value_variants().iter().map(line).collect()
     }

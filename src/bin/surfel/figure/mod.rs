@@ -10,6 +10,9 @@ mod footprint;
 mod g1;
 mod g3;
 mod g4;
+mod g5;
+mod g6;
+mod glass;
 mod kernels;
 mod p10;
 mod p18;
@@ -17,6 +20,7 @@ mod p19;
 mod p9;
 mod raster;
 mod sheet;
+mod slides;
 
 use std::path::Path;
 
@@ -47,11 +51,9 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     let Some(figure) = arguments.name else { return console::print(&Figure::list()) };
     let output = arguments.output(figure)?;
     let size_px = arguments.size_px(figure)?;
-    if arguments.model.is_some() && figure != Figure::P19 {
-        return Err(Error::option(
-            "--model",
-            format!("{} has a scene of its own; expected p19", figure.name()),
-        ));
+    if arguments.model.is_some() && !figure.takes_model() {
+        let problem = format!("{} has a scene of its own; expected g5 or p19", figure.name());
+        return Err(Error::option("--model", problem));
     }
     let inputs: Vec<&Path> = arguments.model.as_deref().into_iter().collect();
     outputs::check_places(&[&output], None, &[], &inputs)?;
@@ -86,6 +88,9 @@ pub fn draw(
         Figure::G1 => g1::draw(&mut easel).map(Drawn::Sheet),
         Figure::G3 => g3::draw(&mut easel).map(Drawn::Sheet),
         Figure::G4 => g4::draw(&mut easel).map(Drawn::Sheet),
+        Figure::G5 => g5::draw(&mut easel).map(Drawn::Sheet),
+        Figure::G6 => g6::draw(&mut easel).map(Drawn::Sheet),
+        Figure::Slides => slides::draw(&mut easel).map(Drawn::Sheet),
         Figure::P9 => p9::draw(&mut easel).map(Drawn::Plot),
         Figure::P10 => p10::draw(&mut easel).map(Drawn::Plot),
         Figure::P18 => p18::draw(&mut easel).map(Drawn::Sheet),

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Figures by their names, with what one sees and what follows.
-const FIGURES: [(&str, &str); 5] = [
+const FIGURES: [(&str, &str); 8] = [
     (
         "g1",
         "Where a splat is magnified all filters agree, but for a trace. Where it is far below a pixel, no filter leaves it so \
@@ -29,6 +29,23 @@ const FIGURES: [(&str, &str); 5] = [
         "g4",
         "Close up, with single pixels visible: the edges are stepped and speckled under the maximum, and smooth under tangent \
          adjustment and full EWA.",
+    ),
+    (
+        "g5",
+        "Where polygons end and splats begin there is a seam: splats as large as the triangles blur what these show sharp. The \
+         sum of the splats' weights falls from 1 to 0 beyond the seam and fades one into the other. Without splats on the \
+         very edges it falls unevenly, and parts of the seam stay.",
+    ),
+    (
+        "g6",
+        "Six layers are all that this scene has. With three, the balls in the third row are lost where three are behind each \
+         other; blended into the third layer they are seen again, but one layer of their mean opacity stands for four \
+         surfaces, so that the picture stays as light as without.",
+    ),
+    (
+        "slides",
+        "One exact layer and one that blends all that is behind it show what is in the glass, less crisp than complete depth \
+         peeling; with two exact layers the difference is small.",
     ),
     (
         "p9",
