@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{
-    DeviceReport, FloorReport, InputReport, Machine, ThroughputRow, TrustLimits,
+    DeviceReport, FloorReport, InputReport, LayersReport, Machine, ThroughputRow, TransitionReport,
+    TrustLimits,
     gate::{Gate, GateFigure, GateKind, Judgement},
     grid::Grid,
-    passes_grid, slides_grid, throughput_grid,
+    layers_grids, passes_grid, slides_grid, throughput_grid,
 };
 #[cfg(feature = "counts")]
 use super::{InstructionReport, InstructionRow};
@@ -41,6 +42,12 @@ pub struct BenchReport {
     /// `slides`: methods side by side at one number of splats.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slides: Option<ThroughputRow>,
+    /// `layers`: what transparent layers cost.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<LayersReport>,
+    /// `transition`: what the transition between splats and polygons costs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transition: Option<TransitionReport>,
     /// `counts`: the instructions of every pipeline.
     #[cfg(feature = "counts")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -69,6 +76,8 @@ impl BenchReport {
             grids.push(throughput_grid("the slides' methods: throughput", rows));
             grids.push(passes_grid("the slides' methods: where the time goes", rows));
         }
+        grids.extend(self.layers.iter().flat_map(layers_grids));
+        grids.extend(self.transition.as_ref().map(TransitionReport::grid));
         grids
     }
 

@@ -23,6 +23,11 @@ pub fn cell(figure: Option<f64>, decimals: usize) -> String {
     figure.map_or_else(|| NONE.to_owned(), |figure| format!("{figure:.decimals$}"))
 }
 
+/// A figure of others beside ours, in brackets; empty where they have none.
+pub(super) fn bracketed(figure: Option<f64>, decimals: usize) -> String {
+    figure.map_or_else(String::new, |figure| format!("({figure:.decimals$})"))
+}
+
 /// A count, or [`NONE`].
 pub fn count_cell(count: Option<u64>) -> String {
     count.map_or_else(|| NONE.to_owned(), |count| count.to_string())

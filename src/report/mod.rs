@@ -6,14 +6,18 @@
 mod bench;
 #[cfg(feature = "compare")]
 pub mod compare;
+mod contest;
 #[cfg(feature = "compare")]
 pub mod curves;
+mod empty_layers;
 mod floor;
 mod frames;
 pub mod gate;
 mod grid;
 #[cfg(feature = "counts")]
 mod instructions;
+mod layers;
+mod layers_table;
 mod options;
 #[cfg(feature = "compare")]
 mod plot;
@@ -25,6 +29,7 @@ mod throughput;
 #[cfg(feature = "compare")]
 mod throughput_plot;
 mod throughput_table;
+mod transition;
 mod trust;
 #[cfg(feature = "compare")]
 pub mod zoom;
@@ -32,11 +37,15 @@ pub mod zoom;
 #[cfg(feature = "counts")]
 pub use bench::counts_gate;
 pub use bench::{BenchReport, floor_gate, throughput_gate};
+pub use contest::Contestant;
+pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
 pub use grid::{Grid, NONE, cell, count_cell};
 #[cfg(feature = "counts")]
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
+pub use layers::{LayersContestant, LayersReport, OpaqueClaim, Places, Way};
+pub use layers_table::layers_grids;
 pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
 pub use slides::{SLIDES, Slide, slides_grid};
@@ -47,4 +56,5 @@ pub use throughput::{
 #[cfg(feature = "compare")]
 pub use throughput_plot::throughput_plot;
 pub use throughput_table::{passes_grid, throughput_grid};
+pub use transition::{Drawn, TransitionContestant, TransitionReport};
 pub use trust::{CardUse, Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};

@@ -42,6 +42,22 @@ impl Spread {
         let [low, high] = self.interval?;
         (self.median > 0.0).then(|| 0.5 * (high - low) / self.median)
     }
+
+    /// Whether the true median may be this, as far as the interval tells; `None` without one.
+    pub fn may_be(&self, value: f64) -> Option<bool> {
+        self.interval.map(|[low, high]| low <= value && value <= high)
+    }
+
+    /// Of 1 over each value; `None` unless all are above 0.
+    pub fn inverse(&self) -> Option<Self> {
+        let of = |value: f64| 1.0 / value;
+        (self.min > 0.0).then(|| Self {
+            median: of(self.median),
+            min: of(self.max),
+            max: of(self.min),
+            interval: self.interval.map(|[low, high]| [of(high), of(low)]),
+        })
+    }
 }
 
 /// The largest rank, from 0, such that the true median lies below that order statistic with a probability of at most
@@ -102,6 +118,15 @@ mod tests {
         assert!((spread.uncertainty().unwrap() - 4.5 / 10.5).abs() < 1e-12);
         // Where the two ways meet.
         assert!(rank(1001).unwrap().abs_diff(rank(1000).unwrap()) <= 1);
+    }
+
+    #[test]
+    fn the_inverse_turns_the_ends_and_an_interval_says_what_may_be() {
+        let spread = Spread::of([2.0, 4.0, 4.0, 4.0, 4.0, 8.0]).unwrap();
+        assert_eq!(spread.inverse(), Spread::of([0.5, 0.25, 0.25, 0.25, 0.25, 0.125]));
+        assert_eq!((spread.may_be(2.0), spread.may_be(1.9)), (Some(true), Some(false)));
+        let few = Spread::of([0.0, 1.0]).unwrap();
+        assert_eq!((few.may_be(1.0), few.inverse()), (None, None));
     }
 
     #[test]

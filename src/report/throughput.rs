@@ -100,7 +100,8 @@ pub struct Measured<'a> {
 }
 
 impl Measured<'_> {
-    fn times(&self) -> FrameTimes {
+    /// Its frames.
+    pub(super) fn times(&self) -> FrameTimes {
         FrameTimes::of(self.passes, 1, &self.rounds.concat(), self.counts)
     }
 
@@ -124,6 +125,11 @@ impl Measured<'_> {
         let all: Option<Vec<f64>> =
             self.rounds_ms().iter().map(|round| round.last().copied().flatten()).collect();
         all.unwrap_or_default()
+    }
+
+    /// How many times the frame of another its own takes, round by round.
+    pub fn frame_ratio(&self, other: &Self) -> Option<Spread> {
+        ratio(&self.rounds_ms(), &other.rounds_ms(), self.passes.len(), other.passes.len())
     }
 }
 

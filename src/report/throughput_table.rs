@@ -2,7 +2,8 @@
 
 use super::{
     FrameTimes, Spread,
-    grid::{Grid, NONE, cell, count_cell},
+    contest::interval_cell,
+    grid::{Grid, NONE, bracketed, cell, count_cell},
     throughput::{MethodThroughput, ThroughputRow},
 };
 
@@ -40,7 +41,7 @@ pub fn throughput_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
                 cell(method.million_splats_per_sec, 2),
                 bracketed(method.paper.map(|paper| paper.million_splats_per_sec), 1),
                 cell(ms.map(|ms| ms.median), 2),
-                interval_cell(ms.as_ref()),
+                interval_cell(ms.as_ref(), 2),
                 cell(beside.map(|spread| spread.median), 3),
                 bracketed(paper_ratio, 2),
                 cell(method.over_floor.last().copied().flatten().map(|spread| spread.median), 2),
@@ -138,18 +139,6 @@ fn rows_of(
             own,
             paper,
         ]);
-    }
-}
-
-fn bracketed(figure: Option<f64>, decimals: usize) -> String {
-    figure.map_or_else(String::new, |figure| format!("({figure:.decimals$})"))
-}
-
-/// The interval that holds the true median.
-fn interval_cell(spread: Option<&Spread>) -> String {
-    match spread.and_then(|spread| spread.interval) {
-        Some([low, high]) => format!("{low:.2} to {high:.2}"),
-        None => NONE.to_owned(),
     }
 }
 
