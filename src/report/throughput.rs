@@ -101,7 +101,7 @@ pub struct Measured<'a> {
 
 impl Measured<'_> {
     /// Its frames.
-    pub(super) fn times(&self) -> FrameTimes {
+    pub fn times(&self) -> FrameTimes {
         FrameTimes::of(self.passes, 1, &self.rounds.concat(), self.counts)
     }
 

@@ -159,6 +159,8 @@ const BENCH_EXAMPLES: &str = "Examples:
   surfel bench slides --model igea.ply
   surfel bench table1 --splats 154k,460k --json before.json
   surfel bench table1 --splats 154k,460k --baseline before.json
+  surfel bench layers --markdown layers.md
+  surfel bench transition --model igea.ply
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
 

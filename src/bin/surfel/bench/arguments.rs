@@ -17,11 +17,13 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1 and slides a mesh, which is resampled evenly over its area [default: the built-in model]
+    /// A PLY or OBJ file; for table1 and slides a mesh, which is resampled evenly over its area; for transition a mesh, half of
+    /// which is; layers has its own [default: the built-in model, for transition the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
-    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first [default: the paper's]
+    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first; by itself layers takes it
+    /// for each of its 27 balls, and transition for the whole model [default: the paper's; 2000 a ball; 40k]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -29,7 +31,7 @@ pub struct BenchArguments {
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse::size)]
     pub size: [u32; 2],
 
-    /// The filter of floor and table1; slides has each method's own
+    /// The filter of all but slides, which has each method's own
     #[arg(long, value_name = "FILTER", default_value = "adjust", value_parser = choice(Filter::NAMES))]
     pub filter: Filter,
 
@@ -103,6 +105,11 @@ pub enum Bench {
     Table1,
     /// The five methods of the paper's slides side by side
     Slides,
+    /// Transparent layers on 27 balls: 6, 3, 3 with the rest blended, and as many as the view has, beside the paper's figure 6;
+    /// what an empty layer costs, and what layers cost an opaque scene
+    Layers,
+    /// A mesh half as polygons and half as splats: every transition beside none, and the whole as either
+    Transition,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
     /// All of them
@@ -115,6 +122,8 @@ pub struct Tables {
     pub floor: bool,
     pub table1: bool,
     pub slides: bool,
+    pub layers: bool,
+    pub transition: bool,
     pub counts: bool,
 }
 
@@ -126,6 +135,8 @@ impl Bench {
             floor: is(Self::Floor),
             table1: is(Self::Table1),
             slides: is(Self::Slides),
+            layers: is(Self::Layers),
+            transition: is(Self::Transition),
             counts: is(Self::Counts),
         }
     }
@@ -136,9 +147,23 @@ impl Bench {
             Self::Floor => "floor",
             Self::Table1 => "table1",
             Self::Slides => "slides",
+            Self::Layers => "layers",
+            Self::Transition => "transition",
             Self::Counts => "counts",
             Self::All => "all",
         }
+    }
+}
+
+impl Tables {
+    /// Any whose contestants take turns of pairs of frames.
+    pub fn take_turns(self) -> bool {
+        self.table1 || self.slides || self.layers || self.transition
+    }
+
+    /// Any whose figures are times.
+    pub fn are_timed(self) -> bool {
+        self.floor || self.take_turns()
     }
 }
 
@@ -152,6 +177,11 @@ impl BenchArguments {
             accumulate: self.accumulate,
             ..Settings::default()
         }
+    }
+
+    /// The number of splats that this table is given: with all others the numbers are those of table1.
+    pub fn splats_of(&self, table: Bench) -> Option<u64> {
+        self.splats.first().copied().filter(|_| self.table == table)
     }
 
     /// The numbers of splats of table1.

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     report::{
-        BenchReport, DeviceReport, InputReport, counts_gate, floor_gate,
+        BenchReport, DeviceReport, InputReport, LayersReport, TransitionReport, counts_gate, floor_gate,
         gate::{Gate, GateLimits, Judgement, Verdict},
         throughput_gate,
     },
@@ -46,9 +46,7 @@ pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
         return Err(Error::input(path, "", format!("has '{}' twice", twice[0])));
     }
     let tables = arguments.table.tables();
-    if (tables.table1 || tables.slides) && arguments.frames < FEWEST_FRAMES
-        || tables.floor && arguments.frames < 6
-    {
+    if tables.take_turns() && arguments.frames < FEWEST_FRAMES || tables.floor && arguments.frames < 6 {
         return Err(Error::option(
             "--frames",
             format!("{}: a gate takes {FEWEST_FRAMES} at least", arguments.frames),
@@ -73,6 +71,8 @@ pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
     let mut figures = throughput_gate("table1", &report.table1);
     figures.extend(report.slides.iter().flat_map(|row| throughput_gate("slides", std::slice::from_ref(row))));
     figures.extend(report.floor.iter().flat_map(floor_gate));
+    figures.extend(report.layers.iter().flat_map(LayersReport::gate));
+    figures.extend(report.transition.iter().flat_map(TransitionReport::gate));
     figures.extend(report.counts.iter().flat_map(counts_gate));
     Gate {
         subject: subject(arguments, Some(report)),
@@ -135,7 +135,7 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
         .collect();
     subject.insert("table".to_owned(), arguments.table.name().to_owned());
     subject.insert("validation".to_owned(), arguments.validate.to_string());
-    if tables.table1 || tables.slides {
+    if tables.take_turns() {
         let splats: Vec<String> = arguments.splats.iter().map(u64::to_string).collect();
         let splats = if splats.is_empty() { "default".to_owned() } else { splats.join(",") };
         subject.insert("splats".to_owned(), splats);

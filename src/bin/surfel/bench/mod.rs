@@ -1,12 +1,15 @@
 //! `surfel bench`: tables of what things cost.
 
 mod arguments;
+mod contest;
 mod floor;
 mod gate;
+mod layers;
 mod model;
 mod outputs;
 mod slides;
 mod table1;
+mod transition;
 
 use surfel::{
     Error, Result,
@@ -52,11 +55,13 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     if !arguments.table.tables().counts && (counts.all || !counts.isa.is_empty()) {
         return Err(Error::option("--isa, --all", format!("{} counts nothing", arguments.table.name())));
     }
+    if arguments.table == Bench::Layers && arguments.model.is_some() {
+        return Err(Error::option("--model", "bench layers draws its own balls"));
+    }
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
-    let tables = arguments.table.tables();
     // Instructions are counted without a device.
-    let mut headless = match tables.floor || tables.table1 || tables.slides {
+    let mut headless = match arguments.table.tables().are_timed() {
         true => Some(device::open(arguments.device.as_deref(), arguments.validate)?),
         false => None,
     };
@@ -125,6 +130,12 @@ fn measure(headless: &mut Headless, stage: &mut Stage<'_>, report: &mut BenchRep
     }
     if tables.slides {
         report.slides = Some(slides::measure(headless, stage)?);
+    }
+    if tables.layers {
+        report.layers = Some(layers::measure(headless, stage)?);
+    }
+    if tables.transition {
+        report.transition = Some(transition::measure(headless, stage)?);
     }
     let machine = watch.end(&stage.clocks_mhz);
     report.flags = machine.flags(&stage.limits);

@@ -27,13 +27,16 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// The files of `--csv`, and how the titles of their tables begin.
-const TABLES: [(&str, &str); 7] = [
+const TABLES: [(&str, &str); 10] = [
     ("floor.csv", "floor: "),
     ("table1.csv", "table 1: throughput"),
     ("table1-passes.csv", "table 1: where"),
     ("slides.csv", "the slides' methods, "),
     ("slides-throughput.csv", "the slides' methods: throughput"),
     ("slides-passes.csv", "the slides' methods: where"),
+    ("layers.csv", "layers, "),
+    ("layers-empty.csv", "layers: what an empty"),
+    ("transition.csv", "transition, "),
     ("counts.csv", "counts: "),
 ];
 

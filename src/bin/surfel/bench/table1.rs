@@ -123,7 +123,7 @@ pub fn row(
 }
 
 /// The floor's frames.
-fn floor_frames(mut floor: Floor<'_>) -> Draw<'_> {
+pub fn floor_frames(mut floor: Floor<'_>) -> Draw<'_> {
     Box::new(move |headless: &mut Headless, profile: Profile| {
         let begun = std::time::Instant::now();
         let profile = floor.frame(headless, profile)?;

@@ -108,12 +108,16 @@ impl ReportArguments {
     pub fn bench(&self, name: &str) -> CommandLine {
         let line = CommandLine::new(["bench", name]);
         let line = match &self.model {
-            Some(model) => line.option("--model", model),
-            None => line,
+            Some(model) if name != "layers" => line.option("--model", model),
+            _ => line,
         };
         let line = match self.splats(name) {
             Some(splats) => line.option("--splats", splats),
             None => line,
+        };
+        let line = match self.quick && ["layers", "transition"].contains(&name) {
+            true => line.option("--size", "512x512"),
+            false => line,
         };
         let line = match name == "table1" {
             true => line.option("--plot", "table1.svg"),
@@ -133,6 +137,8 @@ impl ReportArguments {
         match table {
             "table1" if self.quick => Some("20k,154k"),
             "slides" if self.quick => Some("154k"),
+            "layers" if self.quick => Some("300"),
+            "transition" if self.quick => Some("20k"),
             _ => None,
         }
     }
@@ -192,7 +198,9 @@ mod tests {
             let arguments = report(words);
             assert!(matches!(arguments.render("normals").command(), Ok(Command::Render(_))), "{words:?}");
             assert!(matches!(arguments.figure("g1").command(), Ok(Command::Figure(_))), "{words:?}");
-            assert!(matches!(arguments.bench("floor").command(), Ok(Command::Bench(_))), "{words:?}");
+            for table in ["floor", "table1", "slides", "layers", "transition", "counts"] {
+                assert!(matches!(arguments.bench(table).command(), Ok(Command::Bench(_))), "{words:?}");
+            }
             for line in [arguments.compare(), arguments.zoom()] {
                 assert!(matches!(line.command(), Ok(Command::Compare(_))), "{line}");
             }

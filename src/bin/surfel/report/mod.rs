@@ -13,6 +13,7 @@ mod counts;
 mod distance;
 mod figures;
 mod head;
+mod layers;
 mod markdown;
 mod methods;
 mod page;
@@ -21,6 +22,7 @@ mod pictures;
 mod session;
 mod stability;
 mod table1;
+mod transition;
 
 use std::{collections::BTreeMap, fs};
 
@@ -54,6 +56,8 @@ const CHAPTERS: &[Chapter] = &[
     Chapter { id: "figures", title: "The papers' figures", gather: figures::gather },
     Chapter { id: "bench", title: "What frames cost", gather: bench::gather },
     Chapter { id: "tables", title: "The paper's tables", gather: table1::gather },
+    Chapter { id: "layers", title: "Transparent layers", gather: layers::gather },
+    Chapter { id: "transition", title: "From splats to polygons", gather: transition::gather },
     Chapter { id: "counts", title: "Instructions", gather: counts::gather },
     Chapter { id: "stability", title: "Numerical stability", gather: stability::gather },
 ];

@@ -1,0 +1,41 @@
+//! What it costs that splats and polygons of one surface meet smoothly.
+
+use surfel::{Result, report::TransitionReport};
+
+use super::{part::Part, session::Session};
+use crate::{arguments::Command, bench, json::to_value};
+
+/// Gathers the part.
+///
+/// # Errors
+/// Whatever goes wrong; a model that is no mesh.
+pub fn gather(session: &mut Session<'_>) -> Result<Part> {
+    let line = session.arguments.bench("transition");
+    let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let report = bench::gather(Some(&mut *session.headless), &arguments)?;
+    let mut part = Part {
+        finding: report.transition.as_ref().map_or_else(String::new, finding),
+        commands: vec![line],
+        data: to_value(&report)?,
+        ..Part::default()
+    };
+    for grid in report.grids() {
+        part.table(grid);
+    }
+    part.flags = report.flags;
+    part.machine = report.machine;
+    Ok(part)
+}
+
+/// The paper's claim: none of them costs anything.
+fn finding(report: &TransitionReport) -> String {
+    let ratios: Vec<f64> = report.ratios().filter_map(|ratio| Some(ratio?.median)).collect();
+    let ends = ratios.iter().copied().reduce(f64::min).zip(ratios.iter().copied().reduce(f64::max));
+    match ends {
+        Some((least, most)) => format!(
+            "Frames with a smooth transition take {least:.3} to {most:.3} times as long as those without; the paper has them \
+             equal."
+        ),
+        None => "The device tells no times.".to_owned(),
+    }
+}
