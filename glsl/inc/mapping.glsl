@@ -38,17 +38,19 @@ const float EDGE_ON = 2.4e-7; // 4 * 2^-24
 // A shift of less than a few steps of f32 would do nothing: seen from very far, a surface would hide itself in part.
 const float LEAST_SHIFT = 1e-6;
 
-// Epsilon of a transparent splat grows as the filter lengthens the minor axis of its image, from l to sqrt(l^2 + h^2): so much
-// farther neighbors reach the same pixel, at depths as much farther apart, and a slanted surface would peel again and again.
-// At most 16 times: beyond, the splat is seen edge-on.
+// Epsilon of a transparent splat grows as the filter lengthens the minor axis of its image, from l to L = sqrt(l^2 + h^2): a
+// slanted surface would peel again and again. A neighbor that still reaches a pixel has its center up to L from it, where the
+// surface's depth is up to r L / l farther or nearer, of which its own plane makes up r: its fragment is r (L / l - 1) off
+// the surface, to either side. Two such are r (2 L / l - 2) apart, and what was the epsilon without a filter comes upon
+// that: 2 L / l - 1 times r. L / l counts as 16 at most: beyond, the splat is seen edge-on.
 const float MOST_LENGTHENED = 16.0;
 
-float lengthened(vec3 p, vec3 s, vec3 t)
+float thickened(vec3 p, vec3 s, vec3 t)
 {
     float minor = abs(principal_axes(p, s, t).minor);
     float h = frame.filter_radius;
     float ratio = h < MOST_LENGTHENED * minor ? h / minor : MOST_LENGTHENED;
-    return min(sqrt(1.0 + ratio * ratio), MOST_LENGTHENED);
+    return 2.0 * min(sqrt(1.0 + ratio * ratio), MOST_LENGTHENED) - 1.0;
 }
 
 // False where nothing of the splat can be seen.
@@ -117,7 +119,7 @@ bool map_splat(uint index, out Mapping m)
 
     float thickness = splat.radius;
     if (IN_LAYERS && FILTER != FILTER_NONE && m.regular) {
-        thickness *= FORMULA(FORMULA_LENGTHENED, lengthened(splat.p, splat.s, splat.t));
+        thickness *= FORMULA(FORMULA_LENGTHENED, thickened(splat.p, splat.s, splat.t));
     }
     float epsilon = frame.epsilon_radii * thickness + frame.epsilon_length;
     float relative = epsilon > 0.0 ? max(FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)), LEAST_SHIFT) : 0.0;

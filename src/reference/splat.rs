@@ -151,13 +151,13 @@ fn prepare_one(
     let h = view.filter_radius();
     let original = (s, t);
     let is_layered = opacity == Opacity::Transparent;
-    let lengthened = match settings.filter {
+    let thickness = match settings.filter {
         Filter::None => 1.0,
-        _ if is_layered && regular => lengthened(center, s, t, h),
+        _ if is_layered && regular => thickened(center, s, t, h),
         _ => 1.0,
     };
     let epsilon = match settings.epsilon {
-        Epsilon::Radii(factor) => factor * splats.major_radius(i) * lengthened,
+        Epsilon::Radii(factor) => factor * splats.major_radius(i) * thickness,
         Epsilon::Length(length) => length,
     };
     let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
@@ -229,16 +229,17 @@ fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
     }
 }
 
-/// By how much a filter of radius `h` (image plane) lengthens the minor axis of a splat's image, from l to √(l² + h²); at most
-/// 16. The ε of a transparent splat grows alike: so much farther neighbors reach the same pixel, at depths as much farther
-/// apart.
-fn lengthened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
+/// How much thicker a surface of transparent splats is in a pixel, in radii, where a filter of radius `h` (image plane) lengthens
+/// the minor axis of their images from l to L = √(l² + h²), at most to 16 l. A splat whose center is L away, where the surface
+/// is r L / l deeper, makes up r of that by its slant: fragments are up to r (L / l − 1) off, to either side.
+fn thickened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
     // The singular values of the projection's Jacobian at the center, applied to s and t.
     let image = |v: DVec3| (v.truncate() - center.truncate() / center.z * v.z) / center.z;
     let (a, b) = (image(s), image(t));
     let (sum, area) = (a.length_squared() + b.length_squared(), a.perp_dot(b).abs());
     let minor = ((sum + 2.0 * area).sqrt() - (sum - 2.0 * area).max(0.0).sqrt()) / 2.0;
-    if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 }
+    let lengthened = if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 };
+    1.0 + 2.0 * (lengthened - 1.0)
 }
 
 /// The scaled tangent vectors in world space, with `s × t` along the outward normal.
