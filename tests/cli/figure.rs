@@ -173,7 +173,7 @@ fn g6_six_layers_are_all_and_three_are_not() {
     let [a, b, c] = [&six, &dropped, &blended].map(|panel| panel.distance(&all));
     let between = dropped.distance(&blended);
     println!("from all: six {a:.4}, dropped {b:.4}, blended {c:.4}; dropped from blended {between:.4}");
-    assert!(a < 0.01 * b && b > 0.02 && c < b && between > 1e-3);
+    assert!(a < 0.01 * b && b > 0.02 && c < 0.95 * b && between > 2e-3);
 }
 
 #[test]

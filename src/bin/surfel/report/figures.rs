@@ -38,9 +38,9 @@ const FIGURES: [(&str, &str); 8] = [
     ),
     (
         "g6",
-        "Six layers are all that this scene has. With three, the balls in the third row are lost where three are behind each \
-         other; blended into the third layer they are seen again, but one layer of their mean opacity stands for four \
-         surfaces, so that the picture stays as light as without.",
+        "Six layers are all that this scene has. With three, the balls in the last row are lost where three are behind each \
+         other; blended into the third layer they are seen again. One layer of their mean opacity stands for up to four \
+         surfaces, so that the picture stays lighter than it should be.",
     ),
     (
         "slides",
