@@ -206,7 +206,7 @@ fn a_ball_of_fine_splats_lets_as_much_light_through_as_one_of_polygons_from_near
     // The last layer's alpha of several surfaces must not make more of two.
     for (layers, last_layer) in [(24, LastLayer::Drop), (3, LastLayer::Stack)] {
         // Below a pixel a splat, the filter makes the ball larger by a part of a pixel, and its silhouette thicker.
-        for (side_px, limit) in [(512, 0.03), (256, 0.03), (128, 0.1), (64, 0.25)] {
+        for (side_px, limit) in [(512, 0.005), (256, 0.005), (128, 0.01), (64, 0.03)] {
             let settings = Settings {
                 size_px: [side_px; 2],
                 layers: Layers::Fixed(layers),

@@ -78,6 +78,16 @@ impl Contestant {
     }
 }
 
+/// How uncertain a ratio may be that is called equal to 1: half its interval.
+const CERTAIN_ENOUGH: f64 = 0.05;
+
+/// Whether a ratio is 1 within noise; `None` where it is too uncertain to tell: noise alone proves nothing.
+pub(super) fn is_equal(ratio: Option<&Spread>) -> Option<bool> {
+    let ratio = ratio?;
+    let certain = ratio.uncertainty().is_some_and(|part| part <= CERTAIN_ENOUGH);
+    ratio.may_be(1.0).filter(|equal| certain || !equal)
+}
+
 /// The interval that holds the true median.
 pub(super) fn interval_cell(spread: Option<&Spread>, decimals: usize) -> String {
     match spread.and_then(|spread| spread.interval) {
@@ -117,6 +127,15 @@ pub(super) mod tests {
             #[cfg(feature = "counts")]
             instructions: &[],
         }
+    }
+
+    #[test]
+    fn what_is_uncertain_is_not_called_equal() {
+        let of = |ratios: [f64; 6]| is_equal(Spread::of(ratios).as_ref());
+        assert_eq!(of([0.98, 0.99, 1.0, 1.0, 1.01, 1.02]), Some(true));
+        assert_eq!(of([0.5, 0.9, 1.0, 1.0, 1.1, 1.5]), None);
+        assert_eq!(of([1.01, 1.02, 1.02, 1.02, 1.02, 1.5]), Some(false));
+        assert_eq!((is_equal(Spread::of([1.0; 5]).as_ref()), is_equal(None)), (None, None));
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct LayersContestant {
     pub contestant: Contestant,
     /// Layers for which passes were recorded; `None` where nothing is transparent.
     pub layers: Option<u32>,
+    /// The device leaves out those that the view does not have.
+    pub auto: bool,
     /// Frames a second in the paper, on its own hardware of 2006, where it has them.
     pub paper_fps: Option<f64>,
 }
@@ -60,6 +62,8 @@ pub struct Places {
 pub struct Way {
     /// As [`LayersContestant::layers`].
     pub layers: Option<u32>,
+    /// As [`LayersContestant::auto`].
+    pub auto: bool,
     /// As [`LayersContestant::paper_fps`].
     pub paper_fps: Option<f64>,
     /// As [`Contestant::transient_bytes`].
@@ -87,6 +91,7 @@ impl LayersReport {
                 .map(|(contestant, way)| LayersContestant {
                     contestant,
                     layers: way.layers,
+                    auto: way.auto,
                     paper_fps: way.paper_fps,
                 })
                 .collect(),
@@ -105,11 +110,12 @@ impl LayersReport {
     }
 
     /// Bytes of a frame's own images and buffers with the fewest layers, and with the most; the numbers of layers first.
-    pub fn memory(&self) -> Option<[(u32, u64); 2]> {
+    /// `auto`: of those that the device may leave out, which have buffers of their own for that.
+    pub fn memory(&self, auto: bool) -> Option<[(u32, u64); 2]> {
         let of = |contestant: &LayersContestant| {
             contestant.layers.map(|layers| (layers, contestant.contestant.transient_bytes))
         };
-        let all = || self.contestants.iter().filter_map(of);
+        let all = || self.contestants.iter().filter(|contestant| contestant.auto == auto).filter_map(of);
         Some([all().min_by_key(|(layers, _)| *layers)?, all().max_by_key(|(layers, _)| *layers)?])
     }
 
@@ -154,7 +160,12 @@ pub(super) mod tests {
         counts[2][4..8].fill(Some([0, 0]));
         let titles = ["6, drop", "3, drop", "auto:4, drop", "opaque", "opaque, auto:64"];
         let entries: Vec<_> = (0..5).map(|i| measured(titles[i], &passes[i], &all[i], &counts[i])).collect();
-        let way = |layers, paper_fps, transient_bytes| Way { layers, paper_fps, transient_bytes };
+        let way = |layers, paper_fps, transient_bytes| Way {
+            layers,
+            auto: layers == Some(4),
+            paper_fps,
+            transient_bytes,
+        };
         let ways = [
             way(Some(6), Some(21.0), 1_000_000),
             way(Some(3), Some(45.0), 1_000_000),
@@ -176,7 +187,8 @@ pub(super) mod tests {
         assert_eq!(speeds, [Some(1.0), Some(45.0 / 21.0), None, None, None]);
         // 13 passes of 2 ms, 7 of 1.
         assert_eq!(report.contestants[1].contestant.beside_first, Spread::of([7.0 / 26.0; 6]));
-        assert_eq!(report.memory(), Some([(3, 1_000_000), (6, 1_000_000)]));
+        assert_eq!(report.memory(false), Some([(3, 1_000_000), (6, 1_000_000)]));
+        assert_eq!(report.memory(true), Some([(4, 1_000_008); 2]));
         assert_eq!(report.empty.as_ref().and_then(EmptyLayers::with_something), Some(1));
     }
 

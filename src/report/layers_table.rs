@@ -2,7 +2,7 @@
 
 use super::{
     EmptyLayers, LayersReport, NONE,
-    contest::interval_cell,
+    contest::{interval_cell, is_equal},
     grid::{Grid, bracketed, cell},
 };
 
@@ -69,22 +69,25 @@ fn notes(report: &LayersReport) -> Vec<String> {
             empty.recorded
         ),
     }));
-    notes.extend(report.memory().map(|[(few, least), (many, most)]| {
-        let grows = match most as f64 / least.max(1) as f64 - 1.0 {
-            part if part.abs() < 1e-3 => "memory does not grow with their number".to_owned(),
-            part => format!("{:+.1}%", 100.0 * part),
+    notes.extend(report.memory(false).map(|[(few, least), (many, most)]| {
+        let grows = match most == least {
+            true => "memory does not grow with their number".to_owned(),
+            false => format!("{:+.1}%", 100.0 * (most as f64 / least.max(1) as f64 - 1.0)),
         };
         format!(
             "a frame of {few} layers has {least} bytes of images and buffers, one of {many} {most}: {grows}"
         )
     }));
+    notes.extend(report.memory(true).map(|[_, (most, bytes)]| {
+        format!("one of auto:{most} has {bytes}: the arguments of its draws and a count a layer come on top")
+    }));
     let opaque = &report.opaque;
     let passes = if opaque.same_passes { "the same passes" } else { "OTHER PASSES" };
     let ratio = opaque.ratio.map_or_else(|| NONE.to_owned(), |ratio| format!("{:.3}", ratio.median));
-    let verdict = match opaque.ratio.and_then(|ratio| ratio.may_be(1.0)) {
+    let verdict = match is_equal(opaque.ratio.as_ref()) {
         Some(true) => "equal within noise",
         Some(false) => "not equal within noise",
-        None => "too few rounds to tell",
+        None => "too uncertain to tell",
     };
     notes.push(format!(
         "layers that an opaque scene could have: {passes} as with one, {ratio} times its frame (95% of the median: {}): \
@@ -138,6 +141,7 @@ mod tests {
         for text in [
             "the view has 1 layer(s): of 4 allowed the device draws 2",
             "of 3 layers has 1000000 bytes of images and buffers, one of 6 1000000: memory does not grow",
+            "one of auto:4 has 1000008",
             "the same passes as with one, 1.000 times its frame (95% of the median: 1.000 to 1.000): equal within noise",
         ] {
             assert!(notes.contains(text), "'{text}' is not in\n{notes}");

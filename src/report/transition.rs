@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::{
     Contestant, FrameTimes, Measured, Spread,
-    contest::interval_cell,
+    contest::{interval_cell, is_equal},
     gate::GateFigure,
     grid::{Grid, NONE, cell},
 };
@@ -92,7 +92,12 @@ impl TransitionReport {
         for TransitionContestant { contestant: own, drawn } in &self.contestants {
             let [ms, interval] = own.ms_cells();
             let [floor, mega, record] = own.last_cells();
-            let equal = own.beside_first.filter(|_| drawn.transition).and_then(|ratio| ratio.may_be(1.0));
+            let equal = match is_equal(own.beside_first.as_ref()) {
+                _ if !drawn.transition => NONE,
+                Some(true) => "yes",
+                Some(false) => "no",
+                None => "uncertain",
+            };
             grid.row([
                 own.name.clone(),
                 drawn.splats.to_string(),
@@ -102,15 +107,15 @@ impl TransitionReport {
                 cell(own.fps, 2),
                 cell(own.beside_first.map(|ratio| ratio.median), 3),
                 interval_cell(own.beside_first.as_ref(), 3),
-                equal.map_or(NONE, |equal| if equal { "yes" } else { "no" }).to_owned(),
+                equal.to_owned(),
                 floor,
                 mega,
                 record,
             ]);
         }
         grid.notes.push(
-            "medians; x none: of each round; equal within noise: the interval of x none holds 1, as the paper has it (section \
-             7); x floor: beside the points of the whole as splats"
+            "medians; x none: of each round; equal to none: the interval of x none holds 1 and is narrow, as the paper has it \
+             (section 7); x floor: beside the points of the whole as splats"
                 .to_owned(),
         );
         grid

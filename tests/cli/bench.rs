@@ -127,6 +127,83 @@ fn a_baseline_of_something_else_is_refused_before_the_long_work() {
 }
 
 #[test]
+fn layers_stand_beside_the_papers_and_cost_an_opaque_scene_nothing() {
+    let folder = Folder::new();
+    let layers = ["layers", "--splats", "100", "--frames", "12"];
+    let files = ["--json", "l.json", "--markdown", "l.md", "--csv", "tables", "--validate"];
+    let run = bench(&folder, &[&layers[..], &files].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let report = &json(&folder, "l.json")["layers"];
+    let contestants = report["contestants"].as_array().unwrap();
+    let all = |key: &str| contestants.iter().map(|own| own[key].clone()).collect::<Vec<_>>();
+    assert_eq!(
+        all("name"),
+        ["6, drop", "3, drop", "3, blend", "auto:16, drop", "opaque, 1", "opaque, auto:64"]
+    );
+    assert_eq!(
+        all("layers"),
+        [6, 3, 3, 16].map(Value::from).into_iter().chain([(); 2].map(|()| Value::Null)).collect::<Vec<_>>()
+    );
+    assert_eq!(all("paper_fps")[..3], [21.0, 45.0, 49.0].map(Value::from));
+    for own in contestants {
+        assert!(own["fps"].as_f64() > Some(0.0) && own["over_floor"]["median"].as_f64() > Some(0.0), "{own}");
+        assert_eq!(own["beside_first"]["interval"].as_array().map(Vec::len), Some(2));
+        assert!(own["frames"]["record_ms"]["median"].as_f64() > Some(0.0));
+    }
+    // Nothing grows with the number of layers, and an opaque scene has none.
+    assert_eq!(all("transient_bytes")[0], all("transient_bytes")[1]);
+    assert!(all("transient_bytes")[4].as_u64() < all("transient_bytes")[1].as_u64());
+    assert_eq!(report["opaque"]["same_passes"], true);
+    let passes = |i: usize| contestants[i]["frames"]["passes"].as_array().map(Vec::len);
+    assert_eq!((passes(4), passes(5)), (Some(3), Some(3)));
+    let empty = &report["empty"];
+    let [recorded, drawn] = ["recorded", "drawn"].map(|key| empty[key].as_u64().unwrap());
+    assert!(recorded == 16 && (3..16).contains(&drawn), "{empty}");
+    let kinds: Vec<_> = empty["passes"].as_array().unwrap().iter().map(|pass| pass["name"].clone()).collect();
+    assert_eq!(kinds, ["visibility", "accumulate", "compose", "count", "layer"]);
+    assert!(empty["passes"][4]["share"]["median"].as_f64() < Some(0.5), "{empty}");
+
+    assert_eq!(folder.names_in("tables"), ["layers-empty.csv", "layers.csv"]);
+    let table = fs::read_to_string(folder.path("tables").join("layers.csv")).unwrap();
+    assert_eq!(table.lines().count(), 1 + 6, "{table}");
+    let markdown = fs::read_to_string(folder.path("l.md")).unwrap();
+    for text in ["| 3, blend | 3 |", "memory does not grow with their number", "the same passes as with one"]
+    {
+        assert!(markdown.contains(text), "{text}: {markdown}");
+    }
+    let refused = bench(&folder, &["layers", "--model", "x.ply"]);
+    assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
+}
+
+#[test]
+fn transitions_stand_beside_none_and_a_gate_judges_them() {
+    let folder = Folder::new();
+    let transition = ["transition", "--splats", "500", "--frames", "12"];
+    let run = bench(&folder, &[&transition[..], &["--json", "t.json", "--csv", "tables"]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let report = json(&folder, "t.json");
+    let contestants = report["transition"]["contestants"].as_array().unwrap();
+    let names: Vec<_> = contestants.iter().map(|own| own["name"].clone()).collect();
+    assert_eq!(names, ["none", "color", "attributes", "paper", "all splats", "all polygons"]);
+    let drawn = |i: usize| ["splats", "triangles"].map(|key| contestants[i]["drawn"][key].as_u64().unwrap());
+    assert_eq!((drawn(4), drawn(5)), ([500, 0], [0, 20_480]));
+    // Half of each, but for what is added on the seam and removed beside it.
+    assert!((0..4).all(|i| (150..400).contains(&drawn(i)[0]) && drawn(i)[1].abs_diff(10_240) < 200));
+    assert_eq!(folder.names_in("tables"), ["transition.csv"]);
+    let wide = ["--baseline", "t.json", "--tolerance", "400", "--max-spread", "1000"];
+    let same = bench(&folder, &[&transition[..], &wide].concat());
+    assert_eq!(same.code, 0, "{} {}", same.stdout, same.stderr);
+    assert!(same.stdout.contains("against the baseline: 0 worse"), "{}", same.stdout);
+    let few = bench(&folder, &["transition", "--splats", "500", "--frames", "6", "--baseline", "t.json"]);
+    assert!(few.code == 1 && few.stderr.contains("a gate takes 12 at least"), "{}", few.stderr);
+
+    folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let refused = bench(&folder, &["transition", "--model", "one.obj"]);
+    assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
+    assert!(refused.stderr.contains("one.obj: has no two halves"), "{}", refused.stderr);
+}
+
+#[test]
 fn doubtful_figures_are_refused_where_that_is_asked_for() {
     let folder = Folder::new();
     let words = ["floor", "--frames", "3"];
@@ -143,9 +220,12 @@ fn a_file_of_splats_has_no_area_to_resample() {
     let header = "ply\nformat ascii 1.0\nelement vertex 1\n";
     let floats = ["x", "y", "z", "nx", "ny", "nz", "radius"].map(|name| format!("property float {name}\n"));
     folder.write("one.ply", format!("{header}{}end_header\n0 0 0 0 0 1 1\n", floats.concat()));
-    let refused = bench(&folder, &["table1", "--model", "one.ply"]);
-    assert_eq!(refused.code, 1, "{}", refused.stderr);
-    assert!(refused.stderr.contains("one.ply: the file holds splats; expected a mesh"), "{}", refused.stderr);
+    for table in ["table1", "transition"] {
+        let refused = bench(&folder, &[table, "--model", "one.ply"]);
+        assert_eq!(refused.code, 1, "{}", refused.stderr);
+        let expected = "one.ply: the file holds splats; expected a mesh";
+        assert!(refused.stderr.contains(expected), "{}", refused.stderr);
+    }
 }
 
 #[test]

@@ -10,13 +10,15 @@ use super::{
 };
 
 /// The parts of the page, by their names in links and in the JSON.
-const PARTS: [(&str, &str); 8] = [
+const PARTS: [(&str, &str); 10] = [
     ("pictures", "Pictures"),
     ("methods", "Methods: speed against error"),
     ("distance", "Filters over distance"),
     ("figures", "The papers' figures"),
     ("bench", "What frames cost"),
     ("tables", "The paper's tables"),
+    ("layers", "Transparent layers"),
+    ("transition", "From splats to polygons"),
     ("counts", "Instructions"),
     ("stability", "Numerical stability"),
 ];
@@ -101,8 +103,9 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
     assert!(of("img").iter().all(|image| image.value("alt").is_some_and(|alt| alt.len() > 5)));
     assert_eq!(of("svg").len(), 4, "speed against error, error over distance, two plots of kernels");
     assert!(of("svg").iter().all(|plot| plot.value("aria-label").is_some_and(|alt| alt.len() > 20)));
-    // Costs and errors; three over distance; the floor; instructions; five of stability. A file of splats has no table 1.
-    assert_eq!(of("table").len(), 2 + 3 + 1 + 1 + 5);
+    // Costs and errors; three over distance; the floor; layers, and an empty one; instructions; five of stability. A file of
+    // splats has neither table 1 nor halves.
+    assert_eq!(of("table").len(), 2 + 3 + 1 + 2 + 1 + 5);
     assert!(page.contains("Not on this page: ") && page.contains("the file holds splats"));
     for (id, title) in PARTS {
         assert!(page.contains(&format!("<section id=\"{id}\"><h2>{title}</h2>")), "{id}");
@@ -116,7 +119,7 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
     let json: Value =
         serde_json::from_slice(&fs::read(folder.path("new/folder/report.json")).unwrap()).unwrap();
     assert_eq!(json["head"]["surfel"], env!("CARGO_PKG_VERSION"));
-    for part in ["methods", "bench"] {
+    for part in ["methods", "bench", "layers"] {
         let flags = json["flags"][part].as_array().unwrap();
         assert!(flags.iter().any(|flag| flag.as_str().unwrap().contains("validation")), "{part}: {flags:?}");
     }

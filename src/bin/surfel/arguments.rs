@@ -166,8 +166,9 @@ const BENCH_EXAMPLES: &str = "Examples:
 
 const REPORT_HELP: &str = "\
 Make a page of what this device can do: the model in pictures; every method's speed against its error; the filters over \
-distance; the papers' figures; what frames cost beside the least that the same pixels can cost; numerical stability. It says \
-first what makes its times doubtful, and last what to type for each part by itself.
+distance; the papers' figures; what frames cost beside the least that the same pixels can cost; what transparent layers \
+cost, and transitions from splats to polygons; numerical stability. It says first what makes its times doubtful, and last \
+what to type for each part by itself.
 
 The page is one file that loads nothing: it opens offline, on a phone and on paper, and can be sent as it is. It holds \
 no date: two runs differ in times, and what is told of them, alone. It takes many minutes; --quick, one or two. Nothing is \

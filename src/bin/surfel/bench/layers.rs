@@ -85,6 +85,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<LayersR
     let contest = contest::take(headless, stage, "layers", &camera, entries, floor)?;
     let way = |(contestant, bytes): (&Contestant, &u64)| Way {
         layers: (!contestant.opaque).then(|| contestant.layers.most()),
+        auto: !contestant.opaque && matches!(contestant.layers, Layers::Auto(_)),
         paper_fps: contestant.paper_fps,
         transient_bytes: *bytes,
     };
