@@ -70,6 +70,25 @@ fn a_formula_that_is_wrong_fails_every_case_that_it_is_in_and_no_other() {
 }
 
 #[test]
+fn each_formula_of_layers_that_is_wrong_fails_a_case_of_them_but_none_that_compares_two_pictures_with_it() {
+    for formula in Formula::OF_LAYERS {
+        let scenes = match formula {
+            Formula::Alpha | Formula::Peeled | Formula::Over => "interpenetrating-shells",
+            Formula::LitDiffuse => "polygons-only-lit",
+            Formula::LitSpecular | Formula::Stacked => "last-layer-*",
+            _ => "*splats*",
+        };
+        let pattern = format!("layers*.perspective.adjust.{scenes}");
+        let wrong = results(perturbed(formula), &pattern, "", &mut |_| {});
+        let failed: Vec<&CaseResult> = wrong.iter().filter(|case| case.status == Status::Fail).collect();
+        let of = |group: &str| failed.iter().filter(|case| case.group() == group).count();
+        // One percent is within what 16-bit sums may be off.
+        assert!(of("layers") > 0 && of("layers-auto") == 0, "{formula:?}");
+        assert!(failed.iter().all(|case| case.problems[0].contains("color")), "{formula:?}");
+    }
+}
+
+#[test]
 fn a_list_knows_what_fails_and_what_passes_against_it_is_told() {
     let list = "fail methods.perspective.adjust # the kernel is wrong\n\
                 flake methods.quad.adjust # now and then\n\
@@ -172,12 +191,19 @@ fn the_quick_form_has_every_method_every_option_and_every_scene() {
     for place in 0..4 {
         assert_eq!(parts(true, place), parts(false, place));
     }
-    assert_eq!(parts(true, 3).len(), surfel::hard_scenes::all().len());
+    let scenes = surfel::hard_scenes::all().len() + surfel::hard_scenes::transparent::all().len();
+    assert_eq!(parts(true, 3).len(), scenes);
     for (name, _) in Rasterizer::NAMES {
         for (filter, _) in Filter::NAMES {
             let method = format!("methods.{name}.{filter}.");
             let has = |case: &Case| case.name.starts_with(&method);
             assert_eq!(quick.iter().any(|case| has(case)), suite.cases.iter().any(has), "{method}");
         }
+        let peels = format!("layers.{name}.");
+        assert!(quick.iter().any(|case| case.name.starts_with(&peels)), "{peels}");
+    }
+    for (filter, _) in Filter::NAMES {
+        let peels = format!("layers.perspective.{filter}.");
+        assert!(quick.iter().any(|case| case.name.starts_with(&peels)), "{peels}");
     }
 }

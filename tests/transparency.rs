@@ -16,13 +16,14 @@ use surfel::{
         Accumulate, Colors, Epsilon, Filter, KernelEval, LastLayer, Layers, Object, Rasterizer, Scene,
         Settings, Shapes, Transition,
     },
-    selftest::light::{LightErrors, compare_light},
+    selftest::{
+        light::{LightErrors, compare_light},
+        tolerance::{LIGHT, LIGHT_RMS_OF_ALL},
+    },
 };
 
-/// The color's tolerance of *First picture*: alphas and albedos are means of the splats', so that only differences of weights
-/// enter, 1e-3 of a weight at most; a layer's contribution is at most 1 minus what those before it hide, so that errors of
-/// all layers together are no more than of one.
-const COLOR: f64 = 1.0 / 1024.0;
+/// One for the tests and the self-test.
+const COLOR: f64 = LIGHT;
 
 fn oracle_of(hard: &Hard) -> Picture {
     reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap()
@@ -158,7 +159,7 @@ fn with_layers_enough_the_picture_is_that_of_an_exact_a_buffer() {
                 let errors = compare_light(&render(&mut headless, &hard), &exact);
                 println!("{}", errors.row(&format!("{}, {accumulate:?}, {layers}", hard.name)));
                 // Of all pixels, those that rounding may turn too.
-                assert!(errors.rms_of_all <= 2.0 / 255.0, "{}: {errors:?}", hard.name);
+                assert!(errors.rms_of_all <= LIGHT_RMS_OF_ALL, "{}: {errors:?}", hard.name);
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Which cases there are, and what they are called.
 
-use super::check::Check;
+use super::{check::Check, layers};
 use crate::{
-    hard_scenes::{self, Hard},
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, Shapes},
+    hard_scenes::{self, Hard, transparent},
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings},
 };
 
 /// Width and height of every picture. A quarter of the pixels of the tests' pictures: there are many methods.
@@ -63,7 +63,7 @@ pub(super) fn group_of(name: &str) -> &str {
 impl Suite {
     /// Every case there is.
     pub fn new() -> Self {
-        let scenes = hard_scenes::all();
+        let mut scenes = hard_scenes::all();
         let mut cases = vec![Case { name: OPEN.to_owned(), quick: true, drawing: None }];
         for method in methods() {
             for (index, hard) in scenes.iter().enumerate() {
@@ -77,6 +77,9 @@ impl Suite {
                 }
             }
         }
+        let in_layers = transparent::all();
+        cases.extend(layers::cases(scenes.len(), &in_layers));
+        scenes.extend(in_layers);
         cases.push(Case { name: CLOSE.to_owned(), quick: true, drawing: None });
         Self { scenes, cases }
     }
@@ -194,13 +197,13 @@ fn same_bits(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: R
     allowed.then_some(Case { name, quick: index == 0, drawing })
 }
 
-fn can_draw(hard: &Hard, settings: &Settings) -> bool {
-    let ellipses = hard.scene.objects.iter().any(|o| matches!(o.splats.shapes, Shapes::Ellipses { .. }));
-    settings.validate().is_ok() && settings.check_object("the scene", ellipses).is_ok()
+/// Whether the method can draw the scene.
+pub(super) fn can_draw(hard: &Hard, settings: &Settings) -> bool {
+    settings.validate().is_ok() && settings.check_scene(&hard.scene).is_ok()
 }
 
 /// A scene's name as a part of a case's.
-fn slug(name: &str) -> String {
+pub(super) fn slug(name: &str) -> String {
     let words = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-")
 }

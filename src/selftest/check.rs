@@ -5,15 +5,16 @@ use std::{collections::BTreeMap, rc::Rc};
 use super::{
     agreement,
     case::{Drawing, Suite},
-    half, tolerance,
+    half, light, tolerance,
 };
 use crate::{
     error::Result,
     hard_scenes::Hard,
+    math::srgb::linear_from_srgb,
     prepare::PreparedScene,
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, FilterWeight, KernelEval, Settings},
+    scene::{Accumulate, FilterWeight, KernelEval, Layers, Settings},
 };
 
 /// What is checked of a drawing.
@@ -21,6 +22,10 @@ use crate::{
 pub(super) enum Check {
     /// It agrees with the oracle.
     Oracle,
+    /// Its picture, with all its layers, agrees with the oracle's.
+    Light,
+    /// As many layers as there are give the same bits as a fixed number of them.
+    AutoLayers,
     /// A bound of depth changes no bit.
     EarlyDepth,
     /// Uploaded and drawn again it is the same.
@@ -62,14 +67,18 @@ impl<'a> Stage<'a> {
         let Drawing { scene, settings, check } = drawing;
         let frame = self.draw(*scene, settings)?;
         let other = match check {
-            Check::Oracle => return self.against_oracle(drawing, &frame),
+            Check::Oracle | Check::Light => return self.against_oracle(drawing, &frame),
+            Check::AutoLayers => {
+                let layers = Layers::Fixed(settings.layers.most());
+                self.draw(*scene, &Settings { layers, ..settings.clone() })?
+            }
             Check::EarlyDepth => self.draw(*scene, &Settings { early_depth: true, ..settings.clone() })?,
             Check::Repeat => {
                 self.prepared = None;
                 self.draw(*scene, settings)?
             }
         };
-        let (different, covered) = (agreement::different_values(&frame, &other), covered_px(&frame));
+        let (different, covered) = (agreement::different_values(&frame, &other), seen_px(&frame, settings));
         let mut problems = Vec::new();
         if different > 0 {
             problems.push(format!("{different} values differ"));
@@ -97,6 +106,13 @@ impl<'a> Stage<'a> {
     fn against_oracle(&mut self, drawing: &Drawing, frame: &Frame) -> Result<Found> {
         let hard = Hard { settings: drawing.settings.clone(), ..self.suite.scenes[drawing.scene].clone() };
         let oracle = self.oracle(drawing.scene, &hard)?;
+        if drawing.check == Check::Light {
+            let errors = light::compare_light(frame, &oracle);
+            return Ok(Found {
+                problems: errors.beyond(&tolerance::of_light(&hard)),
+                figures: errors.figures(),
+            });
+        }
         let limit = tolerance::of(&hard);
         Ok(match hard.settings.accumulate {
             Accumulate::F32 => {
@@ -135,6 +151,12 @@ impl<'a> Stage<'a> {
     }
 }
 
-fn covered_px(frame: &Frame) -> usize {
-    frame.weight.iter().filter(|weight| **weight > 0.0).count()
+/// Pixels that are not background: covered by opaque splats, or of another color.
+fn seen_px(frame: &Frame, settings: &Settings) -> usize {
+    let background = settings.background.map(|srgb| srgb.map(linear_from_srgb)).unwrap_or_default();
+    let is_seen = |(weight, color): (&f32, &[f32; 4])| {
+        let differs = color.iter().zip(&background).any(|(a, b)| (a - b).abs() > 1.0 / 1024.0);
+        *weight > 0.0 || differs
+    };
+    frame.weight.iter().zip(&frame.linear).filter(|pixel| is_seen(*pixel)).count()
 }

@@ -1,5 +1,7 @@
 //! The picture itself, GPU against oracle: what layers and transitions add up to.
 
+use std::collections::BTreeMap;
+
 use crate::{reference::Picture, renderer::Frame};
 
 use super::agreement::is_compared;
@@ -60,6 +62,45 @@ fn premultiplied([red, green, blue, alpha]: [f64; 4]) -> [f64; 4] {
 }
 
 impl LightErrors {
+    /// What exceeds the tolerances, in words; empty where nothing does. Of `seen` and `compared` the limits are the fewest.
+    pub fn beyond(&self, limit: &Self) -> Vec<String> {
+        let mut beyond = Vec::new();
+        let at_most = [
+            ("color", self.worst, limit.worst),
+            ("color (rms of all pixels)", self.rms_of_all, limit.rms_of_all),
+        ];
+        for (name, value, limit) in at_most {
+            // What is not a number is beyond any limit.
+            if value.is_nan() || value > limit {
+                beyond.push(format!("{name} {value:.3e} > {limit:.3e}"));
+            }
+        }
+        if self.not_finite > 0 {
+            beyond.push(format!("{} values not finite", self.not_finite));
+        }
+        for (what, px, fewest) in
+            [("seen", self.seen, limit.seen), ("compared", self.compared, limit.compared)]
+        {
+            if px < fewest {
+                beyond.push(format!("{px} pixels {what}, expected {fewest}"));
+            }
+        }
+        beyond
+    }
+
+    /// The errors by name, for reports.
+    pub fn figures(&self) -> BTreeMap<&'static str, f64> {
+        BTreeMap::from([
+            ("seen_px", self.seen as f64),
+            ("exempt_px", self.exempt as f64),
+            ("compared_px", self.compared as f64),
+            ("not_finite_values", self.not_finite as f64),
+            ("color", self.worst),
+            ("color_rms", self.rms),
+            ("color_rms_of_all", self.rms_of_all),
+        ])
+    }
+
     /// One row of the table that the tests print.
     pub fn row(&self, name: &str) -> String {
         format!(

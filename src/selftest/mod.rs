@@ -11,12 +11,16 @@
 //! | `psi-e`, `unit-weight`, `kernel-texture`, `sums-16` and their combinations | the same with that option of a method |
 //! | `early-depth` | the bound of depth changes no bit |
 //! | `repeat` | uploading and drawing again gives the same bits |
+//! | `layers` | the picture of transparent layers, polygons, both beside splats, a scene's own lights; with 32-bit sums |
+//! | `layers-16` | the same with 16-bit sums and the default method |
+//! | `layers-auto` | as many layers as the device finds give the same bits as the fixed number |
 
 pub mod agreement;
 mod case;
 mod check;
 pub mod half;
 mod known;
+mod layers;
 pub mod light;
 mod pattern;
 mod report;

@@ -1,9 +1,12 @@
 //! How far each method may be from its oracle, and why: one place for the tests and the self-test.
 
-use super::agreement::{Errors, F32, SMALL_WEIGHT};
+use super::{
+    agreement::{Errors, F32, SMALL_WEIGHT},
+    light::LightErrors,
+};
 use crate::{
     hard_scenes::Hard,
-    scene::{Filter, Kernel, KernelEval, Rasterizer},
+    scene::{Accumulate, Filter, Kernel, KernelEval, Rasterizer},
 };
 
 /// The tolerances of a hard scene with its settings, for 32-bit sums.
@@ -12,6 +15,31 @@ pub fn of(hard: &Hard) -> Errors {
     match hard.settings.kernel_eval {
         KernelEval::Analytic => exact,
         KernelEval::Texture => of_kernel_texture(hard.settings.kernel, &exact),
+    }
+}
+
+/// How far a component of the picture may be off with 32-bit sums: the color's tolerance of [`F32`]. Alphas and albedos are
+/// means of the splats', so that only differences of weights enter, 1e-3 of a weight at most; a layer's contribution is at
+/// most 1 minus what those before it hide, so that errors of all layers together are no more than of one.
+pub const LIGHT: f64 = F32.color;
+
+/// The root mean square over all pixels, also those that rounding may turn, two steps of 8 bits: all that 16-bit sums are
+/// held to, and what 32-bit ones are where [`LIGHT`] says nothing, such as polygons at the very place of others.
+pub const LIGHT_RMS_OF_ALL: f64 = 2.0 / 255.0;
+
+/// The tolerances of a picture of layers, polygons and lights. Of a tenth of its pixels there has to be something to see, and
+/// two thirds have to be such that rounding can't turn them: else it shows nothing.
+pub fn of_light(hard: &Hard) -> LightErrors {
+    let pixels = hard.settings.size_px.iter().map(|side| *side as usize).product::<usize>();
+    LightErrors {
+        seen: pixels / 10,
+        compared: 2 * pixels / 3,
+        worst: match hard.settings.accumulate {
+            Accumulate::F32 => LIGHT,
+            Accumulate::F16 => f64::INFINITY,
+        },
+        rms_of_all: LIGHT_RMS_OF_ALL,
+        ..LightErrors::default()
     }
 }
 
