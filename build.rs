@@ -11,6 +11,7 @@ const HOST_STRUCTS: &[shader_build::HostStruct] = &[
     ("FrameConstants", "crate::passes::FrameConstants"),
     ("PaperConstants", "crate::passes::PaperConstants"),
     ("FinalizeConstants", "crate::passes::FinalizeConstants"),
+    ("TileConstants", "crate::passes::TileConstants"),
     ("ExportConstants", "crate::passes::ExportConstants"),
 ];
 

@@ -17,8 +17,12 @@ use surfel::{
     vk::{Device, EnabledFeatures, Queue, Staging},
 };
 
-const POINTS: EnabledFeatures =
-    EnabledFeatures { large_points: true, pipeline_statistics: false, draw_indirect_count: false };
+const POINTS: EnabledFeatures = EnabledFeatures {
+    large_points: true,
+    pipeline_statistics: false,
+    draw_indirect_count: false,
+    first_instance: false,
+};
 
 fn scene() -> Scene {
     Scene { objects: vec![scenes::sphere(3000, DVec3::ZERO)], ..Scene::default() }

@@ -172,6 +172,7 @@ fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
         large_points: true,
         pipeline_statistics: false,
         draw_indirect_count: false,
+        first_instance: false,
     });
     let mut failed = Vec::new();
     for succeed in 0.. {

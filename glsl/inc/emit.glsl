@@ -23,7 +23,7 @@ layout(set = 1, binding = 2, std430) readonly buffer LargeList { uint large_list
 uint splat_index()
 {
 #if defined(LISTED_QUADS)
-    return large_list[gl_InstanceIndex];
+    return large_list[gl_InstanceIndex] - frame.first_record;
 #elif defined(QUADS)
     return gl_InstanceIndex;
 #elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)

@@ -1,13 +1,4 @@
-// What the passes over the whole image are told of it. The host's mirror is `FinalizeConstants` in
-// src/passes/constants.rs; the build compares the offsets.
-
-struct FinalizeConstants {
-    vec4 background; // linear, straight alpha
-    vec2 half_size_px;
-    float focal_px;
-    uint padding;
-};
-layout(push_constant, std430) uniform Push { FinalizeConstants push; };
+#include "inc/finalize.glsl"
 
 // The direction from the surface to the eye, view space.
 vec3 to_eye()

@@ -37,6 +37,8 @@ pub struct FrameConstants {
     /// The local origin seen from the eye, in local space's axes and the view unit: x, y, z in f32, then what f32 left of
     /// each.
     pub origin_from_eye: [f32; 6],
+    /// Where the chunk's begin among all records of tiles; 0 where there are none.
+    pub first_record: u32,
 }
 
 /// What the paper's own programs are told; see `glsl/inc/paper.glsl`.
@@ -83,4 +85,28 @@ pub struct FinalizeConstants {
 pub struct ExportConstants {
     /// Depth of the near plane, world unit.
     pub near: f32,
+}
+
+/// What the passes over tiles are told; see `glsl/inc/tiles.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct TileConstants {
+    /// Half of width and height.
+    pub half_size_px: [f32; 2],
+    /// Tiles in a row.
+    pub tiles_x: u32,
+    /// Tiles of the image.
+    pub tile_count: u32,
+    /// Lists: of tiles, then of chunks.
+    pub bin_count: u32,
+    /// Splats of all chunks.
+    pub record_count: u32,
+    /// Records of a segment.
+    pub segment_length: u32,
+    /// Where in its segment a walk begins.
+    pub round_first: u32,
+    /// Records of one walk.
+    pub round_length: u32,
+    /// Of an overfull tile.
+    pub part: u32,
 }

@@ -128,6 +128,7 @@ pub(super) fn frame_constants(
         uniform_color: 0,
         view_from_local_scale: view.view_from_local_scale as f32,
         origin_from_eye: in_two_parts(view.origin_from_eye),
+        first_record: 0,
     }
 }
 
@@ -175,6 +176,12 @@ impl SplatPass {
             depth: self.depth,
             ..GraphicsKey::new(stages, Layout::Splat, primitive.topology(), constants)
         }
+    }
+
+    /// The pipelines that draw listed splats as quads, one a draw.
+    pub fn quad_pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<Arc<GraphicsPipeline>>> {
+        let key = |draw: &Draw<'_>| self.key(self.shaders.listed, Primitive::Quad, &draw.variant);
+        inputs.draws.iter().map(|draw| inputs.shaders.graphics(key(draw))).collect()
     }
 
     /// The pipelines of every draw, in their order.

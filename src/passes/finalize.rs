@@ -1,7 +1,8 @@
 //! Normalization and shading of the opaque part, under the transparent layers: from sums to the picture.
 //!
 //! Without layers, pixels without any surface are not shaded: the target is cleared to the background, and a triangle at
-//! depth 0 (infinitely far) is drawn where the visible depth is above 0 (something is there).
+//! depth 0 (infinitely far) is drawn where the visible depth is above 0 (something is there). Of splats that were drawn by
+//! tiles, only those tiles are.
 
 use ash::vk;
 
@@ -9,8 +10,9 @@ use super::{
     Inputs,
     accumulate::Sums,
     constants::FinalizeConstants,
-    fullscreen::draw_fullscreen,
+    fullscreen::{draw_fullscreen, read_set},
     pipelines::{GraphicsKey, Layout},
+    tiles::{SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles},
     variant::{Constants, shading_constants, transition_constant},
 };
 use crate::{
@@ -23,7 +25,7 @@ use crate::{
 
 /// What the opaque passes leave.
 #[derive(Default)]
-pub(super) struct Opaque {
+pub(super) struct Opaque<'a> {
     /// Of splats.
     pub splats: Option<Sums>,
     /// The polygons that are seen.
@@ -32,9 +34,11 @@ pub(super) struct Opaque {
     pub splat_depth: Option<Handle<Image>>,
     /// The depth of polygons, or of the splats where those are nearer.
     pub polygon_depth: Option<Handle<Image>>,
+    /// The tiles that have splats, where all is opaque splats and outside of them there is nothing.
+    pub tiles: Option<Tiles<'a>>,
 }
 
-impl Opaque {
+impl Opaque<'_> {
     /// The depth that hides what is behind it; none where there is nothing opaque.
     pub fn depth(&self) -> Option<&Handle<Image>> {
         self.polygon_depth.as_ref().or(self.splat_depth.as_ref())
@@ -120,7 +124,7 @@ pub(super) fn sums_descriptors(
 pub(super) fn finalize<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    opaque: &Opaque,
+    opaque: &Opaque<'a>,
     layers: Option<&Handle<Image>>,
     lights: Option<&Handle<Buffer>>,
     target: &mut Handle<Image>,
@@ -135,8 +139,11 @@ pub(super) fn finalize<'a>(
         layered: layers.is_some(),
         lit: lights.is_some(),
     };
-    let pipeline =
-        key(inputs.settings, target_format, traits).map(|key| inputs.shaders.graphics(key)).transpose()?;
+    let key = key(inputs.settings, target_format, traits);
+    if let (Some(tiles), Some(key)) = (&opaque.tiles, &key) {
+        return finalize_tiles(graph, inputs, (tiles, splats, lights), key, target);
+    }
+    let pipeline = key.map(|key| inputs.shaders.graphics(key)).transpose()?;
     let constants = constants(inputs);
     let ids = sums_descriptors(splats, polygons, layers);
     let mut pass = graph.pass("finalize");
@@ -163,6 +170,42 @@ pub(super) fn finalize<'a>(
                 bytemuck::bytes_of(&constants),
             ),
             None => Ok(()),
+        }));
+    Ok(())
+}
+
+/// The pipeline that finalizes tiles, from that of the whole target.
+pub(super) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
+    GraphicsKey {
+        color_formats: whole.color_formats.clone(),
+        ..quads_of_tiles(whole.fragment, whole.constants.clone())
+    }
+}
+
+/// The pass over the tiles that have splats alone.
+fn finalize_tiles<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    (tiles, splats, lights): (&Tiles<'a>, Option<&Sums>, Option<&Handle<Buffer>>),
+    whole: &GraphicsKey,
+    target: &mut Handle<Image>,
+) -> Result<()> {
+    let pipeline = inputs.shaders.graphics(key_of_tiles(whole))?;
+    let constants = constants(inputs);
+    let ids = sums_descriptors(splats, None, None);
+    let seen = SeenTiles::of(tiles);
+    let mut pass = tiles.read_seen(graph.pass("finalize"));
+    for image in splats.into_iter().flat_map(|sums| [&sums.color, &sums.normal]) {
+        pass = pass.read(image, Access::SampledFragment);
+    }
+    if let Some(lights) = lights {
+        pass = pass.read(lights, Access::StorageReadFragment);
+    }
+    let lights = lights.map(Handle::id);
+    pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
+        .finish(Box::new(move |context| {
+            let set = read_set(context, inputs, &inputs.shaders.sums_set, (&ids, lights))?;
+            draw_quads_of_tiles(context, inputs, &pipeline, seen, set, bytemuck::bytes_of(&constants))
         }));
     Ok(())
 }

@@ -28,13 +28,14 @@ mod pipelines;
 mod polygons;
 mod readback;
 mod splat_shaders;
+mod tiles;
 mod variant;
 mod visibility;
 
 use ash::vk;
 
 pub use catalog::{PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines};
-pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants};
+pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
 pub use floor::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points};
@@ -46,13 +47,14 @@ pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use paper::paper_frame;
 pub use pipelines::Shaders;
 pub use readback::readback;
+pub use tiles::{STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
 
 use self::finalize::Opaque;
 use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Layers, Settings},
+    scene::{Accumulate, Camera, Layers, Rasterizer, Settings},
     vk::{DescriptorPool, Limits, Occlusion, PoolRoom},
 };
 
@@ -63,6 +65,8 @@ pub struct Part<'a> {
     pub splats: Vec<Draw<'a>>,
     /// As polygons.
     pub meshes: Vec<MeshDraw<'a>>,
+    /// How splats are drawn by tiles, where they are.
+    pub tiles: Option<TilePlan>,
 }
 
 /// A prepared scene as seen from a camera.
@@ -84,14 +88,33 @@ impl<'a> Parts<'a> {
         let all = mesh_draws(scene, camera, settings, limits).into_iter();
         let (clear_meshes, meshes) = all.partition(|draw| draw.chunk.transparent);
         Self {
-            opaque: Part { splats, meshes },
-            transparent: Part { splats: clear_splats, meshes: clear_meshes },
+            opaque: Part::new(splats, meshes, settings, limits),
+            transparent: Part { splats: clear_splats, meshes: clear_meshes, tiles: None },
             lights: lights::shader_lights(&scene.lights, camera),
         }
     }
 }
 
-impl Part<'_> {
+impl<'a> Part<'a> {
+    /// A part whose splats are drawn by tiles, where the settings want that and the device has room.
+    fn new(
+        mut splats: Vec<Draw<'a>>,
+        meshes: Vec<MeshDraw<'a>>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        let by_tiles = settings.rasterizer == Rasterizer::Compute;
+        let tiles = by_tiles.then(|| TilePlan::of(&splats, settings.size_px, limits)).flatten();
+        if tiles.is_some() {
+            let mut first_record = 0;
+            for draw in &mut splats {
+                draw.constants.first_record = first_record;
+                first_record += draw.chunk.count;
+            }
+        }
+        Self { splats, meshes, tiles }
+    }
+
     /// Nothing at all.
     pub fn is_empty(&self) -> bool {
         self.splats.is_empty() && self.meshes.is_empty()
@@ -105,6 +128,8 @@ pub struct Inputs<'a> {
     pub draws: &'a [Draw<'a>],
     /// The polygons.
     pub meshes: &'a [MeshDraw<'a>],
+    /// How the splats are drawn by tiles, where they are.
+    pub tiles: Option<&'a TilePlan>,
     /// From where.
     pub camera: &'a Camera,
     /// How.
@@ -120,7 +145,7 @@ pub struct Inputs<'a> {
 impl<'a> Inputs<'a> {
     /// The same for one part of the scene.
     fn of(self, part: &'a Part<'a>) -> Self {
-        Self { draws: &part.splats, meshes: &part.meshes, ..self }
+        Self { draws: &part.splats, meshes: &part.meshes, tiles: part.tiles.as_ref(), ..self }
     }
 
     fn extent(&self) -> vk::Extent2D {
@@ -163,6 +188,8 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     let reads = 1 + 3 * layers;
     // Sums: for finalization and each layer.
     let sums = 1 + layers;
+    let by_tiles = [&parts.opaque, &parts.transparent].into_iter().filter_map(|part| part.tiles.as_ref());
+    let tiles = by_tiles.map(tiles::room).fold(PoolRoom::default(), |sum, room| sum.plus(&room));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
         room: PoolRoom {
@@ -170,7 +197,9 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
             buffers: 4 * lists + reads + sums,
             images: 2 * reads + 5 * sums + 3,
             filtered_images: reads,
-        },
+            storage_images: 0,
+        }
+        .plus(&tiles),
         occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
     }
 }
@@ -194,7 +223,8 @@ pub fn frame<'a>(
         false => accumulate::kernel_of(graph, inputs)?,
     };
     let lights = lights::lights(graph, &parts.lights);
-    let opaque = opaque(graph, inputs.of(&parts.opaque), kernel.as_ref(), export)?;
+    let complete = export || !parts.transparent.is_empty();
+    let opaque = opaque(graph, inputs.of(&parts.opaque), kernel.as_ref(), export, complete)?;
     let layers = match parts.transparent.is_empty() {
         true => None,
         false => {
@@ -216,7 +246,11 @@ fn opaque<'a>(
     inputs: Inputs<'a>,
     kernel: Option<&Handle<Image>>,
     with_depth: bool,
-) -> Result<Opaque> {
+    complete: bool,
+) -> Result<Opaque<'a>> {
+    if let Some(plan) = inputs.tiles {
+        return opaque_by_tiles(graph, inputs, plan, with_depth, complete);
+    }
     let mut opaque = Opaque::default();
     let large = list_large::list_large(graph, inputs, "")?;
     if !inputs.draws.is_empty() {
@@ -231,5 +265,41 @@ fn opaque<'a>(
         opaque.splats =
             Some(accumulate::accumulate(graph, inputs, &large, depth, polygons, kernel, with_depth)?);
     }
+    Ok(opaque)
+}
+
+/// The same by tiles. `complete`: all of the images is read, so that tiles without splats need content too. It is, too, where the
+/// graphics pipeline draws into them: large splats before and after, polygons in between.
+fn opaque_by_tiles<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    plan: &'a TilePlan,
+    with_depth: bool,
+    complete: bool,
+) -> Result<Opaque<'a>> {
+    let complete = complete || plan.may_be_large || !inputs.meshes.is_empty();
+    let tiles = tiles::list(graph, inputs, "", plan)?;
+    let mut images = tiles::TileImages::create(graph, inputs, complete);
+    let mut opaque = Opaque::default();
+    let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, &tiles)).transpose()?;
+    if inputs.meshes.is_empty() {
+        tiles::fused(graph, inputs, &tiles, &mut images, large.as_ref(), (with_depth, complete))?;
+    } else {
+        tiles::visibility(graph, inputs, &tiles, &mut images, large.as_ref())?;
+    }
+    if complete {
+        opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, &tiles, &images.depth, large)?);
+    }
+    if !inputs.meshes.is_empty() {
+        let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
+        tiles::accumulate(graph, inputs, &tiles, &mut images, Some(&depth), with_depth)?;
+        (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
+    }
+    if let (true, Some(depth)) = (plan.may_be_large, &opaque.splat_depth) {
+        let depths = (depth, opaque.polygon_depth.as_ref());
+        tiles::sum_large(graph, inputs, &tiles, &mut images, depths, with_depth)?;
+    }
+    opaque.splats = Some(images.sums);
+    opaque.tiles = (!complete).then_some(tiles);
     Ok(opaque)
 }

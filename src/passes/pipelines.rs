@@ -8,7 +8,7 @@ use std::{
 
 use ash::vk;
 
-use super::{constants, splat_shaders::Stages, variant::Constants};
+use super::{constants, splat_shaders::Stages, tiles, variant::Constants};
 use crate::{
     error::Result,
     prepare::SplatSetLayout,
@@ -43,6 +43,11 @@ pub struct Shaders {
     pub(super) list_layout: PipelineLayout,
     pub(super) finalize_layout: PipelineLayout,
     pub(super) export_layout: PipelineLayout,
+    /// Set 1 of the pass that makes records and of quads of tiles, set 0 of all else with tiles: see `passes/tiles/mod.rs`.
+    pub(super) tile_set: SetLayout,
+    pub(super) record_layout: PipelineLayout,
+    pub(super) tile_layout: PipelineLayout,
+    pub(super) tile_quads_layout: PipelineLayout,
     /// The formula that is made wrong; for tests of the tests.
     #[cfg(feature = "test-formulas")]
     pub perturbed: Option<super::Formula>,
@@ -55,6 +60,9 @@ pub(super) enum Layout {
     List,
     Finalize,
     Export,
+    Record,
+    Tile,
+    TileQuads,
 }
 
 /// All that a graphics pipeline is made of.
@@ -126,6 +134,35 @@ impl Shaders {
             size_of::<constants::ExportConstants>() as u32,
             fragment,
         )?;
+        let of = |kind, stages| Binding { kind, stages };
+        let words = of(vk::DescriptorType::STORAGE_BUFFER, compute);
+        let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
+        let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
+        let mut in_tiles = vec![words; 11];
+        in_tiles[tiles::SEEN as usize].stages = vertex | compute;
+        in_tiles.extend([sums, sums, sums, fetched, fetched]);
+        let tile_set = SetLayout::new(device, "tiles", &in_tiles)?;
+        let record_layout = PipelineLayout::new(
+            device,
+            "records",
+            &[splat_set.set(), &tile_set],
+            size_of::<constants::FrameConstants>() as u32,
+            compute,
+        )?;
+        let tile_layout = PipelineLayout::new(
+            device,
+            "tiles",
+            &[&tile_set],
+            size_of::<constants::TileConstants>() as u32,
+            compute,
+        )?;
+        let tile_quads_layout = PipelineLayout::new(
+            device,
+            "quads of tiles",
+            &[&sums_set, &tile_set],
+            size_of::<constants::FinalizeConstants>() as u32,
+            vertex | fragment,
+        )?;
         Ok(Self {
             device: device.clone(),
             graphics: Mutex::default(),
@@ -140,6 +177,10 @@ impl Shaders {
             list_layout,
             finalize_layout,
             export_layout,
+            tile_set,
+            record_layout,
+            tile_layout,
+            tile_quads_layout,
             #[cfg(feature = "test-formulas")]
             perturbed: None,
         })
@@ -169,6 +210,9 @@ impl Shaders {
             Layout::List => &self.list_layout,
             Layout::Finalize => &self.finalize_layout,
             Layout::Export => &self.export_layout,
+            Layout::Record => &self.record_layout,
+            Layout::Tile => &self.tile_layout,
+            Layout::TileQuads => &self.tile_quads_layout,
         }
     }
 

@@ -190,7 +190,7 @@ fn interfaces(settings: &Settings) -> [&'static str; 2] {
     }
 }
 
-fn find(name: &str) -> Result<&'static Shader> {
+pub(super) fn find(name: &str) -> Result<&'static Shader> {
     shaders::by_name(name).ok_or_else(|| Error::option("shader", format!("{name}: not compiled")))
 }
 

@@ -126,6 +126,7 @@ impl<'a> Floor<'a> {
         let inputs = Inputs {
             draws: &draws,
             meshes: &[],
+            tiles: None,
             occlusion: None,
             camera: &self.camera,
             settings: &self.settings,

@@ -62,6 +62,7 @@ impl Renderer {
         self.limits.max_storage_buffer_range = own.max_storage_buffer_range.min(to.max_storage_buffer_range);
         self.limits.point_size_range[1] = own.point_size_range[1].min(to.point_size_range[1]);
         self.limits.max_image_side = own.max_image_side.min(to.max_image_side);
+        self.limits.shuffles = own.shuffles && to.shuffles;
     }
 
     /// Uploads a scene; see [`prepare`].
@@ -148,7 +149,16 @@ impl Renderer {
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, transients, profiler } = slot.parts()?;
         let shaders = &self.shaders;
-        let inputs = Inputs { draws: &[], meshes: &[], camera, settings, shaders, descriptors, occlusion };
+        let inputs = Inputs {
+            draws: &[],
+            meshes: &[],
+            tiles: None,
+            camera,
+            settings,
+            shaders,
+            descriptors,
+            occlusion,
+        };
         let (graph, imports) = declare(inputs, &parts, target, readbacks)?;
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
         let plan = compiled.plan.clone();

@@ -51,6 +51,9 @@ named! {
         Triangle = "triangle",
         /// `Perspective` with a quad in place of each point.
         Quad = "quad",
+        /// `Perspective` in compute, a tile of the image at a time, with all sums in registers; splats that are large, or near
+        /// the eye plane, as quads beside it.
+        Compute = "compute",
     }
 }
 
@@ -143,9 +146,12 @@ impl Rasterizer {
     pub fn family(self) -> Self {
         match self {
             Self::RaycastApproximate | Self::AffineCenter | Self::AffineContour => self,
-            Self::Perspective | Self::PerspectivePaper | Self::Raycast | Self::Triangle | Self::Quad => {
-                Self::Perspective
-            }
+            Self::Perspective
+            | Self::PerspectivePaper
+            | Self::Raycast
+            | Self::Triangle
+            | Self::Compute
+            | Self::Quad => Self::Perspective,
         }
     }
 
@@ -162,13 +168,16 @@ impl Filter {
     /// [`crate::error::ErrorKind::Option`] for `ewa`, whose map is affine, with a rasterizer that stands for another
     /// map, and for what would have to leave a triangle.
     pub(super) fn check(self, rasterizer: Rasterizer) -> Result<()> {
-        use Rasterizer::{PerspectivePaper, Raycast, RaycastApproximate, Triangle};
+        use Rasterizer::{Compute, PerspectivePaper, Raycast, RaycastApproximate, Triangle};
         let problem = match (self, rasterizer) {
             (Self::Ewa, PerspectivePaper | Raycast | RaycastApproximate | Triangle) => {
                 "the filter brings its own affine map; expected perspective, quad, affine-center or affine-contour"
             }
             (Self::Max, Triangle) => {
                 "the filter reaches beyond the triangle; expected another rasterizer or filter"
+            }
+            (Self::Max, Compute) => {
+                "a record has no room for a second kernel; expected another rasterizer or filter"
             }
             _ => return Ok(()),
         };

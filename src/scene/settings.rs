@@ -82,6 +82,11 @@ impl Settings {
         }
         self.kernel.validate()?;
         self.filter.check(self.rasterizer)?;
+        if self.rasterizer == Rasterizer::Compute && self.kernel_eval == KernelEval::Texture {
+            let problem =
+                "texture: compute finds kernels by arithmetic; expected analytic or another rasterizer";
+            return Err(Error::option("--kernel-eval", problem));
+        }
         if self.filter == Filter::Ewa && !matches!(self.kernel, Kernel::Gaussian { .. }) {
             let problem = "ewa: adds covariances, which psi_e has none of; expected --kernel gaussian:S";
             return Err(Error::option("--filter", problem));

@@ -11,6 +11,8 @@ pub struct EnabledFeatures {
     pub pipeline_statistics: bool,
     /// `drawIndirectCount` of Vulkan 1.2, on a device whose `maxDrawIndirectCount` is 2³⁰ at least: without it all layers of `--layers auto` are drawn, the empty ones too.
     pub draw_indirect_count: bool,
+    /// `drawIndirectFirstInstance`: without it splats are not drawn by tiles.
+    pub first_instance: bool,
 }
 
 /// A host's device, for [`Device::borrow`](super::Device::borrow).

@@ -43,6 +43,8 @@ pub struct DeviceFacts {
     pub pipeline_statistics: bool,
     /// The number of indirect draws can be read from a buffer.
     pub draw_indirect_count: bool,
+    /// Indirect draws may begin at any instance.
+    pub first_instance: bool,
     /// 32-bit float targets can be blended: `--accumulate f32`.
     pub blend_f32: bool,
     /// Limits that the renderer respects.
@@ -66,6 +68,28 @@ pub struct Limits {
     pub timestamp_period_ns: f32,
     /// Valid bits of a timestamp; 0 where the queue has none.
     pub timestamp_valid_bits: u32,
+    /// Storage buffers that a stage can have, no more than a `u32` holds.
+    pub storage_buffers_a_stage: u32,
+    /// 8 invocations or more of a compute stage can hand values to each other (`SHUFFLE`).
+    pub shuffles: bool,
+}
+
+#[cfg(test)]
+impl Limits {
+    /// Those of a device that has what Vulkan promises and no more, for tests.
+    pub fn for_tests() -> Self {
+        Self {
+            max_storage_buffer_range: 1 << 27,
+            point_size_range: [1.0, 255.0],
+            point_size_granularity: 0.125,
+            max_buffer_size: 1 << 30,
+            max_image_side: 16_384,
+            timestamp_period_ns: 1.0,
+            timestamp_valid_bits: 0,
+            storage_buffers_a_stage: 16,
+            shuffles: false,
+        }
+    }
 }
 
 impl DeviceFacts {
@@ -156,16 +180,9 @@ mod tests {
             large_points: true,
             pipeline_statistics: true,
             draw_indirect_count: true,
+            first_instance: true,
             blend_f32: true,
-            limits: Limits {
-                max_storage_buffer_range: 1 << 27,
-                point_size_range: [1.0, 255.0],
-                point_size_granularity: 0.125,
-                max_buffer_size: 1 << 30,
-                max_image_side: 16384,
-                timestamp_period_ns: 1.0,
-                timestamp_valid_bits: 64,
-            },
+            limits: Limits::for_tests(),
         }
     }
 

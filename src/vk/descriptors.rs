@@ -21,6 +21,8 @@ pub enum Descriptor {
     Buffer(vk::Buffer),
     /// A sampled image in this layout, read by `texelFetch`, or through the sampler of its binding.
     Sampled(vk::ImageView, vk::ImageLayout),
+    /// A storage image, in the layout `GENERAL`.
+    Storage(vk::ImageView),
 }
 
 /// The bindings of a set.
@@ -84,15 +86,29 @@ pub struct PoolRoom {
     pub images: u32,
     /// Sampled images with a sampler.
     pub filtered_images: u32,
+    /// Storage images.
+    pub storage_images: u32,
 }
 
 impl PoolRoom {
+    /// Room for both.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            sets: self.sets + other.sets,
+            buffers: self.buffers + other.buffers,
+            images: self.images + other.images,
+            filtered_images: self.filtered_images + other.filtered_images,
+            storage_images: self.storage_images + other.storage_images,
+        }
+    }
+
     /// Whether a pool of this room has room for that.
     pub fn holds(&self, wanted: &Self) -> bool {
         wanted.sets <= self.sets
             && wanted.buffers <= self.buffers
             && wanted.images <= self.images
             && wanted.filtered_images <= self.filtered_images
+            && wanted.storage_images <= self.storage_images
     }
 }
 
@@ -121,6 +137,7 @@ impl DescriptorPool {
             (vk::DescriptorType::STORAGE_BUFFER, room.buffers),
             (vk::DescriptorType::SAMPLED_IMAGE, room.images),
             (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, room.filtered_images),
+            (vk::DescriptorType::STORAGE_IMAGE, room.storage_images),
         ];
         let sizes: Vec<_> = kinds
             .into_iter()
@@ -158,6 +175,11 @@ impl DescriptorPool {
                     write.buffer_info(&buffer)
                 }
                 Descriptor::Sampled(view, layout) => {
+                    image = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];
+                    write.image_info(&image)
+                }
+                Descriptor::Storage(view) => {
+                    let layout = vk::ImageLayout::GENERAL;
                     image = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];
                     write.image_info(&image)
                 }

@@ -76,9 +76,11 @@ impl Device {
             large_points: facts.large_points,
             pipeline_statistics: facts.pipeline_statistics,
             draw_indirect_count: facts.draw_indirect_count,
+            first_instance: facts.first_instance,
         };
         let core = vk::PhysicalDeviceFeatures::default()
             .large_points(features.large_points)
+            .draw_indirect_first_instance(features.first_instance)
             .pipeline_statistics_query(features.pipeline_statistics);
         let mut features12 = vk::PhysicalDeviceVulkan12Features::default()
             .timeline_semaphore(true)
@@ -126,6 +128,7 @@ impl Device {
         }
         facts.large_points = host.features.large_points;
         facts.pipeline_statistics = host.features.pipeline_statistics;
+        facts.first_instance = host.features.first_instance;
         facts.draw_indirect_count &= host.features.draw_indirect_count;
         let draw_indirect_count = facts.draw_indirect_count;
         if !host.features.large_points {

@@ -41,6 +41,7 @@ pub(super) unsafe fn facts(
     // Before 1.2 the extended structures below don't exist; such a device is refused by its version alone.
     let modern = version >= vk::API_VERSION_1_2;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
     let mut maintenance4 = vk::PhysicalDeviceMaintenance4Properties::default();
     let mut features12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut features13 = vk::PhysicalDeviceVulkan13Features::default();
@@ -49,7 +50,8 @@ pub(super) unsafe fn facts(
     // SAFETY: as above.
     let tells_bus = modern && unsafe { has_extension(instance, device, ext::pci_bus_info::NAME) };
     if modern {
-        let mut extended = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        let mut extended =
+            vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut subgroup);
         if version >= vk::API_VERSION_1_3 {
             extended = extended.push_next(&mut maintenance4);
         }
@@ -112,6 +114,7 @@ pub(super) unsafe fn facts(
         // Numbers of pixels are given as counts, which must not exceed the limit.
         draw_indirect_count: features12.draw_indirect_count == vk::TRUE
             && limits.max_draw_indirect_count >= 1 << 30,
+        first_instance: core.draw_indirect_first_instance == vk::TRUE,
         blend_f32: [vk::Format::R32G32B32A32_SFLOAT, vk::Format::R32_SFLOAT]
             .into_iter()
             .all(|sums| format(sums).contains(blended)),
@@ -131,6 +134,10 @@ pub(super) unsafe fn facts(
                 .min(limits.max_viewport_dimensions[1]),
             timestamp_period_ns: limits.timestamp_period,
             timestamp_valid_bits: queue_family.map_or(0, |index| families[index].timestamp_valid_bits),
+            storage_buffers_a_stage: limits.max_per_stage_descriptor_storage_buffers,
+            shuffles: subgroup.subgroup_size >= 8
+                && subgroup.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
+                && subgroup.supported_operations.contains(vk::SubgroupFeatureFlags::SHUFFLE),
         },
     }
 }

@@ -183,6 +183,7 @@ mod tests {
             large_points: true,
             pipeline_statistics: false,
             draw_indirect_count: false,
+            first_instance: false,
             blend_f32: true,
             limits: Limits {
                 max_storage_buffer_range: 1 << 27,
@@ -192,6 +193,8 @@ mod tests {
                 max_image_side: 16384,
                 timestamp_period_ns: 1.0,
                 timestamp_valid_bits: 0,
+                storage_buffers_a_stage: 16,
+                shuffles: false,
             },
         }
     }

@@ -108,5 +108,6 @@ fn code(rasterizer: &str) -> &'static str {
         Rasterizer::AffineContour => "ao",
         Rasterizer::Triangle => "t",
         Rasterizer::Quad => "q",
+        Rasterizer::Compute => "s",
     }
 }

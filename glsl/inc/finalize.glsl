@@ -1,0 +1,10 @@
+// What the passes over the whole image are told of it. The host's mirror is `FinalizeConstants` in
+// src/passes/constants.rs; the build compares the offsets.
+
+struct FinalizeConstants {
+    vec4 background; // linear, straight alpha
+    vec2 half_size_px;
+    float focal_px;
+    uint padding;
+};
+layout(push_constant, std430) uniform Push { FinalizeConstants push; };

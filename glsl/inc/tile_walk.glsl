@@ -1,0 +1,41 @@
+// A walk over the records of a segment, in order: `visit(record, bin)` for each bin that a record falls into. One loop, whose
+// steps are a record or a further tile, so that invocations with large splats don't hold up the others.
+
+layout(set = 0, binding = 4, std430) readonly buffer Spans { uint spans[]; };
+
+void walk()
+{
+    uint segment_end = min((gl_GlobalInvocationID.x + 1) * push.segment_length, push.record_count);
+    uint next = gl_GlobalInvocationID.x * push.segment_length + push.round_first;
+    uint end = min(next + push.round_length, segment_end);
+    uint left = 0;      // tiles of the record that are not visited yet
+    uint width = 1;
+    uint in_row = 0;
+    uint tile = 0;
+    while (next < end || left > 0) {
+        if (left == 0) {
+            uint span = spans[next];
+            next++;
+            if (span >= SPAN_CHUNK) {
+                if (span != SPAN_NONE) {
+                    visit(next - 1, push.tile_count + (span & SPAN_LOW));
+                }
+            } else {
+                width = (span >> 26 & 7) + 1;
+                left = width * ((span >> 29) + 1);
+                in_row = width;
+                tile = (span & SPAN_LOW) + (span >> 13 & SPAN_LOW) * push.tiles_x;
+            }
+        }
+        if (left > 0) {
+            visit(next - 1, tile);
+            left--;
+            in_row--;
+            tile++;
+            if (in_row == 0) {
+                in_row = width;
+                tile += push.tiles_x - width;
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+// Sets each splat up once: culls it, or makes a record and a span of it (inc/tiles.glsl, inc/tile_batch.glsl); or leaves it to the
+// graphics pipeline: what is not regular, and what touches more tiles than lists have room for.
+#version 460
+#include "inc/setup.glsl"
+#include "inc/tiles.glsl"
+
+layout(constant_id = 15) const uint MOST_TILES = 64; // that a splat of a record touches
+layout(constant_id = 16) const bool MAY_BE_LARGE = false; // some splats are left to the graphics pipeline; chunk: which bin
+layout(constant_id = 17) const uint CHUNK = 0;
+
+layout(local_size_x = 64) in;
+layout(set = 1, binding = 0, std430) writeonly buffer Records0 { vec4 records0[]; };
+layout(set = 1, binding = 1, std430) writeonly buffer Records1 { vec4 records1[]; };
+layout(set = 1, binding = 2, std430) writeonly buffer Records2 { vec4 records2[]; };
+layout(set = 1, binding = 3, std430) writeonly buffer Records3 { vec4 records3[]; };
+layout(set = 1, binding = 4, std430) writeonly buffer Spans { uint spans[]; };
+
+// Where MAY_BE_LARGE is not set, the host has proved that there are none.
+uint span_of(Mapping m)
+{
+    const uint large = MAY_BE_LARGE ? SPAN_CHUNK + CHUNK : SPAN_NONE;
+    if (!m.regular) {
+        return large;
+    }
+    PixelBox px;
+    if (!pixel_box(splat_box(m), px)) {
+        return SPAN_NONE;
+    }
+    uvec2 first = uvec2(px.first) / TILE;
+    uvec2 more = uvec2(px.last) / TILE - first;
+    if (max(more.x, more.y) > 7 || (more.x + 1) * (more.y + 1) > MOST_TILES) {
+        return large;
+    }
+    return first.x | first.y << 13 | more.x << 26 | more.y << 29;
+}
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= frame.splat_count) {
+        return;
+    }
+    uint place = frame.first_record + index;
+    Mapping m;
+    uint span = SPAN_NONE;
+    if (map_splat(index, m)) {
+        span = span_of(m);
+    }
+    spans[place] = span;
+    if (span >= SPAN_CHUNK) {
+        return;
+    }
+    ImageMap map = regular_map(m);
+    float w0 = map.at_x0.z;
+    float uv_scale = map.affine ? 1.0 : 1.0 / w0;
+    float share = 1.0;
+    if (FILTER == FILTER_EWA) {
+        share = stretched(m).share;
+    } else if (WEIGHT_BY_AREA) {
+        share = m.share;
+    }
+    vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
+    uvec2 color = colors[frame.uniform_color != 0 ? 0 : index];
+    records0[place] = vec4(map.x0_px, w0, m.inverse_shift);
+    records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
+    records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
+    records3[place] = vec4(normal.yz, uintBitsToFloat(color));
+}

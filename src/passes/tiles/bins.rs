@@ -1,0 +1,107 @@
+//! Lists of splats by tile, in input order: counted, placed by prefix sums, filled; no atomics, so that they are the same
+//! in every run.
+
+use ash::vk;
+
+use super::{
+    super::{Inputs, constants::TileConstants, variant::Constants},
+    ARGUMENTS, COUNTS, ENTRIES, OVERFULL, SEEN, SPANS, STARTS, TilePass, TilePlan, Tiles,
+    after_dispatches_before,
+    plan::WALKERS,
+    record::record,
+};
+use crate::{
+    error::Result,
+    graph::{
+        Access, Graph, Start,
+        execute::{Body, PassContext},
+    },
+    shaders,
+};
+
+/// The constant of how many entries a dispatch takes of a tile.
+pub(super) fn part_length(plan: &TilePlan) -> Constants {
+    vec![(19, plan.part_length)]
+}
+
+/// Declares the passes that set splats up and list them by tile. `kind`, in front of the names, tells several such lists of a
+/// frame apart.
+pub(in super::super) fn list<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    kind: &str,
+    plan: &'a TilePlan,
+) -> Result<Tiles<'a>> {
+    let mut tiles = Tiles::create(graph, kind, plan);
+    record(graph, inputs, kind, &mut tiles)?;
+    let (spans, counts, starts) =
+        ((SPANS, tiles.spans.id()), (COUNTS, tiles.counts.id()), (STARTS, tiles.starts.id()));
+
+    let cleared = tiles.counts.id();
+    graph
+        .pass(&format!("clear counts of {kind}tiles"))
+        .write(&mut tiles.counts, Access::TransferWrite, Start::Discard)
+        .finish(Box::new(move |context| {
+            let buffer = context.buffer(cleared)?;
+            // SAFETY: outside of rendering; the whole buffer.
+            unsafe { context.device().cmd_fill_buffer(context.commands(), buffer, 0, vk::WHOLE_SIZE, 0) };
+            Ok(())
+        }));
+
+    let count = TilePass::new(inputs, plan, (&shaders::TILE_COUNT_COMP, Vec::new()), vec![spans, counts])?;
+    graph
+        .pass(&format!("count {kind}tiles"))
+        .read(&tiles.spans, Access::StorageReadCompute)
+        .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
+        .finish(Box::new(move |context| walk(context, &count)));
+
+    let total = TilePass::new(inputs, plan, (&shaders::TILE_TOTAL_COMP, Vec::new()), vec![counts, starts])?;
+    let groups = plan.bin_count().div_ceil(WALKERS);
+    graph
+        .pass(&format!("total {kind}tiles"))
+        .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
+        .write(&mut tiles.starts, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| total.dispatch(context, groups)));
+
+    let written = vec![
+        starts,
+        (SEEN, tiles.seen.id()),
+        (ARGUMENTS, tiles.arguments.id()),
+        (OVERFULL, tiles.overfull.id()),
+    ];
+    let start = TilePass::new(inputs, plan, (&shaders::TILE_START_COMP, part_length(plan)), written)?;
+    graph
+        .pass(&format!("start {kind}tiles"))
+        .write(&mut tiles.starts, Access::StorageReadWriteCompute, Start::Load)
+        .write(&mut tiles.seen, Access::StorageWriteCompute, Start::Discard)
+        .write(&mut tiles.arguments, Access::StorageWriteCompute, Start::Discard)
+        .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| start.dispatch(context, 1)));
+
+    let filled = vec![spans, counts, starts, (ENTRIES, tiles.entries.id())];
+    let fill = TilePass::new(inputs, plan, (&shaders::TILE_FILL_COMP, Vec::new()), filled)?;
+    graph
+        .pass(&format!("fill {kind}tiles"))
+        .read(&tiles.spans, Access::StorageReadCompute)
+        .read(&tiles.starts, Access::StorageReadCompute)
+        .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
+        .write(&mut tiles.entries, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| walk(context, &fill)));
+    Ok(tiles)
+}
+
+/// Records the dispatches of a walk: each takes no more records of a segment than a shader's loops have iterations for.
+fn walk(context: &PassContext<'_>, pass: &TilePass<'_>) -> Result<()> {
+    let TileConstants { record_count, segment_length, round_length, .. } = pass.constants;
+    let walkers = record_count.div_ceil(segment_length);
+    pass.bind(context)?;
+    for round_first in (0..segment_length).step_by(round_length as usize) {
+        if round_first > 0 {
+            after_dispatches_before(context);
+        }
+        pass.push(context, &TileConstants { round_first, ..pass.constants });
+        // SAFETY: all is bound that the pipeline needs.
+        unsafe { context.device().cmd_dispatch(context.commands(), walkers.div_ceil(WALKERS), 1, 1) };
+    }
+    Ok(())
+}

@@ -1,0 +1,45 @@
+//! The depth that tiles have found, in the depth buffer of the graphics pipeline.
+
+use ash::vk;
+
+use super::{
+    super::{DEPTH_FORMAT, Inputs, finalize, fullscreen::read_set},
+    SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles,
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    shaders,
+};
+
+/// Declares the pass. `before`: the depth buffer that `visible` begins from; else it is 0 where there are no splats.
+pub(in super::super) fn depth_buffer<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    visible: &Handle<Image>,
+    before: Option<Handle<Image>>,
+) -> Result<Handle<Image>> {
+    let mut key = quads_of_tiles(&shaders::TILE_DEPTH_FRAG, Vec::new());
+    key.depth = Some((vk::CompareOp::ALWAYS, true));
+    let pipeline = inputs.shaders.graphics(key)?;
+    let constants = finalize::constants(inputs);
+    let (id, seen) = (visible.id(), SeenTiles::of(tiles));
+    let (mut depth, start) = match before {
+        Some(before) => (before, Start::Load),
+        None => {
+            let depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
+            (depth, Start::Clear(ClearValue::Depth(0.0)))
+        }
+    };
+    let pass = graph.pass("depth of tiles").read(visible, Access::SampledFragment).write(
+        &mut depth,
+        Access::DepthAttachment,
+        start,
+    );
+    tiles.read_seen(pass).finish(Box::new(move |context| {
+        let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, id)], None))?;
+        draw_quads_of_tiles(context, inputs, &pipeline, seen, set, bytemuck::bytes_of(&constants))
+    }));
+    Ok(depth)
+}

@@ -1,0 +1,113 @@
+//! The splats that are too large for tiles, or not regular: drawn as quads by the graphics pipeline, from the lists of chunks.
+
+use ash::vk;
+
+use super::{
+    super::{
+        Inputs,
+        accumulate::{self, bind_sampled},
+        draws::SplatPass,
+        splat_shaders::Summed,
+        visibility,
+    },
+    CHUNK_ARGUMENTS, TileImages, Tiles,
+};
+use crate::{
+    error::Result,
+    graph::{
+        Access, ClearValue, Graph, Handle, Image, PassBuilder, ResourceId, Start,
+        execute::{Body, PassContext},
+    },
+    vk::Descriptor,
+};
+
+/// Declares their visibility; returns the depth, as that of all splats is.
+pub(in super::super) fn see_large<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+) -> Result<Handle<Image>> {
+    let draws = LargeDraws::new(inputs, tiles, &visibility::splat_pass(inputs.settings, None)?)?;
+    let mut depth = graph.create_image("depth", inputs.image(super::super::DEPTH_FORMAT));
+    let pass = graph.pass("see large splats").write(
+        &mut depth,
+        Access::DepthAttachment,
+        Start::Clear(ClearValue::Depth(0.0)),
+    );
+    read_list(tiles, pass).finish(Box::new(move |context| draws.record(context)));
+    Ok(depth)
+}
+
+/// Declares their accumulation, upon the sums of tiles. `polygons`, `with_depth`: as for all splats.
+pub(in super::super) fn sum_large<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    (depth, polygons): (&Handle<Image>, Option<&Handle<Image>>),
+    with_depth: bool,
+) -> Result<()> {
+    let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
+    let draws = LargeDraws::new(inputs, tiles, &accumulate::splat_pass(inputs.settings, summed)?)?;
+    let sampled = [with_depth.then(|| depth.id()), None, polygons.map(Handle::id)];
+    let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
+    let mut pass = graph
+        .pass("sum large splats")
+        .write(&mut images.sums.color, Access::ColorAttachment, Start::Load)
+        .write(&mut images.sums.normal, Access::ColorAttachment, Start::Load)
+        .read(depth, access);
+    if let Some(polygons) = polygons {
+        pass = pass.read(polygons, Access::SampledFragment);
+    }
+    read_list(tiles, pass).finish(Box::new(move |context| {
+        bind_sampled(context, inputs, sampled)?;
+        draws.record(context)
+    }));
+    Ok(())
+}
+
+fn read_list<'g, B>(tiles: &Tiles<'_>, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+    pass.read(&tiles.entries, Access::StorageReadVertex).read(&tiles.arguments, Access::IndirectRead)
+}
+
+/// The draws of one pass: one a chunk.
+struct LargeDraws<'a> {
+    inputs: Inputs<'a>,
+    pipelines: Vec<std::sync::Arc<crate::vk::GraphicsPipeline>>,
+    entries: ResourceId,
+    arguments: ResourceId,
+}
+
+impl<'a> LargeDraws<'a> {
+    fn new(inputs: Inputs<'a>, tiles: &Tiles<'a>, pass: &SplatPass) -> Result<Self> {
+        Ok(Self {
+            inputs,
+            pipelines: pass.quad_pipelines(inputs)?,
+            entries: tiles.entries.id(),
+            arguments: tiles.arguments.id(),
+        })
+    }
+
+    fn record(&self, context: &PassContext<'_>) -> Result<()> {
+        let shaders = self.inputs.shaders;
+        let list = [(2, Descriptor::Buffer(context.buffer(self.entries)?))];
+        let list = self.inputs.descriptors.set(&shaders.large_set, &list)?;
+        let arguments = context.buffer(self.arguments)?;
+        let layout = &shaders.splat_layout;
+        let bind_point = vk::PipelineBindPoint::GRAPHICS;
+        let (device, commands) = (context.device(), context.commands());
+        for ((number, draw), pipeline) in (0..).zip(self.inputs.draws).zip(&self.pipelines) {
+            let constants = bytemuck::bytes_of(&draw.constants);
+            let sets = [draw.chunk.set(), list];
+            // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order
+            // what is read; the arguments are within the buffer, and begin at any instance, as the device can.
+            unsafe {
+                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+                device.cmd_draw_indirect(commands, arguments, CHUNK_ARGUMENTS + 16 * number, 1, 16);
+            }
+        }
+        Ok(())
+    }
+}

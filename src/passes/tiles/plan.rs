@@ -1,0 +1,174 @@
+//! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
+
+use super::super::draws::Draw;
+use crate::vk::Limits;
+
+/// Pixels along a side of a tile, as in `glsl/inc/tiles.glsl`.
+pub(in super::super) const TILE_PX: u32 = 8;
+
+/// Tiles along a side that a splat of a record touches at most: three bits of its span.
+const MOST_TILES_A_SIDE: u32 = 8;
+
+/// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
+const MOST_ITERATIONS: u32 = 65_000;
+
+/// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
+const SEGMENTS: u32 = 32;
+
+/// Invocations of a workgroup that walks over segments.
+pub(in super::super) const WALKERS: u32 = 8;
+
+/// Entries of lists that there is room for at least, where the device allows it; and for each splat.
+const LEAST_ENTRIES: u64 = 8 << 20;
+const ENTRIES_A_SPLAT: u64 = 16;
+
+/// Chunks that spans can tell apart.
+const MOST_CHUNKS: usize = 8191;
+
+/// The bytes of a quarter of a record, each quarter in a buffer of its own.
+pub(in super::super) const RECORD_BYTES: u64 = 16;
+
+/// How splats are drawn by tiles.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TilePlan {
+    /// Tiles along a row.
+    pub tiles_x: u32,
+    /// Tiles of the image.
+    pub tile_count: u32,
+    /// Splats of all chunks.
+    pub record_count: u32,
+    /// Chunks.
+    pub chunk_count: u32,
+    /// Segments of records, one invocation each.
+    pub segments: u32,
+    /// Records of one.
+    pub segment_length: u32,
+    /// Records that are walked over in one dispatch.
+    pub round_length: u32,
+    /// Tiles that a splat of a record touches at most.
+    pub most_tiles: u32,
+    /// Entries of all lists together that there is room for.
+    pub entry_room: u64,
+    /// Entries of one tile that a dispatch takes.
+    pub part_length: u32,
+    /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
+    pub may_be_large: bool,
+    /// Invocations can't hand values to each other.
+    pub direct: bool,
+}
+
+impl TilePlan {
+    /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
+    pub fn of(draws: &[Draw<'_>], size_px: [u32; 2], limits: &Limits) -> Option<Self> {
+        let boxes = draws.iter().map(|draw| (u64::from(draw.chunk.count), draw.largest_box_px));
+        Self::of_boxes(&boxes.collect::<Vec<_>>(), size_px, limits)
+    }
+
+    /// The same for chunks of so many splats with boxes up to so many pixels.
+    fn of_boxes(chunks: &[(u64, f64)], [width, height]: [u32; 2], limits: &Limits) -> Option<Self> {
+        let range = limits.max_storage_buffer_range;
+        let records: u64 = chunks.iter().map(|(count, _)| count).sum();
+        let [tiles_x, tiles_y] = [width, height].map(|side| side.div_ceil(TILE_PX));
+        let tile_count = tiles_x * tiles_y;
+        let bins = u64::from(tile_count) + chunks.len() as u64;
+        let segments_with_room = range / 4 / bins / u64::from(WALKERS) * u64::from(WALKERS);
+        let refused = records == 0
+            || records * RECORD_BYTES > range
+            || chunks.len() > MOST_CHUNKS
+            || segments_with_room == 0
+            || u64::from(tiles_x.max(tiles_y)) > (1 << 13) - u64::from(MOST_TILES_A_SIDE);
+        if refused {
+            return None;
+        }
+        let record_count = u32::try_from(records).ok()?;
+        let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).min(range / 4);
+        let room_a_splat = (room / records).min(u64::from(MOST_TILES_A_SIDE * MOST_TILES_A_SIDE)) as u32;
+        let largest = chunks.iter().map(|(_, px)| *px).fold(0.0, f64::max);
+        // A box of b pixels touches ⌈b / 8⌉ + 1 tiles at most.
+        let bound = (largest / f64::from(TILE_PX)).ceil() + 1.0;
+        let fits = bound <= f64::from(MOST_TILES_A_SIDE) && bound * bound <= f64::from(room_a_splat);
+        let most_tiles = if fits { (bound * bound) as u32 } else { room_a_splat };
+        let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
+        let segment_length = record_count.div_ceil(segments);
+        Some(Self {
+            tiles_x,
+            tile_count,
+            record_count,
+            chunk_count: chunks.len() as u32,
+            segments,
+            segment_length,
+            round_length: (MOST_ITERATIONS / most_tiles).min(segment_length),
+            most_tiles,
+            // A splat that is left to the graphics pipeline has one.
+            entry_room: records * u64::from(most_tiles),
+            // Two loops over the entries, of 8 a step where invocations hand them to each other.
+            part_length: if limits.shuffles { 8 } else { 1 } * MOST_ITERATIONS / 2,
+            may_be_large: !fits,
+            direct: !limits.shuffles,
+        })
+    }
+
+    /// The bins of all lists: tiles, then chunks.
+    pub fn bin_count(&self) -> u32 {
+        self.tile_count + self.chunk_count
+    }
+
+    /// Whether a tile may have more splats than one dispatch takes.
+    pub fn may_be_overfull(&self) -> bool {
+        self.record_count > self.part_length
+    }
+
+    /// Parts of a tile that has all splats.
+    pub fn parts(&self) -> u32 {
+        self.record_count.div_ceil(self.part_length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limits() -> Limits {
+        Limits { max_storage_buffer_range: 1 << 27, shuffles: true, ..Limits::for_tests() }
+    }
+
+    fn plan(chunks: &[(u64, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
+        TilePlan::of_boxes(chunks, size_px, &limits())
+    }
+
+    #[test]
+    fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
+        for count in [1, 7, 1000, 154_000, 1_400_000, 5_000_000, 8_388_608] {
+            for px in [3.0, 11.0, 40.0, 500.0, f64::INFINITY] {
+                for size_px in [[1, 1], [1024, 1024], [4096, 4096], [16_384, 8192]] {
+                    let plan = plan(&[(count, px)], size_px).unwrap();
+                    assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
+                    assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
+                    assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
+                    assert!(plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= count, "{plan:?}");
+                    let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
+                    assert!(counts <= 1 << 27, "{plan:?}");
+                    assert!(plan.part_length / 8 * 2 < 65_535, "{plan:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn splats_that_are_small_for_sure_leave_nothing_to_the_graphics_pipeline() {
+        let small = plan(&[(154_000, 40.0)], [1024, 1024]).unwrap();
+        assert!(!small.may_be_large && small.most_tiles == 36, "{small:?}");
+        assert!(plan(&[(154_000, 57.0)], [1024, 1024]).unwrap().may_be_large);
+        assert!(plan(&[(10, 3.0), (10, f64::INFINITY)], [1024, 1024]).unwrap().may_be_large);
+        // Too many for lists of 9 tiles each.
+        assert!(plan(&[(5_000_000, 11.0)], [1024, 1024]).unwrap().may_be_large);
+    }
+
+    #[test]
+    fn what_has_no_room_has_no_plan() {
+        assert_eq!(plan(&[], [64, 64]), None);
+        assert_eq!(plan(&[(8_388_609, 3.0)], [64, 64]), None);
+        assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
+        assert_eq!(plan(&vec![(1, 3.0); 8192], [64, 64]), None);
+    }
+}

@@ -1,0 +1,71 @@
+//! Draws of the graphics pipeline over the tiles that have splats.
+
+use ash::vk;
+
+use super::{
+    super::{
+        Inputs,
+        pipelines::{GraphicsKey, Layout},
+        variant::Constants,
+    },
+    QUAD_ARGUMENTS, SEEN, Tiles,
+};
+use crate::{
+    error::Result,
+    graph::{Access, PassBuilder, ResourceId, execute::PassContext},
+    shaders::{self, Shader},
+    vk::{Descriptor, GraphicsPipeline},
+};
+
+/// Which tiles have splats, for the passes that draw over them.
+#[derive(Clone, Copy)]
+pub(in super::super) struct SeenTiles {
+    seen: ResourceId,
+    arguments: ResourceId,
+}
+
+impl SeenTiles {
+    /// Those of a frame's lists.
+    pub fn of(tiles: &Tiles<'_>) -> Self {
+        Self { seen: tiles.seen.id(), arguments: tiles.arguments.id() }
+    }
+}
+
+impl Tiles<'_> {
+    /// Declares that a pass draws over the tiles that have splats.
+    pub fn read_seen<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        pass.read(&self.seen, Access::StorageReadVertex).read(&self.arguments, Access::IndirectRead)
+    }
+}
+
+/// A pipeline that draws quads over tiles: without color, blending and depth, to be completed.
+pub(in super::super) fn quads_of_tiles(fragment: &'static Shader, constants: Constants) -> GraphicsKey {
+    let stages = (&shaders::TILE_QUADS_VERT, fragment);
+    GraphicsKey::new(stages, Layout::TileQuads, vk::PrimitiveTopology::TRIANGLE_STRIP, constants)
+}
+
+/// Records the draw. `set`: what the fragments read; `constants`: finalization's.
+pub(in super::super) fn draw_quads_of_tiles(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    pipeline: &GraphicsPipeline,
+    seen: SeenTiles,
+    set: vk::DescriptorSet,
+    constants: &[u8],
+) -> Result<()> {
+    let list = [(SEEN, Descriptor::Buffer(context.buffer(seen.seen)?))];
+    let sets = [set, inputs.descriptors.set(&inputs.shaders.tile_set, &list)?];
+    let arguments = context.buffer(seen.arguments)?;
+    let layout = &inputs.shaders.tile_quads_layout;
+    let bind_point = vk::PipelineBindPoint::GRAPHICS;
+    let (device, commands) = (context.device(), context.commands());
+    // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is
+    // read; the arguments are within the buffer.
+    unsafe {
+        device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+        device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+        device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+        device.cmd_draw_indirect(commands, arguments, QUAD_ARGUMENTS, 1, 16);
+    }
+    Ok(())
+}

@@ -1,0 +1,245 @@
+//! Visibility and accumulation of the listed splats, a tile at a time: both at once, or one of them where the graphics
+//! pipeline draws in between.
+
+use super::{
+    super::{
+        Inputs,
+        accumulate::Sums,
+        splat_shaders::find,
+        sum_format,
+        variant::{Constants, splat_constants},
+    },
+    COLOR_SUMS, DEPTH_BEFORE, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass,
+    TilePlan, Tiles, VISIBLE_DEPTH,
+    bins::part_length,
+    overfull::{Parts, of_parts},
+};
+use crate::{
+    error::Result,
+    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    scene::{Accumulate, Settings, Transition},
+    shaders::Shader,
+};
+
+/// The depth that tiles find, for other compute passes and for fragments.
+pub(in super::super) const VISIBLE_FORMAT: ash::vk::Format = ash::vk::Format::R32_SFLOAT;
+
+/// What tiles leave. Outside of tiles with splats, the images hold nothing unless they were cleared.
+pub(in super::super) struct TileImages {
+    pub sums: Sums,
+    pub depth: Handle<Image>,
+}
+
+impl TileImages {
+    /// Images with nothing in them yet; `cleared`: 0 everywhere, for what draws into them or reads all of them.
+    pub fn create<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, cleared: bool) -> Self {
+        let format = sum_format(inputs.settings);
+        let mut image = |name, format| graph.create_image(name, inputs.image(format));
+        let mut images = Self {
+            sums: Sums { color: image("color sums", format), normal: image("normal sums", format) },
+            depth: image("visible depth", VISIBLE_FORMAT),
+        };
+        if cleared {
+            let ids = [images.sums.color.id(), images.sums.normal.id(), images.depth.id()];
+            let mut pass = graph.pass("clear sums");
+            for image in [&mut images.sums.color, &mut images.sums.normal, &mut images.depth] {
+                pass = pass.write(image, Access::TransferWrite, Start::Discard);
+            }
+            pass.finish(Box::new(move |context| {
+                let range = ash::vk::ImageSubresourceRange::default()
+                    .aspect_mask(ash::vk::ImageAspectFlags::COLOR)
+                    .level_count(1)
+                    .layer_count(1);
+                for id in ids {
+                    let (image, layout) = (context.image(id)?.0, context.layout(id));
+                    let zero = ash::vk::ClearColorValue { float32: [0.0; 4] };
+                    // SAFETY: outside of rendering; the image is in the layout that the pass declares.
+                    unsafe {
+                        let commands = context.commands();
+                        context.device().cmd_clear_color_image(commands, image, layout, &zero, &[range]);
+                    }
+                }
+                Ok(())
+            }));
+        }
+        images
+    }
+}
+
+/// Where the images' content comes from when a pass writes to them.
+fn start(cleared: bool) -> (Access, Start) {
+    match cleared {
+        true => (Access::StorageReadWriteCompute, Start::Load),
+        false => (Access::StorageWriteCompute, Start::Discard),
+    }
+}
+
+/// What the shader does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum Step {
+    Fused { upon: bool, with_depth: bool },
+    Visible { upon: bool },
+    Summed { beside: bool, with_depth: bool },
+}
+
+/// The shader of a step, and its constants.
+pub(in super::super) fn shader(
+    settings: &Settings,
+    plan: &TilePlan,
+    step: Step,
+) -> Result<(&'static Shader, Constants)> {
+    let sums = match settings.accumulate {
+        Accumulate::F16 => "half",
+        Accumulate::F32 => "single",
+    };
+    let word = |choice: bool, word: &'static str| choice.then_some(word);
+    let words = match step {
+        Step::Fused { upon, with_depth } => {
+            [Some("fused"), Some(sums), word(with_depth, "with_depth"), word(upon, "upon")]
+        }
+        Step::Visible { upon } => [Some("visible"), word(upon, "upon"), None, None],
+        Step::Summed { beside, with_depth } => {
+            [Some("summed"), Some(sums), word(with_depth, "with_depth"), word(beside, "beside")]
+        }
+    };
+    let words = words.into_iter().chain([word(plan.direct, "direct")]).flatten();
+    let name: String = words.map(|word| format!("_{word}")).collect();
+    // What differs between chunks is in their records.
+    let mut constants = splat_constants(settings, false, false);
+    constants.extend(part_length(plan));
+    if matches!(step, Step::Summed { beside: true, .. }) {
+        constants.push((18, u32::from(settings.transition == Transition::Paper)));
+    }
+    Ok((find(&format!("tile_splat{name}.comp"))?, constants))
+}
+
+/// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
+/// drawn; `with_depth`: depth is summed too; `cleared`: the images were.
+pub(in super::super) fn fused<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    before: Option<&Handle<Image>>,
+    (with_depth, cleared): (bool, bool),
+) -> Result<()> {
+    let step = Step::Fused { upon: before.is_some(), with_depth };
+    let mut fused =
+        TilePass::new(inputs, tiles.plan, shader(inputs.settings, tiles.plan, step)?, tiles.lists())?;
+    fused.storage_images = vec![
+        (COLOR_SUMS, images.sums.color.id()),
+        (NORMAL_SUMS, images.sums.normal.id()),
+        (VISIBLE_DEPTH, images.depth.id()),
+    ];
+    fused.sampled_images = before.map(|before| (DEPTH_BEFORE, before.id())).into_iter().collect();
+    let arguments = tiles.arguments.id();
+    let (access, content) = start(cleared);
+    let mut pass = tiles.read_lists(graph.pass("see and sum tiles"));
+    for image in [&mut images.sums.color, &mut images.sums.normal, &mut images.depth] {
+        pass = pass.write(image, access, content);
+    }
+    if let Some(before) = before {
+        pass = pass.read(before, Access::SampledCompute);
+    }
+    pass.finish(Box::new(move |context| fused.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
+    if tiles.plan.may_be_overfull() {
+        let seen = Step::Visible { upon: before.is_some() };
+        let summed = Step::Summed { beside: false, with_depth };
+        see_parts(graph, inputs, tiles, images, before, (seen, None))?;
+        sum_parts(graph, inputs, tiles, images, None, (summed, None))?;
+    }
+    Ok(())
+}
+
+/// Declares visibility alone.
+pub(in super::super) fn visibility<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    before: Option<&Handle<Image>>,
+) -> Result<()> {
+    let step = Step::Visible { upon: before.is_some() };
+    see_parts(graph, inputs, tiles, images, before, (step, Some(SEEN_ARGUMENTS)))
+}
+
+/// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any.
+pub(in super::super) fn accumulate<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    polygons: Option<&Handle<Image>>,
+    with_depth: bool,
+) -> Result<()> {
+    let step = Step::Summed { beside: polygons.is_some(), with_depth };
+    sum_parts(graph, inputs, tiles, images, polygons, (step, Some(SEEN_ARGUMENTS)))
+}
+
+/// Visibility of whole tiles, where there are arguments for them, then of the parts of overfull ones.
+fn see_parts<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    before: Option<&Handle<Image>>,
+    (step, whole): (Step, Option<u64>),
+) -> Result<()> {
+    let mut see =
+        TilePass::new(inputs, tiles.plan, shader(inputs.settings, tiles.plan, step)?, tiles.lists())?;
+    see.storage_images = vec![(VISIBLE_DEPTH, images.depth.id())];
+    see.sampled_images = before.map(|before| (DEPTH_BEFORE, before.id())).into_iter().collect();
+    let name = if whole.is_some() { "see tiles" } else { "see overfull tiles" };
+    let mut pass = tiles.read_lists(graph.pass(name)).write(
+        &mut images.depth,
+        Access::StorageReadWriteCompute,
+        Start::Load,
+    );
+    if let Some(before) = before {
+        pass = pass.read(before, Access::SampledCompute);
+    }
+    let parts = Parts {
+        arguments: tiles.arguments.id(),
+        whole,
+        overfull: OVERFULL_ARGUMENTS,
+        parts: of_parts(tiles.plan),
+    };
+    pass.finish(Box::new(move |context| parts.record(context, &see)));
+    Ok(())
+}
+
+/// Accumulation alike.
+fn sum_parts<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    polygons: Option<&Handle<Image>>,
+    (step, whole): (Step, Option<u64>),
+) -> Result<()> {
+    let mut sum =
+        TilePass::new(inputs, tiles.plan, shader(inputs.settings, tiles.plan, step)?, tiles.lists())?;
+    sum.storage_images = vec![
+        (COLOR_SUMS, images.sums.color.id()),
+        (NORMAL_SUMS, images.sums.normal.id()),
+        (VISIBLE_DEPTH, images.depth.id()),
+    ];
+    sum.sampled_images = polygons.map(|polygons| (POLYGON_DEPTH, polygons.id())).into_iter().collect();
+    let name = if whole.is_some() { "sum tiles" } else { "sum overfull tiles" };
+    let mut pass = tiles
+        .read_lists(graph.pass(name))
+        .read(&images.depth, Access::StorageReadCompute)
+        .write(&mut images.sums.color, Access::StorageReadWriteCompute, Start::Load)
+        .write(&mut images.sums.normal, Access::StorageReadWriteCompute, Start::Load);
+    if let Some(polygons) = polygons {
+        pass = pass.read(polygons, Access::SampledCompute);
+    }
+    let parts = Parts {
+        arguments: tiles.arguments.id(),
+        whole,
+        overfull: OVERFULL_ARGUMENTS,
+        parts: of_parts(tiles.plan),
+    };
+    pass.finish(Box::new(move |context| parts.record(context, &sum)));
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! Splats by tiles in compute against the graphics pipeline's path: the same pixels within rounding, whatever a tile holds.
+
+mod common;
+
+use common::{assert_same_bits, assert_validation_is_silent, compare::F32, scenes, shared, with_limits};
+use glam::DVec3;
+use surfel::{
+    hard_scenes::{Hard, sphere, transparent},
+    renderer::{Frame, Headless, Wanted},
+    scene::{Accumulate, Camera, Object, Rasterizer, Scene, Settings},
+};
+
+const PICTURE: Wanted = Wanted { picture: true, linear: true, surface: false, profile: None };
+
+fn with(hard: &Hard, rasterizer: Rasterizer) -> Hard {
+    Hard { settings: Settings { rasterizer, ..hard.settings.clone() }, ..hard.clone() }
+}
+
+fn picture(headless: &mut Headless, hard: &Hard, rasterizer: Rasterizer, wanted: Wanted) -> Frame {
+    let hard = with(hard, rasterizer);
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap()
+}
+
+/// Of all colors, how many differ by more than 1e-3: rounding may turn the coverage of a pixel at a rim, or which of two
+/// surfaces is seen.
+fn different(a: &Frame, b: &Frame) -> usize {
+    let far =
+        |(a, b): (&[f32; 4], &[f32; 4])| a.iter().zip(b).any(|(a, b)| !((a - b).abs() <= F32.color as f32));
+    assert_eq!(a.linear.len(), b.linear.len());
+    a.linear.iter().zip(&b.linear).filter(|pair| far(*pair)).count()
+}
+
+fn passes(frame: &Frame) -> Vec<&str> {
+    frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
+}
+
+fn hard(objects: Vec<Object>, camera: Camera, size_px: [u32; 2]) -> Hard {
+    let settings = Settings { size_px, accumulate: Accumulate::F32, ..Settings::default() };
+    Hard { name: "tiles", scene: Scene { objects, ..Scene::default() }, camera, settings }
+}
+
+/// A frame of opaque splats alone reads nothing but the tiles that have some, so that its images are never cleared.
+#[test]
+fn images_of_odd_sizes_and_many_chunks_are_the_same_as_by_points() {
+    let mut headless = shared();
+    let objects =
+        || (0..11).map(|i| sphere(700, DVec3::new(f64::from(i) - 5.0, 0.3 * f64::from(i % 3), 0.0)));
+    let camera = scenes::builder::camera([0.0, 0.0, 9.0], [0.0; 3]);
+    for size_px in [[1, 1], [7, 9], [131, 67], [64, 257]] {
+        let hard = hard(objects().collect(), camera.clone(), size_px);
+        let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+        let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+        let pixels = tiles.linear.len();
+        assert!(different(&tiles, &points) <= pixels / 1000, "{size_px:?}: {}", different(&tiles, &points));
+        let names = passes(&tiles);
+        assert!(names.contains(&"see and sum tiles") && !names.contains(&"clear sums"), "{names:?}");
+        assert!(!names.contains(&"visibility"), "{names:?}");
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// llvmpipe ends a shader's loops after 65 535 iterations without a word: here a tile has ten times as many splats.
+#[test]
+fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
+    let mut headless = shared();
+    let camera = scenes::builder::camera([0.0, 0.0, 900.0], [0.0; 3]);
+    let hard = hard(vec![sphere(700_000, DVec3::ZERO)], camera, [16, 16]);
+    let points = picture(&mut headless, &hard, Rasterizer::Perspective, common::ALL);
+    let seen = points.weight.iter().filter(|weight| **weight > 0.0).count();
+    assert!((4..=64).contains(&seen), "{seen}");
+    let check = |headless: &mut Headless| {
+        let tiles = picture(headless, &hard, Rasterizer::Compute, common::ALL);
+        assert!(passes(&tiles).contains(&"sum overfull tiles"));
+        // Half a million weights are added in another order: 2^-24 of the sum each, at random.
+        for (a, b) in tiles.weight.iter().zip(&points.weight) {
+            assert!((a - b).abs() <= 1e-3 * b, "{a} {b}");
+        }
+        assert_eq!(different(&tiles, &points), 0);
+    };
+    check(&mut headless);
+    with_limits(&mut headless, |limits| limits.shuffles = false, check);
+    assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn devices_whose_invocations_hand_nothing_over_draw_the_same_bits() {
+    let mut headless = shared();
+    for hard in [scenes::sphere_of_disks(), scenes::ground()] {
+        let handed = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+        let direct = with_limits(
+            &mut headless,
+            |limits| limits.shuffles = false,
+            |headless| picture(headless, &hard, Rasterizer::Compute, common::ALL),
+        );
+        assert_same_bits(&handed, &direct, hard.name);
+    }
+}
+
+/// Lists are in input order, whichever core walks over a segment first.
+#[test]
+fn twenty_frames_are_the_same_bits() {
+    let mut headless = shared();
+    let objects = vec![sphere(60_000, DVec3::ZERO), sphere(20_000, DVec3::new(0.5, 0.0, 0.4))];
+    let hard = hard(objects, scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]), [200, 200]);
+    let first = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+    for run in 1..20 {
+        let again = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+        assert_same_bits(&first, &again, &format!("run {run}"));
+    }
+}
+
+/// From within a cloud, some splats fill the image, some are cut by the near plane and most are small.
+#[test]
+fn large_splats_and_small_ones_are_one_picture() {
+    let mut headless = shared();
+    let mut near = sphere(4000, DVec3::ZERO);
+    near.closed = false;
+    let camera = scenes::builder::camera([0.0, 0.0, 0.98], [0.3, 0.1, -1.0]);
+    let hard = hard(vec![near, sphere(3000, DVec3::new(0.0, 0.0, -3.0))], camera, [256, 256]);
+    let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+    let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+    assert!(passes(&tiles).contains(&"sum large splats"), "{:?}", passes(&tiles));
+    assert!(different(&tiles, &points) <= 10, "{}", different(&tiles, &points));
+    assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn what_else_a_scene_has_is_drawn_around_it() {
+    let mut headless = shared();
+    for hard in transparent::all() {
+        let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+        let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+        let pixels = tiles.linear.len();
+        // Where surfaces are peeled off each other, rounding may turn which of them a pixel's last layer has.
+        assert!(different(&tiles, &points) <= pixels / 200, "{}: {}", hard.name, different(&tiles, &points));
+    }
+    assert_validation_is_silent(&headless);
+}
