@@ -7,7 +7,7 @@ use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, Camera, Object, Rasterizer, Scene, Settings},
+    scene::{Accumulate, Camera, Colors, LastLayer, Layers, Object, Rasterizer, Scene, Settings},
 };
 
 const PICTURE: Wanted = Wanted { picture: true, linear: true, surface: false, profile: None };
@@ -134,6 +134,43 @@ fn what_else_a_scene_has_is_drawn_around_it() {
         let pixels = tiles.linear.len();
         // Where surfaces are peeled off each other, rounding may turn which of them a pixel's last layer has.
         assert!(different(&tiles, &points) <= pixels / 200, "{}: {}", hard.name, different(&tiles, &points));
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// As above, in layers: the first tiles do all of them at once, others go on from dispatch to dispatch, and what has too many
+/// splats for that goes step by step and part by part.
+#[test]
+fn layers_of_overfull_tiles_lose_none() {
+    let mut headless = shared();
+    let clear = |count, center| {
+        let mut object = sphere(count, center);
+        let Colors::PerSplat(colors) = &mut object.splats.colors else { panic!("uniform") };
+        colors.iter_mut().for_each(|color| color[3] = 0.4);
+        object
+    };
+    let camera = scenes::builder::camera([0.0, 0.0, 4.0], [0.0; 3]);
+    let far = scenes::builder::camera([0.0, 0.0, 600.0], [0.0; 3]);
+    for (name, count, camera, size_px, layers) in [
+        ("one dispatch", 3000, &camera, [96, 96], 5),
+        ("several dispatches", 3000, &camera, [96, 96], 40),
+        ("parts", 600_000, &far, [16, 16], 3),
+    ] {
+        let objects = vec![clear(count, DVec3::ZERO), clear(1000, DVec3::new(0.8, 0.2, 0.3))];
+        let mut hard = hard(objects, camera.clone(), size_px);
+        hard.settings.layers = Layers::Fixed(layers);
+        for last_layer in [LastLayer::Stack, LastLayer::Drop] {
+            hard.settings.last_layer = last_layer;
+            let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+            let check = |headless: &mut Headless| {
+                let tiles = picture(headless, &hard, Rasterizer::Compute, PICTURE);
+                assert!(passes(&tiles).contains(&"layers of tiles"), "{:?}", passes(&tiles));
+                let off = different(&tiles, &points);
+                assert!(off <= tiles.linear.len() / 200, "{name}, {last_layer:?}: {off}");
+            };
+            check(&mut headless);
+            with_limits(&mut headless, |limits| limits.shuffles = false, check);
+        }
     }
     assert_validation_is_silent(&headless);
 }

@@ -24,7 +24,12 @@ struct TileConstants {
     uint segment_length; // records
     uint round_first;    // where in its segment a walk begins
     uint round_length;   // records of one walk
-    uint part;           // of an overfull tile
+    uint part;           // of an overfull tile; of layers
+    float focal_px;
+    uint surfaces;       // layers of one surface each, in this dispatch; in parts: before it
+    uint blends_rest;    // 1: and all that is left
+    uint step;           // of a layer in parts
+    uint ends;           // 1: the last part
 };
 
 // Entries of a tile that one dispatch takes are PART: llvmpipe ends a shader's loops after 65535 iterations, silently.

@@ -107,6 +107,16 @@ pub struct TileConstants {
     pub round_first: u32,
     /// Records of one walk.
     pub round_length: u32,
-    /// Of an overfull tile.
+    /// Of an overfull tile; of layers.
     pub part: u32,
+    /// An image-plane unit in pixels.
+    pub focal_px: f32,
+    /// Layers of one surface each, in this dispatch; in parts, before it.
+    pub surfaces: u32,
+    /// 1: and all that is left.
+    pub blends_rest: u32,
+    /// Of a layer in parts.
+    pub step: u32,
+    /// 1: the last part.
+    pub ends: u32,
 }

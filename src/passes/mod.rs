@@ -89,7 +89,7 @@ impl<'a> Parts<'a> {
         let (clear_meshes, meshes) = all.partition(|draw| draw.chunk.transparent);
         Self {
             opaque: Part::new(splats, meshes, settings, limits),
-            transparent: Part { splats: clear_splats, meshes: clear_meshes, tiles: None },
+            transparent: Part::new(clear_splats, clear_meshes, settings, limits).with_layers(settings),
             lights: lights::shader_lights(&scene.lights, camera),
         }
     }
@@ -113,6 +113,16 @@ impl<'a> Part<'a> {
             }
         }
         Self { splats, meshes, tiles }
+    }
+
+    /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
+    fn with_layers(mut self, settings: &Settings) -> Self {
+        let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
+        self.tiles = all.map(|plan| plan.with_layers(settings.layers.most()));
+        if self.tiles.is_none() {
+            self.splats.iter_mut().for_each(|draw| draw.constants.first_record = 0);
+        }
+        self
     }
 
     /// Nothing at all.
@@ -229,7 +239,13 @@ pub fn frame<'a>(
         true => None,
         false => {
             let inputs = inputs.of(&parts.transparent);
-            layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?
+            match inputs.tiles {
+                Some(plan) => {
+                    let tiles = tiles::list(graph, inputs, "transparent ", plan)?;
+                    Some(tiles::layers(graph, inputs, &tiles, opaque.depth(), lights.as_ref())?)
+                }
+                None => layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?,
+            }
         }
     };
     finalize::finalize(graph, inputs, &opaque, layers.as_ref(), lights.as_ref(), target, target_format)?;

@@ -140,7 +140,7 @@ impl Shaders {
         let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
         let mut in_tiles = vec![words; 11];
         in_tiles[tiles::SEEN as usize].stages = vertex | compute;
-        in_tiles.extend([sums, sums, sums, fetched, fetched]);
+        in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
         let tile_set = SetLayout::new(device, "tiles", &in_tiles)?;
         let record_layout = PipelineLayout::new(
             device,

@@ -137,7 +137,9 @@ pub(super) unsafe fn facts(
             storage_buffers_a_stage: limits.max_per_stage_descriptor_storage_buffers,
             shuffles: subgroup.subgroup_size >= 8
                 && subgroup.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
-                && subgroup.supported_operations.contains(vk::SubgroupFeatureFlags::SHUFFLE),
+                && subgroup
+                    .supported_operations
+                    .contains(vk::SubgroupFeatureFlags::SHUFFLE | vk::SubgroupFeatureFlags::VOTE),
         },
     }
 }

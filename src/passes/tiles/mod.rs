@@ -6,6 +6,7 @@
 mod bins;
 mod depth;
 mod large;
+mod layers;
 mod overfull;
 mod plan;
 mod quads;
@@ -20,6 +21,7 @@ pub(super) use self::{
     bins::list,
     depth::depth_buffer,
     large::{see_large, sum_large},
+    layers::layers,
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles},
     splat::{TileImages, accumulate, fused, visibility},
 };
@@ -34,7 +36,7 @@ use super::{
 use crate::{
     error::Result,
     graph::{
-        Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId,
+        Access, Buffer, BufferDesc, Graph, Handle, Image, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
     shaders::Shader,
@@ -55,6 +57,9 @@ const NORMAL_SUMS: u32 = 12;
 const VISIBLE_DEPTH: u32 = 13;
 const DEPTH_BEFORE: u32 = 14;
 const POLYGON_DEPTH: u32 = 15;
+const LIGHTS: u32 = 16;
+const PEELED_WEIGHT: u32 = 17;
+const PEELED_STATE: u32 = 18;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -62,8 +67,8 @@ const OVERFULL_ARGUMENTS: u64 = 16;
 const QUAD_ARGUMENTS: u64 = 32;
 const CHUNK_ARGUMENTS: u64 = 48;
 
-/// Storage buffers that the pass which makes records has in its stage.
-pub const STORAGE_BUFFERS: u32 = 13;
+/// Storage buffers in the layout of the pass that makes records.
+pub const STORAGE_BUFFERS: u32 = 15;
 
 /// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
 const WHOLE: u32 = u32::MAX;
@@ -150,6 +155,11 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         round_first: 0,
         round_length: plan.round_length,
         part: WHOLE,
+        focal_px: inputs.camera.focal_px(height) as f32,
+        surfaces: 0,
+        blends_rest: 0,
+        step: 0,
+        ends: 0,
     }
 }
 
@@ -231,6 +241,30 @@ impl<'a> TilePass<'a> {
         unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
         Ok(())
     }
+}
+
+/// Declares a pass that sets images to 0.
+fn clear(graph: &mut Graph<Body<'_>>, name: &str, images: &mut [&mut Handle<Image>]) {
+    let ids: Vec<_> = images.iter().map(|image| image.id()).collect();
+    let mut pass = graph.pass(name);
+    for image in images {
+        pass = pass.write(image, Access::TransferWrite, Start::Discard);
+    }
+    pass.finish(Box::new(move |context| {
+        let range = vk::ImageSubresourceRange::default()
+            .aspect_mask(vk::ImageAspectFlags::COLOR)
+            .level_count(1)
+            .layer_count(1);
+        let zero = vk::ClearColorValue { float32: [0.0; 4] };
+        for id in ids {
+            let (image, layout) = (context.image(id)?.0, context.layout(id));
+            // SAFETY: outside of rendering; the image is in the layout that the pass declares.
+            unsafe {
+                context.device().cmd_clear_color_image(context.commands(), image, layout, &zero, &[range]);
+            }
+        }
+        Ok(())
+    }));
 }
 
 /// Orders a dispatch behind those before it in the same pass, which work on the same memory.

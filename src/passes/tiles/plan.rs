@@ -49,8 +49,12 @@ pub struct TilePlan {
     pub most_tiles: u32,
     /// Entries of all lists together that there is room for.
     pub entry_room: u64,
-    /// Entries of one tile that a dispatch takes.
+    /// Entries over which a dispatch can walk twice.
+    pub walk_length: u32,
+    /// Entries of a tile up to which one dispatch does all of it.
     pub part_length: u32,
+    /// Layers that one dispatch does of such a tile.
+    pub layers_at_once: u32,
     /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
     pub may_be_large: bool,
     /// Invocations can't hand values to each other.
@@ -65,7 +69,11 @@ impl TilePlan {
     }
 
     /// The same for chunks of so many splats with boxes up to so many pixels.
-    fn of_boxes(chunks: &[(u64, f64)], [width, height]: [u32; 2], limits: &Limits) -> Option<Self> {
+    pub(super) fn of_boxes(
+        chunks: &[(u64, f64)],
+        [width, height]: [u32; 2],
+        limits: &Limits,
+    ) -> Option<Self> {
         let range = limits.max_storage_buffer_range;
         let records: u64 = chunks.iter().map(|(count, _)| count).sum();
         let [tiles_x, tiles_y] = [width, height].map(|side| side.div_ceil(TILE_PX));
@@ -90,6 +98,8 @@ impl TilePlan {
         let most_tiles = if fits { (bound * bound) as u32 } else { room_a_splat };
         let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
         let segment_length = record_count.div_ceil(segments);
+        // 8 of them a step, where invocations hand them to each other.
+        let walk_length = if limits.shuffles { 8 } else { 1 } * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
             tile_count,
@@ -101,8 +111,9 @@ impl TilePlan {
             most_tiles,
             // A splat that is left to the graphics pipeline has one.
             entry_room: records * u64::from(most_tiles),
-            // Two loops over the entries, of 8 a step where invocations hand them to each other.
-            part_length: if limits.shuffles { 8 } else { 1 } * MOST_ITERATIONS / 2,
+            walk_length,
+            part_length: walk_length,
+            layers_at_once: 1,
             may_be_large: !fits,
             direct: !limits.shuffles,
         })
@@ -113,6 +124,12 @@ impl TilePlan {
         self.tile_count + self.chunk_count
     }
 
+    /// The plan for so many layers at most: up to 16 of them in one dispatch, each of which walks twice.
+    pub fn with_layers(self, most: u32) -> Self {
+        let layers_at_once = most.min(16);
+        Self { layers_at_once, part_length: self.walk_length / layers_at_once, ..self }
+    }
+
     /// Whether a tile may have more splats than one dispatch takes.
     pub fn may_be_overfull(&self) -> bool {
         self.record_count > self.part_length
@@ -120,7 +137,12 @@ impl TilePlan {
 
     /// Parts of a tile that has all splats.
     pub fn parts(&self) -> u32 {
-        self.record_count.div_ceil(self.part_length)
+        self.record_count.div_ceil(self.walk_length)
+    }
+
+    /// Tiles that may be overfull at once.
+    pub fn most_overfull(&self) -> u64 {
+        (self.entry_room / u64::from(self.part_length)).clamp(1, self.tile_count.into())
     }
 }
 
@@ -148,7 +170,7 @@ mod tests {
                     assert!(plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= count, "{plan:?}");
                     let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
                     assert!(counts <= 1 << 27, "{plan:?}");
-                    assert!(plan.part_length / 8 * 2 < 65_535, "{plan:?}");
+                    assert!(plan.walk_length / 8 * 2 < 65_535, "{plan:?}");
                 }
             }
         }

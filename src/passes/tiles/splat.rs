@@ -40,27 +40,8 @@ impl TileImages {
             depth: image("visible depth", VISIBLE_FORMAT),
         };
         if cleared {
-            let ids = [images.sums.color.id(), images.sums.normal.id(), images.depth.id()];
-            let mut pass = graph.pass("clear sums");
-            for image in [&mut images.sums.color, &mut images.sums.normal, &mut images.depth] {
-                pass = pass.write(image, Access::TransferWrite, Start::Discard);
-            }
-            pass.finish(Box::new(move |context| {
-                let range = ash::vk::ImageSubresourceRange::default()
-                    .aspect_mask(ash::vk::ImageAspectFlags::COLOR)
-                    .level_count(1)
-                    .layer_count(1);
-                for id in ids {
-                    let (image, layout) = (context.image(id)?.0, context.layout(id));
-                    let zero = ash::vk::ClearColorValue { float32: [0.0; 4] };
-                    // SAFETY: outside of rendering; the image is in the layout that the pass declares.
-                    unsafe {
-                        let commands = context.commands();
-                        context.device().cmd_clear_color_image(commands, image, layout, &zero, &[range]);
-                    }
-                }
-                Ok(())
-            }));
+            let TileImages { sums: Sums { color, normal }, depth } = &mut images;
+            super::clear(graph, "clear sums", &mut [color, normal, depth]);
         }
         images
     }
