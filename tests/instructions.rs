@@ -56,7 +56,7 @@ fn the_published_programs_have_the_published_counts() {
 
 /// Each rasterizer with its default filter, then each filter with the default rasterizer.
 fn pinned() -> Vec<Settings> {
-    let rasterizers = Rasterizer::NAMES.iter().map(|(_, rasterizer)| {
+    let rasterizers = Rasterizer::METHODS.iter().map(|(_, rasterizer)| {
         let filter = if *rasterizer == Rasterizer::Raycast { Filter::Max } else { Filter::default() };
         Settings { rasterizer: *rasterizer, filter, ..Settings::default() }
     });

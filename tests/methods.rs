@@ -36,7 +36,7 @@ fn every_rasterizer_with_every_filter_agrees_with_its_oracle_on_every_hard_scene
     let mut compared = 0;
     for scene in scenes::all() {
         let mut oracles: HashMap<(Rasterizer, Filter), Picture> = HashMap::new();
-        for (_, rasterizer) in Rasterizer::NAMES {
+        for (_, rasterizer) in Rasterizer::METHODS {
             for (_, filter) in Filter::NAMES {
                 let method = |s: &mut Settings| (s.rasterizer, s.filter) = (*rasterizer, *filter);
                 let Some(hard) = with(&scene, method) else { continue };
@@ -63,7 +63,7 @@ fn unit_weights_and_early_depth_agree_with_the_oracle() {
     let mut failures = Vec::new();
     for scene in [scenes::sphere_of_disks(), scenes::random_ellipses(Filter::Adjust), scenes::edge_on()] {
         for filter in [Filter::Adjust, Filter::AdjustPaper] {
-            for (_, rasterizer) in Rasterizer::NAMES {
+            for (_, rasterizer) in Rasterizer::METHODS {
                 let method = |s: &mut Settings| {
                     (s.rasterizer, s.filter) = (*rasterizer, filter);
                     (s.filter_weight, s.early_depth) = (FilterWeight::Unit, true);
@@ -86,7 +86,7 @@ fn unit_weights_and_early_depth_agree_with_the_oracle() {
 #[test]
 fn early_depth_changes_no_bit() {
     let mut headless = shared();
-    for (_, rasterizer) in Rasterizer::NAMES {
+    for (_, rasterizer) in Rasterizer::METHODS {
         for scene in [scenes::sphere_of_disks(), scenes::cut_by_the_near_plane(), scenes::ground()] {
             let frames = [false, true].map(|early_depth| {
                 let method = |s: &mut Settings| {
@@ -113,7 +113,7 @@ fn kernels_from_a_texture_are_as_exact_as_its_texels_allow() {
         Kernel::Gaussian { sigma: 0.1 },
     ];
     for kernel in kernels {
-        for (_, rasterizer) in Rasterizer::NAMES {
+        for (_, rasterizer) in Rasterizer::METHODS {
             let method = |s: &mut Settings| {
                 (s.rasterizer, s.kernel, s.kernel_eval) = (*rasterizer, kernel, KernelEval::Texture);
             };

@@ -193,7 +193,7 @@ fn the_quick_form_has_every_method_every_option_and_every_scene() {
     }
     let scenes = surfel::hard_scenes::all().len() + surfel::hard_scenes::transparent::all().len();
     assert_eq!(parts(true, 3).len(), scenes);
-    for (name, _) in Rasterizer::NAMES {
+    for (name, _) in Rasterizer::METHODS {
         for (filter, _) in Filter::NAMES {
             let method = format!("methods.{name}.{filter}.");
             let has = |case: &Case| case.name.starts_with(&method);

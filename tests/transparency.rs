@@ -88,7 +88,7 @@ fn every_rasterizer_and_filter_peels_the_same_layers_as_its_oracle() {
         transparent::transparent_hybrid(Transition::Color),
         transparent::blended(),
     ] {
-        for (_, rasterizer) in Rasterizer::NAMES {
+        for (_, rasterizer) in Rasterizer::METHODS {
             for (_, filter) in Filter::NAMES {
                 let hard = with(&hard, |settings| {
                     (settings.rasterizer, settings.filter) = (*rasterizer, *filter);

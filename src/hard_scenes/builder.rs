@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::{Accumulate, Camera, Colors, Filter, Object, Scene, Settings, Shapes, Splats};
+use crate::scene::{Accumulate, Camera, Colors, Filter, Object, Rasterizer, Scene, Settings, Shapes, Splats};
 use glam::{DVec3, Vec3};
 
 pub use crate::math::random::SplitMix as Random;
@@ -82,9 +82,10 @@ pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
     }
 }
 
-/// How hard scenes are drawn: small, with exact sums.
+/// How hard scenes are drawn: small, with exact sums, by the graphics pipeline on every device.
 pub fn settings() -> Settings {
-    Settings { size_px: [256, 256], accumulate: Accumulate::F32, ..Settings::default() }
+    let rasterizer = Rasterizer::Perspective;
+    Settings { size_px: [256, 256], rasterizer, accumulate: Accumulate::F32, ..Settings::default() }
 }
 
 /// The same without a filter.

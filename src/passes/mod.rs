@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod catalog;
+mod choice;
 mod constants;
 mod copy_depth;
 mod draws;
@@ -35,6 +36,7 @@ mod visibility;
 use ash::vk;
 
 pub use catalog::{PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines};
+pub use choice::check as check_choice;
 pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
@@ -54,7 +56,7 @@ use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Layers, Rasterizer, Settings},
+    scene::{Accumulate, Camera, Layers, Settings},
     vk::{DescriptorPool, Limits, Occlusion, PoolRoom},
 };
 
@@ -103,7 +105,7 @@ impl<'a> Part<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let by_tiles = settings.rasterizer == Rasterizer::Compute;
+        let by_tiles = choice::by_tiles(settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings.size_px, limits)).flatten();
         if tiles.is_some() {
             let mut first_record = 0;
@@ -123,6 +125,11 @@ impl<'a> Part<'a> {
             self.splats.iter_mut().for_each(|draw| draw.constants.first_record = 0);
         }
         self
+    }
+
+    /// In words, how its splats are drawn, and why so; `None` where there are none.
+    pub fn drawn(&self, settings: &Settings, limits: &Limits) -> Option<String> {
+        choice::words(self, settings, limits)
     }
 
     /// Nothing at all.

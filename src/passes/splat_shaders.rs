@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn every_setting_has_its_shaders() {
         let mut checked = 0;
-        for (_, rasterizer) in Rasterizer::NAMES {
+        for (_, rasterizer) in Rasterizer::METHODS {
             for (_, filter) in Filter::NAMES {
                 for (_, kernel_eval) in KernelEval::NAMES {
                     for early_depth in [false, true] {

@@ -37,7 +37,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         Filter::Ewa => 4,
     };
     let rasterizer = match settings.rasterizer {
-        Rasterizer::Perspective | Rasterizer::Quad | Rasterizer::Compute => 0,
+        Rasterizer::Auto | Rasterizer::Perspective | Rasterizer::Quad | Rasterizer::Compute => 0,
         Rasterizer::PerspectivePaper => 1,
         Rasterizer::Raycast => 2,
         Rasterizer::RaycastApproximate => 3,

@@ -17,6 +17,8 @@ pub struct Explanation {
     pub meshes: Vec<ExplainedMesh>,
     /// The device's largest point: larger splats are listed and drawn as quads.
     pub point_cap_px: f32,
+    /// How opaque splats are drawn and why so, where there are any; then transparent ones.
+    pub drawn: [Option<String>; 2],
     /// The passes, in order.
     pub passes: Vec<ExplainedPass>,
     /// Passes that were declared and left out, because nobody reads their results.
@@ -123,7 +125,10 @@ impl Renderer {
             culled: draw.cull,
             bytes: draw.chunk.bytes(),
         });
+        let parts = passes::Parts::of(scene, camera, settings, limits);
+        let drawn = [&parts.opaque, &parts.transparent].map(|part| part.drawn(settings, limits));
         Explanation {
+            drawn,
             chunks: chunks.collect(),
             meshes: meshes.collect(),
             point_cap_px: limits.point_size_range[1],
@@ -172,6 +177,21 @@ fn reason(pass: &str) -> &'static str {
         "count large splats" | "scan large splats" | "list large splats" => {
             "a splat may exceed the device's largest point, or come near the eye plane"
         }
+        "set up splats" => "opaque splats: each is culled, or made ready to be drawn by tiles",
+        "see and sum tiles" => "opaque splats: visibility and sums of one tile after the other",
+        "see tiles" => "opaque splats beside polygons: the depth of the nearest surface of each tile",
+        "sum tiles" => "opaque splats beside polygons: sums of the nearest surface of each tile",
+        "see overfull tiles" | "sum overfull tiles" => "a tile may have more splats than one dispatch takes",
+        "see large splats" | "sum large splats" => {
+            "a splat may be too large for tiles, or come near the eye plane"
+        }
+        "clear sums" => "more than splats in tiles: the images are read as a whole",
+        "depth of tiles" => "more than splats in tiles: others are compared with their depth",
+        "clear layers" => "transparent splats: tiles without any have no layer",
+        "layers of tiles" => "transparent splats: all layers of one tile after the other",
+        "layers of overfull tiles" => "a tile may have more transparent splats than one dispatch takes",
+        name if name.starts_with("set up") => "transparent splats: each is made ready to be drawn by tiles",
+        name if name.ends_with(" tiles") => "lists of splats by tile: counted, placed by prefix sums, filled",
         name if name.starts_with("read back") => "the host reads it",
         name if name.starts_with("count large") || name.contains(" large transparent") => {
             "a transparent splat may exceed the device's largest point, or come near the eye plane"

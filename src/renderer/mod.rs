@@ -63,6 +63,8 @@ impl Renderer {
         self.limits.point_size_range[1] = own.point_size_range[1].min(to.point_size_range[1]);
         self.limits.max_image_side = own.max_image_side.min(to.max_image_side);
         self.limits.shuffles = own.shuffles && to.shuffles;
+        self.limits.first_instance = own.first_instance && to.first_instance;
+        self.limits.is_cpu = own.is_cpu && to.is_cpu;
     }
 
     /// Uploads a scene; see [`prepare`].
@@ -106,7 +108,7 @@ impl Renderer {
             let problem = format!("f32: the device '{}' can't blend 32-bit floats; use f16", facts.name);
             return Err(Error::option("--accumulate", problem));
         }
-        Ok(())
+        passes::check_choice(settings, &self.limits)
     }
 
     /// Records one frame. Returns the plan that was recorded.

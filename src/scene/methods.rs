@@ -34,6 +34,8 @@ macro_rules! named {
 named! {
     /// How a splat becomes fragments. All but the affine ones and [`Self::RaycastApproximate`] draw the same picture.
     Rasterizer {
+        /// `Compute` where that is faster and can draw it: on CPU drivers; else `Perspective`. Never another picture.
+        Auto = "auto",
         /// The inverse projective map, expanded about the projected center (Guennebaud et al. 2006, section 3).
         Perspective = "perspective",
         /// The same map in the paper's own form, `N (x, y, 1)`: less exact in 32 bits.
@@ -142,11 +144,15 @@ pub const LEAST_SHARE: f64 = 1.0 / 16.0;
 pub const LEAST_WEIGHT: f64 = 1.0 / 16_777_216.0;
 
 impl Rasterizer {
+    /// All but [`Self::Auto`], which is one of them, each with its name.
+    pub const METHODS: &'static [(&'static str, Self)] = Self::NAMES.split_at(1).1;
+
     /// The one that stands for all that draw the same picture: the exact ones are one family.
     pub fn family(self) -> Self {
         match self {
             Self::RaycastApproximate | Self::AffineCenter | Self::AffineContour => self,
-            Self::Perspective
+            Self::Auto
+            | Self::Perspective
             | Self::PerspectivePaper
             | Self::Raycast
             | Self::Triangle
@@ -197,7 +203,8 @@ mod tests {
 
     #[test]
     fn each_value_is_listed_once_and_the_default_comes_first() {
-        assert_eq!(Rasterizer::default(), Rasterizer::Perspective);
+        assert_eq!(Rasterizer::default(), Rasterizer::Auto);
+        assert!(Rasterizer::METHODS.iter().all(|(_, value)| *value != Rasterizer::Auto));
         assert_eq!(Filter::default(), Filter::Adjust);
         assert_eq!(FilterWeight::default(), FilterWeight::Area);
         assert_eq!(KernelEval::default(), KernelEval::Analytic);

@@ -22,7 +22,7 @@ const SLOWEST: &str = "64 layers";
 pub(super) fn cases(first: usize, scenes: &[Hard]) -> Vec<Case> {
     let scenes = || scenes.iter().enumerate().map(|(i, hard)| (first + i, hard));
     let mut cases = Vec::new();
-    for (_, rasterizer) in Rasterizer::NAMES {
+    for (_, rasterizer) in Rasterizer::METHODS {
         for (_, filter) in Filter::NAMES {
             cases.extend(scenes().filter_map(|(i, hard)| by_method(i, hard, *rasterizer, *filter)));
         }
@@ -35,7 +35,7 @@ pub(super) fn cases(first: usize, scenes: &[Hard]) -> Vec<Case> {
 /// Against the oracle, with 32-bit sums. `None` where the method can't draw the scene, or is not meant to.
 fn by_method(scene: usize, hard: &Hard, rasterizer: Rasterizer, filter: Filter) -> Option<Case> {
     let settings = Settings { size_px: SIZE_PX, rasterizer, filter, ..hard.settings.clone() };
-    let default_rasterizer = rasterizer == Rasterizer::default();
+    let default_rasterizer = rasterizer == Rasterizer::Perspective;
     let default_filter = filter == Filter::default();
     let is_meant = match hard.name {
         // Polygons know no method.
@@ -73,7 +73,7 @@ fn auto(scene: usize, hard: &Hard) -> Option<Case> {
 fn by_default(hard: &Hard) -> Settings {
     Settings {
         size_px: SIZE_PX,
-        rasterizer: Rasterizer::default(),
+        rasterizer: Rasterizer::Perspective,
         filter: Filter::default(),
         ..hard.settings.clone()
     }
@@ -111,7 +111,7 @@ mod tests {
         };
         // Some pairs of a rasterizer and a filter are none.
         assert_eq!(count(OF_EVERY_METHOD, "layers"), 35);
-        let either = Rasterizer::NAMES.len() + Filter::NAMES.len() - 1;
+        let either = Rasterizer::METHODS.len() + Filter::NAMES.len() - 1;
         assert_eq!(SLOW.map(|name| count(name, "layers")), [either; 2]);
         assert_eq!(["layers", "layers-16", "layers-auto"].map(|group| count(SLOWEST, group)), [1; 3]);
         // Opaque splats and polygons, with four transitions.

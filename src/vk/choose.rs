@@ -43,8 +43,6 @@ pub struct DeviceFacts {
     pub pipeline_statistics: bool,
     /// The number of indirect draws can be read from a buffer.
     pub draw_indirect_count: bool,
-    /// Indirect draws may begin at any instance.
-    pub first_instance: bool,
     /// 32-bit float targets can be blended: `--accumulate f32`.
     pub blend_f32: bool,
     /// Limits that the renderer respects.
@@ -72,6 +70,10 @@ pub struct Limits {
     pub storage_buffers_a_stage: u32,
     /// 8 invocations or more of a compute stage can hand values to each other, and vote (`SHUFFLE`, `VOTE`).
     pub shuffles: bool,
+    /// Indirect draws may begin at any instance (`drawIndirectFirstInstance`).
+    pub first_instance: bool,
+    /// The device is the CPU.
+    pub is_cpu: bool,
 }
 
 #[cfg(test)]
@@ -88,6 +90,8 @@ impl Limits {
             timestamp_valid_bits: 0,
             storage_buffers_a_stage: 16,
             shuffles: false,
+            first_instance: true,
+            is_cpu: false,
         }
     }
 }
@@ -180,7 +184,6 @@ mod tests {
             large_points: true,
             pipeline_statistics: true,
             draw_indirect_count: true,
-            first_instance: true,
             blend_f32: true,
             limits: Limits::for_tests(),
         }

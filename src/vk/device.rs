@@ -76,7 +76,7 @@ impl Device {
             large_points: facts.large_points,
             pipeline_statistics: facts.pipeline_statistics,
             draw_indirect_count: facts.draw_indirect_count,
-            first_instance: facts.first_instance,
+            first_instance: facts.limits.first_instance,
         };
         let core = vk::PhysicalDeviceFeatures::default()
             .large_points(features.large_points)
@@ -128,7 +128,7 @@ impl Device {
         }
         facts.large_points = host.features.large_points;
         facts.pipeline_statistics = host.features.pipeline_statistics;
-        facts.first_instance = host.features.first_instance;
+        facts.limits.first_instance = host.features.first_instance;
         facts.draw_indirect_count &= host.features.draw_indirect_count;
         let draw_indirect_count = facts.draw_indirect_count;
         if !host.features.large_points {

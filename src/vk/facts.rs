@@ -114,7 +114,6 @@ pub(super) unsafe fn facts(
         // Numbers of pixels are given as counts, which must not exceed the limit.
         draw_indirect_count: features12.draw_indirect_count == vk::TRUE
             && limits.max_draw_indirect_count >= 1 << 30,
-        first_instance: core.draw_indirect_first_instance == vk::TRUE,
         blend_f32: [vk::Format::R32G32B32A32_SFLOAT, vk::Format::R32_SFLOAT]
             .into_iter()
             .all(|sums| format(sums).contains(blended)),
@@ -135,6 +134,8 @@ pub(super) unsafe fn facts(
             timestamp_period_ns: limits.timestamp_period,
             timestamp_valid_bits: queue_family.map_or(0, |index| families[index].timestamp_valid_bits),
             storage_buffers_a_stage: limits.max_per_stage_descriptor_storage_buffers,
+            first_instance: core.draw_indirect_first_instance == vk::TRUE,
+            is_cpu: properties.device_type == vk::PhysicalDeviceType::CPU,
             shuffles: subgroup.subgroup_size >= 8
                 && subgroup.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
                 && subgroup

@@ -128,7 +128,7 @@ fn every_settings(all: bool) -> Vec<Settings> {
     let weights: &[FilterWeight] =
         if all { &[FilterWeight::Area, FilterWeight::Unit] } else { &[FilterWeight::Area] };
     let early: &[bool] = if all { &[false, true] } else { &[false] };
-    for (_, rasterizer) in Rasterizer::NAMES {
+    for (_, rasterizer) in Rasterizer::METHODS {
         for (_, filter) in Filter::NAMES {
             for (_, kernel_eval) in KernelEval::NAMES {
                 for filter_weight in weights {

@@ -26,6 +26,11 @@ fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
     for (number, mesh) in meshes.iter().enumerate() {
         writeln!(text, "  mesh {number}: {}", mesh_words(mesh))?;
     }
+    for (kind, drawn) in ["opaque", "transparent"].iter().zip(&explanation.drawn) {
+        if let Some(drawn) = drawn {
+            writeln!(text, "{kind} splats are drawn {drawn}")?;
+        }
+    }
     writeln!(text, "passes: {}", passes.len())?;
     for pass in passes {
         let kind = format!("{:?}", pass.kind).to_lowercase();

@@ -183,7 +183,6 @@ mod tests {
             large_points: true,
             pipeline_statistics: false,
             draw_indirect_count: false,
-            first_instance: false,
             blend_f32: true,
             limits: Limits {
                 max_storage_buffer_range: 1 << 27,
@@ -195,6 +194,8 @@ mod tests {
                 timestamp_valid_bits: 0,
                 storage_buffers_a_stage: 16,
                 shuffles: false,
+                first_instance: true,
+                is_cpu: false,
             },
         }
     }

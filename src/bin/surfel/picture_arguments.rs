@@ -82,7 +82,7 @@ pub struct StyleArguments {
     /// How splats become fragments: perspective-correct at the exact depth (as points, in the paper's form, by ray
     /// casting, with ray casting's approximate point size, as triangles, as quads), or by an affine map that is exact at
     /// the center or at the contour
-    #[arg(long, value_name = "NAME", default_value = "perspective", value_parser = choice(Rasterizer::NAMES))]
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = choice(Rasterizer::NAMES))]
     pub rasterizer: Rasterizer,
 
     /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), none, the paper's adjustment

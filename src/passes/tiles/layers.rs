@@ -8,8 +8,8 @@ use super::{
         sum_format,
         variant::{Constants, shading_constants, splat_constants},
     },
-    COLOR_SUMS, DEPTH_BEFORE, LIGHTS, OVERFULL_ARGUMENTS, PEELED_STATE, PEELED_WEIGHT, SEEN_ARGUMENTS, TilePass, TilePlan, Tiles,
-    VISIBLE_DEPTH, after_dispatches_before,
+    COLOR_SUMS, DEPTH_BEFORE, LIGHTS, OVERFULL_ARGUMENTS, PEELED_STATE, PEELED_WEIGHT, SEEN_ARGUMENTS,
+    TilePass, TilePlan, Tiles, VISIBLE_DEPTH, after_dispatches_before,
     splat::VISIBLE_FORMAT,
 };
 use crate::{

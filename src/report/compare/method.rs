@@ -179,7 +179,7 @@ mod tests {
             names.iter().map(|(_, value)| *value).collect()
         }
         Selection {
-            rasterizers: values(Rasterizer::NAMES),
+            rasterizers: values(Rasterizer::METHODS),
             filters: values(Filter::NAMES),
             filter_weights: vec![FilterWeight::default()],
             accumulates: values(Accumulate::NAMES),

@@ -90,7 +90,7 @@ fn legend_lines() -> impl Iterator<Item = (Sign, String)> {
     let filters = Filter::NAMES.iter().enumerate().map(|(i, (name, _))| (Sign::Dot(color(i), true), *name));
     let sums = [(false, "16-bit sums"), (true, "32-bit sums")];
     let sums = sums.into_iter().map(|(filled, name)| (Sign::Dot(BLACK, filled), name));
-    let rasterizers = Rasterizer::NAMES.iter().map(|(name, _)| (Sign::Letters(code(name)), *name));
+    let rasterizers = Rasterizer::METHODS.iter().map(|(name, _)| (Sign::Letters(code(name)), *name));
     let front = (Sign::Line(BLACK, 1), "Pareto front");
     let lines = filters.chain(sums).chain(rasterizers).chain([front]);
     lines.map(|(sign, text)| (sign, text.to_owned()))
@@ -98,8 +98,9 @@ fn legend_lines() -> impl Iterator<Item = (Sign, String)> {
 
 /// A rasterizer in two letters at most.
 fn code(rasterizer: &str) -> &'static str {
-    let found = Rasterizer::NAMES.iter().find(|(name, _)| *name == rasterizer).map(|(_, value)| *value);
+    let found = Rasterizer::METHODS.iter().find(|(name, _)| *name == rasterizer).map(|(_, value)| *value);
     match found.unwrap_or_default() {
+        Rasterizer::Auto => "auto",
         Rasterizer::Perspective => "p",
         Rasterizer::PerspectivePaper => "pp",
         Rasterizer::Raycast => "r",

@@ -175,6 +175,8 @@ impl BenchArguments {
             filter: self.filter,
             kernel_eval: self.kernel_eval,
             accumulate: self.accumulate,
+            // The floor is made of points.
+            rasterizer: Rasterizer::Perspective,
             ..Settings::default()
         }
     }

@@ -126,7 +126,7 @@ pub struct CompareArguments {
 #[command(next_help_heading = "Methods: lists with commas, or all; every combination that exists")]
 pub struct MethodArguments {
     /// How splats become fragments
-    #[arg(long, value_name = "LIST", default_value = "all", value_delimiter = ',', value_parser = listed(Rasterizer::NAMES))]
+    #[arg(long, value_name = "LIST", default_value = "all", value_delimiter = ',', value_parser = listed(Rasterizer::METHODS))]
     pub rasterizer: Vec<Listed<Rasterizer>>,
 
     /// The screen-space low-pass filter
@@ -221,7 +221,7 @@ impl CompareArguments {
         };
         if self.zoom {
             return Selection {
-                rasterizers: vec![Rasterizer::default()],
+                rasterizers: vec![Rasterizer::Perspective],
                 filters: values(filter, Filter::NAMES, &[]),
                 filter_weights: values(filter_weight, FilterWeight::NAMES, weights),
                 accumulates: sums.to_vec(),
@@ -230,7 +230,7 @@ impl CompareArguments {
             };
         }
         Selection {
-            rasterizers: values(rasterizer, Rasterizer::NAMES, &[]),
+            rasterizers: values(rasterizer, Rasterizer::METHODS, &[]),
             filters: values(filter, Filter::NAMES, &[]),
             filter_weights: values(filter_weight, FilterWeight::NAMES, weights),
             accumulates: values(accumulate, Accumulate::NAMES, sums),

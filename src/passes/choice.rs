@@ -1,0 +1,98 @@
+//! Which way splats are drawn where the settings leave it open (`--rasterizer auto`).
+
+use super::{Part, splat_shaders::Primitive, tiles::STORAGE_BUFFERS};
+use crate::{
+    error::{Error, Result},
+    scene::{Filter, KernelEval, Rasterizer, Settings},
+    vk::Limits,
+};
+
+/// Whether splats are drawn by tiles: why, or why not.
+///
+/// On CPU drivers tiles take a third of the time of points or less, from 10 thousand splats to 5 million
+/// (`benches/README.md`). On GPUs that was not measured yet, so that they keep to points.
+///
+/// # Errors
+/// The reason against, as a sentence.
+pub fn by_tiles(settings: &Settings, limits: &Limits) -> std::result::Result<&'static str, &'static str> {
+    match settings.rasterizer {
+        Rasterizer::Compute => can(settings, limits).map(|()| "asked for"),
+        Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
+        Rasterizer::Auto => can(settings, limits).map(|()| "auto: on a CPU faster than points"),
+        _ => Err("another rasterizer was asked for"),
+    }
+}
+
+fn can(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static str> {
+    if settings.filter == Filter::Max {
+        return Err("the filter max has a second kernel, which records have no room for");
+    }
+    if settings.kernel_eval == KernelEval::Texture {
+        return Err("tiles find kernels by arithmetic");
+    }
+    if !limits.first_instance || limits.storage_buffers_a_stage < STORAGE_BUFFERS {
+        return Err("the device lacks drawIndirectFirstInstance, or storage buffers");
+    }
+    Ok(())
+}
+
+/// Refuses tiles that were asked for where the device has none.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Option`] with the reason.
+pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
+    match (settings.rasterizer, can(settings, limits)) {
+        (Rasterizer::Compute, Err(reason)) => {
+            Err(Error::option("--rasterizer", format!("compute: {reason}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// In words, how the splats of a part are drawn, and why so.
+pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Option<String> {
+    if part.splats.is_empty() {
+        return None;
+    }
+    let primitive = match Primitive::of(settings.rasterizer) {
+        Primitive::Point => "points",
+        Primitive::Quad => "quads",
+        Primitive::Triangle => "triangles",
+    };
+    Some(match (&part.tiles, by_tiles(settings, limits)) {
+        (Some(plan), Ok(why)) => {
+            let most = plan.most_tiles;
+            let large =
+                if plan.may_be_large { "; what touches more, or comes near the eye, as quads" } else { "" };
+            format!("by tiles of 8x8 pixels in compute ({why}), splats of up to {most} tiles{large}")
+        }
+        (None, Ok(_)) if !part.meshes.is_empty() => {
+            format!("as {primitive}: there are polygons in the same layers")
+        }
+        (None, Ok(_)) => {
+            format!("as {primitive}: tiles have no room for so many, or for ones so large in layers")
+        }
+        (_, Err(why)) => format!("as {primitive}: {why}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
+        let cpu = Limits { is_cpu: true, ..Limits::for_tests() };
+        let auto = Settings::default();
+        assert!(by_tiles(&auto, &cpu).is_ok());
+        assert!(by_tiles(&auto, &Limits::for_tests()).is_err());
+        assert!(by_tiles(&Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
+        assert!(by_tiles(&Settings { kernel_eval: KernelEval::Texture, ..auto.clone() }, &cpu).is_err());
+        assert!(by_tiles(&auto, &Limits { first_instance: false, ..cpu }).is_err());
+        let named = |rasterizer| Settings { rasterizer, ..Settings::default() };
+        assert!(by_tiles(&named(Rasterizer::Compute), &Limits::for_tests()).is_ok());
+        assert!(by_tiles(&named(Rasterizer::Perspective), &cpu).is_err());
+        assert!(check(&named(Rasterizer::Compute), &Limits { storage_buffers_a_stage: 4, ..cpu }).is_err());
+        assert!(check(&auto, &Limits { storage_buffers_a_stage: 4, ..cpu }).is_ok());
+    }
+}
