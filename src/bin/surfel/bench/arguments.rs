@@ -5,7 +5,7 @@ use std::{collections::HashSet, path::PathBuf};
 use clap::Args;
 use surfel::{
     report::PAPER_SPLATS,
-    scene::{Accumulate, Filter, KernelEval, Settings},
+    scene::{Accumulate, Filter, KernelEval, Rasterizer, Settings},
 };
 
 use crate::{counts::CountsArguments, parse, picture_arguments::choice};
