@@ -18,6 +18,8 @@ mod grid;
 mod instructions;
 mod layers;
 mod layers_table;
+mod limits;
+mod limits_table;
 mod options;
 #[cfg(feature = "compare")]
 mod plot;
@@ -46,6 +48,7 @@ pub use grid::{Grid, NONE, cell, count_cell};
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use layers::{LayersContestant, LayersReport, OpaqueClaim, Places, Way};
 pub use layers_table::layers_grids;
+pub use limits::{BoundRow, Limit, LimitRound, LimitRow, LimitWork, LimitsReport, PassWork};
 pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
 pub use slides::{SLIDES, Slide, slides_grid};
