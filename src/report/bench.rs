@@ -65,7 +65,10 @@ impl BenchReport {
     /// Every table, for people.
     pub fn grids(&self) -> Vec<Grid> {
         let mut grids = Vec::new();
-        grids.extend(self.floor.as_ref().map(FloorReport::grid));
+        if let Some(floor) = &self.floor {
+            grids.push(floor.grid());
+            grids.extend(floor.limits.grids());
+        }
         if !self.table1.is_empty() {
             grids.push(throughput_grid("table 1: throughput", &self.table1));
             grids.push(passes_grid("table 1: where the time goes", &self.table1));

@@ -99,7 +99,7 @@ pub struct BenchArguments {
 /// What can be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Bench {
-    /// The three passes against a floor: the same points and formats with nothing computed
+    /// The passes against a floor, the same points and formats with nothing computed; and against the device's own limits
     Floor,
     /// Throughput of perspective splatting and of ray casting from 154k to 5M splats, beside the paper's table 1
     Table1,

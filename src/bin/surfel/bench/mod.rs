@@ -5,6 +5,7 @@ mod contest;
 mod floor;
 mod gate;
 mod layers;
+mod limits;
 mod model;
 mod outputs;
 mod slides;

@@ -27,8 +27,10 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// The files of `--csv`, and how the titles of their tables begin.
-const TABLES: [(&str, &str); 10] = [
+const TABLES: [(&str, &str); 12] = [
     ("floor.csv", "floor: "),
+    ("floor-limits.csv", "limits: "),
+    ("floor-bounds.csv", "bounds: "),
     ("table1.csv", "table 1: throughput"),
     ("table1-passes.csv", "table 1: where"),
     ("slides.csv", "the slides' methods, "),
