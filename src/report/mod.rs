@@ -14,6 +14,10 @@ mod floor;
 mod frames;
 pub mod gate;
 mod grid;
+mod growth;
+#[cfg(feature = "compare")]
+mod growth_plot;
+mod growth_table;
 #[cfg(feature = "counts")]
 mod instructions;
 mod layers;
@@ -44,6 +48,9 @@ pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
 pub use grid::{Grid, NONE, cell, count_cell};
+pub use growth::{GrowthMethod, GrowthPoint, GrowthReport, growth_powers};
+#[cfg(feature = "compare")]
+pub use growth_plot::growth_plot;
 #[cfg(feature = "counts")]
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use layers::{LayersContestant, LayersReport, OpaqueClaim, Places, Way};
