@@ -8,7 +8,7 @@ use crate::{
     frame::{FrameSlot, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
-        execute::{Body, FrameProfile, Physical, Profile, Transients, execute, memory_need},
+        execute::{Body, FrameProfile, PassProfile, Physical, Profile, Transients, execute, memory_need},
     },
     passes::{self, LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, Needs},
     report::Limit,
@@ -109,15 +109,18 @@ impl LimitProbes {
         self.probes.iter_mut().map(|probe| probe.secs(headless, &self.settings)).collect()
     }
 
-    /// Fragments that each probe is seen to shade, in their order; `None` where the device does not count.
+    /// Fragments that each probe is seen to shade, of that of compute its invocations, in their order; `None` where there is
+    /// nothing to count, or the device does not.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn fragments(&mut self, headless: &Headless) -> Result<Vec<Option<u64>>> {
+    pub fn counted(&mut self, headless: &Headless) -> Result<Vec<Option<u64>>> {
         let settings = &self.settings;
         let counted = |probe: &mut Probe| {
             let profile = probe.run(headless, settings, Profile::Counts)?;
-            Ok(profile.passes.last().and_then(|pass| pass.counts).map(|counts| counts.fragments))
+            let counted =
+                |pass: &PassProfile| pass.counts.map(|counts| counts.fragments).or(pass.invocations);
+            Ok(profile.passes.last().and_then(counted))
         };
         self.probes.iter_mut().map(counted).collect()
     }

@@ -6,7 +6,7 @@ use surfel::{
     Result,
     graph::{
         Plan, PlannedPass,
-        execute::{FrameProfile, PassCounts},
+        execute::{FrameProfile, PassCounts, PassProfile},
     },
     prepare::{Chunk, PreparedScene},
     renderer::{Headless, LimitProbes, Probe},
@@ -62,27 +62,27 @@ impl Limits {
             },
         };
         let works: Vec<LimitWork> = self.probes.probes.iter().map(work).collect();
-        let counts = counted.passes.iter().map(|pass| pass.counts);
         let passes: Vec<PassWork> = plan
             .passes
             .iter()
-            .zip(counts)
-            .map(|(pass, counts)| pass_work(plan, pass, counts, (prepared, drawn_points)))
+            .zip(&counted.passes)
+            .map(|(pass, counted)| pass_work(plan, pass, counted, (prepared, drawn_points)))
             .collect();
         LimitsReport::of(&works, &passes, &self.rounds, self.probes.notes)
     }
 }
 
-/// How much a pass does. Of a pass of compute only the bytes are known that its plan tells.
+/// How much a pass does. Of a pass of compute that are its invocations and the bytes that its plan tells.
 fn pass_work(
     plan: &Plan,
     pass: &PlannedPass,
-    counts: Option<PassCounts>,
+    counted: &PassProfile,
     (prepared, drawn_points): (&PreparedScene, u64),
 ) -> PassWork {
     let mut units = BTreeMap::new();
-    let mut bytes = plan.least_bytes(pass, counts.map(|counts| counts.fragments));
-    if let Some(PassCounts { vertices, fragments }) = counts {
+    let mut bytes = plan.least_bytes(pass, counted.counts.map(|counts| counts.fragments));
+    units.extend(counted.invocations.map(|invocations| (Limit::Invocations, invocations)));
+    if let Some(PassCounts { vertices, fragments }) = counted.counts {
         units.insert(Limit::Points, vertices);
         units.insert(fragments_of(pass), fragments);
         // Splats are bound by the passes' bodies, not by the graph: whatever draws them all reads them all.
