@@ -123,7 +123,7 @@ pub enum Bench {
     Growth,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth, which takes long
+    /// All of them but growth
     All,
 }
 
