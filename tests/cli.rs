@@ -15,6 +15,8 @@ mod faults;
 mod figure;
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/growth.rs"]
+mod growth;
 #[path = "cli/program.rs"]
 mod program;
 #[path = "cli/report.rs"]

@@ -5,7 +5,8 @@ mod common;
 use common::{assert_validation_is_silent, headless, scenes};
 use surfel::{
     graph::execute::{FrameProfile, Profile},
-    renderer::{Floor, Wanted},
+    renderer::{Floor, LimitProbes, Wanted},
+    report::Limit,
 };
 
 fn fragments(profile: &FrameProfile) -> Vec<u64> {
@@ -57,5 +58,36 @@ fn a_scene_of_several_chunks_has_a_floor_too() {
             }
         },
     );
+    assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn the_limits_shade_what_their_rates_count() {
+    let headless = headless();
+    for size_px in [[64, 96], [100, 52]] {
+        let settings = surfel::Settings { size_px, ..surfel::Settings::default() };
+        let mut limits = LimitProbes::new(&headless, &settings).unwrap();
+        assert!(limits.notes.is_empty(), "{:?}", limits.notes);
+        let secs = limits.measure(&headless).unwrap();
+        let counted = limits.counted(&headless).unwrap();
+        for ((probe, secs), fragments) in limits.probes.iter().zip(secs).zip(counted) {
+            let limit = probe.limit();
+            println!("{size_px:?}, {limit:?}: {} units, {secs:?} s, fragments {fragments:?}", probe.units());
+            assert!(secs.is_some_and(|secs| secs > 0.0), "{limit:?}");
+            match limit {
+                // None is kept, and none counted where a driver tests the depth first.
+                Limit::Points => assert_eq!(fragments, Some(0)),
+                Limit::DrawnPoints => {}
+                // Points of 32 pixels: in 64x96 none overlaps another. Drivers may count by blocks of 4x4.
+                Limit::Fragments | Limit::DepthFragments | Limit::BlendedFragments => {
+                    let fragments = fragments.expect("counted");
+                    let most = if size_px == [64, 96] { probe.units() } else { probe.units() * 5 / 4 };
+                    assert!((probe.units()..=most).contains(&fragments), "{limit:?}: {fragments}");
+                }
+                Limit::Bytes => assert_eq!(fragments, None),
+                Limit::Invocations => assert_eq!(fragments, Some(probe.units())),
+            }
+        }
+    }
     assert_validation_is_silent(&headless);
 }

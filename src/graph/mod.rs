@@ -27,6 +27,7 @@ mod resource;
 #[cfg(test)]
 mod tests;
 mod track;
+mod traffic;
 mod validate;
 
 pub use access::{Access, AccessInfo, PassKind};

@@ -4,7 +4,13 @@
 //! depth is written; a constant is added into sums of the same formats, with the depth test against the first; a
 //! constant fills the target. What a splat pass costs more is its own work.
 
+mod limits;
+
 use ash::vk;
+
+pub use limits::{
+    LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, limit_copy, limit_draws, limit_fill, limit_invocations,
+};
 
 use super::{
     DEPTH_FORMAT, Draw, Inputs,

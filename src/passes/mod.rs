@@ -40,7 +40,10 @@ pub use choice::check as check_choice;
 pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
-pub use floor::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points};
+pub use floor::{
+    FLOOR_POINT_BYTES, FloorPoints, LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, floor_frame, floor_points,
+    limit_copy, limit_draws, limit_fill, limit_invocations,
+};
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
 #[cfg(feature = "counts")]

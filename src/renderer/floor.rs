@@ -26,15 +26,15 @@ pub struct Floor<'a> {
     slot: FrameSlot,
 }
 
-/// The points of a chunk.
-struct Points {
-    buffer: Buffer,
-    count: u32,
+/// Points as the floor draws them: x, y and depth in clip space, size in pixels.
+pub(super) struct Points {
+    pub buffer: Buffer,
+    pub count: u32,
 }
 
 impl Points {
     /// In memory of the device, as the splats are: what the host can see too may be slow for it.
-    fn upload(headless: &Headless, points: &[[f32; 4]]) -> Result<Self> {
+    pub fn upload(headless: &Headless, points: &[[f32; 4]]) -> Result<Self> {
         let bytes: &[u8] = bytemuck::cast_slice(points);
         // A buffer has at least a byte, also where nothing is drawn.
         let size = (bytes.len() as u64).max(FLOOR_POINT_BYTES);

@@ -4,6 +4,8 @@
 mod explain;
 mod floor;
 mod headless;
+mod limit_points;
+mod limits;
 mod paper;
 
 use ash::vk;
@@ -11,6 +13,7 @@ use ash::vk;
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
 pub use floor::Floor;
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
+pub use limits::{LimitProbes, Probe};
 pub use paper::draw_as_published;
 
 use crate::{

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{
-    DeviceReport, FloorReport, InputReport, LayersReport, Machine, ThroughputRow, TransitionReport,
-    TrustLimits,
+    DeviceReport, FloorReport, GrowthReport, InputReport, LayersReport, Machine, ThroughputRow,
+    TransitionReport, TrustLimits,
     gate::{Gate, GateFigure, GateKind, Judgement},
     grid::Grid,
     layers_grids, passes_grid, slides_grid, throughput_grid,
@@ -48,6 +48,9 @@ pub struct BenchReport {
     /// `transition`: what the transition between splats and polygons costs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transition: Option<TransitionReport>,
+    /// `growth`: frames over numbers of splats and of pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub growth: Option<GrowthReport>,
     /// `counts`: the instructions of every pipeline.
     #[cfg(feature = "counts")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,7 +68,10 @@ impl BenchReport {
     /// Every table, for people.
     pub fn grids(&self) -> Vec<Grid> {
         let mut grids = Vec::new();
-        grids.extend(self.floor.as_ref().map(FloorReport::grid));
+        if let Some(floor) = &self.floor {
+            grids.push(floor.grid());
+            grids.extend(floor.limits.grids());
+        }
         if !self.table1.is_empty() {
             grids.push(throughput_grid("table 1: throughput", &self.table1));
             grids.push(passes_grid("table 1: where the time goes", &self.table1));
@@ -78,6 +84,7 @@ impl BenchReport {
         }
         grids.extend(self.layers.iter().flat_map(layers_grids));
         grids.extend(self.transition.as_ref().map(TransitionReport::grid));
+        grids.extend(self.growth.iter().flat_map(GrowthReport::grids));
         grids
     }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{
-    CameraReport, SceneReport, Spread,
+    CameraReport, LimitsReport, SceneReport, Spread,
     grid::{Grid, cell, count_cell},
     throughput::floor_pass,
 };
@@ -23,6 +23,8 @@ pub struct FloorReport {
     pub rounds: u32,
     /// Each pass, then the frame.
     pub rows: Vec<FloorRow>,
+    /// How far each pass is from what the device can do.
+    pub limits: LimitsReport,
 }
 
 /// A pass or the whole frame against its floor.

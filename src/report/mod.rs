@@ -14,10 +14,16 @@ mod floor;
 mod frames;
 pub mod gate;
 mod grid;
+mod growth;
+#[cfg(feature = "compare")]
+mod growth_plot;
+mod growth_table;
 #[cfg(feature = "counts")]
 mod instructions;
 mod layers;
 mod layers_table;
+mod limits;
+mod limits_table;
 mod options;
 #[cfg(feature = "compare")]
 mod plot;
@@ -42,10 +48,14 @@ pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRow, Round};
 pub use frames::{FrameSample, FrameTimes, PassFigures};
 pub use grid::{Grid, NONE, cell, count_cell};
+pub use growth::{GrowthMethod, GrowthPoint, GrowthReport, growth_powers};
+#[cfg(feature = "compare")]
+pub use growth_plot::growth_plot;
 #[cfg(feature = "counts")]
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use layers::{LayersContestant, LayersReport, OpaqueClaim, Places, Way};
 pub use layers_table::layers_grids;
+pub use limits::{BoundRow, Limit, LimitRound, LimitRow, LimitWork, LimitsReport, PassWork};
 pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
 pub use slides::{SLIDES, Slide, slides_grid};

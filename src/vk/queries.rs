@@ -76,7 +76,7 @@ fn seconds_between(begin: u64, end: u64, valid_bits: u32, period_ns: f64) -> f64
     (end.wrapping_sub(begin) & mask) as f64 * period_ns * 1e-9
 }
 
-/// A pool of counts of vertices and fragments.
+/// A pool of counts of invocations: of the vertex, the fragment and the compute stage.
 pub struct Statistics {
     pool: QueryPool,
 }
@@ -95,7 +95,8 @@ impl Statistics {
             .query_count(count)
             .pipeline_statistics(
                 vk::QueryPipelineStatisticFlags::VERTEX_SHADER_INVOCATIONS
-                    | vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS,
+                    | vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS
+                    | vk::QueryPipelineStatisticFlags::COMPUTE_SHADER_INVOCATIONS,
             );
         Ok(Some(Self { pool: QueryPool::new(device, name, info)? }))
     }
@@ -129,13 +130,12 @@ impl Statistics {
         unsafe { self.pool.device.raw().cmd_end_query(commands, self.pool.raw, index) };
     }
 
-    /// Vertex and fragment invocations of the first `count` queries, each `None` where it was not written.
+    /// Vertex, fragment and compute invocations of the first `count` queries, each `None` where it was not written.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn read(&self, count: u32) -> Result<Vec<Option<[u64; 2]>>> {
-        let values = self.pool.read(count, 2)?;
-        Ok(values.into_iter().map(|value| value.map(|v| [v[0], v[1]])).collect())
+    pub fn read(&self, count: u32) -> Result<Vec<Option<[u64; 3]>>> {
+        self.pool.read(count, 3)
     }
 }
 

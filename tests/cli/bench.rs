@@ -21,7 +21,8 @@ const TABLE1: [&str; 5] = ["table1", "--splats", "500,1k", "--frames", "12"];
 #[test]
 fn the_floor_is_measured_in_turn_with_the_passes() {
     let folder = Folder::new();
-    let run = bench(&folder, &["floor", "--frames", "3", "--json", "floor.json", "--validate"]);
+    let run =
+        bench(&folder, &["floor", "--frames", "3", "--json", "floor.json", "--csv", "tables", "--validate"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stdout.contains("x floor") && run.stdout.ends_with('\n'), "{}", run.stdout);
     // Of 3 frames no median is certain.
@@ -35,6 +36,25 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
         assert_eq!(row["fragments"], row["floor_fragments"], "{row}");
     }
     assert!(report["strict_points"].as_u64() < report["floor_points"].as_u64());
+
+    // In the same rounds: the device's limits, and which of them binds each pass.
+    let limits = report["limits"]["limits"].as_array().unwrap();
+    assert_eq!((limits.len(), &report["limits"]["notes"]), (7, &Value::Array(Vec::new())));
+    assert!(limits.iter().all(|limit| limit["units_per_sec"].as_f64() > Some(0.0)), "{limits:?}");
+    let bounds = report["limits"]["bounds"].as_array().unwrap();
+    for (bound, row) in bounds.iter().zip(rows) {
+        assert_eq!((&bound["name"], &bound["ms"]), (&row["name"], &row["ms"]));
+        assert!(bound["ratio"]["median"].as_f64() > Some(0.0), "{bound}");
+        assert_eq!(bound["binds"].is_string(), bound["name"] != "frame", "{bound}");
+    }
+    assert_eq!(bounds[1]["work"]["blended_fragments"], rows[1]["fragments"]);
+    assert_eq!(bounds[1]["work"]["drawn_points"], report["strict_points"]);
+    // 96 x 96 pixels: two sums of 8 bytes and a depth; 150 000 splats of 32 bytes, without colors.
+    assert_eq!(bounds[1]["work"]["bytes"], 96 * 96 * 20 + 32 * 150_000);
+    for (name, lines) in [("floor.csv", 5), ("floor-limits.csv", 8), ("floor-bounds.csv", 5)] {
+        let csv = fs::read_to_string(folder.path(&format!("tables/{name}"))).unwrap();
+        assert_eq!(csv.lines().count(), lines, "{name}");
+    }
     let refused = bench(&folder, &["floor", "--json", "no/such/folder/x.json"]);
     assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
 }

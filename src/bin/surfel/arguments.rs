@@ -145,13 +145,13 @@ Measure what things cost, in figures that can be trusted or say that they can't 
 
 What is compared takes turns, frame pair by frame pair, so that a change of the machine's speed meets all of it alike; \
 ratios are taken within each round. The floor draws the same points through the same fixed-function stages into the same \
-formats with nothing computed: `x floor` is how many times its time a method takes. A median comes with an interval that \
-holds the true one with 95% confidence, whatever the distribution. Notes say when a median is too uncertain (--max-spread), \
+formats with nothing computed: `x floor` is how many times its time a method takes; `x bound`, \
+of bench floor, how many times what the device's own limits alone would take. A median comes with an interval that holds the true one with 95% confidence, whatever the distribution. Notes say when a median is too uncertain (--max-spread), \
 the machine's speed drifted, its clock moved, or other processes took the processor; with --strict they end in exit code 2.
 
 As a gate: `--json now.json` keeps a run, `--baseline now.json` judges a later one by it. Times are judged by x floor, so \
 that the two runs need not be on an equally fast machine: worse is what is beyond both intervals and --tolerance. Counts of \
-fragments, vertices and bytes may grow by a thousandth. Anything worse ends in exit code 3.";
+fragments, vertices and bytes may grow by a thousandth. Anything worse ends in exit code 3. growth has no floor, and is judged by its counts.";
 
 const BENCH_EXAMPLES: &str = "Examples:
   surfel bench floor                      the built-in model
@@ -161,6 +161,7 @@ const BENCH_EXAMPLES: &str = "Examples:
   surfel bench table1 --splats 154k,460k --baseline before.json
   surfel bench layers --markdown layers.md
   surfel bench transition --model igea.ply
+  surfel bench growth --model igea.ply --rasterizer perspective,raycast --plot growth.svg
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
 

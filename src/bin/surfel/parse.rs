@@ -10,6 +10,14 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     sides.ok_or_else(|| "expected width x height in pixels, such as 1024x768".to_owned())
 }
 
+/// `1024x768`, or `512` for a square.
+pub fn square_or_size(text: &str) -> Result<[u32; 2], String> {
+    let square = text.parse().ok().map(|side| [side; 2]);
+    square.or_else(|| size(text).ok()).ok_or_else(|| {
+        "expected width x height in pixels, such as 1024x768, or the side of a square, such as 512".to_owned()
+    })
+}
+
 /// `0.5,1,-2`.
 pub fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers(text).ok_or_else(|| "expected three numbers with commas between, such as 0,0.5,-2".to_owned())
@@ -121,6 +129,7 @@ mod tests {
     #[test]
     fn values_are_read() {
         assert_eq!(size("1024x768"), Ok([1024, 768]));
+        assert_eq!((square_or_size("512"), square_or_size("3x2")), (Ok([512, 512]), Ok([3, 2])));
         assert_eq!(triple("-1, 2.5,3e-2"), Ok([-1.0, 2.5, 0.03]));
         assert_eq!((splats("154k"), splats("1.4M"), splats("7")), (Ok(154_000), Ok(1_400_000), Ok(7)));
         assert_eq!(percent("2.5"), Ok(2.5));
@@ -132,6 +141,7 @@ mod tests {
     fn what_is_no_value_is_refused() {
         for text in ["", "5", "5x", "x5", "-5x5", "5x5x5", "5.5x5", "99999999999x1"] {
             assert!(size(text).is_err(), "{text}");
+            assert!(text == "5" || square_or_size(text).is_err(), "{text}");
         }
         for text in ["", "1,2", "1,2,3,4", "1,,2", "a,b,c"] {
             assert!(triple(text).is_err() && background(text).is_err(), "{text}");

@@ -11,7 +11,8 @@ pub use self::{
     transients::{Transients, memory_need},
 };
 use super::{
-    Attachment, Barrier, Batch, Compiled, Plan, PlannedPass, ResourceDesc, ResourceId, Scope, aspect_of,
+    Attachment, Barrier, Batch, Compiled, PassKind, Plan, PlannedPass, ResourceDesc, ResourceId, Scope,
+    aspect_of,
 };
 use crate::{
     error::{ErrorKind, Result},
@@ -123,24 +124,26 @@ pub unsafe fn execute(
     let recorder = Recorder { device, commands, plan: &plan, physical: &physical };
     if let Some(profiler) = &mut profiler {
         // SAFETY: this function's contract.
-        unsafe { profiler.begin_frame(commands, plan.passes.iter().map(|pass| pass.name.as_str())) };
+        unsafe { profiler.begin_frame(commands, plan.passes.iter()) };
     }
     let profiler = profiler.as_deref();
     for ((index, pass), body) in (0..).zip(&plan.passes).zip(bodies) {
         let draws = pass.rendering.is_some();
+        // Copies have nothing to count.
+        let counts = draws || pass.kind == PassKind::Compute;
         device.begin_label(commands, &pass.name);
         // SAFETY: this function's contract, here and below.
         unsafe {
             profiler.inspect(|profiler| profiler.begin_pass(commands, index));
             recorder.barriers(&pass.barriers)?;
             recorder.begin_rendering(pass)?;
-            profiler.filter(|_| draws).inspect(|profiler| profiler.begin_draws(commands, index));
+            profiler.filter(|_| counts).inspect(|profiler| profiler.begin_counts(commands, index));
         }
         let done = body(&PassContext { device, commands, physical: &physical, pass });
         // Also after a body that failed, so that the command buffer stays well-formed.
         // SAFETY: as above.
         unsafe {
-            profiler.filter(|_| draws).inspect(|profiler| profiler.end_draws(commands, index));
+            profiler.filter(|_| counts).inspect(|profiler| profiler.end_counts(commands, index));
             if draws {
                 device.raw().cmd_end_rendering(commands);
             }

@@ -1,4 +1,4 @@
-//! What each pass costs: a pair of timestamps, or counts of vertices and fragments.
+//! What each pass costs: a pair of timestamps, or counts of vertices and fragments, or of invocations of compute.
 //!
 //! Times and counts are taken in different frames: counting may cost time.
 
@@ -6,6 +6,7 @@ use ash::vk;
 
 use crate::{
     error::Result,
+    graph::{PassKind, PlannedPass},
     vk::{Device, Statistics, Timestamps},
 };
 
@@ -17,14 +18,14 @@ const MAX_PASSES: u32 = 2048;
 pub enum Profile {
     /// Times.
     Times,
-    /// Counts of vertices and fragments.
+    /// Counts of vertices and fragments, and of invocations of compute.
     Counts,
 }
 
 /// Measures one frame at a time.
 pub struct Profiler {
     queries: Queries,
-    passes: Vec<String>,
+    passes: Vec<(String, PassKind)>,
 }
 
 enum Queries {
@@ -52,6 +53,8 @@ pub struct PassProfile {
     pub secs: Option<f64>,
     /// Its counts; `None` where not measured, and for a pass that doesn't draw.
     pub counts: Option<PassCounts>,
+    /// Invocations of its compute stage; `None` where not measured, and for a pass that doesn't dispatch.
+    pub invocations: Option<u64>,
 }
 
 /// What a graphics pass shaded.
@@ -96,13 +99,20 @@ impl Profiler {
             Queries::Counts(statistics) => {
                 let read = statistics.read(measured)?;
                 for (counts, values) in counts.iter_mut().zip(read) {
-                    *counts = values.map(|[vertices, fragments]| PassCounts { vertices, fragments });
+                    *counts = values;
                 }
             }
             Queries::Nothing => {}
         }
         let passes = self.passes.iter().zip(secs).zip(counts);
-        let passes = passes.map(|((name, secs), counts)| PassProfile { name: name.clone(), secs, counts });
+        let passes = passes.map(|(((name, kind), secs), counted)| PassProfile {
+            name: name.clone(),
+            secs,
+            counts: counted
+                .filter(|_| *kind == PassKind::Graphics)
+                .map(|[vertices, fragments, _]| PassCounts { vertices, fragments }),
+            invocations: counted.filter(|_| *kind == PassKind::Compute).map(|[.., invocations]| invocations),
+        });
         Ok(FrameProfile { passes: passes.collect(), span_secs })
     }
 
@@ -111,9 +121,9 @@ impl Profiler {
     pub(super) unsafe fn begin_frame<'a>(
         &mut self,
         commands: vk::CommandBuffer,
-        passes: impl Iterator<Item = &'a str>,
+        passes: impl Iterator<Item = &'a PlannedPass>,
     ) {
-        self.passes = passes.map(str::to_owned).collect();
+        self.passes = passes.map(|pass| (pass.name.clone(), pass.kind)).collect();
         // SAFETY: this function's contract.
         unsafe {
             match &self.queries {
@@ -133,11 +143,11 @@ impl Profiler {
         }
     }
 
-    /// Counts begin inside of rendering: only passes that draw have them, and nothing else shall be counted.
+    /// Counts begin inside of rendering where a pass draws: nothing but its draws, or its dispatches, shall be counted.
     ///
     /// # Safety
-    /// After [`Profiler::begin_pass`]; `commands` is inside of the pass's rendering.
-    pub(super) unsafe fn begin_draws(&self, commands: vk::CommandBuffer, pass: u32) {
+    /// After [`Profiler::begin_pass`]; `commands` is inside of the pass's rendering, where it has one.
+    pub(super) unsafe fn begin_counts(&self, commands: vk::CommandBuffer, pass: u32) {
         if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {
             // SAFETY: this function's contract.
             unsafe { statistics.begin(commands, pass) };
@@ -145,8 +155,8 @@ impl Profiler {
     }
 
     /// # Safety
-    /// After [`Profiler::begin_draws`], in the same rendering.
-    pub(super) unsafe fn end_draws(&self, commands: vk::CommandBuffer, pass: u32) {
+    /// After [`Profiler::begin_counts`], in the same rendering, where there is one.
+    pub(super) unsafe fn end_counts(&self, commands: vk::CommandBuffer, pass: u32) {
         if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {
             // SAFETY: this function's contract.
             unsafe { statistics.end(commands, pass) };

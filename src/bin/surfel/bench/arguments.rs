@@ -1,6 +1,6 @@
 //! The options of `surfel bench`.
 
-use std::{collections::HashSet, path::PathBuf};
+use std::{collections::HashSet, hash::Hash, path::PathBuf};
 
 use clap::Args;
 use surfel::{
@@ -17,19 +17,28 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1 and slides a mesh, which is resampled evenly over its area; for transition a mesh, half of
-    /// which is; layers has its own [default: the built-in model, for transition the built-in sphere]
+    /// A PLY or OBJ file; for table1, slides and growth a mesh, which is resampled evenly over its area and for growth must be
+    /// closed; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
     /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first; by itself layers takes it
-    /// for each of its 27 balls, and transition for the whole model [default: the paper's; 2000 a ball; 40k]
+    /// for each of its 27 balls, and transition for the whole model; growth takes all, and the middle one over sizes [default:
+    /// the paper's; 2000 a ball; 40k; for growth 10k to 5M]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
-    /// Width and height in pixels
+    /// Width and height in pixels; for growth over splats
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse::size)]
     pub size: [u32; 2],
+
+    /// Sizes of growth over pixels, with commas between; a number alone is a square [default: 256 to 4096]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::square_or_size)]
+    pub sizes: Vec<[u32; 2]>,
+
+    /// Rasterizers of growth, with commas between, in turn and beside the first [default: perspective]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(Rasterizer::NAMES))]
+    pub rasterizer: Vec<Rasterizer>,
 
     /// The filter of all but slides, which has each method's own
     #[arg(long, value_name = "FILTER", default_value = "adjust", value_parser = choice(Filter::NAMES))]
@@ -87,7 +96,7 @@ pub struct BenchArguments {
     #[arg(long, value_name = "DIR", help_heading = "Results")]
     pub csv: Option<PathBuf>,
 
-    /// Draw milliseconds over numbers of splats (table1)
+    /// Draw milliseconds over numbers of splats (table1), and over pixels too (growth)
     #[arg(long, value_name = "FILE.svg", help_heading = "Results")]
     pub plot: Option<PathBuf>,
 
@@ -99,7 +108,7 @@ pub struct BenchArguments {
 /// What can be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Bench {
-    /// The three passes against a floor: the same points and formats with nothing computed
+    /// The passes against a floor, the same points and formats with nothing computed; and against the device's own limits
     Floor,
     /// Throughput of perspective splatting and of ray casting from 154k to 5M splats, beside the paper's table 1
     Table1,
@@ -110,9 +119,11 @@ pub enum Bench {
     Layers,
     /// A mesh half as polygons and half as splats: every transition beside none, and the whole as either
     Transition,
+    /// A frame's time and memory over numbers of splats, and over sizes
+    Growth,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them
+    /// All of them but growth
     All,
 }
 
@@ -124,6 +135,7 @@ pub struct Tables {
     pub slides: bool,
     pub layers: bool,
     pub transition: bool,
+    pub growth: bool,
     pub counts: bool,
 }
 
@@ -137,6 +149,7 @@ impl Bench {
             slides: is(Self::Slides),
             layers: is(Self::Layers),
             transition: is(Self::Transition),
+            growth: self == Self::Growth,
             counts: is(Self::Counts),
         }
     }
@@ -149,6 +162,7 @@ impl Bench {
             Self::Slides => "slides",
             Self::Layers => "layers",
             Self::Transition => "transition",
+            Self::Growth => "growth",
             Self::Counts => "counts",
             Self::All => "all",
         }
@@ -158,13 +172,25 @@ impl Bench {
 impl Tables {
     /// Any whose contestants take turns of pairs of frames.
     pub fn take_turns(self) -> bool {
-        self.table1 || self.slides || self.layers || self.transition
+        self.table1 || self.slides || self.layers || self.transition || self.growth
     }
 
     /// Any whose figures are times.
     pub fn are_timed(self) -> bool {
         self.floor || self.take_turns()
     }
+}
+
+/// The numbers of splats of growth: the paper's, and others around them.
+const GROWTH_SPLATS: [u64; 10] =
+    [10_000, 30_000, 100_000, 154_000, 300_000, 460_000, 1_000_000, 1_400_000, 3_000_000, 5_000_000];
+
+/// What is listed, each once; the default where nothing is.
+fn once<T: Copy + Eq + Hash>(listed: &[T], default: &[T]) -> Vec<T> {
+    let mut all = if listed.is_empty() { default.to_vec() } else { listed.to_vec() };
+    let mut seen = HashSet::new();
+    all.retain(|value| seen.insert(*value));
+    all
 }
 
 impl BenchArguments {
@@ -188,9 +214,31 @@ impl BenchArguments {
 
     /// The numbers of splats of table1.
     pub fn splat_counts(&self) -> Vec<u64> {
-        let mut counts = if self.splats.is_empty() { PAPER_SPLATS.to_vec() } else { self.splats.clone() };
-        let mut seen = HashSet::new();
-        counts.retain(|count| seen.insert(*count));
+        once(&self.splats, &PAPER_SPLATS)
+    }
+
+    /// The numbers of splats of growth, from few to many.
+    pub fn growth_splats(&self) -> Vec<u64> {
+        let mut counts = once(&self.splats, &GROWTH_SPLATS);
+        counts.sort_unstable();
         counts
+    }
+
+    /// The number of splats of growth over pixels: the middle one, of an even number the lesser.
+    pub fn middle_splats(&self) -> u64 {
+        let counts = self.growth_splats();
+        counts[(counts.len() - 1) / 2]
+    }
+
+    /// The sizes of growth over pixels, from few to many.
+    pub fn growth_sizes(&self) -> Vec<[u32; 2]> {
+        let mut sizes = once(&self.sizes, &[256, 512, 1024, 2048, 4096].map(|side| [side; 2]));
+        sizes.sort_unstable_by_key(|[width, height]| u64::from(*width) * u64::from(*height));
+        sizes
+    }
+
+    /// The rasterizers of growth, each once; the first is what the others are set beside.
+    pub fn rasterizers(&self) -> Vec<Rasterizer> {
+        once(&self.rasterizer, &[Rasterizer::default()])
     }
 }

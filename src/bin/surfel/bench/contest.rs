@@ -47,7 +47,8 @@ impl Contest {
     }
 }
 
-fn measured<'a>(name: &'a str, timed: &'a Timed) -> Measured<'a> {
+/// What was measured of one way to draw.
+pub fn measured<'a>(name: &'a str, timed: &'a Timed) -> Measured<'a> {
     Measured {
         name,
         paper: None,
@@ -99,7 +100,7 @@ pub fn take(
 }
 
 /// The frames of an entry, each of which notes the bytes of its transients.
-fn noting<'a>(bytes: &'a Cell<u64>, entry: Entry<'a>, camera: &'a Camera) -> Draw<'a> {
+pub fn noting<'a>(bytes: &'a Cell<u64>, entry: Entry<'a>, camera: &'a Camera) -> Draw<'a> {
     let mut draw = turns::frames(entry.scene, camera, entry.settings);
     Box::new(move |headless, profile| {
         let drawn = draw(headless, profile)?;

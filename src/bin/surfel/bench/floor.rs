@@ -1,4 +1,5 @@
-//! The three passes against the floor under them, in turn, so that a change of the machine's speed meets both.
+//! The three passes against the floor under them and against the device's limits, in turn, so that a change of the
+//! machine's speed meets all.
 
 use surfel::{
     Error, Progress as _, Result,
@@ -8,7 +9,7 @@ use surfel::{
     report::{FloorReport, FloorRow, drift_flag, spread_flag},
 };
 
-use super::Stage;
+use super::{Stage, limits::Limits};
 use crate::{
     camera::CameraChoice,
     machine::clock_mhz,
@@ -34,6 +35,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     drop(scene);
     let mut floor = Floor::new(headless, &prepared, &camera, settings, false)?;
     let mut strict = Floor::new(headless, &prepared, &camera, settings, true)?;
+    let mut limits = Limits::new(headless, settings)?;
 
     let mut rounds = Vec::new();
     let mut names = Vec::new();
@@ -48,6 +50,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
             passes_ms(&floor.frame(headless, Profile::Times)?)?,
             passes_ms(&strict.frame(headless, Profile::Times)?)?,
         ];
+        limits.round(headless, (round >= WARM_UP_ROUNDS).then_some(&times[0]))?;
         if round >= WARM_UP_ROUNDS {
             rounds.push(times);
         }
@@ -59,7 +62,8 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     bars.clear();
     let transient_bytes = headless.transient_bytes();
     let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
-    let counted = headless.render(&prepared, &camera, settings, wanted)?.profile.unwrap_or_default();
+    let frame = headless.render(&prepared, &camera, settings, wanted)?;
+    let counted = frame.profile.unwrap_or_default();
     let fragments = [fragments(&counted), fragments(&floor.frame(headless, Profile::Counts)?)];
     let report = FloorReport {
         camera: (&camera).into(),
@@ -68,6 +72,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
         strict_points: strict.count(),
         rounds: arguments.frames,
         rows: FloorRow::rows(&names, &rounds, [&fragments[0], &fragments[1]]),
+        limits: limits.report(&frame.plan, &counted, &prepared, strict.count()),
     };
     let frames: Vec<Vec<f64>> =
         (0..3).map(|kind| rounds.iter().map(|round| round[kind].iter().sum()).collect()).collect();

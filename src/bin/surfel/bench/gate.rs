@@ -6,7 +6,8 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     report::{
-        BenchReport, DeviceReport, InputReport, LayersReport, TransitionReport, counts_gate, floor_gate,
+        BenchReport, DeviceReport, GrowthReport, InputReport, LayersReport, TransitionReport, counts_gate,
+        floor_gate,
         gate::{Gate, GateLimits, Judgement, Verdict},
         throughput_gate,
     },
@@ -73,6 +74,7 @@ pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
     figures.extend(report.floor.iter().flat_map(floor_gate));
     figures.extend(report.layers.iter().flat_map(LayersReport::gate));
     figures.extend(report.transition.iter().flat_map(TransitionReport::gate));
+    figures.extend(report.growth.iter().flat_map(GrowthReport::gate));
     figures.extend(report.counts.iter().flat_map(counts_gate));
     Gate {
         subject: subject(arguments, Some(report)),
@@ -139,6 +141,14 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
         let splats: Vec<String> = arguments.splats.iter().map(u64::to_string).collect();
         let splats = if splats.is_empty() { "default".to_owned() } else { splats.join(",") };
         subject.insert("splats".to_owned(), splats);
+    }
+    if tables.growth {
+        let sizes: Vec<String> =
+            arguments.growth_sizes().iter().map(|[width, height]| format!("{width}x{height}")).collect();
+        let rasterizers = arguments.rasterizers();
+        let rasterizers: Vec<&str> = rasterizers.iter().map(|rasterizer| rasterizer.name()).collect();
+        subject.insert("sizes".to_owned(), sizes.join(","));
+        subject.insert("rasterizers".to_owned(), rasterizers.join(","));
     }
     if tables.counts {
         subject.insert("all pipelines".to_owned(), arguments.counts.all.to_string());

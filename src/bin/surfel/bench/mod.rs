@@ -4,7 +4,9 @@ mod arguments;
 mod contest;
 mod floor;
 mod gate;
+mod growth;
 mod layers;
+mod limits;
 mod model;
 mod outputs;
 mod slides;
@@ -57,6 +59,10 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     }
     if arguments.table == Bench::Layers && arguments.model.is_some() {
         return Err(Error::option("--model", "bench layers draws its own balls"));
+    }
+    if arguments.table != Bench::Growth && !(arguments.sizes.is_empty() && arguments.rasterizer.is_empty()) {
+        let problem = format!("only growth has a list of them, {} has not", arguments.table.name());
+        return Err(Error::option("--sizes, --rasterizer", problem));
     }
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
@@ -136,6 +142,9 @@ fn measure(headless: &mut Headless, stage: &mut Stage<'_>, report: &mut BenchRep
     }
     if tables.transition {
         report.transition = Some(transition::measure(headless, stage)?);
+    }
+    if tables.growth {
+        report.growth = Some(growth::measure(headless, stage)?);
     }
     let machine = watch.end(&stage.clocks_mhz);
     report.flags = machine.flags(&stage.limits);

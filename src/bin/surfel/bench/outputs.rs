@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use surfel::{
     Error, Result,
-    report::{BenchReport, throughput_plot},
+    report::{BenchReport, growth_plot, throughput_plot},
     save,
 };
 
@@ -17,7 +17,7 @@ use crate::{json::to_json, outputs};
 /// A place that can't be written to, that is an input, or that is named twice; a plot without anything to plot.
 pub fn check(arguments: &BenchArguments) -> Result<()> {
     let BenchArguments { json, markdown, plot, csv, model, baseline, table, .. } = arguments;
-    if plot.is_some() && !table.tables().table1 {
+    if plot.is_some() && !table.tables().table1 && !table.tables().growth {
         return Err(Error::option("--plot", format!("{} is not over numbers of splats", table.name())));
     }
     let files: Vec<&Path> = [json, markdown, plot].into_iter().flatten().map(PathBuf::as_path).collect();
@@ -27,8 +27,10 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// The files of `--csv`, and how the titles of their tables begin.
-const TABLES: [(&str, &str); 10] = [
+const TABLES: [(&str, &str); 15] = [
     ("floor.csv", "floor: "),
+    ("floor-limits.csv", "limits: "),
+    ("floor-bounds.csv", "bounds: "),
     ("table1.csv", "table 1: throughput"),
     ("table1-passes.csv", "table 1: where"),
     ("slides.csv", "the slides' methods, "),
@@ -37,6 +39,9 @@ const TABLES: [(&str, &str); 10] = [
     ("layers.csv", "layers, "),
     ("layers-empty.csv", "layers: what an empty"),
     ("transition.csv", "transition, "),
+    ("growth-splats.csv", "growth over splats"),
+    ("growth-pixels.csv", "growth over pixels"),
+    ("growth-passes.csv", "growth: where"),
     ("counts.csv", "counts: "),
 ];
 
@@ -53,7 +58,11 @@ pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
     }
     if let Some(path) = &arguments.plot {
         let name = report.device.as_ref().map_or("", |device| device.name.as_str());
-        save::text(path, &throughput_plot(&report.table1, name)?)?;
+        let svg = match &report.growth {
+            Some(growth) => growth_plot(growth, name)?,
+            None => throughput_plot(&report.table1, name)?,
+        };
+        save::text(path, &svg)?;
     }
     if let Some(folder) = &arguments.csv {
         std::fs::create_dir_all(folder).map_err(|e| Error::file(folder, "write", e))?;

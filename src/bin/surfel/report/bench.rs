@@ -24,7 +24,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     };
     part.blocks.push(Block::Text(
         "The floor draws the same points through the same fixed-function stages into the same formats with nothing computed; \
-         the strict floor leaves out what the passes cull. All three in turn."
+         the strict floor leaves out what the passes cull. All three in turn, and in the same rounds what the device does at \
+         most: of that, each pass's points, fragments and bytes take a time below which it can't get."
             .to_owned(),
     ));
     for grid in report.grids() {
