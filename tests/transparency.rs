@@ -13,8 +13,8 @@ use surfel::{
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Colors, Epsilon, Filter, KernelEval, LastLayer, Layers, Object, Rasterizer, Scene,
-        Settings, Shapes, Transition,
+        Accumulate, Colors, Epsilon, Filter, KernelEval, LastLayer, Layers, Object, Order, Rasterizer, Scene,
+        Settings, Shapes, Storage, Transition,
     },
     selftest::{
         light::{LightErrors, compare_light},
@@ -301,7 +301,7 @@ fn the_order_of_the_input_changes_nothing_but_the_rounding_of_sums() {
     assert_validation_is_silent(&headless);
 }
 
-/// The splats of all objects as one object, in their order or in a random one.
+/// The splats of all objects as one object, drawn in their order or in a random one.
 fn merged(scene: &Scene, shuffle: bool) -> Scene {
     let mut all = Vec::new();
     for object in &scene.objects {
@@ -323,7 +323,8 @@ fn merged(scene: &Scene, shuffle: bool) -> Scene {
         colors: Colors::PerSplat(all.iter().map(|splat| splat.3).collect()),
     };
     let closed = scene.objects.iter().all(|object| object.closed);
-    Scene { objects: vec![Object { name: "all".to_owned(), splats, closed }], ..Scene::default() }
+    let storage = Storage { order: Order::Input };
+    Scene { objects: vec![Object { name: "all".to_owned(), splats, closed }], storage, ..Scene::default() }
 }
 
 fn passes(frame: &Frame) -> Vec<&str> {

@@ -8,6 +8,7 @@ mod chunk;
 mod mesh_chunk;
 mod pack;
 mod rebase;
+mod sequence;
 
 pub use chunk::{Chunk, SplatSetLayout};
 pub use mesh_chunk::MeshChunk;
@@ -16,14 +17,15 @@ pub use rebase::{Rebase, ViewFromLocal};
 use std::ops::Range;
 
 use mesh_chunk::PackedMesh;
+use sequence::Sequence;
 
 use crate::{
     error::Result,
-    scene::{DefectCounts, Light, Opacity, Scene},
+    scene::{DefectCounts, Light, Opacity, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 
-/// A scene on the device. Chunks keep the scene's order.
+/// A scene on the device. Chunks have the order of the scene's objects, and their splats that of its [`Storage`].
 pub struct PreparedScene {
     /// Pieces of objects, each within the device's limits. What is invisible has none.
     pub chunks: Vec<Chunk>,
@@ -31,6 +33,8 @@ pub struct PreparedScene {
     pub meshes: Vec<MeshChunk>,
     /// The scene's lights.
     pub lights: Vec<Light>,
+    /// How its splats are kept.
+    pub storage: Storage,
     /// The mean of the major radii of all transparent splats, world space; 0 where there is none. So thick is a
     /// transparent polygon where ε is told in radii.
     pub mean_transparent_radius: f64,
@@ -80,6 +84,7 @@ pub fn prepare(
         chunks: Vec::new(),
         meshes: Vec::new(),
         lights: scene.lights.clone(),
+        storage: scene.storage,
         mean_transparent_radius: 0.0,
         defects: DefectCounts::default(),
     };
@@ -94,8 +99,11 @@ pub fn prepare(
             continue;
         }
         let transparent = opacity == Opacity::Transparent;
-        for range in pieces(0..splats.len(), capacity) {
-            let survey = pack::survey(splats, range.clone(), Rebase::of(splats, range.clone()));
+        // Before it is cut, so that chunks are compact.
+        let sequence = Sequence::of(splats, scene.storage.order);
+        for range in pieces(0..sequence.len(), capacity) {
+            let which = || sequence.in_any_order(range.clone());
+            let survey = pack::survey(splats, which(), Rebase::of(splats, which()));
             prepared.defects.merge(&survey.defects);
             if survey.count == 0 {
                 done += range.len() as u64;
@@ -109,9 +117,9 @@ pub fn prepare(
             let number = prepared.chunks.len();
             let chunk = Chunk::new(device, layout, number, (object.closed, transparent), &survey)?;
             let mut first = 0;
-            for batch in pieces(range, BATCH_SPLATS) {
+            for batch in pieces(range.clone(), BATCH_SPLATS) {
                 done += batch.len() as u64;
-                let packed = pack::pack(splats, batch, survey.rebase);
+                let packed = pack::pack(splats, sequence.at(batch), survey.rebase);
                 let count = packed.count(survey.ellipses);
                 if count > 0 {
                     submit(chunk.upload(device, first, &packed)?)?;

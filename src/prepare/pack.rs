@@ -3,14 +3,12 @@
 //! Disks, 32 bytes: `position radius`, `normal 0`. Ellipses, 48 bytes: `position major-radius`, `s 0`, `t 0`. Local
 //! space, f32. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6).
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec3};
 
 use super::rebase::Rebase;
 use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
 
-/// What is known of a range of splats before any of them is packed: buffers get their exact size.
+/// What is known of some splats before any of them is packed: buffers get their exact size.
 pub struct Survey {
     /// Their local space.
     pub rebase: Rebase,
@@ -59,8 +57,8 @@ pub fn shape_bytes(ellipses: bool) -> usize {
 /// Bytes of a splat's color.
 pub const COLOR_BYTES: usize = 8;
 
-/// Looks through the splats of a range.
-pub fn survey(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Survey {
+/// Looks through some splats.
+pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebase) -> Survey {
     let mut survey = Survey {
         rebase,
         count: 0,
@@ -71,7 +69,7 @@ pub fn survey(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Survey {
         sum_of_radii: 0.0,
         defects: DefectCounts::default(),
     };
-    for i in range {
+    for i in which {
         match local(splats, i, rebase) {
             Ok((position, radius)) => {
                 survey.bounds = [survey.bounds[0].min(position), survey.bounds[1].max(position)];
@@ -97,15 +95,15 @@ fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defe
     }
 }
 
-/// Packs the splats of a range, without those that have a defect. Where one color is for all, it is packed once.
-pub fn pack(splats: &Splats, range: Range<usize>, rebase: Rebase) -> Packed {
+/// Packs some splats in their order, without those that have a defect. Where one color is for all, it is packed once.
+pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, rebase: Rebase) -> Packed {
     let ellipses = matches!(splats.shapes, Shapes::Ellipses { .. });
     let uniform_color = matches!(splats.colors, Colors::Uniform(_));
     let mut packed = Packed {
-        shapes: Vec::with_capacity(range.len() * shape_bytes(ellipses) / 16),
-        colors: Vec::with_capacity(if uniform_color { 1 } else { range.len() }),
+        shapes: Vec::with_capacity(which.len() * shape_bytes(ellipses) / 16),
+        colors: Vec::with_capacity(if uniform_color { 1 } else { which.len() }),
     };
-    for i in range {
+    for i in which {
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
         packed.shapes.push(position.as_vec3().extend(radius as f32).into());
         match &splats.shapes {

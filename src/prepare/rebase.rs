@@ -1,7 +1,5 @@
 //! The local space of a chunk, and its view space in a frame.
 
-use std::ops::Range;
-
 use glam::DVec3;
 
 use crate::scene::{Camera, Splats};
@@ -38,14 +36,14 @@ pub struct ViewFromLocal {
 /// the same local coordinates, bit by bit.
 const ORIGIN_STEP: f64 = 1.0 / 1024.0;
 
-/// At most so many splats are looked at, evenly spread over the chunk.
+/// At most so many splats are looked at, evenly spread over the sequence in which they are given.
 const SAMPLES: usize = 1 << 16;
 
 impl Rebase {
     /// The local space of some splats; the world itself where none can be drawn.
-    pub fn of(splats: &Splats, range: Range<usize>) -> Self {
-        let stride = range.len().div_ceil(SAMPLES).max(1);
-        let sampled: Vec<usize> = range.step_by(stride).filter(|&i| splats.defect(i).is_none()).collect();
+    pub fn of(splats: &Splats, which: impl ExactSizeIterator<Item = usize>) -> Self {
+        let stride = which.len().div_ceil(SAMPLES).max(1);
+        let sampled: Vec<usize> = which.step_by(stride).filter(|&i| splats.defect(i).is_none()).collect();
         Self::of_balls(&sampled, |i| (splats.positions[i], splats.major_radius(i)))
     }
 

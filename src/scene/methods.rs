@@ -30,6 +30,7 @@ macro_rules! named {
         }
     };
 }
+pub(super) use named;
 
 named! {
     /// How a splat becomes fragments. All but the affine ones and [`Self::RaycastApproximate`] draw the same picture.

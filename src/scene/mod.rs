@@ -13,6 +13,7 @@ mod methods;
 mod opacity;
 mod settings;
 mod splats;
+mod storage;
 mod tint;
 mod transform;
 
@@ -29,6 +30,7 @@ pub use methods::{
 pub use opacity::Opacity;
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
+pub use storage::{Order, Storage};
 pub use transform::is_invertible;
 
 /// One thing in a scene: splats and how they are to be treated.
@@ -65,6 +67,8 @@ pub struct Scene {
     pub meshes: Vec<MeshObject>,
     /// None: [`Light::DEFAULT`]. At most [`MOST_LIGHTS`].
     pub lights: Vec<Light>,
+    /// How the splats are kept on a device.
+    pub storage: Storage,
 }
 
 impl Scene {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use surfel::{
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, Filter, Settings},
+    scene::{Accumulate, Filter, Order, Settings},
 };
 
 use super::{
@@ -109,6 +109,7 @@ fn n06_a_list_of_more_than_65536_large_splats_is_whole_and_in_order() {
     };
     let exact = Settings { accumulate: Accumulate::F32, ..rounded.clone() };
     let mut many = hard("70123 splats", builder, rounded);
+    many.scene.storage.order = Order::Input;
     assert!(!lists_large(&mut headless, &many));
     let points = render(&mut headless, &many);
     let quads = |headless: &mut Headless, hard: &Hard| {
@@ -175,10 +176,14 @@ fn a_chunk_of_several_batches_with_splats_left_out_agrees() {
     // And a batch of which nothing is left.
     object.splats.positions[65_536..131_072].fill(DVec3::NAN);
     hard.scene.objects = vec![object];
-    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    assert_eq!(prepared.chunks.len(), 1);
-    assert_eq!(prepared.splat_count(), (150_000 - 65_536) * 6 / 7);
-    assert_agrees(&mut headless, &hard, 1000);
+    // Along the curve what is left out comes last.
+    for order in [Order::Input, Order::Morton] {
+        hard.scene.storage.order = order;
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        assert_eq!(prepared.chunks.len(), 1);
+        assert_eq!(prepared.splat_count(), (150_000 - 65_536) * 6 / 7);
+        assert_agrees(&mut headless, &hard, 1000);
+    }
     assert_validation_is_silent(&headless);
 }
 

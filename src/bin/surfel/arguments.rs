@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use surfel::scene::Order;
 
 use crate::{
     bench::BenchArguments,
     compare::CompareArguments,
     figure::FigureArguments,
     parse,
-    picture_arguments::PictureArguments,
+    picture_arguments::{PictureArguments, choice},
     report::ReportArguments,
     scene_file_keys::KEYS,
     selftest::{self, SelftestArguments},
@@ -190,6 +191,12 @@ pub struct RenderArguments {
     /// The device: its number or a part of its name, see `surfel info` [default: the best]
     #[arg(long, value_name = "NAME|INDEX", help_heading = "Device and measurement")]
     pub device: Option<String>,
+
+    /// In which order splats lie on the device and are drawn: along a curve that keeps neighbors together, which is faster,
+    /// or as the input has them; the picture is the same but for the rounding of sums
+    #[arg(long, value_name = "ORDER", default_value = "morton", value_parser = choice(Order::NAMES))]
+    #[arg(help_heading = "Device and measurement")]
+    pub order: Order,
 
     /// Time that many frames, after two to warm up, and print a table [default: 10 with --timings, else none]
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]

@@ -5,7 +5,7 @@ use surfel::{
     renderer::{Headless, Wanted},
     report::{RunReport, settings_as_options},
     save,
-    scene::Settings,
+    scene::{Settings, Storage},
 };
 
 use crate::{
@@ -61,7 +61,8 @@ fn draw(
     let loaded = load_scene(&picture.inputs, picture.representation, &bars, &mut steps)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
-    let Loaded { scene, inputs, .. } = loaded;
+    let Loaded { mut scene, inputs, .. } = loaded;
+    scene.storage = Storage { order: arguments.order };
     let prepared =
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
     bars.clear();

@@ -25,6 +25,7 @@ pub fn scene_report(inputs: Vec<InputReport>, prepared: &PreparedScene, transien
         inputs,
         splats: prepared.splat_count(),
         triangles: prepared.triangle_count(),
+        order: prepared.storage.order.name(),
         splat_bytes: prepared.bytes(),
         transient_bytes,
     }
