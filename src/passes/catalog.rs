@@ -12,12 +12,13 @@ use super::{
     pipelines::{ComputeKey, GraphicsKey, Shaders},
     polygons,
     splat_shaders::{Primitive, Stages, Summed},
+    tiles,
     variant::{Constants, IN_LAYERS, OUTWARD, RASTERIZER, splat_constants},
     visibility,
 };
 use crate::{
     error::Result,
-    scene::{KernelEval, Settings},
+    scene::{KernelEval, Rasterizer, Settings},
     shaders::{self, Shader},
 };
 
@@ -157,11 +158,65 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     let target = vk::Format::R8G8B8A8_SRGB;
     let variant = splat_constants(settings, traits.ellipses, traits.closed);
     let mut all = Vec::new();
-    let graphics = |pass, draws, key| PipelineRecipe { pass, draws, key: Key::Graphics(key) };
-    let compute = |pass, key| PipelineRecipe { pass, draws: "", key: Key::Compute(key) };
-    let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
+    let by_tiles = settings.rasterizer == Rasterizer::Compute;
+    let has_list = traits.may_be_large && !by_tiles && Primitive::of(settings.rasterizer) != Primitive::Quad;
+    if by_tiles {
+        all.extend(opaque_by_tiles(settings, traits, &variant)?);
+    } else {
+        all.extend(opaque(settings, traits, &variant, has_list)?);
+    }
+    if traits.polygons {
+        all.push(graphics("polygons", "triangles", polygons::mesh_pass(settings).key(traits.closed, false)));
+    }
+    if traits.transparent {
+        if by_tiles && !traits.polygons && !traits.may_be_large {
+            let (pass, key) = tiles::layers_recipe(settings, traits.lit)?;
+            all.push(compute(pass, key));
+        } else {
+            all.extend(layers(settings, traits)?);
+        }
+    }
+    let shown = finalize::Traits {
+        splats: true,
+        polygons: traits.polygons,
+        layered: traits.transparent,
+        lit: traits.lit,
+    };
+    let alone = by_tiles && !(traits.polygons || traits.transparent || traits.may_be_large || traits.export);
+    let finalized = finalize::key(settings, target, shown);
+    let finalized = if alone { finalized.map(|key| finalize::key_of_tiles(&key)) } else { finalized };
+    all.extend(finalized.map(|key| graphics("finalize", "", key)));
+    if traits.export {
+        all.push(graphics("export", "", export::key()));
+    }
+    if traits.floor {
+        let [depth, add, fill] = floor::keys(settings, target);
+        all.push(compute("floor points", floor::points_key(&variant)));
+        all.push(graphics("floor depth", "points", depth));
+        all.push(graphics("floor add", "points", add));
+        all.push(graphics("floor fill", "", fill));
+    }
+    Ok(all)
+}
+
+fn graphics(pass: &'static str, draws: &'static str, key: GraphicsKey) -> PipelineRecipe {
+    PipelineRecipe { pass, draws, key: Key::Graphics(key) }
+}
+
+fn compute(pass: &'static str, key: ComputeKey) -> PipelineRecipe {
+    PipelineRecipe { pass, draws: "", key: Key::Compute(key) }
+}
+
+/// The splat passes of the opaque part by the graphics pipeline.
+fn opaque(
+    settings: &Settings,
+    traits: Traits,
+    variant: &Constants,
+    has_list: bool,
+) -> Result<Vec<PipelineRecipe>> {
+    let mut all = Vec::new();
     if has_list {
-        let [count, scan, list] = list_large::keys(&variant);
+        let [count, scan, list] = list_large::keys(variant);
         all.push(compute("count large splats", count));
         all.push(compute("scan large splats", scan));
         all.push(compute("list large splats", list));
@@ -180,65 +235,76 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
                 kernel_texture::key(&shaders::KERNEL_TEXTURE_FRAG, settings.kernel),
             ));
         }
-        let keys = splat_keys(&splats, settings, &variant, has_list);
+        let keys = splat_keys(&splats, settings, variant, has_list);
         all.extend(keys.into_iter().map(|(draws, key)| graphics(pass, draws, key)));
     }
-    if traits.polygons {
-        all.push(graphics("polygons", "triangles", polygons::mesh_pass(settings).key(traits.closed, false)));
-    }
-    if traits.transparent {
-        let mut open = splat_constants(settings, traits.ellipses, false);
-        open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
-        let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
-        for peeled in [false, true] {
-            let names = if peeled {
-                ["visibility of a layer", "accumulate a layer", "polygons of a layer"]
-            } else {
-                ["visibility of layer 1", "accumulate layer 1", "polygons of layer 1"]
-            };
-            let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
-            let of_splats = [
-                (names[0], visibility::splat_pass(settings, Some(peeled))?),
-                (names[1], layer_accumulate::splat_pass(settings, peeled)?),
-                (rest, layer_rest::splat_pass(settings, peeled, true, traits.lit)?),
-            ];
-            for (name, pass) in &of_splats {
-                all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
-            }
-            let of_polygons = [
-                (names[0], layer_visibility::mesh_pass(peeled)),
-                (names[2], layer_accumulate::mesh_pass(settings, peeled)),
-                (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lit)),
-            ];
-            for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
-                all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
-            }
+    Ok(all)
+}
+
+/// The same by tiles.
+fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> Result<Vec<PipelineRecipe>> {
+    let Traits { may_be_large, polygons, export, transparent, .. } = traits;
+    let mut all = Vec::new();
+    let passes = [
+        tiles::list_recipes(variant, may_be_large),
+        tiles::opaque_recipes(settings, tiles::TileTraits { may_be_large, polygons, export })?,
+    ];
+    all.extend(passes.into_iter().flatten().map(|(pass, key)| compute(pass, key)));
+    if may_be_large {
+        let summed = Summed::Opaque { with_depth: export, beside_polygons: polygons };
+        for (pass, splats) in [
+            ("see large splats", visibility::splat_pass(settings, None)?),
+            ("sum large splats", accumulate::splat_pass(settings, summed)?),
+        ] {
+            let key = splats.key(splats.shaders.listed, Primitive::Quad, variant);
+            all.push(graphics(pass, "listed quads", key));
         }
-        let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
-        all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lit)));
-        all.push(graphics(
-            "compose the last layer",
-            "",
-            layer_compose::key(settings, LayerKind::Rest, traits.lit),
-        ));
     }
-    let shown = finalize::Traits {
-        splats: true,
-        polygons: traits.polygons,
-        layered: traits.transparent,
-        lit: traits.lit,
-    };
-    all.extend(finalize::key(settings, target, shown).map(|key| graphics("finalize", "", key)));
-    if traits.export {
-        all.push(graphics("export", "", export::key()));
+    if may_be_large || polygons || export || transparent {
+        let (pass, key) = tiles::depth_recipe();
+        all.push(graphics(pass, "tiles", key));
     }
-    if traits.floor {
-        let [depth, add, fill] = floor::keys(settings, target);
-        all.push(compute("floor points", floor::points_key(&variant)));
-        all.push(graphics("floor depth", "points", depth));
-        all.push(graphics("floor add", "points", add));
-        all.push(graphics("floor fill", "", fill));
+    Ok(all)
+}
+
+/// The passes of transparent layers by the graphics pipeline.
+fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
+    let mut all = Vec::new();
+    let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
+    let mut open = splat_constants(settings, traits.ellipses, false);
+    open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
+    let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
+    for peeled in [false, true] {
+        let names = if peeled {
+            ["visibility of a layer", "accumulate a layer", "polygons of a layer"]
+        } else {
+            ["visibility of layer 1", "accumulate layer 1", "polygons of layer 1"]
+        };
+        let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
+        let of_splats = [
+            (names[0], visibility::splat_pass(settings, Some(peeled))?),
+            (names[1], layer_accumulate::splat_pass(settings, peeled)?),
+            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lit)?),
+        ];
+        for (name, pass) in &of_splats {
+            all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
+        }
+        let of_polygons = [
+            (names[0], layer_visibility::mesh_pass(peeled)),
+            (names[2], layer_accumulate::mesh_pass(settings, peeled)),
+            (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lit)),
+        ];
+        for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
+            all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
+        }
     }
+    let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
+    all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lit)));
+    all.push(graphics(
+        "compose the last layer",
+        "",
+        layer_compose::key(settings, LayerKind::Rest, traits.lit),
+    ));
     Ok(all)
 }
 

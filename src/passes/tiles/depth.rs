@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{
-    super::{DEPTH_FORMAT, Inputs, finalize, fullscreen::read_set},
+    super::{DEPTH_FORMAT, Inputs, finalize, fullscreen::read_set, pipelines::GraphicsKey},
     SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles,
 };
 use crate::{
@@ -11,6 +11,14 @@ use crate::{
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     shaders,
 };
+
+/// What the pipeline is.
+pub(super) fn key() -> GraphicsKey {
+    GraphicsKey {
+        depth: Some((vk::CompareOp::ALWAYS, true)),
+        ..quads_of_tiles(&shaders::TILE_DEPTH_FRAG, Vec::new())
+    }
+}
 
 /// Declares the pass. `before`: the depth buffer that `visible` begins from; else it is 0 where there are no splats.
 pub(in super::super) fn depth_buffer<'a>(
@@ -20,9 +28,7 @@ pub(in super::super) fn depth_buffer<'a>(
     visible: &Handle<Image>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
-    let mut key = quads_of_tiles(&shaders::TILE_DEPTH_FRAG, Vec::new());
-    key.depth = Some((vk::CompareOp::ALWAYS, true));
-    let pipeline = inputs.shaders.graphics(key)?;
+    let pipeline = inputs.shaders.graphics(key())?;
     let constants = finalize::constants(inputs);
     let (id, seen) = (visible.id(), SeenTiles::of(tiles));
     let (mut depth, start) = match before {

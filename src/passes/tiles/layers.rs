@@ -166,6 +166,11 @@ fn declare<'g, 'a>(
     pass
 }
 
+/// How all tiles but the overfull are worked on.
+pub(super) fn work_of_whole_tiles(settings: &Settings, plan: &TilePlan) -> Work {
+    if shares(settings, plan).len() > 1 { Work::Several } else { Work::Whole }
+}
+
 /// All tiles but the overfull.
 fn whole<'a>(
     graph: &mut Graph<Body<'a>>,
@@ -175,7 +180,7 @@ fn whole<'a>(
     layers: &mut Handle<Image>,
 ) -> Result<()> {
     let shares = shares(inputs.settings, tiles.plan);
-    let work = if shares.len() > 1 { Work::Several } else { Work::Whole };
+    let work = work_of_whole_tiles(inputs.settings, tiles.plan);
     let mut pass = tile_pass(inputs, tiles, around, layers, work)?;
     let mut between = Vec::new();
     if work == Work::Several {

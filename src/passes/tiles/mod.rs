@@ -10,6 +10,7 @@ mod layers;
 mod overfull;
 mod plan;
 mod quads;
+mod recipes;
 mod record;
 mod splat;
 
@@ -23,6 +24,7 @@ pub(super) use self::{
     large::{see_large, sum_large},
     layers::layers,
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles},
+    recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
     splat::{TileImages, accumulate, fused, visibility},
 };
 pub use plan::TilePlan;

@@ -124,6 +124,26 @@ impl TilePlan {
         self.tile_count + self.chunk_count
     }
 
+    /// A plan of no scene, for pipelines alone: a thousand splats on a device that has what tiles like.
+    pub(super) fn for_recipes(may_be_large: bool) -> Self {
+        Self {
+            tiles_x: 1,
+            tile_count: 1,
+            record_count: 1000,
+            chunk_count: 1,
+            segments: SEGMENTS,
+            segment_length: SEGMENTS,
+            round_length: SEGMENTS,
+            most_tiles: MOST_TILES_A_SIDE * MOST_TILES_A_SIDE,
+            entry_room: LEAST_ENTRIES,
+            walk_length: 4 * MOST_ITERATIONS,
+            part_length: 4 * MOST_ITERATIONS,
+            layers_at_once: 1,
+            may_be_large,
+            direct: false,
+        }
+    }
+
     /// The plan for so many layers at most: up to 16 of them in one dispatch, each of which walks twice.
     pub fn with_layers(self, most: u32) -> Self {
         let layers_at_once = most.min(16);

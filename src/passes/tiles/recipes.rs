@@ -1,0 +1,77 @@
+//! The pipelines of drawing by tiles, without a scene: for whoever counts them or compiles them ahead.
+
+use super::{
+    super::{
+        pipelines::{ComputeKey, GraphicsKey, Layout},
+        variant::Constants,
+    },
+    TilePlan,
+    bins::part_length,
+    depth, layers, record,
+    splat::{Step, shader},
+};
+use crate::{
+    error::Result,
+    scene::Settings,
+    shaders::{self, Shader},
+};
+
+/// What decides about them.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct TileTraits {
+    /// Some splats are left to the graphics pipeline.
+    pub may_be_large: bool,
+    /// There are polygons.
+    pub polygons: bool,
+    /// The surface is wanted as data.
+    pub export: bool,
+}
+
+fn compute((shader, constants): (&'static Shader, Constants)) -> ComputeKey {
+    ComputeKey { shader, layout: Layout::Tile, constants }
+}
+
+/// The passes that set splats up and list them, each with its pipeline.
+pub(in super::super) fn list_recipes(
+    variant: &Constants,
+    may_be_large: bool,
+) -> Vec<(&'static str, ComputeKey)> {
+    let plan = TilePlan::for_recipes(may_be_large);
+    vec![
+        ("set up splats", record::key(variant, &plan, 0)),
+        ("count tiles", compute((&shaders::TILE_COUNT_COMP, Vec::new()))),
+        ("total tiles", compute((&shaders::TILE_TOTAL_COMP, Vec::new()))),
+        ("start tiles", compute((&shaders::TILE_START_COMP, part_length(&plan)))),
+        ("fill tiles", compute((&shaders::TILE_FILL_COMP, Vec::new()))),
+    ]
+}
+
+/// The passes of the opaque part.
+pub(in super::super) fn opaque_recipes(
+    settings: &Settings,
+    traits: TileTraits,
+) -> Result<Vec<(&'static str, ComputeKey)>> {
+    let TileTraits { may_be_large: upon, polygons, export: with_depth } = traits;
+    let plan = TilePlan::for_recipes(upon);
+    let steps = match polygons {
+        false => vec![("see and sum tiles", Step::Fused { upon, with_depth })],
+        true => vec![
+            ("see tiles", Step::Visible { upon }),
+            ("sum tiles", Step::Summed { beside: true, with_depth }),
+        ],
+    };
+    steps.into_iter().map(|(pass, step)| Ok((pass, compute(shader(settings, &plan, step)?)))).collect()
+}
+
+/// The pass that hands the depth to the graphics pipeline.
+pub(in super::super) fn depth_recipe() -> (&'static str, GraphicsKey) {
+    ("depth of tiles", depth::key())
+}
+
+/// The pass of all transparent layers, before opaque things.
+pub(in super::super) fn layers_recipe(settings: &Settings, lit: bool) -> Result<(&'static str, ComputeKey)> {
+    let plan = TilePlan::for_recipes(false).with_layers(settings.layers.most());
+    let beside = layers::Beside { opaque: true, lit };
+    let work = layers::work_of_whole_tiles(settings, &plan);
+    Ok(("layers of tiles", compute(layers::shader(settings, &plan, beside, work)?)))
+}
