@@ -45,7 +45,7 @@ fn the_order_on_the_device_changes_the_picture_by_rounding_alone() {
     let mut headless = shared();
     let mut drawn = |order, accumulate| {
         let mut hard = with(scenes::random_ellipses(Filter::Adjust), "order", |s| s.accumulate = accumulate);
-        hard.scene.storage = Storage { order };
+        hard.scene.storage = Storage { order, ..Storage::default() };
         render(&mut headless, &hard)
     };
     let frames = |accumulate, drawn: &mut dyn FnMut(_, _) -> Frame| {

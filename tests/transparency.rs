@@ -323,7 +323,7 @@ fn merged(scene: &Scene, shuffle: bool) -> Scene {
         colors: Colors::PerSplat(all.iter().map(|splat| splat.3).collect()),
     };
     let closed = scene.objects.iter().all(|object| object.closed);
-    let storage = Storage { order: Order::Input };
+    let storage = Storage { order: Order::Input, ..Storage::default() };
     Scene { objects: vec![Object { name: "all".to_owned(), splats, closed }], storage, ..Scene::default() }
 }
 

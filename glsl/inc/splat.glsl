@@ -5,6 +5,7 @@
 // also along the axes, where normalize(cross(n, z)) fails.
 
 #include "inc/view.glsl"
+#include "inc/packed.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer Shapes { vec4 shapes[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
@@ -97,8 +98,18 @@ Splat load_splat(uint index)
         vec3 n_local = exact_cross(scale * shapes[3 * index + 1].xyz, scale * shapes[3 * index + 2].xyz);
         splat.det = normal_dot_center(n_local, position_radius.xyz);
     } else {
-        vec4 position_radius = shapes[2 * index];
-        vec3 n = rotated(shapes[2 * index + 1].xyz);
+        vec4 position_radius;
+        vec3 n_local;
+        if (PACKED) {
+            uvec4 words = packed_shapes[index];
+            position_radius = vec4(unpacked_coordinate(words.x), unpacked_coordinate(words.y),
+                unpacked_coordinate(words.z), unpacked_radius(words.xyz));
+            n_local = unpacked_normal(words.w);
+        } else {
+            position_radius = shapes[2 * index];
+            n_local = shapes[2 * index + 1].xyz;
+        }
+        vec3 n = rotated(n_local);
         float side = n.z >= 0.0 ? 1.0 : -1.0;
         float a = -1.0 / (side + n.z);
         float b = n.x * n.y * a;
@@ -107,14 +118,24 @@ Splat load_splat(uint index)
         splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
         splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
         splat.normal = n;
-        splat.det = splat.radius * splat.radius * normal_dot_center(shapes[2 * index + 1].xyz, position_radius.xyz);
+        splat.det = splat.radius * splat.radius * normal_dot_center(n_local, position_radius.xyz);
     }
     return splat;
+}
+
+// Where each splat has its own color: one for all is never packed.
+vec4 load_packed_color(uint index)
+{
+    uvec2 pair = colors[index >> 1];
+    return unpacked_color((index & 1) == 0 ? pair.x : pair.y);
 }
 
 // Linear albedo of a splat.
 vec3 load_color(uint index)
 {
+    if (PACKED && frame.uniform_color == 0) {
+        return FORMULA(FORMULA_COLOR, load_packed_color(index).rgb);
+    }
     uvec2 packed = colors[frame.uniform_color != 0 ? 0 : index];
     return FORMULA(FORMULA_COLOR, vec3(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y).x));
 }
@@ -122,6 +143,9 @@ vec3 load_color(uint index)
 // Its alpha.
 float load_alpha(uint index)
 {
+    if (PACKED && frame.uniform_color == 0) {
+        return FORMULA(FORMULA_ALPHA, load_packed_color(index).a);
+    }
     uvec2 packed = colors[frame.uniform_color != 0 ? 0 : index];
     return FORMULA(FORMULA_ALPHA, unpackUnorm2x16(packed.y).y);
 }

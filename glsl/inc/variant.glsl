@@ -15,6 +15,7 @@ layout(constant_id = 11) const bool FROM_CORNER = false;   // places may be coun
 layout(constant_id = 12) const uint TRANSITION = 0;        // TRANSITION_COLOR ...
 layout(constant_id = 13) const bool OUTWARD = false;       // transparent and closed: normals stay outward in layers (shown.glsl)
 layout(constant_id = 14) const bool IN_LAYERS = false;     // transparent: drawn in layers (mapping.glsl)
+layout(constant_id = 15) const bool PACKED = false;        // disks in 16 bytes, their colors in 4 (packed.glsl)
 
 #define FILTER_NONE 0
 #define FILTER_ADJUST 1

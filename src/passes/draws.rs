@@ -12,7 +12,7 @@ use super::{
     list_large::LargeIds,
     pipelines::{GraphicsKey, Layout},
     splat_shaders::{Primitive, SplatShaders, Stages},
-    variant::{Constants, IN_LAYERS, OUTWARD, splat_constants},
+    variant::{Constants, IN_LAYERS, OUTWARD, PACKED, splat_constants},
 };
 use crate::{
     error::Result,
@@ -84,13 +84,16 @@ pub fn draws<'a>(
                 Primitive::Triangle => largest_box_px.is_infinite(),
                 Primitive::Quad => false,
             },
-            variant: match chunk.transparent {
-                false => splat_constants(settings, chunk.ellipses, chunk.closed),
-                true => {
-                    let mut constants = splat_constants(settings, chunk.ellipses, false);
+            variant: {
+                let cull_closed = chunk.closed && !chunk.transparent;
+                let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);
+                if chunk.transparent {
                     constants.extend([(OUTWARD, u32::from(chunk.closed)), (IN_LAYERS, 1)]);
-                    constants
                 }
+                if chunk.packed {
+                    constants.push((PACKED, 1));
+                }
+                constants
             },
         }
     };

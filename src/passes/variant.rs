@@ -22,6 +22,9 @@ pub const OUTWARD: u32 = 13;
 /// The number of the constant that tells transparent splats.
 pub const IN_LAYERS: u32 = 14;
 
+/// The number of the constant that tells packed splats.
+pub const PACKED: u32 = 15;
+
 /// The constants of the splat passes for one kind of chunk.
 pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
     let cull = match settings.backfaces {

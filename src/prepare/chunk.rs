@@ -4,7 +4,7 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
-    pack::{COLOR_BYTES, Packed, Survey, shape_bytes},
+    pack::{Packed, Survey, shape_bytes},
     rebase::Rebase,
 };
 use crate::{
@@ -58,6 +58,8 @@ pub struct Chunk {
     pub transparent: bool,
     /// One color for all.
     pub uniform_color: bool,
+    /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
+    pub packed: bool,
     /// The box of the centers, local space.
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
@@ -66,6 +68,8 @@ pub struct Chunk {
     _pool: SealedPool,
     /// Shapes and colors. Not read by the host, but the set names them.
     buffers: [Buffer; 2],
+    /// Bytes of a splat in each.
+    bytes_each: [u64; 2],
 }
 
 impl Chunk {
@@ -78,16 +82,16 @@ impl Chunk {
         survey: &Survey,
     ) -> Result<Self> {
         let colors = if survey.uniform_color { 1 } else { survey.count };
-        let buffer = |what: &str, count: u32, bytes_each: usize| {
+        let bytes_each = [survey.shape_bytes(), survey.color_bytes()].map(|bytes| bytes as u64);
+        let buffer = |what: &str, count: u32, bytes_each: u64| {
             let name = format!("{what} of chunk {number}");
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-            let size = u64::from(count) * bytes_each as u64;
+            // Shaders read 8 bytes of colors at once.
+            let size = (u64::from(count) * bytes_each).next_multiple_of(8);
             Buffer::new(device, BufferDesc { name: &name, size, usage }, MemoryUse::Device)
         };
-        let buffers = [
-            buffer("shapes", survey.count, shape_bytes(survey.ellipses))?,
-            buffer("colors", colors, COLOR_BYTES)?,
-        ];
+        let buffers =
+            [buffer("shapes", survey.count, bytes_each[0])?, buffer("colors", colors, bytes_each[1])?];
         let pool = DescriptorPool::new(
             device,
             &format!("set of chunk {number}"),
@@ -102,11 +106,13 @@ impl Chunk {
             closed,
             transparent,
             uniform_color: survey.uniform_color,
+            packed: survey.packed,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
             set,
             _pool: pool.seal(),
             buffers,
+            bytes_each,
         })
     }
 
@@ -119,9 +125,9 @@ impl Chunk {
         let bytes = (shapes.len() + colors.len()) as u64;
         let mut staging = Staging::new(device, "upload of splats", bytes)?;
         let first = u64::from(first);
-        staging.push(&self.buffers[0], first * shape_bytes(self.ellipses) as u64, shapes)?;
+        staging.push(&self.buffers[0], first * self.bytes_each[0], shapes)?;
         if !colors.is_empty() {
-            staging.push(&self.buffers[1], first * COLOR_BYTES as u64, colors)?;
+            staging.push(&self.buffers[1], first * self.bytes_each[1], colors)?;
         }
         Ok(staging)
     }

@@ -7,11 +7,13 @@
 mod chunk;
 mod mesh_chunk;
 mod pack;
+mod packed;
 mod rebase;
 mod sequence;
 
 pub use chunk::{Chunk, SplatSetLayout};
 pub use mesh_chunk::MeshChunk;
+pub use packed::{LARGEST_TURN_RAD, as_packed};
 pub use rebase::{Rebase, ViewFromLocal};
 
 use std::ops::Range;
@@ -21,7 +23,7 @@ use sequence::Sequence;
 
 use crate::{
     error::Result,
-    scene::{DefectCounts, Light, Opacity, Scene, Storage},
+    scene::{DefectCounts, Light, Opacity, Scene, SplatFormat, Storage},
     vk::{Device, Limits, Staging},
 };
 
@@ -110,6 +112,10 @@ pub fn prepare(
                 progress(done, total);
                 continue;
             }
+            let survey = match scene.storage.format {
+                SplatFormat::Packed => survey.packed().unwrap_or(survey),
+                SplatFormat::Exact => survey,
+            };
             if transparent {
                 transparent_splats += survey.count;
                 transparent_radii += survey.sum_of_radii;
@@ -119,11 +125,10 @@ pub fn prepare(
             let mut first = 0;
             for batch in pieces(range.clone(), BATCH_SPLATS) {
                 done += batch.len() as u64;
-                let packed = pack::pack(splats, sequence.at(batch), survey.rebase);
-                let count = packed.count(survey.ellipses);
-                if count > 0 {
+                let packed = pack::pack(splats, sequence.at(batch), &survey);
+                if packed.count > 0 {
                     submit(chunk.upload(device, first, &packed)?)?;
-                    first += count;
+                    first += packed.count;
                 }
                 progress(done, total);
             }

@@ -1,11 +1,12 @@
 //! The layout of splats in GPU buffers.
 //!
 //! Disks, 32 bytes: `position radius`, `normal 0`. Ellipses, 48 bytes: `position major-radius`, `s 0`, `t 0`. Local
-//! space, f32. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6).
+//! space, f32. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
+//! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
 use glam::{DVec3, Vec3};
 
-use super::rebase::Rebase;
+use super::{packed, rebase::Rebase};
 use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
 
 /// What is known of some splats before any of them is packed: buffers get their exact size.
@@ -18,6 +19,8 @@ pub struct Survey {
     pub ellipses: bool,
     /// One color for all.
     pub uniform_color: bool,
+    /// Disks in 16 bytes.
+    pub packed: bool,
     /// The box of the centers, local space.
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
@@ -28,21 +31,50 @@ pub struct Survey {
     pub defects: DefectCounts,
 }
 
+impl Survey {
+    /// Bytes of a splat's shape.
+    pub fn shape_bytes(&self) -> usize {
+        if self.packed { packed::DISK_BYTES } else { shape_bytes(self.ellipses) }
+    }
+
+    /// Bytes of a splat's color.
+    pub fn color_bytes(&self) -> usize {
+        if self.colors_are_packed() { packed::COLOR_BYTES } else { COLOR_BYTES }
+    }
+
+    /// The same splats in 16 bytes each; `None` where they stay exact: ellipses, and what has something far off
+    /// ([`packed::rebase`]).
+    pub fn packed(&self) -> Option<Self> {
+        let [lo, hi] = self.bounds;
+        let largest = lo.abs().max(hi.abs()).max_element().max(self.largest_radius);
+        let rebase = packed::rebase(self.rebase, largest).filter(|_| !self.ellipses && self.count > 0)?;
+        let scale = rebase.scale / self.rebase.scale; // a power of two, so that lengths are exact
+        // A coordinate moves by a step at most.
+        let step = DVec3::splat(packed::STEP);
+        Some(Self {
+            rebase,
+            packed: true,
+            bounds: [lo * scale - step, hi * scale + step],
+            largest_radius: packed::widened(self.largest_radius * scale),
+            ..*self
+        })
+    }
+
+    /// Where one color is for all, nothing is gained by less of it.
+    fn colors_are_packed(&self) -> bool {
+        self.packed && !self.uniform_color
+    }
+}
+
 /// Splats as bytes for the GPU.
 #[derive(Default)]
 pub struct Packed {
-    /// See the module.
-    pub shapes: Vec<[f32; 4]>,
-    /// See the module.
-    pub colors: Vec<[u16; 4]>,
-}
-
-impl Packed {
-    /// How many splats these are.
-    #[expect(clippy::cast_possible_truncation, reason = "a chunk has at most 2²² splats")]
-    pub fn count(&self, ellipses: bool) -> u32 {
-        (self.shapes.len() * 16 / shape_bytes(ellipses)) as u32
-    }
+    /// How many they are.
+    pub count: u32,
+    /// See the module: words, or the bits of f32.
+    pub shapes: Vec<[u32; 4]>,
+    /// See the module: a word each, or two.
+    pub colors: Vec<u32>,
 }
 
 /// The length to which shorter tangent vectors are brought, local space: 2⁻⁹⁰. Devices may flush denormal numbers to
@@ -64,6 +96,7 @@ pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebas
         count: 0,
         ellipses: matches!(splats.shapes, Shapes::Ellipses { .. }),
         uniform_color: matches!(splats.colors, Colors::Uniform(_)),
+        packed: false,
         bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         largest_radius: 0.0,
         sum_of_radii: 0.0,
@@ -95,34 +128,45 @@ fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defe
     }
 }
 
-/// Packs some splats in their order, without those that have a defect. Where one color is for all, it is packed once.
-pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, rebase: Rebase) -> Packed {
-    let ellipses = matches!(splats.shapes, Shapes::Ellipses { .. });
-    let uniform_color = matches!(splats.colors, Colors::Uniform(_));
+/// Packs some of the splats of a survey in their order, without those that have a defect. Where one color is for all, it is
+/// packed once.
+pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey: &Survey) -> Packed {
+    let (rebase, uniform_color) = (survey.rebase, survey.uniform_color);
+    let room = which.len();
     let mut packed = Packed {
-        shapes: Vec::with_capacity(which.len() * shape_bytes(ellipses) / 16),
-        colors: Vec::with_capacity(if uniform_color { 1 } else { which.len() }),
+        count: 0,
+        shapes: Vec::with_capacity(room * survey.shape_bytes() / 16),
+        colors: Vec::with_capacity(if uniform_color { 1 } else { room } * survey.color_bytes() / 4),
     };
+    let bits = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array().map(f32::to_bits);
     for i in which {
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
-        packed.shapes.push(position.as_vec3().extend(radius as f32).into());
         match &splats.shapes {
-            // In f64: a normal may have any length that f32 has.
             Shapes::Disks { normals, .. } => {
-                packed.shapes.push(normals[i].as_dvec3().normalize().as_vec3().extend(0.0).into());
+                // In f64: a normal may have any length that f32 has.
+                let normal = normals[i].as_dvec3().normalize();
+                match survey.packed {
+                    true => packed.shapes.push(packed::disk(position, normal, radius)),
+                    false => packed.shapes.extend([bits(position, radius), bits(normal, 0.0)]),
+                }
             }
             Shapes::Ellipses { s, t } => {
-                let local = |v: Vec3| -> [f32; 4] {
+                let local = |v: Vec3| {
                     let v = v.as_dvec3() * rebase.scale;
                     let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
-                    v.as_vec3().extend(0.0).into()
+                    bits(v, 0.0)
                 };
-                packed.shapes.extend([local(s[i]), local(t[i])]);
+                packed.shapes.extend([bits(position, radius), local(s[i]), local(t[i])]);
             }
         }
         if !uniform_color || packed.colors.is_empty() {
-            packed.colors.push(packed_color(splats.color(i)));
+            let color = splats.color(i);
+            match survey.colors_are_packed() {
+                true => packed.colors.push(packed::color(color)),
+                false => packed.colors.extend(bytemuck::cast::<_, [u32; 2]>(packed_color(color))),
+            }
         }
+        packed.count += 1;
     }
     packed
 }
@@ -136,6 +180,10 @@ pub fn packed_color(color: [f32; 4]) -> [u16; 4] {
 mod tests {
     use super::*;
 
+    fn vector(words: [u32; 4]) -> Vec3 {
+        Vec3::from_slice(&words.map(f32::from_bits)[..3])
+    }
+
     #[test]
     fn tangents_that_a_device_would_flush_to_zero_keep_their_direction() {
         let splats = Splats {
@@ -146,11 +194,12 @@ mod tests {
             },
             colors: Colors::Uniform([1.0; 4]),
         };
-        let packed = pack(&splats, 0..2, Rebase { origin: DVec3::ZERO, scale: 1e-3 });
+        let rebase = Rebase { origin: DVec3::ZERO, scale: 1e-3 };
+        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase));
         let unit = SHORTEST_TANGENT as f32;
         let expected = [[1e-3, 0.0, 0.0], [0.0, unit, 0.0], [0.6 * unit, 0.8 * unit, 0.0], [0.0, 0.0, unit]];
         for (i, expected) in [1, 2, 4, 5].into_iter().zip(expected) {
-            let got = Vec3::from_slice(&packed.shapes[i][..3]);
+            let got = vector(packed.shapes[i]);
             let expected = Vec3::from(expected);
             assert!((got - expected).length() <= 1e-6 * expected.length(), "{got}, expected {expected}");
         }
@@ -166,7 +215,7 @@ mod tests {
         let survey = survey(&splats, 0..10, rebase);
         assert_eq!((survey.count, survey.defects.of(Defect::Position)), (9, 1));
         assert!(survey.bounds.iter().all(|corner| corner.as_vec3().is_finite()));
-        assert_eq!(pack(&splats, 0..10, rebase).shapes.len(), 2 * 9);
+        assert_eq!(pack(&splats, 0..10, &survey).shapes.len(), 2 * 9);
     }
 
     #[test]
@@ -181,14 +230,14 @@ mod tests {
             colors: Colors::Uniform([0.0, 0.5, 1.0, 1.0]),
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
-        let packed = pack(&splats, 0..5, rebase);
         let survey = survey(&splats, 0..5, rebase);
+        let packed = pack(&splats, 0..5, &survey);
         assert_eq!((survey.count, survey.defects.total(), survey.largest_radius), (3, 2, 1.5));
-        assert_eq!(packed.shapes.len(), 2 * 3);
-        assert_eq!(packed.colors, [[0, 32768, 65535, 65535]]);
+        assert_eq!((packed.count, packed.shapes.len()), (3, 2 * 3));
+        assert_eq!(bytemuck::cast_slice::<_, u16>(&packed.colors), [0, 32768, 65535, 65535]);
         for (i, radius) in [0.5, 1.0, 1.5].into_iter().enumerate() {
-            assert_eq!(packed.shapes[2 * i], [0.0, 0.0, 0.0, radius]);
-            let normal = Vec3::from_slice(&packed.shapes[2 * i + 1][..3]);
+            assert_eq!(packed.shapes[2 * i].map(f32::from_bits), [0.0, 0.0, 0.0, radius]);
+            let normal = vector(packed.shapes[2 * i + 1]);
             assert!((normal.length() - 1.0).abs() < 1e-6, "{i}: {normal}");
         }
     }

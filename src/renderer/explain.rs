@@ -46,6 +46,8 @@ pub struct ExplainedChunk {
     pub transparent: bool,
     /// One color for all: no color buffer.
     pub uniform_color: bool,
+    /// Disks in 16 bytes.
+    pub packed: bool,
     /// Device memory.
     pub bytes: u64,
     /// What no splat's box exceeds, as proved from the chunk's bounds; infinite where one may reach the near plane.
@@ -112,6 +114,7 @@ impl Renderer {
             closed: draw.chunk.closed,
             transparent: draw.chunk.transparent,
             uniform_color: draw.chunk.uniform_color,
+            packed: draw.chunk.packed,
             bytes: draw.chunk.bytes(),
             largest_box_px: draw.largest_box_px,
             may_be_large: draw.may_be_large,

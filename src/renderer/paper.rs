@@ -20,7 +20,7 @@ use crate::{
 /// kernel and ε count; the filter is the paper's. `filtered`: visibility is filtered too, which theirs is not.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Option`] for ellipses, which the paper's filter does not know; whatever the driver answers.
+/// [`crate::error::ErrorKind::Option`] for ellipses, which the paper's filter does not know, and packed splats; whatever the driver answers.
 pub fn draw_as_published(
     headless: &Headless,
     scene: &PreparedScene,
@@ -34,6 +34,9 @@ pub fn draw_as_published(
             "as published",
             "the scene has elliptic splats, the paper's filter is for disks",
         ));
+    }
+    if scene.chunks.iter().any(|chunk| chunk.packed) {
+        return Err(Error::option("as published", "the paper's programs know no packed splats"));
     }
     let device = headless.device();
     let format = vk::Format::R32G32B32A32_SFLOAT;

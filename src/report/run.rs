@@ -69,6 +69,8 @@ pub struct SceneReport {
     pub triangles: u64,
     /// `--order`: that of the splats on the device.
     pub order: &'static str,
+    /// `--splat-format`.
+    pub splat_format: &'static str,
     /// Bytes of device memory in buffers of splats and triangles.
     pub splat_bytes: u64,
     /// Bytes of device memory that a frame's own images and buffers share.

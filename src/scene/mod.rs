@@ -30,7 +30,7 @@ pub use methods::{
 pub use opacity::Opacity;
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
-pub use storage::{Order, Storage};
+pub use storage::{Order, SplatFormat, Storage};
 pub use transform::is_invertible;
 
 /// One thing in a scene: splats and how they are to be treated.

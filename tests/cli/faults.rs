@@ -65,7 +65,9 @@ fn an_unknown_option_and_a_missing_one() {
         ["unexpected argument '--sise'", "similar argument exists: '--size'", "see surfel render --help"];
     refused(&folder, &["render", "--sise", "9x9"], 1, &words);
     // Options of the device have no meaning for the reference.
-    for option in ["--device", "--frames", "--timings", "--validate", "--explain", "--order"] {
+    for option in
+        ["--device", "--frames", "--timings", "--validate", "--explain", "--order", "--splat-format"]
+    {
         refused(&folder, &["reference", option, "1"], 1, &[&format!("unexpected argument '{option}'")]);
     }
     refused(&folder, &["paint"], 1, &["unrecognized subcommand 'paint'", "see surfel --help"]);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use surfel::scene::Order;
+use surfel::scene::{Order, SplatFormat};
 
 use crate::{
     bench::BenchArguments,
@@ -197,6 +197,12 @@ pub struct RenderArguments {
     #[arg(long, value_name = "ORDER", default_value = "morton", value_parser = choice(Order::NAMES))]
     #[arg(help_heading = "Device and measurement")]
     pub order: Order,
+
+    /// In how many bytes splats lie on the device: disks in 32 and colors in 8, or in 16 and 4, which turns normals by 0.0037
+    /// degrees at most and rounds colors to 8 bits; ellipses stay exact, and so does what has stray points
+    #[arg(long, value_name = "FORMAT", default_value = "exact", value_parser = choice(SplatFormat::NAMES))]
+    #[arg(help_heading = "Device and measurement")]
+    pub splat_format: SplatFormat,
 
     /// Time that many frames, after two to warm up, and print a table [default: 10 with --timings, else none]
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]

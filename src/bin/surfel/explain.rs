@@ -52,7 +52,11 @@ fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
 }
 
 fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
-    let kind = if chunk.ellipses { "ellipses" } else { "disks" };
+    let kind = match (chunk.ellipses, chunk.packed) {
+        (true, _) => "ellipses",
+        (false, true) => "packed disks",
+        (false, false) => "disks",
+    };
     let color = if chunk.uniform_color { "one color for all" } else { "a color each" };
     let closed = if chunk.closed { "closed surface" } else { "open surface" };
     let size = match (chunk.may_be_large, chunk.largest_box_px) {

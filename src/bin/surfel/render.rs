@@ -62,7 +62,7 @@ fn draw(
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
     let Loaded { mut scene, inputs, .. } = loaded;
-    scene.storage = Storage { order: arguments.order };
+    scene.storage = Storage { order: arguments.order, format: arguments.splat_format };
     let prepared =
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
     bars.clear();

@@ -26,6 +26,7 @@ pub fn scene_report(inputs: Vec<InputReport>, prepared: &PreparedScene, transien
         splats: prepared.splat_count(),
         triangles: prepared.triangle_count(),
         order: prepared.storage.order.name(),
+        splat_format: prepared.storage.format.name(),
         splat_bytes: prepared.bytes(),
         transient_bytes,
     }
