@@ -1,14 +1,14 @@
-// How many records of each segment fall into each bin: a column of counts a segment, which is the invocation's own.
+// How many records of each segment fall into each bin: the invocation's own counts.
 #version 460
 #include "inc/tiles.glsl"
 
-layout(local_size_x = 8) in;
+layout(local_size_x = WALKERS) in;
 layout(push_constant, std430) uniform Push { TileConstants push; };
 layout(set = 0, binding = 5, std430) buffer Counts { uint counts[]; };
 
 void visit(uint record, uint bin)
 {
-    counts[gl_GlobalInvocationID.x * push.bin_count + bin] += 1;
+    counts[PLACE_OF_COUNT(gl_GlobalInvocationID.x, bin)] += 1;
 }
 
 #include "inc/tile_walk.glsl"

@@ -4,7 +4,7 @@
 #include "inc/setup.glsl"
 #include "inc/tiles.glsl"
 
-layout(constant_id = 15) const uint MOST_TILES = 64; // that a splat of a record touches
+layout(constant_id = 22) const uint MOST_TILES = 64; // that a splat of a record touches
 layout(constant_id = 16) const bool MAY_BE_LARGE = false; // some splats are left to the graphics pipeline; chunk: which bin
 layout(constant_id = 17) const uint CHUNK = 0;
 
@@ -60,7 +60,13 @@ void main()
         share = m.share;
     }
     vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
-    uvec2 color = colors[frame.uniform_color != 0 ? 0 : index];
+    uvec2 color;
+    if (PACKED && frame.uniform_color == 0) {
+        vec4 rgba = load_packed_color(index);
+        color = uvec2(packUnorm2x16(rgba.rg), packUnorm2x16(rgba.ba));
+    } else {
+        color = colors[frame.uniform_color != 0 ? 0 : index];
+    }
     records0[place] = vec4(map.x0_px, w0, m.inverse_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);

@@ -57,6 +57,8 @@ layout(set = 0, binding = 15) uniform texture2D depth_with_polygons;
 #endif
 
 layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one dispatch takes (inc/tiles.glsl)
+layout(constant_id = 23) const bool KEEPS_DEPTH = true; // someone reads it
+
 const float LEAST_WEIGHT = 5.9604645e-8; // 2^-24
 
 struct Range {
@@ -167,8 +169,10 @@ void main()
     }
 #if !defined(SUMMED)
     see(range, at_px, visible);
-    [[unroll]] for (int row = 0; row < TILE; row++) {
-        imageStore(visible_depth, pixel + ivec2(0, row), vec4(visible[row]));
+    if (KEEPS_DEPTH) {
+        [[unroll]] for (int row = 0; row < TILE; row++) {
+            imageStore(visible_depth, pixel + ivec2(0, row), vec4(visible[row]));
+        }
     }
 #endif
 #if !defined(VISIBLE)

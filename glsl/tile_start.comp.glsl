@@ -1,5 +1,5 @@
 // Where the list of each bin starts: the exclusive prefix sums of the totals, in place; the tiles that have splats, in
-// order; and the arguments of all that is dispatched and drawn by them. One workgroup, each invocation a range of bins.
+// order, and runs of them along rows; and the arguments of all that is dispatched and drawn by them. One workgroup, each invocation a range of bins.
 #version 460
 #include "inc/tiles.glsl"
 
@@ -12,15 +12,16 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 layout(set = 0, binding = 6, std430) buffer Starts { uint starts[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer SeenTiles { uint seen_tiles[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer TileArguments { uint arguments[]; };
+layout(set = 0, binding = 19, std430) writeonly buffer TileRuns { uvec2 tile_runs[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer OverfullTiles { uint overfull_tiles[]; };
 
-shared uvec3 sums[LANES];
+shared uvec4 sums[LANES];
 
-// Entries, tiles with some, tiles with too many.
-uvec3 counted(uint bin, uint entries)
+// Entries; tiles with some, with too many; runs that begin. `inside`: the tile before is of the same run.
+uvec4 counted(uint bin, uint entries, bool inside)
 {
-    bool tile = bin < push.tile_count;
-    return uvec3(entries, tile && entries > 0 ? 1 : 0, tile && entries > PART ? 1 : 0);
+    bool tile = bin < push.tile_count && entries > 0;
+    return uvec4(entries, tile ? 1 : 0, tile && entries > PART ? 1 : 0, tile && !inside ? 1 : 0);
 }
 
 void dispatch(uint first, uint groups)
@@ -44,19 +45,26 @@ void main()
     uint each = (push.bin_count + LANES - 1) / LANES;
     uint first = lane * each;
     uint end = min(first + each, push.bin_count);
-    uvec3 own = uvec3(0);
+    uvec4 own = uvec4(0);
+    bool inside = false; // each invocation's first run begins anew
     for (uint bin = first; bin < end; bin++) {
-        own += counted(bin, starts[bin]);
+        inside = inside && bin % push.tiles_x != 0;
+        uvec4 more = counted(bin, starts[bin], inside);
+        own += more;
+        inside = more.y > 0;
     }
     sums[lane] = own;
     barrier();
-    uvec3 before = uvec3(0);
+    uvec4 before = uvec4(0);
     for (uint i = 0; i < lane; i++) {
         before += sums[i];
     }
+    inside = false;
+    uint run_first = 0;
     for (uint bin = first; bin < end; bin++) {
+        inside = inside && bin % push.tiles_x != 0;
         uint entries = starts[bin];
-        uvec3 more = counted(bin, entries);
+        uvec4 more = counted(bin, entries, inside);
         starts[bin] = before.x;
         if (more.y > 0) {
             seen_tiles[before.y] = bin;
@@ -64,15 +72,20 @@ void main()
         if (more.z > 0) {
             overfull_tiles[before.z] = bin;
         }
-        if (bin >= push.tile_count) {
-            draw_quads(ARGUMENTS_CHUNKS + 4 * (bin - push.tile_count), entries, before.x);
-        }
         before += more;
+        inside = more.y > 0;
+        if (more.y > 0) {
+            run_first = more.w > 0 ? bin : run_first;
+            tile_runs[before.w - 1] = uvec2(run_first, bin + 1 - run_first);
+        }
+        if (bin >= push.tile_count) {
+            draw_quads(ARGUMENTS_CHUNKS + 4 * (bin - push.tile_count), entries, before.x - entries);
+        }
     }
     if (lane == LANES - 1) {
         starts[push.bin_count] = before.x;
         dispatch(ARGUMENTS_SEEN, before.y);
         dispatch(ARGUMENTS_OVERFULL, before.z);
-        draw_quads(ARGUMENTS_QUADS, before.y, 0);
+        draw_quads(ARGUMENTS_QUADS, before.w, 0);
     }
 }

@@ -2,7 +2,7 @@
 #version 460
 #include "inc/tiles.glsl"
 
-layout(local_size_x = 8) in;
+layout(local_size_x = WALKERS) in;
 layout(push_constant, std430) uniform Push { TileConstants push; };
 layout(set = 0, binding = 5, std430) buffer Counts { uint counts[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer Starts { uint starts[]; };
@@ -14,8 +14,8 @@ void main()
         return;
     }
     uint before = 0;
-    for (uint first = 0; first < push.record_count; first += push.segment_length) {
-        uint place = first / push.segment_length * push.bin_count + bin;
+    for (uint segment = 0; segment < push.segments; segment++) {
+        uint place = PLACE_OF_COUNT(segment, bin);
         uint own = counts[place];
         counts[place] = before;
         before += own;

@@ -5,20 +5,25 @@ layout(set = 0, binding = 4, std430) readonly buffer Spans { uint spans[]; };
 
 void walk()
 {
-    uint segment_end = min((gl_GlobalInvocationID.x + 1) * push.segment_length, push.record_count);
-    uint next = gl_GlobalInvocationID.x * push.segment_length + push.round_first;
-    uint end = min(next + push.round_length, segment_end);
-    uint left = 0;      // tiles of the record that are not visited yet
+    uint segment = gl_GlobalInvocationID.x;
+    if (segment >= push.segments) {
+        return;
+    }
+    uint next = push.round_first;
+    uint end = min(next + push.round_length, push.segment_length);
+    uint record = 0;
+    uint left = 0; // tiles of the record that are not visited yet
     uint width = 1;
     uint in_row = 0;
     uint tile = 0;
     while (next < end || left > 0) {
         if (left == 0) {
-            uint span = spans[next];
+            record = (next / BLOCK * push.segments + segment) * BLOCK + next % BLOCK;
             next++;
+            uint span = record < push.record_count ? spans[record] : SPAN_NONE;
             if (span >= SPAN_CHUNK) {
                 if (span != SPAN_NONE) {
-                    visit(next - 1, push.tile_count + (span & SPAN_LOW));
+                    visit(record, push.tile_count + (span & SPAN_LOW));
                 }
             } else {
                 width = (span >> 26 & 7) + 1;
@@ -28,7 +33,7 @@ void walk()
             }
         }
         if (left > 0) {
-            visit(next - 1, tile);
+            visit(record, tile);
             left--;
             in_row--;
             tile++;

@@ -2,17 +2,19 @@
 // src/passes/constants.rs; the build compares the offsets.
 //
 // A tile is TILE x TILE pixels. Each splat is set up once, to a record (tile_batch.glsl) and a *span*, the tiles that its box
-// touches. Records are cut into segments; one invocation walks over one segment, in order (tile_walk.glsl), first to count
-// what falls into each bin, then to list it. So lists are in input order without atomics, and the same in every run.
+// touches. Records are dealt out to segments, BLOCK at a time, so that all segments have as much to do wherever in space the
+// records are; one invocation walks over one segment, in order (tile_walk.glsl), first to count what falls into each bin, then
+// to list it. So lists need no atomics and are the same in every run: by segment, and in each in the order of the records.
 //
 // Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular).
 
 #define TILE 8
+#define BLOCK 32
 
 // Words of TileArguments; src/passes/tiles/mod.rs names the same.
 #define ARGUMENTS_SEEN 0      // VkDispatchIndirectCommand: tiles with splats, but the overfull
 #define ARGUMENTS_OVERFULL 4  // VkDispatchIndirectCommand: tiles with more splats than one dispatch takes
-#define ARGUMENTS_QUADS 8     // VkDrawIndirectCommand: a quad for each tile with splats
+#define ARGUMENTS_QUADS 8     // VkDrawIndirectCommand: a quad for each run of tiles with splats
 #define ARGUMENTS_CHUNKS 12   // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline
 
 struct TileConstants {
@@ -21,7 +23,8 @@ struct TileConstants {
     uint tile_count;
     uint bin_count;      // tiles, then chunks
     uint record_count;
-    uint segment_length; // records
+    uint segments;
+    uint segment_length; // records, a multiple of BLOCK
     uint round_first;    // where in its segment a walk begins
     uint round_length;   // records of one walk
     uint part;           // of an overfull tile; of layers
@@ -33,6 +36,11 @@ struct TileConstants {
 };
 
 // Entries of a tile that one dispatch takes are PART: llvmpipe ends a shader's loops after 65535 iterations, silently.
+
+// Counts of the segments of one workgroup lie beside each other: they walk over the same region at a time, and bins of theirs
+// in columns apart would fall on the same lines of a cache.
+#define WALKERS 8
+#define PLACE_OF_COUNT(segment, bin) (((segment) / WALKERS * push.bin_count + (bin)) * WALKERS + (segment) % WALKERS)
 
 // A span: tile of the first corner, x and y in 13 bits each, then how many tiles more, 3 bits each. Spans that would
 // reach beyond 2^13 tiles mean other things: from SPAN_CHUNK on, drawn by the graphics pipeline, of the chunk in the last

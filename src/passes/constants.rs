@@ -101,6 +101,8 @@ pub struct TileConstants {
     pub bin_count: u32,
     /// Splats of all chunks.
     pub record_count: u32,
+    /// Segments of records.
+    pub segments: u32,
     /// Records of a segment.
     pub segment_length: u32,
     /// Where in its segment a walk begins.

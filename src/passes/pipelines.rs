@@ -139,8 +139,9 @@ impl Shaders {
         let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
         let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
         let mut in_tiles = vec![words; 11];
-        in_tiles[tiles::SEEN as usize].stages = vertex | compute;
         in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
+        in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
+        debug_assert_eq!(in_tiles.len() - 1, tiles::RUNS as usize);
         let tile_set = SetLayout::new(device, "tiles", &in_tiles)?;
         let record_layout = PipelineLayout::new(
             device,

@@ -1,11 +1,11 @@
-//! Lists of splats by tile, in input order: counted, placed by prefix sums, filled; no atomics, so that they are the same
+//! Lists of splats by tile, in a fixed order: counted, placed by prefix sums, filled; no atomics, so that they are the same
 //! in every run.
 
 use ash::vk;
 
 use super::{
     super::{Inputs, constants::TileConstants, variant::Constants},
-    ARGUMENTS, COUNTS, ENTRIES, OVERFULL, SEEN, SPANS, STARTS, TilePass, TilePlan, Tiles,
+    ARGUMENTS, COUNTS, ENTRIES, OVERFULL, RUNS, SEEN, SPANS, STARTS, TilePass, TilePlan, Tiles,
     after_dispatches_before,
     plan::WALKERS,
     record::record,
@@ -66,6 +66,7 @@ pub(in super::super) fn list<'a>(
     let written = vec![
         starts,
         (SEEN, tiles.seen.id()),
+        (RUNS, tiles.runs.id()),
         (ARGUMENTS, tiles.arguments.id()),
         (OVERFULL, tiles.overfull.id()),
     ];
@@ -74,6 +75,7 @@ pub(in super::super) fn list<'a>(
         .pass(&format!("start {kind}tiles"))
         .write(&mut tiles.starts, Access::StorageReadWriteCompute, Start::Load)
         .write(&mut tiles.seen, Access::StorageWriteCompute, Start::Discard)
+        .write(&mut tiles.runs, Access::StorageWriteCompute, Start::Discard)
         .write(&mut tiles.arguments, Access::StorageWriteCompute, Start::Discard)
         .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| start.dispatch(context, 1)));
@@ -92,8 +94,7 @@ pub(in super::super) fn list<'a>(
 
 /// Records the dispatches of a walk: each takes no more records of a segment than a shader's loops have iterations for.
 fn walk(context: &PassContext<'_>, pass: &TilePass<'_>) -> Result<()> {
-    let TileConstants { record_count, segment_length, round_length, .. } = pass.constants;
-    let walkers = record_count.div_ceil(segment_length);
+    let TileConstants { segments, segment_length, round_length, .. } = pass.constants;
     pass.bind(context)?;
     for round_first in (0..segment_length).step_by(round_length as usize) {
         if round_first > 0 {
@@ -101,7 +102,7 @@ fn walk(context: &PassContext<'_>, pass: &TilePass<'_>) -> Result<()> {
         }
         pass.push(context, &TileConstants { round_first, ..pass.constants });
         // SAFETY: all is bound that the pipeline needs.
-        unsafe { context.device().cmd_dispatch(context.commands(), walkers.div_ceil(WALKERS), 1, 1) };
+        unsafe { context.device().cmd_dispatch(context.commands(), segments.div_ceil(WALKERS), 1, 1) };
     }
     Ok(())
 }

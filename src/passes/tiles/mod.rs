@@ -51,7 +51,7 @@ const SPANS: u32 = 4;
 const COUNTS: u32 = 5;
 const STARTS: u32 = 6;
 const ENTRIES: u32 = 7;
-pub(super) const SEEN: u32 = 8;
+const SEEN: u32 = 8;
 const ARGUMENTS: u32 = 9;
 const OVERFULL: u32 = 10;
 const COLOR_SUMS: u32 = 11;
@@ -62,6 +62,7 @@ const POLYGON_DEPTH: u32 = 15;
 const LIGHTS: u32 = 16;
 const PEELED_WEIGHT: u32 = 17;
 const PEELED_STATE: u32 = 18;
+pub(super) const RUNS: u32 = 19;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -70,7 +71,7 @@ const QUAD_ARGUMENTS: u64 = 32;
 const CHUNK_ARGUMENTS: u64 = 48;
 
 /// Storage buffers in the layout of the pass that makes records.
-pub const STORAGE_BUFFERS: u32 = 15;
+pub const STORAGE_BUFFERS: u32 = 16;
 
 /// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
 const WHOLE: u32 = u32::MAX;
@@ -90,6 +91,8 @@ pub(super) struct Tiles<'a> {
     entries: Handle<Buffer>,
     /// The tiles that have splats.
     seen: Handle<Buffer>,
+    /// Runs of such tiles along rows: the first, and how many.
+    runs: Handle<Buffer>,
     /// Of dispatches and draws.
     arguments: Handle<Buffer>,
     /// The tiles with more splats than one dispatch takes.
@@ -113,6 +116,7 @@ impl<'a> Tiles<'a> {
             starts: buffer("starts", (bins + 1) * 4),
             entries: buffer("entries", plan.entry_room * 4),
             seen: buffer("seen", tiles * 4),
+            runs: buffer("runs", tiles * 8),
             arguments: buffer("arguments", CHUNK_ARGUMENTS + 16 * u64::from(plan.chunk_count)),
             overfull: buffer("overfull", tiles * 4),
         }
@@ -153,6 +157,7 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         tile_count: plan.tile_count,
         bin_count: plan.bin_count(),
         record_count: plan.record_count,
+        segments: plan.segments,
         segment_length: plan.segment_length,
         round_first: 0,
         round_length: plan.round_length,

@@ -15,6 +15,9 @@ const MOST_ITERATIONS: u32 = 65_000;
 /// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
 const SEGMENTS: u32 = 32;
 
+/// Records that are dealt out to a segment at a time, as in `glsl/inc/tiles.glsl`.
+const BLOCK: u32 = 32;
+
 /// Invocations of a workgroup that walks over segments.
 pub(in super::super) const WALKERS: u32 = 8;
 
@@ -97,7 +100,7 @@ impl TilePlan {
         let fits = bound <= f64::from(MOST_TILES_A_SIDE) && bound * bound <= f64::from(room_a_splat);
         let most_tiles = if fits { (bound * bound) as u32 } else { room_a_splat };
         let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
-        let segment_length = record_count.div_ceil(segments);
+        let segment_length = record_count.div_ceil(BLOCK).div_ceil(segments) * BLOCK;
         // 8 of them a step, where invocations hand them to each other.
         let walk_length = if limits.shuffles { 8 } else { 1 } * MOST_ITERATIONS / 2;
         Some(Self {
@@ -187,6 +190,7 @@ mod tests {
                     assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
                     assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
                     assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
+                    assert_eq!(plan.segment_length % BLOCK, 0);
                     assert!(plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= count, "{plan:?}");
                     let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
                     assert!(counts <= 1 << 27, "{plan:?}");

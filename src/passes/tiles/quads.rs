@@ -1,4 +1,4 @@
-//! Draws of the graphics pipeline over the tiles that have splats.
+//! Draws of the graphics pipeline over the tiles that have splats: a quad for each run of them along a row.
 
 use ash::vk;
 
@@ -8,7 +8,7 @@ use super::{
         pipelines::{GraphicsKey, Layout},
         variant::Constants,
     },
-    QUAD_ARGUMENTS, SEEN, Tiles,
+    QUAD_ARGUMENTS, RUNS, Tiles,
 };
 use crate::{
     error::Result,
@@ -20,21 +20,21 @@ use crate::{
 /// Which tiles have splats, for the passes that draw over them.
 #[derive(Clone, Copy)]
 pub(in super::super) struct SeenTiles {
-    seen: ResourceId,
+    runs: ResourceId,
     arguments: ResourceId,
 }
 
 impl SeenTiles {
     /// Those of a frame's lists.
     pub fn of(tiles: &Tiles<'_>) -> Self {
-        Self { seen: tiles.seen.id(), arguments: tiles.arguments.id() }
+        Self { runs: tiles.runs.id(), arguments: tiles.arguments.id() }
     }
 }
 
 impl Tiles<'_> {
     /// Declares that a pass draws over the tiles that have splats.
     pub fn read_seen<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        pass.read(&self.seen, Access::StorageReadVertex).read(&self.arguments, Access::IndirectRead)
+        pass.read(&self.runs, Access::StorageReadVertex).read(&self.arguments, Access::IndirectRead)
     }
 }
 
@@ -53,7 +53,7 @@ pub(in super::super) fn draw_quads_of_tiles(
     set: vk::DescriptorSet,
     constants: &[u8],
 ) -> Result<()> {
-    let list = [(SEEN, Descriptor::Buffer(context.buffer(seen.seen)?))];
+    let list = [(RUNS, Descriptor::Buffer(context.buffer(seen.runs)?))];
     let sets = [set, inputs.descriptors.set(&inputs.shaders.tile_set, &list)?];
     let arguments = context.buffer(seen.arguments)?;
     let layout = &inputs.shaders.tile_quads_layout;

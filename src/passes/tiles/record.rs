@@ -24,7 +24,7 @@ const GROUP: u32 = 64;
 /// What the pipeline is, for one chunk.
 pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32) -> ComputeKey {
     let mut constants = variant.clone();
-    constants.push((15, plan.most_tiles));
+    constants.push((22, plan.most_tiles));
     if plan.may_be_large {
         constants.extend([(16, 1), (17, chunk)]);
     }

@@ -24,6 +24,9 @@ use crate::{
 /// The depth that tiles find, for other compute passes and for fragments.
 pub(in super::super) const VISIBLE_FORMAT: ash::vk::Format = ash::vk::Format::R32_SFLOAT;
 
+/// The constant of whether anyone reads the depth that tiles find.
+const KEEPS_DEPTH: u32 = 23;
+
 /// What tiles leave. Outside of tiles with splats, the images hold nothing unless they were cleared.
 pub(in super::super) struct TileImages {
     pub sums: Sums,
@@ -105,8 +108,11 @@ pub(in super::super) fn fused<'a>(
     (with_depth, cleared): (bool, bool),
 ) -> Result<()> {
     let step = Step::Fused { upon: before.is_some(), with_depth };
-    let mut fused =
-        TilePass::new(inputs, tiles.plan, shader(inputs.settings, tiles.plan, step)?, tiles.lists())?;
+    let mut shader_of_step = shader(inputs.settings, tiles.plan, step)?;
+    if !cleared && !tiles.plan.may_be_overfull() {
+        shader_of_step.1.push((KEEPS_DEPTH, 0));
+    }
+    let mut fused = TilePass::new(inputs, tiles.plan, shader_of_step, tiles.lists())?;
     fused.storage_images = vec![
         (COLOR_SUMS, images.sums.color.id()),
         (NORMAL_SUMS, images.sums.normal.id()),
