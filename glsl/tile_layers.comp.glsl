@@ -197,17 +197,37 @@ void compose_rest(vec4 colors[TILE], float weights[TILE], inout Peeled peeled)
     }
 }
 
+// Whether anything may be behind what was peeled off the tile. All of its invocations load records for each other.
+bool is_left(Peeled peeled)
+{
+    bool left = false;
+    [[unroll]] for (int row = 0; row < TILE; row++) {
+        left = left || peeled.depth[row] > NOTHING_LEFT;
+    }
+#if defined(DIRECT)
+    return left;
+#else
+    return subgroupAny(left);
+#endif
+}
+
 void main()
 {
 #if defined(PARTS)
-    uint slot = gl_WorkGroupID.x;
+    uint slot = GROUP_NUMBER;
+    if (slot >= starts[STARTS_OVERFULL]) {
+        return;
+    }
     uint tile = overfull_tiles[slot];
     uint begin = starts[tile];
     uint finish = starts[tile + 1];
     uint first = min(begin + push.part * PART_LENGTH, finish);
     uint end = min(first + PART_LENGTH, finish);
 #else
-    uint tile = seen_tiles[gl_WorkGroupID.x];
+    if (GROUP_NUMBER >= starts[STARTS_SEEN]) {
+        return;
+    }
+    uint tile = seen_tiles[GROUP_NUMBER];
     uint first = starts[tile];
     uint end = starts[tile + 1];
     if (end - first > PART) {
@@ -262,6 +282,9 @@ void main()
             normals[row] = state[at + 3];
         }
     }
+    if (!is_left(peeled)) {
+        first = end; // the tile's last layer was found
+    }
     see(push.step == STEP_SEE ? first : end, end, at_px, peeled, visible);
     sum(push.step == STEP_SUM ? first : end, end, at_px, peeled, visible, colors, normals);
     if (push.step == STEP_SUM && push.ends != 0) {
@@ -288,7 +311,8 @@ void main()
         state[at + 3] = normals[row];
     }
 #else
-    bool some = true;
+    // Of several dispatches, those after the last layer have nothing to do.
+    bool some = is_left(peeled);
     for (uint layer = 0; layer < push.surfaces && some; layer++) {
         [[unroll]] for (int row = 0; row < TILE; row++) {
             colors[row] = vec4(0.0);

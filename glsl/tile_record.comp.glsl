@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, std430) writeonly buffer Records0 { vec4 records0[]; };
 layout(set = 1, binding = 1, std430) writeonly buffer Records1 { vec4 records1[]; };
 layout(set = 1, binding = 2, std430) writeonly buffer Records2 { vec4 records2[]; };
-layout(set = 1, binding = 3, std430) writeonly buffer Records3 { vec4 records3[]; };
+layout(set = 1, binding = 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
 layout(set = 1, binding = 4, std430) writeonly buffer Spans { uint spans[]; };
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
@@ -36,7 +36,7 @@ uint span_of(Mapping m)
 
 void main()
 {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
     if (index >= frame.splat_count) {
         return;
     }
@@ -70,5 +70,5 @@ void main()
     records0[place] = vec4(map.x0_px, w0, m.inverse_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
-    records3[place] = vec4(normal.yz, uintBitsToFloat(color));
+    records3[place] = uvec4(floatBitsToUint(normal.yz), color);
 }

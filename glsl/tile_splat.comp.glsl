@@ -131,7 +131,10 @@ void sum(Range range, vec2 at_px, float visible[TILE], float polygon[TILE], inou
 void main()
 {
 #if defined(FUSED)
-    uint tile = seen_tiles[gl_WorkGroupID.x];
+    if (GROUP_NUMBER >= starts[STARTS_SEEN]) {
+        return;
+    }
+    uint tile = seen_tiles[GROUP_NUMBER];
     uint first = starts[tile];
     uint end = starts[tile + 1];
     if (end - first > PART) {
@@ -139,7 +142,10 @@ void main()
     }
     const bool goes_on = false;
 #else
-    uint tile = push.part == WHOLE ? seen_tiles[gl_WorkGroupID.x] : overfull_tiles[gl_WorkGroupID.x];
+    if (GROUP_NUMBER >= starts[push.part == WHOLE ? STARTS_SEEN : STARTS_OVERFULL]) {
+        return;
+    }
+    uint tile = push.part == WHOLE ? seen_tiles[GROUP_NUMBER] : overfull_tiles[GROUP_NUMBER];
     uint begin = starts[tile];
     uint finish = starts[tile + 1];
     if (push.part == WHOLE && finish - begin > PART) {
@@ -194,6 +200,14 @@ void main()
     }
     sum(range, at_px, visible, polygon, colors, normals);
     [[unroll]] for (int row = 0; row < TILE; row++) {
+#if defined(HALF)
+        // Half floats end at 65504. Of sums only ratios count.
+        vec4 largest = max(abs(colors[row]), abs(normals[row]));
+        float most = max(max(largest.x, largest.y), max(largest.z, largest.w));
+        float factor = most > 60000.0 ? 60000.0 / most : 1.0;
+        colors[row] *= factor;
+        normals[row] *= factor;
+#endif
         imageStore(color_sums, pixel + ivec2(0, row), colors[row]);
         imageStore(normal_sums, pixel + ivec2(0, row), normals[row]);
     }

@@ -26,8 +26,9 @@ uvec4 counted(uint bin, uint entries, bool inside)
 
 void dispatch(uint first, uint groups)
 {
-    arguments[first] = groups;
-    arguments[first + 1] = 1;
+    uint rows = (groups + MOST_GROUPS_IN_ROW - 1) / MOST_GROUPS_IN_ROW;
+    arguments[first] = rows > 0 ? (groups + rows - 1) / rows : 0;
+    arguments[first + 1] = rows;
     arguments[first + 2] = 1;
 }
 
@@ -84,6 +85,8 @@ void main()
     }
     if (lane == LANES - 1) {
         starts[push.bin_count] = before.x;
+        starts[STARTS_SEEN] = before.y;
+        starts[STARTS_OVERFULL] = before.z;
         dispatch(ARGUMENTS_SEEN, before.y);
         dispatch(ARGUMENTS_OVERFULL, before.z);
         draw_quads(ARGUMENTS_QUADS, before.w, 0);

@@ -9,7 +9,7 @@ layout(set = 0, binding = 6, std430) writeonly buffer Starts { uint starts[]; };
 
 void main()
 {
-    uint bin = gl_GlobalInvocationID.x;
+    uint bin = GROUP_NUMBER * WALKERS + gl_LocalInvocationID.x;
     if (bin >= push.bin_count) {
         return;
     }

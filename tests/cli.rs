@@ -176,8 +176,9 @@ fn a_camera_file_says_the_same_as_the_options() {
 #[test]
 fn timings_hold_all_that_explains_a_measurement() {
     let folder = Folder::new();
-    let run =
-        surfel(&folder, &["render", SMALL[0], SMALL[1], "--frames", "3", "--timings", "t.json", "--explain"]);
+    let words =
+        ["render", SMALL[0], SMALL[1], "--rasterizer", "perspective", "--frames", "3", "--timings", "t.json"];
+    let run = surfel(&folder, &[&words[..], &["--explain"]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let json: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
     assert_eq!(json["surfel"], env!("CARGO_PKG_VERSION"));
@@ -296,6 +297,8 @@ fn passes_without_draws_are_no_reason_for_a_flag() {
         "0,0,0.2",
         "--target",
         "0,0,3",
+        "--rasterizer",
+        "perspective",
         "--timings",
         "t.json",
         "--frames",

@@ -3,6 +3,8 @@
 
 mod common;
 
+use glam::DVec3;
+
 use common::{
     assert_validation_is_silent,
     compare::{Errors, F32, compare},
@@ -61,6 +63,31 @@ fn scenes() -> Vec<(Hard, Picture)> {
     all.into_iter().map(|hard| (oracle(&hard), hard)).map(|(oracle, hard)| (hard, oracle)).collect()
 }
 
+/// Those that no scene by tiles has: of points, other rasterizers and filters.
+const NOT_BY_TILES: [Formula; 11] = [
+    Formula::PointCenter,
+    Formula::PointSize,
+    Formula::LowPass,
+    Formula::LowPassBox,
+    Formula::Contour,
+    Formula::RayDepth,
+    Formula::RayAxis,
+    Formula::ApproximateSize,
+    Formula::TriangleCorner,
+    Formula::KernelTexture,
+    Formula::NearestDepth,
+];
+
+/// The same scenes by tiles, where they can be drawn so.
+fn by_tiles(scenes: &[(Hard, Picture)]) -> Vec<(Hard, &Picture)> {
+    let own_map = |hard: &Hard| hard.settings.rasterizer != Rasterizer::Perspective;
+    let changed = scenes.iter().filter(|(hard, _)| !own_map(hard)).map(|(hard, oracle)| {
+        let settings = Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() };
+        (Hard { settings, ..hard.clone() }, oracle)
+    });
+    changed.filter(|(hard, _)| hard.settings.validate().is_ok()).collect()
+}
+
 /// Ray casting subtracts the center from a point of the plane: twice the error of an expansion about the center.
 fn limit(hard: &Hard) -> Errors {
     if hard.name.contains("raycast") { F32.times(2.0) } else { F32 }
@@ -102,6 +129,52 @@ fn every_formula_of_layers_that_is_wrong_by_one_percent_fails_the_comparison() {
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 
+/// The same where a tile's layers are drawn at once.
+#[test]
+fn every_formula_of_layers_by_tiles_that_is_wrong_by_one_percent_fails_the_comparison() {
+    let mut headless = headless();
+    // A layer with polygons is not drawn by tiles.
+    let mut stacked = transparent::stacked(Transition::Color);
+    stacked.scene.meshes.clear();
+    let mut behind = transparent::interpenetrating();
+    behind.scene.objects.push(scenes::sphere(1500, DVec3::new(0.0, -0.2, -0.3)));
+    let scenes = [stacked, behind, transparent::spheres()];
+    let scenes = scenes.map(|hard| {
+        let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+        let settings = Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() };
+        (Hard { settings, ..hard }, oracle)
+    });
+    let is_beyond = |errors: &LightErrors| errors.worst > 1.0 / 1024.0;
+    for (hard, oracle) in &scenes {
+        let frame = render(&mut headless, hard);
+        assert!(frame.plan.passes.iter().any(|pass| pass.name == "layers of tiles"), "{}", hard.name);
+        let errors = compare_light(&frame, oracle);
+        assert!(!is_beyond(&errors), "{} differs already: {}", hard.name, errors.row(hard.name));
+    }
+    for formula in [
+        Formula::Alpha,
+        Formula::Color,
+        Formula::Coverage,
+        Formula::EyeDirection,
+        Formula::Kernel,
+        Formula::Lengthened,
+        Formula::LitDiffuse,
+        Formula::LitSpecular,
+        Formula::NormalizedColor,
+        Formula::Peeled,
+        Formula::Stacked,
+    ] {
+        headless.renderer.shaders.perturbed = Some(formula);
+        let caught = scenes.iter().find_map(|(hard, oracle)| {
+            let errors = compare_light(&render(&mut headless, hard), oracle);
+            is_beyond(&errors).then(|| errors.row(hard.name))
+        });
+        println!("{:20} {}", format!("{formula:?}"), caught.as_deref().unwrap_or("SEEN BY NOTHING"));
+        assert!(caught.is_some(), "{formula:?}");
+    }
+    assert_validation_is_silent(&headless);
+}
+
 #[test]
 fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
     let mut headless = headless();
@@ -117,10 +190,18 @@ fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
     }
     // As this device draws them, and all as quads, which have formulas of their own in the same places.
     let own_px = headless.device().facts().limits.point_size_range[1];
+    let as_they_are = || scenes.iter().map(|(hard, oracle)| (hard.clone(), oracle)).collect::<Vec<_>>();
+    let ways = [
+        ("points", own_px, as_they_are()),
+        ("quads", 0.0, as_they_are()),
+        ("tiles", own_px, by_tiles(&scenes)),
+    ];
     let mut unseen = Vec::new();
-    for (way, cap_px) in [("points", own_px), ("quads", 0.0)] {
+    for (way, cap_px, scenes) in ways {
         for formula in Formula::ALL {
-            if way == "quads" && matches!(formula, Formula::PointCenter | Formula::PointSize) {
+            if way == "quads" && matches!(formula, Formula::PointCenter | Formula::PointSize)
+                || way == "tiles" && NOT_BY_TILES.contains(&formula)
+            {
                 continue;
             }
             headless.renderer.shaders.perturbed = Some(formula);

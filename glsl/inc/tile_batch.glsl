@@ -18,7 +18,7 @@
 layout(set = 0, binding = 0, std430) readonly buffer Records0 { vec4 records0[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Records1 { vec4 records1[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Records2 { vec4 records2[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Records3 { vec4 records3[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Records3 { uvec4 records3[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Entries { uint entries[]; };
 
 // What is needed of the invocation's own record to know whether it covers a pixel, and how deep.
@@ -63,13 +63,13 @@ struct Look {
 Look load_look(Batch batch)
 {
     vec4 r2 = records2[batch.record];
-    vec4 r3 = records3[batch.record];
-    vec2 red_green = unpackUnorm2x16(floatBitsToUint(r3.z));
-    vec2 blue_alpha = unpackUnorm2x16(floatBitsToUint(r3.w));
+    uvec4 r3 = records3[batch.record];
+    vec2 red_green = unpackUnorm2x16(r3.z);
+    vec2 blue_alpha = unpackUnorm2x16(r3.w);
     Look look;
     look.color = FORMULA(FORMULA_COLOR, vec3(red_green, blue_alpha.x));
     look.alpha = FORMULA(FORMULA_ALPHA, blue_alpha.y);
-    look.normal = vec3(r2.w, r3.xy);
+    look.normal = vec3(r2.w, uintBitsToFloat(r3.xy));
     look.share = r2.z;
     return look;
 }

@@ -9,10 +9,20 @@
 // Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular).
 
 #define TILE 8
+
+// Workgroups are numbered along rows, for a device need not take more than 65535 in one dimension. Rows are as short as their
+// number allows: on a CPU driver a workgroup behind the last one costs as much as any.
+#define MOST_GROUPS_IN_ROW 32768
+#define GROUP_NUMBER (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
+
 #define BLOCK 32
 
+// Words behind the starts of bins: how many entries there are in all, how many tiles have some, how many are overfull.
+#define STARTS_SEEN (push.bin_count + 1)
+#define STARTS_OVERFULL (push.bin_count + 2)
+
 // Words of TileArguments; src/passes/tiles/mod.rs names the same.
-#define ARGUMENTS_SEEN 0      // VkDispatchIndirectCommand: tiles with splats, but the overfull
+#define ARGUMENTS_SEEN 0      // VkDispatchIndirectCommand: tiles with splats; the overfull end at once
 #define ARGUMENTS_OVERFULL 4  // VkDispatchIndirectCommand: tiles with more splats than one dispatch takes
 #define ARGUMENTS_QUADS 8     // VkDrawIndirectCommand: a quad for each run of tiles with splats
 #define ARGUMENTS_CHUNKS 12   // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline

@@ -65,7 +65,9 @@ pub fn simple(op: Op, width: u32, operand_width: u32) -> Option<Vec<&'static str
         Op::All => vec!["MUL"; operand_width as usize - 1],
         Op::Any => vec!["MAX"; operand_width as usize - 1],
         Op::Select => vec!["CMP"],
-        Op::ImageSampleImplicitLod | Op::ImageSampleExplicitLod | Op::ImageFetch => vec!["TEX"],
+        Op::ImageSampleImplicitLod | Op::ImageSampleExplicitLod | Op::ImageFetch | Op::ImageRead => {
+            vec!["TEX"]
+        }
         Op::ImageSampleProjImplicitLod | Op::ImageSampleProjExplicitLod => vec!["TXP"],
         Op::ConvertSToF | Op::ConvertUToF | Op::Bitcast | Op::CopyObject | Op::UConvert => vec![],
         Op::CompositeConstruct | Op::CompositeExtract | Op::CompositeInsert | Op::VectorShuffle => vec![],
@@ -124,7 +126,7 @@ pub fn extended(
     })
 }
 
-/// Whether it works on bits, which ARB has not.
+/// Whether it works on bits or hands values from one invocation to another, which ARB has not.
 pub fn is_of_bits(op: Op) -> bool {
     matches!(
         op,
@@ -139,6 +141,8 @@ pub fn is_of_bits(op: Op) -> bool {
             | Op::BitFieldInsert
             | Op::BitFieldSExtract
             | Op::BitFieldUExtract
+            | Op::GroupNonUniformShuffle
+            | Op::GroupNonUniformAny
     )
 }
 

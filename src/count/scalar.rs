@@ -46,6 +46,7 @@ pub fn count(specialized: &Specialized<'_>, live: &Live<'_>) -> Result<u32, Stri
             | Op::CompositeInsert
             | Op::VectorShuffle
             | Op::ImageFetch
+            | Op::ImageRead
             | Op::ImageSampleImplicitLod
             | Op::ImageSampleExplicitLod
             | Op::ImageSampleProjImplicitLod

@@ -40,7 +40,7 @@ pub(super) fn splat_pass(settings: &Settings, summed: Summed) -> Result<SplatPas
     };
     Ok(SplatPass {
         shaders: splat_shaders(settings, &Words::accumulate(settings, summed))?,
-        color_formats: vec![sum_format(settings); 2],
+        color_formats: vec![sum_format(settings.accumulate); 2],
         depth: Some((depth, false)),
         constants: Vec::new(),
     })
@@ -68,7 +68,7 @@ pub(super) fn accumulate<'a>(
     kernel: Option<&Handle<Image>>,
     with_depth: bool,
 ) -> Result<Sums> {
-    let format = sum_format(inputs.settings);
+    let format = sum_format(inputs.settings.accumulate);
     let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
     let pipelines = splat_pass(inputs.settings, summed)?.pipelines(inputs)?;
     let large_ids = ids_of(large);

@@ -170,6 +170,10 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     }
     if traits.transparent {
         if by_tiles && !traits.polygons && !traits.may_be_large {
+            let mut open = splat_constants(settings, traits.ellipses, false);
+            open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
+            let (_, set_up) = tiles::list_recipes(&open, false).swap_remove(0);
+            all.push(compute("set up transparent splats", set_up));
             let (pass, key) = tiles::layers_recipe(settings, traits.lit)?;
             all.push(compute(pass, key));
         } else {
@@ -250,6 +254,8 @@ fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> 
         tiles::opaque_recipes(settings, tiles::TileTraits { may_be_large, polygons, export })?,
     ];
     all.extend(passes.into_iter().flatten().map(|(pass, key)| compute(pass, key)));
+    // The first pass sets up all splats, or leaves the large ones out.
+    all[0].draws = if may_be_large { "small splats" } else { "all splats" };
     if may_be_large {
         let summed = Summed::Opaque { with_depth: export, beside_polygons: polygons };
         for (pass, splats) in [

@@ -9,7 +9,7 @@ use crate::{
 
 /// Whether splats are drawn by tiles: why, or why not.
 ///
-/// On CPU drivers tiles take a third of the time of points or less, from 10 thousand splats to 5 million
+/// On CPU drivers tiles take half of the time of points or less, from 154 thousand splats to 5 million
 /// (`benches/README.md`). On GPUs that was not measured yet, so that they keep to points.
 ///
 /// # Errors

@@ -47,7 +47,7 @@ pub(super) fn keys(settings: &Settings, target_format: vk::Format) -> [GraphicsK
     [
         GraphicsKey { depth: Some(depth), ..key(&shaders::FLOOR_DEPTH_FRAG) },
         GraphicsKey {
-            color_formats: vec![sum_format(settings); 2],
+            color_formats: vec![sum_format(settings.accumulate); 2],
             blend: Blend::Add,
             depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
             ..key(&shaders::FLOOR_ADD_FRAG)
@@ -113,7 +113,7 @@ pub fn floor_frame<'a>(
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
-    let sums = sum_format(inputs.settings);
+    let sums = sum_format(inputs.settings.accumulate);
     let [depth_key, add_key, fill_key] = keys(inputs.settings, target_format);
     let mut depth = graph.create_image("floor depth", inputs.image(DEPTH_FORMAT));
     let mut color = graph.create_image("floor color sums", inputs.image(sums));

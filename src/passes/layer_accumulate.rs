@@ -26,7 +26,7 @@ const IN_LAYER: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER_OR_
 pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> Result<SplatPass> {
     Ok(SplatPass {
         shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Layer { peeled }))?,
-        color_formats: vec![sum_format(settings); 2],
+        color_formats: vec![sum_format(settings.accumulate); 2],
         depth: IN_LAYER,
         constants: Vec::new(),
     })
@@ -36,7 +36,7 @@ pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> Result<SplatPass>
 pub(super) fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
     MeshPass {
         fragment: if peeled { &shaders::POLYGONS_LAYER_PEELED_FRAG } else { &shaders::POLYGONS_LAYER_FRAG },
-        color_formats: vec![sum_format(settings); 2],
+        color_formats: vec![sum_format(settings.accumulate); 2],
         blend: Blend::Add,
         depth: IN_LAYER,
         constants: Vec::new(),
@@ -84,7 +84,7 @@ fn declare<'a>(
     kernel: Option<&Handle<Image>>,
     body: impl FnOnce(&crate::graph::execute::PassContext<'_>) -> Result<()> + 'a,
 ) -> Result<Sums> {
-    let desc = layer.inputs.image(sum_format(layer.inputs.settings));
+    let desc = layer.inputs.image(sum_format(layer.inputs.settings.accumulate));
     let mut sums = Sums {
         color: graph.create_image(&layer.name(color), desc),
         normal: graph.create_image(&layer.name(normal), desc),

@@ -54,7 +54,7 @@ pub(super) fn key(settings: &Settings, kind: LayerKind, lit: bool) -> GraphicsKe
     };
     let hybrid = kind == LayerKind::Hybrid;
     GraphicsKey {
-        color_formats: vec![sum_format(settings)],
+        color_formats: vec![sum_format(settings.accumulate)],
         blend: Blend::Under,
         ..GraphicsKey::fullscreen(fragment, Layout::Finalize, shown_constants(settings, hybrid))
     }
@@ -105,7 +105,7 @@ pub(super) fn layer_compose<'a>(
     let (mut target, start) = match composed {
         Some(composed) => (composed, Start::Load),
         None => {
-            let image = graph.create_image("layers", inputs.image(sum_format(settings)));
+            let image = graph.create_image("layers", inputs.image(sum_format(settings.accumulate)));
             (image, Start::Clear(ClearValue::Color([0.0; 4])))
         }
     };

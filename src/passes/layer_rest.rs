@@ -39,7 +39,7 @@ fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
 pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bool) -> Result<SplatPass> {
     Ok(SplatPass {
         shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Rest { peeled, lit }))?,
-        color_formats: vec![sum_format(settings), weight_format(settings)],
+        color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
         depth: depth_test(opaque),
         constants: shading_constants(settings.shading),
     })
@@ -55,7 +55,7 @@ pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bo
     };
     MeshPass {
         fragment,
-        color_formats: vec![sum_format(settings), weight_format(settings)],
+        color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
         blend: Blend::Add,
         depth: depth_test(opaque),
         constants: shading_constants(settings.shading),
@@ -71,7 +71,7 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let splats = splat_pass(settings, peeled, opaque, lit)?.pipelines(inputs)?;
     let meshes = mesh_pass(settings, peeled, opaque, lit).pipelines(inputs)?;
     let mut sums = Sums {
-        color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings))),
+        color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),
         normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));

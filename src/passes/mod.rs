@@ -59,7 +59,7 @@ use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Layers, Settings},
+    scene::{Accumulate, Camera, Layers, Light, Settings},
     vk::{DescriptorPool, Limits, Occlusion, PoolRoom},
 };
 
@@ -94,7 +94,8 @@ impl<'a> Parts<'a> {
         let (clear_meshes, meshes) = all.partition(|draw| draw.chunk.transparent);
         Self {
             opaque: Part::new(splats, meshes, settings, limits),
-            transparent: Part::new(clear_splats, clear_meshes, settings, limits).with_layers(settings),
+            transparent: Part::new(clear_splats, clear_meshes, settings, limits)
+                .with_layers(settings, &scene.lights),
             lights: lights::shader_lights(&scene.lights, camera),
         }
     }
@@ -121,9 +122,9 @@ impl<'a> Part<'a> {
     }
 
     /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
-    fn with_layers(mut self, settings: &Settings) -> Self {
+    fn with_layers(mut self, settings: &Settings, lights: &[Light]) -> Self {
         let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
-        self.tiles = all.map(|plan| plan.with_layers(settings.layers.most()));
+        self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
         if self.tiles.is_none() {
             self.splats.iter_mut().for_each(|draw| draw.constants.first_record = 0);
         }
@@ -179,8 +180,8 @@ impl<'a> Inputs<'a> {
 }
 
 /// The format of the sums.
-fn sum_format(settings: &Settings) -> vk::Format {
-    match settings.accumulate {
+fn sum_format(accumulate: Accumulate) -> vk::Format {
+    match accumulate {
         Accumulate::F16 => vk::Format::R16G16B16A16_SFLOAT,
         Accumulate::F32 => vk::Format::R32G32B32A32_SFLOAT,
     }
@@ -305,7 +306,7 @@ fn opaque_by_tiles<'a>(
 ) -> Result<Opaque<'a>> {
     let complete = complete || plan.may_be_large || !inputs.meshes.is_empty();
     let tiles = tiles::list(graph, inputs, "", plan)?;
-    let mut images = tiles::TileImages::create(graph, inputs, complete);
+    let mut images = tiles::TileImages::create(graph, inputs, plan, complete);
     let mut opaque = Opaque::default();
     let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, &tiles)).transpose()?;
     if inputs.meshes.is_empty() {

@@ -30,7 +30,7 @@ pub(super) fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
             ..GraphicsKey::new(visibility, Layout::Splat, points, vec![(0, u32::from(filtered))])
         },
         GraphicsKey {
-            color_formats: vec![sum_format(settings); 2],
+            color_formats: vec![sum_format(settings.accumulate); 2],
             blend: Blend::AddWeighted,
             depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
             ..GraphicsKey::new(accumulate, Layout::Splat, points, Vec::new())
@@ -60,7 +60,7 @@ pub fn paper_frame<'a>(
         .read(&kernel, Access::SampledFragment)
         .finish(body);
 
-    let format = sum_format(inputs.settings);
+    let format = sum_format(inputs.settings.accumulate);
     let mut sums = Sums {
         color: graph.create_image("color sums", inputs.image(format)),
         normal: graph.create_image("normal sums", inputs.image(format)),

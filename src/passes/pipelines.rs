@@ -10,7 +10,7 @@ use ash::vk;
 
 use super::{constants, splat_shaders::Stages, tiles, variant::Constants};
 use crate::{
-    error::Result,
+    error::{Error, Result},
     prepare::SplatSetLayout,
     shaders::{self, Shader},
     vk::{
@@ -43,14 +43,20 @@ pub struct Shaders {
     pub(super) list_layout: PipelineLayout,
     pub(super) finalize_layout: PipelineLayout,
     pub(super) export_layout: PipelineLayout,
-    /// Set 1 of the pass that makes records and of quads of tiles, set 0 of all else with tiles: see `passes/tiles/mod.rs`.
-    pub(super) tile_set: SetLayout,
-    pub(super) record_layout: PipelineLayout,
-    pub(super) tile_layout: PipelineLayout,
-    pub(super) tile_quads_layout: PipelineLayout,
+    /// Those of tiles; none on a device with too few storage buffers.
+    tiles: Option<TileLayouts>,
     /// The formula that is made wrong; for tests of the tests.
     #[cfg(feature = "test-formulas")]
     pub perturbed: Option<super::Formula>,
+}
+
+/// The layouts of drawing by tiles.
+pub(super) struct TileLayouts {
+    /// Set 1 of the pass that makes records and of quads of tiles, set 0 of all else with tiles: see `passes/tiles/mod.rs`.
+    pub set: SetLayout,
+    pub record: PipelineLayout,
+    pub tile: PipelineLayout,
+    pub quads: PipelineLayout,
 }
 
 /// One of the layouts that pipelines share.
@@ -134,36 +140,8 @@ impl Shaders {
             size_of::<constants::ExportConstants>() as u32,
             fragment,
         )?;
-        let of = |kind, stages| Binding { kind, stages };
-        let words = of(vk::DescriptorType::STORAGE_BUFFER, compute);
-        let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
-        let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
-        let mut in_tiles = vec![words; 11];
-        in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
-        in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
-        debug_assert_eq!(in_tiles.len() - 1, tiles::RUNS as usize);
-        let tile_set = SetLayout::new(device, "tiles", &in_tiles)?;
-        let record_layout = PipelineLayout::new(
-            device,
-            "records",
-            &[splat_set.set(), &tile_set],
-            size_of::<constants::FrameConstants>() as u32,
-            compute,
-        )?;
-        let tile_layout = PipelineLayout::new(
-            device,
-            "tiles",
-            &[&tile_set],
-            size_of::<constants::TileConstants>() as u32,
-            compute,
-        )?;
-        let tile_quads_layout = PipelineLayout::new(
-            device,
-            "quads of tiles",
-            &[&sums_set, &tile_set],
-            size_of::<constants::FinalizeConstants>() as u32,
-            vertex | fragment,
-        )?;
+        let has_tiles = device.facts().limits.storage_buffers_a_stage >= tiles::STORAGE_BUFFERS;
+        let tiles = has_tiles.then(|| TileLayouts::new(device, splat_set.set(), &sums_set)).transpose()?;
         Ok(Self {
             device: device.clone(),
             graphics: Mutex::default(),
@@ -178,10 +156,7 @@ impl Shaders {
             list_layout,
             finalize_layout,
             export_layout,
-            tile_set,
-            record_layout,
-            tile_layout,
-            tile_quads_layout,
+            tiles,
             #[cfg(feature = "test-formulas")]
             perturbed: None,
         })
@@ -205,16 +180,22 @@ impl Shaders {
         names
     }
 
-    pub(super) fn layout(&self, layout: Layout) -> &PipelineLayout {
-        match layout {
+    /// The layouts of tiles, on a device that has them.
+    pub(super) fn tiles(&self) -> Result<&TileLayouts> {
+        let reason = "compute: the device has too few storage buffers for a stage";
+        self.tiles.as_ref().ok_or_else(|| Error::option("--rasterizer", reason.to_owned()))
+    }
+
+    pub(super) fn layout(&self, layout: Layout) -> Result<&PipelineLayout> {
+        Ok(match layout {
             Layout::Splat => &self.splat_layout,
             Layout::List => &self.list_layout,
             Layout::Finalize => &self.finalize_layout,
             Layout::Export => &self.export_layout,
-            Layout::Record => &self.record_layout,
-            Layout::Tile => &self.tile_layout,
-            Layout::TileQuads => &self.tile_quads_layout,
-        }
+            Layout::Record => &self.tiles()?.record,
+            Layout::Tile => &self.tiles()?.tile,
+            Layout::TileQuads => &self.tiles()?.quads,
+        })
     }
 
     pub(super) fn graphics(&self, mut key: GraphicsKey) -> Result<Arc<GraphicsPipeline>> {
@@ -237,7 +218,7 @@ impl Shaders {
                 compare,
                 write,
             }),
-            layout: self.layout(key.layout),
+            layout: self.layout(key.layout)?,
         };
         let pipeline = Arc::new(GraphicsPipeline::new(&self.device, &self.cache, &desc)?);
         made.insert(key, Arc::clone(&pipeline));
@@ -253,7 +234,7 @@ impl Shaders {
         let desc = ComputePipelineDesc {
             name: key.shader.name,
             stage: key.shader.stage(&key.constants),
-            layout: self.layout(key.layout),
+            layout: self.layout(key.layout)?,
         };
         let pipeline = Arc::new(ComputePipeline::new(&self.device, &self.cache, &desc)?);
         made.insert(key, Arc::clone(&pipeline));
@@ -269,6 +250,44 @@ impl Shaders {
 
     #[cfg(not(feature = "test-formulas"))]
     fn perturb(&self, _constants: &mut Constants) {}
+}
+
+impl TileLayouts {
+    fn new(device: &Device, splat_set: &SetLayout, sums_set: &SetLayout) -> Result<Self> {
+        let (vertex, fragment, compute) =
+            (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
+        let of = |kind, stages| Binding { kind, stages };
+        let words = of(vk::DescriptorType::STORAGE_BUFFER, compute);
+        let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
+        let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
+        let mut in_tiles = vec![words; 11];
+        in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
+        in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
+        debug_assert_eq!(in_tiles.len() - 1, tiles::RUNS as usize);
+        let set = SetLayout::new(device, "tiles", &in_tiles)?;
+        let record = PipelineLayout::new(
+            device,
+            "records",
+            &[splat_set, &set],
+            size_of::<constants::FrameConstants>() as u32,
+            compute,
+        )?;
+        let tile = PipelineLayout::new(
+            device,
+            "tiles",
+            &[&set],
+            size_of::<constants::TileConstants>() as u32,
+            compute,
+        )?;
+        let quads = PipelineLayout::new(
+            device,
+            "quads of tiles",
+            &[sums_set, &set],
+            size_of::<constants::FinalizeConstants>() as u32,
+            vertex | fragment,
+        )?;
+        Ok(Self { set, record, tile, quads })
+    }
 }
 
 impl GraphicsKey {

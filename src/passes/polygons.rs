@@ -22,7 +22,7 @@ use crate::{
 pub(super) fn mesh_pass(settings: &Settings) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_OPAQUE_FRAG,
-        color_formats: vec![sum_format(settings); 2],
+        color_formats: vec![sum_format(settings.accumulate); 2],
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
         constants: Vec::new(),
@@ -38,7 +38,7 @@ pub(super) fn polygons<'a>(
 ) -> Result<(Sums, Handle<Image>)> {
     const NAME: &str = "depth with polygons";
     let pipelines = mesh_pass(inputs.settings).pipelines(inputs)?;
-    let format = sum_format(inputs.settings);
+    let format = sum_format(inputs.settings.accumulate);
     let mut seen = Sums {
         color: graph.create_image("polygon colors", inputs.image(format)),
         normal: graph.create_image("polygon normals", inputs.image(format)),

@@ -68,6 +68,7 @@ impl Renderer {
         self.limits.shuffles = own.shuffles && to.shuffles;
         self.limits.first_instance = own.first_instance && to.first_instance;
         self.limits.is_cpu = own.is_cpu && to.is_cpu;
+        self.limits.storage_buffers_a_stage = own.storage_buffers_a_stage.min(to.storage_buffers_a_stage);
     }
 
     /// Uploads a scene; see [`prepare`].

@@ -228,7 +228,7 @@ mod tests {
                             | Rasterizer::RaycastApproximate
                             | Rasterizer::Triangle
                     ),
-                    Filter::Max => *rasterizer == Rasterizer::Triangle,
+                    Filter::Max => matches!(rasterizer, Rasterizer::Triangle | Rasterizer::Compute),
                     _ => false,
                 };
                 assert_eq!(error.is_some(), refused, "{filter:?} with {rasterizer:?}: {error:?}");

@@ -110,7 +110,7 @@ mod tests {
             cases.iter().filter(|case| case.group() == group && case.name.ends_with(&end)).count()
         };
         // Some pairs of a rasterizer and a filter are none.
-        assert_eq!(count(OF_EVERY_METHOD, "layers"), 35);
+        assert_eq!(count(OF_EVERY_METHOD, "layers"), 39);
         let either = Rasterizer::METHODS.len() + Filter::NAMES.len() - 1;
         assert_eq!(SLOW.map(|name| count(name, "layers")), [either; 2]);
         assert_eq!(["layers", "layers-16", "layers-auto"].map(|group| count(SLOWEST, group)), [1; 3]);

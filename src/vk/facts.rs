@@ -42,6 +42,7 @@ pub(super) unsafe fn facts(
     let modern = version >= vk::API_VERSION_1_2;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
+    let mut sizes = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
     let mut maintenance4 = vk::PhysicalDeviceMaintenance4Properties::default();
     let mut features12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut features13 = vk::PhysicalDeviceVulkan13Features::default();
@@ -53,7 +54,7 @@ pub(super) unsafe fn facts(
         let mut extended =
             vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut subgroup);
         if version >= vk::API_VERSION_1_3 {
-            extended = extended.push_next(&mut maintenance4);
+            extended = extended.push_next(&mut maintenance4).push_next(&mut sizes);
         }
         if tells_bus {
             extended = extended.push_next(&mut bus);
@@ -136,7 +137,7 @@ pub(super) unsafe fn facts(
             storage_buffers_a_stage: limits.max_per_stage_descriptor_storage_buffers,
             first_instance: core.draw_indirect_first_instance == vk::TRUE,
             is_cpu: properties.device_type == vk::PhysicalDeviceType::CPU,
-            shuffles: subgroup.subgroup_size >= 8
+            shuffles: sizes.min_subgroup_size >= 8
                 && subgroup.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
                 && subgroup
                     .supported_operations

@@ -71,7 +71,12 @@ fn an_unknown_option_and_a_missing_one() {
         refused(&folder, &["reference", option, "1"], 1, &[&format!("unexpected argument '{option}'")]);
     }
     refused(&folder, &["paint"], 1, &["unrecognized subcommand 'paint'", "see surfel --help"]);
-    refused(&folder, &["render", "--rasterizer", "voxels"], 1, &["'voxels'", "possible values: perspective"]);
+    refused(
+        &folder,
+        &["render", "--rasterizer", "voxels"],
+        1,
+        &["'voxels'", "possible values: auto, perspective"],
+    );
     refused(&folder, &["render", "--output"], 1, &["a value is required for '--output <FILE>'"]);
     assert_eq!(surfel(&folder, &[]).code, 1);
 }

@@ -230,7 +230,9 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
     if recipe.draws == "triangles" && !recipe.sets_splats_up() {
         names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
-    if matches!(recipe.pass, "accumulate" | "floor add") && settings.accumulate != Accumulate::default() {
+    let sums =
+        ["accumulate", "floor add", "see and sum tiles", "sum tiles", "sum large splats", "layers of tiles"];
+    if sums.contains(&recipe.pass) && settings.accumulate != Accumulate::default() {
         names.accumulate = settings.accumulate.name().to_owned();
     }
     if recipe.pass == "finalize" {

@@ -65,7 +65,7 @@ pub fn limit_draws<'a>(
         let stages = (&shaders::FLOOR_POINTS_VERT, fragment);
         GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, Vec::new())
     };
-    let sums = sum_format(inputs.settings);
+    let sums = sum_format(inputs.settings.accumulate);
     let color = vk::Format::R8G8B8A8_UNORM;
     let mut far = 0.0;
     let (key, colors) = match limit {

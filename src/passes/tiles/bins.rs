@@ -100,7 +100,7 @@ fn walk(context: &PassContext<'_>, pass: &TilePass<'_>) -> Result<()> {
         if round_first > 0 {
             after_dispatches_before(context);
         }
-        pass.push(context, &TileConstants { round_first, ..pass.constants });
+        pass.push(context, &TileConstants { round_first, ..pass.constants })?;
         // SAFETY: all is bound that the pipeline needs.
         unsafe { context.device().cmd_dispatch(context.commands(), segments.div_ceil(WALKERS), 1, 1) };
     }

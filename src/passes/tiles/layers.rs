@@ -120,7 +120,7 @@ pub(in super::super) fn layers<'a>(
     opaque: Option<&Handle<Image>>,
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Handle<Image>> {
-    let mut layers = graph.create_image("layers", inputs.image(sum_format(inputs.settings)));
+    let mut layers = graph.create_image("layers", inputs.image(sum_format(inputs.settings.accumulate)));
     super::clear(graph, "clear layers", &mut [&mut layers]);
     whole(graph, inputs, tiles, (opaque, lights), &mut layers)?;
     if tiles.plan.may_be_overfull() {
@@ -266,7 +266,7 @@ fn record(
         if number > 0 {
             after_dispatches_before(context);
         }
-        pass.push(context, constants);
+        pass.push(context, constants)?;
         // SAFETY: all is bound that the pipeline needs; the arguments are within the buffer and declared to be read.
         unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
     }
@@ -281,30 +281,36 @@ mod tests {
     #[test]
     fn the_shares_are_all_layers_and_no_dispatch_exceeds_the_iterations() {
         for records in [1, 4000, 54_000, 540_000] {
-            let limits = Limits { shuffles: true, ..Limits::for_tests() };
-            for (most, last_layer) in [
-                (1, LastLayer::Stack),
-                (1, LastLayer::Drop),
-                (4, LastLayer::Stack),
-                (16, LastLayer::Blend),
-                (64, LastLayer::Blend),
-                (256, LastLayer::Drop),
-            ] {
-                let plan = TilePlan::of_boxes(&[(records, 10.0)], [512, 512], &limits).unwrap();
-                let plan = plan.with_layers(most);
-                let settings = Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };
-                let shares = shares(&settings, &plan);
-                let all: u32 = shares.iter().map(|share| share.surfaces + u32::from(share.blends_rest)).sum();
-                assert_eq!(all, most);
-                let rests = shares.iter().filter(|share| share.blends_rest).count();
-                assert_eq!(rests, usize::from(last_layer != LastLayer::Drop));
-                assert!(shares.iter().rev().skip(1).all(|share| !share.blends_rest));
-                for share in &shares {
-                    let walks = 2 * share.surfaces + u32::from(share.blends_rest);
-                    let iterations = walks * plan.part_length.div_ceil(8) + share.surfaces;
-                    assert!(iterations < 65_535, "{records} {most}: {share:?}");
+            for lights in [0, 1, 16] {
+                let limits = Limits { shuffles: true, ..Limits::for_tests() };
+                for (most, last_layer) in [
+                    (1, LastLayer::Stack),
+                    (1, LastLayer::Drop),
+                    (4, LastLayer::Stack),
+                    (16, LastLayer::Blend),
+                    (64, LastLayer::Blend),
+                    (256, LastLayer::Drop),
+                ] {
+                    let plan = TilePlan::of_boxes(&[(records, 10.0)], [512, 512], &limits).unwrap();
+                    let plan = plan.with_layers(most, lights);
+                    let settings =
+                        Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };
+                    let shares = shares(&settings, &plan);
+                    let all: u32 =
+                        shares.iter().map(|share| share.surfaces + u32::from(share.blends_rest)).sum();
+                    assert_eq!(all, most);
+                    let rests = shares.iter().filter(|share| share.blends_rest).count();
+                    assert_eq!(rests, usize::from(last_layer != LastLayer::Drop));
+                    assert!(shares.iter().rev().skip(1).all(|share| !share.blends_rest));
+                    for share in &shares {
+                        // Two walks and a loop over the lights for each pixel of a column; the rest is lit splat by splat.
+                        let surface = 2 * plan.part_length.div_ceil(8) + 8 * lights + 1;
+                        let rest = (1 + lights) * plan.part_length.div_ceil(8);
+                        let iterations = share.surfaces * surface + u32::from(share.blends_rest) * rest;
+                        assert!(iterations < 65_535, "{records} {most} {lights}: {share:?}");
+                    }
+                    assert!((1 + lights) * plan.walk_length.div_ceil(8) + 8 * lights + 3 < 65_535);
                 }
-                assert!(plan.walk_length.div_ceil(8) + 3 < 65_535);
             }
         }
     }

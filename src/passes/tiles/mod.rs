@@ -113,7 +113,7 @@ impl<'a> Tiles<'a> {
             }),
             spans: buffer("spans", records * 4),
             counts: buffer("counts", u64::from(plan.segments) * bins * 4),
-            starts: buffer("starts", (bins + 1) * 4),
+            starts: buffer("starts", (bins + 3) * 4),
             entries: buffer("entries", plan.entry_room * 4),
             seen: buffer("seen", tiles * 4),
             runs: buffer("runs", tiles * 8),
@@ -209,8 +209,8 @@ impl<'a> TilePass<'a> {
         for (number, id) in &self.sampled_images {
             given.push((*number, Descriptor::Sampled(context.image(*id)?.1, context.layout(*id))));
         }
-        let set = self.inputs.descriptors.set(&self.inputs.shaders.tile_set, &given)?;
-        let layout = self.inputs.shaders.tile_layout.raw();
+        let set = self.inputs.descriptors.set(&self.inputs.shaders.tiles()?.set, &given)?;
+        let layout = self.inputs.shaders.tiles()?.tile.raw();
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         let (device, commands) = (context.device(), context.commands());
         // SAFETY: pipeline and set have one layout; the graph's barriers order what is read and written.
@@ -218,25 +218,26 @@ impl<'a> TilePass<'a> {
             device.cmd_bind_pipeline(commands, bind_point, self.pipeline.raw());
             device.cmd_bind_descriptor_sets(commands, bind_point, layout, 0, &[set], &[]);
         }
-        self.push(context, &self.constants);
-        Ok(())
+        self.push(context, &self.constants)
     }
 
-    fn push(&self, context: &PassContext<'_>, constants: &TileConstants) {
-        let layout = &self.inputs.shaders.tile_layout;
+    fn push(&self, context: &PassContext<'_>, constants: &TileConstants) -> Result<()> {
+        let layout = &self.inputs.shaders.tiles()?.tile;
         let bytes = bytemuck::bytes_of(constants);
         // SAFETY: the layout's constants are these.
         unsafe {
             let commands = context.commands();
             context.device().cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, bytes);
         }
+        Ok(())
     }
 
     /// Records one dispatch of so many workgroups.
     fn dispatch(&self, context: &PassContext<'_>, groups: u32) -> Result<()> {
         self.bind(context)?;
+        let [x, y] = rows_of(groups);
         // SAFETY: all is bound that the pipeline needs.
-        unsafe { context.device().cmd_dispatch(context.commands(), groups, 1, 1) };
+        unsafe { context.device().cmd_dispatch(context.commands(), x, y, 1) };
         Ok(())
     }
 
@@ -248,6 +249,13 @@ impl<'a> TilePass<'a> {
         unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
         Ok(())
     }
+}
+
+/// Workgroups along a row, and rows: a device need not take more than 65535 in one dimension. As in `glsl/inc/tiles.glsl`.
+fn rows_of(groups: u32) -> [u32; 2] {
+    const MOST_GROUPS_IN_ROW: u32 = 32_768;
+    let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);
+    [groups.div_ceil(rows.max(1)), rows]
 }
 
 /// Declares a pass that sets images to 0.
@@ -286,4 +294,18 @@ fn after_dispatches_before(context: &PassContext<'_>) {
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
     // SAFETY: outside of rendering, in a compute pass.
     unsafe { context.device().cmd_pipeline_barrier2(context.commands(), &info) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rows_of;
+
+    #[test]
+    fn rows_hold_all_workgroups_and_few_more() {
+        for groups in [0, 1, 32_768, 32_769, 43_690, 65_536, 4_194_304, 1 << 30] {
+            let [x, y] = rows_of(groups);
+            assert!(x <= 32_768 && y <= 65_535, "{groups}: {x} {y}");
+            assert!((groups..groups + y.max(1)).contains(&(x * y)), "{groups}: {x} {y}");
+        }
+    }
 }

@@ -35,18 +35,19 @@ impl Parts {
         let dispatch = |part, offset| {
             let mut constants = pass.constants;
             constants.part = part;
-            pass.push(context, &constants);
+            pass.push(context, &constants)?;
             // SAFETY: all is bound that the pipeline needs; the arguments are within the buffer and declared to be read.
             unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
+            Ok::<_, crate::error::Error>(())
         };
         if let Some(whole) = self.whole {
-            dispatch(WHOLE, whole);
+            dispatch(WHOLE, whole)?;
         }
         for part in 0..self.parts {
             if part > 0 {
                 after_dispatches_before(context);
             }
-            dispatch(part, self.overfull);
+            dispatch(part, self.overfull)?;
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ pub(in super::super) const TILE_PX: u32 = 8;
 const MOST_TILES_A_SIDE: u32 = 8;
 
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
-const MOST_ITERATIONS: u32 = 65_000;
+const MOST_ITERATIONS: u32 = 60_000;
 
 /// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
 const SEGMENTS: u32 = 32;
@@ -147,10 +147,13 @@ impl TilePlan {
         }
     }
 
-    /// The plan for so many layers at most: up to 16 of them in one dispatch, each of which walks twice.
-    pub fn with_layers(self, most: u32) -> Self {
-        let layers_at_once = most.min(16);
-        Self { layers_at_once, part_length: self.walk_length / layers_at_once, ..self }
+    /// The plan for so many layers at most, each of which walks twice, under so many lights: up to 16 layers in one dispatch, or of
+    /// more 4 in each. Every step of the last layer's walk is a loop over the lights, too; so is every pixel of a layer, for which
+    /// there is the reserve.
+    pub fn with_layers(self, most: u32, lights: u32) -> Self {
+        let layers_at_once = if most <= 16 { most } else { 4 };
+        let walk_length = self.walk_length / (1 + lights);
+        Self { layers_at_once, walk_length, part_length: walk_length / layers_at_once, ..self }
     }
 
     /// Whether a tile may have more splats than one dispatch takes.

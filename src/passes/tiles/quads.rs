@@ -54,9 +54,9 @@ pub(in super::super) fn draw_quads_of_tiles(
     constants: &[u8],
 ) -> Result<()> {
     let list = [(RUNS, Descriptor::Buffer(context.buffer(seen.runs)?))];
-    let sets = [set, inputs.descriptors.set(&inputs.shaders.tile_set, &list)?];
+    let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
     let arguments = context.buffer(seen.arguments)?;
-    let layout = &inputs.shaders.tile_quads_layout;
+    let layout = &inputs.shaders.tiles()?.quads;
     let bind_point = vk::PipelineBindPoint::GRAPHICS;
     let (device, commands) = (context.device(), context.commands());
     // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is

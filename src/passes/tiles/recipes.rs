@@ -70,7 +70,7 @@ pub(in super::super) fn depth_recipe() -> (&'static str, GraphicsKey) {
 
 /// The pass of all transparent layers, before opaque things.
 pub(in super::super) fn layers_recipe(settings: &Settings, lit: bool) -> Result<(&'static str, ComputeKey)> {
-    let plan = TilePlan::for_recipes(false).with_layers(settings.layers.most());
+    let plan = TilePlan::for_recipes(false).with_layers(settings.layers.most(), 0);
     let beside = layers::Beside { opaque: true, lit };
     let work = layers::work_of_whole_tiles(settings, &plan);
     Ok(("layers of tiles", compute(layers::shader(settings, &plan, beside, work)?)))

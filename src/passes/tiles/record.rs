@@ -52,8 +52,8 @@ pub(super) fn record<'a>(
         for (number, id) in &ids {
             given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
         }
-        let set = inputs.descriptors.set(&inputs.shaders.tile_set, &given)?;
-        let layout = &inputs.shaders.record_layout;
+        let set = inputs.descriptors.set(&inputs.shaders.tiles()?.set, &given)?;
+        let layout = &inputs.shaders.tiles()?.record;
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         let (device, commands) = (context.device(), context.commands());
         for (draw, pipeline) in &chunks {
@@ -65,7 +65,8 @@ pub(super) fn record<'a>(
                 device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
                 device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-                device.cmd_dispatch(commands, draw.chunk.count.div_ceil(GROUP), 1, 1);
+                let [x, y] = super::rows_of(draw.chunk.count.div_ceil(GROUP));
+                device.cmd_dispatch(commands, x, y, 1);
             }
         }
         Ok(())

@@ -35,8 +35,13 @@ pub(in super::super) struct TileImages {
 
 impl TileImages {
     /// Images with nothing in them yet; `cleared`: 0 everywhere, for what draws into them or reads all of them.
-    pub fn create<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, cleared: bool) -> Self {
-        let format = sum_format(inputs.settings);
+    pub fn create<'a>(
+        graph: &mut Graph<Body<'a>>,
+        inputs: Inputs<'a>,
+        plan: &TilePlan,
+        cleared: bool,
+    ) -> Self {
+        let format = sum_format(accumulate_of(inputs.settings, plan));
         let mut image = |name, format| graph.create_image(name, inputs.image(format));
         let mut images = Self {
             sums: Sums { color: image("color sums", format), normal: image("normal sums", format) },
@@ -47,6 +52,15 @@ impl TileImages {
             super::clear(graph, "clear sums", &mut [color, normal, depth]);
         }
         images
+    }
+}
+
+/// The precision of the sums in the images. Those of an overfull tile go on from part to part, which half floats, which end at
+/// 65504, would not bear; but what the graphics pipeline adds to is as it was asked for.
+fn accumulate_of(settings: &Settings, plan: &TilePlan) -> Accumulate {
+    match plan.may_be_overfull() && !plan.may_be_large {
+        true => Accumulate::F32,
+        false => settings.accumulate,
     }
 }
 
@@ -72,7 +86,7 @@ pub(in super::super) fn shader(
     plan: &TilePlan,
     step: Step,
 ) -> Result<(&'static Shader, Constants)> {
-    let sums = match settings.accumulate {
+    let sums = match accumulate_of(settings, plan) {
         Accumulate::F16 => "half",
         Accumulate::F32 => "single",
     };
@@ -109,7 +123,7 @@ pub(in super::super) fn fused<'a>(
 ) -> Result<()> {
     let step = Step::Fused { upon: before.is_some(), with_depth };
     let mut shader_of_step = shader(inputs.settings, tiles.plan, step)?;
-    if !cleared && !tiles.plan.may_be_overfull() {
+    if !cleared {
         shader_of_step.1.push((KEEPS_DEPTH, 0));
     }
     let mut fused = TilePass::new(inputs, tiles.plan, shader_of_step, tiles.lists())?;

@@ -191,16 +191,17 @@ mod tests {
     #[test]
     fn every_combination_comes_once_the_default_first() {
         let methods = all().product();
-        assert_eq!(methods.len(), 8 * 5 * 2 * 2);
+        assert_eq!(methods.len(), 9 * 5 * 2 * 2);
         let different: std::collections::HashSet<_> = methods.iter().collect();
         assert_eq!(different.len(), methods.len());
-        assert_eq!(methods[0].settings(&Settings::default()), Settings::default());
+        let first = Settings { rasterizer: Rasterizer::Perspective, ..Settings::default() };
+        assert_eq!(methods[0].settings(&Settings::default()), first);
     }
 
     #[test]
     fn one_at_a_time_is_the_default_and_a_method_for_each_other_value() {
         let methods = all().one_at_a_time();
-        assert_eq!(methods.len(), 1 + 7 + 4 + 1 + 1);
+        assert_eq!(methods.len(), 1 + 8 + 4 + 1 + 1);
         assert_eq!(methods[0].names().line(), "perspective, adjust, f16, analytic");
         assert!(methods.iter().any(|method| method.names().line() == "quad, adjust, f16, analytic"));
         assert!(!methods.iter().any(|method| method.names().line() == "quad, none, f16, analytic"));

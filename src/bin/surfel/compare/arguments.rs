@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn the_default_is_each_method_of_the_issue_and_the_librarys_settings() {
         let arguments = compare(&[]);
-        assert_eq!(arguments.selection().product().len(), 8 * 5 * 2 * 2);
+        assert_eq!(arguments.selection().product().len(), 9 * 5 * 2 * 2);
         let settings = arguments.settings();
         assert_eq!(settings, Settings { size_px: [256, 256], ..Settings::default() });
     }

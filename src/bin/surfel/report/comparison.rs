@@ -7,7 +7,7 @@ use surfel::{
         compare::{CompareReport, Method, MethodRow},
         spread_flag,
     },
-    scene::Settings,
+    scene::{Rasterizer, Settings},
 };
 
 use super::{
@@ -99,7 +99,7 @@ impl Comparison {
 
 /// Whether a method differs from the default in its filter or its rasterizer alone.
 fn is_shown(method: &Method) -> bool {
-    let default = Settings::default();
+    let default = Settings { rasterizer: Rasterizer::Perspective, ..Settings::default() };
     let own = method.settings(&default);
     let with_filter = Settings { filter: own.filter, ..default.clone() };
     let with_rasterizer = Settings { rasterizer: own.rasterizer, ..default };
