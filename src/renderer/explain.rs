@@ -54,6 +54,8 @@ pub struct ExplainedChunk {
     pub largest_box_px: f64,
     /// That is above the device's largest point, so large splats are listed and drawn as quads.
     pub may_be_large: bool,
+    /// It is drawn by tiles, not by points.
+    pub by_tiles: bool,
 }
 
 /// A piece of a mesh.
@@ -107,6 +109,7 @@ impl Renderer {
         plan: &Plan,
     ) -> Explanation {
         let limits = &self.limits;
+        let parts = passes::Parts::of(scene, camera, settings, limits);
         let draws = passes::draws(scene, camera, settings, limits);
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
@@ -118,6 +121,7 @@ impl Renderer {
             bytes: draw.chunk.bytes(),
             largest_box_px: draw.largest_box_px,
             may_be_large: draw.may_be_large,
+            by_tiles: if draw.chunk.transparent { &parts.transparent } else { &parts.opaque }.tiles.is_some(),
         });
         let meshes = passes::mesh_draws(scene, camera, settings, limits);
         let meshes = meshes.iter().map(|draw| ExplainedMesh {
@@ -128,7 +132,6 @@ impl Renderer {
             culled: draw.cull,
             bytes: draw.chunk.bytes(),
         });
-        let parts = passes::Parts::of(scene, camera, settings, limits);
         let drawn = [&parts.opaque, &parts.transparent].map(|part| part.drawn(settings, limits));
         Explanation {
             drawn,

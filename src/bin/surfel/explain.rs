@@ -60,6 +60,8 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
     let color = if chunk.uniform_color { "one color for all" } else { "a color each" };
     let closed = if chunk.closed { "closed surface" } else { "open surface" };
     let size = match (chunk.may_be_large, chunk.largest_box_px) {
+        (_, px) if chunk.by_tiles && px.is_finite() => format!("none above {px:.0} px"),
+        (_, _) if chunk.by_tiles => "some may reach the near plane".to_owned(),
         (false, px) => {
             format!(
                 "none above {px:.0} px, the device's points reach {cap_px} px: all drawn as points, no list"
