@@ -124,7 +124,7 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
         assert!(flags.iter().any(|flag| flag.as_str().unwrap().contains("validation")), "{part}: {flags:?}");
     }
     let parts = &json["parts"];
-    assert_eq!(parts["methods"]["methods"].as_array().map(Vec::len), Some(14));
+    assert_eq!(parts["methods"]["methods"].as_array().map(Vec::len), Some(15));
     assert_eq!(parts["distance"]["steps"].as_array().map(Vec::len), Some(2));
     assert_eq!(parts["bench"]["floor"]["rows"].as_array().map(Vec::len), Some(4));
     assert!(json["machine"]["bench"]["threads"].as_u64() > Some(0));
