@@ -20,5 +20,5 @@ void main()
         place += bitCount(large_bits[i]);
     }
     place += bitCount(large_bits[word] & ((1u << (index % 32)) - 1));
-    large_list[place] = index;
+    large_list[place] = frame.first_record + index;
 }

@@ -1,4 +1,5 @@
 // How many records of each segment fall into each bin: the invocation's own counts.
+// Permutations: _ kept
 #version 460
 #include "inc/tiles.glsl"
 

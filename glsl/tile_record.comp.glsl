@@ -1,8 +1,12 @@
 // Sets each splat up once: culls it, or makes a record and a span of it (inc/tiles.glsl, inc/tile_batch.glsl); or leaves it to the
 // graphics pipeline: what is not regular, and what touches more tiles than lists have room for.
+//
+// KEPT: only those of a list, whose records lie one behind the other (inc/kept.glsl).
+// Permutations: _ kept
 #version 460
 #include "inc/setup.glsl"
 #include "inc/tiles.glsl"
+#include "inc/kept.glsl"
 
 layout(constant_id = 22) const uint MOST_TILES = 64; // that a splat of a record touches
 layout(constant_id = 16) const bool MAY_BE_LARGE = false; // some splats are left to the graphics pipeline; chunk: which bin
@@ -14,6 +18,10 @@ layout(set = 1, binding = 1, std430) writeonly buffer Records1 { vec4 records1[]
 layout(set = 1, binding = 2, std430) writeonly buffer Records2 { vec4 records2[]; };
 layout(set = 1, binding = 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
 layout(set = 1, binding = 4, std430) writeonly buffer Spans { uint spans[]; };
+#if defined(KEPT)
+layout(set = 1, binding = 20, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+layout(set = 1, binding = 21, std430) readonly buffer KeptList { uint kept_list[]; };
+#endif
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
 uint span_of(Mapping m)
@@ -37,10 +45,18 @@ uint span_of(Mapping m)
 void main()
 {
     uint index = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
+    uint place = frame.first_record + index;
+#if defined(KEPT)
+    uint first = first_word_of_chunk();
+    place = kept_starts[first] + index;
+    if (place >= kept_starts[first + words_of_chunk()]) {
+        return;
+    }
+    index = kept_list[place];
+#endif
     if (index >= frame.splat_count) {
         return;
     }
-    uint place = frame.first_record + index;
     Mapping m;
     uint span = SPAN_NONE;
     if (map_splat(index, m)) {

@@ -26,9 +26,9 @@ uvec4 counted(uint bin, uint entries, bool inside)
 
 void dispatch(uint first, uint groups)
 {
-    uint rows = (groups + MOST_GROUPS_IN_ROW - 1) / MOST_GROUPS_IN_ROW;
-    arguments[first] = rows > 0 ? (groups + rows - 1) / rows : 0;
-    arguments[first + 1] = rows;
+    uvec2 rows = rows_of_groups(groups);
+    arguments[first] = rows.x;
+    arguments[first + 1] = rows.y;
     arguments[first + 2] = 1;
 }
 

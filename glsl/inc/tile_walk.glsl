@@ -3,6 +3,28 @@
 
 layout(set = 0, binding = 4, std430) readonly buffer Spans { uint spans[]; };
 
+// KEPT: records are those of a list, whose length only the device knows.
+#if defined(KEPT)
+layout(set = 0, binding = 20, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+
+uint count_of_records()
+{
+    return kept_starts[kept_starts.length() - 1];
+}
+#else
+uint count_of_records()
+{
+    return push.record_count;
+}
+#endif
+
+// Records of the segment.
+uint own_records(uint segment, uint record_count)
+{
+    uint blocks = (record_count + BLOCK - 1) / BLOCK;
+    return segment < blocks ? ((blocks - segment - 1) / push.segments + 1) * BLOCK : 0;
+}
+
 void walk()
 {
     uint segment = gl_GlobalInvocationID.x;
@@ -10,7 +32,8 @@ void walk()
         return;
     }
     uint next = push.round_first;
-    uint end = min(next + push.round_length, push.segment_length);
+    uint record_count = count_of_records();
+    uint end = min(next + push.round_length, own_records(segment, record_count));
     uint record = 0;
     uint left = 0; // tiles of the record that are not visited yet
     uint width = 1;
@@ -20,7 +43,7 @@ void walk()
         if (left == 0) {
             record = (next / BLOCK * push.segments + segment) * BLOCK + next % BLOCK;
             next++;
-            uint span = record < push.record_count ? spans[record] : SPAN_NONE;
+            uint span = record < record_count ? spans[record] : SPAN_NONE;
             if (span >= SPAN_CHUNK) {
                 if (span != SPAN_NONE) {
                     visit(record, push.tile_count + (span & SPAN_LOW));

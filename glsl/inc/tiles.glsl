@@ -15,6 +15,13 @@
 #define MOST_GROUPS_IN_ROW 32768
 #define GROUP_NUMBER (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
 
+// So many workgroups, in rows; none of none.
+uvec2 rows_of_groups(uint groups)
+{
+    uint rows = (groups + MOST_GROUPS_IN_ROW - 1) / MOST_GROUPS_IN_ROW;
+    return uvec2(rows > 0 ? (groups + rows - 1) / rows : 0, rows);
+}
+
 #define BLOCK 32
 
 // Words behind the starts of bins: how many entries there are in all, how many tiles have some, how many are overfull.
@@ -32,7 +39,7 @@ struct TileConstants {
     uint tiles_x;        // tiles in a row
     uint tile_count;
     uint bin_count;      // tiles, then chunks
-    uint record_count;
+    uint record_count;   // at most; of culled splats, as many as are kept
     uint segments;
     uint segment_length; // records, a multiple of BLOCK
     uint round_first;    // where in its segment a walk begins

@@ -34,6 +34,8 @@ pub enum Access {
     StorageReadWriteCompute,
     /// The arguments of an indirect draw or dispatch.
     IndirectRead,
+    /// The indices of a draw.
+    IndexRead,
     /// The source of a copy.
     TransferRead,
     /// The destination of a copy, a fill or a clear outside of rendering.
@@ -70,7 +72,7 @@ pub struct AccessInfo {
 
 impl Access {
     /// Every access, in the order of the table.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::ColorAttachment,
         Self::DepthAttachment,
         Self::DepthTest,
@@ -83,6 +85,7 @@ impl Access {
         Self::StorageWriteCompute,
         Self::StorageReadWriteCompute,
         Self::IndirectRead,
+        Self::IndexRead,
         Self::TransferRead,
         Self::TransferWrite,
     ];
@@ -128,6 +131,7 @@ impl Access {
             Self::StorageWriteCompute     => row(compute, none, storage_writes, storage, Some(Compute)),
             Self::StorageReadWriteCompute => row(compute, storage_reads, storage_writes, storage, Some(Compute)),
             Self::IndirectRead            => row(S::DRAW_INDIRECT, A::INDIRECT_COMMAND_READ, none, (None, Some(B::INDIRECT_BUFFER)), None),
+            Self::IndexRead               => row(S::INDEX_INPUT, A::INDEX_READ, none, (None, Some(B::INDEX_BUFFER)), Some(Graphics)),
             Self::TransferRead            => row(S::ALL_TRANSFER, A::TRANSFER_READ, none, from, Some(Transfer)),
             Self::TransferWrite           => row(S::ALL_TRANSFER, none, A::TRANSFER_WRITE, to, Some(Transfer)),
         };

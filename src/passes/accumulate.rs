@@ -4,7 +4,8 @@ use ash::vk;
 
 use super::{
     Inputs,
-    draws::{SplatPass, draw_splats},
+    cull::Kept,
+    draws::{Drawn, SplatPass, draw_splats},
     kernel_texture::kernel_texture,
     list_large::{LargeList, ids_of, read_lists},
     splat_shaders::{Summed, Words, splat_shaders},
@@ -62,7 +63,7 @@ pub(super) fn kernel_of<'a>(
 pub(super) fn accumulate<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    large: &[Option<LargeList>],
+    (large, kept): (&[Option<LargeList>], Option<&Kept>),
     depth: &Handle<Image>,
     polygons: Option<&Handle<Image>>,
     kernel: Option<&Handle<Image>>,
@@ -88,9 +89,10 @@ pub(super) fn accumulate<'a>(
     for image in [kernel, polygons].into_iter().flatten() {
         pass = pass.read(image, Access::SampledFragment);
     }
-    read_lists(pass, large).finish(Box::new(move |context| {
+    let drawn = Drawn::kept(kept);
+    read_lists(pass, large, kept).finish(Box::new(move |context| {
         bind_sampled(context, inputs, sampled)?;
-        draw_splats(context, inputs, &pipelines, &large_ids, None)
+        draw_splats(context, inputs, &pipelines, &large_ids, &drawn)
     }));
     Ok(sums)
 }

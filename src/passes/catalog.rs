@@ -4,7 +4,7 @@
 use ash::vk;
 
 use super::{
-    accumulate,
+    accumulate, cull,
     draws::SplatPass,
     export, finalize, floor, kernel_texture, layer_accumulate,
     layer_compose::{self, LayerKind},
@@ -172,7 +172,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         if by_tiles && !traits.polygons && !traits.may_be_large {
             let mut open = splat_constants(settings, traits.ellipses, false);
             open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
-            let (_, set_up) = tiles::list_recipes(&open, false).swap_remove(0);
+            let (_, set_up) = tiles::list_recipes(&open, false, false).swap_remove(0);
             all.push(compute("set up transparent splats", set_up));
             let (pass, key) = tiles::layers_recipe(settings, traits.lit)?;
             all.push(compute(pass, key));
@@ -225,6 +225,7 @@ fn opaque(
         all.push(compute("scan large splats", scan));
         all.push(compute("list large splats", list));
     }
+    all.extend(cull::recipes(settings, false, variant).into_iter().map(|(pass, key)| compute(pass, key)));
     let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
     let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
     let splat_passes = [
@@ -249,13 +250,15 @@ fn opaque(
 fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> Result<Vec<PipelineRecipe>> {
     let Traits { may_be_large, polygons, export, transparent, .. } = traits;
     let mut all = Vec::new();
+    let culled = cull::recipes(settings, true, variant);
+    let set_up = culled.len();
     let passes = [
-        tiles::list_recipes(variant, may_be_large),
+        tiles::list_recipes(variant, may_be_large, set_up > 0),
         tiles::opaque_recipes(settings, tiles::TileTraits { may_be_large, polygons, export })?,
     ];
-    all.extend(passes.into_iter().flatten().map(|(pass, key)| compute(pass, key)));
-    // The first pass sets up all splats, or leaves the large ones out.
-    all[0].draws = if may_be_large { "small splats" } else { "all splats" };
+    all.extend(culled.into_iter().chain(passes.into_iter().flatten()).map(|(pass, key)| compute(pass, key)));
+    // All splats, or the large ones left out.
+    all[set_up].draws = if may_be_large { "small splats" } else { "all splats" };
     if may_be_large {
         let summed = Summed::Opaque { with_depth: export, beside_polygons: polygons };
         for (pass, splats) in [

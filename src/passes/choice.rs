@@ -59,7 +59,8 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         Primitive::Quad => "quads",
         Primitive::Triangle => "triangles",
     };
-    Some(match (&part.tiles, by_tiles(settings, limits)) {
+    let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
+    let how = match (&part.tiles, by_tiles(settings, limits)) {
         (Some(plan), Ok(why)) => {
             let most = plan.most_tiles;
             let large =
@@ -73,7 +74,8 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
             format!("as {primitive}: tiles have no room for so many, or for ones so large in layers")
         }
         (_, Err(why)) => format!("as {primitive}: {why}"),
-    })
+    };
+    Some(format!("{how}{kept}"))
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use ash::vk;
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::{
     Inputs,
     constants::FrameConstants,
+    cull::{Kept, KeptIds},
     gate::Gate,
     list_large::LargeIds,
     pipelines::{GraphicsKey, Layout},
@@ -16,11 +17,11 @@ use super::{
 };
 use crate::{
     error::Result,
-    graph::execute::PassContext,
+    graph::{ResourceId, execute::PassContext},
     math::size::{SizeBound, largest_box_px},
     prepare::{Chunk, PreparedScene, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Settings},
-    vk::{Blend, Descriptor, GraphicsPipeline, Limits},
+    vk::{Blend, ComputePipeline, Descriptor, GraphicsPipeline, Limits},
 };
 
 /// A chunk in this frame.
@@ -31,6 +32,8 @@ pub struct Draw<'a> {
     pub constants: FrameConstants,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub largest_box_px: f64,
+    /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
+    pub wholly_in_view: bool,
     /// Whether a splat of it may exceed the device's largest point or come near the eye plane: such ones are then
     /// listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
@@ -79,6 +82,7 @@ pub fn draws<'a>(
                 ..frame_constants(&view, camera, settings, limits, epsilon)
             },
             largest_box_px,
+            wholly_in_view: wholly_in_view(chunk, &view, &bound),
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
                 Primitive::Triangle => largest_box_px.is_infinite(),
@@ -152,6 +156,22 @@ fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
     local * view.view_from_local_scale + translation
 }
 
+/// Whether the box of the chunk's centers lies between the near plane and the four sides of the view.
+fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> bool {
+    let [x, y, z] = view.rows.map(|row| DVec4::from_array(row.map(f64::from)));
+    let [edge_x, edge_y] = bound.size_px.map(|side| 0.5 * side / bound.focal_px);
+    let [lo, hi] = chunk.bounds;
+    let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    let least = |plane: DVec4| {
+        let normal = plane.truncate();
+        view.view_from_local_scale * (normal.dot(center) - normal.abs().dot(half)) + plane.w
+    };
+    least(z) >= bound.near
+        && [edge_x * z - x, edge_x * z + x, edge_y * z - y, edge_y * z + y]
+            .into_iter()
+            .all(|side| least(side) >= 0.0)
+}
+
 /// What a splat pass is made of: its shaders, and what it writes.
 pub(super) struct SplatPass {
     pub shaders: SplatShaders,
@@ -206,13 +226,35 @@ impl SplatPass {
     }
 }
 
-/// Records the draws of all chunks; behind a gate, the device leaves them out where it is closed.
+/// Which splats are drawn.
+#[derive(Clone)]
+pub(super) enum Drawn {
+    All,
+    /// All; but the device leaves them out where the gate is closed.
+    Behind(Gate),
+    /// As points, those of a list.
+    Kept(KeptIds),
+}
+
+impl Drawn {
+    /// Those of a list where there is one.
+    pub fn kept(kept: Option<&Kept>) -> Self {
+        kept.map_or(Self::All, |kept| Self::Kept(kept.ids()))
+    }
+
+    /// Behind a gate where there is one.
+    pub fn behind(gate: Option<Gate>) -> Self {
+        gate.map_or(Self::All, Self::Behind)
+    }
+}
+
+/// Records the draws of all chunks.
 pub(super) fn draw_splats(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipelines: &[DrawPipelines],
     large: &[Option<LargeIds>],
-    gate: Option<Gate>,
+    drawn: &Drawn,
 ) -> Result<()> {
     let (device, commands) = (context.device(), context.commands());
     let layout = &inputs.shaders.splat_layout;
@@ -233,21 +275,51 @@ pub(super) fn draw_splats(
             let constants = bytemuck::bytes_of(&draw.constants);
             device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
             device.cmd_bind_pipeline(commands, bind_point, pipelines.own.raw());
-            match gate {
-                None => {
+            match drawn {
+                Drawn::Behind(gate) => gate.draw_splats(context, number)?,
+                Drawn::Kept(kept) => kept.draw_points(context, number)?,
+                Drawn::All => {
                     let [vertices, instances] = pipelines.primitive.counts(draw.chunk.count);
                     device.cmd_draw(commands, vertices, instances, 0, 0);
                 }
-                Some(gate) => gate.draw_splats(context, number)?,
             }
             if let (Some(quads), Some(arguments)) = (&pipelines.quads, arguments) {
                 device.cmd_bind_pipeline(commands, bind_point, quads.raw());
-                match gate {
-                    None => device.cmd_draw_indirect(commands, arguments, 0, 1, 16),
-                    Some(gate) => gate.draw_listed(context, arguments)?,
+                match drawn {
+                    Drawn::Behind(gate) => gate.draw_listed(context, arguments)?,
+                    _ => device.cmd_draw_indirect(commands, arguments, 0, 1, 16),
                 }
             }
         }
+    }
+    Ok(())
+}
+
+/// Records a dispatch over the splats of a chunk, with these buffers in set 1.
+pub(super) fn dispatch(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    draw: &Draw<'_>,
+    pipeline: &ComputePipeline,
+    buffers: &[(u32, ResourceId)],
+    [x, y]: [u32; 2],
+) -> Result<()> {
+    let mut given = Vec::new();
+    for (number, id) in buffers {
+        given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
+    }
+    let shaders = inputs.shaders;
+    let sets = [draw.chunk.set(), inputs.descriptors.set(&shaders.large_set, &given)?];
+    let layout = &shaders.list_layout;
+    let constants = bytemuck::bytes_of(&draw.constants);
+    let bind_point = vk::PipelineBindPoint::COMPUTE;
+    let (device, commands) = (context.device(), context.commands());
+    // SAFETY: pipeline, sets and push constants have one layout; the graph's barriers order the passes.
+    unsafe {
+        device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+        device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+        device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+        device.cmd_dispatch(commands, x, y, 1);
     }
     Ok(())
 }

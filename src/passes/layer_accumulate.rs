@@ -5,7 +5,7 @@ use ash::vk;
 
 use super::{
     accumulate::{Sums, bind_sampled},
-    draws::{SplatPass, draw_splats},
+    draws::{Drawn, SplatPass, draw_splats},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
     splat_shaders::{Summed, Words, splat_shaders},
@@ -55,7 +55,7 @@ pub(super) fn layer_accumulate<'a>(
     let (large, gate) = (layer.large_ids(), layer.gate());
     declare(graph, layer, depth, ["color sums", "normal sums", "accumulate"], layer.kernel, move |context| {
         bind_sampled(context, inputs, sampled)?;
-        draw_splats(context, inputs, &pipelines, &large, gate)
+        draw_splats(context, inputs, &pipelines, &large, &Drawn::behind(gate))
     })
 }
 

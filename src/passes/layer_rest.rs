@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::{
     accumulate::{Sums, bind_read},
-    draws::{SplatPass, draw_splats},
+    draws::{Drawn, SplatPass, draw_splats},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
     splat_shaders::{Summed, Words, splat_shaders},
@@ -94,7 +94,7 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let (large, gate) = (layer.large_ids(), layer.gate());
     layer.read(pass).finish(Box::new(move |context| {
         bind_read(context, inputs, sampled, lights)?;
-        draw_splats(context, inputs, &splats, &large, gate)?;
+        draw_splats(context, inputs, &splats, &large, &Drawn::behind(gate))?;
         draw_meshes(context, inputs, &meshes, gate)
     }));
     Ok(sums)

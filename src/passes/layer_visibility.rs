@@ -7,7 +7,7 @@ use super::{
     DEPTH_FORMAT,
     accumulate::bind_sampled,
     copy_depth::copy_depth,
-    draws::draw_splats,
+    draws::{Drawn, draw_splats},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
     visibility,
@@ -49,7 +49,7 @@ pub(super) fn layer_visibility<'a>(
     let pass = graph.pass(&layer.name("visibility")).write(&mut depth, Access::DepthAttachment, start);
     layer.read(pass).finish(Box::new(move |context| {
         bind_sampled(context, inputs, sampled)?;
-        draw_splats(context, inputs, &splats, &large, gate)?;
+        draw_splats(context, inputs, &splats, &large, &Drawn::behind(gate))?;
         draw_meshes(context, inputs, &meshes, gate)
     }));
     Ok(depth)

@@ -53,7 +53,7 @@ impl<'a> Layer<'a, '_> {
             Some(before) => pass.read(before, crate::graph::Access::SampledFragment),
             None => pass,
         };
-        self.read_gate(read_lists(pass, self.large))
+        self.read_gate(read_lists(pass, self.large, None))
     }
 
     /// Declares that a pass draws something where the layer before is not empty.

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use ash::vk;
-
 use super::{
     Draw, Inputs,
+    cull::Kept,
+    draws::dispatch,
     pipelines::{ComputeKey, Layout},
     variant::Constants,
 };
@@ -16,7 +16,7 @@ use crate::{
         execute::{Body, PassContext},
     },
     shaders::{self, Shader},
-    vk::{ComputePipeline, Descriptor},
+    vk::ComputePipeline,
 };
 
 /// Splats of a block: one workgroup, as in `glsl/large_count.comp.glsl`.
@@ -67,11 +67,15 @@ impl LargeList {
     }
 }
 
-/// Declares that a pass draws with these lists.
+/// Declares that a pass draws with these lists, and of the others the kept ones where they are listed.
 pub(super) fn read_lists<'g, B>(
     mut pass: PassBuilder<'g, B>,
     lists: &[Option<LargeList>],
+    kept: Option<&Kept>,
 ) -> PassBuilder<'g, B> {
+    if let Some(kept) = kept {
+        pass = kept.read_by_points(pass);
+    }
     for list in lists.iter().flatten() {
         pass = pass
             .read(&list.bits, Access::StorageReadVertex)
@@ -180,24 +184,8 @@ impl<'a> Dispatches<'a> {
         bindings: impl Fn(&LargeIds) -> Vec<(u32, ResourceId)>,
         groups: impl Fn(&Draw<'_>) -> u32,
     ) -> Result<()> {
-        let (device, commands) = (context.device(), context.commands());
-        let shaders = self.inputs.shaders;
-        let layout = &shaders.list_layout;
-        let bind_point = vk::PipelineBindPoint::COMPUTE;
         for (draw, ids, pipeline) in &self.chunks {
-            let mut given = Vec::new();
-            for (number, id) in bindings(ids) {
-                given.push((number, Descriptor::Buffer(context.buffer(id)?)));
-            }
-            let sets = [draw.chunk.set(), self.inputs.descriptors.set(&shaders.large_set, &given)?];
-            // SAFETY: pipeline, sets and push constants have one layout; the graph's barriers order the passes.
-            unsafe {
-                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-                let constants = bytemuck::bytes_of(&draw.constants);
-                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-                device.cmd_dispatch(commands, groups(draw), 1, 1);
-            }
+            dispatch(context, self.inputs, draw, pipeline, &bindings(ids), [groups(draw), 1])?;
         }
         Ok(())
     }

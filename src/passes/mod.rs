@@ -5,6 +5,7 @@ mod catalog;
 mod choice;
 mod constants;
 mod copy_depth;
+mod cull;
 mod draws;
 mod export;
 mod finalize;
@@ -72,6 +73,8 @@ pub struct Part<'a> {
     pub meshes: Vec<MeshDraw<'a>>,
     /// How splats are drawn by tiles, where they are.
     pub tiles: Option<TilePlan>,
+    /// Those that may be seen are listed first, and only they are set up.
+    pub kept: bool,
 }
 
 /// A prepared scene as seen from a camera.
@@ -111,23 +114,16 @@ impl<'a> Part<'a> {
     ) -> Self {
         let by_tiles = choice::by_tiles(settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings.size_px, limits)).flatten();
-        if tiles.is_some() {
-            let mut first_record = 0;
-            for draw in &mut splats {
-                draw.constants.first_record = first_record;
-                first_record += draw.chunk.count;
-            }
-        }
-        Self { splats, meshes, tiles }
+        let kept = cull::lists_kept(&splats, tiles.is_some(), settings);
+        cull::number_splats(&mut splats, kept);
+        Self { splats, meshes, tiles, kept }
     }
 
     /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
     fn with_layers(mut self, settings: &Settings, lights: &[Light]) -> Self {
         let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
         self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
-        if self.tiles.is_none() {
-            self.splats.iter_mut().for_each(|draw| draw.constants.first_record = 0);
-        }
+        self.kept &= self.tiles.is_some();
         self
     }
 
@@ -151,6 +147,8 @@ pub struct Inputs<'a> {
     pub meshes: &'a [MeshDraw<'a>],
     /// How the splats are drawn by tiles, where they are.
     pub tiles: Option<&'a TilePlan>,
+    /// Only splats of a list are set up.
+    pub kept: bool,
     /// From where.
     pub camera: &'a Camera,
     /// How.
@@ -166,7 +164,13 @@ pub struct Inputs<'a> {
 impl<'a> Inputs<'a> {
     /// The same for one part of the scene.
     fn of(self, part: &'a Part<'a>) -> Self {
-        Self { draws: &part.splats, meshes: &part.meshes, tiles: part.tiles.as_ref(), ..self }
+        Self {
+            draws: &part.splats,
+            meshes: &part.meshes,
+            tiles: part.tiles.as_ref(),
+            kept: part.kept,
+            ..self
+        }
     }
 
     fn extent(&self) -> vk::Extent2D {
@@ -205,6 +209,9 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     let layers = if parts.transparent.is_empty() { 0 } else { settings.layers.most() };
     // For each chunk with large splats: three passes that list them, two that draw them, in each layer.
     let lists = 5 * large(&parts.opaque) + (3 + 2 * layers) * large(&parts.transparent);
+    // Of kept splats: three passes that list them, one that sets them up.
+    let kept = |part: &Part<'_>| if part.kept { 4 * part.splats.len() as u32 } else { 0 };
+    let lists = lists + kept(&parts.opaque) + kept(&parts.transparent);
     // What fragments read: in accumulation; in each layer's visibility, accumulation and polygons.
     let reads = 1 + 3 * layers;
     // Sums: for finalization and each layer.
@@ -280,8 +287,9 @@ fn opaque<'a>(
     }
     let mut opaque = Opaque::default();
     let large = list_large::list_large(graph, inputs, "")?;
+    let kept = inputs.kept.then(|| cull::list_kept(graph, inputs, "")).transpose()?;
     if !inputs.draws.is_empty() {
-        opaque.splat_depth = Some(visibility::visibility(graph, inputs, &large)?);
+        opaque.splat_depth = Some(visibility::visibility(graph, inputs, &large, kept.as_ref())?);
     }
     if !inputs.meshes.is_empty() {
         let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
@@ -289,8 +297,9 @@ fn opaque<'a>(
     }
     if let Some(depth) = &opaque.splat_depth {
         let polygons = opaque.polygon_depth.as_ref();
+        let lists = (large.as_slice(), kept.as_ref());
         opaque.splats =
-            Some(accumulate::accumulate(graph, inputs, &large, depth, polygons, kernel, with_depth)?);
+            Some(accumulate::accumulate(graph, inputs, lists, depth, polygons, kernel, with_depth)?);
     }
     Ok(opaque)
 }

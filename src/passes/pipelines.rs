@@ -263,7 +263,8 @@ impl TileLayouts {
         let mut in_tiles = vec![words; 11];
         in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
         in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
-        debug_assert_eq!(in_tiles.len() - 1, tiles::RUNS as usize);
+        in_tiles.extend([words, words]);
+        debug_assert_eq!(in_tiles.len() - 1, tiles::KEPT_LIST as usize);
         let set = SetLayout::new(device, "tiles", &in_tiles)?;
         let record = PipelineLayout::new(
             device,

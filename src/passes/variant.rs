@@ -25,6 +25,14 @@ pub const IN_LAYERS: u32 = 14;
 /// The number of the constant that tells packed splats.
 pub const PACKED: u32 = 15;
 
+/// The number of the constant that leaves splats out which face away.
+const CULL_BACKFACES: u32 = 1;
+
+/// Whether splats that face away are left out.
+pub fn culls(constants: &Constants) -> bool {
+    constants.contains(&(CULL_BACKFACES, 1))
+}
+
 /// The constants of the splat passes for one kind of chunk.
 pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
     let cull = match settings.backfaces {
@@ -51,7 +59,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
     let mut constants = kernel_constants(settings.kernel);
     constants.extend([
         (0, u32::from(ellipses)),
-        (1, u32::from(cull)),
+        (CULL_BACKFACES, u32::from(cull)),
         (2, filter),
         (RASTERIZER, rasterizer),
         (8, u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area)),

@@ -4,7 +4,8 @@ use ash::vk;
 
 use super::{
     DEPTH_FORMAT, Inputs,
-    draws::{SplatPass, draw_splats},
+    cull::Kept,
+    draws::{Drawn, SplatPass, draw_splats},
     list_large::{LargeList, ids_of, read_lists},
     splat_shaders::{Words, splat_shaders},
 };
@@ -29,6 +30,7 @@ pub(super) fn visibility<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     large: &[Option<LargeList>],
+    kept: Option<&Kept>,
 ) -> Result<Handle<Image>> {
     let pipelines = splat_pass(inputs.settings, None)?.pipelines(inputs)?;
     let large_ids = ids_of(large);
@@ -39,7 +41,8 @@ pub(super) fn visibility<'a>(
         Access::DepthAttachment,
         Start::Clear(ClearValue::Depth(0.0)),
     );
-    read_lists(pass, large)
-        .finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &large_ids, None)));
+    let drawn = Drawn::kept(kept);
+    read_lists(pass, large, kept)
+        .finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &large_ids, &drawn)));
     Ok(depth)
 }

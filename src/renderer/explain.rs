@@ -183,6 +183,9 @@ fn reason(pass: &str) -> &'static str {
         "count large splats" | "scan large splats" | "list large splats" => {
             "a splat may exceed the device's largest point, or come near the eye plane"
         }
+        name if name.contains(" kept ") => {
+            "some splats face away or may lie outside of the view: the others are listed"
+        }
         "set up splats" => "opaque splats: each is culled, or made ready to be drawn by tiles",
         "see and sum tiles" => "opaque splats: visibility and sums of one tile after the other",
         "see tiles" => "opaque splats beside polygons: the depth of the nearest surface of each tile",

@@ -127,6 +127,7 @@ impl<'a> Floor<'a> {
             draws: &draws,
             meshes: &[],
             tiles: None,
+            kept: false,
             occlusion: None,
             camera: &self.camera,
             settings: &self.settings,

@@ -159,6 +159,7 @@ impl Renderer {
             draws: &[],
             meshes: &[],
             tiles: None,
+            kept: false,
             camera,
             settings,
             shaders,

@@ -58,6 +58,7 @@ pub fn draw_as_published(
         draws: &draws,
         meshes: &[],
         tiles: None,
+        kept: false,
         occlusion: None,
         camera,
         settings,

@@ -30,6 +30,7 @@ pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String
         ("kernel", kernel_option(settings.kernel)),
         ("kernel-eval", settings.kernel_eval.name().to_owned()),
         ("early-depth", if settings.early_depth { "on" } else { "off" }.to_owned()),
+        ("cull", settings.cull.name().to_owned()),
         ("accumulate", settings.accumulate.name().to_owned()),
         ("epsilon", epsilon_option(settings.epsilon)),
         ("backfaces", backfaces.to_owned()),

@@ -61,6 +61,19 @@ named! {
 }
 
 named! {
+    /// Where splats are left out that face away or lie outside of the view. The picture is the same.
+    Cull {
+        /// `List` for `compute`, `Setup` for all else.
+        Auto = "auto",
+        /// By whatever sets splats up: with points, in the vertex stage of each pass.
+        Setup = "setup",
+        /// Before that, in compute: a list of the others is what is set up, and what is drawn as points. Where a chunk has
+        /// nothing to leave out, there is no list.
+        List = "list",
+    }
+}
+
+named! {
     /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
     Filter {
         /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, for

@@ -24,7 +24,7 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::{Mesh, MeshColors};
 pub use methods::{
-    Accumulate, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer, Rasterizer,
+    Accumulate, Cull, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer, Rasterizer,
     Transition,
 };
 pub use opacity::Opacity;

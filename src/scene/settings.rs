@@ -2,7 +2,7 @@
 
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes,
-    methods::{Accumulate, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Transition},
+    methods::{Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Transition},
 };
 use crate::error::{Error, Result};
 
@@ -24,6 +24,8 @@ pub struct Settings {
     /// Whether the device is told a bound of each splat's depth, by which it may leave out hidden fragments before they
     /// are shaded. The picture is the same.
     pub early_depth: bool,
+    /// Where splats are left out that are not seen.
+    pub cull: Cull,
     /// The precision of the sums.
     pub accumulate: Accumulate,
     /// The depth within which splats are one surface.
@@ -52,6 +54,7 @@ impl Default for Settings {
             kernel: Kernel::default(),
             kernel_eval: KernelEval::default(),
             early_depth: false,
+            cull: Cull::default(),
             accumulate: Accumulate::default(),
             epsilon: Epsilon::Radii(1.0),
             backfaces: Backfaces::Auto,

@@ -88,7 +88,7 @@ impl Limits {
             max_image_side: 16_384,
             timestamp_period_ns: 1.0,
             timestamp_valid_bits: 0,
-            storage_buffers_a_stage: 16,
+            storage_buffers_a_stage: 32,
             shuffles: false,
             first_instance: true,
             is_cpu: false,

@@ -9,7 +9,7 @@ use clap::{
 use surfel::{
     load::Representation,
     scene::{
-        Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
+        Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
         Rasterizer, Settings, Shading, Transition,
     },
 };
@@ -110,6 +110,11 @@ pub struct StyleArguments {
     #[arg(action = clap::ArgAction::Set)]
     pub early_depth: bool,
 
+    /// Where splats are left out that face away or lie outside of the view: by whatever sets them up (with points, the vertex
+    /// stage of each pass), or before, by a list made in compute; auto: a list for compute alone. The picture is the same
+    #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(Cull::NAMES))]
+    pub cull: Cull,
+
     /// The precision of the sums; the reference sums in 64 bits whatever is given here
     #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
     pub accumulate: Accumulate,
@@ -187,6 +192,7 @@ impl PictureArguments {
             kernel: style.kernel,
             kernel_eval: style.kernel_eval,
             early_depth: style.early_depth,
+            cull: style.cull,
             accumulate: style.accumulate,
             epsilon: style.epsilon,
             backfaces: style.backfaces,
@@ -228,6 +234,7 @@ mod tests {
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
             kernel_eval: KernelEval::Texture,
             early_depth: true,
+            cull: Cull::List,
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,

@@ -4,24 +4,60 @@
 use ash::vk;
 
 use super::{
-    super::{Inputs, constants::TileConstants, variant::Constants},
-    ARGUMENTS, COUNTS, ENTRIES, OVERFULL, RUNS, SEEN, SPANS, STARTS, TilePass, TilePlan, Tiles,
-    after_dispatches_before,
+    super::{
+        Inputs,
+        constants::TileConstants,
+        cull::{Kept, KeptIds, list_kept},
+        variant::Constants,
+    },
+    ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPANS, STARTS, TilePass,
+    TilePlan, Tiles, after_dispatches_before,
     plan::WALKERS,
     record::record,
 };
 use crate::{
     error::Result,
     graph::{
-        Access, Graph, Start,
+        Access, Graph, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    shaders,
+    shaders::{self, Shader},
 };
 
 /// The constant of how many entries a dispatch takes of a tile.
 pub(super) fn part_length(plan: &TilePlan) -> Constants {
     vec![(19, plan.part_length)]
+}
+
+/// What counts. `kept`: records are those of a list.
+pub(super) fn count_shader(kept: bool) -> (&'static Shader, Constants) {
+    (if kept { &shaders::TILE_COUNT_KEPT_COMP } else { &shaders::TILE_COUNT_COMP }, Vec::new())
+}
+
+/// What fills.
+pub(super) fn fill_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
+    match kept {
+        true => (&shaders::TILE_FILL_KEPT_COMP, vec![(16, u32::from(plan.may_be_large))]),
+        false => (&shaders::TILE_FILL_COMP, Vec::new()),
+    }
+}
+
+/// What passes bind of a list.
+pub(super) fn kept_buffers(kept: Option<&Kept>) -> Vec<(u32, ResourceId)> {
+    kept.map_or_else(Vec::new, |kept| {
+        let KeptIds { starts, list, .. } = kept.ids();
+        vec![(KEPT_STARTS, starts), (KEPT_LIST, list)]
+    })
+}
+
+/// Declares that a pass reads them.
+fn read_kept<'g, B>(pass: PassBuilder<'g, B>, kept: Option<&Kept>) -> PassBuilder<'g, B> {
+    match kept {
+        Some(kept) => {
+            pass.read(kept.starts(), Access::StorageReadCompute).read(kept.list(), Access::StorageReadCompute)
+        }
+        None => pass,
+    }
 }
 
 /// Declares the passes that set splats up and list them by tile. `kind`, in front of the names, tells several such lists of a
@@ -32,8 +68,10 @@ pub(in super::super) fn list<'a>(
     kind: &str,
     plan: &'a TilePlan,
 ) -> Result<Tiles<'a>> {
+    let kept = inputs.kept.then(|| list_kept(graph, inputs, kind)).transpose()?;
     let mut tiles = Tiles::create(graph, kind, plan);
-    record(graph, inputs, kind, &mut tiles)?;
+    record(graph, inputs, kind, &mut tiles, kept.as_ref())?;
+    let (kept, kept_buffers) = (kept.as_ref(), kept_buffers(kept.as_ref()));
     let (spans, counts, starts) =
         ((SPANS, tiles.spans.id()), (COUNTS, tiles.counts.id()), (STARTS, tiles.starts.id()));
 
@@ -48,9 +86,9 @@ pub(in super::super) fn list<'a>(
             Ok(())
         }));
 
-    let count = TilePass::new(inputs, plan, (&shaders::TILE_COUNT_COMP, Vec::new()), vec![spans, counts])?;
-    graph
-        .pass(&format!("count {kind}tiles"))
+    let counted = [&[spans, counts], kept_buffers.as_slice()].concat();
+    let count = TilePass::new(inputs, plan, count_shader(inputs.kept), counted)?;
+    read_kept(graph.pass(&format!("count {kind}tiles")), kept)
         .read(&tiles.spans, Access::StorageReadCompute)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .finish(Box::new(move |context| walk(context, &count)));
@@ -80,10 +118,9 @@ pub(in super::super) fn list<'a>(
         .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| start.dispatch(context, 1)));
 
-    let filled = vec![spans, counts, starts, (ENTRIES, tiles.entries.id())];
-    let fill = TilePass::new(inputs, plan, (&shaders::TILE_FILL_COMP, Vec::new()), filled)?;
-    graph
-        .pass(&format!("fill {kind}tiles"))
+    let filled = [&[spans, counts, starts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
+    let fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept), filled)?;
+    read_kept(graph.pass(&format!("fill {kind}tiles")), kept)
         .read(&tiles.spans, Access::StorageReadCompute)
         .read(&tiles.starts, Access::StorageReadCompute)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)

@@ -6,6 +6,7 @@ use super::{
     super::{
         Inputs,
         accumulate::{self, bind_sampled},
+        constants::FrameConstants,
         draws::SplatPass,
         splat_shaders::Summed,
         visibility,
@@ -97,7 +98,12 @@ impl<'a> LargeDraws<'a> {
         let bind_point = vk::PipelineBindPoint::GRAPHICS;
         let (device, commands) = (context.device(), context.commands());
         for ((number, draw), pipeline) in (0..).zip(self.inputs.draws).zip(&self.pipelines) {
-            let constants = bytemuck::bytes_of(&draw.constants);
+            let constants = FrameConstants {
+                // Of listed splats the lists have indices within their chunks.
+                first_record: if self.inputs.kept { 0 } else { draw.constants.first_record },
+                ..draw.constants
+            };
+            let constants = bytemuck::bytes_of(&constants);
             let sets = [draw.chunk.set(), list];
             // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order
             // what is read; the arguments are within the buffer, and begin at any instance, as the device can.

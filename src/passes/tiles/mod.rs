@@ -63,6 +63,8 @@ const LIGHTS: u32 = 16;
 const PEELED_WEIGHT: u32 = 17;
 const PEELED_STATE: u32 = 18;
 pub(super) const RUNS: u32 = 19;
+const KEPT_STARTS: u32 = 20;
+pub(super) const KEPT_LIST: u32 = 21;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -71,7 +73,7 @@ const QUAD_ARGUMENTS: u64 = 32;
 const CHUNK_ARGUMENTS: u64 = 48;
 
 /// Storage buffers in the layout of the pass that makes records.
-pub const STORAGE_BUFFERS: u32 = 16;
+pub const STORAGE_BUFFERS: u32 = 18;
 
 /// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
 const WHOLE: u32 = u32::MAX;
@@ -252,7 +254,7 @@ impl<'a> TilePass<'a> {
 }
 
 /// Workgroups along a row, and rows: a device need not take more than 65535 in one dimension. As in `glsl/inc/tiles.glsl`.
-fn rows_of(groups: u32) -> [u32; 2] {
+pub(super) fn rows_of(groups: u32) -> [u32; 2] {
     const MOST_GROUPS_IN_ROW: u32 = 32_768;
     let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);
     [groups.div_ceil(rows.max(1)), rows]

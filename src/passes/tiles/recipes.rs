@@ -6,7 +6,7 @@ use super::{
         variant::Constants,
     },
     TilePlan,
-    bins::part_length,
+    bins::{count_shader, fill_shader, part_length},
     depth, layers, record,
     splat::{Step, shader},
 };
@@ -35,14 +35,15 @@ fn compute((shader, constants): (&'static Shader, Constants)) -> ComputeKey {
 pub(in super::super) fn list_recipes(
     variant: &Constants,
     may_be_large: bool,
+    kept: bool,
 ) -> Vec<(&'static str, ComputeKey)> {
     let plan = TilePlan::for_recipes(may_be_large);
     vec![
-        ("set up splats", record::key(variant, &plan, 0)),
-        ("count tiles", compute((&shaders::TILE_COUNT_COMP, Vec::new()))),
+        ("set up splats", record::key(variant, &plan, 0, kept)),
+        ("count tiles", compute(count_shader(kept))),
         ("total tiles", compute((&shaders::TILE_TOTAL_COMP, Vec::new()))),
         ("start tiles", compute((&shaders::TILE_START_COMP, part_length(&plan)))),
-        ("fill tiles", compute((&shaders::TILE_FILL_COMP, Vec::new()))),
+        ("fill tiles", compute(fill_shader(&plan, kept))),
     ]
 }
 

@@ -5,11 +5,12 @@ use ash::vk;
 use super::{
     super::{
         Inputs,
-        draws::Draw,
+        cull::Kept,
         pipelines::{ComputeKey, Layout},
         variant::Constants,
     },
     TilePlan, Tiles,
+    bins::kept_buffers,
 };
 use crate::{
     error::Result,
@@ -21,14 +22,15 @@ use crate::{
 /// Invocations of a workgroup, as in `glsl/tile_record.comp.glsl`.
 const GROUP: u32 = 64;
 
-/// What the pipeline is, for one chunk.
-pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32) -> ComputeKey {
+/// What the pipeline is, for one chunk, of which perhaps a list is set up.
+pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, kept: bool) -> ComputeKey {
     let mut constants = variant.clone();
     constants.push((22, plan.most_tiles));
     if plan.may_be_large {
         constants.extend([(16, 1), (17, chunk)]);
     }
-    ComputeKey { shader: &shaders::TILE_RECORD_COMP, layout: Layout::Record, constants }
+    let shader = if kept { &shaders::TILE_RECORD_KEPT_COMP } else { &shaders::TILE_RECORD_COMP };
+    ComputeKey { shader, layout: Layout::Record, constants }
 }
 
 /// Declares the pass.
@@ -37,13 +39,18 @@ pub(super) fn record<'a>(
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
+    kept: Option<&Kept>,
 ) -> Result<()> {
     let mut chunks = Vec::new();
     for (number, draw) in (0..).zip(inputs.draws) {
-        chunks.push((draw, inputs.shaders.compute(key(&draw.variant, tiles.plan, number))?));
+        chunks.push((draw, inputs.shaders.compute(key(&draw.variant, tiles.plan, number, kept.is_some()))?));
     }
-    let ids = [tiles.records().as_slice(), &[(super::SPANS, tiles.spans.id())]].concat();
+    let ids = [tiles.records().as_slice(), &[(super::SPANS, tiles.spans.id())], &kept_buffers(kept)].concat();
     let mut pass = graph.pass(&format!("set up {kind}splats"));
+    if let Some(kept) = kept {
+        pass = kept.read_by_compute(pass);
+    }
+    let kept = kept.map(Kept::ids);
     for buffer in tiles.records.iter_mut().chain([&mut tiles.spans]) {
         pass = pass.write(buffer, Access::StorageWriteCompute, Start::Discard);
     }
@@ -56,8 +63,7 @@ pub(super) fn record<'a>(
         let layout = &inputs.shaders.tiles()?.record;
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         let (device, commands) = (context.device(), context.commands());
-        for (draw, pipeline) in &chunks {
-            let draw: &Draw<'_> = draw;
+        for (number, (draw, pipeline)) in chunks.iter().enumerate() {
             let constants = bytemuck::bytes_of(&draw.constants);
             let sets = [draw.chunk.set(), set];
             // SAFETY: pipeline, sets and push constants have one layout; chunks write places of their own.
@@ -65,8 +71,14 @@ pub(super) fn record<'a>(
                 device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
                 device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-                let [x, y] = super::rows_of(draw.chunk.count.div_ceil(GROUP));
-                device.cmd_dispatch(commands, x, y, 1);
+            }
+            match &kept {
+                Some(kept) => kept.dispatch(context, number)?,
+                None => {
+                    let [x, y] = super::rows_of(draw.chunk.count.div_ceil(GROUP));
+                    // SAFETY: all is bound that the pipeline needs.
+                    unsafe { device.cmd_dispatch(commands, x, y, 1) };
+                }
             }
         }
         Ok(())

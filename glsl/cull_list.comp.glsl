@@ -1,0 +1,37 @@
+// Lists the kept splats of a chunk, each at the place that is the number of kept ones before it; and how they are drawn as points,
+// or set up. One invocation a word of bits.
+#version 460
+#include "inc/frame.glsl"
+#include "inc/tiles.glsl"
+#include "inc/kept.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 1, binding = 0, std430) readonly buffer KeptBits { uint kept_bits[]; };
+layout(set = 1, binding = 1, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+layout(set = 1, binding = 2, std430) writeonly buffer KeptList { uint kept_list[]; };
+// VkDrawIndexedIndirectCommand: the list is the index buffer. VkDispatchIndirectCommand of workgroups of 64.
+layout(set = 1, binding = 3, std430) writeonly buffer KeptArguments { uint kept_arguments[8]; };
+
+void main()
+{
+    uint word = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
+    uint words = words_of_chunk();
+    if (word >= words) {
+        return;
+    }
+    uint first = first_word_of_chunk();
+    uint place = kept_starts[first + word];
+    for (uint bits = kept_bits[first + word]; bits != 0; bits &= bits - 1) {
+        kept_list[place] = word * WORD + findLSB(bits);
+        place++;
+    }
+    if (word == 0) {
+        uint start = kept_starts[first];
+        uint count = kept_starts[first + words] - start;
+        uvec2 groups = rows_of_groups((count + 63) / 64);
+        uint arguments[8] = uint[8](count, 1, start, 0, 0, groups.x, groups.y, 1);
+        for (uint i = 0; i < 8; i++) {
+            kept_arguments[i] = arguments[i];
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! The splats that may be seen ("kept"), found and listed before any is set up, in input order: a bit each, how many come
+//! before each word of bits, their indices. No atomics, so that the list is the same in every run.
+
+use ash::vk;
+
+use super::{
+    Draw, Inputs,
+    draws::dispatch,
+    pipelines::{ComputeKey, Layout},
+    splat_shaders::Primitive,
+    tiles::rows_of,
+    variant::{Constants, culls},
+};
+use crate::{
+    error::Result,
+    graph::{
+        Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
+        execute::{Body, PassContext},
+    },
+    scene::{Cull, Settings},
+    shaders::{self, Shader},
+};
+
+/// Splats of a word of bits: each chunk begins one, as in `glsl/inc/kept.glsl`.
+const WORD: u32 = 32;
+
+/// Invocations of a workgroup, one a word, as in `glsl/cull_mark.comp.glsl`.
+const GROUP: u32 = 64;
+
+/// Points of an indexed draw; more would need `fullDrawIndexUint32`.
+const MOST_INDICES: u32 = 1 << 24;
+
+/// Where [`VkDispatchIndirectCommand`](vk::DispatchIndirectCommand) is in the arguments of a chunk, in bytes; before it is the draw.
+const DISPATCH: u64 = 20;
+
+/// Whether a list is made where there may be something to leave out. `by_tiles`: splats are drawn so.
+fn is_wanted(settings: &Settings, by_tiles: bool) -> bool {
+    match settings.cull {
+        Cull::Auto => by_tiles,
+        Cull::Setup => false,
+        Cull::List => by_tiles || Primitive::of(settings.rasterizer) == Primitive::Point,
+    }
+}
+
+/// Whether these splats are listed before they are set up: some may face away, or lie outside of the view.
+pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings) -> bool {
+    is_wanted(settings, by_tiles)
+        && draws.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
+        && words_of(draws) <= u64::from(u32::MAX / WORD)
+        && (by_tiles || draws.iter().all(|draw| draw.chunk.count <= MOST_INDICES))
+}
+
+/// Gives each chunk the number of its first splat among all; with a list each begins a word of bits.
+pub(super) fn number_splats(draws: &mut [Draw<'_>], kept: bool) {
+    let mut next = 0_u32;
+    for draw in draws {
+        draw.constants.first_record = next;
+        let count = if kept { draw.chunk.count.div_ceil(WORD) * WORD } else { draw.chunk.count };
+        // Where 32 bits are too few, nobody looks at it.
+        next = next.wrapping_add(count);
+    }
+}
+
+fn words_of(draws: &[Draw<'_>]) -> u64 {
+    draws.iter().map(|draw| u64::from(draw.chunk.count.div_ceil(WORD))).sum()
+}
+
+/// The kept splats of a part.
+pub(super) struct Kept {
+    /// A bit a splat.
+    bits: Handle<Buffer>,
+    /// How many are kept before each word of bits, then in all.
+    starts: Handle<Buffer>,
+    /// Their indices within their chunks.
+    list: Handle<Buffer>,
+    /// Of each chunk, `VkDrawIndexedIndirectCommand` of points, the list being the index buffer, and
+    /// `VkDispatchIndirectCommand` of workgroups of 64.
+    arguments: Vec<Handle<Buffer>>,
+}
+
+/// What passes need of it when they are recorded.
+#[derive(Clone)]
+pub(super) struct KeptIds {
+    pub starts: ResourceId,
+    pub list: ResourceId,
+    arguments: Vec<ResourceId>,
+}
+
+impl Kept {
+    fn create(graph: &mut Graph<Body<'_>>, kind: &str, draws: &[Draw<'_>]) -> Self {
+        let words = words_of(draws);
+        let mut buffer =
+            |what: String, words: u64| graph.create_buffer(&what, BufferDesc { size_bytes: 4 * words });
+        Self {
+            bits: buffer(format!("bits of kept {kind}splats"), words),
+            starts: buffer(format!("starts of kept {kind}splats"), words + 1),
+            list: buffer(format!("list of kept {kind}splats"), words * u64::from(WORD)),
+            arguments: (0..draws.len())
+                .map(|number| buffer(format!("kept arguments of {kind}chunk {number}"), 8))
+                .collect(),
+        }
+    }
+
+    pub fn ids(&self) -> KeptIds {
+        KeptIds {
+            starts: self.starts.id(),
+            list: self.list.id(),
+            arguments: self.arguments.iter().map(Handle::id).collect(),
+        }
+    }
+
+    /// Declares that a pass dispatches one invocation a kept splat.
+    pub fn read_by_compute<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        let pass =
+            pass.read(&self.starts, Access::StorageReadCompute).read(&self.list, Access::StorageReadCompute);
+        self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
+    }
+
+    /// Declares that a pass draws the kept splats as points.
+    pub fn read_by_points<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        let pass = pass.read(&self.list, Access::IndexRead);
+        self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
+    }
+
+    /// How many there are is in the last word of this, for a pass that walks over all of them.
+    pub fn starts(&self) -> &Handle<Buffer> {
+        &self.starts
+    }
+
+    pub fn list(&self) -> &Handle<Buffer> {
+        &self.list
+    }
+}
+
+impl KeptIds {
+    /// Records a draw of points, one a kept splat of a chunk, inside of rendering with all bound but the indices.
+    pub fn draw_points(&self, context: &PassContext<'_>, chunk: usize) -> Result<()> {
+        let (list, arguments) = (context.buffer(self.list)?, context.buffer(self.arguments[chunk])?);
+        let (device, commands) = (context.device(), context.commands());
+        // SAFETY: as the caller has it; both buffers were declared to be read so, and hold indices within the chunk and
+        // one command.
+        unsafe {
+            device.cmd_bind_index_buffer(commands, list, 0, vk::IndexType::UINT32);
+            device.cmd_draw_indexed_indirect(commands, arguments, 0, 1, 20);
+        }
+        Ok(())
+    }
+
+    /// Records a dispatch of one invocation a kept splat of a chunk, 64 a workgroup, with all bound.
+    pub fn dispatch(&self, context: &PassContext<'_>, chunk: usize) -> Result<()> {
+        let arguments = context.buffer(self.arguments[chunk])?;
+        // SAFETY: as the caller has it; the arguments were declared to be read, and are within the buffer.
+        unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, DISPATCH) };
+        Ok(())
+    }
+}
+
+/// What the pipelines of the three passes are, in their order. Only the first looks at splats.
+pub(super) fn keys(variant: &Constants) -> [ComputeKey; 3] {
+    let key = |shader: &'static Shader, constants| ComputeKey { shader, layout: Layout::List, constants };
+    [
+        key(&shaders::CULL_MARK_COMP, variant.clone()),
+        key(&shaders::CULL_SCAN_COMP, Vec::new()),
+        key(&shaders::CULL_LIST_COMP, Vec::new()),
+    ]
+}
+
+/// Declares the three passes. `kind`, in front of the names, tells several such lists of a frame apart.
+pub(super) fn list_kept<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Kept> {
+    let mut kept = Kept::create(graph, kind, inputs.draws);
+    let KeptIds { starts, list, arguments } = kept.ids();
+    let bits = kept.bits.id();
+    let pipelines = |number: usize| -> Result<Vec<_>> {
+        let of = |draw: &Draw<'_>| inputs.shaders.compute(keys(&draw.variant)[number].clone());
+        inputs.draws.iter().map(of).collect()
+    };
+
+    let mark = pipelines(0)?;
+    graph
+        .pass(&format!("mark kept {kind}splats"))
+        .write(&mut kept.bits, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| {
+            for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
+                dispatch(context, inputs, draw, pipeline, &[(0, bits)], groups_of(draw))?;
+            }
+            Ok(())
+        }));
+
+    let scan = pipelines(1)?;
+    graph
+        .pass(&format!("scan kept {kind}splats"))
+        .read(&kept.bits, Access::StorageReadCompute)
+        .write(&mut kept.starts, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| {
+            // One for all chunks; the set of any will do.
+            match inputs.draws.iter().zip(&scan).next() {
+                Some((draw, pipeline)) => {
+                    dispatch(context, inputs, draw, pipeline, &[(0, bits), (1, starts)], [1, 1])
+                }
+                None => Ok(()),
+            }
+        }));
+
+    let place = pipelines(2)?;
+    let mut pass = graph
+        .pass(&format!("list kept {kind}splats"))
+        .read(&kept.bits, Access::StorageReadCompute)
+        .read(&kept.starts, Access::StorageReadCompute)
+        .write(&mut kept.list, Access::StorageWriteCompute, Start::Discard);
+    for arguments in &mut kept.arguments {
+        pass = pass.write(arguments, Access::StorageWriteCompute, Start::Discard);
+    }
+    pass.finish(Box::new(move |context| {
+        for ((draw, pipeline), arguments) in inputs.draws.iter().zip(&place).zip(&arguments) {
+            let buffers = [(0, bits), (1, starts), (2, list), (3, *arguments)];
+            dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
+        }
+        Ok(())
+    }));
+    Ok(kept)
+}
+
+/// Workgroups of one invocation a word of bits.
+fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
+    rows_of(draw.chunk.count.div_ceil(WORD * GROUP))
+}
+
+/// The three passes where splats of a variant all lie in the view; none where there is no list.
+pub(super) fn recipes(
+    settings: &Settings,
+    by_tiles: bool,
+    variant: &Constants,
+) -> Vec<(&'static str, ComputeKey)> {
+    let passes = ["mark kept splats", "scan kept splats", "list kept splats"];
+    match is_wanted(settings, by_tiles) && culls(variant) {
+        true => passes.into_iter().zip(keys(variant)).collect(),
+        false => Vec::new(),
+    }
+}

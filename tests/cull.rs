@@ -1,0 +1,136 @@
+//! Lists of the splats that may be seen: what is drawn from them is what is drawn without.
+
+mod common;
+
+use common::{assert_same_bits, assert_validation_is_silent, scenes, shared};
+use glam::DVec3;
+use surfel::{
+    graph::execute::Profile,
+    hard_scenes::{Hard, sphere, transparent},
+    renderer::{Frame, Headless, Wanted},
+    scene::{Accumulate, Backfaces, Cull, Filter, Object, Rasterizer, Scene, Settings},
+};
+
+fn draw(headless: &mut Headless, hard: &Hard, cull: Cull, wanted: Wanted) -> Frame {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let settings = Settings { cull, ..hard.settings.clone() };
+    headless.render(&prepared, &hard.camera, &settings, wanted).unwrap()
+}
+
+fn passes(frame: &Frame) -> Vec<&str> {
+    frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
+}
+
+/// The scene as it is seen through windows that its splats stick out of on all sides.
+fn views(hard: &Hard) -> Vec<Hard> {
+    let camera = hard.camera;
+    let narrow = |factor: f64| {
+        let mut camera = camera;
+        camera.fov_y_rad *= factor;
+        Hard { camera, ..hard.clone() }
+    };
+    vec![hard.clone(), narrow(0.2)]
+}
+
+/// Points of a list are the same primitives in the same order, so that not a bit may differ.
+#[test]
+fn points_of_a_list_are_the_same_bits_on_every_hard_scene_with_every_filter() {
+    let mut headless = shared();
+    let mut listed = 0;
+    for scene in scenes::all().into_iter().chain(transparent::all()) {
+        for (_, filter) in Filter::NAMES {
+            for mut hard in views(&scene) {
+                hard.settings = Settings {
+                    size_px: [64, 48],
+                    rasterizer: Rasterizer::Perspective,
+                    filter: *filter,
+                    ..hard.settings
+                };
+                if hard.settings.validate().is_err() || hard.settings.check_scene(&hard.scene).is_err() {
+                    continue;
+                }
+                let all = draw(&mut headless, &hard, Cull::Setup, common::ALL);
+                let kept = draw(&mut headless, &hard, Cull::List, common::ALL);
+                assert!(!passes(&all).contains(&"list kept splats"));
+                listed += usize::from(passes(&kept).contains(&"list kept splats"));
+                assert_same_bits(&all, &kept, &format!("{} {}", hard.name, filter.name()));
+            }
+        }
+    }
+    assert_validation_is_silent(&headless);
+    assert!(listed > 100, "{listed}");
+}
+
+/// Three balls, of numbers of splats that fill no word of bits, the outer ones cut by the sides of the view.
+fn balls(settings: Settings) -> Hard {
+    let ball = |i: usize| sphere(3001 + 7 * i, DVec3::new(1.6 * (i as f64 - 1.0), 0.0, 0.0));
+    let scene = Scene { objects: (0..3).map(ball).collect(), ..Scene::default() };
+    let settings = Settings { size_px: [200, 200], accumulate: Accumulate::F32, ..settings };
+    Hard { name: "balls", scene, camera: scenes::builder::camera([0.0, 0.0, 4.5], [0.0; 3]), settings }
+}
+
+/// By tiles the sums' order is another: of 32 bits each is off by a few roundings. Large splats, too, come from the list.
+#[test]
+fn tiles_of_a_list_are_the_same_within_rounding() {
+    let mut headless = shared();
+    let mut near = balls(Settings::default());
+    near.camera = scenes::builder::camera([0.0, 0.0, 1.1], [0.4, 0.1, 0.0]);
+    for (hard, large) in [(balls(Settings::default()), false), (near, true)] {
+        let hard =
+            Hard { settings: Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() }, ..hard };
+        let all = draw(&mut headless, &hard, Cull::Setup, common::ALL);
+        let kept = draw(&mut headless, &hard, Cull::Auto, common::ALL);
+        assert!(passes(&kept).contains(&"list kept splats") && !passes(&all).contains(&"list kept splats"));
+        assert_eq!(passes(&kept).contains(&"sum large splats"), large);
+        assert!(all.weight.iter().any(|weight| *weight > 0.0));
+        for (a, b) in all.weight.iter().zip(&kept.weight) {
+            // 30 splats a pixel at most, each addition off by 2^-24.
+            assert!((a - b).abs() <= 4e-6 * a, "{a} {b}");
+        }
+        let again = draw(&mut headless, &hard, Cull::Auto, common::ALL);
+        assert_same_bits(&kept, &again, "again");
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// What faces away or lies outside of the view never reaches the vertex stage.
+#[test]
+fn points_that_are_not_seen_are_no_vertices() {
+    let mut headless = shared();
+    let hard = balls(Settings { rasterizer: Rasterizer::Perspective, ..Settings::default() });
+    let counted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+    let mut vertices = |hard: &Hard, cull| {
+        let frame = draw(&mut headless, hard, cull, counted);
+        let profile = frame.profile.unwrap();
+        let pass = profile.passes.iter().find(|pass| pass.name == "visibility").unwrap();
+        pass.counts.unwrap().vertices
+    };
+    let all = vertices(&hard, Cull::Setup);
+    let kept = vertices(&hard, Cull::List);
+    assert_eq!(all, 3001 + 3008 + 3015);
+    // Nearly half of the middle ball faces the eye, and a part of half of each outer one is within the sides.
+    assert!((all / 5..all / 3).contains(&kept), "{kept} of {all}");
+    let mut away = hard.clone();
+    away.camera = scenes::builder::camera([0.0, 0.0, 4.5], [0.0, 0.0, 9.0]);
+    assert_eq!(vertices(&away, Cull::List), 0);
+}
+
+#[test]
+fn where_nothing_is_left_out_there_is_no_list() {
+    let mut headless = shared();
+    let open = |objects: Vec<Object>| {
+        objects.into_iter().map(|object| Object { closed: false, ..object }).collect::<Vec<_>>()
+    };
+    for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute] {
+        let mut hard = balls(Settings { rasterizer, ..Settings::default() });
+        hard.scene.objects = open(vec![hard.scene.objects.swap_remove(1)]);
+        let lists = |headless: &mut Headless, hard: &Hard| {
+            passes(&draw(headless, hard, Cull::List, common::ALL)).contains(&"mark kept splats")
+        };
+        assert!(!lists(&mut headless, &hard));
+        let culled = Settings { backfaces: Backfaces::Cull, ..hard.settings.clone() };
+        assert!(lists(&mut headless, &Hard { settings: culled, ..hard.clone() }));
+        hard.camera.fov_y_rad *= 0.2;
+        assert!(lists(&mut headless, &hard));
+    }
+}
