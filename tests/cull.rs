@@ -51,9 +51,12 @@ fn points_of_a_list_are_the_same_bits_on_every_hard_scene_with_every_filter() {
                 }
                 let all = draw(&mut headless, &hard, Cull::Setup, common::ALL);
                 let kept = draw(&mut headless, &hard, Cull::List, common::ALL);
+                let seen = draw(&mut headless, &hard, Cull::Hidden, common::ALL);
                 assert!(!passes(&all).contains(&"list kept splats"));
                 listed += usize::from(passes(&kept).contains(&"list kept splats"));
-                assert_same_bits(&all, &kept, &format!("{} {}", hard.name, filter.name()));
+                let what = format!("{} {}", hard.name, filter.name());
+                assert_same_bits(&all, &kept, &what);
+                assert_same_bits(&all, &seen, &format!("{what}, hidden"));
             }
         }
     }
@@ -102,17 +105,26 @@ fn points_that_are_not_seen_are_no_vertices() {
     let mut vertices = |hard: &Hard, cull| {
         let frame = draw(&mut headless, hard, cull, counted);
         let profile = frame.profile.unwrap();
-        let pass = profile.passes.iter().find(|pass| pass.name == "visibility").unwrap();
-        pass.counts.unwrap().vertices
+        ["visibility", "accumulate"].map(|name| {
+            let pass = profile.passes.iter().find(|pass| pass.name == name).unwrap();
+            pass.counts.unwrap().vertices
+        })
     };
-    let all = vertices(&hard, Cull::Setup);
-    let kept = vertices(&hard, Cull::List);
-    assert_eq!(all, 3001 + 3008 + 3015);
+    let all = 3001 + 3008 + 3015;
+    assert_eq!(vertices(&hard, Cull::Setup), [all, all]);
     // Nearly half of the middle ball faces the eye, and a part of half of each outer one is within the sides.
-    assert!((all / 5..all / 3).contains(&kept), "{kept} of {all}");
+    let kept = vertices(&hard, Cull::List);
+    assert!((all / 5..all / 3).contains(&kept[0]) && kept[0] == kept[1], "{kept:?} of {all}");
     let mut away = hard.clone();
     away.camera = scenes::builder::camera([0.0, 0.0, 4.5], [0.0, 0.0, 9.0]);
-    assert_eq!(vertices(&away, Cull::List), 0);
+    assert_eq!(vertices(&away, Cull::List), [0, 0]);
+    // One behind the other: in front of the eye is one ball, from which the others stick out on no side.
+    let mut behind = hard.clone();
+    behind.camera = scenes::builder::camera([6.0, 0.0, 0.0], [0.0; 3]);
+    let listed = vertices(&behind, Cull::List);
+    let seen = vertices(&behind, Cull::Hidden);
+    assert_eq!(seen[0], listed[0]);
+    assert!(seen[1] > 500 && seen[1] < listed[1] / 2, "{seen:?} of {listed:?}");
 }
 
 #[test]

@@ -10,6 +10,7 @@
 #include "inc/point.glsl"
 #include "inc/quad.glsl"
 #include "inc/triangle.glsl"
+#include "inc/depth_bound.glsl"
 
 #if defined(SMALL_POINTS) || defined(SMALL_TRIANGLES)
 #define LARGE_BITS_ACCESS readonly
@@ -42,15 +43,13 @@ bool is_drawn_elsewhere(uint index)
 #endif
 }
 
-// No fragment of the splat is nearer: a bound of w, for fixed-function tests before the fragment stage. The depth of a disk
-// is at most its center's times 1 + depth radius / (p_z - depth radius); affine and stretched maps stay below.
+// A bound of the splat's depth for fixed-function tests before the fragment stage.
 float nearest_depth(Mapping m)
 {
     if (!EARLY_DEPTH) {
         return 0.5; // only has to be inside the clip volume
     }
-    float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
-    return m.regular ? min(FORMULA_LESS(FORMULA_NEAREST_DEPTH, frame.near / (m.p.z - depth_radius) * 1.00001), 1.0) : 1.0;
+    return m.regular ? min(nearest_of_regular(m), 1.0) : 1.0;
 }
 
 void emit_nothing()

@@ -4,7 +4,7 @@
 use ash::vk;
 
 use super::{
-    accumulate, cull,
+    accumulate, cull, cull_hidden,
     draws::SplatPass,
     export, finalize, floor, kernel_texture, layer_accumulate,
     layer_compose::{self, LayerKind},
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{KernelEval, Rasterizer, Settings},
+    scene::{Cull, KernelEval, Rasterizer, Settings},
     shaders::{self, Shader},
 };
 
@@ -225,7 +225,13 @@ fn opaque(
         all.push(compute("scan large splats", scan));
         all.push(compute("list large splats", list));
     }
-    all.extend(cull::recipes(settings, false, variant).into_iter().map(|(pass, key)| compute(pass, key)));
+    let culled = cull::recipes(settings, false, variant);
+    let culled_hidden = !culled.is_empty() && settings.cull == Cull::Hidden;
+    all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
+    if culled_hidden {
+        all.push(compute("cells of depth", cull_hidden::cells_key()));
+        all.push(compute("mark seen splats", cull_hidden::hidden_key(variant)));
+    }
     let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
     let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
     let splat_passes = [

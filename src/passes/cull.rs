@@ -1,6 +1,8 @@
 //! The splats that may be seen ("kept"), found and listed before any is set up, in input order: a bit each, how many come
 //! before each word of bits, their indices. No atomics, so that the list is the same in every run.
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use super::{
@@ -19,6 +21,7 @@ use crate::{
     },
     scene::{Cull, Settings},
     shaders::{self, Shader},
+    vk::ComputePipeline,
 };
 
 /// Splats of a word of bits: each chunk begins one, as in `glsl/inc/kept.glsl`.
@@ -38,7 +41,7 @@ fn is_wanted(settings: &Settings, by_tiles: bool) -> bool {
     match settings.cull {
         Cull::Auto => by_tiles,
         Cull::Setup => false,
-        Cull::List => by_tiles || Primitive::of(settings.rasterizer) == Primitive::Point,
+        Cull::List | Cull::Hidden => by_tiles || Primitive::of(settings.rasterizer) == Primitive::Point,
     }
 }
 
@@ -68,7 +71,7 @@ fn words_of(draws: &[Draw<'_>]) -> u64 {
 /// The kept splats of a part.
 pub(super) struct Kept {
     /// A bit a splat.
-    bits: Handle<Buffer>,
+    pub bits: Handle<Buffer>,
     /// How many are kept before each word of bits, then in all.
     starts: Handle<Buffer>,
     /// Their indices within their chunks.
@@ -87,16 +90,17 @@ pub(super) struct KeptIds {
 }
 
 impl Kept {
-    fn create(graph: &mut Graph<Body<'_>>, kind: &str, draws: &[Draw<'_>]) -> Self {
+    fn create(graph: &mut Graph<Body<'_>>, what: &str, bits: Handle<Buffer>, draws: &[Draw<'_>]) -> Self {
         let words = words_of(draws);
-        let mut buffer =
-            |what: String, words: u64| graph.create_buffer(&what, BufferDesc { size_bytes: 4 * words });
+        let mut buffer = |part: &str, words: u64| {
+            graph.create_buffer(&format!("{part} of {what}"), BufferDesc { size_bytes: 4 * words })
+        };
         Self {
-            bits: buffer(format!("bits of kept {kind}splats"), words),
-            starts: buffer(format!("starts of kept {kind}splats"), words + 1),
-            list: buffer(format!("list of kept {kind}splats"), words * u64::from(WORD)),
+            bits,
+            starts: buffer("starts", words + 1),
+            list: buffer("list", words * u64::from(WORD)),
             arguments: (0..draws.len())
-                .map(|number| buffer(format!("kept arguments of {kind}chunk {number}"), 8))
+                .map(|number| buffer(&format!("arguments in chunk {number}"), 8))
                 .collect(),
         }
     }
@@ -156,9 +160,9 @@ impl KeptIds {
 }
 
 /// What the pipelines of the three passes are, in their order. Only the first looks at splats.
-pub(super) fn keys(variant: &Constants) -> [ComputeKey; 3] {
+fn keys(variant: &Constants) -> Vec<ComputeKey> {
     let key = |shader: &'static Shader, constants| ComputeKey { shader, layout: Layout::List, constants };
-    [
+    vec![
         key(&shaders::CULL_MARK_COMP, variant.clone()),
         key(&shaders::CULL_SCAN_COMP, Vec::new()),
         key(&shaders::CULL_LIST_COMP, Vec::new()),
@@ -167,28 +171,46 @@ pub(super) fn keys(variant: &Constants) -> [ComputeKey; 3] {
 
 /// Declares the three passes. `kind`, in front of the names, tells several such lists of a frame apart.
 pub(super) fn list_kept<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Kept> {
-    let mut kept = Kept::create(graph, kind, inputs.draws);
-    let KeptIds { starts, list, arguments } = kept.ids();
-    let bits = kept.bits.id();
-    let pipelines = |number: usize| -> Result<Vec<_>> {
-        let of = |draw: &Draw<'_>| inputs.shaders.compute(keys(&draw.variant)[number].clone());
-        inputs.draws.iter().map(of).collect()
-    };
-
-    let mark = pipelines(0)?;
-    graph
-        .pass(&format!("mark kept {kind}splats"))
-        .write(&mut kept.bits, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| {
+    let what = format!("kept {kind}splats");
+    let mut bits = create_bits(graph, inputs, &what);
+    let (id, mark) = (bits.id(), pipelines(inputs, |draw| keys(&draw.variant).swap_remove(0))?);
+    graph.pass(&format!("mark {what}")).write(&mut bits, Access::StorageWriteCompute, Start::Discard).finish(
+        Box::new(move |context| {
             for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                dispatch(context, inputs, draw, pipeline, &[(0, bits)], groups_of(draw))?;
+                dispatch(context, inputs, draw, pipeline, &[(0, id)], groups_of(draw))?;
             }
             Ok(())
-        }));
+        }),
+    );
+    list_marked(graph, inputs, &what, bits)
+}
 
-    let scan = pipelines(1)?;
+/// A bit a splat, which some pass is to set.
+pub(super) fn create_bits(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>, what: &str) -> Handle<Buffer> {
+    graph.create_buffer(&format!("bits of {what}"), BufferDesc { size_bytes: 4 * words_of(inputs.draws) })
+}
+
+/// The pipeline of each chunk.
+pub(super) fn pipelines(
+    inputs: Inputs<'_>,
+    key: impl Fn(&Draw<'_>) -> ComputeKey,
+) -> Result<Vec<Arc<ComputePipeline>>> {
+    inputs.draws.iter().map(|draw| inputs.shaders.compute(key(draw))).collect()
+}
+
+/// Declares the two passes that list what is marked.
+pub(super) fn list_marked<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    what: &str,
+    bits: Handle<Buffer>,
+) -> Result<Kept> {
+    let mut kept = Kept::create(graph, what, bits, inputs.draws);
+    let KeptIds { starts, list, arguments } = kept.ids();
+    let bits = kept.bits.id();
+    let scan = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(1))?;
     graph
-        .pass(&format!("scan kept {kind}splats"))
+        .pass(&format!("scan {what}"))
         .read(&kept.bits, Access::StorageReadCompute)
         .write(&mut kept.starts, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
@@ -201,9 +223,9 @@ pub(super) fn list_kept<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kin
             }
         }));
 
-    let place = pipelines(2)?;
+    let place = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(2))?;
     let mut pass = graph
-        .pass(&format!("list kept {kind}splats"))
+        .pass(&format!("list {what}"))
         .read(&kept.bits, Access::StorageReadCompute)
         .read(&kept.starts, Access::StorageReadCompute)
         .write(&mut kept.list, Access::StorageWriteCompute, Start::Discard);
@@ -221,7 +243,7 @@ pub(super) fn list_kept<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kin
 }
 
 /// Workgroups of one invocation a word of bits.
-fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
+pub(super) fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
     rows_of(draw.chunk.count.div_ceil(WORD * GROUP))
 }
 

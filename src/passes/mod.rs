@@ -6,6 +6,7 @@ mod choice;
 mod constants;
 mod copy_depth;
 mod cull;
+mod cull_hidden;
 mod draws;
 mod export;
 mod finalize;
@@ -60,7 +61,7 @@ use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Layers, Light, Settings},
+    scene::{Accumulate, Camera, Cull, Layers, Light, Settings},
     vk::{DescriptorPool, Limits, Occlusion, PoolRoom},
 };
 
@@ -209,8 +210,8 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     let layers = if parts.transparent.is_empty() { 0 } else { settings.layers.most() };
     // For each chunk with large splats: three passes that list them, two that draw them, in each layer.
     let lists = 5 * large(&parts.opaque) + (3 + 2 * layers) * large(&parts.transparent);
-    // Of kept splats: three passes that list them, one that sets them up.
-    let kept = |part: &Part<'_>| if part.kept { 4 * part.splats.len() as u32 } else { 0 };
+    // Of kept splats: three passes that list them, twice, and one that sets them up.
+    let kept = |part: &Part<'_>| if part.kept { 8 * part.splats.len() as u32 } else { 0 };
     let lists = lists + kept(&parts.opaque) + kept(&parts.transparent);
     // What fragments read: in accumulation; in each layer's visibility, accumulation and polygons.
     let reads = 1 + 3 * layers;
@@ -223,7 +224,7 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
         room: PoolRoom {
             sets: lists + reads + sums + 1,
             buffers: 4 * lists + reads + sums,
-            images: 2 * reads + 5 * sums + 3,
+            images: 2 * reads + 5 * sums + 4,
             filtered_images: reads,
             storage_images: 0,
         }
@@ -297,6 +298,12 @@ fn opaque<'a>(
     }
     if let Some(depth) = &opaque.splat_depth {
         let polygons = opaque.polygon_depth.as_ref();
+        let kept = match &kept {
+            Some(kept) if inputs.settings.cull == Cull::Hidden => {
+                Some(cull_hidden::list_seen(graph, inputs, kept, depth)?)
+            }
+            _ => kept,
+        };
         let lists = (large.as_slice(), kept.as_ref());
         opaque.splats =
             Some(accumulate::accumulate(graph, inputs, lists, depth, polygons, kernel, with_depth)?);

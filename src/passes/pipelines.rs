@@ -37,12 +37,15 @@ pub struct Shaders {
     pub(super) sums_set: SetLayout,
     /// Set 0 of export: the sums and the visible depth.
     pub(super) surface_set: SetLayout,
+    /// Set 0 of the hierarchy of depth: the depth, the hierarchy.
+    pub(super) cells_set: SetLayout,
     pub(super) splat_layout: PipelineLayout,
     /// The sets and constants of the splat passes for compute alone. lavapipe of Mesa 22.3 crashes where a query of
     /// counts begins after constants were pushed for the stages of a graphics pipeline and before one was bound.
     pub(super) list_layout: PipelineLayout,
     pub(super) finalize_layout: PipelineLayout,
     pub(super) export_layout: PipelineLayout,
+    pub(super) cells_layout: PipelineLayout,
     /// Those of tiles; none on a device with too few storage buffers.
     tiles: Option<TileLayouts>,
     /// The formula that is made wrong; for tests of the tests.
@@ -66,6 +69,7 @@ pub(super) enum Layout {
     List,
     Finalize,
     Export,
+    DepthCells,
     Record,
     Tile,
     TileQuads,
@@ -140,6 +144,9 @@ impl Shaders {
             size_of::<constants::ExportConstants>() as u32,
             fragment,
         )?;
+        let fetched = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: compute };
+        let cells_set = SetLayout::new(device, "cells of depth", &[fetched, buffer])?;
+        let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
         let has_tiles = device.facts().limits.storage_buffers_a_stage >= tiles::STORAGE_BUFFERS;
         let tiles = has_tiles.then(|| TileLayouts::new(device, splat_set.set(), &sums_set)).transpose()?;
         Ok(Self {
@@ -156,6 +163,8 @@ impl Shaders {
             list_layout,
             finalize_layout,
             export_layout,
+            cells_set,
+            cells_layout,
             tiles,
             #[cfg(feature = "test-formulas")]
             perturbed: None,
@@ -192,6 +201,7 @@ impl Shaders {
             Layout::List => &self.list_layout,
             Layout::Finalize => &self.finalize_layout,
             Layout::Export => &self.export_layout,
+            Layout::DepthCells => &self.cells_layout,
             Layout::Record => &self.tiles()?.record,
             Layout::Tile => &self.tiles()?.tile,
             Layout::TileQuads => &self.tiles()?.quads,

@@ -183,6 +183,10 @@ fn reason(pass: &str) -> &'static str {
         "count large splats" | "scan large splats" | "list large splats" => {
             "a splat may exceed the device's largest point, or come near the eye plane"
         }
+        "cells of depth" => "--cull hidden: the farthest visible depth of parts of the image",
+        "mark seen splats" | "scan seen splats" | "list seen splats" => {
+            "--cull hidden: what the visible depth hides is not summed"
+        }
         name if name.contains(" kept ") => {
             "some splats face away or may lie outside of the view: the others are listed"
         }

@@ -70,6 +70,8 @@ named! {
         /// Before that, in compute: a list of the others is what is set up, and what is drawn as points. Where a chunk has
         /// nothing to leave out, there is no list.
         List = "list",
+        /// As `List`, and again before accumulation: what the visible depth hides is not summed.
+        Hidden = "hidden",
     }
 }
 
