@@ -163,6 +163,27 @@ pub struct Inputs<'a> {
 }
 
 impl<'a> Inputs<'a> {
+    /// Those of a frame in which nothing is drawn yet.
+    pub fn new(
+        camera: &'a Camera,
+        settings: &'a Settings,
+        shaders: &'a Shaders,
+        descriptors: &'a DescriptorPool,
+    ) -> Self {
+        let (draws, meshes): (&[Draw<'_>], &[MeshDraw<'_>]) = (&[], &[]);
+        Self {
+            draws,
+            meshes,
+            tiles: None,
+            kept: false,
+            camera,
+            settings,
+            shaders,
+            descriptors,
+            occlusion: None,
+        }
+    }
+
     /// The same for one part of the scene.
     fn of(self, part: &'a Part<'a>) -> Self {
         Self {

@@ -123,17 +123,9 @@ impl<'a> Floor<'a> {
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, profile) }?;
         let SlotParts { descriptors, transients, profiler, .. } = self.slot.parts()?;
-        let inputs = Inputs {
-            draws: &draws,
-            meshes: &[],
-            tiles: None,
-            kept: false,
-            occlusion: None,
-            camera: &self.camera,
-            settings: &self.settings,
-            shaders: &headless.renderer.shaders,
-            descriptors,
-        };
+        let shaders = &headless.renderer.shaders;
+        let inputs =
+            Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, shaders, descriptors) };
         let mut graph = Graph::new();
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut imports = Vec::new();
@@ -163,10 +155,7 @@ impl<'a> Floor<'a> {
             passes::floor_frame(&mut graph, inputs, &points, &mut image, target.format)?;
         }
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-        let transients = match transients {
-            Some(kept) if kept.fit(&compiled.plan) => kept,
-            other => other.insert(Transients::new(device, &compiled.plan)?),
-        };
+        let transients = Transients::for_plan(transients, device, &compiled.plan)?;
         submit_and_wait(headless, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
             unsafe { execute(device, commands, compiled, transients, &imports, profiler) }

@@ -205,10 +205,7 @@ impl Probe {
             (_, []) => return Ok(FrameProfile::default()),
         }
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-        let transients = match transients {
-            Some(kept) if kept.fit(&compiled.plan) => kept,
-            other => other.insert(Transients::new(device, &compiled.plan)?),
-        };
+        let transients = Transients::for_plan(transients, device, &compiled.plan)?;
         submit_and_wait(headless, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
             unsafe { execute(device, commands, compiled, transients, &imports, profiler) }

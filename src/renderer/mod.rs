@@ -155,25 +155,11 @@ impl Renderer {
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, transients, profiler } = slot.parts()?;
         let shaders = &self.shaders;
-        let inputs = Inputs {
-            draws: &[],
-            meshes: &[],
-            tiles: None,
-            kept: false,
-            camera,
-            settings,
-            shaders,
-            descriptors,
-            occlusion,
-        };
+        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, shaders, descriptors) };
         let (graph, imports) = declare(inputs, &parts, target, readbacks)?;
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
         let plan = compiled.plan.clone();
-        let transients = match transients {
-            Some(kept) if kept.fit(&plan) => kept,
-            // The old ones are destroyed once the frames that use them are done.
-            other => other.insert(Transients::new(&self.device, &plan)?),
-        };
+        let transients = Transients::for_plan(transients, &self.device, &plan)?;
         // SAFETY: this function's contract.
         unsafe { execute(&self.device, commands, compiled, transients, &imports, profiler) }?;
         Ok(plan)

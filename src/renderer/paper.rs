@@ -54,17 +54,7 @@ pub fn draw_as_published(
     unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
     let SlotParts { descriptors, profiler, .. } = slot.parts()?;
     let shaders = &headless.renderer.shaders;
-    let inputs = Inputs {
-        draws: &draws,
-        meshes: &[],
-        tiles: None,
-        kept: false,
-        occlusion: None,
-        camera,
-        settings,
-        shaders,
-        descriptors,
-    };
+    let inputs = Inputs { draws: &draws, ..Inputs::new(camera, settings, shaders, descriptors) };
     let mut graph = Graph::new();
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };

@@ -112,6 +112,18 @@ impl Transients {
         self.key == Key::of(plan)
     }
 
+    /// Those of the frame before where they serve this plan too; else new ones. The old ones are destroyed once the frames that
+    /// use them are done.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn for_plan<'k>(kept: &'k mut Option<Self>, device: &Device, plan: &Plan) -> Result<&'k mut Self> {
+        match kept.take_if(|transients| transients.fit(plan)) {
+            Some(transients) => Ok(kept.insert(transients)),
+            None => Ok(kept.insert(Self::new(device, plan)?)),
+        }
+    }
+
     /// Bytes of device memory.
     pub fn bytes(&self) -> u64 {
         self.memory.iter().map(Memory::size).sum()

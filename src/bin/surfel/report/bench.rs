@@ -6,33 +6,18 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
-use crate::{arguments::Command, bench, json::to_value};
 
 /// Gathers the part.
 ///
 /// # Errors
 /// Whatever goes wrong; a device without timestamps.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
-    let line = session.arguments.bench("floor");
-    let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
-    let report = bench::gather(Some(&mut *session.headless), &arguments)?;
-    let mut part = Part {
-        finding: report.floor.as_ref().map_or_else(String::new, finding),
-        commands: vec![line],
-        data: to_value(&report)?,
-        ..Part::default()
-    };
-    part.blocks.push(Block::Text(
-        "The floor draws the same points through the same fixed-function stages into the same formats with nothing computed; \
+    let mut part =
+        Part::of_bench(session, "floor", |report| report.floor.as_ref().map_or_else(String::new, finding))?;
+    let text = "The floor draws the same points through the same fixed-function stages into the same formats with nothing computed; \
          the strict floor leaves out what the passes cull. All three in turn, and in the same rounds what the device does at \
-         most: of that, each pass's points, fragments and bytes take a time below which it can't get."
-            .to_owned(),
-    ));
-    for grid in report.grids() {
-        part.table(grid);
-    }
-    part.flags = report.flags;
-    part.machine = report.machine;
+         most: of that, each pass's points, fragments and bytes take a time below which it can't get.";
+    part.blocks.insert(0, Block::Text(text.to_owned()));
     Ok(part)
 }
 

@@ -3,28 +3,13 @@
 use surfel::{Result, report::LayersReport};
 
 use super::{part::Part, session::Session};
-use crate::{arguments::Command, bench, json::to_value};
 
 /// Gathers the part.
 ///
 /// # Errors
 /// Whatever goes wrong.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
-    let line = session.arguments.bench("layers");
-    let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
-    let report = bench::gather(Some(&mut *session.headless), &arguments)?;
-    let mut part = Part {
-        finding: report.layers.as_ref().map_or_else(String::new, finding),
-        commands: vec![line],
-        data: to_value(&report)?,
-        ..Part::default()
-    };
-    for grid in report.grids() {
-        part.table(grid);
-    }
-    part.flags = report.flags;
-    part.machine = report.machine;
-    Ok(part)
+    Part::of_bench(session, "layers", |report| report.layers.as_ref().map_or_else(String::new, finding))
 }
 
 /// The paper's claim: half of the layers are drawn more than twice as fast, and with the rest blended faster still.

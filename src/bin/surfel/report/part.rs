@@ -2,11 +2,12 @@
 
 use surfel::{
     Error, Result,
-    report::{Grid, Machine},
+    report::{BenchReport, Grid, Machine},
     save,
 };
 
 use super::{command_line::CommandLine, session::Session};
+use crate::{arguments::Command, bench, json::to_value};
 
 /// A part of the page: an entry of the table of contents.
 pub struct Chapter {
@@ -100,6 +101,32 @@ impl Panel {
 }
 
 impl Part {
+    /// What `surfel bench WHAT` measures, and what follows from it.
+    ///
+    /// # Errors
+    /// Whatever goes wrong.
+    pub fn of_bench(
+        session: &mut Session<'_>,
+        what: &str,
+        finding: impl FnOnce(&BenchReport) -> String,
+    ) -> Result<Self> {
+        let line = session.arguments.bench(what);
+        let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
+        let report = bench::gather(Some(&mut *session.headless), &arguments)?;
+        let mut part = Self {
+            finding: finding(&report),
+            commands: vec![line],
+            data: to_value(&report)?,
+            ..Self::default()
+        };
+        for grid in report.grids() {
+            part.table(grid);
+        }
+        part.flags = report.flags;
+        part.machine = report.machine;
+        Ok(part)
+    }
+
     /// One that could not be gathered.
     pub fn missing(error: &Error) -> Self {
         let finding = format!("Not on this page: {error}");

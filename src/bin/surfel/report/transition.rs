@@ -3,28 +3,15 @@
 use surfel::{Result, report::TransitionReport};
 
 use super::{part::Part, session::Session};
-use crate::{arguments::Command, bench, json::to_value};
 
 /// Gathers the part.
 ///
 /// # Errors
 /// Whatever goes wrong; a model that is no mesh.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
-    let line = session.arguments.bench("transition");
-    let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
-    let report = bench::gather(Some(&mut *session.headless), &arguments)?;
-    let mut part = Part {
-        finding: report.transition.as_ref().map_or_else(String::new, finding),
-        commands: vec![line],
-        data: to_value(&report)?,
-        ..Part::default()
-    };
-    for grid in report.grids() {
-        part.table(grid);
-    }
-    part.flags = report.flags;
-    part.machine = report.machine;
-    Ok(part)
+    Part::of_bench(session, "transition", |report| {
+        report.transition.as_ref().map_or_else(String::new, finding)
+    })
 }
 
 /// The paper's claim: none of them costs anything.
