@@ -27,15 +27,16 @@
 #include "inc/variant.glsl"
 #include "inc/kernel.glsl"
 #include "inc/tiles.glsl"
+layout(push_constant, std430) uniform Push { TileConstants push; };
+#if defined(FUSED)
+#define IS_WHOLE true
+#else
+#define IS_WHOLE (push.part == 0xffffffffu) // WHOLE of src/passes/tiles/mod.rs
+#endif
+#include "inc/tile_work.glsl"
 #include "inc/tile_batch.glsl"
 
-#define WHOLE 0xffffffffu // no part: the whole tile
-
 layout(local_size_x = TILE) in;
-layout(push_constant, std430) uniform Push { TileConstants push; };
-layout(set = 0, binding = 6, std430) readonly buffer Starts { uint starts[]; };
-layout(set = 0, binding = 8, std430) readonly buffer SeenTiles { uint seen_tiles[]; };
-layout(set = 0, binding = 10, std430) readonly buffer OverfullTiles { uint overfull_tiles[]; };
 
 #if defined(HALF)
 #define SUMS_FORMAT rgba16f
@@ -56,15 +57,7 @@ layout(constant_id = 18) const bool SHIFTED_FOR_ALL = false;
 layout(set = 0, binding = 15) uniform texture2D depth_with_polygons;
 #endif
 
-layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one dispatch takes (inc/tiles.glsl)
 layout(constant_id = 23) const bool KEEPS_DEPTH = true; // someone reads it
-
-const float LEAST_WEIGHT = 5.9604645e-8; // 2^-24
-
-struct Range {
-    uint first;
-    uint end;
-};
 
 #if !defined(SUMMED)
 void see(Range range, vec2 at_px, inout float visible[TILE])
@@ -111,11 +104,7 @@ void sum(Range range, vec2 at_px, float visible[TILE], float polygon[TILE], inou
 #else
                 inside = inside && depth >= visible[row];
 #endif
-                float r2 = dot(uvw.xy, uvw.xy);
-                r2 = AFFINE ? r2 : r2 / (uvw.z * uvw.z);
-                float weight = kernel_weight(r2);
-                weight = WEIGHTED ? max(weight * share, LEAST_WEIGHT) : weight;
-                weight = inside ? weight : 0.0;
+                float weight = weight_of(uvw, share, inside);
                 colors[row] += weight * vec4(color, 1.0);
                 normals[row].xyz += weight * normal;
 #if defined(WITH_DEPTH)
@@ -130,42 +119,20 @@ void sum(Range range, vec2 at_px, float visible[TILE], float polygon[TILE], inou
 
 void main()
 {
-#if defined(FUSED)
-    if (GROUP_NUMBER >= starts[STARTS_SEEN]) {
+    Work work;
+    if (!find_work(work)) {
         return;
     }
-    uint tile = seen_tiles[GROUP_NUMBER];
-    uint first = starts[tile];
-    uint end = starts[tile + 1];
-    if (end - first > PART) {
-        return;
-    }
-    const bool goes_on = false;
-#else
-    if (GROUP_NUMBER >= starts[push.part == WHOLE ? STARTS_SEEN : STARTS_OVERFULL]) {
-        return;
-    }
-    uint tile = push.part == WHOLE ? seen_tiles[GROUP_NUMBER] : overfull_tiles[GROUP_NUMBER];
-    uint begin = starts[tile];
-    uint finish = starts[tile + 1];
-    if (push.part == WHOLE && finish - begin > PART) {
-        return;
-    }
-    uint first = push.part == WHOLE ? begin : min(begin + push.part * PART, finish);
-    uint end = push.part == WHOLE ? finish : min(first + PART, finish);
-    bool goes_on = push.part != WHOLE && push.part > 0;
-#endif
-    Range range = Range(first, end);
-    ivec2 pixel = TILE * ivec2(tile % push.tiles_x, tile / push.tiles_x) + ivec2(gl_LocalInvocationID.x, 0);
-    ivec2 last_pixel = ivec2(2.0 * push.half_size_px) - 1;
-    vec2 at_px = vec2(pixel) + 0.5 - push.half_size_px;
+    bool goes_on = !IS_WHOLE && push.part > 0;
+    ivec2 top = top_pixel(work.tile);
+    vec2 at_px = from_middle_px(top);
 
     float visible[TILE];
     [[unroll]] for (int row = 0; row < TILE; row++) {
-        ivec2 place = pixel + ivec2(0, row);
+        ivec2 place = top + ivec2(0, row);
         visible[row] = 0.0;
 #if defined(UPON)
-        visible[row] = texelFetch(depth_before, min(place, last_pixel), 0).r;
+        visible[row] = texelFetch(depth_before, within_image(place), 0).r;
 #endif
 #if defined(SUMMED)
         visible[row] = imageLoad(visible_depth, place).r;
@@ -174,10 +141,10 @@ void main()
 #endif
     }
 #if !defined(SUMMED)
-    see(range, at_px, visible);
+    see(work.range, at_px, visible);
     if (KEEPS_DEPTH) {
         [[unroll]] for (int row = 0; row < TILE; row++) {
-            imageStore(visible_depth, pixel + ivec2(0, row), vec4(visible[row]));
+            imageStore(visible_depth, top + ivec2(0, row), vec4(visible[row]));
         }
     }
 #endif
@@ -186,7 +153,7 @@ void main()
     vec4 normals[TILE];
     float polygon[TILE];
     [[unroll]] for (int row = 0; row < TILE; row++) {
-        ivec2 place = pixel + ivec2(0, row);
+        ivec2 place = top + ivec2(0, row);
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
 #if defined(SUMMED)
@@ -195,10 +162,10 @@ void main()
 #endif
         polygon[row] = 0.0;
 #if defined(BESIDE)
-        polygon[row] = texelFetch(depth_with_polygons, min(place, last_pixel), 0).r;
+        polygon[row] = texelFetch(depth_with_polygons, within_image(place), 0).r;
 #endif
     }
-    sum(range, at_px, visible, polygon, colors, normals);
+    sum(work.range, at_px, visible, polygon, colors, normals);
     [[unroll]] for (int row = 0; row < TILE; row++) {
 #if defined(HALF)
         // Half floats end at 65504. Of sums only ratios count.
@@ -208,8 +175,8 @@ void main()
         colors[row] *= factor;
         normals[row] *= factor;
 #endif
-        imageStore(color_sums, pixel + ivec2(0, row), colors[row]);
-        imageStore(normal_sums, pixel + ivec2(0, row), normals[row]);
+        imageStore(color_sums, top + ivec2(0, row), colors[row]);
+        imageStore(normal_sums, top + ivec2(0, row), normals[row]);
     }
 #endif
 }

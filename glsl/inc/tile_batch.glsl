@@ -127,3 +127,15 @@ bool is_beyond_near(float depth)
 {
     return !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
 }
+
+const float LEAST_WEIGHT = 5.9604645e-8; // 2^-24
+
+// What it weighs there, and 0 outside.
+float weight_of(vec3 uvw, float share, bool inside)
+{
+    float r2 = dot(uvw.xy, uvw.xy);
+    r2 = AFFINE ? r2 : r2 / (uvw.z * uvw.z);
+    float weight = kernel_weight(r2);
+    weight = WEIGHTED ? max(weight * share, LEAST_WEIGHT) : weight;
+    return inside ? weight : 0.0;
+}

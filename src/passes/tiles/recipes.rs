@@ -7,7 +7,9 @@ use super::{
     },
     TilePlan,
     bins::part_length,
-    depth, layers, record,
+    depth,
+    layer_work::Work,
+    layers, record,
     splat::{Step, shader},
 };
 use crate::{
@@ -72,6 +74,6 @@ pub(in super::super) fn depth_recipe() -> (&'static str, GraphicsKey) {
 pub(in super::super) fn layers_recipe(settings: &Settings, lit: bool) -> Result<(&'static str, ComputeKey)> {
     let plan = TilePlan::for_recipes(false).with_layers(settings.layers.most(), 0);
     let beside = layers::Beside { opaque: true, lit };
-    let work = layers::work_of_whole_tiles(settings, &plan);
+    let work = Work::of_whole_tiles(settings, &plan);
     Ok(("layers of tiles", compute(layers::shader(settings, &plan, beside, work)?)))
 }
