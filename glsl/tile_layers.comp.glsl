@@ -5,12 +5,12 @@
 // BEHIND: opaque things hide what is behind them. SEVERAL: one of several dispatches, whose light, depth and weight go on in
 // images: loops have an end on llvmpipe (inc/tiles.glsl). PARTS: of the tiles with more splats than that leaves room for, a
 // step of one layer and a part of their splats in each dispatch, with all that is found kept in a buffer. LIT: the scene has
-// lights of its own. HALF, SINGLE: of the light in its image. DIRECT: as in tile_splat.comp.glsl.
-// Permutations: half single | _ lit | _ behind | _ several parts | _ direct
+// lights of its own. HALF, SINGLE: of the light in its image. DIRECT, PIXELS: as in tile_splat.comp.glsl.
+// Permutations: half single | _ lit | _ behind | _ several parts | _ direct pixels
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
-#if !defined(DIRECT)
+#if !(defined(DIRECT) || defined(PIXELS))
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
@@ -27,13 +27,13 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 #endif
 #include "inc/tile_work.glsl"
 #include "inc/tile_batch.glsl"
+#include "inc/tile_column.glsl"
 #define LIGHTS_SET 0
 #define LIGHTS_BINDING 16
 #include "inc/shading.glsl"
 #include "inc/tile_peel.glsl"
 #include "inc/tile_rest.glsl"
 
-layout(local_size_x = TILE) in;
 #if defined(HALF)
 layout(set = 0, binding = 11, rgba16f) uniform image2D layers; // alpha * linear color, alpha
 #else
@@ -67,34 +67,35 @@ void main()
     vec2 at_px = from_middle_px(top);
 
     Peeled peeled;
-    vec4 colors[TILE];
-    vec4 normals[TILE]; // of the rest, the first component is the weight
-    float visible[TILE];
-    [[unroll]] for (int row = 0; row < TILE; row++) {
-        ivec2 place = top + ivec2(0, row);
+    vec4 colors[ROWS];
+    vec4 normals[ROWS]; // of the rest, the first component is the weight
+    float visible[ROWS];
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
+        ivec2 pixel = pixel_of(top, row);
         peeled.light[row] = vec4(0.0);
         peeled.depth[row] = INFINITELY_NEAR;
         peeled.weight[row] = 0.0;
         peeled.opaque[row] = 0.0;
 #if defined(BEHIND)
-        peeled.opaque[row] = texelFetch(opaque_depth, within_image(place), 0).r;
+        peeled.opaque[row] = texelFetch(opaque_depth, within_image(pixel), 0).r;
 #endif
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
         visible[row] = peeled.opaque[row];
 #if defined(SEVERAL)
         if (push.part > 0) {
-            peeled.light[row] = imageLoad(layers, place);
-            peeled.depth[row] = imageLoad(peeled_depth, place).r;
-            peeled.weight[row] = imageLoad(peeled_weight, place).r;
+            peeled.light[row] = imageLoad(layers, pixel);
+            peeled.depth[row] = imageLoad(peeled_depth, pixel).r;
+            peeled.weight[row] = imageLoad(peeled_weight, pixel).r;
         }
 #endif
     }
 #if defined(PARTS)
     // What is found of the tile so far.
-    uint states = (GROUP_NUMBER * TILE + gl_LocalInvocationID.x) * TILE * STATE_VECTORS;
+    uint column = GROUP_NUMBER * TILE + gl_LocalInvocationID.x;
+    uint states = (column * TILE + FIRST_ROW) * STATE_VECTORS;
     bool goes_on = push.part > 0;
-    [[unroll]] for (int row = 0; row < TILE; row++) {
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
         uint at = states + uint(row) * STATE_VECTORS;
         if (push.surfaces > 0 || push.step == STEP_SUM || goes_on) {
             peeled.light[row] = state[at];
@@ -122,19 +123,19 @@ void main()
         }
     }
     if (push.step == STEP_REST) {
-        float weights[TILE];
-        [[unroll]] for (int row = 0; row < TILE; row++) {
+        float weights[ROWS];
+        [[unroll]] for (int row = 0; row < ROWS; row++) {
             weights[row] = normals[row].x;
         }
         sum_rest(range, at_px, peeled, colors, weights);
-        [[unroll]] for (int row = 0; row < TILE; row++) {
+        [[unroll]] for (int row = 0; row < ROWS; row++) {
             normals[row].x = weights[row];
         }
         if (push.ends != 0) {
             compose_rest(colors, weights, peeled);
         }
     }
-    [[unroll]] for (int row = 0; row < TILE; row++) {
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
         uint at = states + uint(row) * STATE_VECTORS;
         state[at] = peeled.light[row];
         state[at + 1] = vec4(peeled.depth[row], peeled.weight[row], visible[row], 0.0);
@@ -144,7 +145,7 @@ void main()
 #else
     // Of several dispatches, those after the last layer have nothing to do.
     for (uint layer = 0; layer < push.surfaces && is_left(peeled); layer++) {
-        [[unroll]] for (int row = 0; row < TILE; row++) {
+        [[unroll]] for (int row = 0; row < ROWS; row++) {
             colors[row] = vec4(0.0);
             normals[row] = vec4(0.0);
             visible[row] = peeled.opaque[row];
@@ -154,8 +155,8 @@ void main()
         compose(at_px, visible, colors, normals, peeled);
     }
     if (push.blends_rest != 0) {
-        float weights[TILE];
-        [[unroll]] for (int row = 0; row < TILE; row++) {
+        float weights[ROWS];
+        [[unroll]] for (int row = 0; row < ROWS; row++) {
             colors[row] = vec4(0.0);
             weights[row] = 0.0;
         }
@@ -163,12 +164,12 @@ void main()
         compose_rest(colors, weights, peeled);
     }
 #endif
-    [[unroll]] for (int row = 0; row < TILE; row++) {
-        ivec2 place = top + ivec2(0, row);
-        imageStore(layers, place, peeled.light[row]);
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
+        ivec2 pixel = pixel_of(top, row);
+        imageStore(layers, pixel, peeled.light[row]);
 #if defined(SEVERAL)
-        imageStore(peeled_depth, place, vec4(peeled.depth[row]));
-        imageStore(peeled_weight, place, vec4(peeled.weight[row]));
+        imageStore(peeled_depth, pixel, vec4(peeled.depth[row]));
+        imageStore(peeled_weight, pixel, vec4(peeled.weight[row]));
 #endif
     }
 }

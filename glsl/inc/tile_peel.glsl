@@ -3,12 +3,12 @@
 const float INFINITELY_NEAR = 2.0; // nearer than any depth, which is 1 at most
 const float NOTHING_LEFT = 0.0;    // no depth is below
 
-// A column of pixels: what is found of it so far.
+// What is found of the invocation's pixels so far.
 struct Peeled {
-    vec4 light[TILE];   // alpha * linear color, alpha
-    float depth[TILE];  // of the layer before
-    float weight[TILE]; // of the layer before
-    float opaque[TILE]; // the depth of opaque things
+    vec4 light[ROWS];   // alpha * linear color, alpha
+    float depth[ROWS];  // of the layer before
+    float weight[ROWS]; // of the layer before
+    float opaque[ROWS]; // the depth of opaque things
 };
 
 vec4 under(vec4 light, vec4 layer)
@@ -27,55 +27,66 @@ vec3 turned(vec3 normal, vec3 v)
 }
 
 // The nearest surface behind the layer before: its depth, shifted by epsilon.
-void see(Range range, vec2 at_px, Peeled peeled, inout float visible[TILE])
+void see(Range range, vec2 at_px, Peeled peeled, inout float visible[ROWS])
 {
+    Splat own;
     for (uint base = range.first; base < range.end; base += BATCH) {
-        Batch batch = load_batch(base, range.end);
+        uint place = place_of(base, range);
+        if (place == 0) {
+            own = load_splat(base, range.end);
+            hand_on(own);
+        }
         [[unroll]] for (uint k = 0; k < BATCH; k++) {
-            Column column = column_of(batch, k, at_px);
-            float inverse_shift = handed(batch.r0.w, k);
-            [[unroll]] for (int row = 0; row < TILE; row++) {
+            Splat splat = handed(own, place + k);
+            Column column = column_of(splat, at_px);
+            [[unroll]] for (int row = 0; row < ROWS; row++) {
                 vec3 uvw = uvw_of(column, row);
                 float depth = column.w0 * uvw.z;
                 bool inside = is_inside(uvw) && is_beyond_near(depth)
                     && depth < FORMULA_LESS(FORMULA_PEELED, peeled.depth[row]);
-                visible[row] = inside ? max(visible[row], depth * inverse_shift) : visible[row];
+                visible[row] = inside ? max(visible[row], depth * splat.inverse_shift) : visible[row];
             }
         }
     }
 }
 
 // What belongs to that surface: weighted color and weight, weighted normal and alpha.
-void sum(Range range, vec2 at_px, Peeled peeled, float visible[TILE], inout vec4 colors[TILE], inout vec4 normals[TILE])
+void sum(Range range, vec2 at_px, Peeled peeled, float visible[ROWS], inout vec4 colors[ROWS], inout vec4 normals[ROWS])
 {
+    Splat own;
+    Look own_look;
     for (uint base = range.first; base < range.end; base += BATCH) {
-        Batch batch = load_batch(base, range.end);
-        Look look = load_look(batch);
+        uint place = place_of(base, range);
+        if (place == 0) {
+            own = load_splat(base, range.end);
+            own_look = load_look(own);
+            hand_on(own);
+            hand_on(own_look);
+        }
         [[unroll]] for (uint k = 0; k < BATCH; k++) {
-            Column column = column_of(batch, k, at_px);
-            vec4 color = vec4(handed(look.color, k), 1.0);
-            vec4 normal = vec4(handed(look.normal, k), handed(look.alpha, k));
-            float share = handed(look.share, k);
-            [[unroll]] for (int row = 0; row < TILE; row++) {
+            Splat splat = handed(own, place + k);
+            Look look = handed(own_look, place + k);
+            Column column = column_of(splat, at_px);
+            [[unroll]] for (int row = 0; row < ROWS; row++) {
                 vec3 uvw = uvw_of(column, row);
                 float depth = column.w0 * uvw.z;
                 bool inside = is_inside(uvw) && is_beyond_near(depth) && depth >= visible[row]
                     && depth < FORMULA_LESS(FORMULA_PEELED, peeled.depth[row]);
-                float weight = weight_of(uvw, share, inside);
-                colors[row] += weight * color;
-                normals[row] += weight * normal;
+                float weight = weight_of(uvw, look.share, inside);
+                colors[row] += weight * vec4(look.color, 1.0);
+                normals[row] += weight * vec4(look.normal, look.alpha);
             }
         }
     }
 }
 
 // Shades that surface and puts it under the light so far.
-void compose(vec2 at_px, float visible[TILE], vec4 colors[TILE], vec4 normals[TILE], inout Peeled peeled)
+void compose(vec2 at_px, float visible[ROWS], vec4 colors[ROWS], vec4 normals[ROWS], inout Peeled peeled)
 {
-    [[unroll]] for (int row = 0; row < TILE; row++) {
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
         float weight = colors[row].w;
         bool covered = weight > 0.0;
-        vec3 v = to_eye(at_px + vec2(0.0, float(row)));
+        vec3 v = to_eye(at_px + vec2(0.0, float(FIRST_ROW + row)));
         float length2 = dot(normals[row].xyz, normals[row].xyz);
         vec3 normal = length2 > 0.0 ? normals[row].xyz * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
         vec3 albedo = FORMULA(FORMULA_NORMALIZED_COLOR, colors[row].rgb / weight);
@@ -87,15 +98,30 @@ void compose(vec2 at_px, float visible[TILE], vec4 colors[TILE], vec4 normals[TI
     }
 }
 
+#if defined(PIXELS)
+shared uint left_of_tile;
+#endif
+
 // Whether anything may be behind what was peeled off the tile. All of its invocations load records for each other.
 bool is_left(Peeled peeled)
 {
     bool left = false;
-    [[unroll]] for (int row = 0; row < TILE; row++) {
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
         left = left || peeled.depth[row] > NOTHING_LEFT;
     }
 #if defined(DIRECT)
     return left;
+#elif defined(PIXELS)
+    barrier(); // it was read
+    if (gl_LocalInvocationIndex == 0) {
+        left_of_tile = 0;
+    }
+    barrier();
+    if (left) {
+        atomicOr(left_of_tile, 1u);
+    }
+    barrier();
+    return left_of_tile != 0;
 #else
     return subgroupAny(left);
 #endif

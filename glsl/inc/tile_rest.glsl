@@ -4,33 +4,40 @@ layout(constant_id = 20) const bool STACKED = false; // it counts as several sur
 const float MOST_SURFACES = 8.0;                     // as there
 
 // All that is left, for one layer: each splat lit by itself, at its center; weight * alpha * light, weight * alpha; weight.
-void sum_rest(Range range, vec2 at_px, Peeled peeled, inout vec4 colors[TILE], inout float weights[TILE])
+void sum_rest(Range range, vec2 at_px, Peeled peeled, inout vec4 colors[ROWS], inout float weights[ROWS])
 {
+    Splat own;
+    Look own_look;
     for (uint base = range.first; base < range.end; base += BATCH) {
-        Batch batch = load_batch(base, range.end);
-        Look look = load_look(batch);
-        vec3 v = to_eye(batch.r0.xy);
-        vec3 lit = look.alpha * shaded(look.color, turned(look.normal, v), v);
+        uint place = place_of(base, range);
+        if (place == 0) {
+            own = load_splat(base, range.end);
+            own_look = load_look(own);
+            vec3 v = to_eye(own.x0_px);
+            own_look.color = own_look.alpha * shaded(own_look.color, turned(own_look.normal, v), v);
+            hand_on(own);
+            hand_on(own_look);
+        }
         [[unroll]] for (uint k = 0; k < BATCH; k++) {
-            Column column = column_of(batch, k, at_px);
-            vec4 color = vec4(handed(lit, k), handed(look.alpha, k));
-            float share = handed(look.share, k);
-            [[unroll]] for (int row = 0; row < TILE; row++) {
+            Splat splat = handed(own, place + k);
+            Look look = handed(own_look, place + k);
+            Column column = column_of(splat, at_px);
+            [[unroll]] for (int row = 0; row < ROWS; row++) {
                 vec3 uvw = uvw_of(column, row);
                 float depth = column.w0 * uvw.z;
                 bool inside = is_inside(uvw) && is_beyond_near(depth) && depth >= peeled.opaque[row]
                     && depth < FORMULA_LESS(FORMULA_PEELED, peeled.depth[row]);
-                float weight = weight_of(uvw, share, inside);
-                colors[row] += weight * color;
+                float weight = weight_of(uvw, look.share, inside);
+                colors[row] += weight * vec4(look.color, look.alpha);
                 weights[row] += weight;
             }
         }
     }
 }
 
-void compose_rest(vec4 colors[TILE], float weights[TILE], inout Peeled peeled)
+void compose_rest(vec4 colors[ROWS], float weights[ROWS], inout Peeled peeled)
 {
-    [[unroll]] for (int row = 0; row < TILE; row++) {
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
         bool covered = colors[row].a > 0.0 && weights[row] > 0.0;
         float alpha = min(colors[row].a / weights[row], 1.0);
         if (STACKED) {

@@ -1,4 +1,5 @@
-// What a workgroup works on: a tile, and of its list as much as one dispatch takes.
+// What a workgroup works on: a tile, and of its list as much as one dispatch takes. An invocation draws a column of the tile's
+// pixels; with PIXELS a row of it, one pixel.
 //
 // IS_WHOLE: whether this dispatch does whole tiles and leaves out the overfull; else it does part push.part of those.
 
@@ -7,6 +8,15 @@ layout(set = 0, binding = 8, std430) readonly buffer SeenTiles { uint seen_tiles
 layout(set = 0, binding = 10, std430) readonly buffer OverfullTiles { uint overfull_tiles[]; };
 
 layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one dispatch takes (inc/tiles.glsl)
+
+#if defined(PIXELS)
+#define ROWS 1
+#define FIRST_ROW int(gl_LocalInvocationID.y)
+#else
+#define ROWS TILE
+#define FIRST_ROW 0
+#endif
+layout(local_size_x = TILE, local_size_y = TILE / ROWS) in;
 
 struct Range {
     uint first;
@@ -36,10 +46,16 @@ bool find_work(out Work work)
     return true;
 }
 
-// The uppermost pixel of the invocation's column.
+// The uppermost pixel of the column.
 ivec2 top_pixel(uint tile)
 {
     return TILE * ivec2(tile % push.tiles_x, tile / push.tiles_x) + ivec2(gl_LocalInvocationID.x, 0);
+}
+
+// The pixel of one of the invocation's rows.
+ivec2 pixel_of(ivec2 top, int row)
+{
+    return top + ivec2(0, FIRST_ROW + row);
 }
 
 // From the middle of the image to the pixel's.

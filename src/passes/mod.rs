@@ -52,7 +52,7 @@ pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use paper::paper_frame;
 pub use pipelines::Shaders;
 pub use readback::readback;
-pub use tiles::{STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
+pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
 
 use self::finalize::Opaque;
 use crate::{
@@ -110,7 +110,7 @@ impl<'a> Part<'a> {
         limits: &Limits,
     ) -> Self {
         let by_tiles = choice::by_tiles(settings, limits).is_ok();
-        let tiles = by_tiles.then(|| TilePlan::of(&splats, settings.size_px, limits)).flatten();
+        let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
         if tiles.is_some() {
             let mut first_record = 0;
             for draw in &mut splats {

@@ -102,14 +102,14 @@ fn steps(settings: &Settings) -> Vec<(u32, Step)> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::Invocations, *};
     use crate::{scene::Layers, vk::Limits};
 
     #[test]
     fn the_shares_are_all_layers_and_no_dispatch_exceeds_the_iterations() {
         for records in [1, 4000, 54_000, 540_000] {
             for lights in [0, 1, 16] {
-                let limits = Limits { shuffles: true, ..Limits::for_tests() };
+                let limits = Limits::for_tests();
                 for (most, last_layer) in [
                     (1, LastLayer::Stack),
                     (1, LastLayer::Drop),
@@ -118,7 +118,9 @@ mod tests {
                     (64, LastLayer::Blend),
                     (256, LastLayer::Drop),
                 ] {
-                    let plan = TilePlan::of_boxes(&[(records, 10.0)], [512, 512], &limits).unwrap();
+                    let plan =
+                        TilePlan::of_boxes(&[(records, 10.0)], [512, 512], &limits, Invocations::Columns)
+                            .unwrap();
                     let plan = plan.with_layers(most, lights);
                     let settings =
                         Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };

@@ -54,7 +54,7 @@ pub(in super::super) fn shader(
             Work::Several => Some("several"),
             Work::Parts => Some("parts"),
         },
-        plan.direct.then_some("direct"),
+        plan.invocations.word(),
     ];
     let name: String = words.into_iter().flatten().map(|word| format!("_{word}")).collect();
     let mut constants = splat_constants(settings, false, false);

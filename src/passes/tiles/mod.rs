@@ -5,6 +5,7 @@
 
 mod bins;
 mod depth;
+mod invocations;
 mod large;
 mod layer_work;
 mod layers;
@@ -27,8 +28,8 @@ pub(super) use self::{
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
     splat::{TileImages, accumulate, fused, visibility},
 };
+pub use self::{invocations::Invocations, plan::TilePlan};
 use pass::{TilePass, after_dispatches_before, rows_of};
-pub use plan::TilePlan;
 
 use super::{Inputs, constants::TileConstants};
 use crate::{

@@ -100,7 +100,7 @@ pub(in super::super) fn shader(
             [Some("summed"), Some(sums), word(with_depth, "with_depth"), word(beside, "beside")]
         }
     };
-    let words = words.into_iter().chain([word(plan.direct, "direct")]).flatten();
+    let words = words.into_iter().chain([plan.invocations.word()]).flatten();
     let name: String = words.map(|word| format!("_{word}")).collect();
     // What differs between chunks is in their records.
     let mut constants = splat_constants(settings, false, false);
