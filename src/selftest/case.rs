@@ -77,10 +77,10 @@ impl Suite {
                 }
             }
         }
+        cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| by_pixels(index, hard)));
         let in_layers = transparent::all();
         cases.extend(layers::cases(scenes.len(), &in_layers));
         scenes.extend(in_layers);
-        cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| columns_and_pixels(index, hard)));
         cases.push(Case { name: CLOSE.to_owned(), quick: true, drawing: None });
         Self { scenes, cases }
     }
@@ -199,7 +199,7 @@ fn same_bits(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: R
 }
 
 /// Drawn by tiles, an invocation a pixel, then a column.
-fn columns_and_pixels(index: usize, hard: &Hard) -> Option<Case> {
+fn by_pixels(index: usize, hard: &Hard) -> Option<Case> {
     let tile_invocations = TileInvocations::Pixel;
     let hard = Hard { settings: Settings { tile_invocations, ..hard.settings.clone() }, ..hard.clone() };
     same_bits(index, &hard, "tile-invocations", Check::TileInvocations, Rasterizer::Compute)
