@@ -15,7 +15,8 @@ use common::{
 use surfel::{
     passes::Formula,
     reference::{self, Picture},
-    scene::{Filter, Kernel, KernelEval, Rasterizer, Settings, Transition},
+    renderer::Headless,
+    scene::{Filter, Kernel, KernelEval, Rasterizer, Settings, TileInvocations, Transition},
     selftest::light::{LightErrors, compare_light},
 };
 
@@ -79,10 +80,11 @@ const NOT_BY_TILES: [Formula; 11] = [
 ];
 
 /// The same scenes by tiles, where they can be drawn so.
-fn by_tiles(scenes: &[(Hard, Picture)]) -> Vec<(Hard, &Picture)> {
+fn by_tiles(scenes: &[(Hard, Picture)], tile_invocations: TileInvocations) -> Vec<(Hard, &Picture)> {
     let own_map = |hard: &Hard| hard.settings.rasterizer != Rasterizer::Perspective;
     let changed = scenes.iter().filter(|(hard, _)| !own_map(hard)).map(|(hard, oracle)| {
-        let settings = Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() };
+        let settings =
+            Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..hard.settings.clone() };
         (Hard { settings, ..hard.clone() }, oracle)
     });
     changed.filter(|(hard, _)| hard.settings.validate().is_ok()).collect()
@@ -139,14 +141,22 @@ fn every_formula_of_layers_by_tiles_that_is_wrong_by_one_percent_fails_the_compa
     let mut behind = transparent::interpenetrating();
     behind.scene.objects.push(scenes::sphere(1500, DVec3::new(0.0, -0.2, -0.3)));
     let scenes = [stacked, behind, transparent::spheres()];
-    let scenes = scenes.map(|hard| {
+    let mut scenes = scenes.map(|hard| {
         let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
         let settings = Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() };
         (Hard { settings, ..hard }, oracle)
     });
+    for tile_invocations in [TileInvocations::Column, TileInvocations::Pixel] {
+        scenes.iter_mut().for_each(|(hard, _)| hard.settings.tile_invocations = tile_invocations);
+        assert_formulas_of_layers_are_seen(&mut headless, &scenes);
+    }
+}
+
+fn assert_formulas_of_layers_are_seen(headless: &mut Headless, scenes: &[(Hard, Picture)]) {
+    headless.renderer.shaders.perturbed = None;
     let is_beyond = |errors: &LightErrors| errors.worst > 1.0 / 1024.0;
-    for (hard, oracle) in &scenes {
-        let frame = render(&mut headless, hard);
+    for (hard, oracle) in scenes {
+        let frame = render(headless, hard);
         assert!(frame.plan.passes.iter().any(|pass| pass.name == "layers of tiles"), "{}", hard.name);
         let errors = compare_light(&frame, oracle);
         assert!(!is_beyond(&errors), "{} differs already: {}", hard.name, errors.row(hard.name));
@@ -166,13 +176,13 @@ fn every_formula_of_layers_by_tiles_that_is_wrong_by_one_percent_fails_the_compa
     ] {
         headless.renderer.shaders.perturbed = Some(formula);
         let caught = scenes.iter().find_map(|(hard, oracle)| {
-            let errors = compare_light(&render(&mut headless, hard), oracle);
+            let errors = compare_light(&render(headless, hard), oracle);
             is_beyond(&errors).then(|| errors.row(hard.name))
         });
         println!("{:20} {}", format!("{formula:?}"), caught.as_deref().unwrap_or("SEEN BY NOTHING"));
         assert!(caught.is_some(), "{formula:?}");
     }
-    assert_validation_is_silent(&headless);
+    assert_validation_is_silent(headless);
 }
 
 #[test]
@@ -194,13 +204,14 @@ fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
     let ways = [
         ("points", own_px, as_they_are()),
         ("quads", 0.0, as_they_are()),
-        ("tiles", own_px, by_tiles(&scenes)),
+        ("tiles", own_px, by_tiles(&scenes, TileInvocations::Column)),
+        ("tiles by pixels", own_px, by_tiles(&scenes, TileInvocations::Pixel)),
     ];
     let mut unseen = Vec::new();
     for (way, cap_px, scenes) in ways {
         for formula in Formula::ALL {
             if way == "quads" && matches!(formula, Formula::PointCenter | Formula::PointSize)
-                || way == "tiles" && NOT_BY_TILES.contains(&formula)
+                || way.starts_with("tiles") && NOT_BY_TILES.contains(&formula)
             {
                 continue;
             }

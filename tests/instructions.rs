@@ -18,7 +18,7 @@ use std::{
 use surfel::{
     count::{Counts, PassCounts, count},
     passes::{Counter, counts_of, papers_pipelines},
-    scene::{Filter, KernelEval, Rasterizer, Settings},
+    scene::{Filter, KernelEval, Rasterizer, Settings, TileInvocations},
 };
 
 fn arb(counts: &Option<Counts>) -> u32 {
@@ -54,7 +54,7 @@ fn the_published_programs_have_the_published_counts() {
     assert_eq!(checked, 4);
 }
 
-/// Each rasterizer with its default filter, then each filter with the default rasterizer.
+/// Each rasterizer with its default filter; tiles by pixels; then each filter with the default rasterizer.
 fn pinned() -> Vec<Settings> {
     let rasterizers = Rasterizer::METHODS.iter().map(|(_, rasterizer)| {
         let filter = if *rasterizer == Rasterizer::Raycast { Filter::Max } else { Filter::default() };
@@ -63,7 +63,14 @@ fn pinned() -> Vec<Settings> {
     let filters =
         Filter::NAMES.iter().skip(1).map(|(_, filter)| Settings { filter: *filter, ..Settings::default() });
     let textured = Settings { kernel_eval: KernelEval::Texture, ..Settings::default() };
-    rasterizers.chain(filters).chain([textured]).filter(|settings| settings.validate().is_ok()).collect()
+    let tile_invocations = TileInvocations::Pixel;
+    let pixels = Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() };
+    rasterizers
+        .chain([pixels])
+        .chain(filters)
+        .chain([textured])
+        .filter(|settings| settings.validate().is_ok())
+        .collect()
 }
 
 /// A change of these figures is a change of what every splat or fragment costs: it must be seen, and may then be pinned
@@ -74,7 +81,11 @@ fn our_pipelines_have_the_pinned_counts() {
     for settings in pinned() {
         let kernel = settings.kernel_eval.name();
         let (rasterizer, filter) = (settings.rasterizer.name(), settings.filter.name());
-        writeln!(text, "{rasterizer}, {filter}, {kernel}").unwrap();
+        let pixels = match settings.tile_invocations {
+            TileInvocations::Pixel => ", an invocation a pixel",
+            TileInvocations::Auto | TileInvocations::Column => "",
+        };
+        writeln!(text, "{rasterizer}, {filter}, {kernel}{pixels}").unwrap();
         for counts in counts_of(&settings, true).unwrap() {
             let scalar = counts.of_stages(|counts| Some(counts.scalar));
             writeln!(text, "  {}: {}; {scalar}", counts.pass, PassCounts::vertex_and_fragment(&counts))

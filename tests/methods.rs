@@ -5,7 +5,7 @@ mod common;
 use std::collections::HashMap;
 
 use common::{
-    assert_validation_is_silent,
+    assert_same_bits, assert_validation_is_silent,
     compare::compare,
     render,
     scenes::{self, Hard},
@@ -13,7 +13,7 @@ use common::{
 };
 use surfel::{
     reference::{self, Picture},
-    scene::{Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, Shapes},
+    scene::{Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, Shapes, TileInvocations},
     selftest::tolerance,
 };
 
@@ -43,8 +43,17 @@ fn every_rasterizer_with_every_filter_agrees_with_its_oracle_on_every_hard_scene
                 let oracle = oracles.entry((rasterizer.family(), *filter)).or_insert_with(|| {
                     reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap()
                 });
-                let errors = compare(&render(&mut headless, &hard), oracle);
+                let frame = render(&mut headless, &hard);
+                let errors = compare(&frame, oracle);
                 let name = format!("{} {} {}", rasterizer.name(), filter.name(), hard.name);
+                if *rasterizer == Rasterizer::Compute {
+                    let tile_invocations = TileInvocations::Pixel;
+                    let by_pixels = Hard {
+                        settings: Settings { tile_invocations, ..hard.settings.clone() },
+                        ..hard.clone()
+                    };
+                    assert_same_bits(&frame, &render(&mut headless, &by_pixels), &name);
+                }
                 println!("{}", errors.row(&name));
                 let limit = tolerance::of(&hard);
                 failures.extend(errors.beyond(&limit).into_iter().map(|beyond| format!("{name}: {beyond}")));
@@ -94,11 +103,7 @@ fn early_depth_changes_no_bit() {
                 };
                 render(&mut headless, &with(&scene, method).unwrap())
             });
-            common::assert_same_bits(
-                &frames[0],
-                &frames[1],
-                &format!("{} {}", rasterizer.name(), scene.name),
-            );
+            assert_same_bits(&frames[0], &frames[1], &format!("{} {}", rasterizer.name(), scene.name));
         }
     }
     assert_validation_is_silent(&headless);

@@ -9,7 +9,7 @@ use surfel::{
     renderer::{Frame, Headless, Wanted},
     scene::{
         Accumulate, Camera, Colors, Epsilon, FilterWeight, LastLayer, Layers, Light, LightKind, Object,
-        Order, Rasterizer, Scene, Settings,
+        Order, Rasterizer, Scene, Settings, TileInvocations,
     },
 };
 
@@ -37,6 +37,12 @@ fn different(a: &Frame, b: &Frame) -> usize {
 
 fn passes(frame: &Frame) -> Vec<&str> {
     frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
+}
+
+/// The same by tiles, an invocation a pixel.
+fn by_pixels(hard: &Hard) -> Hard {
+    let settings = Settings { tile_invocations: TileInvocations::Pixel, ..hard.settings.clone() };
+    Hard { settings, ..hard.clone() }
 }
 
 fn hard(objects: Vec<Object>, camera: Camera, size_px: [u32; 2]) -> Hard {
@@ -76,6 +82,8 @@ fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
     let check = |headless: &mut Headless| {
         let tiles = picture(headless, &hard, Rasterizer::Compute, common::ALL);
         assert!(passes(&tiles).contains(&"sum overfull tiles"));
+        let pixels = picture(headless, &by_pixels(&hard), Rasterizer::Compute, common::ALL);
+        assert_same_bits(&tiles, &pixels, "an invocation a pixel");
         // Half a million weights are added in another order: 2^-24 of the sum each, at random.
         for (a, b) in tiles.weight.iter().zip(&points.weight) {
             assert!((a - b).abs() <= 1e-3 * b, "{a} {b}");
@@ -85,6 +93,40 @@ fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
     check(&mut headless);
     with_limits(&mut headless, |limits| limits.shuffles = false, check);
     assert_validation_is_silent(&headless);
+}
+
+/// Filtered and not, images of odd sizes, sums of 16 bits, data; splats that the graphics pipeline draws before, polygons beside,
+/// layers. All filters are in `tests/methods.rs`.
+#[test]
+fn an_invocation_a_pixel_draws_the_same_bits_as_one_a_column() {
+    let mut headless = shared();
+    let near = || sphere(4000, DVec3::ZERO);
+    let with_large = scenes::builder::camera([0.0, 0.0, 0.98], [0.3, 0.1, -1.0]);
+    let cloud = Hard { name: "large splats", ..hard(vec![near()], with_large, [131, 67]) };
+    let mut stacked =
+        hard(vec![near(), near()], scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]), [67, 131]);
+    stacked.settings.accumulate = Accumulate::F16;
+    let opaque = scenes::all().into_iter().chain([cloud, stacked]);
+    for mut hard in opaque.chain(transparent::all()) {
+        hard.settings.size_px = hard.settings.size_px.map(|side| side.min(131));
+        let columns = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+        let pixels = picture(&mut headless, &by_pixels(&hard), Rasterizer::Compute, common::ALL);
+        assert_same_bits(&columns, &pixels, hard.name);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// A frame has the pipelines of one way.
+#[test]
+fn what_draws_columns_has_no_pipeline_of_pixels() {
+    let mut headless = common::headless();
+    let camera = scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
+    let hard = hard(vec![sphere(500, DVec3::ZERO)], camera, [64, 64]);
+    for (hard, has_pixels) in [(hard.clone(), false), (by_pixels(&hard), true)] {
+        picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+        let names = headless.renderer.shaders.pipeline_names();
+        assert_eq!(names.iter().any(|name| name.contains("pixels")), has_pixels, "{names:?}");
+    }
 }
 
 #[test]
@@ -179,9 +221,15 @@ fn layers_of_overfull_tiles_lose_none() {
                 let off = different(&tiles, &points);
                 let may_be_off = if camera.eye == near.eye { tiles.linear.len() / 200 } else { 0 };
                 assert!(off <= may_be_off, "{name}, {last_layer:?}: {off}");
+                tiles.linear
             };
-            check(&mut headless);
+            let columns = check(&mut headless);
             with_limits(&mut headless, |limits| limits.shuffles = false, check);
+            // A minute each on lavapipe, which has the other way for that reason.
+            if count <= 100_000 {
+                let pixels = picture(&mut headless, &by_pixels(&hard), Rasterizer::Compute, PICTURE);
+                assert!(pixels.linear == columns, "{name}, {last_layer:?}: an invocation a pixel");
+            }
         }
     }
     assert_validation_is_silent(&headless);

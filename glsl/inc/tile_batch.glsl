@@ -1,5 +1,6 @@
-// The splats of a tile, BATCH at a time, as its columns of pixels see them. Invocation i loads record i of the batch, and hands
-// what it holds to the others; with DIRECT, each loads the same one.
+// The splats of a tile, BATCH at a time, and how the tile's invocations come by them. Invocation i of a column loads record i of
+// a batch and hands it to the others by shuffles. With PIXELS it loads record i of eight batches, and hands it on in memory that
+// they share. With DIRECT each loads every record.
 //
 // A record is a splat, ready to be drawn: all in pixels, so that nothing of its chunk is needed any more.
 // records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; 1 / f.
@@ -11,8 +12,13 @@
 
 #if defined(DIRECT)
 #define BATCH 1
+#define OWN_ENTRY 0
+#elif defined(PIXELS)
+#define BATCH 8
+#define OWN_ENTRY gl_LocalInvocationIndex
 #else
 #define BATCH 8
+#define OWN_ENTRY gl_SubgroupInvocationID
 #endif
 
 layout(set = 0, binding = 0, std430) readonly buffer Records0 { vec4 records0[]; };
@@ -21,36 +27,15 @@ layout(set = 0, binding = 2, std430) readonly buffer Records2 { vec4 records2[];
 layout(set = 0, binding = 3, std430) readonly buffer Records3 { uvec4 records3[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Entries { uint entries[]; };
 
-// What is needed of the invocation's own record to know whether it covers a pixel, and how deep.
-struct Batch {
+// What tells whether it covers a pixel, and how deep.
+struct Splat {
     uint record;
-    vec4 r0;     // x0_px, w0, inverse_shift
+    vec2 x0_px;
+    float w0;
+    float inverse_shift;
     vec4 uv;
     vec2 w;
 };
-
-Batch load_batch(uint base, uint end)
-{
-#if defined(DIRECT)
-    uint entry = base;
-#else
-    uint entry = base + gl_SubgroupInvocationID;
-#endif
-    Batch batch;
-    batch.record = entries[min(entry, end - 1)];
-    batch.r0 = records0[batch.record];
-    batch.uv = records1[batch.record];
-    batch.w = records2[batch.record].xy;
-#if !defined(DIRECT)
-    if (entry >= end) {
-        // Behind the list's end: far off, with a map that covers nothing there.
-        batch.r0 = vec4(1e9, 1e9, 1.0, 1.0);
-        batch.uv = vec4(1.0, 0.0, 0.0, 1.0);
-        batch.w = vec2(0.0);
-    }
-#endif
-    return batch;
-}
 
 // What it looks like.
 struct Look {
@@ -60,10 +45,41 @@ struct Look {
     float share;
 };
 
-Look load_look(Batch batch)
+#if defined(PIXELS)
+#define LOADED (TILE * TILE)
+shared Splat shared_splats[LOADED];
+shared Look shared_looks[LOADED];
+#endif
+
+// Of all that are loaded at once, the place where a batch begins; at 0 they have to be loaded.
+uint place_of(uint base, Range range)
 {
-    vec4 r2 = records2[batch.record];
-    uvec4 r3 = records3[batch.record];
+#if defined(PIXELS)
+    return (base - range.first) % LOADED;
+#else
+    return 0;
+#endif
+}
+
+Splat load_splat(uint base, uint end)
+{
+    uint entry = base + OWN_ENTRY;
+    uint record = entries[min(entry, end - 1)];
+    vec4 r0 = records0[record];
+    Splat splat = Splat(record, r0.xy, r0.z, r0.w, records1[record], records2[record].xy);
+#if !defined(DIRECT)
+    if (entry >= end) {
+        // Behind the list's end: far off, with a map that covers nothing there.
+        splat = Splat(record, vec2(1e9), 1.0, 1.0, vec4(1.0, 0.0, 0.0, 1.0), vec2(0.0));
+    }
+#endif
+    return splat;
+}
+
+Look load_look(Splat splat)
+{
+    vec4 r2 = records2[splat.record];
+    uvec4 r3 = records3[splat.record];
     vec2 red_green = unpackUnorm2x16(r3.z);
     vec2 blue_alpha = unpackUnorm2x16(r3.w);
     Look look;
@@ -73,6 +89,38 @@ Look load_look(Batch batch)
     look.share = r2.z;
     return look;
 }
+
+#if defined(PIXELS)
+
+// All of the workgroup are here, or none: what loops and branches go by is the same for all.
+void hand_on(Splat own)
+{
+    barrier(); // those before were read
+    shared_splats[gl_LocalInvocationIndex] = own;
+    barrier();
+}
+
+void hand_on(Look own)
+{
+    barrier();
+    shared_looks[gl_LocalInvocationIndex] = own;
+    barrier();
+}
+
+Splat handed(Splat own, uint place)
+{
+    return shared_splats[place];
+}
+
+Look handed(Look own, uint place)
+{
+    return shared_looks[place];
+}
+
+#else
+
+void hand_on(Splat own) {}
+void hand_on(Look own) {}
 
 // What invocation k holds.
 float handed(float value, uint k)
@@ -84,46 +132,30 @@ float handed(float value, uint k)
 #endif
 }
 
+vec2 handed(vec2 value, uint k)
+{
+    return vec2(handed(value.x, k), handed(value.y, k));
+}
+
 vec3 handed(vec3 value, uint k)
 {
-    return vec3(handed(value.x, k), handed(value.y, k), handed(value.z, k));
+    return vec3(handed(value.xy, k), handed(value.z, k));
 }
 
-// Splat k along the invocation's column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy.
-struct Column {
-    float w0;
-    vec3 at_center_row;
-    vec3 along_y;
-    float dy; // of the first row, from the splat's center
-};
-
-Column column_of(Batch batch, uint k, vec2 at_px)
+vec4 handed(vec4 value, uint k)
 {
-    float dx = at_px.x - handed(batch.r0.x, k);
-    Column column;
-    column.w0 = handed(batch.r0.z, k);
-    column.at_center_row.x = handed(batch.uv.x, k) * dx;
-    column.at_center_row.y = handed(batch.uv.z, k) * dx;
-    column.at_center_row.z = 1.0 + handed(batch.w.x, k) * dx;
-    column.along_y = vec3(handed(batch.uv.y, k), handed(batch.uv.w, k), handed(batch.w.y, k));
-    column.dy = at_px.y - handed(batch.r0.y, k);
-    return column;
+    return vec4(handed(value.xyz, k), handed(value.w, k));
 }
 
-vec3 uvw_of(Column column, int row)
+Splat handed(Splat own, uint k)
 {
-    vec3 uvw = column.at_center_row + column.along_y * (column.dy + float(row));
-    return uvw;
+    float inverse_shift = handed(own.inverse_shift, k);
+    return Splat(0, handed(own.x0_px, k), handed(own.w0, k), inverse_shift, handed(own.uv, k), handed(own.w, k));
 }
 
-bool is_inside(vec3 uvw)
+Look handed(Look own, uint k)
 {
-    float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
-    return dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
+    return Look(handed(own.color, k), handed(own.alpha, k), handed(own.normal, k), handed(own.share, k));
 }
 
-// A regular splat lies wholly beyond the near plane, but an affine map reaches further than the splat.
-bool is_beyond_near(float depth)
-{
-    return !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-}
+#endif

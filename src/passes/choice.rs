@@ -62,10 +62,12 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
     let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(settings, limits)) {
         (Some(plan), Ok(why)) => {
-            let most = plan.most_tiles;
+            let (most, draws) = (plan.most_tiles, plan.invocations.draws());
             let large =
                 if plan.may_be_large { "; what touches more, or comes near the eye, as quads" } else { "" };
-            format!("by tiles of 8x8 pixels in compute ({why}), splats of up to {most} tiles{large}")
+            format!(
+                "by tiles of 8x8 pixels in compute ({why}), {draws} an invocation, splats of up to {most} tiles{large}"
+            )
         }
         (None, Ok(_)) if !part.meshes.is_empty() => {
             format!("as {primitive}: there are polygons in the same layers")

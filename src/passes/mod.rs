@@ -54,7 +54,7 @@ pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use paper::paper_frame;
 pub use pipelines::Shaders;
 pub use readback::readback;
-pub use tiles::{STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
+pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
 
 use self::finalize::Opaque;
 use crate::{
@@ -114,7 +114,7 @@ impl<'a> Part<'a> {
         limits: &Limits,
     ) -> Self {
         let by_tiles = choice::by_tiles(settings, limits).is_ok();
-        let tiles = by_tiles.then(|| TilePlan::of(&splats, settings.size_px, limits)).flatten();
+        let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
         let kept = cull::lists_kept(&splats, tiles.is_some(), settings);
         cull::number_splats(&mut splats, kept);
         Self { splats, meshes, tiles, kept }

@@ -22,7 +22,8 @@
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
 //! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it
-//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`Settings::early_depth`].
+//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic), [`Settings::early_depth`] and
+//! [`crate::scene::TileInvocations`].
 
 mod affine;
 mod band;
@@ -74,7 +75,7 @@ use crate::scene::{Camera, Scene, Settings};
 /// that every thread stays busy.
 const BAND_ROWS: usize = 16;
 
-/// Renders `scene` seen by `camera`, with every setting but `accumulate`, `kernel_eval` and
+/// Renders `scene` seen by `camera`, with every setting but `accumulate`, `kernel_eval`, `tile_invocations` and
 /// `early_depth`.
 ///
 /// Splats with a [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on

@@ -76,6 +76,18 @@ named! {
 }
 
 named! {
+    /// What an invocation draws of a tile of 8×8 pixels ([`Rasterizer::Compute`]). The picture is the same, bit by bit.
+    TileInvocations {
+        /// `Column` on CPU drivers, else `Pixel`.
+        Auto = "auto",
+        /// A column of 8 pixels, all sums of which it holds. Eight of them are a tile: a CPU's vector is no longer.
+        Column = "column",
+        /// A pixel. 64 of them are a tile, and read its splats from memory that they share: a GPU's vectors are long.
+        Pixel = "pixel",
+    }
+}
+
+named! {
     /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
     Filter {
         /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, for

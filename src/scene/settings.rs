@@ -2,7 +2,10 @@
 
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes,
-    methods::{Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Transition},
+    methods::{
+        Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, TileInvocations,
+        Transition,
+    },
 };
 use crate::error::{Error, Result};
 
@@ -13,6 +16,8 @@ pub struct Settings {
     pub size_px: [u32; 2],
     /// How a splat becomes fragments.
     pub rasterizer: Rasterizer,
+    /// What an invocation draws of a tile.
+    pub tile_invocations: TileInvocations,
     /// The screen-space low-pass filter.
     pub filter: Filter,
     /// What a splat weighs that the filter has enlarged.
@@ -49,6 +54,7 @@ impl Default for Settings {
         Self {
             size_px: [1024, 1024],
             rasterizer: Rasterizer::default(),
+            tile_invocations: TileInvocations::default(),
             filter: Filter::default(),
             filter_weight: FilterWeight::default(),
             kernel: Kernel::default(),

@@ -3,7 +3,7 @@
 use super::{check::Check, layers};
 use crate::{
     hard_scenes::{self, Hard, transparent},
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings},
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, TileInvocations},
 };
 
 /// Width and height of every picture. A quarter of the pixels of the tests' pictures: there are many methods.
@@ -77,6 +77,7 @@ impl Suite {
                 }
             }
         }
+        cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| by_pixels(index, hard)));
         let in_layers = transparent::all();
         cases.extend(layers::cases(scenes.len(), &in_layers));
         scenes.extend(in_layers);
@@ -195,6 +196,13 @@ fn same_bits(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: R
     let allowed = can_draw(hard, &settings);
     let drawing = Some(Drawing { scene: index, settings, check });
     allowed.then_some(Case { name, quick: index == 0, drawing })
+}
+
+/// Drawn by tiles, an invocation a pixel, then a column.
+fn by_pixels(index: usize, hard: &Hard) -> Option<Case> {
+    let tile_invocations = TileInvocations::Pixel;
+    let hard = Hard { settings: Settings { tile_invocations, ..hard.settings.clone() }, ..hard.clone() };
+    same_bits(index, &hard, "tile-invocations", Check::TileInvocations, Rasterizer::Compute)
 }
 
 /// Whether the method can draw the scene.

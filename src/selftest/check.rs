@@ -14,7 +14,7 @@ use crate::{
     prepare::PreparedScene,
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, FilterWeight, KernelEval, Layers, Settings},
+    scene::{Accumulate, FilterWeight, KernelEval, Layers, Settings, TileInvocations},
 };
 
 /// What is checked of a drawing.
@@ -30,6 +30,8 @@ pub(super) enum Check {
     EarlyDepth,
     /// Uploaded and drawn again it is the same.
     Repeat,
+    /// Tiles drawn an invocation a column give the bits of those drawn an invocation a pixel.
+    TileInvocations,
 }
 
 /// What came of one try.
@@ -73,6 +75,10 @@ impl<'a> Stage<'a> {
                 self.draw(*scene, &Settings { layers, ..settings.clone() })?
             }
             Check::EarlyDepth => self.draw(*scene, &Settings { early_depth: true, ..settings.clone() })?,
+            Check::TileInvocations => {
+                let tile_invocations = TileInvocations::Column;
+                self.draw(*scene, &Settings { tile_invocations, ..settings.clone() })?
+            }
             Check::Repeat => {
                 self.prepared = None;
                 self.draw(*scene, settings)?
@@ -133,6 +139,7 @@ impl<'a> Stage<'a> {
             accumulate: Accumulate::default(),
             kernel_eval: KernelEval::default(),
             early_depth: false,
+            tile_invocations: TileInvocations::default(),
             ..hard.settings.clone()
         };
         if !key.filter.adjusts() {

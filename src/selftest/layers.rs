@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     hard_scenes::Hard,
-    scene::{Accumulate, Filter, Layers, Opacity, Rasterizer, Scene, Settings, Transition},
+    scene::{Accumulate, Filter, Layers, Opacity, Rasterizer, Scene, Settings, TileInvocations, Transition},
 };
 
 /// The scene that the quick form has with every rasterizer and with every filter: splats and polygons in each layer.
@@ -29,6 +29,7 @@ pub(super) fn cases(first: usize, scenes: &[Hard]) -> Vec<Case> {
     }
     cases.extend(scenes().map(|(i, hard)| sums_16(i, hard)));
     cases.extend(scenes().filter_map(|(i, hard)| auto(i, hard)));
+    cases.extend(scenes().filter_map(|(i, hard)| by_pixels(i, hard)));
     cases
 }
 
@@ -68,6 +69,14 @@ fn auto(scene: usize, hard: &Hard) -> Option<Case> {
     let drawing = Drawing { scene, settings, check: Check::AutoLayers };
     let quick = hard.name != SLOWEST && !SLOW.contains(&hard.name);
     is_transparent(&hard.scene).then(|| case("layers-auto", hard, quick, drawing))
+}
+
+/// By tiles, an invocation a pixel, then a column. `None` where there are no splats.
+fn by_pixels(scene: usize, hard: &Hard) -> Option<Case> {
+    let (rasterizer, tile_invocations) = (Rasterizer::Compute, TileInvocations::Pixel);
+    let settings = Settings { rasterizer, tile_invocations, ..by_default(hard) };
+    let drawing = Drawing { scene, settings, check: Check::TileInvocations };
+    (!hard.scene.objects.is_empty()).then(|| case("tile-invocations", hard, false, drawing))
 }
 
 fn by_default(hard: &Hard) -> Settings {

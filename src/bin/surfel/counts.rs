@@ -9,7 +9,7 @@ use surfel::{
     Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading},
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
 };
 
 use crate::{
@@ -146,6 +146,8 @@ fn every_settings(all: bool) -> Vec<Settings> {
             }
         }
     }
+    let tile_invocations = TileInvocations::Pixel;
+    every.push(Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() });
     if all {
         let shadings = [Shading::Lambert, Shading::Normals, Shading::Albedo];
         // The other kernel is another pipeline of each.
@@ -190,9 +192,9 @@ fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
 
 /// Layers and polygons are listed for each rasterizer and filter; the other options change them as they change opaque splats.
 fn is_listed(settings: &Settings, traits: Traits) -> bool {
-    let Settings { rasterizer, filter, .. } = *settings;
+    let Settings { rasterizer, filter, tile_invocations, .. } = *settings;
     let beyond = traits.polygons || traits.transparent || traits.lit;
-    !beyond || *settings == Settings { rasterizer, filter, ..Settings::default() }
+    !beyond || *settings == Settings { rasterizer, filter, tile_invocations, ..Settings::default() }
 }
 
 /// What tells a pipeline from others.

@@ -10,7 +10,7 @@ use surfel::{
     load::Representation,
     scene::{
         Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
-        Rasterizer, Settings, Shading, Transition,
+        Rasterizer, Settings, Shading, TileInvocations, Transition,
     },
 };
 
@@ -84,6 +84,12 @@ pub struct StyleArguments {
     /// the center or at the contour
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = choice(Rasterizer::NAMES))]
     pub rasterizer: Rasterizer,
+
+    /// What an invocation draws of a tile of 8x8 pixels where splats are drawn by tiles (--rasterizer compute): a column of
+    /// it, as suits the short vectors of CPUs; a pixel, for the long ones of GPUs; auto is the one for the device. The
+    /// picture is the same, and the reference's too
+    #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(TileInvocations::NAMES))]
+    pub tile_invocations: TileInvocations,
 
     /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), none, the paper's adjustment
     /// (disks only), the maximum of kernel and low-pass filter (not for triangle), or full EWA (Gaussian kernels; with
@@ -188,6 +194,7 @@ impl PictureArguments {
         Settings {
             size_px: self.size,
             rasterizer: style.rasterizer,
+            tile_invocations: style.tile_invocations,
             filter: style.filter,
             filter_weight: style.filter_weight,
             kernel: style.kernel,
@@ -230,6 +237,7 @@ mod tests {
         let settings = Settings {
             size_px: [7, 9],
             rasterizer: Rasterizer::AffineContour,
+            tile_invocations: TileInvocations::Pixel,
             filter: Filter::AdjustPaper,
             filter_weight: FilterWeight::Unit,
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },

@@ -1,7 +1,7 @@
 //! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
 
-use super::super::draws::Draw;
-use crate::vk::Limits;
+use super::{super::draws::Draw, Invocations};
+use crate::{scene::Settings, vk::Limits};
 
 /// Pixels along a side of a tile, as in `glsl/inc/tiles.glsl`.
 pub(in super::super) const TILE_PX: u32 = 8;
@@ -60,15 +60,16 @@ pub struct TilePlan {
     pub layers_at_once: u32,
     /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
     pub may_be_large: bool,
-    /// Invocations can't hand values to each other.
-    pub direct: bool,
+    /// What they draw, and how they come by splats.
+    pub invocations: Invocations,
 }
 
 impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
-    pub fn of(draws: &[Draw<'_>], size_px: [u32; 2], limits: &Limits) -> Option<Self> {
+    pub fn of(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> Option<Self> {
         let boxes = draws.iter().map(|draw| (u64::from(draw.chunk.count), draw.largest_box_px));
-        Self::of_boxes(&boxes.collect::<Vec<_>>(), size_px, limits)
+        let invocations = Invocations::of(settings.tile_invocations, limits);
+        Self::of_boxes(&boxes.collect::<Vec<_>>(), settings.size_px, limits, invocations)
     }
 
     /// The same for chunks of so many splats with boxes up to so many pixels.
@@ -76,6 +77,7 @@ impl TilePlan {
         chunks: &[(u64, f64)],
         [width, height]: [u32; 2],
         limits: &Limits,
+        invocations: Invocations,
     ) -> Option<Self> {
         let range = limits.max_storage_buffer_range;
         let records: u64 = chunks.iter().map(|(count, _)| count).sum();
@@ -101,8 +103,7 @@ impl TilePlan {
         let most_tiles = if fits { (bound * bound) as u32 } else { room_a_splat };
         let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
         let segment_length = record_count.div_ceil(BLOCK).div_ceil(segments) * BLOCK;
-        // 8 of them a step, where invocations hand them to each other.
-        let walk_length = if limits.shuffles { 8 } else { 1 } * MOST_ITERATIONS / 2;
+        let walk_length = invocations.batch() * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
             tile_count,
@@ -118,7 +119,7 @@ impl TilePlan {
             part_length: walk_length,
             layers_at_once: 1,
             may_be_large: !fits,
-            direct: !limits.shuffles,
+            invocations,
         })
     }
 
@@ -143,7 +144,7 @@ impl TilePlan {
             part_length: 4 * MOST_ITERATIONS,
             layers_at_once: 1,
             may_be_large,
-            direct: false,
+            invocations: Invocations::Columns,
         }
     }
 
@@ -177,11 +178,11 @@ mod tests {
     use super::*;
 
     fn limits() -> Limits {
-        Limits { max_storage_buffer_range: 1 << 27, shuffles: true, ..Limits::for_tests() }
+        Limits { max_storage_buffer_range: 1 << 27, ..Limits::for_tests() }
     }
 
     fn plan(chunks: &[(u64, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
-        TilePlan::of_boxes(chunks, size_px, &limits())
+        TilePlan::of_boxes(chunks, size_px, &limits(), Invocations::Columns)
     }
 
     #[test]

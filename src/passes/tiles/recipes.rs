@@ -5,14 +5,16 @@ use super::{
         pipelines::{ComputeKey, GraphicsKey, Layout},
         variant::Constants,
     },
-    TilePlan,
+    Invocations, TilePlan,
     bins::{count_shader, fill_shader, part_length},
-    depth, layers, record,
+    depth,
+    layer_work::Work,
+    layers, record,
     splat::{Step, shader},
 };
 use crate::{
     error::Result,
-    scene::Settings,
+    scene::{Settings, TileInvocations},
     shaders::{self, Shader},
 };
 
@@ -29,6 +31,14 @@ pub(in super::super) struct TileTraits {
 
 fn compute((shader, constants): (&'static Shader, Constants)) -> ComputeKey {
     ComputeKey { shader, layout: Layout::Tile, constants }
+}
+
+/// Those of a CPU, unless asked otherwise.
+fn invocations(settings: &Settings) -> Invocations {
+    match settings.tile_invocations {
+        TileInvocations::Auto | TileInvocations::Column => Invocations::Columns,
+        TileInvocations::Pixel => Invocations::Pixels,
+    }
 }
 
 /// The passes that set splats up and list them, each with its pipeline.
@@ -53,7 +63,7 @@ pub(in super::super) fn opaque_recipes(
     traits: TileTraits,
 ) -> Result<Vec<(&'static str, ComputeKey)>> {
     let TileTraits { may_be_large: upon, polygons, export: with_depth } = traits;
-    let plan = TilePlan::for_recipes(upon);
+    let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(upon) };
     let steps = match polygons {
         false => vec![("see and sum tiles", Step::Fused { upon, with_depth })],
         true => vec![
@@ -71,8 +81,9 @@ pub(in super::super) fn depth_recipe() -> (&'static str, GraphicsKey) {
 
 /// The pass of all transparent layers, before opaque things.
 pub(in super::super) fn layers_recipe(settings: &Settings, lit: bool) -> Result<(&'static str, ComputeKey)> {
-    let plan = TilePlan::for_recipes(false).with_layers(settings.layers.most(), 0);
+    let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(false) };
+    let plan = plan.with_layers(settings.layers.most(), 0);
     let beside = layers::Beside { opaque: true, lit };
-    let work = layers::work_of_whole_tiles(settings, &plan);
+    let work = Work::of_whole_tiles(settings, &plan);
     Ok(("layers of tiles", compute(layers::shader(settings, &plan, beside, work)?)))
 }

@@ -100,7 +100,7 @@ pub(in super::super) fn shader(
             [Some("summed"), Some(sums), word(with_depth, "with_depth"), word(beside, "beside")]
         }
     };
-    let words = words.into_iter().chain([word(plan.direct, "direct")]).flatten();
+    let words = words.into_iter().chain([plan.invocations.word()]).flatten();
     let name: String = words.map(|word| format!("_{word}")).collect();
     // What differs between chunks is in their records.
     let mut constants = splat_constants(settings, false, false);
@@ -146,8 +146,8 @@ pub(in super::super) fn fused<'a>(
     if tiles.plan.may_be_overfull() {
         let seen = Step::Visible { upon: before.is_some() };
         let summed = Step::Summed { beside: false, with_depth };
-        see_parts(graph, inputs, tiles, images, before, (seen, None))?;
-        sum_parts(graph, inputs, tiles, images, None, (summed, None))?;
+        in_parts(graph, inputs, tiles, images, before, (seen, None))?;
+        in_parts(graph, inputs, tiles, images, None, (summed, None))?;
     }
     Ok(())
 }
@@ -161,7 +161,7 @@ pub(in super::super) fn visibility<'a>(
     before: Option<&Handle<Image>>,
 ) -> Result<()> {
     let step = Step::Visible { upon: before.is_some() };
-    see_parts(graph, inputs, tiles, images, before, (step, Some(SEEN_ARGUMENTS)))
+    in_parts(graph, inputs, tiles, images, before, (step, Some(SEEN_ARGUMENTS)))
 }
 
 /// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any.
@@ -174,30 +174,41 @@ pub(in super::super) fn accumulate<'a>(
     with_depth: bool,
 ) -> Result<()> {
     let step = Step::Summed { beside: polygons.is_some(), with_depth };
-    sum_parts(graph, inputs, tiles, images, polygons, (step, Some(SEEN_ARGUMENTS)))
+    in_parts(graph, inputs, tiles, images, polygons, (step, Some(SEEN_ARGUMENTS)))
 }
 
-/// Visibility of whole tiles, where there are arguments for them, then of the parts of overfull ones.
-fn see_parts<'a>(
+/// Visibility or accumulation: of whole tiles, where there are arguments for them, then of the parts of overfull ones. `depth`: what
+/// it reads beside the tiles' own.
+fn in_parts<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     tiles: &Tiles<'a>,
     images: &mut TileImages,
-    before: Option<&Handle<Image>>,
+    depth: Option<&Handle<Image>>,
     (step, whole): (Step, Option<u64>),
 ) -> Result<()> {
-    let mut see =
-        TilePass::new(inputs, tiles.plan, shader(inputs.settings, tiles.plan, step)?, tiles.lists())?;
-    see.storage_images = vec![(VISIBLE_DEPTH, images.depth.id())];
-    see.sampled_images = before.map(|before| (DEPTH_BEFORE, before.id())).into_iter().collect();
-    let name = if whole.is_some() { "see tiles" } else { "see overfull tiles" };
-    let mut pass = tiles.read_lists(graph.pass(name)).write(
-        &mut images.depth,
-        Access::StorageReadWriteCompute,
-        Start::Load,
-    );
-    if let Some(before) = before {
-        pass = pass.read(before, Access::SampledCompute);
+    let shader = shader(inputs.settings, tiles.plan, step)?;
+    let mut of_tiles = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
+    let TileImages { sums: Sums { color, normal }, depth: own_depth } = images;
+    of_tiles.storage_images = vec![(VISIBLE_DEPTH, own_depth.id())];
+    let which = if whole.is_some() { "tiles" } else { "overfull tiles" };
+    let sums = matches!(step, Step::Summed { .. });
+    let name = format!("{} {which}", if sums { "sum" } else { "see" });
+    let mut pass = tiles.read_lists(graph.pass(&name));
+    let sampled = if sums {
+        of_tiles.storage_images.extend([(COLOR_SUMS, color.id()), (NORMAL_SUMS, normal.id())]);
+        pass = pass
+            .read(own_depth, Access::StorageReadCompute)
+            .write(color, Access::StorageReadWriteCompute, Start::Load)
+            .write(normal, Access::StorageReadWriteCompute, Start::Load);
+        POLYGON_DEPTH
+    } else {
+        pass = pass.write(own_depth, Access::StorageReadWriteCompute, Start::Load);
+        DEPTH_BEFORE
+    };
+    if let Some(depth) = depth {
+        of_tiles.sampled_images = vec![(sampled, depth.id())];
+        pass = pass.read(depth, Access::SampledCompute);
     }
     let parts = Parts {
         arguments: tiles.arguments.id(),
@@ -205,42 +216,6 @@ fn see_parts<'a>(
         overfull: OVERFULL_ARGUMENTS,
         parts: of_parts(tiles.plan),
     };
-    pass.finish(Box::new(move |context| parts.record(context, &see)));
-    Ok(())
-}
-
-/// Accumulation alike.
-fn sum_parts<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
-    images: &mut TileImages,
-    polygons: Option<&Handle<Image>>,
-    (step, whole): (Step, Option<u64>),
-) -> Result<()> {
-    let mut sum =
-        TilePass::new(inputs, tiles.plan, shader(inputs.settings, tiles.plan, step)?, tiles.lists())?;
-    sum.storage_images = vec![
-        (COLOR_SUMS, images.sums.color.id()),
-        (NORMAL_SUMS, images.sums.normal.id()),
-        (VISIBLE_DEPTH, images.depth.id()),
-    ];
-    sum.sampled_images = polygons.map(|polygons| (POLYGON_DEPTH, polygons.id())).into_iter().collect();
-    let name = if whole.is_some() { "sum tiles" } else { "sum overfull tiles" };
-    let mut pass = tiles
-        .read_lists(graph.pass(name))
-        .read(&images.depth, Access::StorageReadCompute)
-        .write(&mut images.sums.color, Access::StorageReadWriteCompute, Start::Load)
-        .write(&mut images.sums.normal, Access::StorageReadWriteCompute, Start::Load);
-    if let Some(polygons) = polygons {
-        pass = pass.read(polygons, Access::SampledCompute);
-    }
-    let parts = Parts {
-        arguments: tiles.arguments.id(),
-        whole,
-        overfull: OVERFULL_ARGUMENTS,
-        parts: of_parts(tiles.plan),
-    };
-    pass.finish(Box::new(move |context| parts.record(context, &sum)));
+    pass.finish(Box::new(move |context| parts.record(context, &of_tiles)));
     Ok(())
 }

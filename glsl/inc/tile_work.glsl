@@ -1,0 +1,71 @@
+// What a workgroup works on: a tile, and of its list as much as one dispatch takes. An invocation draws a column of the tile's
+// pixels; with PIXELS a row of it, one pixel.
+//
+// IS_WHOLE: whether this dispatch does whole tiles and leaves out the overfull; else it does part push.part of those.
+
+layout(set = 0, binding = 6, std430) readonly buffer Starts { uint starts[]; };
+layout(set = 0, binding = 8, std430) readonly buffer SeenTiles { uint seen_tiles[]; };
+layout(set = 0, binding = 10, std430) readonly buffer OverfullTiles { uint overfull_tiles[]; };
+
+layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one dispatch takes (inc/tiles.glsl)
+
+#if defined(PIXELS)
+#define ROWS 1
+#define FIRST_ROW int(gl_LocalInvocationID.y)
+#else
+#define ROWS TILE
+#define FIRST_ROW 0
+#endif
+layout(local_size_x = TILE, local_size_y = TILE / ROWS) in;
+
+struct Range {
+    uint first;
+    uint end;
+};
+
+struct Work {
+    uint tile;
+    Range range;
+};
+
+// Answers whether there is any; all of a workgroup have the same.
+bool find_work(out Work work)
+{
+    if (GROUP_NUMBER >= starts[IS_WHOLE ? STARTS_SEEN : STARTS_OVERFULL]) {
+        return false;
+    }
+    work.tile = IS_WHOLE ? seen_tiles[GROUP_NUMBER] : overfull_tiles[GROUP_NUMBER];
+    uint first = starts[work.tile];
+    uint end = starts[work.tile + 1];
+    if (IS_WHOLE) {
+        work.range = Range(first, end);
+        return end - first <= PART;
+    }
+    first = min(first + push.part * PART, end);
+    work.range = Range(first, min(first + PART, end));
+    return true;
+}
+
+// The uppermost pixel of the column.
+ivec2 top_pixel(uint tile)
+{
+    return TILE * ivec2(tile % push.tiles_x, tile / push.tiles_x) + ivec2(gl_LocalInvocationID.x, 0);
+}
+
+// The pixel of one of the invocation's rows.
+ivec2 pixel_of(ivec2 top, int row)
+{
+    return top + ivec2(0, FIRST_ROW + row);
+}
+
+// From the middle of the image to the pixel's.
+vec2 from_middle_px(ivec2 pixel)
+{
+    return vec2(pixel) + 0.5 - push.half_size_px;
+}
+
+// A pixel of the image: tiles at its borders reach beyond.
+ivec2 within_image(ivec2 pixel)
+{
+    return min(pixel, ivec2(2.0 * push.half_size_px) - 1);
+}

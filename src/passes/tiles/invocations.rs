@@ -1,0 +1,74 @@
+//! What an invocation draws of a tile, and how it comes by the tile's splats.
+
+use crate::{scene::TileInvocations, vk::Limits};
+
+/// The two together, as the permutations of `glsl/tile_splat.comp.glsl` and `tile_layers.comp.glsl` have them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Invocations {
+    /// A column of pixels; they load splats for each other.
+    Columns,
+    /// A column of pixels; each loads every splat, where the device can't hand values on.
+    ColumnsAlone,
+    /// A pixel; they load splats for each other.
+    Pixels,
+}
+
+impl Invocations {
+    /// What was asked for, as this device can do it.
+    pub fn of(wanted: TileInvocations, limits: &Limits) -> Self {
+        let pixels = match wanted {
+            TileInvocations::Auto => !limits.is_cpu,
+            TileInvocations::Column => false,
+            TileInvocations::Pixel => true,
+        };
+        match (pixels, limits.shuffles) {
+            (true, _) => Self::Pixels,
+            (false, true) => Self::Columns,
+            (false, false) => Self::ColumnsAlone,
+        }
+    }
+
+    /// Splats of one step of a shader's loops: `BATCH` of `glsl/inc/tile_batch.glsl`.
+    pub fn batch(self) -> u32 {
+        match self {
+            Self::Columns | Self::Pixels => 8,
+            Self::ColumnsAlone => 1,
+        }
+    }
+
+    /// The word of the permutation.
+    pub fn word(self) -> Option<&'static str> {
+        match self {
+            Self::Columns => None,
+            Self::ColumnsAlone => Some("direct"),
+            Self::Pixels => Some("pixels"),
+        }
+    }
+
+    /// In words, what an invocation draws.
+    pub fn draws(self) -> &'static str {
+        match self {
+            Self::Columns | Self::ColumnsAlone => "a column of pixels",
+            Self::Pixels => "a pixel",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cpus_draw_columns_and_gpus_pixels_unless_asked_otherwise() {
+        use TileInvocations::{Auto, Column, Pixel};
+        let gpu = Limits { shuffles: true, ..Limits::for_tests() };
+        let cpu = Limits { is_cpu: true, ..gpu };
+        assert_eq!(Invocations::of(Auto, &cpu), Invocations::Columns);
+        assert_eq!(Invocations::of(Auto, &gpu), Invocations::Pixels);
+        assert_eq!(Invocations::of(Column, &gpu), Invocations::Columns);
+        for limits in [cpu, Limits { shuffles: false, ..cpu }] {
+            assert_eq!(Invocations::of(Pixel, &limits), Invocations::Pixels);
+        }
+        assert_eq!(Invocations::of(Auto, &Limits { shuffles: false, ..cpu }), Invocations::ColumnsAlone);
+    }
+}

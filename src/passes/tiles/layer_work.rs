@@ -1,0 +1,146 @@
+//! What each dispatch does of transparent layers: all of them, some, or, where a tile has more splats than one dispatch takes, a
+//! step of one with a part of the splats.
+
+use super::{super::constants::TileConstants, TilePlan};
+use crate::scene::{LastLayer, Settings};
+
+/// Layers of one surface each; and whether there is one more, of all that is left.
+fn layers_of(settings: &Settings) -> (u32, bool) {
+    let most = settings.layers.most();
+    match settings.last_layer {
+        LastLayer::Drop => (most, false),
+        LastLayer::Stack | LastLayer::Blend => (most - 1, true),
+    }
+}
+
+/// What one dispatch does of all layers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Share {
+    surfaces: u32,
+    blends_rest: bool,
+}
+
+/// How the layers are dispatched.
+fn shares(settings: &Settings, plan: &TilePlan) -> Vec<Share> {
+    let (surfaces, rest) = layers_of(settings);
+    let at_once = plan.layers_at_once;
+    let mut shares: Vec<_> = (0..surfaces)
+        .step_by(at_once as usize)
+        .map(|first| Share { surfaces: at_once.min(surfaces - first), blends_rest: false })
+        .collect();
+    match shares.last_mut() {
+        Some(last) if rest && last.surfaces < at_once => last.blends_rest = true,
+        _ if rest => shares.push(Share { surfaces: 0, blends_rest: true }),
+        _ => {}
+    }
+    shares
+}
+
+/// The steps of a layer in parts, as in `glsl/tile_layers.comp.glsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Step {
+    See,
+    Sum,
+    Rest,
+}
+
+/// How a dispatch works on a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Work {
+    /// All layers at once.
+    Whole,
+    /// Some layers after the other.
+    Several,
+    /// A step of a layer, and a part of the splats, after the other.
+    Parts,
+}
+
+impl Work {
+    /// How all tiles but the overfull are worked on.
+    pub fn of_whole_tiles(settings: &Settings, plan: &TilePlan) -> Self {
+        if shares(settings, plan).len() > 1 { Self::Several } else { Self::Whole }
+    }
+}
+
+/// The constants of each dispatch.
+pub(super) fn dispatches(
+    settings: &Settings,
+    plan: &TilePlan,
+    work: Work,
+    constants: TileConstants,
+) -> Vec<TileConstants> {
+    if work != Work::Parts {
+        let shares = (0..).zip(shares(settings, plan));
+        let of_share = |(part, Share { surfaces, blends_rest })| TileConstants {
+            part,
+            surfaces,
+            blends_rest: u32::from(blends_rest),
+            ..constants
+        };
+        return shares.map(of_share).collect();
+    }
+    let parts = plan.parts();
+    let of_step = |(surfaces, step)| {
+        (0..parts).map(move |part| TileConstants {
+            part,
+            surfaces,
+            step: step as u32,
+            ends: u32::from(part + 1 == parts),
+            ..constants
+        })
+    };
+    steps(settings).into_iter().flat_map(of_step).collect()
+}
+
+/// The steps of all layers, each with the number of surfaces before it.
+fn steps(settings: &Settings) -> Vec<(u32, Step)> {
+    let (surfaces, rest) = layers_of(settings);
+    let mut steps: Vec<_> = (0..surfaces).flat_map(|n| [(n, Step::See), (n, Step::Sum)]).collect();
+    steps.extend(rest.then_some((surfaces, Step::Rest)));
+    steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::Invocations, *};
+    use crate::{scene::Layers, vk::Limits};
+
+    #[test]
+    fn the_shares_are_all_layers_and_no_dispatch_exceeds_the_iterations() {
+        for records in [1, 4000, 54_000, 540_000] {
+            for lights in [0, 1, 16] {
+                let limits = Limits::for_tests();
+                for (most, last_layer) in [
+                    (1, LastLayer::Stack),
+                    (1, LastLayer::Drop),
+                    (4, LastLayer::Stack),
+                    (16, LastLayer::Blend),
+                    (64, LastLayer::Blend),
+                    (256, LastLayer::Drop),
+                ] {
+                    let plan =
+                        TilePlan::of_boxes(&[(records, 10.0)], [512, 512], &limits, Invocations::Columns)
+                            .unwrap();
+                    let plan = plan.with_layers(most, lights);
+                    let settings =
+                        Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };
+                    let shares = shares(&settings, &plan);
+                    let all: u32 =
+                        shares.iter().map(|share| share.surfaces + u32::from(share.blends_rest)).sum();
+                    assert_eq!(all, most);
+                    let rests = shares.iter().filter(|share| share.blends_rest).count();
+                    assert_eq!(rests, usize::from(last_layer != LastLayer::Drop));
+                    assert!(shares.iter().rev().skip(1).all(|share| !share.blends_rest));
+                    for share in &shares {
+                        // Two walks and a loop over the lights for each pixel of a column; the rest is lit splat by splat.
+                        let surface = 2 * plan.part_length.div_ceil(8) + 8 * lights + 1;
+                        let rest = (1 + lights) * plan.part_length.div_ceil(8);
+                        let iterations = share.surfaces * surface + u32::from(share.blends_rest) * rest;
+                        assert!(iterations < 65_535, "{records} {most} {lights}: {share:?}");
+                    }
+                    assert!((1 + lights) * plan.walk_length.div_ceil(8) + 8 * lights + 3 < 65_535);
+                }
+            }
+        }
+    }
+}
