@@ -31,8 +31,8 @@ pub struct Draw<'a> {
     pub constants: FrameConstants,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub largest_box_px: f64,
-    /// Whether a splat of it may exceed the device's largest point or come near the eye plane: such ones are then
-    /// listed and drawn as quads. Never with a rasterizer that draws quads only.
+    /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
+    /// triangle: such ones are then listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
     /// The specialization constants of its pipelines.
     pub(super) variant: Constants,
@@ -81,7 +81,8 @@ pub fn draws<'a>(
             largest_box_px,
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
-                Primitive::Triangle => largest_box_px.is_infinite(),
+                // Filters leave no splat thin.
+                Primitive::Triangle => settings.filter == Filter::None || largest_box_px.is_infinite(),
                 Primitive::Quad => false,
             },
             variant: {
