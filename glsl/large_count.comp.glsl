@@ -1,7 +1,6 @@
 // Finds the splats that are drawn as quads: larger than the device's largest point, not regular, or too
-// near for a triangle. A bit a splat, a
-// count a block. The decision is made here once; the vertex stages only read it, so that no splat is drawn twice or
-// not at all.
+// near or too thin for a triangle. A bit a splat, a count a block. The decision is made here once; the vertex stages only read
+// it, so that no splat is drawn twice or not at all.
 #version 460
 #include "inc/setup.glsl"
 #include "inc/triangle.glsl"

@@ -2,12 +2,15 @@
 // triangle around the unit disk, scaled along s and t. Projection, (u, v) and depth are the fixed-function rasterizer's.
 //
 // Rasterizers snap vertices to a grid, 1/256 pixel mostly. Where the disk touches a side, that would take a part of the rim:
-// the triangle is larger by four such steps. Splats whose triangle would come near the eye plane are drawn as quads.
+// the triangle is larger by four such steps. Splats whose triangle would come near the eye plane are drawn as quads; so are
+// those that are hardly thicker than that, as disks seen edge-on without a filter: corners and what is interpolated between them
+// are rounded in pixels of the image, half a step of f32 at 64 pixels is 1e-3 of a half axis of 0.004.
 //
 // Limits: depth is interpolated between snapped vertices. Where it changes steeply across a pixel, as across large grazing
 // disks in a telephoto view, the snapping shifts it: 2e-4 of it at a field of view of 0.5 degrees, 3e-2 at 0.1.
 
 const float SNAP_PX = 1.0 / 64.0;
+const float THINNEST_PX = 1.0 / 16.0; // the shorter half axis
 
 // How much larger than the smallest.
 float triangle_scale(Mapping m)
@@ -16,11 +19,14 @@ float triangle_scale(Mapping m)
     return 1.0 + SNAP_PX / (abs(axes.minor) * frame.focal_px);
 }
 
+const float LARGEST_SCALE = 1.0 + SNAP_PX / THINNEST_PX;
+
 bool fits_triangle(Mapping m)
 {
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
+    float scale = triangle_scale(m);
     // Corners are 2 radii from the center. Written so that NaN and infinity don't fit.
-    return m.regular && 2.0 * triangle_scale(m) * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
+    return m.regular && scale <= LARGEST_SCALE && 2.0 * scale * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
 }
 
 vec2 triangle_corner(Mapping m, uint corner)

@@ -34,8 +34,8 @@ pub struct Draw<'a> {
     pub largest_box_px: f64,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
-    /// Whether a splat of it may exceed the device's largest point or come near the eye plane: such ones are then
-    /// listed and drawn as quads. Never with a rasterizer that draws quads only.
+    /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
+    /// triangle: such ones are then listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
     /// The specialization constants of its pipelines.
     pub(super) variant: Constants,
@@ -85,7 +85,8 @@ pub fn draws<'a>(
             wholly_in_view: wholly_in_view(chunk, &view, &bound),
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
-                Primitive::Triangle => largest_box_px.is_infinite(),
+                // Filters leave no splat thin.
+                Primitive::Triangle => settings.filter == Filter::None || largest_box_px.is_infinite(),
                 Primitive::Quad => false,
             },
             variant: {

@@ -1,4 +1,5 @@
-//! The splats that are drawn as quads, because they exceed the device's largest point or come near the eye plane: found, counted and listed on the GPU, in input order.
+//! The splats that are drawn as quads, because they exceed the device's largest point, come near the eye plane or are
+//! too thin for a triangle: found, counted and listed on the GPU, in input order.
 
 use std::sync::Arc;
 

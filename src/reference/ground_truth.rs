@@ -33,7 +33,7 @@ const BAND_ROWS: usize = 32;
 const STRIP_SAMPLES: usize = 1 << 17;
 
 /// The most samples along a pixel's side.
-pub const MOST_SAMPLES_PER_SIDE: u32 = 64;
+pub const MOST_SAMPLES_PER_SIDE: u32 = 256;
 
 /// The most samples of a picture: 8192² pixels with 256 each.
 const MAX_SAMPLES: u64 = 1 << 34;
@@ -65,7 +65,7 @@ struct Field<'a> {
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for a number of samples
-/// outside 1–64 or more than 2³⁴ in all, and for a size that memory can't hold.
+/// outside 1–256 or more than 2³⁴ in all, and for a size that memory can't hold.
 pub fn ground_truth(
     scene: &Scene,
     camera: &Camera,

@@ -6,12 +6,12 @@ use super::{
 };
 use crate::{
     hard_scenes::Hard,
-    scene::{Accumulate, Filter, Kernel, KernelEval, Rasterizer},
+    scene::{Accumulate, Kernel, KernelEval},
 };
 
 /// The tolerances of a hard scene with its settings, for 32-bit sums.
 pub fn of(hard: &Hard) -> Errors {
-    let exact = F32.times(factor(hard)).of_at_least(fewest_px(hard));
+    let exact = F32.of_at_least(fewest_px(hard));
     match hard.settings.kernel_eval {
         KernelEval::Analytic => exact,
         KernelEval::Texture => of_kernel_texture(hard.settings.kernel, &exact),
@@ -41,23 +41,6 @@ pub fn of_light(hard: &Hard) -> LightErrors {
         rms_of_all: LIGHT_RMS_OF_ALL,
         ..LightErrors::default()
     }
-}
-
-/// How much larger than [`F32`] errors may be.
-///
-/// Disks seen within 1° of grazing have half axes down to 0.004 px where nothing widens them; half a step of f32 in pixels,
-/// 3.8e-6 at 64 px, is 1e-3 of such an axis. That is lost by the rasterizer, which places corners and interpolates between
-/// them, in lavapipe from the image's upper left corner: in that quarter the errors' rms is 4.7e-5 of the weight, in the lower
-/// right one 7.5e-5. Nothing that the vertex stage does changes it. Over 8 draws of the scene's random numbers the rms is
-/// 6.6e-5 with corners from the tangent vectors; 6.5e-5 where (u, v) of a corner is that of the splat's exact map at the
-/// rounded corner, also with what its clip coordinates lose; 6.7e-5 with corners on the grid of 1/256 px.
-///
-/// The largest errors are those of a few pixels, 9.9e-4 to 5.7e-3 by the draw (a quad's rms is 3.2e-5, at most 1.5e-3; ray
-/// casting's 4.4e-5, at most 2.9e-3): the limit holds for the draw that is this scene. A device that snaps vertices to
-/// 1/256 px will be wrong by more.
-fn factor(hard: &Hard) -> f64 {
-    let thin = hard.name == "edge-on disks" && !matches!(hard.settings.filter, Filter::Adjust | Filter::Ewa);
-    if thin && hard.settings.rasterizer == Rasterizer::Triangle { 1.1 } else { 1.0 }
 }
 
 /// Scenes whose splats are mostly too small for a picture without filter have few pixels.

@@ -218,8 +218,8 @@ fn what_can_not_be_sampled_is_refused_and_the_rest_reported() {
         assert_eq!(error.exit_code(), 1);
         error.to_string()
     };
-    assert!(ask(&settings(8), 0).starts_with("--samples: 0: expected 1 to 64"));
-    assert!(ask(&settings(8), 65).starts_with("--samples"));
+    assert!(ask(&settings(8), 0).starts_with("--samples: 0: expected 1 to 256"));
+    assert!(ask(&settings(8), 257).starts_with("--samples"));
     assert!(ask(&settings(65_536), 16).starts_with("--size: 65536x65536 with 16 samples"));
     let wide = Settings { kernel: Kernel::Gaussian { sigma: 12.0 }, ..settings(8) };
     assert!(ask(&wide, 16).starts_with("--kernel: gaussian: σ is 12"));

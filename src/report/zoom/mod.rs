@@ -122,7 +122,7 @@ impl FilterNames {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "at most 64, at least 0; `as` saturates"
+    reason = "at most 256, at least 0; `as` saturates"
 )]
 pub fn samples_per_side(pixels_per_splat: f64, tilt_deg: f64, least: u32) -> u32 {
     let between_px = pixels_per_splat * tilt_deg.to_radians().cos();

@@ -70,7 +70,8 @@ fn the_path_has_equal_ratios_and_both_ends() {
 #[test]
 fn samples_follow_the_splats_until_there_are_too_many() {
     // cos 75° is 0.2588: at 0.2 px neighbors are 0.0518 px apart, 1/19.3 px; two samples each.
-    for (px, least, samples) in [(50.0, 16, 16), (0.2, 16, 39), (0.2, 48, 48), (0.05, 16, 64), (0.05, 2, 64)]
+    for (px, least, samples) in
+        [(50.0, 16, 16), (0.2, 16, 39), (0.2, 48, 48), (0.05, 2, 155), (0.02, 16, 256)]
     {
         assert_eq!(samples_per_side(px, 75.0, least), samples, "{px} {least}");
     }

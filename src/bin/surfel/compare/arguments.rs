@@ -62,7 +62,7 @@ pub struct CompareArguments {
 
     /// Samples along a pixel's side in the ground truth; --zoom takes more where splats are far below a pixel
     #[arg(long, value_name = "N", default_value_t = 16)]
-    #[arg(value_parser = parse::whole::<u32>(1..=64), allow_hyphen_values = true)]
+    #[arg(value_parser = parse::whole::<u32>(1..=256), allow_hyphen_values = true)]
     pub samples: u32,
 
     /// In place of a scene: a checkerboard in perspective, each filter at distances from 0.05 to 50 pixels a splat

@@ -28,7 +28,7 @@ pub struct ReportArguments {
     pub size: Option<[u32; 2]>,
 
     /// Samples along a pixel's side in the ground truth [default: 16; with --quick: 8]
-    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=64), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=256), allow_hyphen_values = true)]
     pub samples: Option<u32>,
 
     /// Distances at which filters are compared [default: 25; with --quick: 9]
