@@ -6,6 +6,7 @@
 // part of a tile with more splats than one dispatch takes: then depths and sums go on from what the image holds.
 // HALF, SINGLE: the precision of the sums in the images. In registers they are f32.
 // UPON: the graphics pipeline has drawn visible splats before. WITH_DEPTH, BESIDE: as in accumulate.frag.glsl.
+// HIDDEN: what the tile's visible depth hides is not summed (inc/tile_hidden.glsl).
 // PIXELS: of 64 invocations, each a pixel: a GPU's vectors are longer than 8. DIRECT: each loads every record. Without it each
 // loads one of BATCH, and they hand them to each other (inc/tile_batch.glsl).
 //
@@ -15,6 +16,7 @@
 //
 // Own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
 // Permutations: fused | half single | _ with_depth | _ upon | _ direct pixels
+// Permutations: fused | half single | _ with_depth | _ upon | hidden | _ pixels
 // Permutations: visible | _ upon | _ direct pixels
 // Permutations: summed | half single | _ with_depth | _ beside | _ direct pixels
 #version 460
@@ -23,6 +25,9 @@
 #if !(defined(DIRECT) || defined(PIXELS))
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
+#if defined(HIDDEN)
+#extension GL_KHR_shader_subgroup_ballot : require
+#endif
 #endif
 #include "inc/perturb.glsl"
 #include "inc/variant.glsl"
@@ -37,6 +42,9 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 #include "inc/tile_work.glsl"
 #include "inc/tile_batch.glsl"
 #include "inc/tile_column.glsl"
+#if defined(HIDDEN)
+#include "inc/tile_hidden.glsl"
+#endif
 
 #if defined(HALF)
 #define SUMS_FORMAT rgba16f
@@ -173,6 +181,9 @@ void main()
         polygon[row] = texelFetch(depth_with_polygons, within_image(pixel), 0).r;
 #endif
     }
+#if defined(HIDDEN)
+    work.range = unhidden(work.range, at_px, visible);
+#endif
     sum(work.range, at_px, visible, polygon, colors, normals);
     [[unroll]] for (int row = 0; row < ROWS; row++) {
 #if defined(HALF)

@@ -8,7 +8,7 @@ use surfel::{
     graph::execute::Profile,
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, Backfaces, Cull, Filter, Object, Rasterizer, Scene, Settings},
+    scene::{Accumulate, Backfaces, Cull, Filter, Object, Rasterizer, Scene, Settings, TileInvocations},
 };
 
 fn draw(headless: &mut Headless, hard: &Hard, cull: Cull, wanted: Wanted) -> Frame {
@@ -37,8 +37,11 @@ fn views(hard: &Hard) -> Vec<Hard> {
 fn points_of_a_list_are_the_same_bits_on_every_hard_scene_with_every_filter() {
     let mut headless = shared();
     let mut listed = 0;
-    for scene in scenes::all().into_iter().chain(transparent::all()) {
-        for (_, filter) in Filter::NAMES {
+    let opaque = scenes::all().into_iter().map(|scene| (scene, Filter::NAMES));
+    // Beside polygons and before layers, the default alone.
+    let others = transparent::all().into_iter().map(|scene| (scene, &Filter::NAMES[..1]));
+    for (scene, filters) in opaque.chain(others) {
+        for (_, filter) in filters {
             for mut hard in views(&scene) {
                 hard.settings = Settings {
                     size_px: [64, 48],
@@ -62,6 +65,34 @@ fn points_of_a_list_are_the_same_bits_on_every_hard_scene_with_every_filter() {
     }
     assert_validation_is_silent(&headless);
     assert!(listed > 100, "{listed}");
+}
+
+/// What is left out of a tile's list would have had no weight in its sums, which go on in the same order.
+#[test]
+fn tiles_without_what_is_hidden_are_the_same_bits_on_every_hard_scene() {
+    let mut headless = shared();
+    let mut behind = balls(Settings::default());
+    behind.camera = scenes::builder::camera([6.0, 0.0, 0.0], [0.0; 3]);
+    for scene in scenes::all().into_iter().chain([behind]) {
+        for tile_invocations in [TileInvocations::Column, TileInvocations::Pixel] {
+            for mut hard in views(&scene) {
+                hard.settings = Settings {
+                    size_px: [64, 48],
+                    rasterizer: Rasterizer::Compute,
+                    tile_invocations,
+                    ..hard.settings
+                };
+                let kept = draw(&mut headless, &hard, Cull::List, common::ALL);
+                let seen = draw(&mut headless, &hard, Cull::Hidden, common::ALL);
+                assert_same_bits(&kept, &seen, &format!("{} {tile_invocations:?}", hard.name));
+            }
+        }
+    }
+    let pipelines = headless.renderer.shaders.pipeline_names();
+    for word in ["hidden.comp", "hidden_pixels.comp"] {
+        assert!(pipelines.iter().any(|name| name.ends_with(word)), "{word}: {pipelines:?}");
+    }
+    assert_validation_is_silent(&headless);
 }
 
 /// Three balls, of numbers of splats that fill no word of bits, the outer ones cut by the sides of the view.

@@ -22,7 +22,8 @@
 // Limits: affine approximation at the center, like every EWA filter: for regular splats (mapping.glsl). A center that is
 // nearer than the splat is deep has no image of which that would be true, and in f32 no digits.
 
-const float SUM_PART = 255.0 / 256.0;
+const float PART_OF_AXIS = 250.0 / 251.0;
+const float PART_OF_FILTER = 609.0 / 610.0;
 const float OWN_DEPTH = 1.0 / 16.0; // in h: shorter axes lose their depth
 
 struct Widened {
@@ -44,7 +45,7 @@ vec3 flat_cross(vec2 v, vec3 p)
 // The half axis that is drawn in place of one of length l.
 float widened_axis(float l, float h)
 {
-    return max(sqrt(SUM_PART * FORMULA(FORMULA_WIDENED, l * l) + SUM_PART * h * h), max(l, h));
+    return max(sqrt(PART_OF_AXIS * FORMULA(FORMULA_WIDENED, l * l) + PART_OF_FILTER * h * h), max(l, h));
 }
 
 Widened adjust_tangents(vec3 p, vec3 s, vec3 t)

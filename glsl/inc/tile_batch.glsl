@@ -25,7 +25,11 @@ layout(set = 0, binding = 0, std430) readonly buffer Records0 { vec4 records0[];
 layout(set = 0, binding = 1, std430) readonly buffer Records1 { vec4 records1[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Records2 { vec4 records2[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Records3 { uvec4 records3[]; };
+#if defined(HIDDEN)
+layout(set = 0, binding = 7, std430) coherent buffer Entries { uint entries[]; }; // written by inc/tile_hidden.glsl
+#else
 layout(set = 0, binding = 7, std430) readonly buffer Entries { uint entries[]; };
+#endif
 
 // What tells whether it covers a pixel, and how deep.
 struct Splat {

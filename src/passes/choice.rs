@@ -59,6 +59,8 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         Primitive::Quad => "quads",
         Primitive::Triangle => "triangles",
     };
+    let hidden = part.tiles.as_ref().is_some_and(|plan| plan.hidden) && part.meshes.is_empty();
+    let hidden = if hidden { "; what is hidden, left out of sums" } else { "" };
     let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(settings, limits)) {
         (Some(plan), Ok(why)) => {
@@ -77,7 +79,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         }
         (_, Err(why)) => format!("as {primitive}: {why}"),
     };
-    Some(format!("{how}{kept}"))
+    Some(format!("{how}{kept}{hidden}"))
 }
 
 #[cfg(test)]

@@ -19,9 +19,9 @@ use crate::{
         Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    scene::{Cull, Settings},
+    scene::{Cull, Rasterizer, Settings},
     shaders::{self, Shader},
-    vk::ComputePipeline,
+    vk::{ComputePipeline, Limits},
 };
 
 /// Splats of a word of bits: each chunk begins one, as in `glsl/inc/kept.glsl`.
@@ -37,17 +37,18 @@ const MOST_INDICES: u32 = 1 << 24;
 const DISPATCH: u64 = 20;
 
 /// Whether a list is made where there may be something to leave out. `by_tiles`: splats are drawn so.
-fn is_wanted(settings: &Settings, by_tiles: bool) -> bool {
+fn is_wanted(settings: &Settings, by_tiles: bool, is_cpu: bool) -> bool {
     match settings.cull {
-        Cull::Auto => by_tiles,
+        // With points named, the set-up is the papers'.
+        Cull::Auto => by_tiles || is_cpu && settings.rasterizer == Rasterizer::Auto,
         Cull::Setup => false,
         Cull::List | Cull::Hidden => by_tiles || Primitive::of(settings.rasterizer) == Primitive::Point,
     }
 }
 
 /// Whether these splats are listed before they are set up: some may face away, or lie outside of the view.
-pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings) -> bool {
-    is_wanted(settings, by_tiles)
+pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings, limits: &Limits) -> bool {
+    is_wanted(settings, by_tiles, limits.is_cpu)
         && draws.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
         && words_of(draws) <= u64::from(u32::MAX / WORD)
         && (by_tiles || draws.iter().all(|draw| draw.chunk.count <= MOST_INDICES))
@@ -254,7 +255,7 @@ pub(super) fn recipes(
     variant: &Constants,
 ) -> Vec<(&'static str, ComputeKey)> {
     let passes = ["mark kept splats", "scan kept splats", "list kept splats"];
-    match is_wanted(settings, by_tiles) && culls(variant) {
+    match is_wanted(settings, by_tiles, false) && culls(variant) {
         true => passes.into_iter().zip(keys(variant)).collect(),
         false => Vec::new(),
     }

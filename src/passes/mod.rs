@@ -115,7 +115,7 @@ impl<'a> Part<'a> {
     ) -> Self {
         let by_tiles = choice::by_tiles(settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
-        let kept = cull::lists_kept(&splats, tiles.is_some(), settings);
+        let kept = cull::lists_kept(&splats, tiles.is_some(), settings, limits);
         cull::number_splats(&mut splats, kept);
         Self { splats, meshes, tiles, kept }
     }
@@ -342,12 +342,12 @@ fn opaque_by_tiles<'a>(
     complete: bool,
 ) -> Result<Opaque<'a>> {
     let complete = complete || plan.may_be_large || !inputs.meshes.is_empty();
-    let tiles = tiles::list(graph, inputs, "", plan)?;
+    let mut tiles = tiles::list(graph, inputs, "", plan)?;
     let mut images = tiles::TileImages::create(graph, inputs, plan, complete);
     let mut opaque = Opaque::default();
     let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, &tiles)).transpose()?;
     if inputs.meshes.is_empty() {
-        tiles::fused(graph, inputs, &tiles, &mut images, large.as_ref(), (with_depth, complete))?;
+        tiles::fused(graph, inputs, &mut tiles, &mut images, large.as_ref(), (with_depth, complete))?;
     } else {
         tiles::visibility(graph, inputs, &tiles, &mut images, large.as_ref())?;
     }

@@ -49,12 +49,13 @@ pub(super) fn area_share(center: DVec3, old: (DVec3, DVec3), new: (DVec3, DVec3)
 const OWN_DEPTH: f64 = 1.0 / 16.0;
 
 /// How much of the sum of the squares of axis and filter is drawn: a little less than all of it.
-const SUM_PART: f64 = 255.0 / 256.0;
+const PART_OF_AXIS: f64 = 250.0 / 251.0;
+const PART_OF_FILTER: f64 = 609.0 / 610.0;
 
 /// The projected semi-axis that is drawn in place of one of length `l`: `√(l² + h²)` but for 0.2%, `h` below `h`/16, and
 /// `l` from 16 `h` on.
 pub(super) fn widened(l: f64, h: f64) -> f64 {
-    (SUM_PART * (l * l + h * h)).sqrt().max(l).max(h)
+    (PART_OF_AXIS * l * l + PART_OF_FILTER * h * h).sqrt().max(l).max(h)
 }
 
 /// The tangent vectors that are drawn in place of `s` and `t`: each of the ellipse's projected semi-axes is [`widened`]

@@ -63,14 +63,15 @@ named! {
 named! {
     /// Where splats are left out that face away or lie outside of the view. The picture is the same.
     Cull {
-        /// `List` for `compute`, `Setup` for all else.
+        /// What was measured to be faster: with `compute` `List`, and `Hidden` where the splats are of several objects; `List` where
+        /// [`Rasterizer::Auto`] draws points on a CPU; else `Setup`.
         Auto = "auto",
         /// By whatever sets splats up: with points, in the vertex stage of each pass.
         Setup = "setup",
         /// Before that, in compute: a list of the others is what is set up, and what is drawn as points. Where a chunk has
         /// nothing to leave out, there is no list.
         List = "list",
-        /// As `List`, and again before accumulation: what the visible depth hides is not summed.
+        /// As `List`, and again before sums: what the visible depth hides is left out of them.
         Hidden = "hidden",
     }
 }

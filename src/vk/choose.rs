@@ -68,7 +68,8 @@ pub struct Limits {
     pub timestamp_valid_bits: u32,
     /// Storage buffers that a stage can have, no more than a `u32` holds.
     pub storage_buffers_a_stage: u32,
-    /// 8 invocations or more of a compute stage can hand values to each other, and vote (`SHUFFLE`, `VOTE`).
+    /// 8 invocations or more of a compute stage can hand values to each other, and vote (`SHUFFLE`, `VOTE`,
+    /// `BALLOT`).
     pub shuffles: bool,
     /// Indirect draws may begin at any instance (`drawIndirectFirstInstance`).
     pub first_instance: bool,

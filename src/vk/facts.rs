@@ -139,9 +139,11 @@ pub(super) unsafe fn facts(
             is_cpu: properties.device_type == vk::PhysicalDeviceType::CPU,
             shuffles: sizes.min_subgroup_size >= 8
                 && subgroup.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
-                && subgroup
-                    .supported_operations
-                    .contains(vk::SubgroupFeatureFlags::SHUFFLE | vk::SubgroupFeatureFlags::VOTE),
+                && subgroup.supported_operations.contains(
+                    vk::SubgroupFeatureFlags::SHUFFLE
+                        | vk::SubgroupFeatureFlags::VOTE
+                        | vk::SubgroupFeatureFlags::BALLOT,
+                ),
         },
     }
 }

@@ -117,8 +117,8 @@ pub struct StyleArguments {
     pub early_depth: bool,
 
     /// Where splats are left out that face away or lie outside of the view: by whatever sets them up (with points, the vertex
-    /// stage of each pass), or before, by a list made in compute; hidden: and again where visible ones hide them, before they are
-    /// summed; auto: a list for compute alone. The picture is the same
+    /// stage of each pass), or before, by a list made in compute; hidden: and again before they are summed, where visible ones
+    /// hide them; auto: what is faster. The picture is the same
     #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(Cull::NAMES))]
     pub cull: Cull,
 

@@ -133,7 +133,18 @@ impl<'a> Tiles<'a> {
 
     /// Declares that a pass reads [`Self::lists`] and is dispatched by their arguments.
     fn read_lists<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        for buffer in self.records.iter().chain([&self.starts, &self.entries, &self.seen, &self.overfull]) {
+        pass = pass.read(&self.entries, Access::StorageReadCompute);
+        self.read_all_but_entries(pass)
+    }
+
+    /// The same of a pass that leaves entries out that nobody reads after it.
+    fn shorten_lists<'g, B>(&mut self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        pass = pass.write(&mut self.entries, Access::StorageReadWriteCompute, Start::Load);
+        self.read_all_but_entries(pass)
+    }
+
+    fn read_all_but_entries<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        for buffer in self.records.iter().chain([&self.starts, &self.seen, &self.overfull]) {
             pass = pass.read(buffer, Access::StorageReadCompute);
         }
         pass.read(&self.arguments, Access::IndirectRead)

@@ -1,7 +1,10 @@
 //! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
 
 use super::{super::draws::Draw, Invocations};
-use crate::{scene::Settings, vk::Limits};
+use crate::{
+    scene::{Cull, Settings},
+    vk::Limits,
+};
 
 /// Pixels along a side of a tile, as in `glsl/inc/tiles.glsl`.
 pub(in super::super) const TILE_PX: u32 = 8;
@@ -60,6 +63,8 @@ pub struct TilePlan {
     pub layers_at_once: u32,
     /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
     pub may_be_large: bool,
+    /// What a tile's visible depth hides is not summed.
+    pub hidden: bool,
     /// What they draw, and how they come by splats.
     pub invocations: Invocations,
 }
@@ -69,7 +74,17 @@ impl TilePlan {
     pub fn of(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> Option<Self> {
         let boxes = draws.iter().map(|draw| (u64::from(draw.chunk.count), draw.largest_box_px));
         let invocations = Invocations::of(settings.tile_invocations, limits);
-        Self::of_boxes(&boxes.collect::<Vec<_>>(), settings.size_px, limits, invocations)
+        let hidden = match settings.cull {
+            // One surface hides little of itself, so that to look for it costs more than it gains.
+            Cull::Auto => draws.len() > 1,
+            Cull::Setup | Cull::List => false,
+            Cull::Hidden => true,
+        };
+        let hidden = hidden
+            && invocations != Invocations::ColumnsAlone
+            && !draws.iter().any(|draw| draw.chunk.transparent);
+        let plan = Self::of_boxes(&boxes.collect::<Vec<_>>(), settings.size_px, limits, invocations)?;
+        Some(if hidden { plan.without_hidden() } else { plan })
     }
 
     /// The same for chunks of so many splats with boxes up to so many pixels.
@@ -119,8 +134,15 @@ impl TilePlan {
             part_length: walk_length,
             layers_at_once: 1,
             may_be_large: !fits,
+            hidden: false,
             invocations,
         })
+    }
+
+    /// The plan for what leaves out hidden splats: it walks three times.
+    fn without_hidden(self) -> Self {
+        let walk_length = self.walk_length / 3 * 2;
+        Self { hidden: true, walk_length, part_length: walk_length, ..self }
     }
 
     /// The bins of all lists: tiles, then chunks.
@@ -144,6 +166,7 @@ impl TilePlan {
             part_length: 4 * MOST_ITERATIONS,
             layers_at_once: 1,
             may_be_large,
+            hidden: false,
             invocations: Invocations::Columns,
         }
     }

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{Settings, TileInvocations},
+    scene::{Cull, Settings, TileInvocations},
     shaders::{self, Shader},
 };
 
@@ -65,7 +65,10 @@ pub(in super::super) fn opaque_recipes(
     let TileTraits { may_be_large: upon, polygons, export: with_depth } = traits;
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(upon) };
     let steps = match polygons {
-        false => vec![("see and sum tiles", Step::Fused { upon, with_depth })],
+        false => vec![(
+            "see and sum tiles",
+            Step::Fused { upon, with_depth, hidden: settings.cull == Cull::Hidden },
+        )],
         true => vec![
             ("see tiles", Step::Visible { upon }),
             ("sum tiles", Step::Summed { beside: true, with_depth }),

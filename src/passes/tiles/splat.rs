@@ -75,7 +75,7 @@ fn start(cleared: bool) -> (Access, Start) {
 /// What the shader does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Step {
-    Fused { upon: bool, with_depth: bool },
+    Fused { upon: bool, with_depth: bool, hidden: bool },
     Visible { upon: bool },
     Summed { beside: bool, with_depth: bool },
 }
@@ -92,12 +92,13 @@ pub(in super::super) fn shader(
     };
     let word = |choice: bool, word: &'static str| choice.then_some(word);
     let words = match step {
-        Step::Fused { upon, with_depth } => {
-            [Some("fused"), Some(sums), word(with_depth, "with_depth"), word(upon, "upon")]
+        Step::Fused { upon, with_depth, hidden } => {
+            let traits = [word(with_depth, "with_depth"), word(upon, "upon"), word(hidden, "hidden")];
+            [&[Some("fused"), Some(sums)], traits.as_slice()].concat()
         }
-        Step::Visible { upon } => [Some("visible"), word(upon, "upon"), None, None],
+        Step::Visible { upon } => vec![Some("visible"), word(upon, "upon")],
         Step::Summed { beside, with_depth } => {
-            [Some("summed"), Some(sums), word(with_depth, "with_depth"), word(beside, "beside")]
+            vec![Some("summed"), Some(sums), word(with_depth, "with_depth"), word(beside, "beside")]
         }
     };
     let words = words.into_iter().chain([plan.invocations.word()]).flatten();
@@ -116,12 +117,12 @@ pub(in super::super) fn shader(
 pub(in super::super) fn fused<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
+    tiles: &mut Tiles<'a>,
     images: &mut TileImages,
     before: Option<&Handle<Image>>,
     (with_depth, cleared): (bool, bool),
 ) -> Result<()> {
-    let step = Step::Fused { upon: before.is_some(), with_depth };
+    let step = Step::Fused { upon: before.is_some(), with_depth, hidden: tiles.plan.hidden };
     let mut shader_of_step = shader(inputs.settings, tiles.plan, step)?;
     if !cleared {
         shader_of_step.1.push((KEEPS_DEPTH, 0));
@@ -135,7 +136,8 @@ pub(in super::super) fn fused<'a>(
     fused.sampled_images = before.map(|before| (DEPTH_BEFORE, before.id())).into_iter().collect();
     let arguments = tiles.arguments.id();
     let (access, content) = start(cleared);
-    let mut pass = tiles.read_lists(graph.pass("see and sum tiles"));
+    let pass = graph.pass("see and sum tiles");
+    let mut pass = if tiles.plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     for image in [&mut images.sums.color, &mut images.sums.normal, &mut images.depth] {
         pass = pass.write(image, access, content);
     }
