@@ -6,9 +6,9 @@
 //
 // Axes: the parametrization is rotated first (principal.glsl). Covariances of Gaussians add, so that an axis of length l
 // should become sqrt(l^2 + h^2): the paper's max(l, h) is short of that by 29% at l = h, which doubles the error of a
-// checkerboard there. Here it is max(l, h, sqrt(255/256 (l^2 + h^2))): 0.2% short of the sum at most, so that the exact
-// outline, which in perspective is larger than the affine one, has no more fragments than EWA. Below h / 16 and from 16 h
-// on it is the paper's.
+// checkerboard there. Here it is max(l, h, sqrt(250/251 l^2 + 609/610 h^2)): 0.2% short of the sum at most, so that the
+// exact outline, which in perspective is larger than the affine one, has no more fragments than EWA. Below h / 24 and from
+// 16 h on it is the paper's. The two parts were found by trying: benches/README.md, "Filters over distance".
 //
 // Depth: an axis keeps its own, as it is at its ends. Parallel to the screen it would cut through its neighbors where it is
 // stretched just a little. But one shorter than h / 16 loses it as it vanishes: which end is the nearer one is rounding then.

@@ -225,10 +225,14 @@ fn opaque(
         all.push(compute("scan large splats", scan));
         all.push(compute("list large splats", list));
     }
-    let culled = cull::recipes(settings, false, variant);
-    let culled_hidden = !culled.is_empty() && settings.cull == Cull::Hidden;
+    let points = Primitive::of(settings.rasterizer) == Primitive::Point;
+    let culled = match settings.cull {
+        Cull::List | Cull::Hidden if points => cull::recipes(variant),
+        _ => Vec::new(),
+    };
+    let hidden = settings.cull == Cull::Hidden && !culled.is_empty();
     all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
-    if culled_hidden {
+    if hidden {
         all.push(compute("cells of depth", cull_hidden::cells_key()));
         all.push(compute("mark seen splats", cull_hidden::hidden_key(variant)));
     }
@@ -256,7 +260,7 @@ fn opaque(
 fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> Result<Vec<PipelineRecipe>> {
     let Traits { may_be_large, polygons, export, transparent, .. } = traits;
     let mut all = Vec::new();
-    let culled = cull::recipes(settings, true, variant);
+    let culled = if settings.cull == Cull::Setup { Vec::new() } else { cull::recipes(variant) };
     let set_up = culled.len();
     let passes = [
         tiles::list_recipes(variant, may_be_large, set_up > 0),

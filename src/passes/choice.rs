@@ -1,25 +1,64 @@
 //! Which way splats are drawn where the settings leave it open (`--rasterizer auto`).
 
-use super::{Part, splat_shaders::Primitive, tiles::STORAGE_BUFFERS};
+use super::{Draw, Part, splat_shaders::Primitive, tiles::STORAGE_BUFFERS};
 use crate::{
     error::{Error, Result},
-    scene::{Filter, KernelEval, Rasterizer, Settings},
+    scene::{Cull, Filter, KernelEval, Rasterizer, Settings},
     vk::Limits,
 };
 
 /// Whether splats are drawn by tiles: why, or why not.
 ///
-/// On CPU drivers tiles take half of the time of points or less, from 154 thousand splats to 5 million
-/// (`benches/README.md`). On GPUs that was not measured yet, so that they keep to points.
+/// On CPU drivers tiles take a third of the time of points, from 154 thousand splats to 5 million; but more of it where splats
+/// are so few that most are large, and quads either way (`benches/README.md`). On GPUs that was not measured yet, so that
+/// they keep to points.
 ///
 /// # Errors
 /// The reason against, as a sentence.
-pub fn by_tiles(settings: &Settings, limits: &Limits) -> std::result::Result<&'static str, &'static str> {
+pub(super) fn by_tiles(
+    draws: &[Draw<'_>],
+    settings: &Settings,
+    limits: &Limits,
+) -> std::result::Result<&'static str, &'static str> {
+    by_tiles_of(count_of(draws), settings, limits)
+}
+
+fn by_tiles_of(
+    splats: u64,
+    settings: &Settings,
+    limits: &Limits,
+) -> std::result::Result<&'static str, &'static str> {
     match settings.rasterizer {
         Rasterizer::Compute => can(settings, limits).map(|()| "asked for"),
         Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
+        Rasterizer::Auto if are_few(splats, settings) => Err("auto: so few that most are large"),
         Rasterizer::Auto => can(settings, limits).map(|()| "auto: on a CPU faster than points"),
         _ => Err("another rasterizer was asked for"),
+    }
+}
+
+/// Pixels of the image for each splat above which most splats of a model that fills it are larger than tiles take.
+const MOST_PIXELS_A_SPLAT: u64 = 200;
+
+fn are_few(splats: u64, settings: &Settings) -> bool {
+    let [width, height] = settings.size_px.map(u64::from);
+    splats * MOST_PIXELS_A_SPLAT < width * height
+}
+
+fn count_of(draws: &[Draw<'_>]) -> u64 {
+    draws.iter().map(|draw| u64::from(draw.chunk.count)).sum()
+}
+
+/// Whether a list of the splats that may be seen is made where there may be something to leave out. `by_tiles`: they are drawn so.
+pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings, limits: &Limits) -> bool {
+    match settings.cull {
+        // With points named, the set-up is the papers'.
+        Cull::Auto if settings.rasterizer == Rasterizer::Auto => {
+            by_tiles || limits.is_cpu && !are_few(count_of(draws), settings)
+        }
+        Cull::Auto => by_tiles,
+        Cull::Setup => false,
+        Cull::List | Cull::Hidden => by_tiles || Primitive::of(settings.rasterizer) == Primitive::Point,
     }
 }
 
@@ -62,7 +101,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
     let hidden = part.tiles.as_ref().is_some_and(|plan| plan.hidden) && part.meshes.is_empty();
     let hidden = if hidden { "; what is hidden, left out of sums" } else { "" };
     let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
-    let how = match (&part.tiles, by_tiles(settings, limits)) {
+    let how = match (&part.tiles, by_tiles(&part.splats, settings, limits)) {
         (Some(plan), Ok(why)) => {
             let (most, draws) = (plan.most_tiles, plan.invocations.draws());
             let large =
@@ -90,14 +129,19 @@ mod tests {
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
         let cpu = Limits { is_cpu: true, ..Limits::for_tests() };
         let auto = Settings::default();
-        assert!(by_tiles(&auto, &cpu).is_ok());
-        assert!(by_tiles(&auto, &Limits::for_tests()).is_err());
-        assert!(by_tiles(&Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
-        assert!(by_tiles(&Settings { kernel_eval: KernelEval::Texture, ..auto.clone() }, &cpu).is_err());
-        assert!(by_tiles(&auto, &Limits { first_instance: false, ..cpu }).is_err());
+        assert!(by_tiles_of(154_000, &auto, &cpu).is_ok());
+        assert!(by_tiles_of(154_000, &auto, &Limits::for_tests()).is_err());
+        assert!(by_tiles_of(154_000, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
+        assert!(
+            by_tiles_of(154_000, &Settings { kernel_eval: KernelEval::Texture, ..auto.clone() }, &cpu)
+                .is_err()
+        );
+        assert!(by_tiles_of(154_000, &auto, &Limits { first_instance: false, ..cpu }).is_err());
+        // As many as fill an image of this size with splats of 200 pixels.
+        assert!(by_tiles_of(5243, &auto, &cpu).is_ok() && by_tiles_of(5242, &auto, &cpu).is_err());
         let named = |rasterizer| Settings { rasterizer, ..Settings::default() };
-        assert!(by_tiles(&named(Rasterizer::Compute), &Limits::for_tests()).is_ok());
-        assert!(by_tiles(&named(Rasterizer::Perspective), &cpu).is_err());
+        assert!(by_tiles_of(1, &named(Rasterizer::Compute), &Limits::for_tests()).is_ok());
+        assert!(by_tiles_of(154_000, &named(Rasterizer::Perspective), &cpu).is_err());
         assert!(check(&named(Rasterizer::Compute), &Limits { storage_buffers_a_stage: 4, ..cpu }).is_err());
         assert!(check(&auto, &Limits { storage_buffers_a_stage: 4, ..cpu }).is_ok());
     }

@@ -9,7 +9,6 @@ use super::{
     Draw, Inputs,
     draws::dispatch,
     pipelines::{ComputeKey, Layout},
-    splat_shaders::Primitive,
     tiles::rows_of,
     variant::{Constants, culls},
 };
@@ -19,9 +18,8 @@ use crate::{
         Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    scene::{Cull, Rasterizer, Settings},
     shaders::{self, Shader},
-    vk::{ComputePipeline, Limits},
+    vk::ComputePipeline,
 };
 
 /// Splats of a word of bits: each chunk begins one, as in `glsl/inc/kept.glsl`.
@@ -36,20 +34,9 @@ const MOST_INDICES: u32 = 1 << 24;
 /// Where [`VkDispatchIndirectCommand`](vk::DispatchIndirectCommand) is in the arguments of a chunk, in bytes; before it is the draw.
 const DISPATCH: u64 = 20;
 
-/// Whether a list is made where there may be something to leave out. `by_tiles`: splats are drawn so.
-fn is_wanted(settings: &Settings, by_tiles: bool, is_cpu: bool) -> bool {
-    match settings.cull {
-        // With points named, the set-up is the papers'.
-        Cull::Auto => by_tiles || is_cpu && settings.rasterizer == Rasterizer::Auto,
-        Cull::Setup => false,
-        Cull::List | Cull::Hidden => by_tiles || Primitive::of(settings.rasterizer) == Primitive::Point,
-    }
-}
-
-/// Whether these splats are listed before they are set up: some may face away, or lie outside of the view.
-pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings, limits: &Limits) -> bool {
-    is_wanted(settings, by_tiles, limits.is_cpu)
-        && draws.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
+/// Whether there may be something for a list to leave out, and the device has room for it.
+pub(super) fn can_list(draws: &[Draw<'_>], by_tiles: bool) -> bool {
+    draws.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
         && words_of(draws) <= u64::from(u32::MAX / WORD)
         && (by_tiles || draws.iter().all(|draw| draw.chunk.count <= MOST_INDICES))
 }
@@ -248,15 +235,8 @@ pub(super) fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
     rows_of(draw.chunk.count.div_ceil(WORD * GROUP))
 }
 
-/// The three passes where splats of a variant all lie in the view; none where there is no list.
-pub(super) fn recipes(
-    settings: &Settings,
-    by_tiles: bool,
-    variant: &Constants,
-) -> Vec<(&'static str, ComputeKey)> {
+/// The three passes, where there are splats of a variant to leave out.
+pub(super) fn recipes(variant: &Constants) -> Vec<(&'static str, ComputeKey)> {
     let passes = ["mark kept splats", "scan kept splats", "list kept splats"];
-    match is_wanted(settings, by_tiles, false) && culls(variant) {
-        true => passes.into_iter().zip(keys(variant)).collect(),
-        false => Vec::new(),
-    }
+    passes.into_iter().zip(keys(variant)).filter(|_| culls(variant)).collect()
 }

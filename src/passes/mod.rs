@@ -113,9 +113,10 @@ impl<'a> Part<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let by_tiles = choice::by_tiles(settings, limits).is_ok();
+        let by_tiles = choice::by_tiles(&splats, settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
-        let kept = cull::lists_kept(&splats, tiles.is_some(), settings, limits);
+        let kept = choice::lists_kept(&splats, tiles.is_some(), settings, limits)
+            && cull::can_list(&splats, tiles.is_some());
         cull::number_splats(&mut splats, kept);
         Self { splats, meshes, tiles, kept }
     }

@@ -48,11 +48,11 @@ pub(super) fn area_share(center: DVec3, old: (DVec3, DVec3), new: (DVec3, DVec3)
 /// projects to nothing.
 const OWN_DEPTH: f64 = 1.0 / 16.0;
 
-/// How much of the sum of the squares of axis and filter is drawn: a little less than all of it.
+/// How much of the square of the axis, and of the filter's, is drawn: a little less than all of it.
 const PART_OF_AXIS: f64 = 250.0 / 251.0;
 const PART_OF_FILTER: f64 = 609.0 / 610.0;
 
-/// The projected semi-axis that is drawn in place of one of length `l`: `√(l² + h²)` but for 0.2%, `h` below `h`/16, and
+/// The projected semi-axis that is drawn in place of one of length `l`: `√(l² + h²)` but for 0.2%, `h` below `h`/24, and
 /// `l` from 16 `h` on.
 pub(super) fn widened(l: f64, h: f64) -> f64 {
     (PART_OF_AXIS * l * l + PART_OF_FILTER * h * h).sqrt().max(l).max(h)
