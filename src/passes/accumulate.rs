@@ -5,9 +5,9 @@ use ash::vk;
 use super::{
     Inputs,
     cull::Kept,
-    draws::{Drawn, SplatPass, draw_splats},
     kernel_texture::kernel_texture,
     list_large::{LargeList, ids_of, read_lists},
+    splat_pass::{Drawn, SplatPass, draw_splats},
     splat_shaders::{Summed, Words, splat_shaders},
     sum_format,
 };

@@ -7,8 +7,8 @@ use ash::vk;
 
 use super::{
     Draw, Inputs,
-    draws::dispatch,
     pipelines::{ComputeKey, Layout},
+    splat_pass::dispatch,
     tiles::rows_of,
     variant::{Constants, culls},
 };

@@ -5,8 +5,8 @@ use ash::vk;
 use super::{
     Inputs,
     cull::{Kept, create_bits, groups_of, list_marked, pipelines},
-    draws::dispatch,
     pipelines::{ComputeKey, Layout},
+    splat_pass::dispatch,
     variant::Constants,
 };
 use crate::{

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, hash_map::Entry};
 
-use super::catalog::{PipelineRecipe, PipelineStages, Traits, frame_pipelines};
+use super::{PipelineRecipe, PipelineStages, Traits, frame_pipelines};
 use crate::{
     count::{Counts, PassCounts, constant_numbers, count},
     error::{Error, Result},

@@ -6,9 +6,9 @@ use ash::vk;
 
 use super::{
     accumulate::{Sums, bind_read},
-    draws::{Drawn, SplatPass, draw_splats},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
+    splat_pass::{Drawn, SplatPass, draw_splats},
     splat_shaders::{Summed, Words, splat_shaders},
     sum_format,
     variant::shading_constants,

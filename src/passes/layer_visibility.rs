@@ -7,9 +7,9 @@ use super::{
     DEPTH_FORMAT,
     accumulate::bind_sampled,
     copy_depth::copy_depth,
-    draws::{Drawn, draw_splats},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
+    splat_pass::{Drawn, draw_splats},
     visibility,
 };
 use crate::{

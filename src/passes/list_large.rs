@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::{
     Draw, Inputs,
     cull::Kept,
-    draws::dispatch,
     pipelines::{ComputeKey, Layout},
+    splat_pass::dispatch,
     variant::Constants,
 };
 use crate::{

@@ -47,19 +47,10 @@ pub struct Shaders {
     pub(super) export_layout: PipelineLayout,
     pub(super) cells_layout: PipelineLayout,
     /// Those of tiles; none on a device with too few storage buffers.
-    tiles: Option<TileLayouts>,
+    tiles: Option<tiles::TileLayouts>,
     /// The formula that is made wrong; for tests of the tests.
     #[cfg(feature = "test-formulas")]
     pub perturbed: Option<super::Formula>,
-}
-
-/// The layouts of drawing by tiles.
-pub(super) struct TileLayouts {
-    /// Set 1 of the pass that makes records and of quads of tiles, set 0 of all else with tiles: see `passes/tiles/mod.rs`.
-    pub set: SetLayout,
-    pub record: PipelineLayout,
-    pub tile: PipelineLayout,
-    pub quads: PipelineLayout,
 }
 
 /// One of the layouts that pipelines share.
@@ -148,7 +139,8 @@ impl Shaders {
         let cells_set = SetLayout::new(device, "cells of depth", &[fetched, buffer])?;
         let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
         let has_tiles = device.facts().limits.storage_buffers_a_stage >= tiles::STORAGE_BUFFERS;
-        let tiles = has_tiles.then(|| TileLayouts::new(device, splat_set.set(), &sums_set)).transpose()?;
+        let tiles =
+            has_tiles.then(|| tiles::TileLayouts::new(device, splat_set.set(), &sums_set)).transpose()?;
         Ok(Self {
             device: device.clone(),
             graphics: Mutex::default(),
@@ -190,7 +182,7 @@ impl Shaders {
     }
 
     /// The layouts of tiles, on a device that has them.
-    pub(super) fn tiles(&self) -> Result<&TileLayouts> {
+    pub(super) fn tiles(&self) -> Result<&tiles::TileLayouts> {
         let reason = "compute: the device has too few storage buffers for a stage";
         self.tiles.as_ref().ok_or_else(|| Error::option("--rasterizer", reason.to_owned()))
     }
@@ -260,45 +252,6 @@ impl Shaders {
 
     #[cfg(not(feature = "test-formulas"))]
     fn perturb(&self, _constants: &mut Constants) {}
-}
-
-impl TileLayouts {
-    fn new(device: &Device, splat_set: &SetLayout, sums_set: &SetLayout) -> Result<Self> {
-        let (vertex, fragment, compute) =
-            (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
-        let of = |kind, stages| Binding { kind, stages };
-        let words = of(vk::DescriptorType::STORAGE_BUFFER, compute);
-        let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
-        let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
-        let mut in_tiles = vec![words; 11];
-        in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
-        in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
-        in_tiles.extend([words, words]);
-        debug_assert_eq!(in_tiles.len() - 1, tiles::KEPT_LIST as usize);
-        let set = SetLayout::new(device, "tiles", &in_tiles)?;
-        let record = PipelineLayout::new(
-            device,
-            "records",
-            &[splat_set, &set],
-            size_of::<constants::FrameConstants>() as u32,
-            compute,
-        )?;
-        let tile = PipelineLayout::new(
-            device,
-            "tiles",
-            &[&set],
-            size_of::<constants::TileConstants>() as u32,
-            compute,
-        )?;
-        let quads = PipelineLayout::new(
-            device,
-            "quads of tiles",
-            &[sums_set, &set],
-            size_of::<constants::FinalizeConstants>() as u32,
-            vertex | fragment,
-        )?;
-        Ok(Self { set, record, tile, quads })
-    }
 }
 
 impl GraphicsKey {

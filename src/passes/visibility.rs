@@ -5,8 +5,8 @@ use ash::vk;
 use super::{
     DEPTH_FORMAT, Inputs,
     cull::Kept,
-    draws::{Drawn, SplatPass, draw_splats},
     list_large::{LargeList, ids_of, read_lists},
+    splat_pass::{Drawn, SplatPass, draw_splats},
     splat_shaders::{Words, splat_shaders},
 };
 use crate::{

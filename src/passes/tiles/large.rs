@@ -7,7 +7,7 @@ use super::{
         Inputs,
         accumulate::{self, bind_sampled},
         constants::FrameConstants,
-        draws::SplatPass,
+        splat_pass::SplatPass,
         splat_shaders::Summed,
         visibility,
     },

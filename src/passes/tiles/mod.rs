@@ -9,6 +9,7 @@ mod invocations;
 mod large;
 mod layer_work;
 mod layers;
+mod layouts;
 mod overfull;
 mod pass;
 mod plan;
@@ -24,6 +25,7 @@ pub(super) use self::{
     depth::depth_buffer,
     large::{see_large, sum_large},
     layers::layers,
+    layouts::TileLayouts,
     pass::rows_of,
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},

@@ -1,0 +1,83 @@
+//! A prepared scene as a frame draws it: all that is opaque, all that is transparent.
+
+use super::{Draw, MeshDraw, TilePlan, choice, cull, draws, lights, mesh_draws};
+use crate::{
+    prepare::PreparedScene,
+    scene::{Camera, Light, Settings},
+    vk::Limits,
+};
+
+/// What is drawn alike: all that is opaque, or all that is transparent.
+#[derive(Default)]
+pub struct Part<'a> {
+    /// As splats.
+    pub splats: Vec<Draw<'a>>,
+    /// As polygons.
+    pub meshes: Vec<MeshDraw<'a>>,
+    /// How splats are drawn by tiles, where they are.
+    pub tiles: Option<TilePlan>,
+    /// Those that may be seen are listed first, and only they are set up.
+    pub kept: bool,
+}
+
+/// A prepared scene as seen from a camera.
+#[derive(Default)]
+pub struct Parts<'a> {
+    /// What hides all that is behind it.
+    pub opaque: Part<'a>,
+    /// What is drawn in layers.
+    pub transparent: Part<'a>,
+    /// What shines on both, where the scene has lights of its own.
+    pub lights: Vec<lights::ShaderLight>,
+}
+
+impl<'a> Parts<'a> {
+    /// The parts of a scene.
+    pub fn of(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
+        let all = draws(scene, camera, settings, limits).into_iter();
+        let (clear_splats, splats) = all.partition(|draw| draw.chunk.transparent);
+        let all = mesh_draws(scene, camera, settings, limits).into_iter();
+        let (clear_meshes, meshes) = all.partition(|draw| draw.chunk.transparent);
+        Self {
+            opaque: Part::new(splats, meshes, settings, limits),
+            transparent: Part::new(clear_splats, clear_meshes, settings, limits)
+                .with_layers(settings, &scene.lights),
+            lights: lights::shader_lights(&scene.lights, camera),
+        }
+    }
+}
+
+impl<'a> Part<'a> {
+    /// A part whose splats are drawn by tiles, where the settings want that and the device has room.
+    fn new(
+        mut splats: Vec<Draw<'a>>,
+        meshes: Vec<MeshDraw<'a>>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        let by_tiles = choice::by_tiles(&splats, settings, limits).is_ok();
+        let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
+        let kept = choice::lists_kept(&splats, tiles.is_some(), settings, limits)
+            && cull::can_list(&splats, tiles.is_some());
+        cull::number_splats(&mut splats, kept);
+        Self { splats, meshes, tiles, kept }
+    }
+
+    /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
+    fn with_layers(mut self, settings: &Settings, lights: &[Light]) -> Self {
+        let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
+        self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
+        self.kept &= self.tiles.is_some();
+        self
+    }
+
+    /// In words, how its splats are drawn, and why so; `None` where there are none.
+    pub fn drawn(&self, settings: &Settings, limits: &Limits) -> Option<String> {
+        choice::words(self, settings, limits)
+    }
+
+    /// Nothing at all.
+    pub fn is_empty(&self) -> bool {
+        self.splats.is_empty() && self.meshes.is_empty()
+    }
+}
