@@ -10,7 +10,7 @@ layout(set = 1, binding = 0, std430) readonly buffer KeptBits { uint kept_bits[]
 layout(set = 1, binding = 1, std430) readonly buffer KeptStarts { uint kept_starts[]; };
 layout(set = 1, binding = 2, std430) writeonly buffer KeptList { uint kept_list[]; };
 // VkDrawIndexedIndirectCommand: the list is the index buffer. VkDispatchIndirectCommand of workgroups of 64.
-layout(set = 1, binding = 3, std430) writeonly buffer KeptArguments { uint kept_arguments[8]; };
+layout(set = 1, binding = 3, std430) writeonly buffer KeptArguments { uvec4 kept_arguments[2]; };
 
 void main()
 {
@@ -29,9 +29,7 @@ void main()
         uint start = kept_starts[first];
         uint count = kept_starts[first + words] - start;
         uvec2 groups = rows_of_groups((count + 63) / 64);
-        uint arguments[8] = uint[8](count, 1, start, 0, 0, groups.x, groups.y, 1);
-        for (uint i = 0; i < 8; i++) {
-            kept_arguments[i] = arguments[i];
-        }
+        kept_arguments[0] = uvec4(count, 1, start, 0);
+        kept_arguments[1] = uvec4(0, groups, 1);
     }
 }

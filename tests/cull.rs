@@ -8,7 +8,10 @@ use surfel::{
     graph::execute::Profile,
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, Backfaces, Cull, Filter, Object, Rasterizer, Scene, Settings, TileInvocations},
+    scene::{
+        Accumulate, Backfaces, Cull, Epsilon, Filter, Object, Rasterizer, Scene, Settings, TileInvocations,
+        Transition,
+    },
 };
 
 fn draw(headless: &mut Headless, hard: &Hard, cull: Cull, wanted: Wanted) -> Frame {
@@ -65,6 +68,31 @@ fn points_of_a_list_are_the_same_bits_on_every_hard_scene_with_every_filter() {
     }
     assert_validation_is_silent(&headless);
     assert!(listed > 100, "{listed}");
+}
+
+/// With the paper's transition a fragment up to twice ε behind counts beside polygons: more than visibility lets through.
+#[test]
+fn what_the_papers_transition_sums_is_not_hidden() {
+    let mut headless = shared();
+    for transition in [Transition::Paper, Transition::Color] {
+        let mut hard = transparent::hybrid(transition);
+        let epsilon = 0.02;
+        hard.settings = Settings {
+            rasterizer: Rasterizer::Perspective,
+            epsilon: Epsilon::Length(epsilon),
+            backfaces: Backfaces::Cull,
+            ..hard.settings
+        };
+        // A second surface behind the first, between ε and twice that.
+        let mut behind = hard.scene.objects[0].clone();
+        behind.splats.positions.iter_mut().for_each(|position| position.z -= 1.5 * epsilon);
+        hard.scene.objects.push(behind);
+        let all = draw(&mut headless, &hard, Cull::Setup, common::ALL);
+        let seen = draw(&mut headless, &hard, Cull::Hidden, common::ALL);
+        assert_same_bits(&all, &seen, transition.name());
+        assert_eq!(passes(&seen).contains(&"list seen splats"), transition == Transition::Color);
+    }
+    assert_validation_is_silent(&headless);
 }
 
 /// What is left out of a tile's list would have had no weight in its sums, which go on in the same order.

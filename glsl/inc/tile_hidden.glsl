@@ -1,9 +1,8 @@
 // Leaves out of a tile's list what its visible depth hides, before sums: Guennebaud, Barthe, Paulin, "Deferred Splatting",
 // Eurographics 2004, a tile at a time. A splat is hidden where the nearest that its depth gets anywhere in the tile is behind the
 // farthest visible depth of the tile's pixels: none of its fragments there would pass the test of sums, so that these are the same to
-// the bit. A tile with an empty pixel keeps all.
-
-const float NEARER = 1.00001; // more than depth's rounding: it is a sum of three about 1 (tile_batch.glsl)
+// the bit. Depth is linear, so that it is nearest in a corner, and there it is found as in the pixels (tile_column.glsl): rounding
+// keeps the order of what it rounds, so that no pixel's is nearer. A tile with an empty pixel keeps all.
 
 #if defined(PIXELS)
 #define INVOCATIONS (TILE * TILE)
@@ -65,11 +64,12 @@ Range unhidden(Range range, vec2 at_px, float visible[ROWS])
     for (uint base = range.first; base < range.end; base += INVOCATIONS) {
         uint entry = base + OWN_ENTRY;
         Splat splat = load_splat(base, range.end);
-        // Along each axis the nearer end of the tile.
-        vec2 at_first = splat.w * (first_px - splat.x0_px);
-        vec2 nearer = max(at_first, at_first + splat.w * float(TILE - 1));
-        float nearest = splat.w0 * (1.0 + nearer.x + nearer.y);
-        bool kept = entry < range.end && !(nearest * NEARER < farthest);
+        vec2 corner = vec2(greaterThan(splat.w, vec2(0.0))) * float(TILE - 1);
+        float dx = first_px.x + corner.x - splat.x0_px.x;
+        float dy = first_px.y - splat.x0_px.y + corner.y;
+        float along_x = 1.0 + splat.w.x * dx;
+        float nearest = splat.w0 * (along_x + splat.w.y * dy);
+        bool kept = entry < range.end && !(nearest < farthest);
         uvec2 count = votes(kept);
         if (kept) {
             entries[left.end + count.x] = splat.record;

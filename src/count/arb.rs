@@ -71,6 +71,8 @@ pub fn simple(op: Op, width: u32, operand_width: u32) -> Option<Vec<&'static str
         Op::ImageSampleProjImplicitLod | Op::ImageSampleProjExplicitLod => vec!["TXP"],
         Op::ConvertSToF | Op::ConvertUToF | Op::Bitcast | Op::CopyObject | Op::UConvert => vec![],
         Op::CompositeConstruct | Op::CompositeExtract | Op::CompositeInsert | Op::VectorShuffle => vec![],
+        // What a descriptor tells is there.
+        Op::ArrayLength | Op::ImageQuerySizeLod => vec![],
         Op::Load | Op::AccessChain | Op::InBoundsAccessChain | Op::SampledImage | Op::Image | Op::Undef => {
             vec![]
         }
@@ -121,6 +123,7 @@ pub fn extended(
         GlslStd450Op::UnpackUnorm2x16 | GlslStd450Op::UnpackSnorm2x16 | GlslStd450Op::UnpackHalf2x16 => {
             vec![]
         }
+        GlslStd450Op::FindILsb => vec!["BIT"],
         GlslStd450Op::UnpackUnorm4x8 | GlslStd450Op::UnpackSnorm4x8 => vec![],
         _ => return None,
     })
@@ -141,6 +144,7 @@ pub fn is_of_bits(op: Op) -> bool {
             | Op::BitFieldInsert
             | Op::BitFieldSExtract
             | Op::BitFieldUExtract
+            | Op::GroupNonUniformBallot
             | Op::GroupNonUniformShuffle
             | Op::GroupNonUniformAny
     )

@@ -36,6 +36,8 @@ pub fn count(specialized: &Specialized<'_>, live: &Live<'_>) -> Result<u32, Stri
             | Op::InBoundsAccessChain
             | Op::Undef
             | Op::SampledImage
+            | Op::ArrayLength
+            | Op::ImageQuerySizeLod
             | Op::Image
             | Op::Bitcast
             | Op::FNegate

@@ -184,8 +184,10 @@ fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> 
         tiles::opaque_recipes(settings, tiles::TileTraits { may_be_large, polygons, export })?,
     ];
     all.extend(culled.into_iter().chain(passes.into_iter().flatten()).map(|(pass, key)| compute(pass, key)));
-    // All splats, or the large ones left out.
-    all[set_up].draws = if may_be_large { "small splats" } else { "all splats" };
+    // The same shaders do all splats, or leave the large ones out.
+    for recipe in all.iter_mut().filter(|recipe| ["set up splats", "fill tiles"].contains(&recipe.pass)) {
+        recipe.draws = if may_be_large { "small splats" } else { "all splats" };
+    }
     if may_be_large {
         let summed = Summed::Opaque { with_depth: export, beside_polygons: polygons };
         for (pass, splats) in [

@@ -98,8 +98,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         Primitive::Quad => "quads",
         Primitive::Triangle => "triangles",
     };
-    let hidden = part.tiles.as_ref().is_some_and(|plan| plan.hidden) && part.meshes.is_empty();
-    let hidden = if hidden { "; what is hidden, left out of sums" } else { "" };
+    let hidden = if part.leaves_hidden_out(settings) { "; what is hidden, left out of sums" } else { "" };
     let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(&part.splats, settings, limits)) {
         (Some(plan), Ok(why)) => {

@@ -19,7 +19,7 @@ use crate::{
         execute::{Body, PassContext},
     },
     shaders::{self, Shader},
-    vk::ComputePipeline,
+    vk::{ComputePipeline, Limits},
 };
 
 /// Splats of a word of bits: each chunk begins one, as in `glsl/inc/kept.glsl`.
@@ -34,10 +34,14 @@ const MOST_INDICES: u32 = 1 << 24;
 /// Where [`VkDispatchIndirectCommand`](vk::DispatchIndirectCommand) is in the arguments of a chunk, in bytes; before it is the draw.
 const DISPATCH: u64 = 20;
 
-/// Whether there may be something for a list to leave out, and the device has room for it.
-pub(super) fn can_list(draws: &[Draw<'_>], by_tiles: bool) -> bool {
+/// Whether some splats face away and are not drawn, or may lie outside of the view.
+pub(super) fn may_leave_out(draws: &[Draw<'_>]) -> bool {
     draws.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
-        && words_of(draws) <= u64::from(u32::MAX / WORD)
+}
+
+/// Whether the device has room for a list.
+pub(super) fn has_room(draws: &[Draw<'_>], by_tiles: bool, limits: &Limits) -> bool {
+    words_of(draws) * u64::from(WORD) * 4 < limits.max_storage_buffer_range.min(1 << 32)
         && (by_tiles || draws.iter().all(|draw| draw.chunk.count <= MOST_INDICES))
 }
 

@@ -65,7 +65,7 @@ use self::finalize::Opaque;
 use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
-    scene::{Accumulate, Camera, Cull, Layers, Settings},
+    scene::{Accumulate, Camera, Layers, Settings},
     vk::{DescriptorPool, Occlusion, PoolRoom},
 };
 
@@ -80,6 +80,8 @@ pub struct Inputs<'a> {
     pub tiles: Option<&'a TilePlan>,
     /// Only splats of a list are set up.
     pub kept: bool,
+    /// What is hidden is left out before sums.
+    pub leaves_hidden_out: bool,
     /// From where.
     pub camera: &'a Camera,
     /// How.
@@ -106,6 +108,7 @@ impl<'a> Inputs<'a> {
             meshes,
             tiles: None,
             kept: false,
+            leaves_hidden_out: false,
             camera,
             settings,
             shaders,
@@ -121,6 +124,7 @@ impl<'a> Inputs<'a> {
             meshes: &part.meshes,
             tiles: part.tiles.as_ref(),
             kept: part.kept,
+            leaves_hidden_out: part.leaves_hidden_out(self.settings),
             ..self
         }
     }
@@ -250,7 +254,7 @@ fn opaque<'a>(
     if let Some(depth) = &opaque.splat_depth {
         let polygons = opaque.polygon_depth.as_ref();
         let kept = match &kept {
-            Some(kept) if inputs.settings.cull == Cull::Hidden => {
+            Some(kept) if inputs.leaves_hidden_out => {
                 Some(cull_hidden::list_seen(graph, inputs, kept, depth)?)
             }
             _ => kept,

@@ -3,7 +3,7 @@
 use super::{Draw, MeshDraw, TilePlan, choice, cull, draws, lights, mesh_draws};
 use crate::{
     prepare::PreparedScene,
-    scene::{Camera, Light, Settings},
+    scene::{Camera, Cull, Light, Settings, Transition},
     vk::Limits,
 };
 
@@ -58,7 +58,9 @@ impl<'a> Part<'a> {
         let by_tiles = choice::by_tiles(&splats, settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
         let kept = choice::lists_kept(&splats, tiles.is_some(), settings, limits)
-            && cull::can_list(&splats, tiles.is_some());
+            && cull::has_room(&splats, tiles.is_some(), limits)
+            && !splats.is_empty()
+            && (cull::may_leave_out(&splats) || tiles.is_none() && settings.cull == Cull::Hidden);
         cull::number_splats(&mut splats, kept);
         Self { splats, meshes, tiles, kept }
     }
@@ -69,6 +71,18 @@ impl<'a> Part<'a> {
         self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
         self.kept &= self.tiles.is_some();
         self
+    }
+
+    /// What visible splats hide is left out before sums. Not where fragments farther behind count, too: there the paper's transition
+    /// shifts toward the viewer what visibility has shifted away.
+    pub fn leaves_hidden_out(&self, settings: &Settings) -> bool {
+        match &self.tiles {
+            Some(plan) => plan.hidden && self.meshes.is_empty(),
+            None => {
+                let twice = settings.transition == Transition::Paper && !self.meshes.is_empty();
+                self.kept && settings.cull == Cull::Hidden && !twice
+            }
+        }
     }
 
     /// In words, how its splats are drawn, and why so; `None` where there are none.

@@ -61,7 +61,8 @@ named! {
 }
 
 named! {
-    /// Where splats are left out that face away or lie outside of the view. The picture is the same.
+    /// Where splats are left out that face away or lie outside of the view. The picture is the same; by `compute` but for the
+    /// rounding of sums, which are in another order.
     Cull {
         /// What was measured to be faster: with `compute` `List`, and `Hidden` where the splats are of several objects; `List` where
         /// [`Rasterizer::Auto`] draws points on a CPU; else `Setup`.

@@ -118,7 +118,8 @@ pub struct StyleArguments {
 
     /// Where splats are left out that face away or lie outside of the view: by whatever sets them up (with points, the vertex
     /// stage of each pass), or before, by a list made in compute; hidden: and again before they are summed, where visible ones
-    /// hide them; auto: what is faster. The picture is the same
+    /// hide them; auto: what is faster. Lists are for points and for compute. The picture is the same, by compute but for the
+    /// rounding of sums
     #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(Cull::NAMES))]
     pub cull: Cull,
 

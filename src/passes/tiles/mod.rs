@@ -156,7 +156,7 @@ impl<'a> Tiles<'a> {
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
 pub(super) fn room(plan: &TilePlan) -> PoolRoom {
     let sets = plan.chunk_count * 3 + 12;
-    PoolRoom { sets, buffers: 11 * sets, images: 4 * sets, storage_images: 3 * sets, ..PoolRoom::default() }
+    PoolRoom { sets, buffers: 16 * sets, images: 4 * sets, storage_images: 4 * sets, ..PoolRoom::default() }
 }
 
 fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
