@@ -140,7 +140,7 @@ fn faults_are_found_before_the_long_work_and_leave_nothing() {
         (&["-o", "file/below"], "file/below"),
         (&["--size", "0x5"], "--size"),
         (&["--size", "9999999x9999999"], "--size"),
-        (&["--samples", "65"], "--samples"),
+        (&["--samples", "257"], "--samples"),
         (&["--device", "no such device"], "no such device"),
     ];
     for (words, expected) in cases {
