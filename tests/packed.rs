@@ -14,13 +14,15 @@ use glam::DVec3;
 use surfel::{
     prepare::{LARGEST_TURN_RAD, as_packed},
     reference,
-    scene::{Accumulate, Colors, Filter, Scene, SplatFormat},
+    scene::{Accumulate, Colors, Filter, Rasterizer, Scene, SplatFormat},
     selftest::{light::compare_light, tolerance},
 };
 
 fn packed(hard: &Hard) -> Hard {
     let mut packed = hard.clone();
     packed.scene.storage.format = SplatFormat::Packed;
+    // So few splats would be points by default.
+    packed.settings.rasterizer = Rasterizer::Compute;
     packed
 }
 
