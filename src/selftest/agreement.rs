@@ -65,7 +65,7 @@ pub const F32: Errors = Errors {
 pub const SMALL_WEIGHT: f64 = 0.135;
 
 /// How much a shaded color may change with its normal, a radian: the headlight's highlight, 0.2 cos³² 2θ, has a slope of 1.38.
-const HIGHLIGHT_SLOPE: f64 = 1.4;
+pub const HIGHLIGHT_SLOPE: f64 = 1.4;
 
 /// How near to the ε-threshold a fragment exempts its pixel, relative.
 const EPSILON_MARGIN: f64 = 1e-4;
