@@ -2,14 +2,19 @@
 //
 // BESIDE: there are polygons, against which depth is shifted toward the viewer. LAYER: the splats are transparent. BLENDED: they
 // are in the last layer, where surfaces mix, so that each is lit by itself, at its center.
-// LIT: by lights of the scene's own.
+// LIT: by lights of the scene's own. RECORDED_POINTS: set up before, once for all passes.
 // Permutations: points small_points | plain center rays | _ beside layer blended blended_lit
+// Permutations: recorded_points | plain | _ beside layer
 // Permutations: quads listed_quads | full center | _ beside layer blended blended_lit
 // Permutations: listed_quads | rays | _ beside layer blended blended_lit
 // Permutations: triangles small_triangles | _ beside layer blended blended_lit
 #version 460
 #include "inc/setup.glsl"
+#if defined(RECORDED_POINTS)
+#include "inc/emit_record.glsl"
+#else
 #include "inc/emit.glsl"
+#endif
 #if defined(BLENDED_LIT)
 #define BLENDED
 #define LIT
@@ -27,6 +32,20 @@ layout(location = 6) flat out float inverse_shift; // 1 / f
 layout(location = 6) flat out float alpha;
 #endif
 
+#if defined(RECORDED_POINTS)
+void main()
+{
+    uint index = gl_VertexIndex;
+    PointRecord record = load_record(index);
+    emit_record(record, load_color(index));
+    normal_weight = vec4(record.normal, record.share);
+#if defined(BESIDE)
+    inverse_shift = record.inverse_shift;
+#elif defined(LAYER)
+    alpha = load_alpha(index);
+#endif
+}
+#else
 void main()
 {
     uint index = splat_index();
@@ -57,3 +76,4 @@ void main()
         emit_nothing();
     }
 }
+#endif

@@ -9,7 +9,7 @@
 #version 460
 #include "inc/setup.glsl"
 #include "inc/depth_bound.glsl"
-#include "inc/tiles.glsl"
+#include "inc/groups.glsl"
 #include "inc/kept.glsl"
 #include "inc/depth_cells.glsl"
 

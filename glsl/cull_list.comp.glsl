@@ -2,7 +2,7 @@
 // or set up. One invocation a word of bits.
 #version 460
 #include "inc/frame.glsl"
-#include "inc/tiles.glsl"
+#include "inc/groups.glsl"
 #include "inc/kept.glsl"
 
 layout(local_size_x = 64) in;

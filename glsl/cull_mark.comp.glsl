@@ -9,7 +9,7 @@
 // leaves out.
 #version 460
 #include "inc/setup.glsl"
-#include "inc/tiles.glsl"
+#include "inc/groups.glsl"
 #include "inc/kept.glsl"
 
 layout(local_size_x = 64) in;

@@ -14,10 +14,10 @@ void main()
         return;
     }
     Mapping m;
-    Point point;
+    Square square;
     vec4 found = vec4(NOWHERE.xyz, 1.0);
-    if (map_splat(index, m) && point_of(m, point)) {
-        found = vec4(point.clip_center, frame.near / m.p.z * m.inverse_shift, point.size_px);
+    if (map_splat(index, m) && square_of(m, square)) {
+        found = vec4(clip_middle(square), frame.near / m.p.z * m.inverse_shift, point_size_px(square));
     }
     points[index] = found;
 }

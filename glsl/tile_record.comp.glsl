@@ -69,12 +69,7 @@ void main()
     ImageMap map = regular_map(m);
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
-    float share = 1.0;
-    if (FILTER == FILTER_EWA) {
-        share = stretched(m).share;
-    } else if (WEIGHT_BY_AREA) {
-        share = m.share;
-    }
+    float share = share_of(m);
     vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
     uvec2 color;
     if (PACKED && frame.uniform_color == 0) {

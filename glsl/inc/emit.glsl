@@ -7,6 +7,7 @@
 // The same expressions must give the same bits in both passes, which are different pipelines (Vulkan 1.3, "Invariance").
 #define VARYING invariant out
 #include "inc/varyings.glsl"
+#include "inc/expansion.glsl"
 #include "inc/point.glsl"
 #include "inc/quad.glsl"
 #include "inc/triangle.glsl"
@@ -105,21 +106,15 @@ void hand_over(Mapping m, vec3 extra)
     ray_v_square = vec4(v_axis / stretch, half_square_px);
 }
 #elif !defined(TRIANGLES) && !defined(SMALL_TRIANGLES)
-vec2 handed_over_px(vec2 from_middle)
-{
-    return PLACES_FROM_CORNER ? from_middle + 0.5 * frame.size_px : from_middle;
-}
-
 void hand_over(Mapping m, ImageMap map, vec3 extra)
 {
+#if defined(PLAIN)
+    x0_w_extra = vec4(expansion_of(map), extra.x);
+#else
     x0_w_extra = vec4(handed_over_px(map.x0_px), map.at_x0.z, extra.x);
+#endif
     per_x_extra = vec4(map.along_x, extra.y);
     per_y_extra = vec4(map.along_y, extra.z);
-#if defined(PLAIN)
-    if (RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER) {
-        x0_w_extra.xyz = map.at_x0;
-    }
-#endif
 #if defined(FULL) || defined(CENTER)
     uv_affine = vec4(map.at_x0.xy, map.affine ? 1.0 : 0.0, 0.0);
 #endif
@@ -145,13 +140,13 @@ void emit(Mapping m, vec3 extra, float depth_factor)
     triangle_extra = extra;
 #else
 #if defined(POINTS) || defined(SMALL_POINTS)
-    Point point;
-    if (!point_of(m, point)) {
+    Square square;
+    if (!square_of(m, square)) {
         emit_nothing();
         return;
     }
-    gl_Position = vec4(point.clip_center, nearest_depth(m) * depth_factor, 1.0);
-    gl_PointSize = point.size_px;
+    gl_Position = vec4(clip_middle(square), nearest_depth(m) * depth_factor, 1.0);
+    gl_PointSize = point_size_px(square);
 #if !defined(RAYS)
     hand_over(m, regular_map(m), extra);
 #endif
@@ -170,12 +165,4 @@ void emit(Mapping m, vec3 extra, float depth_factor)
     hand_over(m, extra);
 #endif
 #endif
-}
-
-float share_of(Mapping m)
-{
-    if (FILTER == FILTER_EWA && m.regular) {
-        return stretched(m).share;
-    }
-    return WEIGHT_BY_AREA ? m.share : 1.0;
 }

@@ -205,3 +205,12 @@ ImageMap regular_map(Mapping m)
     default: return projective_map_about_center(m);
     }
 }
+
+// Of its weight, the part that the filter leaves to a splat.
+float share_of(Mapping m)
+{
+    if (FILTER == FILTER_EWA && m.regular) {
+        return stretched(m).share;
+    }
+    return WEIGHT_BY_AREA ? m.share : 1.0;
+}

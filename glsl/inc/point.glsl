@@ -6,25 +6,33 @@
 
 const float INSIDE = 1.0 - 2.4e-7;
 
-struct Point {
-    vec2 clip_center;
-    float size_px;
+struct Square {
+    vec2 middle_px; // multiples of a half
+    float side_px;  // a whole number
 };
 
 // False where it covers no pixel's center.
-bool point_of(Mapping m, out Point point)
+bool square_of(Mapping m, out Square square)
 {
     PixelBox px;
     if (!pixel_box(splat_box(m), px)) {
         return false;
     }
-    float side = square_side_px(px);
+    square.side_px = square_side_px(px);
     vec2 size = vec2(px.last - px.first + 1);
     // An odd difference of the sides puts the center half a pixel off, so that the square still ends on pixel borders.
-    vec2 center_px = vec2(px.first) + 0.5 * (size + mod(side - size, 2.0));
-    center_px = FORMULA(FORMULA_POINT_CENTER, center_px);
-    // A center on the very edge must not be rounded out of the clip volume: 2^-22 is 0.002 pixels of 16384.
-    point.clip_center = clamp(2.0 * center_px / frame.size_px - 1.0, -INSIDE, INSIDE);
-    point.size_px = FORMULA_LESS(FORMULA_POINT_SIZE, ceil(side / frame.point_step_px) * frame.point_step_px);
+    square.middle_px = vec2(px.first) + 0.5 * (size + mod(square.side_px - size, 2.0));
     return true;
+}
+
+vec2 clip_middle(Square square)
+{
+    vec2 middle_px = FORMULA(FORMULA_POINT_CENTER, square.middle_px);
+    // A center on the very edge must not be rounded out of the clip volume: 2^-22 is 0.002 pixels of 16384.
+    return clamp(2.0 * middle_px / frame.size_px - 1.0, -INSIDE, INSIDE);
+}
+
+float point_size_px(Square square)
+{
+    return FORMULA_LESS(FORMULA_POINT_SIZE, ceil(square.side_px / frame.point_step_px) * frame.point_step_px);
 }

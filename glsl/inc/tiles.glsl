@@ -8,19 +8,9 @@
 //
 // Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular).
 
+#include "inc/groups.glsl"
+
 #define TILE 8
-
-// Workgroups are numbered along rows, for a device need not take more than 65535 in one dimension. Rows are as short as their
-// number allows: on a CPU driver a workgroup behind the last one costs as much as any.
-#define MOST_GROUPS_IN_ROW 32768
-#define GROUP_NUMBER (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
-
-// So many workgroups, in rows; none of none.
-uvec2 rows_of_groups(uint groups)
-{
-    uint rows = (groups + MOST_GROUPS_IN_ROW - 1) / MOST_GROUPS_IN_ROW;
-    return uvec2(rows > 0 ? (groups + rows - 1) / rows : 0, rows);
-}
 
 #define BLOCK 32
 

@@ -4,10 +4,9 @@ use ash::vk;
 
 use super::{
     Inputs,
-    cull::Kept,
     kernel_texture::kernel_texture,
-    list_large::{LargeList, ids_of, read_lists},
-    splat_pass::{Drawn, SplatPass, draw_splats},
+    lists::Lists,
+    splat_pass::{SplatPass, draw_splats},
     splat_shaders::{Summed, Words, splat_shaders},
     sum_format,
 };
@@ -63,7 +62,7 @@ pub(super) fn kernel_of<'a>(
 pub(super) fn accumulate<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    (large, kept): (&[Option<LargeList>], Option<&Kept>),
+    lists: &Lists,
     depth: &Handle<Image>,
     polygons: Option<&Handle<Image>>,
     kernel: Option<&Handle<Image>>,
@@ -72,7 +71,6 @@ pub(super) fn accumulate<'a>(
     let format = sum_format(inputs.settings.accumulate);
     let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
     let pipelines = splat_pass(inputs.settings, summed)?.pipelines(inputs)?;
-    let large_ids = ids_of(large);
     let sampled = [with_depth.then(|| depth.id()), kernel.map(Handle::id), polygons.map(Handle::id)];
 
     let mut sums = Sums {
@@ -89,10 +87,10 @@ pub(super) fn accumulate<'a>(
     for image in [kernel, polygons].into_iter().flatten() {
         pass = pass.read(image, Access::SampledFragment);
     }
-    let drawn = Drawn::kept(kept);
-    read_lists(pass, large, kept).finish(Box::new(move |context| {
+    let ids = lists.ids();
+    lists.read(pass).finish(Box::new(move |context| {
         bind_sampled(context, inputs, sampled)?;
-        draw_splats(context, inputs, &pipelines, &large_ids, &drawn)
+        draw_splats(context, inputs, &pipelines, &ids, None)
     }));
     Ok(sums)
 }

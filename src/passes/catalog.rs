@@ -8,7 +8,7 @@ use super::{
     layer_compose::{self, LayerKind},
     layer_rest, layer_visibility, list_large, paper,
     pipelines::GraphicsKey,
-    polygons,
+    point_records, polygons,
     recipe::{Key, PipelineRecipe, compute, graphics},
     splat_pass::SplatPass,
     splat_shaders::{Primitive, Summed},
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{Cull, KernelEval, Rasterizer, Settings},
+    scene::{Cull, KernelEval, Rasterizer, SetUp, Settings},
     shaders,
 };
 
@@ -147,9 +147,12 @@ fn opaque(
         Cull::List | Cull::Hidden if points => cull::recipes(variant),
         _ => Vec::new(),
     };
-    let hidden = settings.cull == Cull::Hidden && !culled.is_empty();
+    let kept = !culled.is_empty();
     all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
-    if hidden {
+    if settings.set_up == SetUp::Once {
+        all.push(compute("set up points", point_records::key(variant, has_list, kept)));
+    }
+    if kept && settings.cull == Cull::Hidden {
         all.push(compute("cells of depth", cull_hidden::cells_key()));
         all.push(compute("mark seen splats", cull_hidden::hidden_key(variant)));
     }
@@ -211,6 +214,9 @@ fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
     let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
     let mut open = splat_constants(settings, traits.ellipses, false);
     open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
+    if settings.set_up == SetUp::Once {
+        all.push(compute("set up transparent points", point_records::key(&open, has_list, false)));
+    }
     let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
     for peeled in [false, true] {
         let names = if peeled {
@@ -259,10 +265,11 @@ fn splat_keys(
         Primitive::Quad => ("quads", "quads"),
         Primitive::Triangle => ("triangles", "small triangles"),
     };
+    let recorded = pass.shaders.recorded.filter(|_| settings.set_up == SetUp::Once);
     match has_list {
-        false => vec![(all, pass.key(pass.shaders.all, own, variant))],
+        false => vec![(all, pass.key(recorded.unwrap_or(pass.shaders.all), own, variant))],
         true => vec![
-            (small, pass.key(pass.shaders.small, own, variant)),
+            (small, pass.key(recorded.unwrap_or(pass.shaders.small), own, variant)),
             ("listed quads", pass.key(pass.shaders.listed, Primitive::Quad, variant)),
         ],
     }

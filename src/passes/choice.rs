@@ -1,9 +1,14 @@
 //! Which way splats are drawn where the settings leave it open (`--rasterizer auto`).
 
-use super::{Draw, Part, splat_shaders::Primitive, tiles::STORAGE_BUFFERS};
+use super::{
+    Draw, Part,
+    pipelines::RECORD_STORAGE_BUFFERS,
+    splat_shaders::{Primitive, sets_up_once},
+    tiles::STORAGE_BUFFERS,
+};
 use crate::{
     error::{Error, Result},
-    scene::{Cull, Filter, KernelEval, Rasterizer, Settings},
+    scene::{Cull, Filter, KernelEval, Rasterizer, SetUp, Settings},
     vk::Limits,
 };
 
@@ -62,6 +67,28 @@ pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings
     }
 }
 
+/// Whether points are set up once, for all passes.
+pub(super) fn records(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
+    can_record(settings, limits).is_ok()
+        && match settings.set_up {
+            SetUp::Auto => {
+                settings.rasterizer == Rasterizer::Auto
+                    && limits.is_cpu
+                    && !are_few(count_of(draws), settings)
+            }
+            SetUp::Stages => false,
+            SetUp::Once => true,
+        }
+}
+
+fn can_record(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static str> {
+    sets_up_once(settings)?;
+    if limits.storage_buffers_a_stage < RECORD_STORAGE_BUFFERS {
+        return Err("the device has too few storage buffers for a stage");
+    }
+    Ok(())
+}
+
 fn can(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static str> {
     if settings.filter == Filter::Max {
         return Err("the filter max has a second kernel, which records have no room for");
@@ -75,17 +102,19 @@ fn can(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static
     Ok(())
 }
 
-/// Refuses tiles that were asked for where the device has none.
+/// Refuses tiles, and records, that were asked for where there can be none.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] with the reason.
 pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
-    match (settings.rasterizer, can(settings, limits)) {
-        (Rasterizer::Compute, Err(reason)) => {
-            Err(Error::option("--rasterizer", format!("compute: {reason}")))
-        }
-        _ => Ok(()),
+    let refused = |option, name: &str, reason: &str| Err(Error::option(option, format!("{name}: {reason}")));
+    if let (Rasterizer::Compute, Err(reason)) = (settings.rasterizer, can(settings, limits)) {
+        return refused("--rasterizer", "compute", reason);
     }
+    if let (SetUp::Once, Err(reason)) = (settings.set_up, can_record(settings, limits)) {
+        return refused("--set-up", "once", reason);
+    }
+    Ok(())
 }
 
 /// In words, how the splats of a part are drawn, and why so.
@@ -99,6 +128,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         Primitive::Triangle => "triangles",
     };
     let hidden = if part.leaves_hidden_out(settings) { "; what is hidden, left out of sums" } else { "" };
+    let recorded = if part.recorded { "; set up once" } else { "" };
     let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(&part.splats, settings, limits)) {
         (Some(plan), Ok(why)) => {
@@ -117,7 +147,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         }
         (_, Err(why)) => format!("as {primitive}: {why}"),
     };
-    Some(format!("{how}{kept}{hidden}"))
+    Some(format!("{how}{kept}{recorded}{hidden}"))
 }
 
 #[cfg(test)]

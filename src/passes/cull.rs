@@ -8,7 +8,7 @@ use ash::vk;
 use super::{
     Draw, Inputs,
     pipelines::{ComputeKey, Layout},
-    splat_pass::dispatch,
+    splat_pass::{Groups, dispatch},
     tiles::rows_of,
     variant::{Constants, culls},
 };
@@ -209,7 +209,7 @@ pub(super) fn list_marked<'a>(
             // One for all chunks; the set of any will do.
             match inputs.draws.iter().zip(&scan).next() {
                 Some((draw, pipeline)) => {
-                    dispatch(context, inputs, draw, pipeline, &[(0, bits), (1, starts)], [1, 1])
+                    dispatch(context, inputs, draw, pipeline, &[(0, bits), (1, starts)], Groups::Rows([1, 1]))
                 }
                 None => Ok(()),
             }
@@ -235,8 +235,8 @@ pub(super) fn list_marked<'a>(
 }
 
 /// Workgroups of one invocation a word of bits.
-pub(super) fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
-    rows_of(draw.chunk.count.div_ceil(WORD * GROUP))
+pub(super) fn groups_of(draw: &Draw<'_>) -> Groups<'static> {
+    Groups::Rows(rows_of(draw.chunk.count.div_ceil(WORD * GROUP)))
 }
 
 /// The three passes, where there are splats of a variant to leave out.

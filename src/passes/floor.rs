@@ -86,7 +86,7 @@ pub fn floor_points<'a>(
         .write(points, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
             let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
-            let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.large_set, &given)?];
+            let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.list_set, &given)?];
             let (device, commands) = (context.device(), context.commands());
             let bind_point = vk::PipelineBindPoint::COMPUTE;
             // SAFETY: pipeline, sets and push constants have one layout.
@@ -167,7 +167,7 @@ fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, points: &[FloorPoints<'
         unsafe { device.cmd_bind_pipeline(commands, bind_point, pipeline.raw()) };
         for &(id, count) in &chunks {
             let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
-            let set = inputs.descriptors.set(&inputs.shaders.large_set, &given)?;
+            let set = inputs.descriptors.set(&inputs.shaders.list_set, &given)?;
             // SAFETY: inside of rendering; pipeline and set have one layout.
             unsafe {
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 1, &[set], &[]);

@@ -7,7 +7,7 @@ use super::{
     accumulate::{Sums, bind_sampled},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
-    splat_pass::{Drawn, SplatPass, draw_splats},
+    splat_pass::{SplatPass, draw_splats},
     splat_shaders::{Summed, Words, splat_shaders},
     sum_format,
 };
@@ -52,10 +52,10 @@ pub(super) fn layer_accumulate<'a>(
     let inputs = layer.inputs;
     let pipelines = splat_pass(inputs.settings, layer.before.is_some())?.pipelines(inputs)?;
     let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
-    let (large, gate) = (layer.large_ids(), layer.gate());
+    let (lists, gate) = (layer.list_ids(), layer.gate());
     declare(graph, layer, depth, ["color sums", "normal sums", "accumulate"], layer.kernel, move |context| {
         bind_sampled(context, inputs, sampled)?;
-        draw_splats(context, inputs, &pipelines, &large, &Drawn::behind(gate))
+        draw_splats(context, inputs, &pipelines, &lists, gate)
     })
 }
 

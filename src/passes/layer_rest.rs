@@ -8,7 +8,7 @@ use super::{
     accumulate::{Sums, bind_read},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
-    splat_pass::{Drawn, SplatPass, draw_splats},
+    splat_pass::{SplatPass, draw_splats},
     splat_shaders::{Summed, Words, splat_shaders},
     sum_format,
     variant::shading_constants,
@@ -91,10 +91,10 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     }
     let lights = layer.lights.map(Handle::id);
     let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
-    let (large, gate) = (layer.large_ids(), layer.gate());
+    let (lists, gate) = (layer.list_ids(), layer.gate());
     layer.read(pass).finish(Box::new(move |context| {
         bind_read(context, inputs, sampled, lights)?;
-        draw_splats(context, inputs, &splats, &large, &Drawn::behind(gate))?;
+        draw_splats(context, inputs, &splats, &lists, gate)?;
         draw_meshes(context, inputs, &meshes, gate)
     }));
     Ok(sums)

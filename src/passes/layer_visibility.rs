@@ -9,7 +9,7 @@ use super::{
     copy_depth::copy_depth,
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
-    splat_pass::{Drawn, draw_splats},
+    splat_pass::draw_splats,
     visibility,
 };
 use crate::{
@@ -45,11 +45,11 @@ pub(super) fn layer_visibility<'a>(
         None => (graph.create_image(&name, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0))),
     };
     let sampled = [layer.before.map(Handle::id), None, None];
-    let (large, gate) = (layer.large_ids(), layer.gate());
+    let (lists, gate) = (layer.list_ids(), layer.gate());
     let pass = graph.pass(&layer.name("visibility")).write(&mut depth, Access::DepthAttachment, start);
     layer.read(pass).finish(Box::new(move |context| {
         bind_sampled(context, inputs, sampled)?;
-        draw_splats(context, inputs, &splats, &large, &Drawn::behind(gate))?;
+        draw_splats(context, inputs, &splats, &lists, gate)?;
         draw_meshes(context, inputs, &meshes, gate)
     }));
     Ok(depth)

@@ -12,7 +12,7 @@ use super::{
     layer_compose::{LayerSums, layer_compose},
     layer_rest::layer_rest,
     layer_visibility::layer_visibility,
-    list_large::{LargeIds, LargeList, ids_of, list_large, read_lists},
+    lists::{ListIds, Lists},
 };
 use crate::{
     error::Result,
@@ -35,7 +35,7 @@ pub(super) struct Layer<'a, 'f> {
     pub kernel: Option<&'f Handle<Image>>,
     /// Those of the scene's own.
     pub lights: Option<&'f Handle<Buffer>>,
-    large: &'f [Option<LargeList>],
+    lists: &'f Lists,
     gates: Option<&'f Gates<'a>>,
     /// Another layer follows, and wants to know whether this one is empty.
     counted: bool,
@@ -53,7 +53,7 @@ impl<'a> Layer<'a, '_> {
             Some(before) => pass.read(before, crate::graph::Access::SampledFragment),
             None => pass,
         };
-        self.read_gate(read_lists(pass, self.large, None))
+        self.read_gate(self.lists.read(pass))
     }
 
     /// Declares that a pass draws something where the layer before is not empty.
@@ -69,9 +69,9 @@ impl<'a> Layer<'a, '_> {
         self.gates.and_then(Gates::gate)
     }
 
-    /// The large splats of each chunk.
-    pub fn large_ids(&self) -> Vec<Option<LargeIds>> {
-        ids_of(self.large)
+    /// What its draws read beside splats.
+    pub fn list_ids(&self) -> ListIds {
+        self.lists.ids()
     }
 
     /// The query that counts its pixels.
@@ -97,7 +97,7 @@ pub(super) fn layers<'a>(
     kernel: Option<&Handle<Image>>,
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Option<Handle<Image>>> {
-    let large = list_large(graph, inputs, "transparent ")?;
+    let lists = Lists::make(graph, inputs, "transparent ")?;
     let mut gates = inputs.occlusion.map(|queries| Gates::new(graph, inputs, queries));
     let count = inputs.settings.layers.most();
     let (mut before, mut sums_before, mut composed) = (None, None, None);
@@ -110,7 +110,7 @@ pub(super) fn layers<'a>(
             opaque,
             kernel,
             lights,
-            large: &large,
+            lists: &lists,
             gates: gates.as_ref(),
             counted,
         };

@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use super::{
     Draw, Inputs,
-    cull::Kept,
     pipelines::{ComputeKey, Layout},
-    splat_pass::dispatch,
+    splat_pass::{Groups, dispatch},
     variant::Constants,
 };
 use crate::{
@@ -58,6 +57,18 @@ impl LargeList {
         }
     }
 
+    /// Declares that a pass draws with it.
+    pub fn read_by_draws<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        pass.read(&self.bits, Access::StorageReadVertex)
+            .read(&self.list, Access::StorageReadVertex)
+            .read(&self.arguments, Access::IndirectRead)
+    }
+
+    /// Declares that a pass in compute looks which splats are large.
+    pub fn read_by_compute<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        pass.read(&self.bits, Access::StorageReadCompute)
+    }
+
     pub fn ids(&self) -> LargeIds {
         LargeIds {
             bits: self.bits.id(),
@@ -66,29 +77,6 @@ impl LargeList {
             arguments: self.arguments.id(),
         }
     }
-}
-
-/// Declares that a pass draws with these lists, and of the others the kept ones where they are listed.
-pub(super) fn read_lists<'g, B>(
-    mut pass: PassBuilder<'g, B>,
-    lists: &[Option<LargeList>],
-    kept: Option<&Kept>,
-) -> PassBuilder<'g, B> {
-    if let Some(kept) = kept {
-        pass = kept.read_by_points(pass);
-    }
-    for list in lists.iter().flatten() {
-        pass = pass
-            .read(&list.bits, Access::StorageReadVertex)
-            .read(&list.list, Access::StorageReadVertex)
-            .read(&list.arguments, Access::IndirectRead);
-    }
-    pass
-}
-
-/// The resources of each list, for the passes' bodies.
-pub(super) fn ids_of(lists: &[Option<LargeList>]) -> Vec<Option<LargeIds>> {
-    lists.iter().map(|list| list.as_ref().map(LargeList::ids)).collect()
 }
 
 /// What the pipelines of the three passes are, in their order.
@@ -119,7 +107,7 @@ pub(super) fn list_large<'a>(
     if lists.iter().all(Option::is_none) {
         return Ok(lists);
     }
-    let ids = ids_of(&lists);
+    let ids: Vec<_> = lists.iter().map(|list| list.as_ref().map(LargeList::ids)).collect();
 
     let count = Dispatches::new(inputs, &ids, &shaders::LARGE_COUNT_COMP)?;
     let mut pass = graph.pass(&format!("count large {kind}splats"));
@@ -186,7 +174,7 @@ impl<'a> Dispatches<'a> {
         groups: impl Fn(&Draw<'_>) -> u32,
     ) -> Result<()> {
         for (draw, ids, pipeline) in &self.chunks {
-            dispatch(context, self.inputs, draw, pipeline, &bindings(ids), [groups(draw), 1])?;
+            dispatch(context, self.inputs, draw, pipeline, &bindings(ids), Groups::Rows([groups(draw), 1]))?;
         }
         Ok(())
     }

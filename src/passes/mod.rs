@@ -25,10 +25,12 @@ mod layer_visibility;
 mod layers;
 mod lights;
 mod list_large;
+mod lists;
 mod mesh_draws;
 mod paper;
 mod parts;
 mod pipelines;
+mod point_records;
 mod polygons;
 mod readback;
 mod recipe;
@@ -61,7 +63,7 @@ pub use readback::readback;
 pub use recipe::{PipelineRecipe, PipelineStages};
 pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
 
-use self::finalize::Opaque;
+use self::{finalize::Opaque, lists::Lists};
 use crate::{
     error::Result,
     graph::{Graph, Handle, Image, ImageDesc, execute::Body},
@@ -80,6 +82,8 @@ pub struct Inputs<'a> {
     pub tiles: Option<&'a TilePlan>,
     /// Only splats of a list are set up.
     pub kept: bool,
+    /// Points are set up once, for all passes.
+    pub recorded: bool,
     /// What is hidden is left out before sums.
     pub leaves_hidden_out: bool,
     /// From where.
@@ -108,6 +112,7 @@ impl<'a> Inputs<'a> {
             meshes,
             tiles: None,
             kept: false,
+            recorded: false,
             leaves_hidden_out: false,
             camera,
             settings,
@@ -124,6 +129,7 @@ impl<'a> Inputs<'a> {
             meshes: &part.meshes,
             tiles: part.tiles.as_ref(),
             kept: part.kept,
+            recorded: part.recorded,
             leaves_hidden_out: part.leaves_hidden_out(self.settings),
             ..self
         }
@@ -161,10 +167,12 @@ pub struct Needs {
 
 /// What a frame takes, at most. `counts_draws`: the device can take the number of draws from a buffer.
 pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Needs {
-    let large = |part: &Part<'_>| part.splats.iter().filter(|draw| draw.may_be_large).count() as u32;
+    // With large splats or records.
+    let listed =
+        |part: &Part<'_>| part.splats.iter().filter(|draw| draw.may_be_large || part.recorded).count() as u32;
     let layers = if parts.transparent.is_empty() { 0 } else { settings.layers.most() };
-    // For each chunk with large splats: three passes that list them, two that draw them, in each layer.
-    let lists = 5 * large(&parts.opaque) + (3 + 2 * layers) * large(&parts.transparent);
+    // For each such chunk: three passes that list large ones, one that makes records, two that draw them, in each layer.
+    let lists = 6 * listed(&parts.opaque) + (4 + 2 * layers) * listed(&parts.transparent);
     // Of kept splats: three passes that list them, twice, and one that sets them up.
     let kept = |part: &Part<'_>| if part.kept { 8 * part.splats.len() as u32 } else { 0 };
     let lists = lists + kept(&parts.opaque) + kept(&parts.transparent);
@@ -178,7 +186,7 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     Needs {
         room: PoolRoom {
             sets: lists + reads + sums + 1,
-            buffers: 4 * lists + reads + sums,
+            buffers: pipelines::LIST_BINDINGS * lists + reads + sums,
             images: 2 * reads + 5 * sums + 4,
             filtered_images: reads,
             storage_images: 0,
@@ -242,10 +250,9 @@ fn opaque<'a>(
         return opaque_by_tiles(graph, inputs, plan, with_depth, complete);
     }
     let mut opaque = Opaque::default();
-    let large = list_large::list_large(graph, inputs, "")?;
-    let kept = inputs.kept.then(|| cull::list_kept(graph, inputs, "")).transpose()?;
+    let lists = Lists::make(graph, inputs, "")?;
     if !inputs.draws.is_empty() {
-        opaque.splat_depth = Some(visibility::visibility(graph, inputs, &large, kept.as_ref())?);
+        opaque.splat_depth = Some(visibility::visibility(graph, inputs, &lists)?);
     }
     if !inputs.meshes.is_empty() {
         let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
@@ -253,15 +260,9 @@ fn opaque<'a>(
     }
     if let Some(depth) = &opaque.splat_depth {
         let polygons = opaque.polygon_depth.as_ref();
-        let kept = match &kept {
-            Some(kept) if inputs.leaves_hidden_out => {
-                Some(cull_hidden::list_seen(graph, inputs, kept, depth)?)
-            }
-            _ => kept,
-        };
-        let lists = (large.as_slice(), kept.as_ref());
+        let lists = lists.without_hidden(graph, inputs, depth)?;
         opaque.splats =
-            Some(accumulate::accumulate(graph, inputs, lists, depth, polygons, kernel, with_depth)?);
+            Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, with_depth)?);
     }
     Ok(opaque)
 }

@@ -18,6 +18,8 @@ pub struct Part<'a> {
     pub tiles: Option<TilePlan>,
     /// Those that may be seen are listed first, and only they are set up.
     pub kept: bool,
+    /// As points, set up once for all passes.
+    pub recorded: bool,
 }
 
 /// A prepared scene as seen from a camera.
@@ -40,8 +42,11 @@ impl<'a> Parts<'a> {
         let (clear_meshes, meshes) = all.partition(|draw| draw.chunk.transparent);
         Self {
             opaque: Part::new(splats, meshes, settings, limits),
-            transparent: Part::new(clear_splats, clear_meshes, settings, limits)
-                .with_layers(settings, &scene.lights),
+            transparent: Part::new(clear_splats, clear_meshes, settings, limits).with_layers(
+                settings,
+                limits,
+                &scene.lights,
+            ),
             lights: lights::shader_lights(&scene.lights, camera),
         }
     }
@@ -61,15 +66,19 @@ impl<'a> Part<'a> {
             && cull::has_room(&splats, tiles.is_some(), limits)
             && !splats.is_empty()
             && (cull::may_leave_out(&splats) || tiles.is_none() && settings.cull == Cull::Hidden);
+        let recorded = tiles.is_none() && !splats.is_empty() && choice::records(&splats, settings, limits);
         cull::number_splats(&mut splats, kept);
-        Self { splats, meshes, tiles, kept }
+        Self { splats, meshes, tiles, kept, recorded }
     }
 
     /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
-    fn with_layers(mut self, settings: &Settings, lights: &[Light]) -> Self {
+    fn with_layers(mut self, settings: &Settings, limits: &Limits, lights: &[Light]) -> Self {
         let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
         self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
         self.kept &= self.tiles.is_some();
+        self.recorded = self.tiles.is_none()
+            && !self.splats.is_empty()
+            && choice::records(&self.splats, settings, limits);
         self
     }
 

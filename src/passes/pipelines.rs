@@ -19,6 +19,15 @@ use crate::{
     },
 };
 
+/// Bindings of set 1 of the splat passes for lists of large splats.
+const LARGE_BINDINGS: u32 = 4;
+
+/// The same with records of points, on a device that has room for them.
+pub(super) const LIST_BINDINGS: u32 = LARGE_BINDINGS + 4;
+
+/// Storage buffers that a stage has then: splats and their colors, lists, lights.
+pub(super) const RECORD_STORAGE_BUFFERS: u32 = 2 + LIST_BINDINGS + 1;
+
 /// The layouts of all passes and the pipelines made so far.
 pub struct Shaders {
     device: Device,
@@ -27,8 +36,8 @@ pub struct Shaders {
     cache: PipelineCache,
     /// Set 0 of the splat passes.
     pub splat_set: SplatSetLayout,
-    /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats.
-    pub(super) large_set: SetLayout,
+    /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats, then records of points.
+    pub(super) list_set: SetLayout,
     /// Set 2 of the splat passes and of polygons: a depth to compare with (the visible one where depth is summed, that
     /// of the layer before where layers are peeled), the kernel where it is a texture, the depth of polygons, lights.
     pub(super) read_set: SetLayout,
@@ -102,7 +111,9 @@ impl Shaders {
         let lights = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
-        let large_set = SetLayout::new(device, "large splats", &[buffer; 4])?;
+        let has_records = device.facts().limits.storage_buffers_a_stage >= RECORD_STORAGE_BUFFERS;
+        let list_bindings = if has_records { LIST_BINDINGS } else { LARGE_BINDINGS };
+        let list_set = SetLayout::new(device, "lists", &vec![buffer; list_bindings as usize])?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
         let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image, lights])?;
         let sums_set = SetLayout::new(device, "sums", &[image, image, image, image, image, lights])?;
@@ -110,14 +121,14 @@ impl Shaders {
         let splat_layout = PipelineLayout::new(
             device,
             "splat passes",
-            &[splat_set.set(), &large_set, &read_set],
+            &[splat_set.set(), &list_set, &read_set],
             size_of::<constants::FrameConstants>() as u32,
             vertex | fragment,
         )?;
         let list_layout = PipelineLayout::new(
             device,
             "lists of large splats",
-            &[splat_set.set(), &large_set],
+            &[splat_set.set(), &list_set],
             size_of::<constants::FrameConstants>() as u32,
             compute,
         )?;
@@ -147,7 +158,7 @@ impl Shaders {
             compute: Mutex::default(),
             cache: PipelineCache::open(device, cache_folder)?,
             splat_set,
-            large_set,
+            list_set,
             read_set,
             sums_set,
             surface_set,

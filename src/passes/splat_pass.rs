@@ -6,9 +6,9 @@ use ash::vk;
 
 use super::{
     Draw, Inputs,
-    cull::{Kept, KeptIds},
+    cull::KeptIds,
     gate::Gate,
-    list_large::LargeIds,
+    lists::ListIds,
     pipelines::{GraphicsKey, Layout},
     splat_shaders::{Primitive, SplatShaders, Stages},
     variant::Constants,
@@ -61,7 +61,8 @@ impl SplatPass {
         };
         let primitive = Primitive::of(inputs.settings.rasterizer);
         let both = |draw: &Draw<'_>| {
-            let own = if draw.may_be_large { self.shaders.small } else { self.shaders.all };
+            let itself = if draw.may_be_large { self.shaders.small } else { self.shaders.all };
+            let own = self.shaders.recorded.filter(|_| inputs.recorded).unwrap_or(itself);
             let quads = draw.may_be_large.then_some(self.shaders.listed);
             Ok(DrawPipelines {
                 primitive,
@@ -73,48 +74,24 @@ impl SplatPass {
     }
 }
 
-/// Which splats are drawn.
-#[derive(Clone)]
-pub(super) enum Drawn {
-    All,
-    /// All; but the device leaves them out where the gate is closed.
-    Behind(Gate),
-    /// As points, those of a list.
-    Kept(KeptIds),
-}
-
-impl Drawn {
-    /// Those of a list where there is one.
-    pub fn kept(kept: Option<&Kept>) -> Self {
-        kept.map_or(Self::All, |kept| Self::Kept(kept.ids()))
-    }
-
-    /// Behind a gate where there is one.
-    pub fn behind(gate: Option<Gate>) -> Self {
-        gate.map_or(Self::All, Self::Behind)
-    }
-}
-
-/// Records the draws of all chunks.
+/// Records the draws of all chunks; where there is a gate, the device leaves them out while it is closed.
 pub(super) fn draw_splats(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipelines: &[DrawPipelines],
-    large: &[Option<LargeIds>],
-    drawn: &Drawn,
+    lists: &ListIds,
+    gate: Option<Gate>,
 ) -> Result<()> {
     let (device, commands) = (context.device(), context.commands());
     let layout = &inputs.shaders.splat_layout;
     let bind_point = vk::PipelineBindPoint::GRAPHICS;
-    for (((number, draw), pipelines), large) in inputs.draws.iter().enumerate().zip(pipelines).zip(large) {
+    for ((number, draw), pipelines) in inputs.draws.iter().enumerate().zip(pipelines) {
         let mut sets = vec![draw.chunk.set()];
-        let mut arguments = None;
-        if let Some(large) = large {
-            let bits = Descriptor::Buffer(context.buffer(large.bits)?);
-            let list = Descriptor::Buffer(context.buffer(large.list)?);
-            sets.push(inputs.descriptors.set(&inputs.shaders.large_set, &[(0, bits), (2, list)])?);
-            arguments = Some(context.buffer(large.arguments)?);
+        let given = lists.descriptors(context, number)?;
+        if !given.is_empty() {
+            sets.push(inputs.descriptors.set(&inputs.shaders.list_set, &given)?);
         }
+        let arguments = lists.large(number).map(|large| context.buffer(large.arguments)).transpose()?;
         // SAFETY: inside of rendering, with pipelines, sets and push constants of one layout; the graph's barriers
         // order what the draws read.
         unsafe {
@@ -122,24 +99,32 @@ pub(super) fn draw_splats(
             let constants = bytemuck::bytes_of(&draw.constants);
             device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
             device.cmd_bind_pipeline(commands, bind_point, pipelines.own.raw());
-            match drawn {
-                Drawn::Behind(gate) => gate.draw_splats(context, number)?,
-                Drawn::Kept(kept) => kept.draw_points(context, number)?,
-                Drawn::All => {
+            match (gate, &lists.kept) {
+                (Some(gate), _) => gate.draw_splats(context, number)?,
+                (None, Some(kept)) => kept.draw_points(context, number)?,
+                (None, None) => {
                     let [vertices, instances] = pipelines.primitive.counts(draw.chunk.count);
                     device.cmd_draw(commands, vertices, instances, 0, 0);
                 }
             }
             if let (Some(quads), Some(arguments)) = (&pipelines.quads, arguments) {
                 device.cmd_bind_pipeline(commands, bind_point, quads.raw());
-                match drawn {
-                    Drawn::Behind(gate) => gate.draw_listed(context, arguments)?,
-                    _ => device.cmd_draw_indirect(commands, arguments, 0, 1, 16),
+                match gate {
+                    Some(gate) => gate.draw_listed(context, arguments)?,
+                    None => device.cmd_draw_indirect(commands, arguments, 0, 1, 16),
                 }
             }
         }
     }
     Ok(())
+}
+
+/// Workgroups of a dispatch over the splats of a chunk.
+pub(super) enum Groups<'a> {
+    /// So many in a row, and rows.
+    Rows([u32; 2]),
+    /// As many as the kept splats of the chunk of this number need, 64 each.
+    Kept(&'a KeptIds, usize),
 }
 
 /// Records a dispatch over the splats of a chunk, with these buffers in set 1.
@@ -149,14 +134,14 @@ pub(super) fn dispatch(
     draw: &Draw<'_>,
     pipeline: &ComputePipeline,
     buffers: &[(u32, ResourceId)],
-    [x, y]: [u32; 2],
+    groups: Groups<'_>,
 ) -> Result<()> {
     let mut given = Vec::new();
     for (number, id) in buffers {
         given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
     }
     let shaders = inputs.shaders;
-    let sets = [draw.chunk.set(), inputs.descriptors.set(&shaders.large_set, &given)?];
+    let sets = [draw.chunk.set(), inputs.descriptors.set(&shaders.list_set, &given)?];
     let layout = &shaders.list_layout;
     let constants = bytemuck::bytes_of(&draw.constants);
     let bind_point = vk::PipelineBindPoint::COMPUTE;
@@ -166,7 +151,10 @@ pub(super) fn dispatch(
         device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
         device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
         device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-        device.cmd_dispatch(commands, x, y, 1);
+        match groups {
+            Groups::Rows([x, y]) => device.cmd_dispatch(commands, x, y, 1),
+            Groups::Kept(kept, chunk) => kept.dispatch(context, chunk)?,
+        }
     }
     Ok(())
 }

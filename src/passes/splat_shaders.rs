@@ -59,6 +59,8 @@ pub(super) struct SplatShaders {
     pub small: Stages,
     /// And those that are drawn as quads, from the list.
     pub listed: Stages,
+    /// The first two in one where points are set up before; `None` where they can't be.
+    pub recorded: Option<Stages>,
 }
 
 /// The words that choose among the permutations of a splat pass, beside primitive and interface.
@@ -162,7 +164,32 @@ pub(super) fn splat_shaders(settings: &Settings, words: &Words) -> Result<SplatS
             (stages_of_triangles("triangles", words), stages_of_triangles("small_triangles", words))
         }
     };
-    Ok(SplatShaders { all: all?, small: small?, listed: stages(&format!("listed_quads_{quads}"), quads)? })
+    let lights_itself = words.fragment.contains(&"blended");
+    let recorded =
+        (sets_up_once(settings).is_ok() && !lights_itself).then(|| stages("recorded_points_plain", "plain"));
+    Ok(SplatShaders {
+        all: all?,
+        small: small?,
+        listed: stages(&format!("listed_quads_{quads}"), quads)?,
+        recorded: recorded.transpose()?,
+    })
+}
+
+/// Whether points can be set up once for all passes.
+///
+/// # Errors
+/// The reason against, as a sentence.
+pub(super) fn sets_up_once(settings: &Settings) -> std::result::Result<(), &'static str> {
+    if Primitive::of(settings.rasterizer) != Primitive::Point {
+        return Err("records are of points");
+    }
+    if interfaces(settings)[0] != "plain" {
+        return Err("records have no room for rays, nor for a second place");
+    }
+    if settings.early_depth {
+        return Err("records have no room for the bound of --early-depth");
+    }
+    Ok(())
 }
 
 /// The word that both passes share.

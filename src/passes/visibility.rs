@@ -4,9 +4,8 @@ use ash::vk;
 
 use super::{
     DEPTH_FORMAT, Inputs,
-    cull::Kept,
-    list_large::{LargeList, ids_of, read_lists},
-    splat_pass::{Drawn, SplatPass, draw_splats},
+    lists::Lists,
+    splat_pass::{SplatPass, draw_splats},
     splat_shaders::{Words, splat_shaders},
 };
 use crate::{
@@ -29,11 +28,9 @@ pub(super) fn splat_pass(settings: &Settings, layer: Option<bool>) -> Result<Spl
 pub(super) fn visibility<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    large: &[Option<LargeList>],
-    kept: Option<&Kept>,
+    lists: &Lists,
 ) -> Result<Handle<Image>> {
     let pipelines = splat_pass(inputs.settings, None)?.pipelines(inputs)?;
-    let large_ids = ids_of(large);
 
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
     let pass = graph.pass("visibility").write(
@@ -41,8 +38,7 @@ pub(super) fn visibility<'a>(
         Access::DepthAttachment,
         Start::Clear(ClearValue::Depth(0.0)),
     );
-    let drawn = Drawn::kept(kept);
-    read_lists(pass, large, kept)
-        .finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &large_ids, &drawn)));
+    let ids = lists.ids();
+    lists.read(pass).finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &ids, None)));
     Ok(depth)
 }

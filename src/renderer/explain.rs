@@ -190,6 +190,9 @@ fn reason(pass: &str) -> &'static str {
         name if name.contains(" kept ") => {
             "some splats face away or may lie outside of the view: the others are listed"
         }
+        "set up points" | "set up transparent points" => {
+            "--set-up once: each splat is culled, or made ready to be drawn as a point in all passes"
+        }
         "set up splats" => "opaque splats: each is culled, or made ready to be drawn by tiles",
         "see and sum tiles" => "opaque splats: visibility and sums of one tile after the other",
         "see tiles" => "opaque splats beside polygons: the depth of the nearest surface of each tile",

@@ -32,6 +32,7 @@ pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String
         ("kernel-eval", settings.kernel_eval.name().to_owned()),
         ("early-depth", if settings.early_depth { "on" } else { "off" }.to_owned()),
         ("cull", settings.cull.name().to_owned()),
+        ("set-up", settings.set_up.name().to_owned()),
         ("accumulate", settings.accumulate.name().to_owned()),
         ("epsilon", epsilon_option(settings.epsilon)),
         ("backfaces", backfaces.to_owned()),

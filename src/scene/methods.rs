@@ -78,6 +78,19 @@ named! {
 }
 
 named! {
+    /// Where points are set up. The picture is the same, bit by bit. By [`Rasterizer::Compute`] splats are always set up once.
+    SetUp {
+        /// What was measured to be faster: `Once` where [`Rasterizer::Auto`] draws points on a CPU; else `Stages`.
+        Auto = "auto",
+        /// In the vertex stage of each pass, as in the papers.
+        Stages = "stages",
+        /// Once a frame, in compute: vertex stages read records of 64 bytes. Not for ray casting, `--early-depth`, or expansion points
+        /// that the filter `max` needs beside the center; the last transparent layer, which is lit splat by splat, sets up by itself.
+        Once = "once",
+    }
+}
+
+named! {
     /// What an invocation draws of a tile of 8×8 pixels ([`Rasterizer::Compute`]). The picture is the same, bit by bit.
     TileInvocations {
         /// `Column` on CPU drivers, else `Pixel`.

@@ -3,7 +3,7 @@
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes,
     methods::{
-        Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, TileInvocations,
+        Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, SetUp, TileInvocations,
         Transition,
     },
 };
@@ -31,6 +31,8 @@ pub struct Settings {
     pub early_depth: bool,
     /// Where splats are left out that are not seen.
     pub cull: Cull,
+    /// Where points are set up.
+    pub set_up: SetUp,
     /// The precision of the sums.
     pub accumulate: Accumulate,
     /// The depth within which splats are one surface.
@@ -61,6 +63,7 @@ impl Default for Settings {
             kernel_eval: KernelEval::default(),
             early_depth: false,
             cull: Cull::default(),
+            set_up: SetUp::default(),
             accumulate: Accumulate::default(),
             epsilon: Epsilon::Radii(1.0),
             backfaces: Backfaces::Auto,

@@ -10,7 +10,7 @@ use surfel::{
     load::Representation,
     scene::{
         Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
-        Rasterizer, Settings, Shading, TileInvocations, Transition,
+        Rasterizer, SetUp, Settings, Shading, TileInvocations, Transition,
     },
 };
 
@@ -123,6 +123,12 @@ pub struct StyleArguments {
     #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(Cull::NAMES))]
     pub cull: Cull,
 
+    /// Where points are set up: in the vertex stage of each pass, or once a frame, in compute, which leaves a record of 64 bytes for
+    /// each splat to the vertex stages (not for ray casting, nor with --early-depth); auto: what is faster. By compute splats are
+    /// always set up once. The picture is the same
+    #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(SetUp::NAMES))]
+    pub set_up: SetUp,
+
     /// The precision of the sums; the reference sums in 64 bits whatever is given here
     #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
     pub accumulate: Accumulate,
@@ -202,6 +208,7 @@ impl PictureArguments {
             kernel_eval: style.kernel_eval,
             early_depth: style.early_depth,
             cull: style.cull,
+            set_up: style.set_up,
             accumulate: style.accumulate,
             epsilon: style.epsilon,
             backfaces: style.backfaces,
@@ -245,6 +252,7 @@ mod tests {
             kernel_eval: KernelEval::Texture,
             early_depth: true,
             cull: Cull::List,
+            set_up: SetUp::Once,
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,

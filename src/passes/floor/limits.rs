@@ -197,5 +197,5 @@ fn set_of(
     buffer: ResourceId,
 ) -> Result<vk::DescriptorSet> {
     let given = [(0, Descriptor::Buffer(context.buffer(buffer)?))];
-    inputs.descriptors.set(&inputs.shaders.large_set, &given)
+    inputs.descriptors.set(&inputs.shaders.list_set, &given)
 }

@@ -92,7 +92,7 @@ impl<'a> LargeDraws<'a> {
     fn record(&self, context: &PassContext<'_>) -> Result<()> {
         let shaders = self.inputs.shaders;
         let list = [(2, Descriptor::Buffer(context.buffer(self.entries)?))];
-        let list = self.inputs.descriptors.set(&shaders.large_set, &list)?;
+        let list = self.inputs.descriptors.set(&shaders.list_set, &list)?;
         let arguments = context.buffer(self.arguments)?;
         let layout = &shaders.splat_layout;
         let bind_point = vk::PipelineBindPoint::GRAPHICS;

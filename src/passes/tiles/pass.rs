@@ -106,7 +106,7 @@ impl<'a> TilePass<'a> {
     }
 }
 
-/// Workgroups along a row, and rows: a device need not take more than 65535 in one dimension. As in `glsl/inc/tiles.glsl`.
+/// Workgroups along a row, and rows: a device need not take more than 65535 in one dimension. As in `glsl/inc/groups.glsl`.
 pub(in super::super) fn rows_of(groups: u32) -> [u32; 2] {
     const MOST_GROUPS_IN_ROW: u32 = 32_768;
     let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);

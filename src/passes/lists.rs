@@ -1,0 +1,104 @@
+//! What the draws of a part read beside its splats: lists of those that are large and of those that may be seen, and records of
+//! those that are set up once.
+
+use super::{
+    Inputs,
+    cull::{Kept, KeptIds, list_kept},
+    cull_hidden::list_seen,
+    list_large::{LargeIds, LargeList, list_large},
+    point_records::{RecordIds, Records, set_up_points},
+};
+use crate::{
+    error::Result,
+    graph::{
+        Graph, Handle, Image, PassBuilder,
+        execute::{Body, PassContext},
+    },
+    vk::Descriptor,
+};
+
+/// What the draws of a part read.
+pub(super) struct Lists {
+    large: Vec<Option<LargeList>>,
+    kept: Option<Kept>,
+    /// One a chunk; none where each pass sets up by itself.
+    records: Option<Vec<Records>>,
+}
+
+/// The same for passes that are recorded.
+#[derive(Clone)]
+pub(super) struct ListIds {
+    large: Vec<Option<LargeIds>>,
+    pub kept: Option<KeptIds>,
+    records: Option<Vec<RecordIds>>,
+}
+
+impl Lists {
+    /// Declares the passes that make them. `kind`, in front of the names, tells those of several parts apart.
+    pub fn make<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Self> {
+        let large = list_large(graph, inputs, kind)?;
+        let kept = inputs.kept.then(|| list_kept(graph, inputs, kind)).transpose()?;
+        let set_up = || set_up_points(graph, inputs, kind, &large, kept.as_ref());
+        let records = inputs.recorded.then(set_up).transpose()?;
+        Ok(Self { large, kept, records })
+    }
+
+    /// Declares the passes that leave out of the list what this depth hides, where that is wanted.
+    pub fn without_hidden<'a>(
+        self,
+        graph: &mut Graph<Body<'a>>,
+        inputs: Inputs<'a>,
+        depth: &Handle<Image>,
+    ) -> Result<Self> {
+        let kept = match self.kept {
+            Some(kept) if inputs.leaves_hidden_out => Some(list_seen(graph, inputs, &kept, depth)?),
+            kept => kept,
+        };
+        Ok(Self { kept, ..self })
+    }
+
+    /// Declares that a pass draws with them.
+    pub fn read<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        if let Some(kept) = &self.kept {
+            pass = kept.read_by_points(pass);
+        }
+        for list in self.large.iter().flatten() {
+            pass = list.read_by_draws(pass);
+        }
+        for records in self.records.iter().flatten() {
+            pass = records.read_by_points(pass);
+        }
+        pass
+    }
+
+    /// For the body of the pass.
+    pub fn ids(&self) -> ListIds {
+        ListIds {
+            large: self.large.iter().map(|list| list.as_ref().map(LargeList::ids)).collect(),
+            kept: self.kept.as_ref().map(Kept::ids),
+            records: self.records.as_ref().map(|records| records.iter().map(Records::ids).collect()),
+        }
+    }
+}
+
+impl ListIds {
+    /// The large splats of a chunk, where it may have any.
+    pub fn large(&self, chunk: usize) -> Option<&LargeIds> {
+        self.large[chunk].as_ref()
+    }
+
+    /// What set 1 of the draws of a chunk holds; nothing where they read nothing.
+    pub fn descriptors(&self, context: &PassContext<'_>, chunk: usize) -> Result<Vec<(u32, Descriptor)>> {
+        let mut given = Vec::new();
+        if let Some(large) = self.large(chunk) {
+            given.push((0, Descriptor::Buffer(context.buffer(large.bits)?)));
+            given.push((2, Descriptor::Buffer(context.buffer(large.list)?)));
+        }
+        if let Some(records) = &self.records {
+            for (number, id) in records[chunk].bound() {
+                given.push((number, Descriptor::Buffer(context.buffer(id)?)));
+            }
+        }
+        Ok(given)
+    }
+}
