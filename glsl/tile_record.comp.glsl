@@ -36,10 +36,10 @@ uint span_of(Mapping m)
     }
     uvec2 first = uvec2(px.first) / TILE;
     uvec2 more = uvec2(px.last) / TILE - first;
-    if (max(more.x, more.y) > 7 || (more.x + 1) * (more.y + 1) > MOST_TILES) {
+    if (max(more.x, more.y) > MOST_MORE || (more.x + 1) * (more.y + 1) > MOST_TILES) {
         return large;
     }
-    return first.x | first.y << 13 | more.x << 26 | more.y << 29;
+    return span_from(first, more);
 }
 
 void main()

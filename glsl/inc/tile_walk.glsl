@@ -46,13 +46,15 @@ void walk()
             uint span = record < record_count ? spans[record] : SPAN_NONE;
             if (span >= SPAN_CHUNK) {
                 if (span != SPAN_NONE) {
-                    visit(record, push.tile_count + (span & SPAN_LOW));
+                    visit(record, push.tile_count + chunk_of(span));
                 }
             } else {
-                width = (span >> 26 & 7) + 1;
-                left = width * ((span >> 29) + 1);
+                uvec2 first = first_of(span);
+                uvec2 more = more_of(span);
+                width = more.x + 1;
+                left = width * (more.y + 1);
                 in_row = width;
-                tile = (span & SPAN_LOW) + (span >> 13 & SPAN_LOW) * push.tiles_x;
+                tile = first.x + first.y * push.tiles_x;
             }
         }
         if (left > 0) {

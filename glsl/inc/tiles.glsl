@@ -49,9 +49,32 @@ struct TileConstants {
 #define WALKERS 8
 #define PLACE_OF_COUNT(segment, bin) (((segment) / WALKERS * push.bin_count + (bin)) * WALKERS + (segment) % WALKERS)
 
-// A span: tile of the first corner, x and y in 13 bits each, then how many tiles more, 3 bits each. Spans that would
-// reach beyond 2^13 tiles mean other things: from SPAN_CHUNK on, drawn by the graphics pipeline, of the chunk in the last
-// 13 bits; all ones, not seen.
+// A span: tile of the first corner, x and y in PLACE_BITS each, then how many tiles more, in as many bits as are left for each.
+// Spans that would reach beyond all places mean other things: from SPAN_CHUNK on, drawn by the graphics pipeline, of the chunk in
+// the last bits; all ones, not seen.
+layout(constant_id = 24) const uint PLACE_BITS = 11;
+const uint MORE_BITS = 16 - PLACE_BITS;
+const uint LAST_PLACE = (1u << PLACE_BITS) - 1;
+const uint MOST_MORE = (1u << MORE_BITS) - 1;
 const uint SPAN_CHUNK = 0xffffe000u;
 const uint SPAN_NONE = 0xffffffffu;
-const uint SPAN_LOW = 0x1fffu;
+
+uint span_from(uvec2 first, uvec2 more)
+{
+    return first.x | first.y << PLACE_BITS | (more.x | more.y << MORE_BITS) << (2 * PLACE_BITS);
+}
+
+uvec2 first_of(uint span)
+{
+    return uvec2(span, span >> PLACE_BITS) & LAST_PLACE;
+}
+
+uvec2 more_of(uint span)
+{
+    return uvec2(span >> (2 * PLACE_BITS), span >> (2 * PLACE_BITS + MORE_BITS)) & MOST_MORE;
+}
+
+uint chunk_of(uint span)
+{
+    return span - SPAN_CHUNK;
+}

@@ -67,18 +67,9 @@ pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings
     }
 }
 
-/// Whether points are set up once, for all passes.
-pub(super) fn records(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
-    can_record(settings, limits).is_ok()
-        && match settings.set_up {
-            SetUp::Auto => {
-                settings.rasterizer == Rasterizer::Auto
-                    && limits.is_cpu
-                    && !are_few(count_of(draws), settings)
-            }
-            SetUp::Stages => false,
-            SetUp::Once => true,
-        }
+/// Whether points are set up once, for all passes. On a CPU that gains nothing (`benches/README.md`), and on GPUs it was not measured.
+pub(super) fn records(settings: &Settings, limits: &Limits) -> bool {
+    settings.set_up == SetUp::Once && can_record(settings, limits).is_ok()
 }
 
 fn can_record(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static str> {

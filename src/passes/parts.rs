@@ -66,7 +66,7 @@ impl<'a> Part<'a> {
             && cull::has_room(&splats, tiles.is_some(), limits)
             && !splats.is_empty()
             && (cull::may_leave_out(&splats) || tiles.is_none() && settings.cull == Cull::Hidden);
-        let recorded = tiles.is_none() && !splats.is_empty() && choice::records(&splats, settings, limits);
+        let recorded = tiles.is_none() && !splats.is_empty() && choice::records(settings, limits);
         cull::number_splats(&mut splats, kept);
         Self { splats, meshes, tiles, kept, recorded }
     }
@@ -76,9 +76,7 @@ impl<'a> Part<'a> {
         let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
         self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
         self.kept &= self.tiles.is_some();
-        self.recorded = self.tiles.is_none()
-            && !self.splats.is_empty()
-            && choice::records(&self.splats, settings, limits);
+        self.recorded = self.tiles.is_none() && !self.splats.is_empty() && choice::records(settings, limits);
         self
     }
 

@@ -80,7 +80,7 @@ named! {
 named! {
     /// Where points are set up. The picture is the same, bit by bit. By [`Rasterizer::Compute`] splats are always set up once.
     SetUp {
-        /// What was measured to be faster: `Once` where [`Rasterizer::Auto`] draws points on a CPU; else `Stages`.
+        /// What was measured to be faster: `Stages`.
         Auto = "auto",
         /// In the vertex stage of each pass, as in the papers.
         Stages = "stages",

@@ -29,16 +29,22 @@ pub(super) fn part_length(plan: &TilePlan) -> Constants {
     vec![(19, plan.part_length)]
 }
 
+/// The constant of how spans are cut.
+pub(super) fn place_bits(plan: &TilePlan) -> (u32, u32) {
+    (24, plan.place_bits)
+}
+
 /// What counts. `kept`: records are those of a list.
-pub(super) fn count_shader(kept: bool) -> (&'static Shader, Constants) {
-    (if kept { &shaders::TILE_COUNT_KEPT_COMP } else { &shaders::TILE_COUNT_COMP }, Vec::new())
+pub(super) fn count_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
+    let shader = if kept { &shaders::TILE_COUNT_KEPT_COMP } else { &shaders::TILE_COUNT_COMP };
+    (shader, vec![place_bits(plan)])
 }
 
 /// What fills.
 pub(super) fn fill_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
     match kept {
-        true => (&shaders::TILE_FILL_KEPT_COMP, vec![(16, u32::from(plan.may_be_large))]),
-        false => (&shaders::TILE_FILL_COMP, Vec::new()),
+        true => (&shaders::TILE_FILL_KEPT_COMP, vec![place_bits(plan), (16, u32::from(plan.may_be_large))]),
+        false => (&shaders::TILE_FILL_COMP, vec![place_bits(plan)]),
     }
 }
 
@@ -87,7 +93,7 @@ pub(in super::super) fn list<'a>(
         }));
 
     let counted = [&[spans, counts], kept_buffers.as_slice()].concat();
-    let count = TilePass::new(inputs, plan, count_shader(inputs.kept), counted)?;
+    let count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept), counted)?;
     read_kept(graph.pass(&format!("count {kind}tiles")), kept)
         .read(&tiles.spans, Access::StorageReadCompute)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)

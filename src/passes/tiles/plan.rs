@@ -9,8 +9,14 @@ use crate::{
 /// Pixels along a side of a tile, as in `glsl/inc/tiles.glsl`.
 pub(in super::super) const TILE_PX: u32 = 8;
 
-/// Tiles along a side that a splat of a record touches at most: three bits of its span.
-const MOST_TILES_A_SIDE: u32 = 8;
+/// Bits of a tile's column or row in a span, as in `glsl/inc/tiles.glsl`; what is left of 16 is for how many tiles a splat touches
+/// along a side. The first that has room for the image is taken.
+const PLACE_BITS: [u32; 3] = [11, 12, 13];
+
+/// Tiles along a side that a splat of a record touches at most.
+fn most_tiles_a_side(place_bits: u32) -> u32 {
+    1 << (16 - place_bits)
+}
 
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
 const MOST_ITERATIONS: u32 = 60_000;
@@ -51,6 +57,8 @@ pub struct TilePlan {
     pub segment_length: u32,
     /// Records that are walked over in one dispatch.
     pub round_length: u32,
+    /// Bits of a column or row of tiles in a span.
+    pub place_bits: u32,
     /// Tiles that a splat of a record touches at most.
     pub most_tiles: u32,
     /// Entries of all lists together that there is room for.
@@ -104,18 +112,20 @@ impl TilePlan {
         let refused = records == 0
             || records * RECORD_BYTES > range
             || chunks.len() > MOST_CHUNKS
-            || segments_with_room == 0
-            || u64::from(tiles_x.max(tiles_y)) > (1 << 13) - u64::from(MOST_TILES_A_SIDE);
+            || segments_with_room == 0;
         if refused {
             return None;
         }
+        let has_places = |bits: &u32| tiles_x.max(tiles_y) <= (1 << bits) - most_tiles_a_side(*bits);
+        let place_bits = PLACE_BITS.into_iter().find(has_places)?;
+        let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
         let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).min(range / 4);
-        let room_a_splat = (room / records).min(u64::from(MOST_TILES_A_SIDE * MOST_TILES_A_SIDE)) as u32;
+        let room_a_splat = (room / records).min(u64::from(most_a_side * most_a_side)) as u32;
         let largest = chunks.iter().map(|(_, px)| *px).fold(0.0, f64::max);
         // A box of b pixels touches ⌈b / 8⌉ + 1 tiles at most.
         let bound = (largest / f64::from(TILE_PX)).ceil() + 1.0;
-        let fits = bound <= f64::from(MOST_TILES_A_SIDE) && bound * bound <= f64::from(room_a_splat);
+        let fits = bound <= f64::from(most_a_side) && bound * bound <= f64::from(room_a_splat);
         let most_tiles = if fits { (bound * bound) as u32 } else { room_a_splat };
         let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
         let segment_length = record_count.div_ceil(BLOCK).div_ceil(segments) * BLOCK;
@@ -128,6 +138,7 @@ impl TilePlan {
             segments,
             segment_length,
             round_length: (MOST_ITERATIONS / most_tiles).min(segment_length),
+            place_bits,
             most_tiles,
             // A splat that is left to the graphics pipeline has one.
             entry_room: records * u64::from(most_tiles),
@@ -161,7 +172,8 @@ impl TilePlan {
             segments: SEGMENTS,
             segment_length: SEGMENTS,
             round_length: SEGMENTS,
-            most_tiles: MOST_TILES_A_SIDE * MOST_TILES_A_SIDE,
+            place_bits: PLACE_BITS[0],
+            most_tiles: most_tiles_a_side(PLACE_BITS[0]).pow(2),
             entry_room: LEAST_ENTRIES,
             walk_length: 4 * MOST_ITERATIONS,
             part_length: 4 * MOST_ITERATIONS,

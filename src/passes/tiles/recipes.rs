@@ -50,7 +50,7 @@ pub(in super::super) fn list_recipes(
     let plan = TilePlan::for_recipes(may_be_large);
     vec![
         ("set up splats", record::key(variant, &plan, 0, kept)),
-        ("count tiles", compute(count_shader(kept))),
+        ("count tiles", compute(count_shader(&plan, kept))),
         ("total tiles", compute((&shaders::TILE_TOTAL_COMP, Vec::new()))),
         ("start tiles", compute((&shaders::TILE_START_COMP, part_length(&plan)))),
         ("fill tiles", compute(fill_shader(&plan, kept))),
