@@ -1,9 +1,11 @@
 // From a surface to its color. Phong's mirror direction is r = 2 (n.l) n - l.
 //
 // Without LIT there is one white light at the eye, no attenuation, so that l = v and r.v = 2 (n.l)^2 - 1. With it there are
-// those of the scene; LIGHTS_SET and LIGHTS_BINDING say where.
+// those of the scene; LIGHTS_SET and LIGHTS_BINDING say where. Their number is a constant of the pipeline, for a CPU driver
+// fetches what a loop indexes for each lane by itself.
 
 #if defined(LIT)
+layout(constant_id = 21) const uint LIGHTS = 1;
 struct Light {
     vec4 to_light_eye; // the unit direction to the light, view space; 1: it is at the eye, whatever the direction
     vec4 color;        // linear, 0
@@ -23,15 +25,16 @@ vec3 shaded(vec3 albedo, vec3 normal, vec3 v)
 #if defined(LIT)
     vec3 diffuse = vec3(0.0);
     vec3 specular = vec3(0.0);
-    for (int i = 0; i < lights.length(); ++i) {
-        vec3 l = lights[i].to_light_eye.w > 0.0 ? v : lights[i].to_light_eye.xyz;
+    for (uint i = 0; i < LIGHTS; i++) {
+        Light light = lights[i];
+        vec3 l = light.to_light_eye.w > 0.0 ? v : light.to_light_eye.xyz;
         float n_l = dot(normal, l);
         if (n_l > 0.0) {
-            diffuse += n_l * lights[i].color.rgb;
+            diffuse += n_l * light.color.rgb;
             float r_v = max(dot(2.0 * n_l * normal - l, v), 0.0);
             float r_v_4 = r_v * r_v * r_v * r_v;
             float r_v_16 = r_v_4 * r_v_4 * r_v_4 * r_v_4;
-            specular += FORMULA(FORMULA_LIT_SPECULAR, r_v_16 * r_v_16) * lights[i].color.rgb;
+            specular += FORMULA(FORMULA_LIT_SPECULAR, r_v_16 * r_v_16) * light.color.rgb;
         }
     }
     vec3 lambert = albedo * (0.1 + FORMULA(FORMULA_LIT_DIFFUSE, 0.9 * diffuse));

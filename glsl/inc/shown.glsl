@@ -30,80 +30,87 @@ struct Shown {
     bool covered; // else the others mean nothing
 };
 
+// A surface at a pixel, not shaded yet.
+struct Seen {
+    vec3 albedo;   // linear
+    vec3 normal;   // unit, view space, to the eye where it is transparent
+    float alpha;   // 1 unless transparent
+    float weight;  // sum of weights of splats; of polygons, how many
+};
+
 #if defined(SPLATS) || defined(HYBRID)
-Shown load_splats(ivec2 pixel, vec3 v, out Surface surface)
+Seen load_splats(ivec2 pixel, vec3 v)
 {
-    surface = load_surface(pixel);
-    surface.normal = turned(surface.normal, v);
-    Shown shown;
-    shown.covered = surface.weight > 0.0;
-    shown.color = shaded(surface.albedo, surface.normal, v);
+    Surface surface = load_surface(pixel);
+    Seen seen = Seen(surface.albedo, turned(surface.normal, v), 1.0, surface.weight);
 #if defined(LAYER)
-    shown.alpha = shown.covered ? texelFetch(normal_sums, pixel, 0).w / surface.weight : 0.0;
-#else
-    shown.alpha = 1.0;
+    seen.alpha = surface.weight > 0.0 ? texelFetch(normal_sums, pixel, 0).w / surface.weight : 0.0;
 #endif
-    return shown;
+    return seen;
 }
 #endif
 
 #if defined(POLYGONS) || defined(HYBRID)
-Shown load_polygons(ivec2 pixel, vec3 v, out vec3 albedo, out vec3 normal)
+Seen load_polygons(ivec2 pixel, vec3 v)
 {
     vec4 color_sum = texelFetch(polygon_colors, pixel, 0);
     vec4 normal_sum = texelFetch(polygon_normals, pixel, 0);
-    Shown shown;
-    shown.covered = color_sum.a > 0.0;
-    float share = shown.covered ? 1.0 / color_sum.a : 0.0;
-    albedo = color_sum.rgb * share;
+    float share = color_sum.a > 0.0 ? 1.0 / color_sum.a : 0.0;
     float length2 = dot(normal_sum.xyz, normal_sum.xyz);
-    normal = turned(length2 > 0.0 ? normal_sum.xyz * inversesqrt(length2) : vec3(0.0, 0.0, -1.0), v);
-    shown.color = shaded(albedo, normal, v);
+    vec3 normal = length2 > 0.0 ? normal_sum.xyz * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
+    Seen seen = Seen(color_sum.rgb * share, turned(normal, v), 1.0, color_sum.a);
 #if defined(LAYER)
-    shown.alpha = normal_sum.w * share;
-#else
-    shown.alpha = 1.0;
+    seen.alpha = normal_sum.w * share;
 #endif
-    return shown;
+    return seen;
 }
 #endif
+
+Shown shown_alone(Seen seen, vec3 v)
+{
+    return Shown(shaded(seen.albedo, seen.normal, v), seen.alpha, seen.weight > 0.0);
+}
 
 // `v`: the unit direction to the eye, view space.
 Shown load_shown(ivec2 pixel, vec3 v)
 {
 #if defined(SPLATS)
-    Surface surface;
-    return load_splats(pixel, v, surface);
+    return shown_alone(load_splats(pixel, v), v);
 #elif defined(POLYGONS)
-    vec3 albedo;
-    vec3 normal;
-    return load_polygons(pixel, v, albedo, normal);
+    return shown_alone(load_polygons(pixel, v), v);
 #else
-    Surface surface;
-    Shown splats = load_splats(pixel, v, surface);
-    vec3 albedo;
-    vec3 normal;
-    Shown polygons = load_polygons(pixel, v, albedo, normal);
-    if (!polygons.covered) {
-        return splats;
+    Seen splats = load_splats(pixel, v);
+    Seen polygons = load_polygons(pixel, v);
+    float share = polygons.weight > 0.0 ? min(FORMULA(FORMULA_TRANSITION, splats.weight), 1.0) : 1.0;
+    if (TRANSITION == TRANSITION_NONE && polygons.weight > 0.0) {
+        share = 0.0;
     }
-    if (!splats.covered || TRANSITION == TRANSITION_NONE) {
-        return polygons;
-    }
-    float share = min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
-    Shown both;
-    both.covered = true;
-    both.alpha = mix(polygons.alpha, splats.alpha, share);
     if (TRANSITION == TRANSITION_ATTRIBUTES) {
-        vec3 blended = mix(normal, surface.normal, share);
+        vec3 blended = mix(polygons.normal, splats.normal, share);
         float length2 = dot(blended, blended);
-        both.color = shaded(mix(albedo, surface.albedo, share),
-            length2 > 0.0 ? blended * inversesqrt(length2) : vec3(0.0, 0.0, -1.0), v);
-    } else {
-        // With alpha multiplied in: what is not there has no color.
-        vec3 color = mix(polygons.alpha * polygons.color, splats.alpha * splats.color, share);
-        both.color = both.alpha > 0.0 ? color / both.alpha : vec3(0.0);
+        Seen both;
+        both.albedo = mix(polygons.albedo, splats.albedo, share);
+        both.normal = length2 > 0.0 ? blended * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
+        both.alpha = mix(polygons.alpha, splats.alpha, share);
+        both.weight = max(polygons.weight, splats.weight);
+        return shown_alone(both, v);
     }
-    return both;
+    // Few pixels show both. A loop that ends early, for CPU drivers run either side of a branch, whoever takes it.
+    bool both = share > 0.0 && share < 1.0;
+    vec3 sum = vec3(0.0); // with alpha multiplied in: what is not there has no color
+    float alpha = 0.0;
+    vec3 color;
+    for (int i = 0; i < (both ? 2 : 1); i++) {
+        bool is_splats = i == 0 && share > 0.0;
+        vec3 albedo = is_splats ? splats.albedo : polygons.albedo;
+        color = shaded(albedo, is_splats ? splats.normal : polygons.normal, v);
+        float part = is_splats ? share * splats.alpha : (1.0 - share) * polygons.alpha;
+        sum += part * color;
+        alpha += part;
+    }
+    if (both) {
+        color = alpha > 0.0 ? sum / alpha : vec3(0.0);
+    }
+    return Shown(color, alpha, max(splats.weight, polygons.weight) > 0.0);
 #endif
 }

@@ -59,6 +59,13 @@ impl Default for Traits {
     }
 }
 
+impl Traits {
+    /// How many lights of its own a scene has that has some.
+    fn lights(self) -> u32 {
+        if self.lit { 2 } else { 0 }
+    }
+}
+
 /// The pipelines of the papers' own programs: perspective splatting as Guennebaud et al. 2006 publish it, and the ray
 /// casting of Botsch et al. 2005, with which they compare it.
 pub fn papers_pipelines() -> Vec<PipelineRecipe> {
@@ -99,7 +106,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
             open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
             let (_, set_up) = tiles::list_recipes(&open, false, false).swap_remove(0);
             all.push(compute("set up transparent splats", set_up));
-            let (pass, key) = tiles::layers_recipe(settings, traits.lit)?;
+            let (pass, key) = tiles::layers_recipe(settings, traits.lights())?;
             all.push(compute(pass, key));
         } else {
             all.extend(layers(settings, traits)?);
@@ -109,7 +116,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         splats: true,
         polygons: traits.polygons,
         layered: traits.transparent,
-        lit: traits.lit,
+        lights: traits.lights(),
     };
     let alone = by_tiles && !(traits.polygons || traits.transparent || traits.may_be_large || traits.export);
     let finalized = finalize::key(settings, target, shown);
@@ -228,7 +235,7 @@ fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
         let of_splats = [
             (names[0], visibility::splat_pass(settings, Some(peeled))?),
             (names[1], layer_accumulate::splat_pass(settings, peeled)?),
-            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lit)?),
+            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lights())?),
         ];
         for (name, pass) in &of_splats {
             all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
@@ -236,18 +243,18 @@ fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
         let of_polygons = [
             (names[0], layer_visibility::mesh_pass(peeled)),
             (names[2], layer_accumulate::mesh_pass(settings, peeled)),
-            (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lit)),
+            (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lights())),
         ];
         for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
             all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
         }
     }
     let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
-    all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lit)));
+    all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lights())));
     all.push(graphics(
         "compose the last layer",
         "",
-        layer_compose::key(settings, LayerKind::Rest, traits.lit),
+        layer_compose::key(settings, LayerKind::Rest, traits.lights()),
     ));
     Ok(all)
 }

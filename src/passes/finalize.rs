@@ -52,14 +52,14 @@ pub(super) struct Traits {
     pub polygons: bool,
     /// There are transparent layers.
     pub layered: bool,
-    /// The scene has lights of its own.
-    pub lit: bool,
+    /// The scene's own lights.
+    pub lights: u32,
 }
 
 /// What its pipeline is; none where the background is all that is seen.
 pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option<GraphicsKey> {
-    let Traits { splats, polygons, layered, lit } = traits;
-    let fragment = match (splats, polygons, layered, lit) {
+    let Traits { splats, polygons, layered, lights } = traits;
+    let fragment = match (splats, polygons, layered, lights > 0) {
         (true, false, false, false) => &shaders::FINALIZE_SPLATS_FRAG,
         (false, true, false, false) => &shaders::FINALIZE_POLYGONS_FRAG,
         (true, true, false, false) => &shaders::FINALIZE_HYBRID_FRAG,
@@ -75,7 +75,7 @@ pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits
         (false, false, true, _) => &shaders::FINALIZE_NOTHING_LAYERED_FRAG,
         (false, false, false, _) => return None,
     };
-    let constants = shown_constants(settings, splats && polygons);
+    let constants = shown_constants(settings, splats && polygons, lights);
     Some(GraphicsKey {
         color_formats: vec![target_format],
         depth: (!layered).then_some((vk::CompareOp::LESS, false)),
@@ -84,8 +84,8 @@ pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits
 }
 
 /// The specialization constants of what shades sums; `hybrid`: of splats and polygons.
-pub(super) fn shown_constants(settings: &Settings, hybrid: bool) -> Constants {
-    let mut constants = shading_constants(settings.shading);
+pub(super) fn shown_constants(settings: &Settings, hybrid: bool, lights: u32) -> Constants {
+    let mut constants = shading_constants(settings.shading, lights);
     if hybrid {
         constants.push(transition_constant(settings.transition));
     }
@@ -137,7 +137,7 @@ pub(super) fn finalize<'a>(
         splats: splats.is_some(),
         polygons: polygons.is_some(),
         layered: layers.is_some(),
-        lit: lights.is_some(),
+        lights: inputs.lights,
     };
     let key = key(inputs.settings, target_format, traits);
     if let (Some(tiles), Some(key)) = (&opaque.tiles, &key) {

@@ -37,9 +37,9 @@ pub(super) enum LayerKind {
     StackBehindHybrid,
 }
 
-/// What its pipeline is. `lit`: by lights of the scene's own.
-pub(super) fn key(settings: &Settings, kind: LayerKind, lit: bool) -> GraphicsKey {
-    let fragment = match (kind, lit) {
+/// What its pipeline is. `lights`: the scene's own.
+pub(super) fn key(settings: &Settings, kind: LayerKind, lights: u32) -> GraphicsKey {
+    let fragment = match (kind, lights > 0) {
         (LayerKind::Splats, false) => &shaders::LAYER_SPLATS_FRAG,
         (LayerKind::Polygons, false) => &shaders::LAYER_POLYGONS_FRAG,
         (LayerKind::Hybrid, false) => &shaders::LAYER_HYBRID_FRAG,
@@ -56,7 +56,7 @@ pub(super) fn key(settings: &Settings, kind: LayerKind, lit: bool) -> GraphicsKe
     GraphicsKey {
         color_formats: vec![sum_format(settings.accumulate)],
         blend: Blend::Under,
-        ..GraphicsKey::fullscreen(fragment, Layout::Finalize, shown_constants(settings, hybrid))
+        ..GraphicsKey::fullscreen(fragment, Layout::Finalize, shown_constants(settings, hybrid, lights))
     }
 }
 
@@ -100,7 +100,7 @@ pub(super) fn layer_compose<'a>(
     let inputs = layer.inputs;
     let settings = inputs.settings;
     let (kind, images) = images_of(sums);
-    let pipeline = inputs.shaders.graphics(key(settings, kind, layer.lights.is_some()))?;
+    let pipeline = inputs.shaders.graphics(key(settings, kind, inputs.lights))?;
     let push = constants(inputs);
     let (mut target, start) = match composed {
         Some(composed) => (composed, Start::Load),

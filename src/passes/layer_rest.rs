@@ -34,20 +34,23 @@ fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
     opaque.then_some((vk::CompareOp::GREATER_OR_EQUAL, false))
 }
 
-/// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things; `lit`: by lights of
+/// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things; `lights`:
 /// the scene's own.
-pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bool) -> Result<SplatPass> {
+pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> Result<SplatPass> {
     Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Rest { peeled, lit }))?,
+        shaders: splat_shaders(
+            settings,
+            &Words::accumulate(settings, Summed::Rest { peeled, lit: lights > 0 }),
+        )?,
         color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
         depth: depth_test(opaque),
-        constants: shading_constants(settings.shading),
+        constants: shading_constants(settings.shading, lights),
     })
 }
 
 /// What it is made of for polygons.
-pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bool) -> MeshPass {
-    let fragment = match (peeled, lit) {
+pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> MeshPass {
+    let fragment = match (peeled, lights > 0) {
         (false, false) => &shaders::POLYGONS_BLENDED_FRAG,
         (true, false) => &shaders::POLYGONS_BLENDED_PEELED_FRAG,
         (false, true) => &shaders::POLYGONS_BLENDED_LIT_FRAG,
@@ -58,7 +61,7 @@ pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lit: bo
         color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
         blend: Blend::Add,
         depth: depth_test(opaque),
-        constants: shading_constants(settings.shading),
+        constants: shading_constants(settings.shading, lights),
     }
 }
 
@@ -67,9 +70,8 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let inputs = layer.inputs;
     let settings = inputs.settings;
     let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
-    let lit = layer.lights.is_some();
-    let splats = splat_pass(settings, peeled, opaque, lit)?.pipelines(inputs)?;
-    let meshes = mesh_pass(settings, peeled, opaque, lit).pipelines(inputs)?;
+    let splats = splat_pass(settings, peeled, opaque, inputs.lights)?.pipelines(inputs)?;
+    let meshes = mesh_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
     let mut sums = Sums {
         color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),
         normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),

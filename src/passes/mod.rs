@@ -86,6 +86,8 @@ pub struct Inputs<'a> {
     pub recorded: bool,
     /// What is hidden is left out before sums.
     pub leaves_hidden_out: bool,
+    /// The scene's own lights.
+    pub lights: u32,
     /// From where.
     pub camera: &'a Camera,
     /// How.
@@ -114,6 +116,7 @@ impl<'a> Inputs<'a> {
             kept: false,
             recorded: false,
             leaves_hidden_out: false,
+            lights: 0,
             camera,
             settings,
             shaders,
@@ -215,6 +218,7 @@ pub fn frame<'a>(
         false => accumulate::kernel_of(graph, inputs)?,
     };
     let lights = lights::lights(graph, &parts.lights);
+    let inputs = Inputs { lights: parts.lights.len() as u32, ..inputs };
     let complete = export || !parts.transparent.is_empty();
     let opaque = opaque(graph, inputs.of(&parts.opaque), kernel.as_ref(), export, complete)?;
     let layers = match parts.transparent.is_empty() {

@@ -105,13 +105,17 @@ pub fn transition_constant(transition: Transition) -> (u32, u32) {
     (12, number)
 }
 
-/// The constants of what shades.
-pub fn shading_constants(shading: Shading) -> Constants {
+/// The constants of what shades, under so many lights of the scene's own.
+pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
     let number = match shading {
         Shading::Phong => 0,
         Shading::Lambert => 1,
         Shading::Normals => 2,
         Shading::Albedo => 3,
     };
-    vec![(6, number)]
+    let mut constants = vec![(6, number)];
+    if lights > 0 {
+        constants.push((21, lights));
+    }
+    constants
 }

@@ -31,8 +31,8 @@ const STATE_BYTES: u64 = 64 * 64;
 pub(in super::super) struct Beside {
     /// There are opaque things.
     pub opaque: bool,
-    /// The scene has lights of its own.
-    pub lit: bool,
+    /// The scene's own lights.
+    pub lights: u32,
 }
 
 /// The shader, and its constants.
@@ -47,7 +47,7 @@ pub(in super::super) fn shader(
             Accumulate::F16 => "half",
             Accumulate::F32 => "single",
         }),
-        beside.lit.then_some("lit"),
+        (beside.lights > 0).then_some("lit"),
         beside.opaque.then_some("behind"),
         match work {
             Work::Whole => None,
@@ -58,7 +58,7 @@ pub(in super::super) fn shader(
     ];
     let name: String = words.into_iter().flatten().map(|word| format!("_{word}")).collect();
     let mut constants = splat_constants(settings, false, false);
-    constants.extend(shading_constants(settings.shading));
+    constants.extend(shading_constants(settings.shading, beside.lights));
     let part = if work == Work::Parts { plan.walk_length } else { plan.part_length };
     constants.extend([(19, part), (20, u32::from(stacked(settings)))]);
     Ok((find(&format!("tile_layers{name}.comp"))?, constants))
@@ -100,7 +100,7 @@ fn declare<'a>(
     layers: &mut Handle<Image>,
     work: Work,
 ) -> Result<()> {
-    let beside = Beside { opaque: opaque.is_some(), lit: lights.is_some() };
+    let beside = Beside { opaque: opaque.is_some(), lights: inputs.lights };
     let shader = shader(inputs.settings, tiles.plan, beside, work)?;
     let mut pass = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
     pass.storage_images = vec![(COLOR_SUMS, layers.id())];

@@ -83,10 +83,13 @@ pub(in super::super) fn depth_recipe() -> (&'static str, GraphicsKey) {
 }
 
 /// The pass of all transparent layers, before opaque things.
-pub(in super::super) fn layers_recipe(settings: &Settings, lit: bool) -> Result<(&'static str, ComputeKey)> {
+pub(in super::super) fn layers_recipe(
+    settings: &Settings,
+    lights: u32,
+) -> Result<(&'static str, ComputeKey)> {
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(false) };
     let plan = plan.with_layers(settings.layers.most(), 0);
-    let beside = layers::Beside { opaque: true, lit };
+    let beside = layers::Beside { opaque: true, lights };
     let work = Work::of_whole_tiles(settings, &plan);
     Ok(("layers of tiles", compute(layers::shader(settings, &plan, beside, work)?)))
 }
