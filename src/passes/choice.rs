@@ -14,36 +14,39 @@ use crate::{
 
 /// Whether splats are drawn by tiles: why, or why not.
 ///
-/// On CPU drivers tiles take a third of the time of points, from 154 thousand splats to 5 million; but more of it where splats
-/// are so few that most are large, and quads either way (`benches/README.md`). On GPUs that was not measured yet, so that
-/// they keep to points.
+/// On CPU drivers tiles take a third of the time of points, from 154 thousand splats to 5 million, half of it with ten thousand; with
+/// a thousand opaque ones they gain little, so that these keep their few passes and no lists (`benches/README.md`). On GPUs that was
+/// not measured yet, so that they keep to points.
 ///
 /// # Errors
 /// The reason against, as a sentence.
 pub(super) fn by_tiles(
     draws: &[Draw<'_>],
+    beside_polygons: bool,
     settings: &Settings,
     limits: &Limits,
 ) -> std::result::Result<&'static str, &'static str> {
-    by_tiles_of(count_of(draws), settings, limits)
+    let opaque_alone = !beside_polygons && draws.iter().all(|draw| !draw.chunk.transparent);
+    let few = opaque_alone && are_few(count_of(draws), settings);
+    by_tiles_of(few, settings, limits)
 }
 
 fn by_tiles_of(
-    splats: u64,
+    few: bool,
     settings: &Settings,
     limits: &Limits,
 ) -> std::result::Result<&'static str, &'static str> {
     match settings.rasterizer {
         Rasterizer::Compute => can(settings, limits).map(|()| "asked for"),
         Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
-        Rasterizer::Auto if are_few(splats, settings) => Err("auto: so few that most are large"),
+        Rasterizer::Auto if few => Err("auto: so few that tiles gain little"),
         Rasterizer::Auto => can(settings, limits).map(|()| "auto: on a CPU faster than points"),
         _ => Err("another rasterizer was asked for"),
     }
 }
 
-/// Pixels of the image for each splat above which most splats of a model that fills it are larger than tiles take.
-const MOST_PIXELS_A_SPLAT: u64 = 200;
+/// Pixels of the image for each splat above which tiles gain little.
+const MOST_PIXELS_A_SPLAT: u64 = 1000;
 
 fn are_few(splats: u64, settings: &Settings) -> bool {
     let [width, height] = settings.size_px.map(u64::from);
@@ -121,7 +124,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
     let hidden = if part.leaves_hidden_out(settings) { "; what is hidden, left out of sums" } else { "" };
     let recorded = if part.recorded { "; set up once" } else { "" };
     let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
-    let how = match (&part.tiles, by_tiles(&part.splats, settings, limits)) {
+    let how = match (&part.tiles, by_tiles(&part.splats, !part.meshes.is_empty(), settings, limits)) {
         (Some(plan), Ok(why)) => {
             let (most, draws) = (plan.most_tiles, plan.invocations.draws());
             let large =
@@ -149,19 +152,18 @@ mod tests {
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
         let cpu = Limits { is_cpu: true, ..Limits::for_tests() };
         let auto = Settings::default();
-        assert!(by_tiles_of(154_000, &auto, &cpu).is_ok());
-        assert!(by_tiles_of(154_000, &auto, &Limits::for_tests()).is_err());
-        assert!(by_tiles_of(154_000, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
-        assert!(
-            by_tiles_of(154_000, &Settings { kernel_eval: KernelEval::Texture, ..auto.clone() }, &cpu)
-                .is_err()
-        );
-        assert!(by_tiles_of(154_000, &auto, &Limits { first_instance: false, ..cpu }).is_err());
-        // As many as fill an image of this size with splats of 200 pixels.
-        assert!(by_tiles_of(5243, &auto, &cpu).is_ok() && by_tiles_of(5242, &auto, &cpu).is_err());
+        assert!(by_tiles_of(false, &auto, &cpu).is_ok());
+        assert!(by_tiles_of(false, &auto, &Limits::for_tests()).is_err());
+        assert!(by_tiles_of(false, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
+        let textured = Settings { kernel_eval: KernelEval::Texture, ..auto.clone() };
+        assert!(by_tiles_of(false, &textured, &cpu).is_err());
+        assert!(by_tiles_of(false, &auto, &Limits { first_instance: false, ..cpu }).is_err());
+        assert!(by_tiles_of(true, &auto, &cpu).is_err());
+        // An image of this size has a pixel more than a thousand for each of 1048 splats.
+        assert!(are_few(1048, &auto) && !are_few(1049, &auto));
         let named = |rasterizer| Settings { rasterizer, ..Settings::default() };
-        assert!(by_tiles_of(1, &named(Rasterizer::Compute), &Limits::for_tests()).is_ok());
-        assert!(by_tiles_of(154_000, &named(Rasterizer::Perspective), &cpu).is_err());
+        assert!(by_tiles_of(true, &named(Rasterizer::Compute), &Limits::for_tests()).is_ok());
+        assert!(by_tiles_of(false, &named(Rasterizer::Perspective), &cpu).is_err());
         assert!(check(&named(Rasterizer::Compute), &Limits { storage_buffers_a_stage: 4, ..cpu }).is_err());
         assert!(check(&auto, &Limits { storage_buffers_a_stage: 4, ..cpu }).is_ok());
     }

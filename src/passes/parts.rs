@@ -60,7 +60,7 @@ impl<'a> Part<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let by_tiles = choice::by_tiles(&splats, settings, limits).is_ok();
+        let by_tiles = choice::by_tiles(&splats, !meshes.is_empty(), settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
         let kept = choice::lists_kept(&splats, tiles.is_some(), settings, limits)
             && cull::has_room(&splats, tiles.is_some(), limits)
