@@ -4,7 +4,7 @@
 // are in the last layer, where surfaces mix, so that each is lit by itself, at its center.
 // LIT: by lights of the scene's own. RECORDED_POINTS: set up before, once for all passes.
 // Permutations: points small_points | plain center rays | _ beside layer blended blended_lit
-// Permutations: recorded_points | plain | _ beside layer
+// Permutations: recorded_points | plain | _ beside layer blended blended_lit
 // Permutations: quads listed_quads | full center | _ beside layer blended blended_lit
 // Permutations: listed_quads | rays | _ beside layer blended blended_lit
 // Permutations: triangles small_triangles | _ beside layer blended blended_lit
@@ -37,11 +37,16 @@ void main()
 {
     uint index = gl_VertexIndex;
     PointRecord record = load_record(index);
-    emit_record(record, load_color(index));
+    vec3 color = load_color(index);
+#if defined(BLENDED)
+    vec3 p = load_splat(index).p; // no filter moves it
+    color = shaded(color, dot(record.normal, p) > 0.0 ? -record.normal : record.normal, -safe_normalize(p));
+#endif
+    emit_record(record, color);
     normal_weight = vec4(record.normal, record.share);
 #if defined(BESIDE)
     inverse_shift = record.inverse_shift;
-#elif defined(LAYER)
+#elif defined(LAYER) || defined(BLENDED)
     alpha = load_alpha(index);
 #endif
 }

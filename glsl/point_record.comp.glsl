@@ -1,6 +1,6 @@
 // Sets each splat up once, as a point: culls it, or makes a record of it (inc/point_record.glsl), which all passes' vertex stages
 // read (inc/emit_record.glsl). The same expressions as theirs where each sets up by itself (inc/emit.glsl), so that the
-// picture is the same to the bit.
+// picture is the same, but for what a driver rounds otherwise in another stage.
 //
 // SMALL: what is drawn as a quad has a record without a side. KEPT: only those of a list are set up (inc/kept.glsl), and only they
 // are drawn.

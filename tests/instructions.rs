@@ -18,7 +18,7 @@ use std::{
 use surfel::{
     count::{Counts, PassCounts, count},
     passes::{Counter, counts_of, papers_pipelines},
-    scene::{Filter, KernelEval, Rasterizer, Settings, TileInvocations},
+    scene::{Filter, KernelEval, Rasterizer, SetUp, Settings, TileInvocations},
 };
 
 fn arb(counts: &Option<Counts>) -> u32 {
@@ -64,9 +64,10 @@ fn pinned() -> Vec<Settings> {
         Filter::NAMES.iter().skip(1).map(|(_, filter)| Settings { filter: *filter, ..Settings::default() });
     let textured = Settings { kernel_eval: KernelEval::Texture, ..Settings::default() };
     let tile_invocations = TileInvocations::Pixel;
+    let once = Settings { rasterizer: Rasterizer::Perspective, set_up: SetUp::Once, ..Settings::default() };
     let pixels = Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() };
     rasterizers
-        .chain([pixels])
+        .chain([pixels, once])
         .chain(filters)
         .chain([textured])
         .filter(|settings| settings.validate().is_ok())
@@ -85,7 +86,8 @@ fn our_pipelines_have_the_pinned_counts() {
             TileInvocations::Pixel => ", an invocation a pixel",
             TileInvocations::Auto | TileInvocations::Column => "",
         };
-        writeln!(text, "{rasterizer}, {filter}, {kernel}{pixels}").unwrap();
+        let once = if settings.set_up == SetUp::Once { ", set up once" } else { "" };
+        writeln!(text, "{rasterizer}, {filter}, {kernel}{pixels}{once}").unwrap();
         for counts in counts_of(&settings, true).unwrap() {
             let scalar = counts.of_stages(|counts| Some(counts.scalar));
             writeln!(text, "  {}: {}; {scalar}", counts.pass, PassCounts::vertex_and_fragment(&counts))

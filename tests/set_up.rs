@@ -7,7 +7,10 @@ use surfel::{
     error::ErrorKind,
     hard_scenes::{Hard, transparent},
     renderer::{Frame, Headless},
-    scene::{Cull, Filter, Kernel, KernelEval, Layers, Rasterizer, Scene, SetUp, Settings, SplatFormat},
+    scene::{
+        Cull, Epsilon, Filter, Kernel, KernelEval, LastLayer, Layers, Rasterizer, Scene, SetUp, Settings,
+        SplatFormat,
+    },
 };
 
 fn draw(headless: &mut Headless, hard: &Hard, set_up: SetUp) -> Frame {
@@ -37,8 +40,13 @@ fn compare(headless: &mut Headless, hard: &Hard) -> usize {
 /// The axes of a contour far below a pixel are differences of nearly equal squares, and compute and vertex stages are compiled
 /// apart: seen is 2e-5 of a weight in one pixel. The oracle's tolerance for weights is 1e-3.
 fn assert_same_but_for_rounding(a: &Frame, b: &Frame, what: &str) {
-    for (a, b) in a.weight.iter().zip(&b.weight) {
-        assert!((a - b).abs() <= 1e-4 * a.max(*b), "{what}: {a} and {b}");
+    for (a, b) in a.weight.iter().zip(&b.weight).chain(a.depth.iter().zip(&b.depth)) {
+        assert!(a == b || (a - b).abs() <= 1e-4 * a.max(*b), "{what}: {a} and {b}");
+    }
+    let means =
+        |frame: &Frame| frame.albedo.iter().chain(&frame.linear).flatten().copied().collect::<Vec<_>>();
+    for (a, b) in means(a).into_iter().zip(means(b)) {
+        assert!((a - b).abs() <= 1e-4, "{what}: {a} and {b}");
     }
 }
 
@@ -98,14 +106,45 @@ fn the_same_bits_in_layers_and_beside_polygons() {
         if !has_splats(&hard.scene) {
             continue;
         }
-        for layers in [Layers::Fixed(3), Layers::Auto(5)] {
+        let epsilon = hard.settings.epsilon;
+        for (layers, last_layer, epsilon) in [
+            (Layers::Fixed(3), LastLayer::Drop, epsilon),
+            (Layers::Fixed(3), LastLayer::Blend, Epsilon::Radii(0.0)),
+            (Layers::Auto(5), LastLayer::Stack, epsilon),
+            (Layers::Fixed(1), LastLayer::Stack, epsilon),
+        ] {
             hard.settings.layers = layers;
+            hard.settings.last_layer = last_layer;
+            hard.settings.epsilon = epsilon;
             compare(&mut headless, &hard);
             checked += 1;
         }
     }
-    assert!(checked > 8, "{checked}");
+    assert!(checked > 16, "{checked}");
     assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn every_pass_draws_from_records_and_none_without() {
+    let of_opaque = scenes::sphere_of_disks();
+    let mut hard = transparent::spheres();
+    hard.settings.layers = Layers::Fixed(3);
+    hard.settings.last_layer = LastLayer::Stack;
+    for set_up in [SetUp::Once, SetUp::Stages] {
+        // Pipelines are kept, so that others' must not be there.
+        let mut headless = common::headless();
+        for hard in [&of_opaque, &hard] {
+            let settings = Settings { rasterizer: Rasterizer::Perspective, ..hard.settings.clone() };
+            draw(&mut headless, &Hard { settings, ..hard.clone() }, set_up);
+        }
+        let names = headless.renderer.shaders.pipeline_names();
+        let points = names.iter().filter(|name| name.contains("points_plain")).collect::<Vec<_>>();
+        let recorded = points.iter().filter(|name| name.contains("recorded_points")).count();
+        // Visibility with and without a layer before, sums of opaque splats, of two layers, of the last one.
+        assert!(points.len() >= 6, "{names:#?}");
+        assert_eq!(recorded, if set_up == SetUp::Once { points.len() } else { 0 }, "{names:#?}");
+        assert_validation_is_silent(&headless);
+    }
 }
 
 #[test]

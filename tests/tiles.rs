@@ -271,3 +271,50 @@ fn an_image_of_more_tiles_than_a_row_of_workgroups_is_valid() {
     assert!(different(&tiles, &points) <= 50, "{}", different(&tiles, &points));
     assert_validation_is_silent(&headless);
 }
+
+/// Spans of images above 16128 pixels have more bits for places, and fewer for how many tiles a splat touches.
+#[test]
+fn images_too_wide_for_the_spans_of_others_are_the_same_as_by_points() {
+    let mut headless = shared();
+    let wide = [16_200, 24];
+    let mut splats = scenes::builder::Builder::default();
+    let mut random = scenes::builder::Random(77);
+    for i in 0..2000 {
+        let x = -1.0 + f64::from(i) / 1000.0;
+        let radius = random.between(0.0003, 0.009); // up to 72 pixels: 10 tiles
+        splats.disk(DVec3::new(x, random.between(-0.001, 0.001), 0.0), DVec3::Z, radius, random.color());
+    }
+    let mut camera = scenes::builder::camera([0.0, 0.0, 1.0], [0.0; 3]);
+    camera.fov_y_rad = 2.0 * (12.0 / 8000.0_f64).atan();
+    let hard = hard(splats.scene(false).objects, camera, wide);
+    let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+    let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+    assert!(passes(&tiles).contains(&"fill tiles"), "{:?}", passes(&tiles));
+    let covered = points.linear.iter().filter(|color| color[..3] != [1.0; 3]).count();
+    assert!(covered > 200_000, "{covered}");
+    assert!(different(&points, &tiles) <= 20, "{} of {covered}", different(&points, &tiles));
+    assert_validation_is_silent(&headless);
+}
+
+/// The few opaque splats that keep their passes are tiles' where they are beside polygons, or in layers.
+#[test]
+fn auto_keeps_few_splats_to_points_only_where_they_are_opaque_and_alone() {
+    let mut headless = shared();
+    let ball = || sphere(300, DVec3::ZERO);
+    let camera = scenes::builder::camera([0.0, 0.0, 4.0], [0.0; 3]);
+    let alone = hard(vec![ball()], camera, [640, 640]);
+    let mut beside = alone.clone();
+    beside.scene.meshes = transparent::all()
+        .into_iter()
+        .find_map(|hard| hard.scene.meshes.into_iter().next())
+        .into_iter()
+        .collect();
+    let mut layered = alone.clone();
+    layered.scene.objects[0].splats.colors = Colors::Uniform([0.5, 0.5, 0.5, 0.5]);
+    for (hard, by_tiles) in [(alone, false), (beside, true), (layered, true)] {
+        let frame = picture(&mut headless, &hard, Rasterizer::Auto, PICTURE);
+        let fills = passes(&frame).iter().any(|pass| pass.starts_with("fill"));
+        assert_eq!(fills, by_tiles, "{:?}", passes(&frame));
+    }
+    assert_validation_is_silent(&headless);
+}

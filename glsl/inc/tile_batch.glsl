@@ -163,3 +163,25 @@ Look handed(Look own, uint k)
 }
 
 #endif
+
+// Loads the splats from `base` on to be handed on, where that is not done yet; returns the place of the first.
+uint load(uint base, Range range, inout Splat own)
+{
+    uint place = place_of(base, range);
+    if (place == 0) {
+        own = load_splat(base, range.end);
+        hand_on(own);
+    }
+    return place;
+}
+
+// And what they look like.
+uint load(uint base, Range range, inout Splat own, inout Look own_look)
+{
+    uint place = load(base, range, own);
+    if (place == 0) {
+        own_look = load_look(own);
+        hand_on(own_look);
+    }
+    return place;
+}

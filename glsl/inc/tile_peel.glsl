@@ -31,11 +31,7 @@ void see(Range range, vec2 at_px, Peeled peeled, inout float visible[ROWS])
 {
     Splat own;
     for (uint base = range.first; base < range.end; base += BATCH) {
-        uint place = place_of(base, range);
-        if (place == 0) {
-            own = load_splat(base, range.end);
-            hand_on(own);
-        }
+        uint place = load(base, range, own);
         [[unroll]] for (uint k = 0; k < BATCH; k++) {
             Splat splat = handed(own, place + k);
             Column column = column_of(splat, at_px);
@@ -56,13 +52,7 @@ void sum(Range range, vec2 at_px, Peeled peeled, float visible[ROWS], inout vec4
     Splat own;
     Look own_look;
     for (uint base = range.first; base < range.end; base += BATCH) {
-        uint place = place_of(base, range);
-        if (place == 0) {
-            own = load_splat(base, range.end);
-            own_look = load_look(own);
-            hand_on(own);
-            hand_on(own_look);
-        }
+        uint place = load(base, range, own, own_look);
         [[unroll]] for (uint k = 0; k < BATCH; k++) {
             Splat splat = handed(own, place + k);
             Look look = handed(own_look, place + k);

@@ -9,13 +9,11 @@ void sum_rest(Range range, vec2 at_px, Peeled peeled, inout vec4 colors[ROWS], i
     Splat own;
     Look own_look;
     for (uint base = range.first; base < range.end; base += BATCH) {
-        uint place = place_of(base, range);
+        uint place = load(base, range, own);
         if (place == 0) {
-            own = load_splat(base, range.end);
             own_look = load_look(own);
             vec3 v = to_eye(own.x0_px);
             own_look.color = own_look.alpha * shaded(own_look.color, turned(own_look.normal, v), v);
-            hand_on(own);
             hand_on(own_look);
         }
         [[unroll]] for (uint k = 0; k < BATCH; k++) {

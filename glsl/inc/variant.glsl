@@ -11,7 +11,7 @@ layout(constant_id = 7) const uint RASTERIZER = 0;         // RASTERIZER_PERSPEC
 layout(constant_id = 8) const bool WEIGHT_BY_AREA = false; // adjusted splats weigh old area / new area; else 1
 layout(constant_id = 9) const bool EARLY_DEPTH = false;    // the vertex stage bounds the fragments' depth; else any will do
 layout(constant_id = 10) const float COVERAGE_R2 = 1.0;    // largest u^2 + v^2 that covers: less where the kernel ends earlier
-layout(constant_id = 11) const bool FROM_CORNER = false;   // places may be counted from the corner (varyings.glsl)
+layout(constant_id = 11) const bool FROM_CORNER = false;   // places may be counted from the corner (places.glsl)
 layout(constant_id = 12) const uint TRANSITION = 0;        // TRANSITION_COLOR ...
 layout(constant_id = 13) const bool OUTWARD = false;       // transparent and closed: normals stay outward in layers (shown.glsl)
 layout(constant_id = 14) const bool IN_LAYERS = false;     // transparent: drawn in layers (mapping.glsl)

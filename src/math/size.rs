@@ -34,11 +34,16 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// filter makes each half axis at most h longer at the center's depth p, which is up to `p / (p − r)` as much where the disk
 /// is nearest: `2h / (1 − r/p)` more. Three pixels for rounding.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
+    box_px(bound, bound.largest_radius)
+}
+
+/// The same of splats with smaller radii among them.
+pub fn box_px(bound: &SizeBound, radius: f64) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;
     }
     let half_image = 0.5 * bound.size_px[0].max(bound.size_px[1]) / bound.focal_px;
-    let splat = 2.0 * bound.largest_radius * (1.0 + half_image) / bound.nearest_z * bound.focal_px;
+    let splat = 2.0 * radius * (1.0 + half_image) / bound.nearest_z * bound.focal_px;
     splat + 2.0 * bound.filter_px / (1.0 - LARGEST_RADIUS_RATIO) + 3.0
 }
 

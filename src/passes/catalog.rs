@@ -11,7 +11,7 @@ use super::{
     point_records, polygons,
     recipe::{Key, PipelineRecipe, compute, graphics},
     splat_pass::SplatPass,
-    splat_shaders::{Primitive, Summed},
+    splat_shaders::{Primitive, Summed, sets_up_once},
     tiles,
     variant::{Constants, IN_LAYERS, OUTWARD, splat_constants},
     visibility,
@@ -156,7 +156,7 @@ fn opaque(
     };
     let kept = !culled.is_empty();
     all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
-    if settings.set_up == SetUp::Once {
+    if records_points(settings) {
         all.push(compute("set up points", point_records::key(variant, has_list, kept)));
     }
     if kept && settings.cull == Cull::Hidden {
@@ -221,7 +221,7 @@ fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
     let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
     let mut open = splat_constants(settings, traits.ellipses, false);
     open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
-    if settings.set_up == SetUp::Once {
+    if records_points(settings) {
         all.push(compute("set up transparent points", point_records::key(&open, has_list, false)));
     }
     let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
@@ -259,6 +259,10 @@ fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
     Ok(all)
 }
 
+fn records_points(settings: &Settings) -> bool {
+    settings.set_up == SetUp::Once && sets_up_once(settings).is_ok()
+}
+
 /// The pipelines of a splat pass, each with what it draws.
 fn splat_keys(
     pass: &SplatPass,
@@ -272,7 +276,7 @@ fn splat_keys(
         Primitive::Quad => ("quads", "quads"),
         Primitive::Triangle => ("triangles", "small triangles"),
     };
-    let recorded = pass.shaders.recorded.filter(|_| settings.set_up == SetUp::Once);
+    let recorded = pass.shaders.recorded.filter(|_| records_points(settings));
     match has_list {
         false => vec![(all, pass.key(recorded.unwrap_or(pass.shaders.all), own, variant))],
         true => vec![

@@ -8,8 +8,8 @@ use super::{
     variant::{Constants, IN_LAYERS, OUTWARD, PACKED, splat_constants},
 };
 use crate::{
-    math::size::{SizeBound, largest_box_px},
-    prepare::{Chunk, PreparedScene, ViewFromLocal},
+    math::size::{SizeBound, box_px, largest_box_px},
+    prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Settings},
     vk::Limits,
 };
@@ -22,6 +22,8 @@ pub struct Draw<'a> {
     pub constants: FrameConstants,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub largest_box_px: f64,
+    /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as above.
+    pub boxes: Vec<(u32, f64)>,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
@@ -64,6 +66,10 @@ pub fn draws<'a>(
         };
         let point_cap_px = limits.point_size_range[1];
         let largest_box_px = largest_box_px(&bound);
+        let box_of = |step: &RadiusStep| {
+            let radius = step.radius * view.view_from_local_scale;
+            (step.count, box_px(&bound, radius).min(largest_box_px))
+        };
         Draw {
             chunk,
             constants: FrameConstants {
@@ -72,6 +78,7 @@ pub fn draws<'a>(
                 ..frame_constants(&view, camera, settings, limits, epsilon)
             },
             largest_box_px,
+            boxes: chunk.radii.iter().map(box_of).collect(),
             wholly_in_view: wholly_in_view(chunk, &view, &bound),
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),

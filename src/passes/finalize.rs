@@ -75,6 +75,7 @@ pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits
         (false, false, true, _) => &shaders::FINALIZE_NOTHING_LAYERED_FRAG,
         (false, false, false, _) => return None,
     };
+    let lights = if splats || polygons { lights } else { 0 };
     let constants = shown_constants(settings, splats && polygons, lights);
     Some(GraphicsKey {
         color_formats: vec![target_format],

@@ -53,6 +53,8 @@ pub(super) fn key(settings: &Settings, kind: LayerKind, lights: u32) -> Graphics
         (LayerKind::StackBehindHybrid, _) => &shaders::LAYER_BLENDED_STACKED_BEFORE_HYBRID_FRAG,
     };
     let hybrid = kind == LayerKind::Hybrid;
+    let is_surface = matches!(kind, LayerKind::Splats | LayerKind::Polygons | LayerKind::Hybrid);
+    let lights = if is_surface { lights } else { 0 };
     GraphicsKey {
         color_formats: vec![sum_format(settings.accumulate)],
         blend: Blend::Under,

@@ -58,7 +58,7 @@ pub use instructions::{Counter, counts_of};
 pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use paper::paper_frame;
 pub use parts::{Part, Parts};
-pub use pipelines::Shaders;
+pub use pipelines::{Shaders, room_of_lists};
 pub use readback::readback;
 pub use recipe::{PipelineRecipe, PipelineStages};
 pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
@@ -188,12 +188,13 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
         room: PoolRoom {
-            sets: lists + reads + sums + 1,
-            buffers: pipelines::LIST_BINDINGS * lists + reads + sums,
+            sets: reads + sums + 1,
+            buffers: reads + sums,
             images: 2 * reads + 5 * sums + 4,
             filtered_images: reads,
             storage_images: 0,
         }
+        .plus(&room_of_lists(lists))
         .plus(&tiles),
         occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
     }

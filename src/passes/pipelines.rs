@@ -15,15 +15,20 @@ use crate::{
     shaders::{self, Shader},
     vk::{
         Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
-        GraphicsPipelineDesc, PipelineCache, PipelineLayout, SetLayout, Stage,
+        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage,
     },
 };
 
 /// Bindings of set 1 of the splat passes for lists of large splats.
-const LARGE_BINDINGS: u32 = 4;
+pub(super) const LARGE_BINDINGS: u32 = 4;
 
 /// The same with records of points, on a device that has room for them.
-pub(super) const LIST_BINDINGS: u32 = LARGE_BINDINGS + 4;
+const LIST_BINDINGS: u32 = LARGE_BINDINGS + 4;
+
+/// Room for so many sets of lists: all bindings count, whatever a set has in them.
+pub fn room_of_lists(sets: u32) -> PoolRoom {
+    PoolRoom { sets, buffers: LIST_BINDINGS * sets, ..PoolRoom::default() }
+}
 
 /// Storage buffers that a stage has then: splats and their colors, lists, lights.
 pub(super) const RECORD_STORAGE_BUFFERS: u32 = 2 + LIST_BINDINGS + 1;

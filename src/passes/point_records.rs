@@ -4,7 +4,7 @@ use super::{
     Draw, Inputs,
     cull::Kept,
     list_large::LargeList,
-    pipelines::{ComputeKey, Layout},
+    pipelines::{ComputeKey, LARGE_BINDINGS, Layout},
     splat_pass::{Groups, dispatch},
     tiles::rows_of,
     variant::Constants,
@@ -19,7 +19,7 @@ use crate::{
 const GROUP: u32 = 64;
 
 /// The first binding of the buffers, as in `glsl/inc/point_record.glsl`.
-const FIRST_BINDING: u32 = 4;
+const FIRST_BINDING: u32 = LARGE_BINDINGS;
 
 /// Bytes of a record in each of its buffers: no more than any splat has, so that what holds a chunk's shapes holds these.
 const BYTES: u64 = 16;

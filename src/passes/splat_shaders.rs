@@ -164,9 +164,7 @@ pub(super) fn splat_shaders(settings: &Settings, words: &Words) -> Result<SplatS
             (stages_of_triangles("triangles", words), stages_of_triangles("small_triangles", words))
         }
     };
-    let lights_itself = words.fragment.contains(&"blended");
-    let recorded =
-        (sets_up_once(settings).is_ok() && !lights_itself).then(|| stages("recorded_points_plain", "plain"));
+    let recorded = sets_up_once(settings).is_ok().then(|| stages("recorded_points_plain", "plain"));
     Ok(SplatShaders {
         all: all?,
         small: small?,

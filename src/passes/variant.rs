@@ -71,7 +71,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
 }
 
 /// Whether splats are so wide, and the image so small, that a place's rounding is nothing to them; see
-/// `glsl/inc/varyings.glsl`.
+/// `glsl/inc/places.glsl`.
 fn may_count_from_corner(settings: &Settings) -> bool {
     const LARGEST_PX: u32 = 8192;
     matches!(settings.filter, Filter::Adjust | Filter::Ewa)

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::{
     pack::{Packed, Survey, shape_bytes},
+    radii::RadiusStep,
     rebase::Rebase,
 };
 use crate::{
@@ -64,6 +65,8 @@ pub struct Chunk {
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
     pub largest_radius: f64,
+    /// How many have which, roughly; local space.
+    pub radii: Vec<RadiusStep>,
     set: vk::DescriptorSet,
     _pool: SealedPool,
     /// Shapes and colors. Not read by the host, but the set names them.
@@ -109,6 +112,7 @@ impl Chunk {
             packed: survey.packed,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
+            radii: survey.radii.clone(),
             set,
             _pool: pool.seal(),
             buffers,

@@ -8,12 +8,14 @@ mod chunk;
 mod mesh_chunk;
 mod pack;
 mod packed;
+mod radii;
 mod rebase;
 mod sequence;
 
 pub use chunk::{Chunk, SplatSetLayout};
 pub use mesh_chunk::MeshChunk;
 pub use packed::{LARGEST_TURN_RAD, as_packed};
+pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
 
 use std::ops::Range;

@@ -6,7 +6,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{packed, rebase::Rebase};
+use super::{
+    packed,
+    radii::{RadiusCounts, RadiusStep},
+    rebase::Rebase,
+};
 use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
 
 /// What is known of some splats before any of them is packed: buffers get their exact size.
@@ -25,6 +29,8 @@ pub struct Survey {
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
     pub largest_radius: f64,
+    /// How many have which, roughly; local space.
+    pub radii: Vec<RadiusStep>,
     /// The sum of the major radii, world space.
     pub sum_of_radii: f64,
     /// What is left out.
@@ -49,6 +55,8 @@ impl Survey {
         let largest = lo.abs().max(hi.abs()).max_element().max(self.largest_radius);
         let rebase = packed::rebase(self.rebase, largest).filter(|_| !self.ellipses && self.count > 0)?;
         let scale = rebase.scale / self.rebase.scale; // a power of two, so that lengths are exact
+        let widened =
+            |step: &RadiusStep| RadiusStep { radius: packed::widened(step.radius * scale), ..*step };
         // A coordinate moves by a step at most.
         let step = DVec3::splat(packed::STEP);
         Some(Self {
@@ -56,6 +64,7 @@ impl Survey {
             packed: true,
             bounds: [lo * scale - step, hi * scale + step],
             largest_radius: packed::widened(self.largest_radius * scale),
+            radii: self.radii.iter().map(widened).collect(),
             ..*self
         })
     }
@@ -99,12 +108,15 @@ pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebas
         packed: false,
         bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         largest_radius: 0.0,
+        radii: Vec::new(),
         sum_of_radii: 0.0,
         defects: DefectCounts::default(),
     };
+    let mut radii = RadiusCounts::new();
     for i in which {
         match local(splats, i, rebase) {
             Ok((position, radius)) => {
+                radii.add(radius);
                 survey.bounds = [survey.bounds[0].min(position), survey.bounds[1].max(position)];
                 survey.largest_radius = survey.largest_radius.max(radius);
                 survey.sum_of_radii += splats.major_radius(i);
@@ -113,6 +125,7 @@ pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebas
             Err(defect) => survey.defects.add(Some(defect)),
         }
     }
+    survey.radii = radii.steps();
     survey
 }
 

@@ -13,7 +13,7 @@ use crate::{
     passes::{self, FLOOR_POINT_BYTES, FloorPoints, Inputs, Needs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
-    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom, Staging},
+    vk::{Buffer, BufferDesc, MemoryUse, Staging},
 };
 
 /// The floor of one scene, camera and choice of settings, ready to be drawn again and again.
@@ -116,8 +116,7 @@ impl<'a> Floor<'a> {
         let device = headless.device();
         let draws = passes::draws(self.scene, &self.camera, &self.settings, &headless.renderer.limits);
         // Each chunk's points are a set in both passes that draw them.
-        let sets = 2 * self.chunks.len() as u32;
-        let room = PoolRoom { sets, buffers: 4 * sets, ..PoolRoom::default() };
+        let room = passes::room_of_lists(2 * self.chunks.len() as u32);
         // Once more, in case that the wait for the frame before failed.
         headless.queue().wait_submitted()?;
         // SAFETY: every submission was waited for.

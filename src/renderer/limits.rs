@@ -18,7 +18,7 @@ use crate::{
     passes::{self, LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, Needs},
     report::Limit,
     scene::{Accumulate, Settings},
-    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
+    vk::{Buffer, BufferDesc, MemoryUse},
 };
 
 /// Points of a draw that is about points, not fragments.
@@ -180,7 +180,7 @@ impl Probe {
         let device = headless.device();
         // Once more, in case that the wait for the measurement before failed.
         headless.queue().wait_submitted()?;
-        let room = PoolRoom { sets: 1, buffers: 4, ..PoolRoom::default() };
+        let room = passes::room_of_lists(1);
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, Some(profile)) }?;
         let SlotParts { descriptors, transients, profiler, .. } = self.slot.parts()?;

@@ -78,14 +78,15 @@ named! {
 }
 
 named! {
-    /// Where points are set up. The picture is the same, bit by bit. By [`Rasterizer::Compute`] splats are always set up once.
+    /// Where points are set up. The picture is the same, but for what a driver rounds otherwise in another stage. By
+    /// [`Rasterizer::Compute`] splats are always set up once.
     SetUp {
         /// What was measured to be faster: `Stages`.
         Auto = "auto",
         /// In the vertex stage of each pass, as in the papers.
         Stages = "stages",
         /// Once a frame, in compute: vertex stages read records of 64 bytes. Not for ray casting, `--early-depth`, or expansion points
-        /// that the filter `max` needs beside the center; the last transparent layer, which is lit splat by splat, sets up by itself.
+        /// that the filter `max` needs beside the center.
         Once = "once",
     }
 }

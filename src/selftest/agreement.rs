@@ -109,7 +109,8 @@ pub fn compare(frame: &Frame, oracle: &Picture) -> Errors {
         worst(&mut errors.depth, (f64::from(frame.depth[i]) / expected.depth - 1.0).abs());
         let normal_deg = degrees_between(frame.normal[i], expected.normal);
         if let Some(color) = frame.linear.get(i) {
-            let by_normal = HIGHLIGHT_SLOPE * normal_deg.to_radians();
+            // Beyond that limit, it is the color's own error again.
+            let by_normal = HIGHLIGHT_SLOPE * normal_deg.min(F32.normal_deg).to_radians();
             for (got, expected) in color.iter().zip(expected.color) {
                 worst(&mut errors.color, (f64::from(*got) - expected).abs() - by_normal);
             }

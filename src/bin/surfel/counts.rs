@@ -9,7 +9,9 @@ use surfel::{
     Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
+    scene::{
+        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, SetUp, Shading, TileInvocations,
+    },
 };
 
 use crate::{
@@ -146,6 +148,7 @@ fn every_settings(all: bool) -> Vec<Settings> {
             }
         }
     }
+    every.push(Settings { rasterizer: Rasterizer::Perspective, set_up: SetUp::Once, ..Settings::default() });
     let tile_invocations = TileInvocations::Pixel;
     every.push(Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() });
     if all {
@@ -192,9 +195,9 @@ fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
 
 /// Layers and polygons are listed for each rasterizer and filter; the other options change them as they change opaque splats.
 fn is_listed(settings: &Settings, traits: Traits) -> bool {
-    let Settings { rasterizer, filter, tile_invocations, .. } = *settings;
+    let Settings { rasterizer, filter, tile_invocations, set_up, .. } = *settings;
     let beyond = traits.polygons || traits.transparent || traits.lit;
-    !beyond || *settings == Settings { rasterizer, filter, tile_invocations, ..Settings::default() }
+    !beyond || *settings == Settings { rasterizer, filter, tile_invocations, set_up, ..Settings::default() }
 }
 
 /// What tells a pipeline from others.

@@ -36,7 +36,7 @@ pub struct LimitInputs<'a> {
     pub settings: &'a Settings,
     /// Pipelines and their layouts.
     pub shaders: &'a Shaders,
-    /// Room for a set of 4 buffers.
+    /// Room for a set of lists.
     pub descriptors: &'a DescriptorPool,
     /// How often the work is done in the pass.
     pub repeats: u32,

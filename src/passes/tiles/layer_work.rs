@@ -119,7 +119,7 @@ mod tests {
                     (256, LastLayer::Drop),
                 ] {
                     let plan =
-                        TilePlan::of_boxes(&[(records, 10.0)], [512, 512], &limits, Invocations::Columns)
+                        TilePlan::of_boxes(1, &[(records, 10.0)], [512, 512], &limits, Invocations::Columns)
                             .unwrap();
                     let plan = plan.with_layers(most, lights);
                     let settings =

@@ -34,11 +34,21 @@ pub(in super::super) const WALKERS: u32 = 8;
 const LEAST_ENTRIES: u64 = 8 << 20;
 const ENTRIES_A_SPLAT: u64 = 16;
 
+/// Walks over all segments, one after the other, unless splats touch [`MOST_OF_MANY`] tiles at most.
+const MOST_ROUNDS: u32 = 16;
+const MOST_OF_MANY: u64 = 64;
+
 /// Chunks that spans can tell apart.
 const MOST_CHUNKS: usize = 8191;
 
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(in super::super) const RECORD_BYTES: u64 = 16;
+
+/// Tiles that a box of so many pixels touches at most: ⌈b / 8⌉ + 1 along a side.
+fn tiles_of(box_px: f64) -> u64 {
+    let a_side = (box_px / f64::from(TILE_PX)).ceil() + 1.0;
+    (a_side * a_side) as u64 // of what has no bound, the largest number
+}
 
 /// How splats are drawn by tiles.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,7 +90,7 @@ pub struct TilePlan {
 impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
     pub fn of(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> Option<Self> {
-        let boxes = draws.iter().map(|draw| (u64::from(draw.chunk.count), draw.largest_box_px));
+        let boxes: Vec<_> = draws.iter().flat_map(|draw| &draw.boxes).copied().collect();
         let invocations = Invocations::of(settings.tile_invocations, limits);
         let hidden = match settings.cull {
             // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
@@ -92,27 +102,26 @@ impl TilePlan {
         let hidden = hidden
             && invocations != Invocations::ColumnsAlone
             && !draws.iter().any(|draw| draw.chunk.transparent);
-        let plan = Self::of_boxes(&boxes.collect::<Vec<_>>(), settings.size_px, limits, invocations)?;
+        let plan = Self::of_boxes(draws.len(), &boxes, settings.size_px, limits, invocations)?;
         Some(if hidden { plan.without_hidden() } else { plan })
     }
 
-    /// The same for chunks of so many splats with boxes up to so many pixels.
+    /// The same for so many chunks with so many splats of boxes up to so many pixels.
     pub(super) fn of_boxes(
-        chunks: &[(u64, f64)],
+        chunks: usize,
+        boxes: &[(u32, f64)],
         [width, height]: [u32; 2],
         limits: &Limits,
         invocations: Invocations,
     ) -> Option<Self> {
         let range = limits.max_storage_buffer_range;
-        let records: u64 = chunks.iter().map(|(count, _)| count).sum();
+        let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
         let [tiles_x, tiles_y] = [width, height].map(|side| side.div_ceil(TILE_PX));
         let tile_count = tiles_x * tiles_y;
-        let bins = u64::from(tile_count) + chunks.len() as u64;
+        let bins = u64::from(tile_count) + chunks as u64;
         let segments_with_room = range / 4 / bins / u64::from(WALKERS) * u64::from(WALKERS);
-        let refused = records == 0
-            || records * RECORD_BYTES > range
-            || chunks.len() > MOST_CHUNKS
-            || segments_with_room == 0;
+        let refused =
+            records == 0 || records * RECORD_BYTES > range || chunks > MOST_CHUNKS || segments_with_room == 0;
         if refused {
             return None;
         }
@@ -120,28 +129,35 @@ impl TilePlan {
         let place_bits = PLACE_BITS.into_iter().find(has_places)?;
         let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
-        let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).min(range / 4);
-        let room_a_splat = (room / records).min(u64::from(most_a_side * most_a_side)) as u32;
-        let largest = chunks.iter().map(|(_, px)| *px).fold(0.0, f64::max);
-        // A box of b pixels touches ⌈b / 8⌉ + 1 tiles at most.
-        let bound = (largest / f64::from(TILE_PX)).ceil() + 1.0;
-        let fits = bound <= f64::from(most_a_side) && bound * bound <= f64::from(room_a_splat);
-        let most_tiles = if fits { (bound * bound) as u32 } else { room_a_splat };
         let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
         let segment_length = record_count.div_ceil(BLOCK).div_ceil(segments) * BLOCK;
+        let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).min(range / 4);
+        // Rounds are as long as if each of their records had the most; there must not be too many.
+        let in_rounds = u64::from(MOST_ROUNDS * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
+        let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);
+        // A splat that is left to the graphics pipeline has an entry, too.
+        let entries = |most: u64| -> u64 {
+            boxes.iter().map(|(count, px)| u64::from(*count) * tiles_of(*px).min(most)).sum()
+        };
+        let largest = boxes.iter().map(|(_, px)| *px).fold(0.0, f64::max);
+        // As many as there is room for if all have them; or as they have, where there is room for all.
+        let most_tiles =
+            if entries(most_of_all) <= room { tiles_of(largest) } else { room / records }.min(most_of_all);
+        let entry_room = entries(most_tiles);
+        let fits = largest <= f64::from((most_a_side - 1) * TILE_PX) && tiles_of(largest) <= most_tiles;
+        let most_tiles = most_tiles as u32;
         let walk_length = invocations.batch() * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
             tile_count,
             record_count,
-            chunk_count: chunks.len() as u32,
+            chunk_count: chunks as u32,
             segments,
             segment_length,
             round_length: (MOST_ITERATIONS / most_tiles).min(segment_length),
             place_bits,
             most_tiles,
-            // A splat that is left to the graphics pipeline has one.
-            entry_room: records * u64::from(most_tiles),
+            entry_room,
             walk_length,
             part_length: walk_length,
             layers_at_once: 1,
@@ -217,8 +233,8 @@ mod tests {
         Limits { max_storage_buffer_range: 1 << 27, ..Limits::for_tests() }
     }
 
-    fn plan(chunks: &[(u64, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
-        TilePlan::of_boxes(chunks, size_px, &limits(), Invocations::Columns)
+    fn plan(boxes: &[(u32, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
+        TilePlan::of_boxes(1, boxes, size_px, &limits(), Invocations::Columns)
     }
 
     #[test]
@@ -231,7 +247,10 @@ mod tests {
                     assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
                     assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
                     assert_eq!(plan.segment_length % BLOCK, 0);
-                    assert!(plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= count, "{plan:?}");
+                    assert!(
+                        plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= u64::from(count),
+                        "{plan:?}"
+                    );
                     let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
                     assert!(counts <= 1 << 27, "{plan:?}");
                     assert!(plan.walk_length / 8 * 2 < 65_535, "{plan:?}");
@@ -244,10 +263,23 @@ mod tests {
     fn splats_that_are_small_for_sure_leave_nothing_to_the_graphics_pipeline() {
         let small = plan(&[(154_000, 40.0)], [1024, 1024]).unwrap();
         assert!(!small.may_be_large && small.most_tiles == 36, "{small:?}");
+        // 64 each are more than there is room for, but few have them.
         assert!(plan(&[(154_000, 57.0)], [1024, 1024]).unwrap().may_be_large);
+        let mixed = plan(&[(150_000, 20.0), (4000, 57.0)], [1024, 1024]).unwrap();
+        assert!(!mixed.may_be_large && mixed.most_tiles == 81, "{mixed:?}");
+        assert_eq!(mixed.entry_room, 150_000 * 16 + 4000 * 81);
         assert!(plan(&[(10, 3.0), (10, f64::INFINITY)], [1024, 1024]).unwrap().may_be_large);
         // Too many for lists of 9 tiles each.
         assert!(plan(&[(5_000_000, 11.0)], [1024, 1024]).unwrap().may_be_large);
+    }
+
+    #[test]
+    fn spans_have_bits_for_every_place_of_the_image_and_for_splats_as_large_as_that_leaves() {
+        for (side_px, a_side) in [(16_128, 32), (16_129, 16), (32_640, 16), (32_641, 8), (65_472, 8)] {
+            let plan = |px| plan(&[(10, px)], [side_px, 100]).unwrap();
+            let largest = f64::from(8 * (a_side - 1));
+            assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{side_px}");
+        }
     }
 
     #[test]
@@ -255,6 +287,6 @@ mod tests {
         assert_eq!(plan(&[], [64, 64]), None);
         assert_eq!(plan(&[(8_388_609, 3.0)], [64, 64]), None);
         assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
-        assert_eq!(plan(&vec![(1, 3.0); 8192], [64, 64]), None);
+        assert_eq!(TilePlan::of_boxes(8192, &[(8192, 3.0)], [64, 64], &limits(), Invocations::Columns), None);
     }
 }
