@@ -30,9 +30,11 @@ const BLOCK: u32 = 32;
 /// Invocations of a workgroup that walks over segments.
 pub(in super::super) const WALKERS: u32 = 8;
 
-/// Entries of lists that there is room for at least, where the device allows it; and for each splat.
+/// Entries of lists that there is room for at least, where the device allows it; for each splat; and for each pixel: as much as
+/// sums of 16 bits take.
 const LEAST_ENTRIES: u64 = 8 << 20;
 const ENTRIES_A_SPLAT: u64 = 16;
+const ENTRIES_A_PIXEL: u64 = 4;
 
 /// Walks over all segments, one after the other, unless splats touch [`MOST_OF_MANY`] tiles at most.
 const MOST_ROUNDS: u32 = 16;
@@ -131,7 +133,8 @@ impl TilePlan {
         let record_count = u32::try_from(records).ok()?;
         let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
         let segment_length = record_count.div_ceil(BLOCK).div_ceil(segments) * BLOCK;
-        let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).min(range / 4);
+        let of_pixels = u64::from(width) * u64::from(height) * ENTRIES_A_PIXEL;
+        let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4);
         // Rounds are as long as if each of their records had the most; there must not be too many.
         let in_rounds = u64::from(MOST_ROUNDS * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
         let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);
@@ -265,6 +268,9 @@ mod tests {
         assert!(!small.may_be_large && small.most_tiles == 36, "{small:?}");
         // 64 each are more than there is room for, but few have them.
         assert!(plan(&[(154_000, 57.0)], [1024, 1024]).unwrap().may_be_large);
+        // A larger image has larger splats, and room for them.
+        assert!(!plan(&[(300_000, 60.0)], [4096, 4096]).unwrap().may_be_large);
+        assert!(plan(&[(300_000, 60.0)], [1024, 1024]).unwrap().may_be_large);
         let mixed = plan(&[(150_000, 20.0), (4000, 57.0)], [1024, 1024]).unwrap();
         assert!(!mixed.may_be_large && mixed.most_tiles == 81, "{mixed:?}");
         assert_eq!(mixed.entry_room, 150_000 * 16 + 4000 * 81);
