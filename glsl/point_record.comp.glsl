@@ -22,8 +22,9 @@ layout(local_size_x = 64) in;
 #include "inc/large.glsl"
 #endif
 #if defined(KEPT)
-layout(set = 1, binding = 1, std430) readonly buffer KeptStarts { uint kept_starts[]; };
-layout(set = 1, binding = 2, std430) readonly buffer KeptList { uint kept_list[]; };
+#define KEPT_STARTS 1
+#define KEPT_LIST 2
+#include "inc/kept_list.glsl"
 #endif
 
 void store_record(uint index, PointRecord record)
@@ -49,12 +50,10 @@ void main()
 {
     uint index = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
 #if defined(KEPT)
-    uint first = first_word_of_chunk();
-    uint place = kept_starts[first] + index;
-    if (place >= kept_starts[first + words_of_chunk()]) {
+    uint place;
+    if (!find_kept(index, place)) {
         return;
     }
-    index = kept_list[place];
 #endif
     if (index >= frame.splat_count) {
         return;

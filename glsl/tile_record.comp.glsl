@@ -19,8 +19,9 @@ layout(set = 1, binding = 2, std430) writeonly buffer Records2 { vec4 records2[]
 layout(set = 1, binding = 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
 layout(set = 1, binding = 4, std430) writeonly buffer Spans { uint spans[]; };
 #if defined(KEPT)
-layout(set = 1, binding = 20, std430) readonly buffer KeptStarts { uint kept_starts[]; };
-layout(set = 1, binding = 21, std430) readonly buffer KeptList { uint kept_list[]; };
+#define KEPT_STARTS 20
+#define KEPT_LIST 21
+#include "inc/kept_list.glsl"
 #endif
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
@@ -47,12 +48,9 @@ void main()
     uint index = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
     uint place = frame.first_record + index;
 #if defined(KEPT)
-    uint first = first_word_of_chunk();
-    place = kept_starts[first] + index;
-    if (place >= kept_starts[first + words_of_chunk()]) {
+    if (!find_kept(index, place)) {
         return;
     }
-    index = kept_list[place];
 #endif
     if (index >= frame.splat_count) {
         return;

@@ -3,7 +3,9 @@
 use super::{check::Check, layers};
 use crate::{
     hard_scenes::{self, Hard, transparent},
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, TileInvocations},
+    scene::{
+        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, SetUp, Settings, TileInvocations,
+    },
 };
 
 /// Width and height of every picture. A quarter of the pixels of the tests' pictures: there are many methods.
@@ -73,11 +75,12 @@ impl Suite {
         for (group, check) in [("early-depth", Check::EarlyDepth), ("repeat", Check::Repeat)] {
             for (_, rasterizer) in Rasterizer::METHODS {
                 for (index, hard) in scenes.iter().enumerate() {
-                    cases.extend(same_bits(index, hard, group, check, *rasterizer));
+                    cases.extend(of_scene(index, hard, group, check, *rasterizer));
                 }
             }
         }
         cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| by_pixels(index, hard)));
+        cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| set_up_once(index, hard)));
         let in_layers = transparent::all();
         cases.extend(layers::cases(scenes.len(), &in_layers));
         scenes.extend(in_layers);
@@ -189,8 +192,8 @@ fn against_oracle(index: usize, hard: &Hard, method: Method) -> Option<Case> {
 const WITH_PSI_E: [&str; 3] =
     ["sphere of disks", "random ellipses of aspect up to 20", "ground under and behind the eye"];
 
-/// Drawn twice, with the scene's own filter.
-fn same_bits(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: Rasterizer) -> Option<Case> {
+/// With the scene's own filter.
+fn of_scene(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: Rasterizer) -> Option<Case> {
     let settings = Settings { size_px: SIZE_PX, rasterizer, ..hard.settings.clone() };
     let name = [group, rasterizer.name(), settings.filter.name(), &slug(hard.name)].join(".");
     let allowed = can_draw(hard, &settings);
@@ -202,7 +205,14 @@ fn same_bits(index: usize, hard: &Hard, group: &str, check: Check, rasterizer: R
 fn by_pixels(index: usize, hard: &Hard) -> Option<Case> {
     let tile_invocations = TileInvocations::Pixel;
     let hard = Hard { settings: Settings { tile_invocations, ..hard.settings.clone() }, ..hard.clone() };
-    same_bits(index, &hard, "tile-invocations", Check::TileInvocations, Rasterizer::Compute)
+    of_scene(index, &hard, "tile-invocations", Check::TileInvocations, Rasterizer::Compute)
+}
+
+/// Points from records against the oracle: another driver may round otherwise in compute than in its vertex stage.
+fn set_up_once(index: usize, hard: &Hard) -> Option<Case> {
+    let settings = Settings { set_up: SetUp::Once, ..hard.settings.clone() };
+    let hard = Hard { settings, ..hard.clone() };
+    of_scene(index, &hard, "set-up-once", Check::Oracle, Rasterizer::Perspective)
 }
 
 /// Whether the method can draw the scene.

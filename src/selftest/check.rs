@@ -14,7 +14,7 @@ use crate::{
     prepare::PreparedScene,
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, FilterWeight, KernelEval, Layers, Settings, TileInvocations},
+    scene::{Accumulate, FilterWeight, KernelEval, Layers, SetUp, Settings, TileInvocations},
 };
 
 /// What is checked of a drawing.
@@ -140,6 +140,7 @@ impl<'a> Stage<'a> {
             kernel_eval: KernelEval::default(),
             early_depth: false,
             tile_invocations: TileInvocations::default(),
+            set_up: SetUp::default(),
             ..hard.settings.clone()
         };
         if !key.filter.adjusts() {
