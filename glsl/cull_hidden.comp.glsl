@@ -11,6 +11,8 @@
 #include "inc/depth_bound.glsl"
 #include "inc/groups.glsl"
 #include "inc/kept.glsl"
+#define KEPT_BLOCKS 4
+#include "inc/kept_blocks.glsl"
 #include "inc/depth_cells.glsl"
 
 #define MOST_CELLS 5
@@ -60,7 +62,7 @@ void main()
     uint seen = kept_bits[place];
     for (uint bits = seen; bits != 0; bits &= bits - 1) {
         uint i = findLSB(bits);
-        seen &= is_hidden(word * WORD + i) ? ~(1u << i) : 0xffffffffu;
+        seen &= is_hidden(first_splat_of(word) + i) ? ~(1u << i) : 0xffffffffu;
     }
     seen_bits[place] = seen;
 }

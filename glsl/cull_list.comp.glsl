@@ -4,6 +4,8 @@
 #include "inc/frame.glsl"
 #include "inc/groups.glsl"
 #include "inc/kept.glsl"
+#define KEPT_BLOCKS 4
+#include "inc/kept_blocks.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, std430) readonly buffer KeptBits { uint kept_bits[]; };
@@ -20,9 +22,10 @@ void main()
         return;
     }
     uint first = first_word_of_chunk();
+    uint first_splat = first_splat_of(word);
     uint place = kept_starts[first + word];
     for (uint bits = kept_bits[first + word]; bits != 0; bits &= bits - 1) {
-        kept_list[place] = word * WORD + findLSB(bits);
+        kept_list[place] = first_splat + findLSB(bits);
         place++;
     }
     if (word == 0) {

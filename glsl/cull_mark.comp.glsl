@@ -9,8 +9,10 @@
 // leaves out.
 #version 460
 #include "inc/setup.glsl"
-#include "inc/groups.glsl"
 #include "inc/kept.glsl"
+#define KEPT_BLOCKS 4
+#include "inc/kept_blocks.glsl"
+#include "inc/tiles.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, std430) writeonly buffer KeptBits { uint kept_bits[]; };
@@ -24,9 +26,13 @@ bool is_outside(vec3 p, float radius)
     if (FILTER == FILTER_ADJUST_PAPER || !(reach <= 0.25 * p.z)) {
         return false;
     }
-    vec2 c = abs(p.xy) / p.z;
-    vec2 edge = 0.5 * frame.size_px / frame.focal_px;
-    return any(greaterThan(c - edge, reach / p.z * (1.0 + c) + 2.0 * frame.filter_radius));
+    vec2 c = p.xy / p.z;
+    vec2 away = reach / p.z * (1.0 + abs(c)) + 2.0 * frame.filter_radius;
+    vec2 low_px = vec2(0.0, TILE * kept_rows.x);
+    vec2 high_px = vec2(frame.size_px.x, min(frame.size_px.y, TILE * kept_rows.y));
+    vec2 low = (low_px - 0.5 * frame.size_px) / frame.focal_px;
+    vec2 high = (high_px - 0.5 * frame.size_px) / frame.focal_px;
+    return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
 }
 
 bool may_be_seen(uint index)
@@ -42,11 +48,13 @@ void main()
     if (word >= words_of_chunk()) {
         return;
     }
-    uint bits = 0;
-    for (uint i = 0; i < WORD; i++) {
-        uint index = word * WORD + i;
-        bool kept = may_be_seen(min(index, frame.splat_count - 1)) && index < frame.splat_count;
-        bits |= kept ? 1u << i : 0u;
+    uint first = first_splat_of(word);
+    uint end = min(first + WORD, frame.splat_count);
+    bool all_kept = is_all_kept(word);
+    uint bits = all_kept && first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
+    // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
+    for (uint index = all_kept ? end : first; index < end; index++) {
+        bits |= may_be_seen(index) ? 1u << (index - first) : 0u;
     }
     kept_bits[first_word_of_chunk() + word] = bits;
 }

@@ -21,11 +21,9 @@ layout(local_size_x = 64) in;
 #define LARGE_BITS_ACCESS readonly
 #include "inc/large.glsl"
 #endif
-#if defined(KEPT)
 #define KEPT_STARTS 1
 #define KEPT_LIST 2
 #include "inc/kept_list.glsl"
-#endif
 
 void store_record(uint index, PointRecord record)
 {
@@ -48,14 +46,9 @@ bool is_drawn_elsewhere(uint index)
 
 void main()
 {
-    uint index = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
-#if defined(KEPT)
+    uint index;
     uint place;
-    if (!find_kept(index, place)) {
-        return;
-    }
-#endif
-    if (index >= frame.splat_count) {
+    if (!find_splat(index, place)) {
         return;
     }
     Mapping m;

@@ -18,10 +18,12 @@ layout(set = 1, binding = 1, std430) writeonly buffer Records1 { vec4 records1[]
 layout(set = 1, binding = 2, std430) writeonly buffer Records2 { vec4 records2[]; };
 layout(set = 1, binding = 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
 layout(set = 1, binding = 4, std430) writeonly buffer Spans { uint spans[]; };
-#if defined(KEPT)
 #define KEPT_STARTS 20
 #define KEPT_LIST 21
 #include "inc/kept_list.glsl"
+#if defined(KEPT)
+#define KEPT_BLOCKS 22
+#include "inc/kept_blocks.glsl"
 #endif
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
@@ -40,19 +42,23 @@ uint span_of(Mapping m)
     if (max(more.x, more.y) > MOST_MORE || (more.x + 1) * (more.y + 1) > MOST_TILES) {
         return large;
     }
+#if defined(KEPT)
+    // Of the band's rows. Behind the choice above, so that a splat is drawn the same way in every band.
+    uint last_y = min(first.y + more.y, kept_rows.y - 1);
+    first.y = max(first.y, kept_rows.x);
+    if (first.y > last_y) {
+        return SPAN_NONE;
+    }
+    more.y = last_y - first.y;
+#endif
     return span_from(first, more);
 }
 
 void main()
 {
-    uint index = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
-    uint place = frame.first_record + index;
-#if defined(KEPT)
-    if (!find_kept(index, place)) {
-        return;
-    }
-#endif
-    if (index >= frame.splat_count) {
+    uint index;
+    uint place;
+    if (!find_splat(index, place)) {
         return;
     }
     Mapping m;

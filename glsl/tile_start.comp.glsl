@@ -77,7 +77,7 @@ void main()
         inside = more.y > 0;
         if (more.y > 0) {
             run_first = more.w > 0 ? bin : run_first;
-            tile_runs[before.w - 1] = uvec2(run_first, bin + 1 - run_first);
+            tile_runs[before.w - 1] = uvec2(push.first_tile + run_first, bin + 1 - run_first);
         }
         if (bin >= push.tile_count) {
             draw_quads(ARGUMENTS_CHUNKS + 4 * (bin - push.tile_count), entries, before.x - entries);

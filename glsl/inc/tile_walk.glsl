@@ -54,7 +54,7 @@ void walk()
                 width = more.x + 1;
                 left = width * (more.y + 1);
                 in_row = width;
-                tile = first.x + first.y * push.tiles_x;
+                tile = first.x + first.y * push.tiles_x - push.first_tile;
             }
         }
         if (left > 0) {

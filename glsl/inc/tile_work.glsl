@@ -49,7 +49,8 @@ bool find_work(out Work work)
 // The uppermost pixel of the column.
 ivec2 top_pixel(uint tile)
 {
-    return TILE * ivec2(tile % push.tiles_x, tile / push.tiles_x) + ivec2(gl_LocalInvocationID.x, 0);
+    uint of_image = push.first_tile + tile;
+    return TILE * ivec2(of_image % push.tiles_x, of_image / push.tiles_x) + ivec2(gl_LocalInvocationID.x, 0);
 }
 
 // The pixel of one of the invocation's rows.

@@ -27,7 +27,8 @@
 struct TileConstants {
     vec2 half_size_px;
     uint tiles_x;        // tiles in a row
-    uint tile_count;
+    uint first_tile;     // of the band of rows that lists are of: all of the image, or as much as memory is meant for
+    uint tile_count;     // of the band; all tiles are numbered from its first one
     uint bin_count;      // tiles, then chunks
     uint record_count;   // at most; of culled splats, as many as are kept
     uint segments;

@@ -30,21 +30,33 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// near the eye plane.
 ///
 /// Two points of a splat at x₁, x₂ in the image plane with depths z₁, z₂: `x₁ − x₂ = ((X₁ − X₂) − x₂ (z₁ − z₂)) / z₁`,
-/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it. The
-/// filter makes each half axis at most h longer at the center's depth p, which is up to `p / (p − r)` as much where the disk
-/// is nearest: `2h / (1 − r/p)` more. Three pixels for rounding.
+/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it. A
+/// filter adds its covariance, or less: of half an axis l it makes √(l² + h²) at the center's depth p (and 0.2% more: 1%
+/// here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. Three pixels for rounding.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
     box_px(bound, bound.largest_radius)
 }
 
 /// The same of splats with smaller radii among them.
 pub fn box_px(bound: &SizeBound, radius: f64) -> f64 {
+    box_within_px(bound, radius, f64::INFINITY)
+}
+
+/// The same of splats all of whose images lie within ±`most_x` of the image plane.
+pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;
     }
     let half_image = 0.5 * bound.size_px[0].max(bound.size_px[1]) / bound.focal_px;
-    let splat = 2.0 * radius * (1.0 + half_image) / bound.nearest_z * bound.focal_px;
-    splat + 2.0 * bound.filter_px / (1.0 - LARGEST_RADIUS_RATIO) + 3.0
+    let splat_px = 2.0 * radius * (1.0 + half_image.min(most_x)) / bound.nearest_z * bound.focal_px;
+    let filter_px = 2.0 * bound.filter_px * (1.0 + radius / bound.nearest_z);
+    1.01 * splat_px.hypot(filter_px) + 3.0
+}
+
+/// Pixels along a side whose centers such a box holds: half of the rounding is for `BOX_MARGIN_PX` of `glsl/inc/box.glsl`, and one
+/// is what a length has more than whole pixels.
+pub fn pixels_along(box_px: f64) -> f64 {
+    (box_px - 1.5).floor()
 }
 
 #[cfg(test)]

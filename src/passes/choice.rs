@@ -123,14 +123,18 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
     };
     let hidden = if part.leaves_hidden_out(settings) { "; what is hidden, left out of sums" } else { "" };
     let recorded = if part.recorded { "; set up once" } else { "" };
-    let kept = if part.kept { "; those that may be seen, by a list" } else { "" };
+    let kept = if part.kept.is_some() { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(&part.splats, !part.meshes.is_empty(), settings, limits)) {
         (Some(plan), Ok(why)) => {
             let (most, draws) = (plan.most_tiles, plan.invocations.draws());
             let large =
                 if plan.may_be_large { "; what touches more, or comes near the eye, as quads" } else { "" };
+            let bands = match part.bands.len() {
+                0 => String::new(),
+                bands => format!(", in {bands} bands for the lists' memory"),
+            };
             format!(
-                "by tiles of 8x8 pixels in compute ({why}), {draws} an invocation, splats of up to {most} tiles{large}"
+                "by tiles of 8x8 pixels in compute ({why}), {draws} an invocation, splats of up to {most} tiles{large}{bands}"
             )
         }
         (None, Ok(_)) if !part.meshes.is_empty() => {

@@ -37,8 +37,10 @@ pub struct FrameConstants {
     /// The local origin seen from the eye, in local space's axes and the view unit: x, y, z in f32, then what f32 left of
     /// each.
     pub origin_from_eye: [f32; 6],
-    /// Where the chunk's begin among all records of tiles; 0 where there are none.
+    /// The number of the chunk's first splat among those of all chunks; of listed blocks, among theirs.
     pub first_record: u32,
+    /// Blocks of the chunk that are looked at for splats that may be seen.
+    pub listed_blocks: u32,
 }
 
 /// What the paper's own programs are told; see `glsl/inc/paper.glsl`.
@@ -95,7 +97,9 @@ pub struct TileConstants {
     pub half_size_px: [f32; 2],
     /// Tiles in a row.
     pub tiles_x: u32,
-    /// Tiles of the image.
+    /// The first tile of the band.
+    pub first_tile: u32,
+    /// Tiles of the band.
     pub tile_count: u32,
     /// Lists: of tiles, then of chunks.
     pub bin_count: u32,

@@ -7,7 +7,8 @@ use ash::vk;
 
 use super::{
     Draw, Inputs,
-    pipelines::{ComputeKey, Layout},
+    listed::Listed,
+    pipelines::{ComputeKey, LARGE_BINDINGS, Layout},
     splat_pass::{Groups, dispatch},
     tiles::rows_of,
     variant::{Constants, culls},
@@ -18,15 +19,19 @@ use crate::{
         Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
+    prepare::BLOCK_SPLATS,
     shaders::{self, Shader},
     vk::{ComputePipeline, Limits},
 };
 
-/// Splats of a word of bits: each chunk begins one, as in `glsl/inc/kept.glsl`.
+/// Splats of a word of bits, as in `glsl/inc/kept.glsl`.
 const WORD: u32 = 32;
 
 /// Invocations of a workgroup, one a word, as in `glsl/cull_mark.comp.glsl`.
 const GROUP: u32 = 64;
+
+/// The binding of the blocks in the set of lists.
+pub(super) const BLOCKS: u32 = LARGE_BINDINGS;
 
 /// Points of an indexed draw; more would need `fullDrawIndexUint32`.
 const MOST_INDICES: u32 = 1 << 24;
@@ -41,29 +46,32 @@ pub(super) fn may_leave_out(draws: &[Draw<'_>]) -> bool {
 
 /// Whether the device has room for a list.
 pub(super) fn has_room(draws: &[Draw<'_>], by_tiles: bool, limits: &Limits) -> bool {
-    words_of(draws) * u64::from(WORD) * 4 < limits.max_storage_buffer_range.min(1 << 32)
+    let words: u64 = draws.iter().map(|draw| draw.chunk.blocks.len() as u64).sum();
+    words * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
         && (by_tiles || draws.iter().all(|draw| draw.chunk.count <= MOST_INDICES))
 }
 
-/// Gives each chunk the number of its first splat among all; with a list each begins a word of bits.
-pub(super) fn number_splats(draws: &mut [Draw<'_>], kept: bool) {
+/// Gives each chunk the number of its first splat among all.
+pub(super) fn number_splats(draws: &mut [Draw<'_>]) {
     let mut next = 0_u32;
     for draw in draws {
         draw.constants.first_record = next;
-        let count = if kept { draw.chunk.count.div_ceil(WORD) * WORD } else { draw.chunk.count };
         // Where 32 bits are too few, nobody looks at it.
-        next = next.wrapping_add(count);
+        next = next.wrapping_add(draw.chunk.count);
     }
 }
 
 fn words_of(draws: &[Draw<'_>]) -> u64 {
-    draws.iter().map(|draw| u64::from(draw.chunk.count.div_ceil(WORD))).sum()
+    let blocks: u64 = draws.iter().map(|draw| u64::from(draw.constants.listed_blocks)).sum();
+    blocks * u64::from(BLOCK_SPLATS / WORD)
 }
 
 /// The kept splats of a part.
 pub(super) struct Kept {
     /// A bit a splat.
     pub bits: Handle<Buffer>,
+    /// Where they are looked for.
+    pub blocks: Handle<Buffer>,
     /// How many are kept before each word of bits, then in all.
     starts: Handle<Buffer>,
     /// Their indices within their chunks.
@@ -78,17 +86,24 @@ pub(super) struct Kept {
 pub(super) struct KeptIds {
     pub starts: ResourceId,
     pub list: ResourceId,
+    pub blocks: ResourceId,
     arguments: Vec<ResourceId>,
 }
 
 impl Kept {
-    fn create(graph: &mut Graph<Body<'_>>, what: &str, bits: Handle<Buffer>, draws: &[Draw<'_>]) -> Self {
+    fn create(
+        graph: &mut Graph<Body<'_>>,
+        what: &str,
+        (bits, blocks): (Handle<Buffer>, Handle<Buffer>),
+        draws: &[Draw<'_>],
+    ) -> Self {
         let words = words_of(draws);
         let mut buffer = |part: &str, words: u64| {
             graph.create_buffer(&format!("{part} of {what}"), BufferDesc { size_bytes: 4 * words })
         };
         Self {
             bits,
+            blocks,
             starts: buffer("starts", words + 1),
             list: buffer("list", words * u64::from(WORD)),
             arguments: (0..draws.len())
@@ -101,14 +116,15 @@ impl Kept {
         KeptIds {
             starts: self.starts.id(),
             list: self.list.id(),
+            blocks: self.blocks.id(),
             arguments: self.arguments.iter().map(Handle::id).collect(),
         }
     }
 
     /// Declares that a pass dispatches one invocation a kept splat.
     pub fn read_by_compute<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        let pass =
-            pass.read(&self.starts, Access::StorageReadCompute).read(&self.list, Access::StorageReadCompute);
+        let lists = [&self.starts, &self.list, &self.blocks];
+        let pass = lists.into_iter().fold(pass, |pass, list| pass.read(list, Access::StorageReadCompute));
         self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
     }
 
@@ -161,20 +177,30 @@ fn keys(variant: &Constants) -> Vec<ComputeKey> {
     ]
 }
 
-/// Declares the three passes. `kind`, in front of the names, tells several such lists of a frame apart.
-pub(super) fn list_kept<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Kept> {
+/// Declares the passes. `kind`, in front of the names, tells several such lists of a frame apart.
+pub(super) fn list_kept<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    kind: &str,
+    listed: &'a Listed,
+) -> Result<Kept> {
     let what = format!("kept {kind}splats");
+    let blocks = listed.upload(graph, &what);
     let mut bits = create_bits(graph, inputs, &what);
-    let (id, mark) = (bits.id(), pipelines(inputs, |draw| keys(&draw.variant).swap_remove(0))?);
-    graph.pass(&format!("mark {what}")).write(&mut bits, Access::StorageWriteCompute, Start::Discard).finish(
-        Box::new(move |context| {
+    let (id, blocks_id) = (bits.id(), blocks.id());
+    let mark = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(0))?;
+    graph
+        .pass(&format!("mark {what}"))
+        .read(&blocks, Access::StorageReadCompute)
+        .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
+        .finish(Box::new(move |context| {
             for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                dispatch(context, inputs, draw, pipeline, &[(0, id)], groups_of(draw))?;
+                let buffers = [(0, id), (BLOCKS, blocks_id)];
+                dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
             }
             Ok(())
-        }),
-    );
-    list_marked(graph, inputs, &what, bits)
+        }));
+    list_marked(graph, inputs, &what, (bits, blocks))
 }
 
 /// A bit a splat, which some pass is to set.
@@ -195,10 +221,10 @@ pub(super) fn list_marked<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     what: &str,
-    bits: Handle<Buffer>,
+    bits_of_blocks: (Handle<Buffer>, Handle<Buffer>),
 ) -> Result<Kept> {
-    let mut kept = Kept::create(graph, what, bits, inputs.draws);
-    let KeptIds { starts, list, arguments } = kept.ids();
+    let mut kept = Kept::create(graph, what, bits_of_blocks, inputs.draws);
+    let KeptIds { starts, list, blocks, arguments } = kept.ids();
     let bits = kept.bits.id();
     let scan = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(1))?;
     graph
@@ -220,13 +246,14 @@ pub(super) fn list_marked<'a>(
         .pass(&format!("list {what}"))
         .read(&kept.bits, Access::StorageReadCompute)
         .read(&kept.starts, Access::StorageReadCompute)
+        .read(&kept.blocks, Access::StorageReadCompute)
         .write(&mut kept.list, Access::StorageWriteCompute, Start::Discard);
     for arguments in &mut kept.arguments {
         pass = pass.write(arguments, Access::StorageWriteCompute, Start::Discard);
     }
     pass.finish(Box::new(move |context| {
         for ((draw, pipeline), arguments) in inputs.draws.iter().zip(&place).zip(&arguments) {
-            let buffers = [(0, bits), (1, starts), (2, list), (3, *arguments)];
+            let buffers = [(0, bits), (1, starts), (2, list), (3, *arguments), (BLOCKS, blocks)];
             dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
         }
         Ok(())
@@ -236,7 +263,7 @@ pub(super) fn list_marked<'a>(
 
 /// Workgroups of one invocation a word of bits.
 pub(super) fn groups_of(draw: &Draw<'_>) -> Groups<'static> {
-    Groups::Rows(rows_of(draw.chunk.count.div_ceil(WORD * GROUP)))
+    Groups::Rows(rows_of((draw.constants.listed_blocks * (BLOCK_SPLATS / WORD)).div_ceil(GROUP)))
 }
 
 /// The three passes, where there are splats of a variant to leave out.

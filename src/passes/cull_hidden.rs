@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::{
     Inputs,
-    cull::{Kept, create_bits, groups_of, list_marked, pipelines},
+    cull::{BLOCKS, Kept, create_bits, groups_of, list_marked, pipelines},
     pipelines::{ComputeKey, Layout},
     splat_pass::dispatch,
     variant::Constants,
@@ -33,7 +33,7 @@ pub(super) fn hidden_key(variant: &Constants) -> ComputeKey {
 pub(super) fn list_seen<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    kept: &Kept,
+    kept: Kept,
     depth: &Handle<Image>,
 ) -> Result<Kept> {
     let blocks = inputs.settings.size_px.map(|side| side.div_ceil(BLOCK_PX));
@@ -64,19 +64,20 @@ pub(super) fn list_seen<'a>(
 
     let what = "seen splats";
     let mut bits = create_bits(graph, inputs, what);
-    let (kept_id, seen_id) = (kept.bits.id(), bits.id());
+    let (kept_id, seen_id, blocks_id) = (kept.bits.id(), bits.id(), kept.blocks.id());
     let mark = pipelines(inputs, |draw| hidden_key(&draw.variant))?;
     graph
         .pass("mark seen splats")
         .read(&kept.bits, Access::StorageReadCompute)
+        .read(&kept.blocks, Access::StorageReadCompute)
         .read(&cells, Access::StorageReadCompute)
         .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
             for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                let buffers = [(0, kept_id), (1, seen_id), (2, cells_id)];
+                let buffers = [(0, kept_id), (1, seen_id), (2, cells_id), (BLOCKS, blocks_id)];
                 dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
             }
             Ok(())
         }));
-    list_marked(graph, inputs, what, bits)
+    list_marked(graph, inputs, what, (bits, kept.blocks))
 }

@@ -3,9 +3,10 @@
 use glam::{DVec3, DVec4};
 
 use super::{
+    blocks::{Look, SeenBlock, seen_blocks},
     constants::FrameConstants,
     splat_shaders::Primitive,
-    variant::{Constants, IN_LAYERS, OUTWARD, PACKED, splat_constants},
+    variant::{Constants, IN_LAYERS, OUTWARD, PACKED, culls, splat_constants},
 };
 use crate::{
     math::size::{SizeBound, box_px, largest_box_px},
@@ -15,6 +16,7 @@ use crate::{
 };
 
 /// A chunk in this frame.
+#[derive(Clone)]
 pub struct Draw<'a> {
     /// The splats.
     pub chunk: &'a Chunk,
@@ -24,6 +26,10 @@ pub struct Draw<'a> {
     pub largest_box_px: f64,
     /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as above.
     pub boxes: Vec<(u32, f64)>,
+    /// From where, for [`Self::seen_blocks`].
+    view: ViewFromLocal,
+    bound: SizeBound,
+    bounded: bool,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
@@ -31,6 +37,14 @@ pub struct Draw<'a> {
     pub may_be_large: bool,
     /// The specialization constants of its pipelines.
     pub(super) variant: Constants,
+}
+
+impl Draw<'_> {
+    /// The blocks in which there may be something to see.
+    pub(super) fn seen_blocks(&self) -> Vec<SeenBlock> {
+        let Self { view, bound, bounded, .. } = self;
+        seen_blocks(self.chunk, &Look { view, bound, culls: culls(&self.variant), bounded: *bounded })
+    }
 }
 
 /// The low-pass filter's radius: √2 pixels (Guennebaud et al. 2006, section 4.1).
@@ -79,6 +93,9 @@ pub fn draws<'a>(
             },
             largest_box_px,
             boxes: chunk.radii.iter().map(box_of).collect(),
+            view,
+            bound,
+            bounded: settings.filter != Filter::AdjustPaper,
             wholly_in_view: wholly_in_view(chunk, &view, &bound),
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
@@ -134,6 +151,7 @@ pub(super) fn frame_constants(
         view_from_local_scale: view.view_from_local_scale as f32,
         origin_from_eye: in_two_parts(view.origin_from_eye),
         first_record: 0,
+        listed_blocks: 0,
     }
 }
 

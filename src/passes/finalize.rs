@@ -12,7 +12,7 @@ use super::{
     constants::FinalizeConstants,
     fullscreen::{draw_fullscreen, read_set},
     pipelines::{GraphicsKey, Layout},
-    tiles::{SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles},
+    tiles::{SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     variant::{Constants, shading_constants, transition_constant},
 };
 use crate::{
@@ -35,7 +35,7 @@ pub(super) struct Opaque<'a> {
     /// The depth of polygons, or of the splats where those are nearer.
     pub polygon_depth: Option<Handle<Image>>,
     /// The tiles that have splats, where all is opaque splats and outside of them there is nothing.
-    pub tiles: Option<Tiles<'a>>,
+    pub tiles: Vec<Tiles<'a>>,
 }
 
 impl Opaque<'_> {
@@ -141,8 +141,8 @@ pub(super) fn finalize<'a>(
         lights: inputs.lights,
     };
     let key = key(inputs.settings, target_format, traits);
-    if let (Some(tiles), Some(key)) = (&opaque.tiles, &key) {
-        return finalize_tiles(graph, inputs, (tiles, splats, lights), key, target);
+    if let (false, Some(key)) = (opaque.tiles.is_empty(), &key) {
+        return finalize_tiles(graph, inputs, (&opaque.tiles, splats, lights), key, target);
     }
     let pipeline = key.map(|key| inputs.shaders.graphics(key)).transpose()?;
     let constants = constants(inputs);
@@ -187,7 +187,7 @@ pub(super) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
 fn finalize_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    (tiles, splats, lights): (&Tiles<'a>, Option<&Sums>, Option<&Handle<Buffer>>),
+    (tiles, splats, lights): (&[Tiles<'a>], Option<&Sums>, Option<&Handle<Buffer>>),
     whole: &GraphicsKey,
     target: &mut Handle<Image>,
 ) -> Result<()> {
@@ -195,7 +195,7 @@ fn finalize_tiles<'a>(
     let constants = constants(inputs);
     let ids = sums_descriptors(splats, None, None);
     let seen = SeenTiles::of(tiles);
-    let mut pass = tiles.read_seen(graph.pass("finalize"));
+    let mut pass = read_seen(tiles, graph.pass("finalize"));
     for image in splats.into_iter().flat_map(|sums| [&sums.color, &sums.normal]) {
         pass = pass.read(image, Access::SampledFragment);
     }
@@ -206,7 +206,7 @@ fn finalize_tiles<'a>(
     pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
             let set = read_set(context, inputs, &inputs.shaders.sums_set, (&ids, lights))?;
-            draw_quads_of_tiles(context, inputs, &pipeline, seen, set, bytemuck::bytes_of(&constants))
+            draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, bytemuck::bytes_of(&constants))
         }));
     Ok(())
 }

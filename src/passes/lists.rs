@@ -37,7 +37,7 @@ impl Lists {
     /// Declares the passes that make them. `kind`, in front of the names, tells those of several parts apart.
     pub fn make<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Self> {
         let large = list_large(graph, inputs, kind)?;
-        let kept = inputs.kept.then(|| list_kept(graph, inputs, kind)).transpose()?;
+        let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
         let set_up = || set_up_points(graph, inputs, kind, &large, kept.as_ref());
         let records = inputs.recorded.then(set_up).transpose()?;
         Ok(Self { large, kept, records })
@@ -51,7 +51,7 @@ impl Lists {
         depth: &Handle<Image>,
     ) -> Result<Self> {
         let kept = match self.kept {
-            Some(kept) if inputs.leaves_hidden_out => Some(list_seen(graph, inputs, &kept, depth)?),
+            Some(kept) if inputs.leaves_hidden_out => Some(list_seen(graph, inputs, kept, depth)?),
             kept => kept,
         };
         Ok(Self { kept, ..self })

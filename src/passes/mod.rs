@@ -1,6 +1,7 @@
 //! The passes of a frame: one pass, one file, one function that declares it.
 
 mod accumulate;
+mod blocks;
 mod catalog;
 mod choice;
 mod constants;
@@ -15,6 +16,7 @@ mod floor;
 mod formula;
 mod fullscreen;
 mod gate;
+mod inputs;
 #[cfg(feature = "counts")]
 mod instructions;
 mod kernel_texture;
@@ -25,8 +27,10 @@ mod layer_visibility;
 mod layers;
 mod lights;
 mod list_large;
+mod listed;
 mod lists;
 mod mesh_draws;
+mod needs;
 mod paper;
 mod parts;
 mod pipelines;
@@ -39,6 +43,8 @@ mod splat_shaders;
 mod tiles;
 mod variant;
 mod visibility;
+
+use std::slice;
 
 use ash::vk;
 
@@ -53,9 +59,11 @@ pub use floor::{
 };
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
+pub use inputs::Inputs;
 #[cfg(feature = "counts")]
 pub use instructions::{Counter, counts_of};
 pub use mesh_draws::{MeshDraw, mesh_draws};
+pub use needs::{Needs, needs};
 pub use paper::paper_frame;
 pub use parts::{Part, Parts};
 pub use pipelines::{Shaders, room_of_lists};
@@ -63,90 +71,12 @@ pub use readback::readback;
 pub use recipe::{PipelineRecipe, PipelineStages};
 pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
 
-use self::{finalize::Opaque, lists::Lists};
+use self::{finalize::Opaque, lists::Lists, tiles::TileStart};
 use crate::{
     error::Result,
-    graph::{Graph, Handle, Image, ImageDesc, execute::Body},
-    scene::{Accumulate, Camera, Layers, Settings},
-    vk::{DescriptorPool, Occlusion, PoolRoom},
+    graph::{Graph, Handle, Image, execute::Body},
+    scene::Accumulate,
 };
-
-/// What all passes of a frame are given.
-#[derive(Clone, Copy)]
-pub struct Inputs<'a> {
-    /// The splats that are drawn.
-    pub draws: &'a [Draw<'a>],
-    /// The polygons.
-    pub meshes: &'a [MeshDraw<'a>],
-    /// How the splats are drawn by tiles, where they are.
-    pub tiles: Option<&'a TilePlan>,
-    /// Only splats of a list are set up.
-    pub kept: bool,
-    /// Points are set up once, for all passes.
-    pub recorded: bool,
-    /// What is hidden is left out before sums.
-    pub leaves_hidden_out: bool,
-    /// The scene's own lights.
-    pub lights: u32,
-    /// From where.
-    pub camera: &'a Camera,
-    /// How.
-    pub settings: &'a Settings,
-    /// Pipelines and their layouts.
-    pub shaders: &'a Shaders,
-    /// Descriptor sets that live as long as the frame; room for [`needs`].
-    pub descriptors: &'a DescriptorPool,
-    /// The queries of [`needs`], where it has any.
-    pub occlusion: Option<&'a Occlusion>,
-}
-
-impl<'a> Inputs<'a> {
-    /// Those of a frame in which nothing is drawn yet.
-    pub fn new(
-        camera: &'a Camera,
-        settings: &'a Settings,
-        shaders: &'a Shaders,
-        descriptors: &'a DescriptorPool,
-    ) -> Self {
-        let (draws, meshes): (&[Draw<'_>], &[MeshDraw<'_>]) = (&[], &[]);
-        Self {
-            draws,
-            meshes,
-            tiles: None,
-            kept: false,
-            recorded: false,
-            leaves_hidden_out: false,
-            lights: 0,
-            camera,
-            settings,
-            shaders,
-            descriptors,
-            occlusion: None,
-        }
-    }
-
-    /// The same for one part of the scene.
-    fn of(self, part: &'a Part<'a>) -> Self {
-        Self {
-            draws: &part.splats,
-            meshes: &part.meshes,
-            tiles: part.tiles.as_ref(),
-            kept: part.kept,
-            recorded: part.recorded,
-            leaves_hidden_out: part.leaves_hidden_out(self.settings),
-            ..self
-        }
-    }
-
-    fn extent(&self) -> vk::Extent2D {
-        let [width, height] = self.settings.size_px;
-        vk::Extent2D { width, height }
-    }
-
-    fn image(&self, format: vk::Format) -> ImageDesc {
-        ImageDesc { format, extent: self.extent() }
-    }
-}
 
 /// The format of the sums.
 fn sum_format(accumulate: Accumulate) -> vk::Format {
@@ -158,47 +88,6 @@ fn sum_format(accumulate: Accumulate) -> vk::Format {
 
 /// The visibility pass's reversed depth: near / z.
 const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
-
-/// What a frame takes for itself from whoever records it, at most.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Needs {
-    /// Descriptor sets.
-    pub room: PoolRoom,
-    /// Queries whether anything was drawn.
-    pub occlusion_queries: u32,
-}
-
-/// What a frame takes, at most. `counts_draws`: the device can take the number of draws from a buffer.
-pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Needs {
-    // With large splats or records.
-    let listed =
-        |part: &Part<'_>| part.splats.iter().filter(|draw| draw.may_be_large || part.recorded).count() as u32;
-    let layers = if parts.transparent.is_empty() { 0 } else { settings.layers.most() };
-    // For each such chunk: three passes that list large ones, one that makes records, two that draw them, in each layer.
-    let lists = 6 * listed(&parts.opaque) + (4 + 2 * layers) * listed(&parts.transparent);
-    // Of kept splats: three passes that list them, twice, and one that sets them up.
-    let kept = |part: &Part<'_>| if part.kept { 8 * part.splats.len() as u32 } else { 0 };
-    let lists = lists + kept(&parts.opaque) + kept(&parts.transparent);
-    // What fragments read: in accumulation; in each layer's visibility, accumulation and polygons.
-    let reads = 1 + 3 * layers;
-    // Sums: for finalization and each layer.
-    let sums = 1 + layers;
-    let by_tiles = [&parts.opaque, &parts.transparent].into_iter().filter_map(|part| part.tiles.as_ref());
-    let tiles = by_tiles.map(tiles::room).fold(PoolRoom::default(), |sum, room| sum.plus(&room));
-    let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
-    Needs {
-        room: PoolRoom {
-            sets: reads + sums + 1,
-            buffers: reads + sums,
-            images: 2 * reads + 5 * sums + 4,
-            filtered_images: reads,
-            storage_images: 0,
-        }
-        .plus(&room_of_lists(lists))
-        .plus(&tiles),
-        occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
-    }
-}
 
 /// The whole frame. What a scene does not have takes no pass: splats, polygons, transparent things; large splats are listed
 /// where one may exceed the device's largest point or come near the eye plane; the surface is exported as data where that
@@ -227,10 +116,7 @@ pub fn frame<'a>(
         false => {
             let inputs = inputs.of(&parts.transparent);
             match inputs.tiles {
-                Some(plan) => {
-                    let tiles = tiles::list(graph, inputs, "transparent ", plan)?;
-                    Some(tiles::layers(graph, inputs, &tiles, opaque.depth(), lights.as_ref())?)
-                }
+                Some(_) => Some(tiles::layers(graph, inputs, opaque.depth(), lights.as_ref())?),
                 None => layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?,
             }
         }
@@ -281,18 +167,23 @@ fn opaque_by_tiles<'a>(
     with_depth: bool,
     complete: bool,
 ) -> Result<Opaque<'a>> {
+    if !inputs.bands.is_empty() {
+        return opaque_by_bands(graph, inputs, plan, with_depth, complete);
+    }
     let complete = complete || plan.may_be_large || !inputs.meshes.is_empty();
     let mut tiles = tiles::list(graph, inputs, "", plan)?;
     let mut images = tiles::TileImages::create(graph, inputs, plan, complete);
     let mut opaque = Opaque::default();
     let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, &tiles)).transpose()?;
     if inputs.meshes.is_empty() {
-        tiles::fused(graph, inputs, &mut tiles, &mut images, large.as_ref(), (with_depth, complete))?;
+        let start = if complete { TileStart::Cleared } else { TileStart::Empty };
+        tiles::fused(graph, inputs, "", &mut tiles, &mut images, large.as_ref(), (with_depth, start))?;
     } else {
         tiles::visibility(graph, inputs, &tiles, &mut images, large.as_ref())?;
     }
     if complete {
-        opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, &tiles, &images.depth, large)?);
+        opaque.splat_depth =
+            Some(tiles::depth_buffer(graph, inputs, slice::from_ref(&tiles), &images.depth, large)?);
     }
     if !inputs.meshes.is_empty() {
         let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
@@ -304,6 +195,32 @@ fn opaque_by_tiles<'a>(
         tiles::sum_large(graph, inputs, &tiles, &mut images, depths, with_depth)?;
     }
     opaque.splats = Some(images.sums);
-    opaque.tiles = (!complete).then_some(tiles);
+    opaque.tiles = if complete { Vec::new() } else { vec![tiles] };
+    Ok(opaque)
+}
+
+/// The same, a band of the image after the other: of splats alone, none of them large.
+fn opaque_by_bands<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    whole: &TilePlan,
+    with_depth: bool,
+    complete: bool,
+) -> Result<Opaque<'a>> {
+    let plans = || inputs.bands.iter().map(|band| &band.plan);
+    let mut images = tiles::TileImages::create(graph, inputs, plans().next().unwrap_or(whole), complete);
+    let mut start = if complete { TileStart::Cleared } else { TileStart::Empty };
+    let mut opaque = Opaque::default();
+    for ((kind, inputs), plan) in inputs.of_bands().into_iter().zip(plans()) {
+        let mut tiles = tiles::list(graph, inputs, &kind, plan)?;
+        tiles::fused(graph, inputs, &kind, &mut tiles, &mut images, None, (with_depth, start))?;
+        start = start.after_a_band();
+        opaque.tiles.push(tiles);
+    }
+    if complete {
+        let tiles = std::mem::take(&mut opaque.tiles);
+        opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, &tiles, &images.depth, None)?);
+    }
+    opaque.splats = Some(images.sums);
     Ok(opaque)
 }

@@ -1,6 +1,13 @@
 //! A prepared scene as a frame draws it: all that is opaque, all that is transparent.
 
-use super::{Draw, MeshDraw, TilePlan, choice, cull, draws, lights, mesh_draws};
+use super::{
+    Draw, MeshDraw, TilePlan,
+    blocks::SeenSplats,
+    choice, cull, draws, lights,
+    listed::Listed,
+    mesh_draws,
+    tiles::{self, Band},
+};
 use crate::{
     prepare::PreparedScene,
     scene::{Camera, Cull, Light, Settings, Transition},
@@ -16,8 +23,10 @@ pub struct Part<'a> {
     pub meshes: Vec<MeshDraw<'a>>,
     /// How splats are drawn by tiles, where they are.
     pub tiles: Option<TilePlan>,
-    /// Those that may be seen are listed first, and only they are set up.
-    pub kept: bool,
+    /// Bands of the image, where lists of all of it would take more memory than they are meant to.
+    pub bands: Vec<Band<'a>>,
+    /// Where those that may be seen are looked for, which are listed first, and only they are set up.
+    pub kept: Option<Listed>,
     /// As points, set up once for all passes.
     pub recorded: bool,
 }
@@ -62,22 +71,50 @@ impl<'a> Part<'a> {
     ) -> Self {
         let by_tiles = choice::by_tiles(&splats, !meshes.is_empty(), settings, limits).is_ok();
         let tiles = by_tiles.then(|| TilePlan::of(&splats, settings, limits)).flatten();
-        let kept = choice::lists_kept(&splats, tiles.is_some(), settings, limits)
-            && cull::has_room(&splats, tiles.is_some(), limits)
-            && !splats.is_empty()
-            && (cull::may_leave_out(&splats) || tiles.is_none() && settings.cull == Cull::Hidden);
+        let may_list = !splats.is_empty()
+            && choice::lists_kept(&splats, tiles.is_some(), settings, limits)
+            && cull::has_room(&splats, tiles.is_some(), limits);
+        let leaves_out = cull::may_leave_out(&splats) || tiles.is_none() && settings.cull == Cull::Hidden;
+        // Bands have lists, too.
+        let most_bytes = tiles::most_bytes(&splats, settings.tile_memory);
+        let is_long = tiles.as_ref().is_some_and(|plan| plan.bytes() > most_bytes);
         let recorded = tiles.is_none() && !splats.is_empty() && choice::records(settings, limits);
-        cull::number_splats(&mut splats, kept);
-        Self { splats, meshes, tiles, kept, recorded }
+        if !may_list || !(leaves_out || is_long) {
+            cull::number_splats(&mut splats);
+            return Self { splats, meshes, tiles, recorded, ..Self::default() };
+        }
+        let rows = tiles::rows_of_image(settings);
+        let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
+        let tiles = tiles.map(|whole| whole.or_of_blocks(&splats, &seen, settings, limits));
+        // Polygons are drawn between two passes over the whole image.
+        let bands = match &tiles {
+            Some(whole) if meshes.is_empty() => tiles::bands(&splats, &seen, whole, settings, limits),
+            _ => Vec::new(),
+        };
+        let kept = Some(Listed::of(&mut splats, &seen.chunks, rows));
+        Self { splats, meshes, tiles, bands, kept, recorded }
     }
 
     /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
     fn with_layers(mut self, settings: &Settings, limits: &Limits, lights: &[Light]) -> Self {
         let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
-        self.tiles = all.map(|plan| plan.with_layers(settings.layers.most(), lights.len() as u32));
-        self.kept &= self.tiles.is_some();
+        let with_layers = |plan: TilePlan| plan.with_layers(settings.layers.most(), lights.len() as u32);
+        self.tiles = all.map(with_layers);
+        self.kept = self.kept.filter(|_| self.tiles.is_some());
+        if self.kept.is_none() {
+            cull::number_splats(&mut self.splats);
+        }
+        for band in &mut self.bands {
+            band.plan = with_layers(band.plan.clone());
+        }
         self.recorded = self.tiles.is_none() && !self.splats.is_empty() && choice::records(settings, limits);
         self
+    }
+
+    /// How its tiles are drawn: all at once, or in bands.
+    pub(super) fn plans(&self) -> impl Iterator<Item = &TilePlan> {
+        let whole = self.tiles.iter().filter(|_| self.bands.is_empty());
+        whole.chain(self.bands.iter().map(|band| &band.plan))
     }
 
     /// What visible splats hide is left out before sums. Not where fragments farther behind count, too: there the paper's transition
@@ -87,7 +124,7 @@ impl<'a> Part<'a> {
             Some(plan) => plan.hidden && self.meshes.is_empty(),
             None => {
                 let twice = settings.transition == Transition::Paper && !self.meshes.is_empty();
-                self.kept && settings.cull == Cull::Hidden && !twice
+                self.kept.is_some() && settings.cull == Cull::Hidden && !twice
             }
         }
     }

@@ -22,6 +22,9 @@ use crate::{
 /// Bindings of set 1 of the splat passes for lists of large splats.
 pub(super) const LARGE_BINDINGS: u32 = 4;
 
+/// The same for lists of kept splats: their blocks are where draws have the first of their records.
+const KEPT_BINDINGS: u32 = LARGE_BINDINGS + 1;
+
 /// The same with records of points, on a device that has room for them.
 const LIST_BINDINGS: u32 = LARGE_BINDINGS + 4;
 
@@ -117,7 +120,7 @@ impl Shaders {
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
         let has_records = device.facts().limits.storage_buffers_a_stage >= RECORD_STORAGE_BUFFERS;
-        let list_bindings = if has_records { LIST_BINDINGS } else { LARGE_BINDINGS };
+        let list_bindings = if has_records { LIST_BINDINGS } else { KEPT_BINDINGS };
         let list_set = SetLayout::new(device, "lists", &vec![buffer; list_bindings as usize])?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
         let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image, lights])?;

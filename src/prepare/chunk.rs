@@ -4,6 +4,7 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
+    blocks::Block,
     pack::{Packed, Survey, shape_bytes},
     radii::RadiusStep,
     rebase::Rebase,
@@ -67,6 +68,10 @@ pub struct Chunk {
     pub largest_radius: f64,
     /// How many have which, roughly; local space.
     pub radii: Vec<RadiusStep>,
+    /// What its splats take in a scene ([`crate::scene::Splats::bytes`]).
+    pub scene_bytes: u64,
+    /// Its splats in runs of [`super::BLOCK_SPLATS`].
+    pub blocks: Vec<Block>,
     set: vk::DescriptorSet,
     _pool: SealedPool,
     /// Shapes and colors. Not read by the host, but the set names them.
@@ -113,6 +118,8 @@ impl Chunk {
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
             radii: survey.radii.clone(),
+            scene_bytes: 0,
+            blocks: Vec::new(),
             set,
             _pool: pool.seal(),
             buffers,

@@ -4,6 +4,7 @@
 //! by a power of two. Both are exact; what is left is one rounding of each coordinate to `f32`, 6e-8 of its distance from
 //! that origin.
 
+mod blocks;
 mod chunk;
 mod mesh_chunk;
 mod pack;
@@ -12,6 +13,7 @@ mod radii;
 mod rebase;
 mod sequence;
 
+pub use blocks::{BLOCK_SPLATS, Block};
 pub use chunk::{Chunk, SplatSetLayout};
 pub use mesh_chunk::MeshChunk;
 pub use packed::{LARGEST_TURN_RAD, as_packed};
@@ -20,6 +22,7 @@ pub use rebase::{Rebase, ViewFromLocal};
 
 use std::ops::Range;
 
+use blocks::BlockMaker;
 use mesh_chunk::PackedMesh;
 use sequence::Sequence;
 
@@ -123,17 +126,20 @@ pub fn prepare(
                 transparent_radii += survey.sum_of_radii;
             }
             let number = prepared.chunks.len();
-            let chunk = Chunk::new(device, layout, number, (object.closed, transparent), &survey)?;
-            let mut first = 0;
+            let mut chunk = Chunk::new(device, layout, number, (object.closed, transparent), &survey)?;
+            let (mut first, mut blocks) = (0, BlockMaker::default());
             for batch in pieces(range.clone(), BATCH_SPLATS) {
                 done += batch.len() as u64;
                 let packed = pack::pack(splats, sequence.at(batch), &survey);
                 if packed.count > 0 {
+                    blocks.add(&packed, &survey);
                     submit(chunk.upload(device, first, &packed)?)?;
                     first += packed.count;
                 }
                 progress(done, total);
             }
+            chunk.blocks = blocks.finish();
+            chunk.scene_bytes = splats.bytes() as u64 * u64::from(survey.count) / splats.len() as u64;
             prepared.chunks.push(chunk);
         }
     }

@@ -161,11 +161,16 @@ fn explain_passes(plan: &Plan) -> Vec<ExplainedPass> {
         ExplainedPass {
             name: pass.name.clone(),
             kind: pass.kind,
-            why: reason(&pass.name),
+            why: reason(&of_all_bands(&pass.name)),
             uses: uses.collect(),
         }
     });
     passes.collect()
+}
+
+/// What the passes of all bands of an image have in common in their names.
+fn of_all_bands(pass: &str) -> String {
+    pass.split(' ').filter(|word| !word.starts_with("band-")).collect::<Vec<_>>().join(" ")
 }
 
 /// Why a frame has the pass of this name.

@@ -26,6 +26,7 @@ pub fn settings_as_options(settings: &Settings) -> BTreeMap<&'static str, String
         ("size", format!("{width}x{height}")),
         ("rasterizer", settings.rasterizer.name().to_owned()),
         ("tile-invocations", settings.tile_invocations.name().to_owned()),
+        ("tile-memory", settings.tile_memory.to_string()),
         ("filter", settings.filter.name().to_owned()),
         ("filter-weight", settings.filter_weight.name().to_owned()),
         ("kernel", kernel_option(settings.kernel)),

@@ -14,6 +14,7 @@ mod opacity;
 mod settings;
 mod splats;
 mod storage;
+mod tile_memory;
 mod tint;
 mod transform;
 
@@ -31,6 +32,7 @@ pub use opacity::Opacity;
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
 pub use storage::{Order, SplatFormat, Storage};
+pub use tile_memory::TileMemory;
 pub use transform::is_invertible;
 
 /// One thing in a scene: splats and how they are to be treated.

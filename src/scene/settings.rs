@@ -1,7 +1,7 @@
 //! How a scene is rendered. The default of each setting is the first value of its option in the manual.
 
 use super::{
-    Layers, Light, MOST_LIGHTS, Object, Scene, Shapes,
+    Layers, Light, MOST_LIGHTS, Object, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, SetUp, TileInvocations,
         Transition,
@@ -18,6 +18,8 @@ pub struct Settings {
     pub rasterizer: Rasterizer,
     /// What an invocation draws of a tile.
     pub tile_invocations: TileInvocations,
+    /// The most that lists of splats by tile take.
+    pub tile_memory: TileMemory,
     /// The screen-space low-pass filter.
     pub filter: Filter,
     /// What a splat weighs that the filter has enlarged.
@@ -57,6 +59,7 @@ impl Default for Settings {
             size_px: [1024, 1024],
             rasterizer: Rasterizer::default(),
             tile_invocations: TileInvocations::default(),
+            tile_memory: TileMemory::default(),
             filter: Filter::default(),
             filter_weight: FilterWeight::default(),
             kernel: Kernel::default(),

@@ -10,7 +10,7 @@ use surfel::{
     load::Representation,
     scene::{
         Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
-        Rasterizer, SetUp, Settings, Shading, TileInvocations, Transition,
+        Rasterizer, SetUp, Settings, Shading, TileInvocations, TileMemory, Transition,
     },
 };
 
@@ -90,6 +90,12 @@ pub struct StyleArguments {
     /// picture is the same, and the reference's too
     #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(TileInvocations::NAMES))]
     pub tile_invocations: TileInvocations,
+
+    /// The most memory that lists of splats by tile take, in megabytes: where all of the image would take more, it is drawn in up to
+    /// 16 bands of rows, one after the other; auto is what makes splats and lists one and a half times the model's size in
+    /// memory, but 16 in any case. The picture is the same but for rounding
+    #[arg(long, value_name = "MB", default_value = "auto")]
+    pub tile_memory: TileMemory,
 
     /// The screen-space low-pass filter: tangent adjustment (splats cover at least a pixel), none, the paper's adjustment
     /// (disks only), the maximum of kernel and low-pass filter (not for triangle), or full EWA (Gaussian kernels; with
@@ -202,6 +208,7 @@ impl PictureArguments {
             size_px: self.size,
             rasterizer: style.rasterizer,
             tile_invocations: style.tile_invocations,
+            tile_memory: style.tile_memory,
             filter: style.filter,
             filter_weight: style.filter_weight,
             kernel: style.kernel,
@@ -246,6 +253,7 @@ mod tests {
             size_px: [7, 9],
             rasterizer: Rasterizer::AffineContour,
             tile_invocations: TileInvocations::Pixel,
+            tile_memory: TileMemory::Most(12_500_000),
             filter: Filter::AdjustPaper,
             filter_weight: FilterWeight::Unit,
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },

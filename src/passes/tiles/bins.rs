@@ -7,7 +7,7 @@ use super::{
     super::{
         Inputs,
         constants::TileConstants,
-        cull::{Kept, KeptIds, list_kept},
+        cull::{Kept, list_kept},
         variant::Constants,
     },
     ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPANS, STARTS, TilePass,
@@ -48,12 +48,10 @@ pub(super) fn fill_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Cons
     }
 }
 
-/// What passes bind of a list.
-pub(super) fn kept_buffers(kept: Option<&Kept>) -> Vec<(u32, ResourceId)> {
-    kept.map_or_else(Vec::new, |kept| {
-        let KeptIds { starts, list, .. } = kept.ids();
-        vec![(KEPT_STARTS, starts), (KEPT_LIST, list)]
-    })
+/// What walks bind of a list.
+fn kept_buffers(kept: Option<&Kept>) -> Vec<(u32, ResourceId)> {
+    let of = |kept: &Kept| vec![(KEPT_STARTS, kept.starts().id()), (KEPT_LIST, kept.list().id())];
+    kept.map_or_else(Vec::new, of)
 }
 
 /// Declares that a pass reads them.
@@ -74,7 +72,7 @@ pub(in super::super) fn list<'a>(
     kind: &str,
     plan: &'a TilePlan,
 ) -> Result<Tiles<'a>> {
-    let kept = inputs.kept.then(|| list_kept(graph, inputs, kind)).transpose()?;
+    let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
     let mut tiles = Tiles::create(graph, kind, plan);
     record(graph, inputs, kind, &mut tiles, kept.as_ref())?;
     let (kept, kept_buffers) = (kept.as_ref(), kept_buffers(kept.as_ref()));
@@ -93,7 +91,7 @@ pub(in super::super) fn list<'a>(
         }));
 
     let counted = [&[spans, counts], kept_buffers.as_slice()].concat();
-    let count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept), counted)?;
+    let count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept.is_some()), counted)?;
     read_kept(graph.pass(&format!("count {kind}tiles")), kept)
         .read(&tiles.spans, Access::StorageReadCompute)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
@@ -125,7 +123,7 @@ pub(in super::super) fn list<'a>(
         .finish(Box::new(move |context| start.dispatch(context, 1)));
 
     let filled = [&[spans, counts, starts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
-    let fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept), filled)?;
+    let fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept.is_some()), filled)?;
     read_kept(graph.pass(&format!("fill {kind}tiles")), kept)
         .read(&tiles.spans, Access::StorageReadCompute)
         .read(&tiles.starts, Access::StorageReadCompute)

@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::{
     super::{DEPTH_FORMAT, Inputs, finalize, fullscreen::read_set, pipelines::GraphicsKey},
-    SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles,
+    SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles, read_seen,
 };
 use crate::{
     error::Result,
@@ -24,7 +24,7 @@ pub(super) fn key() -> GraphicsKey {
 pub(in super::super) fn depth_buffer<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
+    tiles: &[Tiles<'a>],
     visible: &Handle<Image>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
@@ -43,9 +43,9 @@ pub(in super::super) fn depth_buffer<'a>(
         Access::DepthAttachment,
         start,
     );
-    tiles.read_seen(pass).finish(Box::new(move |context| {
+    read_seen(tiles, pass).finish(Box::new(move |context| {
         let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, id)], None))?;
-        draw_quads_of_tiles(context, inputs, &pipeline, seen, set, bytemuck::bytes_of(&constants))
+        draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, bytemuck::bytes_of(&constants))
     }));
     Ok(depth)
 }

@@ -10,6 +10,7 @@ use super::{
     },
     COLOR_SUMS, DEPTH_BEFORE, LIGHTS, OVERFULL_ARGUMENTS, PEELED_STATE, PEELED_WEIGHT, SEEN_ARGUMENTS,
     TilePass, TilePlan, Tiles, VISIBLE_DEPTH, after_dispatches_before,
+    bins::list,
     layer_work::{Work, dispatches},
     splat::VISIBLE_FORMAT,
 };
@@ -69,21 +70,24 @@ fn stacked(settings: &Settings) -> bool {
     settings.last_layer == LastLayer::Stack && settings.layers.most() > 1
 }
 
-/// Declares the pass; returns what the layers add up to: linear light times alpha, and alpha.
+/// Declares the passes, of lists too; returns what the layers add up to: linear light times alpha, and alpha.
 pub(in super::super) fn layers<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
     opaque: Option<&Handle<Image>>,
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Handle<Image>> {
     let mut layers = graph.create_image("layers", inputs.image(sum_format(inputs.settings.accumulate)));
     super::clear(graph, "clear layers", &mut [&mut layers]);
     let around = (opaque, lights);
-    let work = Work::of_whole_tiles(inputs.settings, tiles.plan);
-    declare(graph, inputs, tiles, around, &mut layers, work)?;
-    if tiles.plan.may_be_overfull() {
-        declare(graph, inputs, tiles, around, &mut layers, Work::Parts)?;
+    for (band, inputs) in inputs.of_bands() {
+        let Some(plan) = inputs.tiles else { continue };
+        let tiles = list(graph, inputs, &format!("transparent {band}"), plan)?;
+        let work = Work::of_whole_tiles(inputs.settings, plan);
+        declare(graph, inputs, (&band, &tiles), around, &mut layers, work)?;
+        if plan.may_be_overfull() {
+            declare(graph, inputs, (&band, &tiles), around, &mut layers, Work::Parts)?;
+        }
     }
     Ok(layers)
 }
@@ -95,7 +99,7 @@ type Around<'f> = (Option<&'f Handle<Image>>, Option<&'f Handle<Buffer>>);
 fn declare<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
+    (band, tiles): (&str, &Tiles<'a>),
     (opaque, lights): Around<'_>,
     layers: &mut Handle<Image>,
     work: Work,
@@ -110,22 +114,22 @@ fn declare<'a>(
     let mut kept_images = Vec::new();
     if work == Work::Several {
         for (binding, name) in [(VISIBLE_DEPTH, "peeled depth"), (PEELED_WEIGHT, "peeled weight")] {
-            let image = graph.create_image(name, inputs.image(VISIBLE_FORMAT));
+            let image = graph.create_image(&format!("{band}{name}"), inputs.image(VISIBLE_FORMAT));
             pass.storage_images.push((binding, image.id()));
             kept_images.push(image);
         }
     }
     let size_bytes = tiles.plan.most_overfull() * STATE_BYTES;
     let mut kept = (work == Work::Parts)
-        .then(|| graph.create_buffer("state of overfull tiles", BufferDesc { size_bytes }));
+        .then(|| graph.create_buffer(&format!("state of {band}overfull tiles"), BufferDesc { size_bytes }));
     pass.buffers.extend(kept.iter().map(|kept| (PEELED_STATE, kept.id())));
 
     let (name, offset) = match work {
-        Work::Whole | Work::Several => ("layers of tiles", SEEN_ARGUMENTS),
-        Work::Parts => ("layers of overfull tiles", OVERFULL_ARGUMENTS),
+        Work::Whole | Work::Several => (format!("layers of {band}tiles"), SEEN_ARGUMENTS),
+        Work::Parts => (format!("layers of {band}overfull tiles"), OVERFULL_ARGUMENTS),
     };
     let mut declared =
-        tiles.read_lists(graph.pass(name)).write(layers, Access::StorageReadWriteCompute, Start::Load);
+        tiles.read_lists(graph.pass(&name)).write(layers, Access::StorageReadWriteCompute, Start::Load);
     if let Some(opaque) = opaque {
         declared = declared.read(opaque, Access::SampledCompute);
     }

@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::{
     super::constants::{FinalizeConstants, FrameConstants, TileConstants},
-    KEPT_LIST,
+    KEPT_BLOCKS,
 };
 use crate::{
     error::Result,
@@ -31,8 +31,8 @@ impl TileLayouts {
         let mut in_tiles = vec![words; 11];
         in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
         in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
-        in_tiles.extend([words, words]);
-        debug_assert_eq!(in_tiles.len() - 1, KEPT_LIST as usize);
+        in_tiles.extend([words, words, words]);
+        debug_assert_eq!(in_tiles.len() - 1, KEPT_BLOCKS as usize);
         let set = SetLayout::new(device, "tiles", &in_tiles)?;
         let record = PipelineLayout::new(
             device,

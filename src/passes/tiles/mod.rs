@@ -3,6 +3,7 @@
 //! What it leaves is what the graphics pipeline's passes leave: sums, and a depth. Splats that are too large for that, or not
 //! regular, are listed too, by chunk, and drawn by the graphics pipeline into the same images.
 
+mod bands;
 mod bins;
 mod depth;
 mod invocations;
@@ -20,18 +21,20 @@ mod splat;
 
 use ash::vk;
 
+pub use self::{bands::Band, invocations::Invocations, plan::TilePlan};
 pub(super) use self::{
+    bands::{bands, most_bytes},
     bins::list,
     depth::depth_buffer,
     large::{see_large, sum_large},
     layers::layers,
     layouts::TileLayouts,
     pass::rows_of,
-    quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles},
+    plan::{TILE_PX, rows_of_image},
+    quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
-    splat::{TileImages, accumulate, fused, visibility},
+    splat::{TileImages, TileStart, accumulate, fused, visibility},
 };
-pub use self::{invocations::Invocations, plan::TilePlan};
 use pass::{TilePass, after_dispatches_before};
 
 use super::{Inputs, constants::TileConstants};
@@ -62,6 +65,7 @@ const PEELED_STATE: u32 = 18;
 pub(super) const RUNS: u32 = 19;
 const KEPT_STARTS: u32 = 20;
 pub(super) const KEPT_LIST: u32 = 21;
+const KEPT_BLOCKS: u32 = 22;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -70,7 +74,7 @@ const QUAD_ARGUMENTS: u64 = 32;
 const CHUNK_ARGUMENTS: u64 = 48;
 
 /// Storage buffers in the layout of the pass that makes records.
-pub const STORAGE_BUFFERS: u32 = 18;
+pub const STORAGE_BUFFERS: u32 = 19;
 
 /// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
 const WHOLE: u32 = u32::MAX;
@@ -103,7 +107,7 @@ impl<'a> Tiles<'a> {
         let mut buffer = |what: &str, size_bytes| {
             graph.create_buffer(&format!("{what} of {kind}tiles"), BufferDesc { size_bytes })
         };
-        let records = u64::from(plan.record_count);
+        let records = plan.record_room;
         let (tiles, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
         Self {
             plan,
@@ -156,7 +160,13 @@ impl<'a> Tiles<'a> {
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
 pub(super) fn room(plan: &TilePlan) -> PoolRoom {
     let sets = plan.chunk_count * 3 + 12;
-    PoolRoom { sets, buffers: 16 * sets, images: 4 * sets, storage_images: 4 * sets, ..PoolRoom::default() }
+    PoolRoom {
+        sets,
+        buffers: STORAGE_BUFFERS * sets,
+        images: 4 * sets,
+        storage_images: 4 * sets,
+        ..PoolRoom::default()
+    }
 }
 
 fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
@@ -164,6 +174,7 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
     TileConstants {
         half_size_px: [0.5 * width as f32, 0.5 * height as f32],
         tiles_x: plan.tiles_x,
+        first_tile: plan.first_tile(),
         tile_count: plan.tile_count,
         bin_count: plan.bin_count(),
         record_count: plan.record_count,

@@ -1,7 +1,13 @@
 //! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
 
-use super::{super::draws::Draw, Invocations};
+use std::ops::Range;
+
+use super::{
+    super::{blocks::SeenSplats, draws::Draw},
+    Invocations,
+};
 use crate::{
+    math::size::pixels_along,
     scene::{Cull, Settings},
     vk::Limits,
 };
@@ -46,10 +52,16 @@ const MOST_CHUNKS: usize = 8191;
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(in super::super) const RECORD_BYTES: u64 = 16;
 
-/// Tiles that a box of so many pixels touches at most: ⌈b / 8⌉ + 1 along a side.
+/// Tiles that a box of so many pixels touches at most: along a side one more for each 8 pixels beyond the first.
 fn tiles_of(box_px: f64) -> u64 {
-    let a_side = (box_px / f64::from(TILE_PX)).ceil() + 1.0;
+    let side = f64::from(TILE_PX);
+    let a_side = ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0;
     (a_side * a_side) as u64 // of what has no bound, the largest number
+}
+
+/// All rows of tiles.
+pub(in super::super) fn rows_of_image(settings: &Settings) -> Range<u32> {
+    0..settings.size_px[1].div_ceil(TILE_PX)
 }
 
 /// How splats are drawn by tiles.
@@ -57,10 +69,14 @@ fn tiles_of(box_px: f64) -> u64 {
 pub struct TilePlan {
     /// Tiles along a row.
     pub tiles_x: u32,
-    /// Tiles of the image.
+    /// The rows of tiles that it is for: all of the image, or a band.
+    pub rows: Range<u32>,
+    /// Tiles of these.
     pub tile_count: u32,
-    /// Splats of all chunks.
+    /// Splats of all chunks, or of their blocks that may be seen, at most.
     pub record_count: u32,
+    /// Records that there is room for.
+    pub record_room: u64,
     /// Chunks.
     pub chunk_count: u32,
     /// Segments of records, one invocation each.
@@ -93,6 +109,42 @@ impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
     pub fn of(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> Option<Self> {
         let boxes: Vec<_> = draws.iter().flat_map(|draw| &draw.boxes).copied().collect();
+        Self::of_rows(draws, &boxes, rows_of_image(settings), settings, limits)
+    }
+
+    /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
+    pub fn or_of_blocks(
+        self,
+        draws: &[Draw<'_>],
+        seen: &SeenSplats,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        let of_blocks = Self::of_blocks(draws, seen, self.rows.clone(), settings, limits);
+        let draws_as_much = |of_blocks: &Self| self.may_be_large || !of_blocks.may_be_large;
+        let better = |of_blocks: &Self| draws_as_much(of_blocks) && of_blocks.bytes() < self.bytes();
+        of_blocks.filter(better).unwrap_or(self)
+    }
+
+    /// The plan for the blocks that may touch some rows of tiles; none where there is none, or more than the device has room for.
+    pub(in super::super) fn of_blocks(
+        draws: &[Draw<'_>],
+        seen: &SeenSplats,
+        rows: Range<u32>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Option<Self> {
+        Self::of_rows(draws, &seen.boxes(&rows), rows, settings, limits)
+    }
+
+    /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
+    fn of_rows(
+        draws: &[Draw<'_>],
+        boxes: &[(u32, f64)],
+        rows: Range<u32>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Option<Self> {
         let invocations = Invocations::of(settings.tile_invocations, limits);
         let hidden = match settings.cull {
             // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
@@ -104,8 +156,40 @@ impl TilePlan {
         let hidden = hidden
             && invocations != Invocations::ColumnsAlone
             && !draws.iter().any(|draw| draw.chunk.transparent);
-        let plan = Self::of_boxes(draws.len(), &boxes, settings.size_px, limits, invocations)?;
+        let plan = Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations)?.within(rows);
         Some(if hidden { plan.without_hidden() } else { plan })
+    }
+
+    /// The same for some rows of the image alone.
+    fn within(self, rows: Range<u32>) -> Self {
+        Self { tile_count: self.tiles_x * (rows.end - rows.start), rows, ..self }
+    }
+
+    /// The same as one of several bands, which have their pipelines and images in common, and buffers of the same sizes, so that
+    /// each lies where that of the band before was.
+    pub(super) fn among(&self, bands: &[Self]) -> Self {
+        let largest = |of: fn(&Self) -> u64| bands.iter().map(of).max().unwrap_or(0);
+        Self {
+            record_room: largest(|band| band.record_room),
+            most_tiles: largest(|band| band.most_tiles.into()) as u32,
+            entry_room: largest(|band| band.entry_room),
+            ..self.clone()
+        }
+    }
+
+    /// The first tile of its rows.
+    pub fn first_tile(&self) -> u32 {
+        self.rows.start * self.tiles_x
+    }
+
+    /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
+    pub fn bytes(&self) -> u64 {
+        let records = self.record_room;
+        // Four quarters and a span; an index, a bit, and a 32nd of a count.
+        let of_records = records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4;
+        let counts = u64::from(self.segments) * u64::from(self.bin_count()) * 4;
+        // Starts, tiles with splats, runs, the overfull.
+        of_records + self.entry_room * 4 + counts + u64::from(self.bin_count()) * 20
     }
 
     /// The same for so many chunks with so many splats of boxes up to so many pixels.
@@ -152,8 +236,10 @@ impl TilePlan {
         let walk_length = invocations.batch() * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
+            rows: 0..tiles_y,
             tile_count,
             record_count,
+            record_room: records,
             chunk_count: chunks as u32,
             segments,
             segment_length,
@@ -185,8 +271,10 @@ impl TilePlan {
     pub(super) fn for_recipes(may_be_large: bool) -> Self {
         Self {
             tiles_x: 1,
+            rows: 0..1,
             tile_count: 1,
             record_count: 1000,
+            record_room: 1000,
             chunk_count: 1,
             segments: SEGMENTS,
             segment_length: SEGMENTS,
@@ -272,11 +360,23 @@ mod tests {
         assert!(!plan(&[(300_000, 60.0)], [4096, 4096]).unwrap().may_be_large);
         assert!(plan(&[(300_000, 60.0)], [1024, 1024]).unwrap().may_be_large);
         let mixed = plan(&[(150_000, 20.0), (4000, 57.0)], [1024, 1024]).unwrap();
-        assert!(!mixed.may_be_large && mixed.most_tiles == 81, "{mixed:?}");
-        assert_eq!(mixed.entry_room, 150_000 * 16 + 4000 * 81);
+        assert!(!mixed.may_be_large && mixed.most_tiles == 64, "{mixed:?}");
+        assert_eq!(mixed.entry_room, 150_000 * 16 + 4000 * 64);
         assert!(plan(&[(10, 3.0), (10, f64::INFINITY)], [1024, 1024]).unwrap().may_be_large);
         // Too many for lists of 9 tiles each.
-        assert!(plan(&[(5_000_000, 11.0)], [1024, 1024]).unwrap().may_be_large);
+        assert!(plan(&[(5_000_000, 12.0)], [1024, 1024]).unwrap().may_be_large);
+    }
+
+    #[test]
+    fn no_run_of_pixels_touches_more_tiles_than_its_box_says() {
+        for pixels in 1..100_u32 {
+            // A box of so many pixels: 1.5 of it are for rounding.
+            let a_side = u64::from((0..8).map(|first| (first + pixels - 1) / 8 + 1).max().unwrap());
+            for box_px in [f64::from(pixels) + 1.5, f64::from(pixels) + 2.4] {
+                assert_eq!(tiles_of(box_px), a_side * a_side, "{pixels} {box_px}");
+            }
+        }
+        assert_eq!(tiles_of(f64::INFINITY), u64::MAX);
     }
 
     #[test]

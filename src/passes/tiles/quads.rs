@@ -17,25 +17,24 @@ use crate::{
     vk::{Descriptor, GraphicsPipeline},
 };
 
-/// Which tiles have splats, for the passes that draw over them.
-#[derive(Clone, Copy)]
-pub(in super::super) struct SeenTiles {
-    runs: ResourceId,
-    arguments: ResourceId,
-}
+/// Which tiles have splats, for the passes that draw over them: of each band the runs, and the arguments of their draw.
+pub(in super::super) struct SeenTiles(Vec<(ResourceId, ResourceId)>);
 
 impl SeenTiles {
     /// Those of a frame's lists.
-    pub fn of(tiles: &Tiles<'_>) -> Self {
-        Self { runs: tiles.runs.id(), arguments: tiles.arguments.id() }
+    pub fn of(bands: &[Tiles<'_>]) -> Self {
+        Self(bands.iter().map(|tiles| (tiles.runs.id(), tiles.arguments.id())).collect())
     }
 }
 
-impl Tiles<'_> {
-    /// Declares that a pass draws over the tiles that have splats.
-    pub fn read_seen<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        pass.read(&self.runs, Access::StorageReadVertex).read(&self.arguments, Access::IndirectRead)
-    }
+/// Declares that a pass draws over the tiles that have splats.
+pub(in super::super) fn read_seen<'g, B>(
+    bands: &[Tiles<'_>],
+    pass: PassBuilder<'g, B>,
+) -> PassBuilder<'g, B> {
+    bands.iter().fold(pass, |pass, tiles| {
+        pass.read(&tiles.runs, Access::StorageReadVertex).read(&tiles.arguments, Access::IndirectRead)
+    })
 }
 
 /// A pipeline that draws quads over tiles: without color, blending and depth, to be completed.
@@ -44,28 +43,30 @@ pub(in super::super) fn quads_of_tiles(fragment: &'static Shader, constants: Con
     GraphicsKey::new(stages, Layout::TileQuads, vk::PrimitiveTopology::TRIANGLE_STRIP, constants)
 }
 
-/// Records the draw. `set`: what the fragments read; `constants`: finalization's.
+/// Records the draws. `set`: what the fragments read; `constants`: finalization's.
 pub(in super::super) fn draw_quads_of_tiles(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipeline: &GraphicsPipeline,
-    seen: SeenTiles,
+    seen: &SeenTiles,
     set: vk::DescriptorSet,
     constants: &[u8],
 ) -> Result<()> {
-    let list = [(RUNS, Descriptor::Buffer(context.buffer(seen.runs)?))];
-    let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
-    let arguments = context.buffer(seen.arguments)?;
     let layout = &inputs.shaders.tiles()?.quads;
     let bind_point = vk::PipelineBindPoint::GRAPHICS;
     let (device, commands) = (context.device(), context.commands());
-    // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is
-    // read; the arguments are within the buffer.
-    unsafe {
-        device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-        device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-        device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-        device.cmd_draw_indirect(commands, arguments, QUAD_ARGUMENTS, 1, 16);
+    for (runs, arguments) in &seen.0 {
+        let list = [(RUNS, Descriptor::Buffer(context.buffer(*runs)?))];
+        let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
+        let arguments = context.buffer(*arguments)?;
+        // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is
+        // read; the arguments are within the buffer.
+        unsafe {
+            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
+            device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+            device.cmd_draw_indirect(commands, arguments, QUAD_ARGUMENTS, 1, 16);
+        }
     }
     Ok(())
 }

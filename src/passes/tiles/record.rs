@@ -5,12 +5,12 @@ use ash::vk;
 use super::{
     super::{
         Inputs,
-        cull::Kept,
+        cull::{Kept, KeptIds},
         pipelines::{ComputeKey, Layout},
         variant::Constants,
     },
-    TilePlan, Tiles,
-    bins::{kept_buffers, place_bits},
+    KEPT_BLOCKS, KEPT_LIST, KEPT_STARTS, SPANS, TilePlan, Tiles,
+    bins::place_bits,
 };
 use crate::{
     error::Result,
@@ -45,12 +45,16 @@ pub(super) fn record<'a>(
     for (number, draw) in (0..).zip(inputs.draws) {
         chunks.push((draw, inputs.shaders.compute(key(&draw.variant, tiles.plan, number, kept.is_some()))?));
     }
-    let ids = [tiles.records().as_slice(), &[(super::SPANS, tiles.spans.id())], &kept_buffers(kept)].concat();
+    let mut ids = tiles.records().to_vec();
+    ids.push((SPANS, tiles.spans.id()));
     let mut pass = graph.pass(&format!("set up {kind}splats"));
     if let Some(kept) = kept {
         pass = kept.read_by_compute(pass);
     }
     let kept = kept.map(Kept::ids);
+    if let Some(KeptIds { starts, list, blocks, .. }) = &kept {
+        ids.extend([(KEPT_STARTS, *starts), (KEPT_LIST, *list), (KEPT_BLOCKS, *blocks)]);
+    }
     for buffer in tiles.records.iter_mut().chain([&mut tiles.spans]) {
         pass = pass.write(buffer, Access::StorageWriteCompute, Start::Discard);
     }

@@ -64,11 +64,28 @@ fn accumulate_of(settings: &Settings, plan: &TilePlan) -> Accumulate {
     }
 }
 
-/// Where the images' content comes from when a pass writes to them.
-fn start(cleared: bool) -> (Access, Start) {
-    match cleared {
-        true => (Access::StorageReadWriteCompute, Start::Load),
-        false => (Access::StorageWriteCompute, Start::Discard),
+/// What the images hold when a pass writes to their tiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) enum TileStart {
+    /// Nothing, and what tiles without splats hold then nobody reads.
+    Empty,
+    /// The tiles of other bands; nothing else, as above.
+    Bands,
+    /// 0 everywhere, but where there are the tiles of other bands: all of it is read.
+    Cleared,
+}
+
+impl TileStart {
+    /// What they hold then.
+    pub fn after_a_band(self) -> Self {
+        if self == Self::Empty { Self::Bands } else { self }
+    }
+
+    fn access(self) -> (Access, Start) {
+        match self {
+            Self::Empty => (Access::StorageWriteCompute, Start::Discard),
+            Self::Bands | Self::Cleared => (Access::StorageReadWriteCompute, Start::Load),
+        }
     }
 }
 
@@ -113,18 +130,19 @@ pub(in super::super) fn shader(
 }
 
 /// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
-/// drawn; `with_depth`: depth is summed too; `cleared`: the images were.
+/// drawn; `kind`, in front of the tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the images hold.
 pub(in super::super) fn fused<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
+    kind: &str,
     tiles: &mut Tiles<'a>,
     images: &mut TileImages,
     before: Option<&Handle<Image>>,
-    (with_depth, cleared): (bool, bool),
+    (with_depth, start): (bool, TileStart),
 ) -> Result<()> {
     let step = Step::Fused { upon: before.is_some(), with_depth, hidden: tiles.plan.hidden };
     let mut shader_of_step = shader(inputs.settings, tiles.plan, step)?;
-    if !cleared {
+    if start != TileStart::Cleared {
         shader_of_step.1.push((KEEPS_DEPTH, 0));
     }
     let mut fused = TilePass::new(inputs, tiles.plan, shader_of_step, tiles.lists())?;
@@ -135,8 +153,8 @@ pub(in super::super) fn fused<'a>(
     ];
     fused.sampled_images = before.map(|before| (DEPTH_BEFORE, before.id())).into_iter().collect();
     let arguments = tiles.arguments.id();
-    let (access, content) = start(cleared);
-    let pass = graph.pass("see and sum tiles");
+    let (access, content) = start.access();
+    let pass = graph.pass(&format!("see and sum {kind}tiles"));
     let mut pass = if tiles.plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     for image in [&mut images.sums.color, &mut images.sums.normal, &mut images.depth] {
         pass = pass.write(image, access, content);
@@ -148,8 +166,8 @@ pub(in super::super) fn fused<'a>(
     if tiles.plan.may_be_overfull() {
         let seen = Step::Visible { upon: before.is_some() };
         let summed = Step::Summed { beside: false, with_depth };
-        in_parts(graph, inputs, tiles, images, before, (seen, None))?;
-        in_parts(graph, inputs, tiles, images, None, (summed, None))?;
+        in_parts(graph, inputs, kind, tiles, images, before, (seen, None))?;
+        in_parts(graph, inputs, kind, tiles, images, None, (summed, None))?;
     }
     Ok(())
 }
@@ -163,7 +181,7 @@ pub(in super::super) fn visibility<'a>(
     before: Option<&Handle<Image>>,
 ) -> Result<()> {
     let step = Step::Visible { upon: before.is_some() };
-    in_parts(graph, inputs, tiles, images, before, (step, Some(SEEN_ARGUMENTS)))
+    in_parts(graph, inputs, "", tiles, images, before, (step, Some(SEEN_ARGUMENTS)))
 }
 
 /// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any.
@@ -176,7 +194,7 @@ pub(in super::super) fn accumulate<'a>(
     with_depth: bool,
 ) -> Result<()> {
     let step = Step::Summed { beside: polygons.is_some(), with_depth };
-    in_parts(graph, inputs, tiles, images, polygons, (step, Some(SEEN_ARGUMENTS)))
+    in_parts(graph, inputs, "", tiles, images, polygons, (step, Some(SEEN_ARGUMENTS)))
 }
 
 /// Visibility or accumulation: of whole tiles, where there are arguments for them, then of the parts of overfull ones. `depth`: what
@@ -184,6 +202,7 @@ pub(in super::super) fn accumulate<'a>(
 fn in_parts<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
+    kind: &str,
     tiles: &Tiles<'a>,
     images: &mut TileImages,
     depth: Option<&Handle<Image>>,
@@ -195,7 +214,7 @@ fn in_parts<'a>(
     of_tiles.storage_images = vec![(VISIBLE_DEPTH, own_depth.id())];
     let which = if whole.is_some() { "tiles" } else { "overfull tiles" };
     let sums = matches!(step, Step::Summed { .. });
-    let name = format!("{} {which}", if sums { "sum" } else { "see" });
+    let name = format!("{} {kind}{which}", if sums { "sum" } else { "see" });
     let mut pass = tiles.read_lists(graph.pass(&name));
     let sampled = if sums {
         of_tiles.storage_images.extend([(COLOR_SUMS, color.id()), (NORMAL_SUMS, normal.id())]);

@@ -1,0 +1,51 @@
+//! What a frame takes from whoever records it: descriptor sets and queries.
+
+use super::{Part, Parts, layers, room_of_lists, tiles};
+use crate::{
+    scene::{Layers, Settings},
+    vk::PoolRoom,
+};
+
+/// What a frame takes for itself from whoever records it, at most.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Needs {
+    /// Descriptor sets.
+    pub room: PoolRoom,
+    /// Queries whether anything was drawn.
+    pub occlusion_queries: u32,
+}
+
+/// What a frame takes, at most. `counts_draws`: the device can take the number of draws from a buffer.
+pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Needs {
+    // With large splats or records.
+    let listed =
+        |part: &Part<'_>| part.splats.iter().filter(|draw| draw.may_be_large || part.recorded).count() as u32;
+    let layers = if parts.transparent.is_empty() { 0 } else { settings.layers.most() };
+    // For each such chunk: three passes that list large ones, one that makes records, two that draw them, in each layer.
+    let lists = 6 * listed(&parts.opaque) + (4 + 2 * layers) * listed(&parts.transparent);
+    // Of kept splats: three passes that list them, twice, and one that sets them up.
+    let kept = |part: &Part<'_>| {
+        let lists = if part.kept.is_some() { part.bands.len().max(1) as u32 } else { 0 };
+        8 * lists * part.splats.len() as u32
+    };
+    let lists = lists + kept(&parts.opaque) + kept(&parts.transparent);
+    // What fragments read: in accumulation; in each layer's visibility, accumulation and polygons.
+    let reads = 1 + 3 * layers;
+    // Sums: for finalization and each layer.
+    let sums = 1 + layers;
+    let plans = [&parts.opaque, &parts.transparent].into_iter().flat_map(Part::plans);
+    let tiles = plans.map(tiles::room).fold(PoolRoom::default(), |sum, room| sum.plus(&room));
+    let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
+    Needs {
+        room: PoolRoom {
+            sets: reads + sums + 1,
+            buffers: reads + sums,
+            images: 2 * reads + 5 * sums + 4,
+            filtered_images: reads,
+            storage_images: 0,
+        }
+        .plus(&room_of_lists(lists))
+        .plus(&tiles),
+        occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
+    }
+}

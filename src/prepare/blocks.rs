@@ -1,0 +1,164 @@
+//! Runs of a chunk's splats, small enough in space (they have the order of a Z-curve) that where one may be seen, and from which
+//! side, is known on the host before a frame is drawn.
+
+use glam::{DVec3, Vec3};
+
+use super::{
+    pack::{Packed, Survey},
+    packed,
+};
+
+/// Splats of a block, as in `glsl/inc/kept.glsl`.
+pub const BLOCK_SPLATS: u32 = 256;
+
+/// What bounds the splats of a block, in the chunk's local space.
+#[derive(Clone, Copy, Debug)]
+pub struct Block {
+    /// How many: [`BLOCK_SPLATS`], and fewer of the last one.
+    pub count: u32,
+    /// The middle of a ball around all centers.
+    pub center: DVec3,
+    /// Its radius.
+    pub radius: f64,
+    /// The axis of a cone around all normals, of unit length.
+    pub axis: DVec3,
+    /// The angle from the axis that none of them exceeds; π where they have no common direction.
+    pub spread_rad: f64,
+    /// The largest major radius.
+    pub largest_radius: f64,
+}
+
+impl Block {
+    fn around(splats: &[Sample]) -> Self {
+        let [lo, hi] = splats.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], splat| {
+            [lo.min(splat.center), hi.max(splat.center)]
+        });
+        let center = 0.5 * (lo + hi);
+        let sum: DVec3 = splats.iter().map(|splat| splat.normal).sum();
+        let axis = sum.try_normalize();
+        // Not by the cosine, which tells small angles no better than 1e-8.
+        let angle = |axis: DVec3, normal: DVec3| 2.0 * (0.5 * (axis - normal).length()).min(1.0).asin();
+        let spread_of =
+            |axis: DVec3| splats.iter().map(|splat| angle(axis, splat.normal)).fold(0.0, f64::max);
+        Self {
+            count: splats.len() as u32,
+            center,
+            radius: splats.iter().map(|splat| splat.center.distance(center)).fold(0.0, f64::max),
+            axis: axis.unwrap_or(DVec3::Z),
+            spread_rad: axis.map_or(std::f64::consts::PI, spread_of),
+            largest_radius: splats.iter().map(|splat| splat.radius).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// Of tangent vectors with a smaller sine between them a device's normal, found in f32, may be 1e-4 rad from that found here, or more.
+const LEAST_SINE: f64 = 1e-3;
+
+/// A splat as the device has it.
+struct Sample {
+    center: DVec3,
+    /// Zero where it is not certain enough.
+    normal: DVec3,
+    radius: f64,
+}
+
+/// The blocks of a chunk, while it is packed.
+#[derive(Default)]
+pub(super) struct BlockMaker {
+    done: Vec<Block>,
+    /// Those of the next one.
+    next: Vec<Sample>,
+}
+
+impl BlockMaker {
+    /// Takes in the splats of a batch.
+    pub fn add(&mut self, batch: &Packed, survey: &Survey) {
+        for words in batch.shapes.chunks_exact(survey.shape_bytes() / 16) {
+            self.next.push(sample(words, survey));
+            if self.next.len() == BLOCK_SPLATS as usize {
+                self.done.push(Block::around(&self.next));
+                self.next.clear();
+            }
+        }
+    }
+
+    /// All of them.
+    pub fn finish(mut self) -> Vec<Block> {
+        if !self.next.is_empty() {
+            self.done.push(Block::around(&self.next));
+        }
+        self.done
+    }
+}
+
+fn sample(words: &[[u32; 4]], survey: &Survey) -> Sample {
+    if survey.packed {
+        let (center, normal, radius) = packed::unpacked_disk(words[0]);
+        return Sample { center, normal, radius };
+    }
+    let vector = |words: [u32; 4]| Vec3::from_slice(&words.map(f32::from_bits)[..3]).as_dvec3();
+    let normal = match survey.ellipses {
+        true => {
+            let n = vector(words[1]).normalize().cross(vector(words[2]).normalize());
+            if n.length() > LEAST_SINE { n.normalize() } else { DVec3::ZERO }
+        }
+        false => vector(words[1]),
+    };
+    Sample { center: vector(words[0]), normal, radius: f32::from_bits(words[0][3]).into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::pack, *};
+    use crate::{
+        prepare::Rebase,
+        scene::{Colors, Shapes, Splats},
+    };
+
+    /// With the scale of their local space.
+    fn blocks_of(shapes: Shapes, positions: Vec<DVec3>, as_packed: bool) -> (Vec<Block>, f64) {
+        let count = positions.len();
+        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let survey = pack::survey(&splats, 0..count, Rebase { origin: DVec3::ZERO, scale: 0.5 });
+        let survey = if as_packed { survey.packed().unwrap() } else { survey };
+        let mut maker = BlockMaker::default();
+        // Batches end anywhere.
+        for first in (0..count).step_by(1500) {
+            maker.add(&pack::pack(&splats, first..count.min(first + 1500), &survey), &survey);
+        }
+        (maker.finish(), survey.rebase.scale)
+    }
+
+    #[test]
+    fn a_block_holds_its_splats_whatever_they_are_packed_as() {
+        let count = 5000;
+        let at = |i: usize| 0.001 * i as f64;
+        let positions: Vec<_> = (0..count).map(|i| DVec3::new(at(i), at(i).sin(), 0.0)).collect();
+        let normals: Vec<_> = (0..count).map(|i| Vec3::new((at(i)).sin() as f32, 0.0, 1.0)).collect();
+        let disks = Shapes::Disks { normals: normals.clone(), radii: vec![0.25; count] };
+        let [s, t] = [Vec3::X, Vec3::Y].map(|to| normals.iter().map(|n| 0.25 * n.cross(to)).collect());
+        let ellipses = Shapes::Ellipses { s, t };
+        for (shapes, as_packed) in [(disks.clone(), false), (disks, true), (ellipses, false)] {
+            let (blocks, scale) = blocks_of(shapes, positions.clone(), as_packed);
+            assert_eq!(
+                blocks.iter().map(|block| block.count).collect::<Vec<_>>(),
+                [256; 19].into_iter().chain([136]).collect::<Vec<_>>()
+            );
+            for (i, (p, n)) in positions.iter().zip(&normals).enumerate() {
+                let block = &blocks[i / 256];
+                assert!((*p * scale).distance(block.center) <= block.radius + 1e-4, "{i}");
+                let turn = n.as_dvec3().angle_between(block.axis);
+                assert!(turn <= block.spread_rad + 1e-4, "{i}: {turn} of {}", block.spread_rad);
+            }
+            assert!(blocks.iter().all(|block| block.radius < 0.6 * scale && block.spread_rad < 0.6));
+        }
+    }
+
+    #[test]
+    fn normals_without_a_common_direction_are_of_every_direction() {
+        let normals = vec![Vec3::Z, Vec3::NEG_Z];
+        let (blocks, _) =
+            blocks_of(Shapes::Disks { normals, radii: vec![1.0; 2] }, vec![DVec3::ZERO; 2], false);
+        assert_eq!(blocks[0].spread_rad, std::f64::consts::PI);
+    }
+}
