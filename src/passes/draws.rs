@@ -3,8 +3,9 @@
 use glam::{DVec3, DVec4};
 
 use super::{
-    blocks::{Look, SeenBlock, seen_blocks},
+    blocks::{Look, seen_blocks},
     constants::FrameConstants,
+    seen::SeenBlock,
     splat_shaders::Primitive,
     variant::{Constants, IN_LAYERS, OUTWARD, PACKED, culls, splat_constants},
 };

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Draw, blocks::SeenBlock};
+use super::{Draw, seen::SeenBlock};
 use crate::{
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
     prepare::BLOCK_SPLATS,

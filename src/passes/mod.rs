@@ -38,6 +38,7 @@ mod point_records;
 mod polygons;
 mod readback;
 mod recipe;
+mod seen;
 mod splat_pass;
 mod splat_shaders;
 mod tiles;

@@ -1,11 +1,10 @@
 //! A prepared scene as a frame draws it: all that is opaque, all that is transparent.
 
 use super::{
-    Draw, MeshDraw, TilePlan,
-    blocks::SeenSplats,
-    choice, cull, draws, lights,
+    Draw, MeshDraw, TilePlan, choice, cull, draws, lights,
     listed::Listed,
     mesh_draws,
+    seen::SeenSplats,
     tiles::{self, Band},
 };
 use crate::{

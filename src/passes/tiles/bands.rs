@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use super::{
-    super::{Draw, blocks::SeenSplats, listed::Listed},
+    super::{Draw, listed::Listed, seen::SeenSplats},
     TilePlan,
 };
 use crate::{

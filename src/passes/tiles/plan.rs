@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{
-    super::{blocks::SeenSplats, draws::Draw},
+    super::{draws::Draw, seen::SeenSplats},
     Invocations,
 };
 use crate::{
@@ -317,82 +317,4 @@ impl TilePlan {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn limits() -> Limits {
-        Limits { max_storage_buffer_range: 1 << 27, ..Limits::for_tests() }
-    }
-
-    fn plan(boxes: &[(u32, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
-        TilePlan::of_boxes(1, boxes, size_px, &limits(), Invocations::Columns)
-    }
-
-    #[test]
-    fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
-        for count in [1, 7, 1000, 154_000, 1_400_000, 5_000_000, 8_388_608] {
-            for px in [3.0, 11.0, 40.0, 500.0, f64::INFINITY] {
-                for size_px in [[1, 1], [1024, 1024], [4096, 4096], [16_384, 8192]] {
-                    let plan = plan(&[(count, px)], size_px).unwrap();
-                    assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
-                    assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
-                    assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
-                    assert_eq!(plan.segment_length % BLOCK, 0);
-                    assert!(
-                        plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= u64::from(count),
-                        "{plan:?}"
-                    );
-                    let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
-                    assert!(counts <= 1 << 27, "{plan:?}");
-                    assert!(plan.walk_length / 8 * 2 < 65_535, "{plan:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn splats_that_are_small_for_sure_leave_nothing_to_the_graphics_pipeline() {
-        let small = plan(&[(154_000, 40.0)], [1024, 1024]).unwrap();
-        assert!(!small.may_be_large && small.most_tiles == 36, "{small:?}");
-        // 64 each are more than there is room for, but few have them.
-        assert!(plan(&[(154_000, 57.0)], [1024, 1024]).unwrap().may_be_large);
-        // A larger image has larger splats, and room for them.
-        assert!(!plan(&[(300_000, 60.0)], [4096, 4096]).unwrap().may_be_large);
-        assert!(plan(&[(300_000, 60.0)], [1024, 1024]).unwrap().may_be_large);
-        let mixed = plan(&[(150_000, 20.0), (4000, 57.0)], [1024, 1024]).unwrap();
-        assert!(!mixed.may_be_large && mixed.most_tiles == 64, "{mixed:?}");
-        assert_eq!(mixed.entry_room, 150_000 * 16 + 4000 * 64);
-        assert!(plan(&[(10, 3.0), (10, f64::INFINITY)], [1024, 1024]).unwrap().may_be_large);
-        // Too many for lists of 9 tiles each.
-        assert!(plan(&[(5_000_000, 12.0)], [1024, 1024]).unwrap().may_be_large);
-    }
-
-    #[test]
-    fn no_run_of_pixels_touches_more_tiles_than_its_box_says() {
-        for pixels in 1..100_u32 {
-            // A box of so many pixels: 1.5 of it are for rounding.
-            let a_side = u64::from((0..8).map(|first| (first + pixels - 1) / 8 + 1).max().unwrap());
-            for box_px in [f64::from(pixels) + 1.5, f64::from(pixels) + 2.4] {
-                assert_eq!(tiles_of(box_px), a_side * a_side, "{pixels} {box_px}");
-            }
-        }
-        assert_eq!(tiles_of(f64::INFINITY), u64::MAX);
-    }
-
-    #[test]
-    fn spans_have_bits_for_every_place_of_the_image_and_for_splats_as_large_as_that_leaves() {
-        for (side_px, a_side) in [(16_128, 32), (16_129, 16), (32_640, 16), (32_641, 8), (65_472, 8)] {
-            let plan = |px| plan(&[(10, px)], [side_px, 100]).unwrap();
-            let largest = f64::from(8 * (a_side - 1));
-            assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{side_px}");
-        }
-    }
-
-    #[test]
-    fn what_has_no_room_has_no_plan() {
-        assert_eq!(plan(&[], [64, 64]), None);
-        assert_eq!(plan(&[(8_388_609, 3.0)], [64, 64]), None);
-        assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
-        assert_eq!(TilePlan::of_boxes(8192, &[(8192, 3.0)], [64, 64], &limits(), Invocations::Columns), None);
-    }
-}
+mod tests;

@@ -1,0 +1,109 @@
+use super::*;
+use crate::{math::random::SplitMix, prepare::Rebase, scene::Camera};
+
+const SIZE_PX: [u32; 2] = [200, 150];
+
+/// Splats of a block: centers within a ball, normals within a cone. f64 in local space.
+struct Disk {
+    center: DVec3,
+    normal: DVec3,
+}
+
+fn random(random: &mut SplitMix) -> impl FnMut(f64, f64) -> f64 + '_ {
+    move |lo, hi| lo + (hi - lo) * random.unit()
+}
+
+fn direction(between: &mut impl FnMut(f64, f64) -> f64) -> DVec3 {
+    loop {
+        let v = DVec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0));
+        if (0.1..1.0).contains(&v.length()) {
+            return v.normalize();
+        }
+    }
+}
+
+/// Whatever is seen of a block's disks is in its rows, and a block that is left out has nothing to see: at random places, sizes and
+/// views, near and far, by the rims of the disks themselves.
+#[test]
+fn what_is_seen_of_a_block_is_in_its_rows() {
+    let mut source = SplitMix(3);
+    let mut between = random(&mut source);
+    let (mut left_out, mut facing, mut narrow, mut tightest) = (0, 0, 0, 0.0_f64);
+    for round in 0..4000 {
+        let (size, radius) = (0.5 * between(0.0, 1.0).powi(4), 0.3 * between(0.0, 1.0).powi(6));
+        let (axis, spread) = (direction(&mut between), between(0.0, 1.0).powi(2));
+        let middle = 2.0 * direction(&mut between) * between(0.0, 1.0);
+        let disks: Vec<Disk> = (0..40)
+            .map(|_| Disk {
+                center: middle + size * between(0.0, 1.0) * direction(&mut between),
+                normal: (axis + spread * between(0.0, 1.0) * direction(&mut between)).normalize(),
+            })
+            .collect();
+        let block = Block {
+            count: 40,
+            center: middle,
+            radius: disks.iter().map(|d| d.center.distance(middle)).fold(0.0, f64::max),
+            axis,
+            spread_rad: disks.iter().map(|d| d.normal.angle_between(axis)).fold(0.0, f64::max),
+            largest_radius: radius,
+        };
+        let eye = DVec3::new(between(-0.5, 0.5), between(-0.5, 0.5), 3.0);
+        let camera = Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.7, near: None };
+        let view = Rebase { origin: DVec3::ZERO, scale: 1.0 }.view_from_local(&camera);
+        let focal_px = camera.focal_px(SIZE_PX[1]);
+        let near = camera.near() * view.view_from_world_scale;
+        let bound = SizeBound {
+            nearest_z: -1.0,
+            largest_radius: radius * view.view_from_local_scale,
+            near,
+            focal_px,
+            size_px: SIZE_PX.map(f64::from),
+            filter_px: std::f64::consts::SQRT_2,
+        };
+        let look = Look { view: &view, bound: &bound, culls: round % 2 == 0, bounded: true };
+        let seen = seen_block(0, &block, &look);
+        for disk in &disks {
+            let faces_away = disk.normal.dot(disk.center - camera.eye) > 0.0;
+            if look.culls && faces_away {
+                assert!(seen.as_ref().is_none_or(|seen| !seen.all_seen), "{round}");
+                continue;
+            }
+            let s = radius * disk.normal.any_orthonormal_vector();
+            let t = disk.normal.cross(s);
+            let rim = (0..24).map(|i| f64::from(i).to_radians() * 15.0);
+            let image = rim.clone().map(|a| disk.center + s * a.cos() + t * a.sin()).map(|point| {
+                let p = camera.view_from_world().point(point);
+                (p.z, [0, 1].map(|i| focal_px * p[i] / p.z))
+            });
+            let image: Vec<_> = image.collect();
+            let half = SIZE_PX.map(|side| 0.5 * f64::from(side));
+            let in_view = |x: &[f64; 2]| x[0].abs() <= half[0] && x[1].abs() <= half[1];
+            if image.iter().all(|(z, x)| *z > camera.near() && in_view(x)) {
+                let most_px = seen.as_ref().unwrap_or_else(|| panic!("{round}: left out")).box_px - 3.0;
+                for axis in 0..2 {
+                    let along = || image.iter().map(|(_, x)| x[axis]);
+                    let span_px = along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min);
+                    assert!(span_px <= most_px, "{round}: {span_px} px of {most_px}");
+                    tightest = if span_px > 20.0 { (span_px / most_px).max(tightest) } else { tightest };
+                }
+            }
+            for point in rim.map(|a| disk.center + s * a.cos() + t * a.sin()).chain([disk.center]) {
+                let p = camera.view_from_world().point(point);
+                let px = [0, 1].map(|i| 0.5 * f64::from(SIZE_PX[i]) + focal_px * p[i] / p.z);
+                let inside = (0..2).all(|i| (0.0..f64::from(SIZE_PX[i])).contains(&px[i]));
+                if p.z < camera.near() || !inside {
+                    continue;
+                }
+                let row = px[1] as u32 / TILE_PX;
+                let seen = seen.as_ref().unwrap_or_else(|| panic!("{round}: a seen block was left out"));
+                assert!(seen.rows.contains(&row), "{round}: row {row} of {:?}", seen.rows);
+            }
+        }
+        left_out += usize::from(seen.is_none());
+        facing += usize::from(look.culls && seen.as_ref().is_some_and(|seen| seen.all_seen));
+        narrow += usize::from(seen.is_some_and(|seen| seen.rows.len() < 10));
+    }
+    println!("left out {left_out}, facing the eye {facing}, in less than 10 rows {narrow}");
+    assert!(tightest > 0.5, "{tightest}: the bound of boxes could be less");
+    assert!(left_out > 500 && facing > 100 && narrow > 500, "{left_out} {facing} {narrow}");
+}
