@@ -69,6 +69,12 @@ fn scenes_of_blocks() -> Vec<Hard> {
             hard.scene.objects.iter_mut().for_each(|object| object.closed = false);
             hard.camera = scenes::builder::camera([0.4, 0.3, 8.0], [0.0; 3]);
         }),
+        with("some of them large", &|hard| {
+            let Shapes::Disks { radii, .. } = &mut hard.scene.objects[1].splats.shapes else {
+                unreachable!()
+            };
+            radii.iter_mut().step_by(9000).for_each(|radius| *radius = 0.7);
+        }),
         with("unfiltered", &|hard| hard.settings.filter = Filter::None),
         with("ewa", &|hard| hard.settings.filter = Filter::Ewa),
         with("without what is hidden", &|hard| hard.settings.cull = Cull::Hidden),

@@ -135,7 +135,8 @@ impl Ball {
     /// Between which the angles lie of normals and the ways from the eye to their centers: above 90° a splat shows the eye its face.
     fn angles(&self, block: &Block) -> [f64; 2] {
         let distance = self.middle.length();
-        if !(self.radius < distance) {
+        let is_outside = self.radius < distance; // NaN is not
+        if !is_outside {
             return [0.0, std::f64::consts::PI];
         }
         let of_axis = block.axis.angle_between(self.middle);

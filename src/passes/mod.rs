@@ -45,8 +45,6 @@ mod tiles;
 mod variant;
 mod visibility;
 
-use std::slice;
-
 use ash::vk;
 
 pub use catalog::{Traits, frame_pipelines, papers_pipelines};
@@ -175,7 +173,7 @@ fn opaque_by_tiles<'a>(
     let mut tiles = tiles::list(graph, inputs, "", plan)?;
     let mut images = tiles::TileImages::create(graph, inputs, plan, complete);
     let mut opaque = Opaque::default();
-    let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, &tiles)).transpose()?;
+    let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, "", &tiles, None)).transpose()?;
     if inputs.meshes.is_empty() {
         let start = if complete { TileStart::Cleared } else { TileStart::Empty };
         tiles::fused(graph, inputs, "", &mut tiles, &mut images, large.as_ref(), (with_depth, start))?;
@@ -183,8 +181,7 @@ fn opaque_by_tiles<'a>(
         tiles::visibility(graph, inputs, &tiles, &mut images, large.as_ref())?;
     }
     if complete {
-        opaque.splat_depth =
-            Some(tiles::depth_buffer(graph, inputs, slice::from_ref(&tiles), &images.depth, large)?);
+        opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, "", &tiles, &images.depth, large)?);
     }
     if !inputs.meshes.is_empty() {
         let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
@@ -193,14 +190,14 @@ fn opaque_by_tiles<'a>(
     }
     if let (true, Some(depth)) = (plan.may_be_large, &opaque.splat_depth) {
         let depths = (depth, opaque.polygon_depth.as_ref());
-        tiles::sum_large(graph, inputs, &tiles, &mut images, depths, with_depth)?;
+        tiles::sum_large(graph, inputs, "", &tiles, &mut images, depths, with_depth)?;
     }
     opaque.splats = Some(images.sums);
     opaque.tiles = if complete { Vec::new() } else { vec![tiles] };
     Ok(opaque)
 }
 
-/// The same, a band of the image after the other: of splats alone, none of them large.
+/// The same, a band of the image after the other: of splats alone.
 fn opaque_by_bands<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -209,18 +206,31 @@ fn opaque_by_bands<'a>(
     complete: bool,
 ) -> Result<Opaque<'a>> {
     let plans = || inputs.bands.iter().map(|band| &band.plan);
-    let mut images = tiles::TileImages::create(graph, inputs, plans().next().unwrap_or(whole), complete);
+    let common = plans().next().unwrap_or(whole);
+    let complete = complete || common.may_be_large;
+    let mut images = tiles::TileImages::create(graph, inputs, common, complete);
     let mut start = if complete { TileStart::Cleared } else { TileStart::Empty };
     let mut opaque = Opaque::default();
     for ((kind, inputs), plan) in inputs.of_bands().into_iter().zip(plans()) {
         let mut tiles = tiles::list(graph, inputs, &kind, plan)?;
-        tiles::fused(graph, inputs, &kind, &mut tiles, &mut images, None, (with_depth, start))?;
+        let mut large = None;
+        if plan.may_be_large {
+            large = Some(tiles::see_large(graph, inputs, &kind, &tiles, opaque.splat_depth.take())?);
+        }
+        tiles::fused(graph, inputs, &kind, &mut tiles, &mut images, large.as_ref(), (with_depth, start))?;
         start = start.after_a_band();
-        opaque.tiles.push(tiles);
-    }
-    if complete {
-        let tiles = std::mem::take(&mut opaque.tiles);
-        opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, &tiles, &images.depth, None)?);
+        if complete {
+            let before = large.or(opaque.splat_depth.take());
+            opaque.splat_depth =
+                Some(tiles::depth_buffer(graph, inputs, &kind, &tiles, &images.depth, before)?);
+        }
+        // At once, for the lists of the next band lie where those of this one are.
+        if let (true, Some(depth)) = (plan.may_be_large, &opaque.splat_depth) {
+            tiles::sum_large(graph, inputs, &kind, &tiles, &mut images, (depth, None), with_depth)?;
+        }
+        if !complete {
+            opaque.tiles.push(tiles);
+        }
     }
     opaque.splats = Some(images.sums);
     Ok(opaque)

@@ -29,10 +29,11 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
         8 * lists * part.splats.len() as u32
     };
     let lists = lists + kept(&parts.opaque) + kept(&parts.transparent);
-    // What fragments read: in accumulation; in each layer's visibility, accumulation and polygons.
-    let reads = 1 + 3 * layers;
-    // Sums: for finalization and each layer.
-    let sums = 1 + layers;
+    let bands = parts.opaque.bands.len() as u32;
+    // What fragments read: in accumulation, of each band; in each layer's visibility, accumulation and polygons.
+    let reads = 1 + bands + 3 * layers;
+    // Sums: for finalization, the depth of tiles of each band, and each layer.
+    let sums = 1 + bands + layers;
     let plans = [&parts.opaque, &parts.transparent].into_iter().flat_map(Part::plans);
     let tiles = plans.map(tiles::room).fold(PoolRoom::default(), |sum, room| sum.plus(&room));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;

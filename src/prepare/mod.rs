@@ -139,7 +139,7 @@ pub fn prepare(
                 progress(done, total);
             }
             chunk.blocks = blocks.finish();
-            chunk.scene_bytes = splats.bytes() as u64 * u64::from(survey.count) / splats.len() as u64;
+            chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
             prepared.chunks.push(chunk);
         }
     }

@@ -48,8 +48,7 @@ pub(in super::super) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u6
     }
 }
 
-/// The bands of what `whole` would draw at once; none where memory is enough for that, where some splats are left to the graphics
-/// pipeline, or where bands would not help: so many splats in so few rows, or in no order.
+/// The bands of what `whole` would draw at once; none where memory is enough for that, or where bands would not help: so many splats in so few rows, or in no order.
 pub(in super::super) fn bands<'a>(
     draws: &[Draw<'a>],
     seen: &SeenSplats,
@@ -58,7 +57,7 @@ pub(in super::super) fn bands<'a>(
     limits: &Limits,
 ) -> Vec<Band<'a>> {
     let most_bytes = most_bytes(draws, settings.tile_memory);
-    if whole.may_be_large || whole.bytes() <= most_bytes {
+    if whole.bytes() <= most_bytes {
         return Vec::new();
     }
     let cut = Cut { draws, seen, settings, limits };
@@ -113,8 +112,7 @@ impl Cut<'_, '_> {
         TilePlan::of_blocks(self.draws, self.seen, rows, self.settings, self.limits)
     }
 
-    /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many, or one can't be
-    /// drawn by tiles alone.
+    /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
     fn plans(&self, most_bytes: u64) -> Option<Vec<TilePlan>> {
         let Range { start: first, end } = self.seen.rows()?;
         let mut plans: Vec<TilePlan> = Vec::new();
@@ -131,7 +129,7 @@ impl Cut<'_, '_> {
             }
             plans.extend(self.plan(next..fits));
             next = fits;
-            if plans.len() > MOST_BANDS || plans.last().is_some_and(|plan| plan.may_be_large) {
+            if plans.len() > MOST_BANDS {
                 return None;
             }
         }

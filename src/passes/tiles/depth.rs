@@ -1,5 +1,7 @@
 //! The depth that tiles have found, in the depth buffer of the graphics pipeline.
 
+use std::slice;
+
 use ash::vk;
 
 use super::{
@@ -20,17 +22,18 @@ pub(super) fn key() -> GraphicsKey {
     }
 }
 
-/// Declares the pass. `before`: the depth buffer that `visible` begins from; else it is 0 where there are no splats.
+/// Declares the pass. `kind`, in front of the tiles, tells those of several bands apart; `before`: the depth buffer that `visible` begins from; else it is 0 where there are no splats.
 pub(in super::super) fn depth_buffer<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    tiles: &[Tiles<'a>],
+    kind: &str,
+    tiles: &Tiles<'a>,
     visible: &Handle<Image>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
     let pipeline = inputs.shaders.graphics(key())?;
     let constants = finalize::constants(inputs);
-    let (id, seen) = (visible.id(), SeenTiles::of(tiles));
+    let (id, seen) = (visible.id(), SeenTiles::of(slice::from_ref(tiles)));
     let (mut depth, start) = match before {
         Some(before) => (before, Start::Load),
         None => {
@@ -38,12 +41,12 @@ pub(in super::super) fn depth_buffer<'a>(
             (depth, Start::Clear(ClearValue::Depth(0.0)))
         }
     };
-    let pass = graph.pass("depth of tiles").read(visible, Access::SampledFragment).write(
+    let pass = graph.pass(&format!("depth of {kind}tiles")).read(visible, Access::SampledFragment).write(
         &mut depth,
         Access::DepthAttachment,
         start,
     );
-    read_seen(tiles, pass).finish(Box::new(move |context| {
+    read_seen(slice::from_ref(tiles), pass).finish(Box::new(move |context| {
         let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, id)], None))?;
         draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, bytemuck::bytes_of(&constants))
     }));

@@ -22,19 +22,25 @@ use crate::{
     vk::Descriptor,
 };
 
-/// Declares their visibility; returns the depth, as that of all splats is.
+/// Declares their visibility; returns the depth, as that of all splats is. `kind`, in front of the splats, tells those of several bands
+/// apart; `before`: the depth of other bands.
 pub(in super::super) fn see_large<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
+    kind: &str,
     tiles: &Tiles<'a>,
+    before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
     let draws = LargeDraws::new(inputs, tiles, &visibility::splat_pass(inputs.settings, None)?)?;
-    let mut depth = graph.create_image("depth", inputs.image(super::super::DEPTH_FORMAT));
-    let pass = graph.pass("see large splats").write(
-        &mut depth,
-        Access::DepthAttachment,
-        Start::Clear(ClearValue::Depth(0.0)),
-    );
+    let (mut depth, start) = match before {
+        Some(before) => (before, Start::Load),
+        None => {
+            let depth = graph.create_image("depth", inputs.image(super::super::DEPTH_FORMAT));
+            (depth, Start::Clear(ClearValue::Depth(0.0)))
+        }
+    };
+    let pass = graph.pass(&format!("see {kind}large splats"));
+    let pass = pass.write(&mut depth, Access::DepthAttachment, start);
     read_list(tiles, pass).finish(Box::new(move |context| draws.record(context)));
     Ok(depth)
 }
@@ -43,6 +49,7 @@ pub(in super::super) fn see_large<'a>(
 pub(in super::super) fn sum_large<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
+    kind: &str,
     tiles: &Tiles<'a>,
     images: &mut TileImages,
     (depth, polygons): (&Handle<Image>, Option<&Handle<Image>>),
@@ -53,7 +60,7 @@ pub(in super::super) fn sum_large<'a>(
     let sampled = [with_depth.then(|| depth.id()), None, polygons.map(Handle::id)];
     let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
     let mut pass = graph
-        .pass("sum large splats")
+        .pass(&format!("sum {kind}large splats"))
         .write(&mut images.sums.color, Access::ColorAttachment, Start::Load)
         .write(&mut images.sums.normal, Access::ColorAttachment, Start::Load)
         .read(depth, access);
@@ -77,6 +84,8 @@ struct LargeDraws<'a> {
     pipelines: Vec<std::sync::Arc<crate::vk::GraphicsPipeline>>,
     entries: ResourceId,
     arguments: ResourceId,
+    /// The rows of the band.
+    area: vk::Rect2D,
 }
 
 impl<'a> LargeDraws<'a> {
@@ -86,6 +95,7 @@ impl<'a> LargeDraws<'a> {
             pipelines: pass.quad_pipelines(inputs)?,
             entries: tiles.entries.id(),
             arguments: tiles.arguments.id(),
+            area: tiles.plan.area(inputs.extent()),
         })
     }
 
@@ -97,6 +107,8 @@ impl<'a> LargeDraws<'a> {
         let layout = &shaders.splat_layout;
         let bind_point = vk::PipelineBindPoint::GRAPHICS;
         let (device, commands) = (context.device(), context.commands());
+        // SAFETY: inside of rendering; within the image. A splat that touches several bands is listed in each.
+        unsafe { device.cmd_set_scissor(commands, 0, &[self.area]) };
         for ((number, draw), pipeline) in (0..).zip(self.inputs.draws).zip(&self.pipelines) {
             let constants = FrameConstants {
                 // Of listed splats the lists have indices within their chunks.

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use ash::vk;
+
 use super::{
     super::{draws::Draw, seen::SeenSplats},
     Invocations,
@@ -173,7 +175,17 @@ impl TilePlan {
             record_room: largest(|band| band.record_room),
             most_tiles: largest(|band| band.most_tiles.into()) as u32,
             entry_room: largest(|band| band.entry_room),
+            may_be_large: bands.iter().any(|band| band.may_be_large),
             ..self.clone()
+        }
+    }
+
+    /// Its rows in pixels of an image.
+    pub(super) fn area(&self, image: vk::Extent2D) -> vk::Rect2D {
+        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * TILE_PX).min(image.height));
+        vk::Rect2D {
+            offset: vk::Offset2D { x: 0, y: first as i32 },
+            extent: vk::Extent2D { width: image.width, height: end - first },
         }
     }
 
