@@ -34,9 +34,9 @@ pub struct Inputs<'a> {
     pub settings: &'a Settings,
     /// Pipelines and their layouts.
     pub shaders: &'a Shaders,
-    /// Descriptor sets that live as long as the frame; room for [`needs`].
+    /// Descriptor sets that live as long as the frame; room for [`super::needs`].
     pub descriptors: &'a DescriptorPool,
-    /// The queries of [`needs`], where it has any.
+    /// The queries of [`super::needs`], where it has any.
     pub occlusion: Option<&'a Occlusion>,
 }
 
