@@ -62,6 +62,7 @@ pub fn pixels_along(box_px: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::{DVec2, DVec3};
     use proptest::prelude::*;
 
     proptest! {
@@ -89,6 +90,61 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Tangent vectors whose images are as long as under a convolution with a disk of radius h, and 0.2% longer: what a filter makes of a
+    /// splat (`glsl/inc/adjust.glsl`), with depths of its own.
+    fn widened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> (DVec3, DVec3) {
+        let image = |v: DVec3| (v.truncate() - center.truncate() / center.z * v.z) / center.z;
+        let (a, b) = (image(s), image(t));
+        let (sin, cos) = (0.5 * (2.0 * a.dot(b)).atan2(a.length_squared() - b.length_squared())).sin_cos();
+        let long = image(cos * s + sin * t).try_normalize().unwrap_or(DVec2::X);
+        let axis = |v: DVec3, direction: DVec2| {
+            let length = image(v).length();
+            let z = v.z * (16.0 * length / h).min(1.0);
+            let ray = center.truncate() / center.z;
+            (direction * (1.002 * length.hypot(h) * center.z) + ray * z).extend(z)
+        };
+        (axis(cos * s + sin * t, long), axis(cos * t - sin * s, long.perp()))
+    }
+
+    /// Lists of splats by tile have room for what the host's bound of a box allows, and no more.
+    #[test]
+    fn no_widened_disk_spans_more_than_the_bound_of_its_box() {
+        let mut random = crate::math::random::SplitMix(5);
+        let mut between = |lo: f64, hi: f64| lo + (hi - lo) * random.unit();
+        let (focal_px, mut tightest) = (500.0, [0.0_f64; 2]);
+        for round in 0..20_000 {
+            let z = between(0.5, 4.0);
+            let center = DVec3::new(between(-0.4, 0.4) * z, between(-0.4, 0.4) * z, z);
+            let normal = DVec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)).normalize();
+            // From a thousandth of a pixel to 300.
+            let radius = z / focal_px * 10.0_f64.powf(between(-3.0, 2.2));
+            let s = radius * normal.any_orthonormal_vector();
+            let t = between(0.01, 1.0) * normal.cross(s);
+            let h = std::f64::consts::SQRT_2 / focal_px;
+            let (s, t) = widened(center, s, t, h);
+            let rim = (0..360).map(|i| f64::from(i).to_radians()).map(|a| center + s * a.cos() + t * a.sin());
+            let image = rim.map(|p| p.truncate() / p.z * focal_px);
+            let first = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+            let [lo, hi] = image.fold(first, |[lo, hi], x| [lo.min(x), hi.max(x)]);
+            let bound = SizeBound {
+                nearest_z: z - radius,
+                largest_radius: radius,
+                near: 1e-3,
+                focal_px,
+                size_px: [480.0; 2],
+                filter_px: std::f64::consts::SQRT_2,
+            };
+            // Three pixels of the bound are for rounding.
+            let most_px = box_px(&bound, radius) - 3.0;
+            let span_px = (hi - lo).max_element();
+            assert!(span_px <= most_px, "{round}: {span_px} px, at most {most_px}");
+            // Of the filter's own width, and of large ones, which slant.
+            let large = usize::from(span_px > 50.0);
+            tightest[large] = tightest[large].max(span_px / most_px);
+        }
+        assert!(tightest[0] > 0.9 && tightest[1] > 0.6, "{tightest:?}: the bound could be less");
     }
 
     #[test]

@@ -98,45 +98,6 @@ mod tests {
         (large, small, v.normalize())
     }
 
-    /// Lists of splats by tile have room for what the host's bound of a box allows, and no more.
-    #[test]
-    fn no_adjusted_disk_spans_more_than_the_bound_of_its_box() {
-        let mut random = crate::math::random::SplitMix(5);
-        let mut between = |lo: f64, hi: f64| lo + (hi - lo) * random.unit();
-        let (focal_px, mut tightest) = (500.0, [0.0_f64; 2]);
-        for round in 0..20_000 {
-            let z = between(0.5, 4.0);
-            let center = DVec3::new(between(-0.4, 0.4) * z, between(-0.4, 0.4) * z, z);
-            let normal = DVec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)).normalize();
-            // From a thousandth of a pixel to 300.
-            let radius = z / focal_px * 10.0_f64.powf(between(-3.0, 2.2));
-            let s = radius * normal.any_orthonormal_vector();
-            let t = between(0.01, 1.0) * normal.cross(s);
-            let h = std::f64::consts::SQRT_2 / focal_px;
-            let (s, t) = adjust(center, s, t, h);
-            let rim = (0..360).map(|i| f64::from(i).to_radians()).map(|a| center + s * a.cos() + t * a.sin());
-            let image = rim.map(|p| p.truncate() / p.z * focal_px);
-            let first = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-            let [lo, hi] = image.fold(first, |[lo, hi], x| [lo.min(x), hi.max(x)]);
-            let bound = crate::math::size::SizeBound {
-                nearest_z: z - radius,
-                largest_radius: radius,
-                near: 1e-3,
-                focal_px,
-                size_px: [480.0; 2],
-                filter_px: std::f64::consts::SQRT_2,
-            };
-            // Three pixels of the bound are for rounding.
-            let most_px = crate::math::size::box_px(&bound, radius) - 3.0;
-            let span_px = (hi - lo).max_element();
-            assert!(span_px <= most_px, "{round}: {span_px} px, at most {most_px}");
-            // Of the filter's own width, and of large ones, which slant.
-            let large = usize::from(span_px > 50.0);
-            tightest[large] = tightest[large].max(span_px / most_px);
-        }
-        assert!(tightest[0] > 0.9 && tightest[1] > 0.6, "{tightest:?}: the bound could be less");
-    }
-
     #[test]
     fn the_drawn_ellipse_has_the_widened_axes_in_the_same_directions() {
         let mut random = Random(1);
