@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{ALL, assert_validation_is_silent, compare::F32, scenes, shared};
+use common::{ALL, assert_validation_is_silent, compare::F32, scenes, shared, with_limits};
 use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
@@ -127,6 +127,57 @@ fn bands_draw_the_same_splats_in_every_pixel() {
         assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
         assert_same_surface(&cut, &whole, hard.name);
     }
+    assert_validation_is_silent(&headless);
+}
+
+/// Without shuffles a dispatch takes 30 000 entries of a tile, so that some bands alone may have overfull tiles and others not.
+#[test]
+fn bands_with_and_without_overfull_tiles_are_one_image() {
+    let mut headless = shared();
+    let mut hard = hard("a ball", vec![sphere(100_000, DVec3::ZERO)], [0.0, 0.0, 3.2]);
+    hard.settings.accumulate = Accumulate::F16;
+    with_limits(
+        &mut headless,
+        |limits| limits.shuffles = false,
+        |headless| {
+            let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
+            let mut overfull_in_some = 0;
+            for megabytes in [2.5, 3.0, 3.5, 4.0, 4.5] {
+                let cut = draw(headless, &hard, TileMemory::Most((megabytes * 1e6) as u64));
+                let overfull = cut.plan.passes.iter().filter(|pass| pass.name.contains("overfull")).count();
+                println!("{megabytes} MB: {} bands, {overfull} passes of overfull tiles", bands(&cut));
+                // Where no band has them sums have 16 bits, other than those of the whole image.
+                if overfull > 0 && bands(&cut) > 1 {
+                    assert_same_surface(&cut, &whole, hard.name);
+                    overfull_in_some += 1;
+                }
+            }
+            assert!(overfull_in_some > 0, "no cut has bands with overfull tiles");
+        },
+    );
+    assert_validation_is_silent(&headless);
+}
+
+/// Layers with large splats are the graphics pipeline's, in one piece: here the lists of all have room for large ones, but those of
+/// bands, which know only of blocks that have one, do not.
+#[test]
+fn layers_with_large_splats_have_no_bands() {
+    let mut headless = shared();
+    let mut ball = transparent::tinted(sphere(100_000, DVec3::ZERO), [0.8, 0.5, 0.3, 0.4]);
+    let Shapes::Disks { radii, .. } = &mut ball.splats.shapes else { unreachable!() };
+    radii.iter_mut().step_by(1500).for_each(|radius| *radius = 0.12);
+    let mut hard = hard("a ball", vec![ball], [0.0, 0.0, 3.2]);
+    hard.settings.layers = surfel::scene::Layers::Fixed(2);
+    let draw_both = |headless: &mut Headless| {
+        let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
+        let cut = draw(headless, &hard, TileMemory::Most(0));
+        assert!(whole.plan.passes.iter().any(|pass| pass.name == "layers of tiles"));
+        assert_same_surface(&cut, &whole, hard.name);
+        bands(&cut)
+    };
+    assert!(draw_both(&mut headless) > 1);
+    let few_entries = |limits: &mut surfel::vk::Limits| limits.max_storage_buffer_range = 1_800_000;
+    with_limits(&mut headless, few_entries, |headless| assert_eq!(draw_both(headless), 0));
     assert_validation_is_silent(&headless);
 }
 

@@ -103,6 +103,10 @@ impl<'a> Part<'a> {
         if self.kept.is_none() {
             cull::number_splats(&mut self.splats);
         }
+        // A large splat is the graphics pipeline's also where it is large for the lists of a band alone.
+        if self.tiles.is_none() || self.bands.iter().any(|band| band.plan.may_be_large) {
+            self.bands.clear();
+        }
         for band in &mut self.bands {
             band.plan = with_layers(band.plan.clone());
         }

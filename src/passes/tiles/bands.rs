@@ -2,7 +2,7 @@
 //!
 //! How many splats a band has is known on the host from what bounds their blocks, so that memory has a bound before the device has
 //! found anything. In a band records have other numbers, by which a tile's list is ordered: pictures are the same but for the
-//! rounding of sums in another order, and that these need 32 bits where a tile may have more splats than one dispatch takes.
+//! rounding of sums in another order, and that these need 32 bits where a tile of any band may have more splats than one dispatch takes.
 
 use std::ops::Range;
 

@@ -101,6 +101,8 @@ pub struct TilePlan {
     pub layers_at_once: u32,
     /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
     pub may_be_large: bool,
+    /// In some band of the image a tile may have more entries than one dispatch takes, so that sums need 32 bits in all.
+    pub overfull_somewhere: bool,
     /// What a tile's visible depth hides is not summed.
     pub hidden: bool,
     /// What they draw, and how they come by splats.
@@ -176,6 +178,7 @@ impl TilePlan {
             most_tiles: largest(|band| band.most_tiles.into()) as u32,
             entry_room: largest(|band| band.entry_room),
             may_be_large: bands.iter().any(|band| band.may_be_large),
+            overfull_somewhere: bands.iter().any(Self::may_be_overfull),
             ..self.clone()
         }
     }
@@ -263,6 +266,7 @@ impl TilePlan {
             part_length: walk_length,
             layers_at_once: 1,
             may_be_large: !fits,
+            overfull_somewhere: false,
             hidden: false,
             invocations,
         })
@@ -298,6 +302,7 @@ impl TilePlan {
             part_length: 4 * MOST_ITERATIONS,
             layers_at_once: 1,
             may_be_large,
+            overfull_somewhere: false,
             hidden: false,
             invocations: Invocations::Columns,
         }
@@ -314,7 +319,7 @@ impl TilePlan {
 
     /// Whether a tile may have more splats than one dispatch takes.
     pub fn may_be_overfull(&self) -> bool {
-        self.record_count > self.part_length
+        self.overfull_somewhere || self.record_count > self.part_length
     }
 
     /// Parts of a tile that has all splats.

@@ -72,3 +72,16 @@ fn what_has_no_room_has_no_plan() {
     assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
     assert_eq!(TilePlan::of_boxes(8192, &[(8192, 3.0)], [64, 64], &limits(), Invocations::Columns), None);
 }
+
+#[test]
+fn bands_agree_on_what_they_have_in_common() {
+    let bands =
+        [(9000, 3.0), (1_000_000, 3.0), (20_000, f64::INFINITY)].map(|of| plan(&[of], [1024, 1024]).unwrap());
+    assert!(!bands[0].may_be_overfull() && bands[1].may_be_overfull() && bands[2].may_be_large);
+    let among = bands.each_ref().map(|band| band.among(&bands));
+    for (band, alone) in among.iter().zip(&bands) {
+        assert!(band.may_be_overfull() && band.may_be_large, "{band:?}");
+        assert_eq!([band.record_room, band.entry_room], [among[0].record_room, among[0].entry_room]);
+        assert!(band.bytes() >= alone.bytes() && band.record_count == alone.record_count, "{band:?}");
+    }
+}
