@@ -31,6 +31,7 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 #define LIGHTS_SET 0
 #define LIGHTS_BINDING 16
 #include "inc/shading.glsl"
+#include "inc/normalized.glsl"
 #include "inc/tile_peel.glsl"
 #include "inc/tile_rest.glsl"
 

@@ -4,7 +4,9 @@
 //
 // FUSED: both, of one tile after the other. VISIBLE, SUMMED: one of them, where the graphics pipeline draws in between; or of a
 // part of a tile with more splats than one dispatch takes: then depths and sums go on from what the image holds.
-// HALF, SINGLE: the precision of the sums in the images. In registers they are f32.
+// SHADED: both, and then what a pixel shows instead of its sums (finalize.frag.glsl), which never leave the registers; where nobody
+// else reads them, and no tile has more splats than one dispatch takes. LIT: the scene has lights of its own.
+// HALF, SINGLE: the precision of what is left in images. In registers it is f32.
 // UPON: the graphics pipeline has drawn visible splats before. WITH_DEPTH, BESIDE: as in accumulate.frag.glsl.
 // HIDDEN: what the tile's visible depth hides is not summed (inc/tile_hidden.glsl).
 // PIXELS: of 64 invocations, each a pixel: a GPU's vectors are longer than 8. DIRECT: each loads every record. Without it each
@@ -15,6 +17,8 @@
 // multiplications more, and no error adds up.
 //
 // Own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
+// Permutations: shaded | half single | _ lit | _ direct pixels
+// Permutations: shaded | half single | _ lit | hidden | _ pixels
 // Permutations: fused | half single | _ with_depth | _ upon | _ direct pixels
 // Permutations: fused | half single | _ with_depth | _ upon | hidden | _ pixels
 // Permutations: visible | _ upon | _ direct pixels
@@ -34,7 +38,7 @@
 #include "inc/kernel.glsl"
 #include "inc/tiles.glsl"
 layout(push_constant, std430) uniform Push { TileConstants push; };
-#if defined(FUSED)
+#if defined(FUSED) || defined(SHADED)
 #define IS_WHOLE true
 #else
 #define IS_WHOLE (push.part == 0xffffffffu) // WHOLE of src/passes/tiles/mod.rs
@@ -45,17 +49,27 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 #if defined(HIDDEN)
 #include "inc/tile_hidden.glsl"
 #endif
+#if defined(SHADED)
+#define LIGHTS_SET 0
+#define LIGHTS_BINDING 16
+#include "inc/shading.glsl"
+#include "inc/normalized.glsl"
+#endif
 
 #if defined(HALF)
 #define SUMS_FORMAT rgba16f
 #else
 #define SUMS_FORMAT rgba32f
 #endif
+#if defined(SHADED)
+layout(set = 0, binding = 11, SUMS_FORMAT) writeonly uniform image2D shown_colors; // linear light; 1: something is there
+#else
 #if !defined(VISIBLE)
 layout(set = 0, binding = 11, SUMS_FORMAT) uniform image2D color_sums;
 layout(set = 0, binding = 12, SUMS_FORMAT) uniform image2D normal_sums;
 #endif
 layout(set = 0, binding = 13, r32f) uniform image2D visible_depth;
+#endif
 #if defined(UPON)
 layout(set = 0, binding = 14) uniform texture2D depth_before;
 #endif
@@ -148,11 +162,13 @@ void main()
     }
 #if !defined(SUMMED)
     see(work.range, at_px, visible);
+#if !defined(SHADED)
     if (KEEPS_DEPTH) {
         [[unroll]] for (int row = 0; row < ROWS; row++) {
             imageStore(visible_depth, pixel_of(top, row), vec4(visible[row]));
         }
     }
+#endif
 #endif
 #if !defined(VISIBLE)
     vec4 colors[ROWS];
@@ -175,6 +191,15 @@ void main()
     work.range = unhidden(work.range, at_px, visible);
 #endif
     sum(work.range, at_px, visible, polygon, colors, normals);
+#if defined(SHADED)
+    [[unroll]] for (int row = 0; row < ROWS; row++) {
+        Surface surface = normalized(colors[row], normals[row].xyz);
+        vec3 v = to_eye(at_px + vec2(0.0, float(FIRST_ROW + row)));
+        // Half floats end at 65504.
+        vec3 light = min(shaded(surface.albedo, surface.normal, v), 65504.0);
+        imageStore(shown_colors, pixel_of(top, row), surface.weight > 0.0 ? vec4(light, 1.0) : vec4(0.0));
+    }
+#else
     [[unroll]] for (int row = 0; row < ROWS; row++) {
 #if defined(HALF)
         // Half floats end at 65504. Of sums only ratios count.
@@ -187,5 +212,6 @@ void main()
         imageStore(color_sums, pixel_of(top, row), colors[row]);
         imageStore(normal_sums, pixel_of(top, row), normals[row]);
     }
+#endif
 #endif
 }

@@ -8,8 +8,8 @@ use surfel::{
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Camera, Colors, Epsilon, FilterWeight, LastLayer, Layers, Light, LightKind, Object,
-        Order, Rasterizer, Scene, Settings, TileInvocations,
+        Accumulate, Camera, Colors, Cull, Epsilon, FilterWeight, LastLayer, Layers, Light, LightKind, Object,
+        Order, Rasterizer, Scene, Settings, Shading, TileInvocations,
     },
 };
 
@@ -64,7 +64,7 @@ fn images_of_odd_sizes_and_many_chunks_are_the_same_as_by_points() {
         let pixels = tiles.linear.len();
         assert!(different(&tiles, &points) <= pixels / 1000, "{size_px:?}: {}", different(&tiles, &points));
         let names = passes(&tiles);
-        assert!(names.contains(&"see and sum tiles") && !names.contains(&"clear sums"), "{names:?}");
+        assert!(names.contains(&"see, sum and shade tiles") && !names.contains(&"clear sums"), "{names:?}");
         assert!(!names.contains(&"visibility"), "{names:?}");
     }
     assert_validation_is_silent(&headless);
@@ -112,6 +112,74 @@ fn an_invocation_a_pixel_draws_the_same_bits_as_one_a_column() {
         let columns = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
         let pixels = picture(&mut headless, &by_pixels(&hard), Rasterizer::Compute, common::ALL);
         assert_same_bits(&columns, &pixels, hard.name);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// Opaque splats alone are shaded in the dispatch that sums them, unless someone else reads the sums, as what exports the surface
+/// does: the same formulas of the same sums, in two stages of the device. Each shading, under the scene's own lights and without.
+#[test]
+fn tiles_that_are_shaded_at_once_are_the_same_picture_as_by_their_sums() {
+    let mut headless = shared();
+    let directional = |direction, color| Light { kind: LightKind::Directional(direction), color };
+    let lights = vec![
+        directional(DVec3::new(-0.4, -1.0, -0.7), [0.9, 0.5, 0.2]),
+        Light { kind: LightKind::Eye, color: [0.1, 0.3, 0.4] },
+    ];
+    let shadings = [Shading::Phong, Shading::Lambert, Shading::Normals, Shading::Albedo];
+    let mut shaded = 0;
+    for (i, mut hard) in scenes::all().into_iter().enumerate() {
+        hard.settings.shading = shadings[i % 4];
+        hard.settings.accumulate = Accumulate::F32;
+        hard.settings.cull = if i % 3 == 2 { Cull::Hidden } else { Cull::Auto };
+        hard.settings.background = (i % 2 == 0).then_some([0.2, 0.4, 0.7]);
+        for lights in [Vec::new(), lights.clone()] {
+            hard.scene.lights = lights;
+            for hard in [hard.clone(), by_pixels(&hard)] {
+                let at_once = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+                if !passes(&at_once).contains(&"see, sum and shade tiles") {
+                    continue;
+                }
+                shaded += 1;
+                let by_sums = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+                assert!(!passes(&by_sums).contains(&"see, sum and shade tiles"));
+                for (pixel, (a, b)) in at_once.linear.iter().zip(&by_sums.linear).enumerate() {
+                    // Some ten operations, whose order each stage's compiler decides.
+                    let far =
+                        a.iter().zip(b).any(|(a, b)| (a - b).abs() > 16.0 * f32::EPSILON * b.abs().max(1.0));
+                    assert!(!far, "{}, pixel {pixel}: {a:?}, by sums {b:?}", hard.name);
+                }
+            }
+        }
+    }
+    println!("{shaded} pictures");
+    assert!(shaded >= 30, "{shaded}");
+    assert_validation_is_silent(&headless);
+}
+
+/// Sums of 16 bits are rounded before they are shaded, what tiles show after; of light beyond half floats as much is kept as they have.
+#[test]
+fn what_tiles_show_in_16_bits_is_what_sums_of_16_bits_show() {
+    let mut headless = shared();
+    let mut hard =
+        hard(vec![sphere(4000, DVec3::ZERO)], scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]), [97, 83]);
+    hard.settings.accumulate = Accumulate::F16;
+    for intensity in [1.0, 1e6] {
+        hard.scene.lights = vec![Light { kind: LightKind::Eye, color: [intensity, 0.5, 0.25] }];
+        let at_once = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+        let by_sums = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+        assert!(passes(&at_once).contains(&"see, sum and shade tiles"));
+        let mut brightest = 0.0_f32;
+        for (pixel, (a, b)) in at_once.linear.iter().zip(&by_sums.linear).enumerate() {
+            brightest = brightest.max(a[0]);
+            // Of highlights, the 32nd power of what is rounded.
+            let far = a.iter().zip(b).any(|(a, b)| {
+                let b = b.min(65504.0);
+                (a - b).abs() > 40.0 / 2048.0 * b.abs().max(1.0)
+            });
+            assert!(!far, "{intensity}, pixel {pixel}: {a:?}, by sums {b:?}");
+        }
+        assert!(if intensity > 1.0 { brightest == 65504.0 } else { brightest < 2.0 }, "{brightest}");
     }
     assert_validation_is_silent(&headless);
 }

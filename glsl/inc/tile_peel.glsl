@@ -16,11 +16,6 @@ vec4 under(vec4 light, vec4 layer)
     return light + (1.0 - light.a) * layer;
 }
 
-vec3 to_eye(vec2 at_px)
-{
-    return -normalize(vec3(FORMULA(FORMULA_EYE_DIRECTION, at_px / push.focal_px), 1.0));
-}
-
 vec3 turned(vec3 normal, vec3 v)
 {
     return dot(normal, v) < 0.0 ? -normal : normal;
@@ -77,8 +72,7 @@ void compose(vec2 at_px, float visible[ROWS], vec4 colors[ROWS], vec4 normals[RO
         float weight = colors[row].w;
         bool covered = weight > 0.0;
         vec3 v = to_eye(at_px + vec2(0.0, float(FIRST_ROW + row)));
-        float length2 = dot(normals[row].xyz, normals[row].xyz);
-        vec3 normal = length2 > 0.0 ? normals[row].xyz * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
+        vec3 normal = normal_of_sum(normals[row].xyz);
         vec3 albedo = FORMULA(FORMULA_NORMALIZED_COLOR, colors[row].rgb / weight);
         float alpha = normals[row].w / weight;
         vec3 light = shaded(albedo, turned(normal, v), v);

@@ -65,6 +65,12 @@ vec2 from_middle_px(ivec2 pixel)
     return vec2(pixel) + 0.5 - push.half_size_px;
 }
 
+// The direction from the surface there to the eye, view space.
+vec3 to_eye(vec2 at_px)
+{
+    return -normalize(vec3(FORMULA(FORMULA_EYE_DIRECTION, at_px / push.focal_px), 1.0));
+}
+
 // A pixel of the image: tiles at its borders reach beyond.
 ivec2 within_image(ivec2 pixel)
 {

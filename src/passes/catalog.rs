@@ -64,6 +64,11 @@ impl Traits {
     fn lights(self) -> u32 {
         if self.lit { 2 } else { 0 }
     }
+
+    /// More than opaque splats of tiles, so that these are not shaded at once.
+    fn leaves_sums(self) -> bool {
+        self.polygons || self.transparent || self.may_be_large || self.export
+    }
 }
 
 /// The pipelines of the papers' own programs: perspective splatting as Guennebaud et al. 2006 publish it, and the ray
@@ -118,9 +123,10 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         layered: traits.transparent,
         lights: traits.lights(),
     };
-    let alone = by_tiles && !(traits.polygons || traits.transparent || traits.may_be_large || traits.export);
-    let finalized = finalize::key(settings, target, shown);
-    let finalized = if alone { finalized.map(|key| finalize::key_of_tiles(&key)) } else { finalized };
+    let finalized = match by_tiles && !traits.leaves_sums() {
+        true => Some(finalize::key_of_shown(target)),
+        false => finalize::key(settings, target, shown),
+    };
     all.extend(finalized.map(|key| graphics("finalize", "", key)));
     if traits.export {
         all.push(graphics("export", "", export::key()));
@@ -185,14 +191,14 @@ fn opaque(
 
 /// The same by tiles.
 fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> Result<Vec<PipelineRecipe>> {
-    let Traits { may_be_large, polygons, export, transparent, .. } = traits;
+    let Traits { may_be_large, polygons, export, .. } = traits;
+    let (leaves_sums, lights) = (traits.leaves_sums(), traits.lights());
+    let of_tiles = tiles::TileTraits { may_be_large, polygons, export, leaves_sums, lights };
     let mut all = Vec::new();
     let culled = if settings.cull == Cull::Setup { Vec::new() } else { cull::recipes(variant) };
     let set_up = culled.len();
-    let passes = [
-        tiles::list_recipes(variant, may_be_large, set_up > 0),
-        tiles::opaque_recipes(settings, tiles::TileTraits { may_be_large, polygons, export })?,
-    ];
+    let passes =
+        [tiles::list_recipes(variant, may_be_large, set_up > 0), tiles::opaque_recipes(settings, of_tiles)?];
     all.extend(culled.into_iter().chain(passes.into_iter().flatten()).map(|(pass, key)| compute(pass, key)));
     // The same shaders do all splats, or leave the large ones out.
     for recipe in all.iter_mut().filter(|recipe| ["set up splats", "fill tiles"].contains(&recipe.pass)) {
@@ -208,7 +214,7 @@ fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> 
             all.push(graphics(pass, "listed quads", key));
         }
     }
-    if may_be_large || polygons || export || transparent {
+    if leaves_sums {
         let (pass, key) = tiles::depth_recipe();
         all.push(graphics(pass, "tiles", key));
     }

@@ -2,7 +2,7 @@
 //!
 //! Without layers, pixels without any surface are not shaded: the target is cleared to the background, and a triangle at
 //! depth 0 (infinitely far) is drawn where the visible depth is above 0 (something is there). Of splats that were drawn by
-//! tiles, only those tiles are.
+//! tiles, only those tiles are; and where these are shaded already, they are but brought to the target.
 
 use ash::vk;
 
@@ -36,6 +36,8 @@ pub(super) struct Opaque<'a> {
     pub polygon_depth: Option<Handle<Image>>,
     /// The tiles that have splats, where all is opaque splats and outside of them there is nothing.
     pub tiles: Vec<Tiles<'a>>,
+    /// What these show, in place of sums.
+    pub shown: Option<Handle<Image>>,
 }
 
 impl Opaque<'_> {
@@ -140,9 +142,14 @@ pub(super) fn finalize<'a>(
         layered: layers.is_some(),
         lights: inputs.lights,
     };
+    if let Some(shown) = &opaque.shown {
+        let key = key_of_shown(target_format);
+        return finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), key, target);
+    }
     let key = key(inputs.settings, target_format, traits);
-    if let (false, Some(key)) = (opaque.tiles.is_empty(), &key) {
-        return finalize_tiles(graph, inputs, (&opaque.tiles, splats, lights), key, target);
+    if let (false, Some(key), Some(Sums { color, normal })) = (opaque.tiles.is_empty(), &key, splats) {
+        let key = key_of_tiles(key);
+        return finalize_tiles(graph, inputs, &opaque.tiles, (&[color, normal], lights), key, target);
     }
     let pipeline = key.map(|key| inputs.shaders.graphics(key)).transpose()?;
     let constants = constants(inputs);
@@ -183,20 +190,29 @@ pub(super) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
     }
 }
 
-/// The pass over the tiles that have splats alone.
+/// What the pipeline is that brings to the target what tiles show.
+pub(super) fn key_of_shown(target_format: vk::Format) -> GraphicsKey {
+    GraphicsKey {
+        color_formats: vec![target_format],
+        ..quads_of_tiles(&shaders::FINALIZE_SHADED_FRAG, Vec::new())
+    }
+}
+
+/// The pass over the tiles that have splats alone. It reads images, of which the first is binding 0, and lights.
 fn finalize_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    (tiles, splats, lights): (&[Tiles<'a>], Option<&Sums>, Option<&Handle<Buffer>>),
-    whole: &GraphicsKey,
+    tiles: &[Tiles<'a>],
+    (images, lights): (&[&Handle<Image>], Option<&Handle<Buffer>>),
+    key: GraphicsKey,
     target: &mut Handle<Image>,
 ) -> Result<()> {
-    let pipeline = inputs.shaders.graphics(key_of_tiles(whole))?;
+    let pipeline = inputs.shaders.graphics(key)?;
     let constants = constants(inputs);
-    let ids = sums_descriptors(splats, None, None);
+    let ids: Vec<_> = (0..).zip(images).map(|(binding, image)| (binding, image.id())).collect();
     let seen = SeenTiles::of(tiles);
     let mut pass = read_seen(tiles, graph.pass("finalize"));
-    for image in splats.into_iter().flat_map(|sums| [&sums.color, &sums.normal]) {
+    for image in images {
         pass = pass.read(image, Access::SampledFragment);
     }
     if let Some(lights) = lights {

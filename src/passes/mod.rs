@@ -73,7 +73,7 @@ pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
 use self::{finalize::Opaque, lists::Lists, tiles::TileStart};
 use crate::{
     error::Result,
-    graph::{Graph, Handle, Image, execute::Body},
+    graph::{Buffer, Graph, Handle, Image, execute::Body},
     scene::Accumulate,
 };
 
@@ -109,7 +109,8 @@ pub fn frame<'a>(
     let lights = lights::lights(graph, &parts.lights);
     let inputs = Inputs { lights: parts.lights.len() as u32, ..inputs };
     let complete = export || !parts.transparent.is_empty();
-    let opaque = opaque(graph, inputs.of(&parts.opaque), kernel.as_ref(), export, complete)?;
+    let opaque =
+        opaque(graph, inputs.of(&parts.opaque), (kernel.as_ref(), lights.as_ref()), export, complete)?;
     let layers = match parts.transparent.is_empty() {
         true => None,
         false => {
@@ -132,12 +133,15 @@ pub fn frame<'a>(
 fn opaque<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    kernel: Option<&Handle<Image>>,
+    (kernel, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
     with_depth: bool,
     complete: bool,
 ) -> Result<Opaque<'a>> {
     if let Some(plan) = inputs.tiles {
-        return opaque_by_tiles(graph, inputs, plan, with_depth, complete);
+        return match !complete && tiles::can_shade(inputs) {
+            true => shaded_by_tiles(graph, inputs, lights),
+            false => opaque_by_tiles(graph, inputs, plan, with_depth, complete),
+        };
     }
     let mut opaque = Opaque::default();
     let lists = Lists::make(graph, inputs, "")?;
@@ -154,6 +158,27 @@ fn opaque<'a>(
         opaque.splats =
             Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, with_depth)?);
     }
+    Ok(opaque)
+}
+
+/// The same by tiles, which are shaded, too: for a frame of which nobody reads sums or depth.
+fn shaded_by_tiles<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    lights: Option<&Handle<Buffer>>,
+) -> Result<Opaque<'a>> {
+    let format = sum_format(inputs.settings.accumulate);
+    let mut shown = graph.create_image("shown by tiles", inputs.image(format));
+    let mut opaque = Opaque::default();
+    let mut start = TileStart::Empty;
+    for (kind, inputs) in inputs.of_bands() {
+        let Some(plan) = inputs.tiles else { continue };
+        let mut tiles = tiles::list(graph, inputs, &kind, plan)?;
+        tiles::shaded(graph, inputs, &kind, &mut tiles, &mut shown, lights, start)?;
+        start = start.after_a_band();
+        opaque.tiles.push(tiles);
+    }
+    opaque.shown = Some(shown);
     Ok(opaque)
 }
 

@@ -199,6 +199,9 @@ fn reason(pass: &str) -> &'static str {
             "--set-up once: each splat is culled, or made ready to be drawn as a point in all passes"
         }
         "set up splats" => "opaque splats: each is culled, or made ready to be drawn by tiles",
+        "see, sum and shade tiles" => {
+            "opaque splats: visibility, sums and shading of one tile after the other"
+        }
         "see and sum tiles" => "opaque splats: visibility and sums of one tile after the other",
         "see tiles" => "opaque splats beside polygons: the depth of the nearest surface of each tile",
         "sum tiles" => "opaque splats beside polygons: sums of the nearest surface of each tile",

@@ -235,12 +235,19 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
     if recipe.draws == "triangles" && !recipe.sets_splats_up() {
         names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
-    let sums =
-        ["accumulate", "floor add", "see and sum tiles", "sum tiles", "sum large splats", "layers of tiles"];
+    let sums = [
+        "accumulate",
+        "floor add",
+        "see, sum and shade tiles",
+        "see and sum tiles",
+        "sum tiles",
+        "sum large splats",
+        "layers of tiles",
+    ];
     if sums.contains(&recipe.pass) && settings.accumulate != Accumulate::default() {
         names.accumulate = settings.accumulate.name().to_owned();
     }
-    if recipe.pass == "finalize" {
+    if ["finalize", "see, sum and shade tiles"].contains(&recipe.pass) {
         names.shading = surfel::report::settings_as_options(settings)["shading"].clone();
     }
     names

@@ -33,7 +33,7 @@ pub(super) use self::{
     plan::{TILE_PX, rows_of_image},
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
-    splat::{TileImages, TileStart, accumulate, fused, visibility},
+    splat::{TileImages, TileStart, accumulate, can_shade, fused, shaded, visibility},
 };
 use pass::{TilePass, after_dispatches_before};
 

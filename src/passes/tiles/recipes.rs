@@ -27,6 +27,10 @@ pub(in super::super) struct TileTraits {
     pub polygons: bool,
     /// The surface is wanted as data.
     pub export: bool,
+    /// Someone else reads what tiles leave, for which they leave sums.
+    pub leaves_sums: bool,
+    /// The scene's own lights.
+    pub lights: u32,
 }
 
 fn compute((shader, constants): (&'static Shader, Constants)) -> ComputeKey {
@@ -62,13 +66,12 @@ pub(in super::super) fn opaque_recipes(
     settings: &Settings,
     traits: TileTraits,
 ) -> Result<Vec<(&'static str, ComputeKey)>> {
-    let TileTraits { may_be_large: upon, polygons, export: with_depth } = traits;
+    let TileTraits { may_be_large: upon, polygons, export: with_depth, leaves_sums, lights } = traits;
+    let hidden = settings.cull == Cull::Hidden;
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(upon) };
     let steps = match polygons {
-        false => vec![(
-            "see and sum tiles",
-            Step::Fused { upon, with_depth, hidden: settings.cull == Cull::Hidden },
-        )],
+        false if !leaves_sums => vec![("see, sum and shade tiles", Step::Shaded { lights, hidden })],
+        false => vec![("see and sum tiles", Step::Fused { upon, with_depth, hidden })],
         true => vec![
             ("see tiles", Step::Visible { upon }),
             ("sum tiles", Step::Summed { beside: true, with_depth }),

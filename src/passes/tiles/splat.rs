@@ -7,16 +7,16 @@ use super::{
         accumulate::Sums,
         splat_shaders::find,
         sum_format,
-        variant::{Constants, splat_constants},
+        variant::{Constants, shading_constants, splat_constants},
     },
-    COLOR_SUMS, DEPTH_BEFORE, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass,
-    TilePlan, Tiles, VISIBLE_DEPTH,
+    COLOR_SUMS, DEPTH_BEFORE, LIGHTS, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS,
+    TilePass, TilePlan, Tiles, VISIBLE_DEPTH,
     bins::part_length,
     overfull::{Parts, of_parts},
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, Buffer, Graph, Handle, Image, Start, execute::Body},
     scene::{Accumulate, Settings, Transition},
     shaders::Shader,
 };
@@ -92,6 +92,7 @@ impl TileStart {
 /// What the shader does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Step {
+    Shaded { lights: u32, hidden: bool },
     Fused { upon: bool, with_depth: bool, hidden: bool },
     Visible { upon: bool },
     Summed { beside: bool, with_depth: bool },
@@ -109,6 +110,9 @@ pub(in super::super) fn shader(
     };
     let word = |choice: bool, word: &'static str| choice.then_some(word);
     let words = match step {
+        Step::Shaded { lights, hidden } => {
+            vec![Some("shaded"), Some(sums), word(lights > 0, "lit"), word(hidden, "hidden")]
+        }
         Step::Fused { upon, with_depth, hidden } => {
             let traits = [word(with_depth, "with_depth"), word(upon, "upon"), word(hidden, "hidden")];
             [&[Some("fused"), Some(sums)], traits.as_slice()].concat()
@@ -123,10 +127,48 @@ pub(in super::super) fn shader(
     // What differs between chunks is in their records.
     let mut constants = splat_constants(settings, false, false);
     constants.extend(part_length(plan));
-    if matches!(step, Step::Summed { beside: true, .. }) {
-        constants.push((18, u32::from(settings.transition == Transition::Paper)));
+    match step {
+        Step::Shaded { lights, .. } => constants.extend(shading_constants(settings.shading, lights)),
+        Step::Summed { beside: true, .. } => {
+            constants.push((18, u32::from(settings.transition == Transition::Paper)));
+        }
+        _ => {}
     }
     Ok((find(&format!("tile_splat{name}.comp"))?, constants))
+}
+
+/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and nothing else is drawn.
+pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
+    let alone = |plan: &TilePlan| !plan.may_be_overfull() && !plan.may_be_large;
+    inputs.meshes.is_empty() && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
+}
+
+/// Declares all of it in one pass, shading too. `shown`: what the tiles show, of the format that sums are asked for in; `kind`, `start`:
+/// as in [`fused`].
+pub(in super::super) fn shaded<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    kind: &str,
+    tiles: &mut Tiles<'a>,
+    shown: &mut Handle<Image>,
+    lights: Option<&Handle<Buffer>>,
+    start: TileStart,
+) -> Result<()> {
+    let step = Step::Shaded { lights: inputs.lights, hidden: tiles.plan.hidden };
+    let shader = shader(inputs.settings, tiles.plan, step)?;
+    let mut shaded = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
+    shaded.storage_images = vec![(COLOR_SUMS, shown.id())];
+    shaded.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
+    let arguments = tiles.arguments.id();
+    let (access, content) = start.access();
+    let pass = graph.pass(&format!("see, sum and shade {kind}tiles"));
+    let mut pass = if tiles.plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
+    if let Some(lights) = lights {
+        pass = pass.read(lights, Access::StorageReadCompute);
+    }
+    pass.write(shown, access, content)
+        .finish(Box::new(move |context| shaded.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
+    Ok(())
 }
 
 /// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
