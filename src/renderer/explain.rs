@@ -181,7 +181,9 @@ fn reason(pass: &str) -> &'static str {
         "begin depth with polygons" => "splats beside polygons: accumulation needs the depth of both",
         "polygons" => "opaque polygons: their colors and normals, where they are seen",
         "kernel texture" => "the kernel is read from a texture",
-        "finalize" => "every scene: normalizes and shades the sums, and puts transparent layers over them",
+        "finalize" => {
+            "every scene: normalizes and shades the sums, unless tiles did, and puts transparent layers over them"
+        }
         "lights" => "the scene has lights of its own",
         "arguments of layers" => "--layers auto: layers are left out on the device where there is none",
         "export" => "the surface itself was asked for",
