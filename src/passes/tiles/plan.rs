@@ -19,7 +19,7 @@ pub(in super::super) const TILE_PX: u32 = 8;
 
 /// Bits of a tile's column or row in a span, as in `glsl/inc/tiles.glsl`; what is left of 16 is for how many tiles a splat touches
 /// along a side. The first that has room for the image is taken.
-const PLACE_BITS: [u32; 3] = [11, 12, 13];
+const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
 
 /// Tiles along a side that a splat of a record touches at most.
 fn most_tiles_a_side(place_bits: u32) -> u32 {
@@ -31,6 +31,9 @@ const MOST_ITERATIONS: u32 = 60_000;
 
 /// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
 const SEGMENTS: u32 = 32;
+
+/// Blocks of a segment at least: of few splats, most of the work is to add up counts that are 0.
+const LEAST_BLOCKS: u32 = 4;
 
 /// Records that are dealt out to a segment at a time, as in `glsl/inc/tiles.glsl`.
 const BLOCK: u32 = 32;
@@ -176,6 +179,7 @@ impl TilePlan {
         Self {
             record_room: largest(|band| band.record_room),
             most_tiles: largest(|band| band.most_tiles.into()) as u32,
+            segments: largest(|band| band.segments.into()) as u32,
             entry_room: largest(|band| band.entry_room),
             may_be_large: bands.iter().any(|band| band.may_be_large),
             overfull_somewhere: bands.iter().any(Self::may_be_overfull),
@@ -230,8 +234,10 @@ impl TilePlan {
         let place_bits = PLACE_BITS.into_iter().find(has_places)?;
         let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
-        let segments = segments_with_room.min(u64::from(SEGMENTS)) as u32;
-        let segment_length = record_count.div_ceil(BLOCK).div_ceil(segments) * BLOCK;
+        let blocks = record_count.div_ceil(BLOCK);
+        let segments_with_work = blocks.div_ceil(LEAST_BLOCKS).next_multiple_of(WALKERS).min(SEGMENTS);
+        let segments = segments_with_room.min(u64::from(segments_with_work)) as u32;
+        let segment_length = blocks.div_ceil(segments) * BLOCK;
         let of_pixels = u64::from(width) * u64::from(height) * ENTRIES_A_PIXEL;
         let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4);
         // Rounds are as long as if each of their records had the most; there must not be too many.
