@@ -5,7 +5,8 @@
 // FUSED: both, of one tile after the other. VISIBLE, SUMMED: one of them, where the graphics pipeline draws in between; or of a
 // part of a tile with more splats than one dispatch takes: then depths and sums go on from what the image holds.
 // SHADED: both, and then what a pixel shows instead of its sums (finalize.frag.glsl), which never leave the registers; where nobody
-// else reads them, and no tile has more splats than one dispatch takes. LIT: the scene has lights of its own.
+// else reads them, and no tile has more splats than one dispatch takes. With BESIDE, polygons were drawn as if there were no splats,
+// and this lies over them. LIT: the scene has lights of its own.
 // HALF, SINGLE: the precision of what is left in images. In registers it is f32.
 // UPON: the graphics pipeline has drawn visible splats before. WITH_DEPTH, BESIDE: as in accumulate.frag.glsl.
 // HIDDEN: what the tile's visible depth hides is not summed (inc/tile_hidden.glsl).
@@ -17,8 +18,8 @@
 // multiplications more, and no error adds up.
 //
 // Own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
-// Permutations: shaded | half single | _ lit | _ direct pixels
-// Permutations: shaded | half single | _ lit | hidden | _ pixels
+// Permutations: shaded | half single | _ beside | _ lit | _ direct pixels
+// Permutations: shaded | half single | _ beside | _ lit | hidden | _ pixels
 // Permutations: fused | half single | _ with_depth | _ upon | _ direct pixels
 // Permutations: fused | half single | _ with_depth | _ upon | hidden | _ pixels
 // Permutations: visible | _ upon | _ direct pixels
@@ -62,7 +63,7 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 #define SUMS_FORMAT rgba32f
 #endif
 #if defined(SHADED)
-layout(set = 0, binding = 11, SUMS_FORMAT) writeonly uniform image2D shown_colors; // linear light; 1: something is there
+layout(set = 0, binding = 11, SUMS_FORMAT) writeonly uniform image2D shown_colors; // linear light; its share of the pixel
 #else
 #if !defined(VISIBLE)
 layout(set = 0, binding = 11, SUMS_FORMAT) uniform image2D color_sums;
@@ -76,7 +77,7 @@ layout(set = 0, binding = 14) uniform texture2D depth_before;
 #if defined(BESIDE)
 // The paper's transition shifts for all fragments, not only where there are polygons: the polygons' test is the only one.
 layout(constant_id = 18) const bool SHIFTED_FOR_ALL = false;
-layout(set = 0, binding = 15) uniform texture2D depth_with_polygons;
+layout(set = 0, binding = 15) uniform texture2D polygon_depth; // summed: of splats, where those are nearer
 #endif
 
 layout(constant_id = 23) const bool KEEPS_DEPTH = true; // someone reads it
@@ -184,7 +185,10 @@ void main()
 #endif
         polygon[row] = 0.0;
 #if defined(BESIDE)
-        polygon[row] = texelFetch(depth_with_polygons, within_image(pixel), 0).r;
+        polygon[row] = texelFetch(polygon_depth, within_image(pixel), 0).r;
+#if defined(SHADED)
+        polygon[row] = max(polygon[row], visible[row]);
+#endif
 #endif
     }
 #if defined(HIDDEN)
@@ -195,9 +199,18 @@ void main()
     [[unroll]] for (int row = 0; row < ROWS; row++) {
         Surface surface = normalized(colors[row], normals[row].xyz);
         vec3 v = to_eye(at_px + vec2(0.0, float(FIRST_ROW + row)));
-        // Half floats end at 65504.
-        vec3 light = min(shaded(surface.albedo, surface.normal, v), 65504.0);
-        imageStore(shown_colors, pixel_of(top, row), surface.weight > 0.0 ? vec4(light, 1.0) : vec4(0.0));
+        vec3 light = shaded(surface.albedo, surface.normal, v);
+#if defined(HALF)
+        light = min(light, 65504.0); // where half floats end
+#endif
+        float share = surface.weight > 0.0 ? 1.0 : 0.0;
+#if defined(BESIDE)
+        // Of polygons, the nearest is in the picture already. Where splats do not hide it, both blend (inc/shown.glsl).
+        if (polygon[row] > visible[row]) {
+            share = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
+        }
+#endif
+        imageStore(shown_colors, pixel_of(top, row), vec4(light, share));
     }
 #else
     [[unroll]] for (int row = 0; row < ROWS; row++) {

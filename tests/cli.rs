@@ -126,15 +126,18 @@ fn compare(gpu: &[f32], cpu: &[f32], close: fn(f32, f32) -> bool) -> (usize, usi
 #[test]
 fn the_picture_is_the_same_with_and_without_a_dump_and_as_floats() {
     let folder = Folder::new();
+    // A dump has the sums, of which those of 16 bits are rounded before they are shaded, not after.
+    let f32 = ["--accumulate", "f32"];
     for words in [&["-o", "a.png"][..], &["-o", "b.png", "--dump", "d"], &["-o", "c.exr", "--frames", "1"]] {
-        let run = surfel(&folder, &[&["render", "--size", "64x64"], words].concat());
+        let run = surfel(&folder, &[&["render", "--size", "64x64"], &f32[..], words].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
     }
     assert_eq!(fs::read(folder.path("a.png")).unwrap(), fs::read(folder.path("b.png")).unwrap());
     let (whole, dumped) = (exr(&folder.path("c.exr")), exr(&folder.path("d/final.exr")));
-    // The dump sums the depth as well, which leaves the color as it is.
+    // The dump sums the depth as well, which leaves the color as it is; and it shades in another stage: some ten operations, in
+    // an order that each stage's compiler decides, of colors up to 1.2.
     for (name, values) in &whole.channels {
-        let (_, differ) = compare(values, &dumped.channels[name], |a, b| (a - b).abs() < 1e-6);
+        let (_, differ) = compare(values, &dumped.channels[name], |a, b| (a - b).abs() < 20.0 * f32::EPSILON);
         assert_eq!(differ, 0, "{name}");
     }
 }

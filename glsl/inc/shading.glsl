@@ -1,8 +1,8 @@
 // From a surface to its color. Phong's mirror direction is r = 2 (n.l) n - l.
 //
 // Without LIT there is one white light at the eye, no attenuation, so that l = v and r.v = 2 (n.l)^2 - 1. With it there are
-// those of the scene; LIGHTS_SET and LIGHTS_BINDING say where. Their number is a constant of the pipeline, for a CPU driver
-// fetches what a loop indexes for each lane by itself.
+// those of the scene; LIGHTS_SET and LIGHTS_BINDING say where. They are uniform, and their number is a constant of the
+// pipeline: from a storage buffer, or where a loop indexes it, a CPU driver fetches for each lane by itself.
 
 #if defined(LIT)
 layout(constant_id = 21) const uint LIGHTS = 1;
@@ -10,7 +10,7 @@ struct Light {
     vec4 to_light_eye; // the unit direction to the light, view space; 1: it is at the eye, whatever the direction
     vec4 color;        // linear, 0
 };
-layout(set = LIGHTS_SET, binding = LIGHTS_BINDING, std430) readonly buffer Lights { Light lights[]; };
+layout(set = LIGHTS_SET, binding = LIGHTS_BINDING, std140) uniform Lights { Light lights[LIGHTS]; };
 #endif
 
 // Linear light. `normal` and `v`, the direction to the eye, are unit vectors in view space.

@@ -95,19 +95,24 @@ Shown load_shown(ivec2 pixel, vec3 v)
         both.weight = max(polygons.weight, splats.weight);
         return shown_alone(both, v);
     }
-    // Few pixels show both. A loop that ends early, for CPU drivers run either side of a branch, whoever takes it.
+    // Few pixels show both. A loop that ends early, for CPU drivers run either side of a branch, whoever takes it; with its
+    // condition at the end, for they run a body once more than the condition before it says. What a pixel has when it leaves
+    // is, in some (llvmpipe of Mesa 22.3), what the last one to leave makes of it: so nothing of a pixel that shows one
+    // depends on `i`.
     bool both = share > 0.0 && share < 1.0;
+    float of_splats = share * splats.alpha;
+    float of_polygons = (1.0 - share) * polygons.alpha;
+    float alpha = of_splats + of_polygons;
     vec3 sum = vec3(0.0); // with alpha multiplied in: what is not there has no color
-    float alpha = 0.0;
     vec3 color;
-    for (int i = 0; i < (both ? 2 : 1); i++) {
-        bool is_splats = i == 0 && share > 0.0;
+    int i = 0;
+    do {
+        bool is_splats = both ? i == 0 : share > 0.0;
         vec3 albedo = is_splats ? splats.albedo : polygons.albedo;
         color = shaded(albedo, is_splats ? splats.normal : polygons.normal, v);
-        float part = is_splats ? share * splats.alpha : (1.0 - share) * polygons.alpha;
-        sum += part * color;
-        alpha += part;
-    }
+        sum += (is_splats ? of_splats : of_polygons) * color;
+        i++;
+    } while (i < (both ? 2 : 1));
     if (both) {
         color = alpha > 0.0 ? sum / alpha : vec3(0.0);
     }

@@ -24,14 +24,18 @@ pub enum Access {
     SampledCompute,
     /// A storage buffer or image read in the vertex stage.
     StorageReadVertex,
-    /// A storage buffer or image read in the fragment stage.
-    StorageReadFragment,
     /// A storage buffer or image read in a compute shader.
     StorageReadCompute,
     /// A storage buffer or image written, not read, in a compute shader.
     StorageWriteCompute,
     /// A storage buffer or image read and written in a compute shader.
     StorageReadWriteCompute,
+    /// A uniform buffer read in the vertex stage.
+    UniformReadVertex,
+    /// A uniform buffer read in the fragment stage.
+    UniformReadFragment,
+    /// A uniform buffer read in a compute shader.
+    UniformReadCompute,
     /// The arguments of an indirect draw or dispatch.
     IndirectRead,
     /// The indices of a draw.
@@ -72,7 +76,7 @@ pub struct AccessInfo {
 
 impl Access {
     /// Every access, in the order of the table.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 17] = [
         Self::ColorAttachment,
         Self::DepthAttachment,
         Self::DepthTest,
@@ -80,10 +84,12 @@ impl Access {
         Self::SampledFragment,
         Self::SampledCompute,
         Self::StorageReadVertex,
-        Self::StorageReadFragment,
         Self::StorageReadCompute,
         Self::StorageWriteCompute,
         Self::StorageReadWriteCompute,
+        Self::UniformReadVertex,
+        Self::UniformReadFragment,
+        Self::UniformReadCompute,
         Self::IndirectRead,
         Self::IndexRead,
         Self::TransferRead,
@@ -105,6 +111,7 @@ impl Access {
         let attachment = |usage| Some((L::ATTACHMENT_OPTIMAL, usage));
         let read_only = |usage| Some((L::READ_ONLY_OPTIMAL, usage));
         let storage = (Some((L::GENERAL, I::STORAGE)), Some(B::STORAGE_BUFFER));
+        let uniform = (None, Some(B::UNIFORM_BUFFER));
         let sampled = (read_only(I::SAMPLED), None);
         let depth_usage = I::DEPTH_STENCIL_ATTACHMENT;
         let from = (Some((L::TRANSFER_SRC_OPTIMAL, I::TRANSFER_SRC)), Some(B::TRANSFER_SRC));
@@ -126,10 +133,12 @@ impl Access {
             Self::SampledFragment         => row(fragment, sampled_reads, none, sampled, Some(Graphics)),
             Self::SampledCompute          => row(compute, sampled_reads, none, sampled, Some(Compute)),
             Self::StorageReadVertex       => row(S::VERTEX_SHADER, storage_reads, none, storage, Some(Graphics)),
-            Self::StorageReadFragment     => row(fragment, storage_reads, none, storage, Some(Graphics)),
             Self::StorageReadCompute      => row(compute, storage_reads, none, storage, Some(Compute)),
             Self::StorageWriteCompute     => row(compute, none, storage_writes, storage, Some(Compute)),
             Self::StorageReadWriteCompute => row(compute, storage_reads, storage_writes, storage, Some(Compute)),
+            Self::UniformReadVertex       => row(S::VERTEX_SHADER, A::UNIFORM_READ, none, uniform, Some(Graphics)),
+            Self::UniformReadFragment     => row(fragment, A::UNIFORM_READ, none, uniform, Some(Graphics)),
+            Self::UniformReadCompute      => row(compute, A::UNIFORM_READ, none, uniform, Some(Compute)),
             Self::IndirectRead            => row(S::DRAW_INDIRECT, A::INDIRECT_COMMAND_READ, none, (None, Some(B::INDIRECT_BUFFER)), None),
             Self::IndexRead               => row(S::INDEX_INPUT, A::INDEX_READ, none, (None, Some(B::INDEX_BUFFER)), Some(Graphics)),
             Self::TransferRead            => row(S::ALL_TRANSFER, A::TRANSFER_READ, none, from, Some(Transfer)),

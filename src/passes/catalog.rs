@@ -65,9 +65,9 @@ impl Traits {
         if self.lit { 2 } else { 0 }
     }
 
-    /// More than opaque splats of tiles, so that these are not shaded at once.
+    /// More than opaque things of which splats fit into tiles, so that these are not shaded at once.
     fn leaves_sums(self) -> bool {
-        self.polygons || self.transparent || self.may_be_large || self.export
+        self.transparent || self.may_be_large || self.export
     }
 }
 
@@ -123,11 +123,13 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         layered: traits.transparent,
         lights: traits.lights(),
     };
-    let finalized = match by_tiles && !traits.leaves_sums() {
-        true => Some(finalize::key_of_shown(target)),
-        false => finalize::key(settings, target, shown),
-    };
-    all.extend(finalized.map(|key| graphics("finalize", "", key)));
+    let at_once = by_tiles && !traits.leaves_sums();
+    let shaded = finalize::Traits { splats: !at_once, ..shown };
+    all.extend(finalize::key(settings, target, shaded).map(|key| graphics("finalize", "", key)));
+    if at_once {
+        let key = finalize::key_of_shown(target, traits.polygons);
+        all.push(graphics("finalize", "tiles", key));
+    }
     if traits.export {
         all.push(graphics("export", "", export::key()));
     }

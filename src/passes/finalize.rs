@@ -21,6 +21,7 @@ use crate::{
     math::srgb::linear_from_srgb,
     scene::Settings,
     shaders,
+    vk::Blend,
 };
 
 /// What the opaque passes leave.
@@ -142,11 +143,23 @@ pub(super) fn finalize<'a>(
         layered: layers.is_some(),
         lights: inputs.lights,
     };
-    if let Some(shown) = &opaque.shown {
-        let key = key_of_shown(target_format);
-        return finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), key, target);
-    }
     let key = key(inputs.settings, target_format, traits);
+    if let Some(shown) = &opaque.shown {
+        let shown_key = key_of_shown(target_format, polygons.is_some());
+        if let (Some(key), Some(polygons)) = (key, polygons.zip(opaque.polygon_depth.as_ref())) {
+            let keys = (key, shown_key);
+            return finalize_polygons_and_tiles(
+                graph,
+                inputs,
+                polygons,
+                (&opaque.tiles, shown),
+                lights,
+                keys,
+                target,
+            );
+        }
+        return finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), shown_key, target);
+    }
     if let (false, Some(key), Some(Sums { color, normal })) = (opaque.tiles.is_empty(), &key, splats) {
         let key = key_of_tiles(key);
         return finalize_tiles(graph, inputs, &opaque.tiles, (&[color, normal], lights), key, target);
@@ -159,7 +172,7 @@ pub(super) fn finalize<'a>(
         pass = pass.read(image, Access::SampledFragment);
     }
     if let Some(lights) = lights {
-        pass = pass.read(lights, Access::StorageReadFragment);
+        pass = pass.read(lights, Access::UniformReadFragment);
     }
     let lights = lights.map(Handle::id);
     match (layers, opaque.depth()) {
@@ -190,11 +203,17 @@ pub(super) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
     }
 }
 
-/// What the pipeline is that brings to the target what tiles show.
-pub(super) fn key_of_shown(target_format: vk::Format) -> GraphicsKey {
-    GraphicsKey {
-        color_formats: vec![target_format],
-        ..quads_of_tiles(&shaders::FINALIZE_SHADED_FRAG, Vec::new())
+/// What the pipeline is that brings to the target what tiles show; `beside`: over polygons, in a pass that has their depth.
+pub(super) fn key_of_shown(target_format: vk::Format, beside: bool) -> GraphicsKey {
+    let color_formats = vec![target_format];
+    match beside {
+        false => GraphicsKey { color_formats, ..quads_of_tiles(&shaders::FINALIZE_SHADED_FRAG, Vec::new()) },
+        true => GraphicsKey {
+            color_formats,
+            blend: Blend::Over,
+            depth: Some((vk::CompareOp::ALWAYS, false)),
+            ..quads_of_tiles(&shaders::FINALIZE_SHADED_BESIDE_FRAG, Vec::new())
+        },
     }
 }
 
@@ -216,13 +235,47 @@ fn finalize_tiles<'a>(
         pass = pass.read(image, Access::SampledFragment);
     }
     if let Some(lights) = lights {
-        pass = pass.read(lights, Access::StorageReadFragment);
+        pass = pass.read(lights, Access::UniformReadFragment);
     }
     let lights = lights.map(Handle::id);
     pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
             let set = read_set(context, inputs, &inputs.shaders.sums_set, (&ids, lights))?;
             draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, bytemuck::bytes_of(&constants))
+        }));
+    Ok(())
+}
+
+/// The pass over polygons, shaded as if there were no splats, and then over the tiles that have some, which lie over them.
+fn finalize_polygons_and_tiles<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    (polygons, depth): (&Sums, &Handle<Image>),
+    (tiles, shown): (&[Tiles<'a>], &Handle<Image>),
+    lights: Option<&Handle<Buffer>>,
+    (key, shown_key): (GraphicsKey, GraphicsKey),
+    target: &mut Handle<Image>,
+) -> Result<()> {
+    let layout = &inputs.shaders.finalize_layout;
+    let pipelines = [inputs.shaders.graphics(key)?, inputs.shaders.graphics(shown_key)?];
+    let constants = constants(inputs);
+    let ids = sums_descriptors(None, Some(polygons), None);
+    let (shown_id, seen) = (shown.id(), SeenTiles::of(tiles));
+    let mut pass = read_seen(tiles, graph.pass("finalize")).read(depth, Access::DepthTest);
+    for image in [&polygons.color, &polygons.normal, shown] {
+        pass = pass.read(image, Access::SampledFragment);
+    }
+    if let Some(lights) = lights {
+        pass = pass.read(lights, Access::UniformReadFragment);
+    }
+    let lights = lights.map(Handle::id);
+    pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
+        .finish(Box::new(move |context| {
+            let [of_polygons, of_tiles] = &pipelines;
+            let constants = bytemuck::bytes_of(&constants);
+            draw_fullscreen(context, inputs, of_polygons, layout, (&ids, lights), constants)?;
+            let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, shown_id)], None))?;
+            draw_quads_of_tiles(context, inputs, of_tiles, &seen, set, constants)
         }));
     Ok(())
 }

@@ -117,7 +117,7 @@ pub(super) fn layer_compose<'a>(
     }
     let lights = layer.lights.filter(|_| matches!(sums, LayerSums::Surface(..)));
     if let Some(lights) = lights {
-        pass = pass.read(lights, Access::StorageReadFragment);
+        pass = pass.read(lights, Access::UniformReadFragment);
     }
     let lights = lights.map(Handle::id);
     let ids: Vec<_> = images.iter().map(|(binding, image)| (*binding, image.id())).collect();

@@ -89,7 +89,7 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     }
     if let Some(lights) = layer.lights {
         // Splats are lit in the vertex stage, polygons in the fragment stage.
-        pass = pass.read(lights, Access::StorageReadVertex).read(lights, Access::StorageReadFragment);
+        pass = pass.read(lights, Access::UniformReadVertex).read(lights, Access::UniformReadFragment);
     }
     let lights = layer.lights.map(Handle::id);
     let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];

@@ -74,7 +74,7 @@ use self::{finalize::Opaque, lists::Lists, tiles::TileStart};
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
-    scene::Accumulate,
+    scene::{Accumulate, Settings},
 };
 
 /// The format of the sums.
@@ -108,9 +108,8 @@ pub fn frame<'a>(
     };
     let lights = lights::lights(graph, &parts.lights);
     let inputs = Inputs { lights: parts.lights.len() as u32, ..inputs };
-    let complete = export || !parts.transparent.is_empty();
-    let opaque =
-        opaque(graph, inputs.of(&parts.opaque), (kernel.as_ref(), lights.as_ref()), export, complete)?;
+    let readers = Readers { export, layers: !parts.transparent.is_empty(), target_format };
+    let opaque = opaque(graph, inputs.of(&parts.opaque), (kernel.as_ref(), lights.as_ref()), readers)?;
     let layers = match parts.transparent.is_empty() {
         true => None,
         false => {
@@ -129,18 +128,43 @@ pub fn frame<'a>(
     }
 }
 
+/// Who reads what the opaque part leaves.
+#[derive(Clone, Copy)]
+struct Readers {
+    /// Sums, of depth too, are exported.
+    export: bool,
+    /// Transparent layers lie before it.
+    layers: bool,
+    /// The picture's.
+    target_format: vk::Format,
+}
+
+impl Readers {
+    /// Sums and depth are read everywhere, not only where finalization shades.
+    fn whole_images(self) -> bool {
+        self.export || self.layers
+    }
+
+    /// The precision of what tiles show: a target of 32 bits loses nothing by it.
+    fn shown(self, settings: &Settings) -> Accumulate {
+        match self.target_format {
+            vk::Format::R32G32B32A32_SFLOAT => Accumulate::F32,
+            _ => settings.accumulate,
+        }
+    }
+}
+
 /// The opaque part: visibility of splats; polygons upon it; accumulation of the splats that neither hides.
 fn opaque<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     (kernel, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
-    with_depth: bool,
-    complete: bool,
+    readers: Readers,
 ) -> Result<Opaque<'a>> {
     if let Some(plan) = inputs.tiles {
-        return match !complete && tiles::can_shade(inputs) {
-            true => shaded_by_tiles(graph, inputs, lights),
-            false => opaque_by_tiles(graph, inputs, plan, with_depth, complete),
+        return match !readers.whole_images() && tiles::can_shade(inputs, readers.target_format) {
+            true => shaded_by_tiles(graph, inputs, lights, readers.shown(inputs.settings)),
+            false => opaque_by_tiles(graph, inputs, plan, readers),
         };
     }
     let mut opaque = Opaque::default();
@@ -156,45 +180,52 @@ fn opaque<'a>(
         let polygons = opaque.polygon_depth.as_ref();
         let lists = lists.without_hidden(graph, inputs, depth)?;
         opaque.splats =
-            Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, with_depth)?);
+            Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, readers.export)?);
     }
     Ok(opaque)
 }
 
-/// The same by tiles, which are shaded, too: for a frame of which nobody reads sums or depth.
+/// The same by tiles, which are shaded, too: for a frame of which nobody reads sums or depth. Polygons come first: the nearest one at a
+/// pixel is all that can be seen of them, and tiles know whether a splat hides it.
 fn shaded_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     lights: Option<&Handle<Buffer>>,
+    precision: Accumulate,
 ) -> Result<Opaque<'a>> {
-    let format = sum_format(inputs.settings.accumulate);
-    let mut shown = graph.create_image("shown by tiles", inputs.image(format));
+    let image = graph.create_image("shown by tiles", inputs.image(sum_format(precision)));
+    let mut shown = tiles::Shown { image, precision };
     let mut opaque = Opaque::default();
+    if !inputs.meshes.is_empty() {
+        let (seen, depth) = polygons::polygons(graph, inputs, None)?;
+        (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
+    }
     let mut start = TileStart::Empty;
     for (kind, inputs) in inputs.of_bands() {
         let Some(plan) = inputs.tiles else { continue };
         let mut tiles = tiles::list(graph, inputs, &kind, plan)?;
-        tiles::shaded(graph, inputs, &kind, &mut tiles, &mut shown, lights, start)?;
+        let polygons = opaque.polygon_depth.as_ref();
+        tiles::shaded(graph, inputs, &kind, &mut tiles, &mut shown, (polygons, lights), start)?;
         start = start.after_a_band();
         opaque.tiles.push(tiles);
     }
-    opaque.shown = Some(shown);
+    opaque.shown = Some(shown.image);
     Ok(opaque)
 }
 
-/// The same by tiles. `complete`: all of the images is read, so that tiles without splats need content too. It is, too, where the
-/// graphics pipeline draws into them: large splats before and after, polygons in between.
+/// The same by tiles. Where all of the images is read, tiles without splats need content too. It is, too, where the graphics
+/// pipeline draws into them: large splats before and after, polygons in between.
 fn opaque_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a TilePlan,
-    with_depth: bool,
-    complete: bool,
+    readers: Readers,
 ) -> Result<Opaque<'a>> {
     if !inputs.bands.is_empty() {
-        return opaque_by_bands(graph, inputs, plan, with_depth, complete);
+        return opaque_by_bands(graph, inputs, plan, readers);
     }
-    let complete = complete || plan.may_be_large || !inputs.meshes.is_empty();
+    let with_depth = readers.export;
+    let complete = readers.whole_images() || plan.may_be_large || !inputs.meshes.is_empty();
     let mut tiles = tiles::list(graph, inputs, "", plan)?;
     let mut images = tiles::TileImages::create(graph, inputs, plan, complete);
     let mut opaque = Opaque::default();
@@ -227,12 +258,12 @@ fn opaque_by_bands<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     whole: &TilePlan,
-    with_depth: bool,
-    complete: bool,
+    readers: Readers,
 ) -> Result<Opaque<'a>> {
+    let with_depth = readers.export;
     let plans = || inputs.bands.iter().map(|band| &band.plan);
     let common = plans().next().unwrap_or(whole);
-    let complete = complete || common.may_be_large;
+    let complete = readers.whole_images() || common.may_be_large;
     let mut images = tiles::TileImages::create(graph, inputs, common, complete);
     let mut start = if complete { TileStart::Cleared } else { TileStart::Empty };
     let mut opaque = Opaque::default();

@@ -32,18 +32,18 @@ pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Need
     let bands = parts.opaque.bands.len() as u32;
     // What fragments read: in accumulation, of each band; in each layer's visibility, accumulation and polygons.
     let reads = 1 + bands + 3 * layers;
-    // Sums: for finalization, the depth of tiles of each band, and each layer.
-    let sums = 1 + bands + layers;
+    // Sums: for finalization, of tiles and of polygons; the depth of tiles of each band; and each layer.
+    let sums = 2 + bands + layers;
     let plans = [&parts.opaque, &parts.transparent].into_iter().flat_map(Part::plans);
     let tiles = plans.map(tiles::room).fold(PoolRoom::default(), |sum, room| sum.plus(&room));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
         room: PoolRoom {
             sets: reads + sums + 1,
-            buffers: reads + sums,
+            uniform_buffers: reads + sums,
             images: 2 * reads + 5 * sums + 4,
             filtered_images: reads,
-            storage_images: 0,
+            ..PoolRoom::default()
         }
         .plus(&room_of_lists(lists))
         .plus(&tiles),

@@ -33,8 +33,8 @@ pub fn room_of_lists(sets: u32) -> PoolRoom {
     PoolRoom { sets, buffers: LIST_BINDINGS * sets, ..PoolRoom::default() }
 }
 
-/// Storage buffers that a stage has then: splats and their colors, lists, lights.
-pub(super) const RECORD_STORAGE_BUFFERS: u32 = 2 + LIST_BINDINGS + 1;
+/// Storage buffers that a stage has then: splats and their colors, lists.
+pub(super) const RECORD_STORAGE_BUFFERS: u32 = 2 + LIST_BINDINGS;
 
 /// The layouts of all passes and the pipelines made so far.
 pub struct Shaders {
@@ -116,7 +116,7 @@ impl Shaders {
         let (vertex, fragment, compute) =
             (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
         let buffer = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | compute };
-        let lights = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | fragment };
+        let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
         let has_records = device.facts().limits.storage_buffers_a_stage >= RECORD_STORAGE_BUFFERS;
@@ -198,6 +198,11 @@ impl Shaders {
         names.extend(compute.keys().map(|key| key.shader.name.to_owned()));
         names.sort();
         names
+    }
+
+    /// Whether what is drawn can be blended with a target of this format. Vulkan promises it of all that have fewer bits.
+    pub(super) fn can_blend(&self, target_format: vk::Format) -> bool {
+        target_format != vk::Format::R32G32B32A32_SFLOAT || self.device.facts().blend_f32
     }
 
     /// The layouts of tiles, on a device that has them.

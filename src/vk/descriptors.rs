@@ -17,7 +17,7 @@ pub struct Binding {
 /// What a binding is given.
 #[derive(Clone, Copy, Debug)]
 pub enum Descriptor {
-    /// A whole storage buffer.
+    /// A whole buffer, storage or uniform as its binding is.
     Buffer(vk::Buffer),
     /// A sampled image in this layout, read by `texelFetch`, or through the sampler of its binding.
     Sampled(vk::ImageView, vk::ImageLayout),
@@ -82,6 +82,8 @@ pub struct PoolRoom {
     pub sets: u32,
     /// Storage buffers in all sets.
     pub buffers: u32,
+    /// Uniform buffers.
+    pub uniform_buffers: u32,
     /// Sampled images.
     pub images: u32,
     /// Sampled images with a sampler.
@@ -96,6 +98,7 @@ impl PoolRoom {
         Self {
             sets: self.sets + other.sets,
             buffers: self.buffers + other.buffers,
+            uniform_buffers: self.uniform_buffers + other.uniform_buffers,
             images: self.images + other.images,
             filtered_images: self.filtered_images + other.filtered_images,
             storage_images: self.storage_images + other.storage_images,
@@ -106,6 +109,7 @@ impl PoolRoom {
     pub fn holds(&self, wanted: &Self) -> bool {
         wanted.sets <= self.sets
             && wanted.buffers <= self.buffers
+            && wanted.uniform_buffers <= self.uniform_buffers
             && wanted.images <= self.images
             && wanted.filtered_images <= self.filtered_images
             && wanted.storage_images <= self.storage_images
@@ -135,6 +139,7 @@ impl DescriptorPool {
     pub fn new(device: &Device, name: &str, room: PoolRoom) -> Result<Self> {
         let kinds = [
             (vk::DescriptorType::STORAGE_BUFFER, room.buffers),
+            (vk::DescriptorType::UNIFORM_BUFFER, room.uniform_buffers),
             (vk::DescriptorType::SAMPLED_IMAGE, room.images),
             (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, room.filtered_images),
             (vk::DescriptorType::STORAGE_IMAGE, room.storage_images),

@@ -134,7 +134,7 @@ fn declare<'a>(
         declared = declared.read(opaque, Access::SampledCompute);
     }
     if let Some(lights) = lights {
-        declared = declared.read(lights, Access::StorageReadCompute);
+        declared = declared.read(lights, Access::UniformReadCompute);
     }
     for image in &mut kept_images {
         declared = declared.write(image, Access::StorageReadWriteCompute, Start::Discard);

@@ -28,8 +28,9 @@ impl TileLayouts {
         let words = of(vk::DescriptorType::STORAGE_BUFFER, compute);
         let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
         let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
+        let lights = of(vk::DescriptorType::UNIFORM_BUFFER, compute);
         let mut in_tiles = vec![words; 11];
-        in_tiles.extend([sums, sums, sums, fetched, fetched, words, sums, words]);
+        in_tiles.extend([sums, sums, sums, fetched, fetched, lights, sums, words]);
         in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
         in_tiles.extend([words, words, words]);
         debug_assert_eq!(in_tiles.len() - 1, KEPT_BLOCKS as usize);

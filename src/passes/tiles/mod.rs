@@ -33,7 +33,7 @@ pub(super) use self::{
     plan::{TILE_PX, rows_of_image},
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
-    splat::{TileImages, TileStart, accumulate, can_shade, fused, shaded, visibility},
+    splat::{Shown, TileImages, TileStart, accumulate, can_shade, fused, shaded, visibility},
 };
 use pass::{TilePass, after_dispatches_before};
 
@@ -74,7 +74,7 @@ const QUAD_ARGUMENTS: u64 = 32;
 const CHUNK_ARGUMENTS: u64 = 48;
 
 /// Storage buffers in the layout of the pass that makes records.
-pub const STORAGE_BUFFERS: u32 = 19;
+pub const STORAGE_BUFFERS: u32 = 18;
 
 /// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
 const WHOLE: u32 = u32::MAX;
@@ -163,6 +163,7 @@ pub(super) fn room(plan: &TilePlan) -> PoolRoom {
     PoolRoom {
         sets,
         buffers: STORAGE_BUFFERS * sets,
+        uniform_buffers: sets,
         images: 4 * sets,
         storage_images: 4 * sets,
         ..PoolRoom::default()

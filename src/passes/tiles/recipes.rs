@@ -70,7 +70,10 @@ pub(in super::super) fn opaque_recipes(
     let hidden = settings.cull == Cull::Hidden;
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(upon) };
     let steps = match polygons {
-        false if !leaves_sums => vec![("see, sum and shade tiles", Step::Shaded { lights, hidden })],
+        beside if !leaves_sums => {
+            let precision = settings.accumulate;
+            vec![("see, sum and shade tiles", Step::Shaded { precision, beside, lights, hidden })]
+        }
         false => vec![("see and sum tiles", Step::Fused { upon, with_depth, hidden })],
         true => vec![
             ("see tiles", Step::Visible { upon }),

@@ -1,13 +1,16 @@
 //! Visibility and accumulation of the listed splats, a tile at a time: both at once, or one of them where the graphics
 //! pipeline draws in between.
 
+use ash::vk;
+
 use super::{
     super::{
         Inputs,
         accumulate::Sums,
+        finalize::shown_constants,
         splat_shaders::find,
         sum_format,
-        variant::{Constants, shading_constants, splat_constants},
+        variant::{Constants, splat_constants},
     },
     COLOR_SUMS, DEPTH_BEFORE, LIGHTS, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS,
     TilePass, TilePlan, Tiles, VISIBLE_DEPTH,
@@ -22,7 +25,7 @@ use crate::{
 };
 
 /// The depth that tiles find, for other compute passes and for fragments.
-pub(in super::super) const VISIBLE_FORMAT: ash::vk::Format = ash::vk::Format::R32_SFLOAT;
+pub(in super::super) const VISIBLE_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
 
 /// The constant of whether anyone reads the depth that tiles find.
 const KEEPS_DEPTH: u32 = 23;
@@ -92,7 +95,7 @@ impl TileStart {
 /// What the shader does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) enum Step {
-    Shaded { lights: u32, hidden: bool },
+    Shaded { precision: Accumulate, beside: bool, lights: u32, hidden: bool },
     Fused { upon: bool, with_depth: bool, hidden: bool },
     Visible { upon: bool },
     Summed { beside: bool, with_depth: bool },
@@ -104,14 +107,16 @@ pub(in super::super) fn shader(
     plan: &TilePlan,
     step: Step,
 ) -> Result<(&'static Shader, Constants)> {
-    let sums = match accumulate_of(settings, plan) {
+    let bits = |precision: Accumulate| match precision {
         Accumulate::F16 => "half",
         Accumulate::F32 => "single",
     };
+    let sums = bits(accumulate_of(settings, plan));
     let word = |choice: bool, word: &'static str| choice.then_some(word);
     let words = match step {
-        Step::Shaded { lights, hidden } => {
-            vec![Some("shaded"), Some(sums), word(lights > 0, "lit"), word(hidden, "hidden")]
+        Step::Shaded { precision, beside, lights, hidden } => {
+            let traits = [word(beside, "beside"), word(lights > 0, "lit"), word(hidden, "hidden")];
+            [&[Some("shaded"), Some(bits(precision))], traits.as_slice()].concat()
         }
         Step::Fused { upon, with_depth, hidden } => {
             let traits = [word(with_depth, "with_depth"), word(upon, "upon"), word(hidden, "hidden")];
@@ -128,45 +133,63 @@ pub(in super::super) fn shader(
     let mut constants = splat_constants(settings, false, false);
     constants.extend(part_length(plan));
     match step {
-        Step::Shaded { lights, .. } => constants.extend(shading_constants(settings.shading, lights)),
-        Step::Summed { beside: true, .. } => {
-            constants.push((18, u32::from(settings.transition == Transition::Paper)));
+        Step::Shaded { beside, lights, .. } => {
+            constants.extend(shown_constants(settings, beside, lights));
         }
         _ => {}
+    }
+    if let Step::Shaded { beside: true, .. } | Step::Summed { beside: true, .. } = step {
+        constants.push((18, u32::from(settings.transition == Transition::Paper)));
     }
     Ok((find(&format!("tile_splat{name}.comp"))?, constants))
 }
 
-/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and nothing else is drawn.
-pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
+/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and polygons, which are shaded elsewhere,
+/// blend with them as colors.
+pub(in super::super) fn can_shade(inputs: Inputs<'_>, target_format: vk::Format) -> bool {
     let alone = |plan: &TilePlan| !plan.may_be_overfull() && !plan.may_be_large;
-    inputs.meshes.is_empty() && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
+    let can_blend =
+        inputs.settings.transition != Transition::Attributes && inputs.shaders.can_blend(target_format);
+    let beside = inputs.meshes.is_empty() || can_blend;
+    beside && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
 }
 
-/// Declares all of it in one pass, shading too. `shown`: what the tiles show, of the format that sums are asked for in; `kind`, `start`:
-/// as in [`fused`].
+/// What tiles show, in place of sums.
+pub(in super::super) struct Shown {
+    pub image: Handle<Image>,
+    /// The image's.
+    pub precision: Accumulate,
+}
+
+/// Declares all of it in one pass, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
+/// [`fused`].
 pub(in super::super) fn shaded<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
-    shown: &mut Handle<Image>,
-    lights: Option<&Handle<Buffer>>,
+    shown: &mut Shown,
+    (polygons, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
     start: TileStart,
 ) -> Result<()> {
-    let step = Step::Shaded { lights: inputs.lights, hidden: tiles.plan.hidden };
+    let (precision, hidden) = (shown.precision, tiles.plan.hidden);
+    let step = Step::Shaded { precision, beside: polygons.is_some(), lights: inputs.lights, hidden };
     let shader = shader(inputs.settings, tiles.plan, step)?;
     let mut shaded = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
-    shaded.storage_images = vec![(COLOR_SUMS, shown.id())];
+    shaded.storage_images = vec![(COLOR_SUMS, shown.image.id())];
     shaded.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
     let arguments = tiles.arguments.id();
     let (access, content) = start.access();
     let pass = graph.pass(&format!("see, sum and shade {kind}tiles"));
     let mut pass = if tiles.plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     if let Some(lights) = lights {
-        pass = pass.read(lights, Access::StorageReadCompute);
+        pass = pass.read(lights, Access::UniformReadCompute);
     }
-    pass.write(shown, access, content)
+    if let Some(polygons) = polygons {
+        shaded.sampled_images = vec![(POLYGON_DEPTH, polygons.id())];
+        pass = pass.read(polygons, Access::SampledCompute);
+    }
+    pass.write(&mut shown.image, access, content)
         .finish(Box::new(move |context| shaded.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
     Ok(())
 }
