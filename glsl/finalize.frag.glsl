@@ -4,11 +4,10 @@
 // SPLATS, POLYGONS, HYBRID: what the opaque part has; NOTHING: none of it. LAYERED: there are transparent layers, composed
 // already, with their alpha multiplied in: what is below them shows through by what they leave.
 // LIT: the scene has lights of its own.
-// SHADED: tiles hold what they show (tile_splat.comp.glsl); the target's format and the background are what is left. BESIDE: so are
-// polygons, which are in the target already: blending lays what tiles show over them.
+// SHADED: tiles hold what they show (tile_splat.comp.glsl); the target's format and the background are what is left.
 // Permutations: splats polygons hybrid | _ layered | _ lit
 // Permutations: nothing | layered
-// Permutations: shaded | _ beside
+// Permutations: shaded
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
@@ -18,7 +17,7 @@
 #define LIGHTS_BINDING 5
 #include "inc/shading.glsl"
 #if defined(SHADED)
-layout(set = 0, binding = 0) uniform texture2D shown_colors; // linear light; its share of the pixel
+layout(set = 0, binding = 0) uniform texture2D shown_colors; // linear light; 1: something is there
 #elif !defined(NOTHING)
 #include "inc/shown.glsl"
 #endif
@@ -36,11 +35,7 @@ void main()
     vec4 below = push.background;
 #elif defined(SHADED)
     vec4 shown = texelFetch(shown_colors, pixel, 0);
-#if defined(BESIDE)
-    vec4 below = shown;
-#else
     vec4 below = shown.a > 0.0 ? shown : push.background;
-#endif
 #else
     Shown shown = load_shown(pixel, to_eye());
     // 16-bit sums may flush the weight of a pixel that only a rim touches: 2^-24 is their smallest number.

@@ -5,8 +5,8 @@
 // FUSED: both, of one tile after the other. VISIBLE, SUMMED: one of them, where the graphics pipeline draws in between; or of a
 // part of a tile with more splats than one dispatch takes: then depths and sums go on from what the image holds.
 // SHADED: both, and then what a pixel shows instead of its sums (finalize.frag.glsl), which never leave the registers; where nobody
-// else reads them, and no tile has more splats than one dispatch takes. With BESIDE, polygons were drawn as if there were no splats,
-// and this lies over them. LIT: the scene has lights of its own.
+// else reads them, and no tile has more splats than one dispatch takes. With BESIDE, polygons were drawn and shaded as if there were
+// no splats. LIT: the scene has lights of its own.
 // HALF, SINGLE: the precision of what is left in images. In registers it is f32.
 // UPON: the graphics pipeline has drawn visible splats before. WITH_DEPTH, BESIDE: as in accumulate.frag.glsl.
 // HIDDEN: what the tile's visible depth hides is not summed (inc/tile_hidden.glsl).
@@ -63,7 +63,11 @@ layout(push_constant, std430) uniform Push { TileConstants push; };
 #define SUMS_FORMAT rgba32f
 #endif
 #if defined(SHADED)
-layout(set = 0, binding = 11, SUMS_FORMAT) writeonly uniform image2D shown_colors; // linear light; its share of the pixel
+layout(set = 0, binding = 11, SUMS_FORMAT)
+#if !defined(BESIDE)
+writeonly
+#endif
+uniform image2D shown_colors; // linear light; 1: something is there. Before, of polygons
 #else
 #if !defined(VISIBLE)
 layout(set = 0, binding = 11, SUMS_FORMAT) uniform image2D color_sums;
@@ -200,17 +204,19 @@ void main()
         Surface surface = normalized(colors[row], normals[row].xyz);
         vec3 v = to_eye(at_px + vec2(0.0, float(FIRST_ROW + row)));
         vec3 light = shaded(surface.albedo, surface.normal, v);
+        bool covered = surface.weight > 0.0;
+#if defined(BESIDE)
+        // Of polygons, the nearest is shown already. Where splats do not hide it, both blend (inc/shown.glsl).
+        vec3 of_polygon = imageLoad(shown_colors, pixel_of(top, row)).rgb;
+        bool is_seen = polygon[row] > visible[row];
+        float share = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
+        light = is_seen ? mix(of_polygon, light, share) : light;
+        covered = covered || is_seen;
+#endif
 #if defined(HALF)
         light = min(light, 65504.0); // where half floats end
 #endif
-        float share = surface.weight > 0.0 ? 1.0 : 0.0;
-#if defined(BESIDE)
-        // Of polygons, the nearest is in the picture already. Where splats do not hide it, both blend (inc/shown.glsl).
-        if (polygon[row] > visible[row]) {
-            share = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
-        }
-#endif
-        imageStore(shown_colors, pixel_of(top, row), vec4(light, share));
+        imageStore(shown_colors, pixel_of(top, row), covered ? vec4(light, 1.0) : vec4(0.0));
     }
 #else
     [[unroll]] for (int row = 0; row < ROWS; row++) {

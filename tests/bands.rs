@@ -6,7 +6,7 @@ use common::{ALL, assert_validation_is_silent, compare::F32, scenes, shared, wit
 use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
-    renderer::{Frame, Headless},
+    renderer::{Frame, Headless, Wanted},
     scene::{
         Accumulate, Backfaces, Cull, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes, SplatFormat,
         Storage, TileInvocations, TileMemory,
@@ -14,10 +14,14 @@ use surfel::{
 };
 
 fn draw(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory) -> Frame {
+    draw_as(headless, hard, tile_memory, ALL)
+}
+
+fn draw_as(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory, wanted: Wanted) -> Frame {
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
     let rasterizer = Rasterizer::Compute;
     let settings = Settings { rasterizer, tile_memory, ..hard.settings.clone() };
-    headless.render(&prepared, &hard.camera, &settings, ALL).unwrap()
+    headless.render(&prepared, &hard.camera, &settings, wanted).unwrap()
 }
 
 /// How many bands a frame has: 0 where all of it is drawn at once.
@@ -127,6 +131,27 @@ fn bands_draw_the_same_splats_in_every_pixel() {
         assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
         assert_same_surface(&cut, &whole, hard.name);
     }
+    assert_validation_is_silent(&headless);
+}
+
+/// The picture alone, which tiles of the opaque scenes shade themselves, each band its own into one image.
+#[test]
+fn bands_show_the_same_picture() {
+    let mut headless = shared();
+    let picture = Wanted { surface: false, ..ALL };
+    let mut shaded = 0;
+    for hard in scenes_of_blocks() {
+        let [whole, cut] =
+            [u64::MAX, 0].map(|most| draw_as(&mut headless, &hard, TileMemory::Most(most), picture));
+        assert!(bands(&whole) == 0 && bands(&cut) >= 2, "{}", hard.name);
+        assert_same_surface(&cut, &whole, hard.name);
+        let passes = &cut.plan.passes;
+        let count = passes.iter().filter(|pass| pass.name.starts_with("see, sum and shade band-")).count();
+        assert!([0, bands(&cut)].contains(&count), "{}: {count}", hard.name);
+        shaded += usize::from(count > 0);
+    }
+    println!("{shaded} scenes are shaded at once");
+    assert!(shaded >= 10, "{shaded}");
     assert_validation_is_silent(&headless);
 }
 

@@ -91,6 +91,12 @@ fn what_the_papers_transition_sums_is_not_hidden() {
         let seen = draw(&mut headless, &hard, Cull::Hidden, common::ALL);
         assert_same_bits(&all, &seen, transition.name());
         assert_eq!(passes(&seen).contains(&"list seen splats"), transition == Transition::Color);
+        // By tiles, which know what they hide.
+        hard.settings.rasterizer = Rasterizer::Compute;
+        let picture = Wanted { surface: false, ..common::ALL };
+        let [all, seen] = [Cull::List, Cull::Hidden].map(|cull| draw(&mut headless, &hard, cull, picture));
+        assert!(passes(&seen).contains(&"see, sum and shade tiles"));
+        assert_same_bits(&all, &seen, transition.name());
     }
     assert_validation_is_silent(&headless);
 }

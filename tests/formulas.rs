@@ -15,7 +15,7 @@ use common::{
 use surfel::{
     passes::Formula,
     reference::{self, Picture},
-    renderer::Headless,
+    renderer::{Headless, Wanted},
     scene::{Filter, Kernel, KernelEval, Rasterizer, Settings, TileInvocations, Transition},
     selftest::light::{LightErrors, compare_light},
 };
@@ -183,6 +183,50 @@ fn assert_formulas_of_layers_are_seen(headless: &mut Headless, scenes: &[(Hard, 
         assert!(caught.is_some(), "{formula:?}");
     }
     assert_validation_is_silent(headless);
+}
+
+/// The same of opaque splats and polygons that tiles show without anyone else reading their sums.
+#[test]
+fn every_formula_of_tiles_that_are_shaded_at_once_fails_the_comparison() {
+    let mut headless = headless();
+    let picture = Wanted { surface: false, ..common::ALL };
+    let lights = transparent::meshes_only().scene.lights;
+    let mut scenes: Vec<_> = [Vec::new(), lights]
+        .map(|lights| {
+            let mut hard = transparent::hybrid(Transition::Color);
+            hard.scene.lights = lights;
+            hard.settings.rasterizer = Rasterizer::Compute;
+            let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+            (hard, oracle)
+        })
+        .into();
+    let mut draw = |hard: &Hard, perturbed| {
+        headless.renderer.shaders.perturbed = perturbed;
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        headless.render(&prepared, &hard.camera, &hard.settings, picture).unwrap()
+    };
+    for tile_invocations in [TileInvocations::Column, TileInvocations::Pixel] {
+        scenes.iter_mut().for_each(|(hard, _)| hard.settings.tile_invocations = tile_invocations);
+        let mut is_caught = |formula| {
+            scenes.iter().any(|(hard, oracle)| {
+                let frame = draw(hard, formula);
+                assert!(frame.plan.passes.iter().any(|pass| pass.name == "see, sum and shade tiles"));
+                compare_light(&frame, oracle).worst > 1.0 / 1024.0
+            })
+        };
+        assert!(!is_caught(None), "differs already");
+        for formula in [
+            Formula::Diffuse,
+            Formula::LitDiffuse,
+            Formula::LitSpecular,
+            Formula::NormalizedColor,
+            Formula::Specular,
+            Formula::Transition,
+        ] {
+            assert!(is_caught(Some(formula)), "{formula:?}");
+        }
+    }
+    assert_validation_is_silent(&headless);
 }
 
 #[test]

@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{Cull, KernelEval, Rasterizer, SetUp, Settings},
+    scene::{Cull, KernelEval, Rasterizer, SetUp, Settings, Transition},
     shaders,
 };
 
@@ -66,8 +66,9 @@ impl Traits {
     }
 
     /// More than opaque things of which splats fit into tiles, so that these are not shaded at once.
-    fn leaves_sums(self) -> bool {
-        self.transparent || self.may_be_large || self.export
+    fn leaves_sums(self, settings: &Settings) -> bool {
+        let of_both = self.polygons && settings.transition == Transition::Attributes;
+        of_both || self.transparent || self.may_be_large || self.export
     }
 }
 
@@ -103,7 +104,11 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.extend(opaque(settings, traits, &variant, has_list)?);
     }
     if traits.polygons {
-        all.push(graphics("polygons", "triangles", polygons::mesh_pass(settings).key(traits.closed, false)));
+        let drawn = match by_tiles && !traits.leaves_sums(settings) {
+            true => polygons::shaded_mesh_pass(settings, settings.accumulate, traits.lights()),
+            false => polygons::mesh_pass(settings),
+        };
+        all.push(graphics("polygons", "triangles", drawn.key(traits.closed, false)));
     }
     if traits.transparent {
         if by_tiles && !traits.polygons && !traits.may_be_large {
@@ -123,9 +128,13 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         layered: traits.transparent,
         lights: traits.lights(),
     };
-    let at_once = by_tiles && !traits.leaves_sums();
-    let shaded = finalize::Traits { splats: !at_once, ..shown };
-    all.extend(finalize::key(settings, target, shaded).map(|key| graphics("finalize", "", key)));
+    let at_once = by_tiles && !traits.leaves_sums(settings);
+    if !at_once {
+        all.extend(finalize::key(settings, target, shown).map(|key| graphics("finalize", "", key)));
+    }
+    if at_once && traits.polygons {
+        all.push(graphics("finalize", "", finalize::key_of_shown_polygons(target)));
+    }
     if at_once {
         let key = finalize::key_of_shown(target, traits.polygons);
         all.push(graphics("finalize", "tiles", key));
@@ -194,7 +203,7 @@ fn opaque(
 /// The same by tiles.
 fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> Result<Vec<PipelineRecipe>> {
     let Traits { may_be_large, polygons, export, .. } = traits;
-    let (leaves_sums, lights) = (traits.leaves_sums(), traits.lights());
+    let (leaves_sums, lights) = (traits.leaves_sums(settings), traits.lights());
     let of_tiles = tiles::TileTraits { may_be_large, polygons, export, leaves_sums, lights };
     let mut all = Vec::new();
     let culled = if settings.cull == Cull::Setup { Vec::new() } else { cull::recipes(variant) };

@@ -2,7 +2,7 @@
 //!
 //! Without layers, pixels without any surface are not shaded: the target is cleared to the background, and a triangle at
 //! depth 0 (infinitely far) is drawn where the visible depth is above 0 (something is there). Of splats that were drawn by
-//! tiles, only those tiles are; and where these are shaded already, they are but brought to the target.
+//! tiles, only those tiles are; and what is shaded already, tiles and the polygons beside them, is but brought to the target.
 
 use ash::vk;
 
@@ -21,7 +21,6 @@ use crate::{
     math::srgb::linear_from_srgb,
     scene::Settings,
     shaders,
-    vk::Blend,
 };
 
 /// What the opaque passes leave.
@@ -33,11 +32,11 @@ pub(super) struct Opaque<'a> {
     pub polygons: Option<Sums>,
     /// The depth of splats, moved away from the eye by ε.
     pub splat_depth: Option<Handle<Image>>,
-    /// The depth of polygons, or of the splats where those are nearer.
+    /// The depth of polygons, or of the splats where those are nearer; where all is shown already, of polygons alone.
     pub polygon_depth: Option<Handle<Image>>,
-    /// The tiles that have splats, where all is opaque splats and outside of them there is nothing.
+    /// The tiles that have splats, where outside of them there is nothing, or only polygons that are shown.
     pub tiles: Vec<Tiles<'a>>,
-    /// What these show, in place of sums.
+    /// What these and polygons show, in place of sums.
     pub shown: Option<Handle<Image>>,
 }
 
@@ -143,23 +142,17 @@ pub(super) fn finalize<'a>(
         layered: layers.is_some(),
         lights: inputs.lights,
     };
-    let key = key(inputs.settings, target_format, traits);
     if let Some(shown) = &opaque.shown {
-        let shown_key = key_of_shown(target_format, polygons.is_some());
-        if let (Some(key), Some(polygons)) = (key, polygons.zip(opaque.polygon_depth.as_ref())) {
-            let keys = (key, shown_key);
-            return finalize_polygons_and_tiles(
-                graph,
-                inputs,
-                polygons,
-                (&opaque.tiles, shown),
-                lights,
-                keys,
-                target,
-            );
-        }
-        return finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), shown_key, target);
+        let key = key_of_shown(target_format, opaque.polygon_depth.is_some());
+        return match &opaque.polygon_depth {
+            Some(depth) => {
+                let keys = [key_of_shown_polygons(target_format), key];
+                finalize_polygons_and_tiles(graph, inputs, (shown, depth), &opaque.tiles, keys, target)
+            }
+            None => finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), key, target),
+        };
     }
+    let key = key(inputs.settings, target_format, traits);
     if let (false, Some(key), Some(Sums { color, normal })) = (opaque.tiles.is_empty(), &key, splats) {
         let key = key_of_tiles(key);
         return finalize_tiles(graph, inputs, &opaque.tiles, (&[color, normal], lights), key, target);
@@ -203,17 +196,21 @@ pub(super) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
     }
 }
 
-/// What the pipeline is that brings to the target what tiles show; `beside`: over polygons, in a pass that has their depth.
+/// What the pipeline is that brings to the target what tiles show; `beside`: in a pass that has the depth of polygons.
 pub(super) fn key_of_shown(target_format: vk::Format, beside: bool) -> GraphicsKey {
-    let color_formats = vec![target_format];
-    match beside {
-        false => GraphicsKey { color_formats, ..quads_of_tiles(&shaders::FINALIZE_SHADED_FRAG, Vec::new()) },
-        true => GraphicsKey {
-            color_formats,
-            blend: Blend::Over,
-            depth: Some((vk::CompareOp::ALWAYS, false)),
-            ..quads_of_tiles(&shaders::FINALIZE_SHADED_BESIDE_FRAG, Vec::new())
-        },
+    GraphicsKey {
+        color_formats: vec![target_format],
+        depth: beside.then_some((vk::CompareOp::ALWAYS, false)),
+        ..quads_of_tiles(&shaders::FINALIZE_SHADED_FRAG, Vec::new())
+    }
+}
+
+/// The same where there are polygons.
+pub(super) fn key_of_shown_polygons(target_format: vk::Format) -> GraphicsKey {
+    GraphicsKey {
+        color_formats: vec![target_format],
+        depth: Some((vk::CompareOp::LESS, false)),
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_SHADED_FRAG, Layout::Finalize, Vec::new())
     }
 }
 
@@ -246,36 +243,28 @@ fn finalize_tiles<'a>(
     Ok(())
 }
 
-/// The pass over polygons, shaded as if there were no splats, and then over the tiles that have some, which lie over them.
+/// The pass over polygons, where they are nearer than nothing, and over the tiles that have splats.
 fn finalize_polygons_and_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    (polygons, depth): (&Sums, &Handle<Image>),
-    (tiles, shown): (&[Tiles<'a>], &Handle<Image>),
-    lights: Option<&Handle<Buffer>>,
-    (key, shown_key): (GraphicsKey, GraphicsKey),
+    (shown, depth): (&Handle<Image>, &Handle<Image>),
+    tiles: &[Tiles<'a>],
+    [of_polygons, of_tiles]: [GraphicsKey; 2],
     target: &mut Handle<Image>,
 ) -> Result<()> {
     let layout = &inputs.shaders.finalize_layout;
-    let pipelines = [inputs.shaders.graphics(key)?, inputs.shaders.graphics(shown_key)?];
+    let [of_polygons, of_tiles] = [inputs.shaders.graphics(of_polygons)?, inputs.shaders.graphics(of_tiles)?];
     let constants = constants(inputs);
-    let ids = sums_descriptors(None, Some(polygons), None);
-    let (shown_id, seen) = (shown.id(), SeenTiles::of(tiles));
-    let mut pass = read_seen(tiles, graph.pass("finalize")).read(depth, Access::DepthTest);
-    for image in [&polygons.color, &polygons.normal, shown] {
-        pass = pass.read(image, Access::SampledFragment);
-    }
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadFragment);
-    }
-    let lights = lights.map(Handle::id);
-    pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
+    let (images, seen) = ([(0, shown.id())], SeenTiles::of(tiles));
+    read_seen(tiles, graph.pass("finalize"))
+        .read(shown, Access::SampledFragment)
+        .read(depth, Access::DepthTest)
+        .write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
-            let [of_polygons, of_tiles] = &pipelines;
             let constants = bytemuck::bytes_of(&constants);
-            draw_fullscreen(context, inputs, of_polygons, layout, (&ids, lights), constants)?;
-            let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, shown_id)], None))?;
-            draw_quads_of_tiles(context, inputs, of_tiles, &seen, set, constants)
+            draw_fullscreen(context, inputs, &of_polygons, layout, (&images, None), constants)?;
+            let set = read_set(context, inputs, &inputs.shaders.sums_set, (&images, None))?;
+            draw_quads_of_tiles(context, inputs, &of_tiles, &seen, set, constants)
         }));
     Ok(())
 }

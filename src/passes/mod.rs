@@ -162,7 +162,7 @@ fn opaque<'a>(
     readers: Readers,
 ) -> Result<Opaque<'a>> {
     if let Some(plan) = inputs.tiles {
-        return match !readers.whole_images() && tiles::can_shade(inputs, readers.target_format) {
+        return match !readers.whole_images() && tiles::can_shade(inputs) {
             true => shaded_by_tiles(graph, inputs, lights, readers.shown(inputs.settings)),
             false => opaque_by_tiles(graph, inputs, plan, readers),
         };
@@ -185,8 +185,7 @@ fn opaque<'a>(
     Ok(opaque)
 }
 
-/// The same by tiles, which are shaded, too: for a frame of which nobody reads sums or depth. Polygons come first: the nearest one at a
-/// pixel is all that can be seen of them, and tiles know whether a splat hides it.
+/// The same by tiles, which are shaded, too: for a frame of which nobody reads sums or depth.
 fn shaded_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -196,11 +195,11 @@ fn shaded_by_tiles<'a>(
     let image = graph.create_image("shown by tiles", inputs.image(sum_format(precision)));
     let mut shown = tiles::Shown { image, precision };
     let mut opaque = Opaque::default();
-    if !inputs.meshes.is_empty() {
-        let (seen, depth) = polygons::polygons(graph, inputs, None)?;
-        (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
-    }
     let mut start = TileStart::Empty;
+    if !inputs.meshes.is_empty() {
+        let depth = polygons::shaded(graph, inputs, (&mut shown.image, precision), lights)?;
+        (opaque.polygon_depth, start) = (Some(depth), TileStart::Polygons);
+    }
     for (kind, inputs) in inputs.of_bands() {
         let Some(plan) = inputs.tiles else { continue };
         let mut tiles = tiles::list(graph, inputs, &kind, plan)?;

@@ -85,7 +85,7 @@ impl<'a> Part<'a> {
         let rows = tiles::rows_of_image(settings);
         let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
         let tiles = tiles.map(|whole| whole.or_of_blocks(&splats, &seen, settings, limits));
-        // Polygons are drawn between two passes over the whole image.
+        // Polygons may be drawn between two passes over the whole image.
         let bands = match &tiles {
             Some(whole) if meshes.is_empty() => tiles::bands(&splats, &seen, whole, settings, limits),
             _ => Vec::new(),

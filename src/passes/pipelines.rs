@@ -200,11 +200,6 @@ impl Shaders {
         names
     }
 
-    /// Whether what is drawn can be blended with a target of this format. Vulkan promises it of all that have fewer bits.
-    pub(super) fn can_blend(&self, target_format: vk::Format) -> bool {
-        target_format != vk::Format::R32G32B32A32_SFLOAT || self.device.facts().blend_f32
-    }
-
     /// The layouts of tiles, on a device that has them.
     pub(super) fn tiles(&self) -> Result<&tiles::TileLayouts> {
         let reason = "compute: the device has too few storage buffers for a stage";

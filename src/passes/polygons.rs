@@ -1,19 +1,21 @@
 //! Opaque polygons, drawn upon the depth that visibility splatting leaves (Guennebaud et al. 2006, section 5.1, step 2):
-//! their attributes, for finalization.
+//! their attributes, for finalization. Or drawn before all splats and shaded at once, for tiles that lay splats over them: the nearest
+//! one at a pixel is all that can be seen of them.
 
 use ash::vk;
 
 use super::{
     DEPTH_FORMAT, Inputs,
-    accumulate::Sums,
+    accumulate::{Sums, bind_read},
     copy_depth::copy_depth,
     mesh_draws::{MeshPass, draw_meshes},
     sum_format,
+    variant::shading_constants,
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    scene::Settings,
+    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    scene::{Accumulate, Settings},
     shaders,
     vk::Blend,
 };
@@ -27,6 +29,46 @@ pub(super) fn mesh_pass(settings: &Settings) -> MeshPass {
         depth: Some((vk::CompareOp::GREATER, true)),
         constants: Vec::new(),
     }
+}
+
+/// What the pass is made of that shades them; `precision`: of what it leaves.
+pub(super) fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
+    let fragment = match (precision, lights > 0) {
+        (Accumulate::F16, false) => &shaders::POLYGONS_SHADED_HALF_FRAG,
+        (Accumulate::F16, true) => &shaders::POLYGONS_SHADED_HALF_LIT_FRAG,
+        (Accumulate::F32, false) => &shaders::POLYGONS_SHADED_SINGLE_FRAG,
+        (Accumulate::F32, true) => &shaders::POLYGONS_SHADED_SINGLE_LIT_FRAG,
+    };
+    MeshPass {
+        fragment,
+        color_formats: vec![sum_format(precision)],
+        constants: shading_constants(settings.shading, lights),
+        ..mesh_pass(settings)
+    }
+}
+
+/// Declares the pass that draws them first, and shaded; returns their depth.
+pub(super) fn shaded<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    (shown, precision): (&mut Handle<Image>, Accumulate),
+    lights: Option<&Handle<Buffer>>,
+) -> Result<Handle<Image>> {
+    let pipelines = shaded_mesh_pass(inputs.settings, precision, inputs.lights).pipelines(inputs)?;
+    let mut depth = graph.create_image("depth of polygons", inputs.image(DEPTH_FORMAT));
+    let mut pass = graph
+        .pass("polygons")
+        .write(shown, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])))
+        .write(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)));
+    if let Some(lights) = lights {
+        pass = pass.read(lights, Access::UniformReadFragment);
+    }
+    let lights = lights.map(Handle::id);
+    pass.finish(Box::new(move |context| {
+        bind_read(context, inputs, [None; 3], lights)?;
+        draw_meshes(context, inputs, &pipelines, None)
+    }));
+    Ok(depth)
 }
 
 /// Declares the pass, and before it, where there are splats, the copy of their depth: accumulation needs both. Returns

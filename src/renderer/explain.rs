@@ -179,7 +179,9 @@ fn reason(pass: &str) -> &'static str {
         "visibility" => "opaque splats: the depth of the nearest surface, shifted by epsilon",
         "accumulate" => "opaque splats: sums of weights, colors and normals of the nearest surface",
         "begin depth with polygons" => "splats beside polygons: accumulation needs the depth of both",
-        "polygons" => "opaque polygons: their colors and normals, where they are seen",
+        "polygons" => {
+            "opaque polygons, where they are nearest: what shades them later, or what they show beside tiles"
+        }
         "kernel texture" => "the kernel is read from a texture",
         "finalize" => {
             "every scene: normalizes and shades the sums, unless tiles did, and puts transparent layers over them"

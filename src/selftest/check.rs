@@ -14,7 +14,7 @@ use crate::{
     prepare::PreparedScene,
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, FilterWeight, KernelEval, Layers, SetUp, Settings, TileInvocations},
+    scene::{Accumulate, FilterWeight, KernelEval, Layers, Rasterizer, SetUp, Settings, TileInvocations},
 };
 
 /// What is checked of a drawing.
@@ -56,6 +56,9 @@ pub(super) struct Stage<'a> {
 /// The surface as data and the shaded picture in linear light.
 const ALL: Wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
 
+/// The picture alone, which tiles shade themselves.
+const PICTURE: Wanted = Wanted { surface: false, ..ALL };
+
 impl<'a> Stage<'a> {
     pub fn new(headless: Headless, suite: &'a Suite) -> Self {
         Self { headless, suite, prepared: None, oracles: (0, Vec::new()) }
@@ -67,7 +70,14 @@ impl<'a> Stage<'a> {
     /// Whatever device and oracle answer.
     pub fn check(&mut self, drawing: &Drawing) -> Result<Found> {
         let Drawing { scene, settings, check } = drawing;
-        let frame = self.draw(*scene, settings)?;
+        if *check == Check::Light {
+            let frame = self.draw_as(*scene, settings, PICTURE)?;
+            return self.against_oracle(drawing, &frame);
+        }
+        let mut frame = self.draw(*scene, settings)?;
+        if *check == Check::Oracle && settings.rasterizer == Rasterizer::Compute {
+            frame.linear = self.draw_as(*scene, settings, PICTURE)?.linear;
+        }
         let other = match check {
             Check::Oracle | Check::Light => return self.against_oracle(drawing, &frame),
             Check::AutoLayers => {
@@ -97,14 +107,18 @@ impl<'a> Stage<'a> {
         Ok(Found { problems, figures })
     }
 
-    /// Draws a scene, which is uploaded unless it is there.
     fn draw(&mut self, scene: usize, settings: &Settings) -> Result<Frame> {
+        self.draw_as(scene, settings, ALL)
+    }
+
+    /// Draws a scene, which is uploaded unless it is there.
+    fn draw_as(&mut self, scene: usize, settings: &Settings, wanted: Wanted) -> Result<Frame> {
         let hard = &self.suite.scenes[scene];
         let prepared = match self.prepared.take() {
             Some((there, prepared)) if there == scene => prepared,
             _ => self.headless.prepare(&hard.scene, &|_, _| {})?,
         };
-        let frame = self.headless.render(&prepared, &hard.camera, settings, ALL);
+        let frame = self.headless.render(&prepared, &hard.camera, settings, wanted);
         self.prepared = Some((scene, prepared));
         frame
     }

@@ -19,8 +19,6 @@ pub enum Blend {
     AddWeighted,
     /// It is put under it: added, all four components times what the attachment's fourth leaves of 1.
     Under,
-    /// It is laid over it: the first three components by its fourth, which says how much of the attachment it replaces.
-    Over,
 }
 
 /// The depth test.
@@ -92,27 +90,23 @@ impl GraphicsPipeline {
                 .depth_write_enable(state.write)
                 .depth_compare_op(state.compare)
         });
-        let kept = match desc.blend {
-            Blend::Over => vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
-            _ => vk::BlendFactor::ONE,
-        };
-        let blend = vk::PipelineColorBlendAttachmentState::default()
+        let add = vk::PipelineColorBlendAttachmentState::default()
             .blend_enable(desc.blend != Blend::Replace)
             .src_color_blend_factor(match desc.blend {
-                Blend::AddWeighted | Blend::Over => vk::BlendFactor::SRC_ALPHA,
+                Blend::AddWeighted => vk::BlendFactor::SRC_ALPHA,
                 Blend::Under => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
                 Blend::Add | Blend::Replace => vk::BlendFactor::ONE,
             })
-            .dst_color_blend_factor(kept)
+            .dst_color_blend_factor(vk::BlendFactor::ONE)
             .color_blend_op(vk::BlendOp::ADD)
             .src_alpha_blend_factor(match desc.blend {
                 Blend::Under => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
                 _ => vk::BlendFactor::ONE,
             })
-            .dst_alpha_blend_factor(kept)
+            .dst_alpha_blend_factor(vk::BlendFactor::ONE)
             .alpha_blend_op(vk::BlendOp::ADD)
             .color_write_mask(vk::ColorComponentFlags::RGBA);
-        let attachments = vec![blend; desc.color_formats.len()];
+        let attachments = vec![add; desc.color_formats.len()];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);

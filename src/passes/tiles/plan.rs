@@ -176,9 +176,13 @@ impl TilePlan {
     /// each lies where that of the band before was.
     pub(super) fn among(&self, bands: &[Self]) -> Self {
         let largest = |of: fn(&Self) -> u64| bands.iter().map(of).max().unwrap_or(0);
+        // A band that leaves splats to the graphics pipeline has no room for more tiles of each.
+        let with_room = bands.iter().filter(|band| band.may_be_large).map(|band| band.most_tiles).min();
+        let most_tiles = (largest(|band| band.most_tiles.into()) as u32).min(with_room.unwrap_or(u32::MAX));
         Self {
             record_room: largest(|band| band.record_room),
-            most_tiles: largest(|band| band.most_tiles.into()) as u32,
+            most_tiles,
+            round_length: (MOST_ITERATIONS / most_tiles.max(1)).min(self.segment_length),
             segments: largest(|band| band.segments.into()) as u32,
             entry_room: largest(|band| band.entry_room),
             may_be_large: bands.iter().any(|band| band.may_be_large),

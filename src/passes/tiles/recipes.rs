@@ -71,7 +71,7 @@ pub(in super::super) fn opaque_recipes(
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(upon) };
     let steps = match polygons {
         beside if !leaves_sums => {
-            let precision = settings.accumulate;
+            let (precision, hidden) = (settings.accumulate, hidden && !beside);
             vec![("see, sum and shade tiles", Step::Shaded { precision, beside, lights, hidden })]
         }
         false => vec![("see and sum tiles", Step::Fused { upon, with_depth, hidden })],

@@ -72,6 +72,8 @@ fn accumulate_of(settings: &Settings, plan: &TilePlan) -> Accumulate {
 pub(in super::super) enum TileStart {
     /// Nothing, and what tiles without splats hold then nobody reads.
     Empty,
+    /// What polygons show, and nothing elsewhere: all of it is read.
+    Polygons,
     /// The tiles of other bands; nothing else, as above.
     Bands,
     /// 0 everywhere, but where there are the tiles of other bands: all of it is read.
@@ -87,7 +89,7 @@ impl TileStart {
     fn access(self) -> (Access, Start) {
         match self {
             Self::Empty => (Access::StorageWriteCompute, Start::Discard),
-            Self::Bands | Self::Cleared => (Access::StorageReadWriteCompute, Start::Load),
+            Self::Polygons | Self::Bands | Self::Cleared => (Access::StorageReadWriteCompute, Start::Load),
         }
     }
 }
@@ -132,11 +134,8 @@ pub(in super::super) fn shader(
     // What differs between chunks is in their records.
     let mut constants = splat_constants(settings, false, false);
     constants.extend(part_length(plan));
-    match step {
-        Step::Shaded { beside, lights, .. } => {
-            constants.extend(shown_constants(settings, beside, lights));
-        }
-        _ => {}
+    if let Step::Shaded { beside, lights, .. } = step {
+        constants.extend(shown_constants(settings, beside, lights));
     }
     if let Step::Shaded { beside: true, .. } | Step::Summed { beside: true, .. } = step {
         constants.push((18, u32::from(settings.transition == Transition::Paper)));
@@ -144,13 +143,11 @@ pub(in super::super) fn shader(
     Ok((find(&format!("tile_splat{name}.comp"))?, constants))
 }
 
-/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and polygons, which are shaded elsewhere,
+/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and polygons, which are shaded already,
 /// blend with them as colors.
-pub(in super::super) fn can_shade(inputs: Inputs<'_>, target_format: vk::Format) -> bool {
+pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
     let alone = |plan: &TilePlan| !plan.may_be_overfull() && !plan.may_be_large;
-    let can_blend =
-        inputs.settings.transition != Transition::Attributes && inputs.shaders.can_blend(target_format);
-    let beside = inputs.meshes.is_empty() || can_blend;
+    let beside = inputs.meshes.is_empty() || inputs.settings.transition != Transition::Attributes;
     beside && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
 }
 
@@ -172,7 +169,8 @@ pub(in super::super) fn shaded<'a>(
     (polygons, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
     start: TileStart,
 ) -> Result<()> {
-    let (precision, hidden) = (shown.precision, tiles.plan.hidden);
+    // Beside polygons more than what visibility lets through may count (`--transition paper`).
+    let (precision, hidden) = (shown.precision, tiles.plan.hidden && polygons.is_none());
     let step = Step::Shaded { precision, beside: polygons.is_some(), lights: inputs.lights, hidden };
     let shader = shader(inputs.settings, tiles.plan, step)?;
     let mut shaded = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
@@ -181,7 +179,7 @@ pub(in super::super) fn shaded<'a>(
     let arguments = tiles.arguments.id();
     let (access, content) = start.access();
     let pass = graph.pass(&format!("see, sum and shade {kind}tiles"));
-    let mut pass = if tiles.plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
+    let mut pass = if hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     if let Some(lights) = lights {
         pass = pass.read(lights, Access::UniformReadCompute);
     }

@@ -86,4 +86,21 @@ fn bands_agree_on_what_they_have_in_common() {
         assert_eq!([band.record_room, band.entry_room], [among[0].record_room, among[0].entry_room]);
         assert!(band.bytes() >= alone.bytes() && band.record_count == alone.record_count, "{band:?}");
     }
+    // Splats that no box bounds beside many others, and beside few: what a few could have, all have no room for.
+    for boxes in [
+        [vec![(1000, f64::INFINITY), (399_000, 3.0)], vec![(1000, f64::INFINITY), (3000, 3.0)]],
+        [vec![(100_000, 60.0)], vec![(100, 100.0)]],
+        [vec![(150_000, 20.0)], vec![(4000, 57.0)]],
+    ] {
+        let bands = boxes.each_ref().map(|boxes| plan(boxes, [1024, 1024]).unwrap());
+        for (of, boxes) in bands.each_ref().map(|band| band.among(&bands)).iter().zip(&boxes) {
+            assert!(of.round_length * of.most_tiles <= MOST_ITERATIONS && of.round_length > 0, "{of:?}");
+            assert!(of.segments * of.segment_length >= of.record_count, "{of:?}");
+            let entries =
+                |(count, px): &(u32, f64)| u64::from(*count) * tiles_of(*px).min(of.most_tiles.into());
+            assert!(boxes.iter().map(entries).sum::<u64>() <= of.entry_room, "{of:?}");
+            let all_fit = boxes.iter().all(|(_, px)| tiles_of(*px) <= of.most_tiles.into());
+            assert!(all_fit || of.may_be_large, "{of:?}");
+        }
+    }
 }
