@@ -136,8 +136,8 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.push(graphics("finalize", "", finalize::key_of_shown_polygons(target)));
     }
     if at_once {
-        let key = finalize::key_of_shown(target, traits.polygons);
-        all.push(graphics("finalize", "tiles", key));
+        let draws = if traits.polygons { "tiles beside polygons" } else { "tiles" };
+        all.push(graphics("finalize", draws, finalize::key_of_shown(target, traits.polygons)));
     }
     if traits.export {
         all.push(graphics("export", "", export::key()));
