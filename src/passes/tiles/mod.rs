@@ -17,6 +17,7 @@ mod plan;
 mod quads;
 mod recipes;
 mod record;
+mod shaded;
 mod splat;
 
 use ash::vk;
@@ -33,7 +34,8 @@ pub(super) use self::{
     plan::{TILE_PX, rows_of_image},
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
-    splat::{Shown, TileImages, TileStart, accumulate, can_shade, fused, shaded, visibility},
+    shaded::{Shown, can_shade, shaded},
+    splat::{TileImages, TileStart, accumulate, fused, visibility},
 };
 use pass::{TilePass, after_dispatches_before};
 

@@ -1,18 +1,13 @@
 //! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
 
+mod rows;
+
 use std::ops::Range;
 
-use ash::vk;
+pub(in super::super) use self::rows::rows_of_image;
 
-use super::{
-    super::{draws::Draw, seen::SeenSplats},
-    Invocations,
-};
-use crate::{
-    math::size::pixels_along,
-    scene::{Cull, Settings},
-    vk::Limits,
-};
+use super::Invocations;
+use crate::{math::size::pixels_along, vk::Limits};
 
 /// Pixels along a side of a tile, as in `glsl/inc/tiles.glsl`.
 pub(in super::super) const TILE_PX: u32 = 8;
@@ -64,11 +59,6 @@ fn tiles_of(box_px: f64) -> u64 {
     (a_side * a_side) as u64 // of what has no bound, the largest number
 }
 
-/// All rows of tiles.
-pub(in super::super) fn rows_of_image(settings: &Settings) -> Range<u32> {
-    0..settings.size_px[1].div_ceil(TILE_PX)
-}
-
 /// How splats are drawn by tiles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TilePlan {
@@ -113,98 +103,6 @@ pub struct TilePlan {
 }
 
 impl TilePlan {
-    /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
-    pub fn of(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> Option<Self> {
-        let boxes: Vec<_> = draws.iter().flat_map(|draw| &draw.boxes).copied().collect();
-        Self::of_rows(draws, &boxes, rows_of_image(settings), settings, limits)
-    }
-
-    /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
-    pub fn or_of_blocks(
-        self,
-        draws: &[Draw<'_>],
-        seen: &SeenSplats,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Self {
-        let of_blocks = Self::of_blocks(draws, seen, self.rows.clone(), settings, limits);
-        let draws_as_much = |of_blocks: &Self| self.may_be_large || !of_blocks.may_be_large;
-        let better = |of_blocks: &Self| draws_as_much(of_blocks) && of_blocks.bytes() < self.bytes();
-        of_blocks.filter(better).unwrap_or(self)
-    }
-
-    /// The plan for the blocks that may touch some rows of tiles; none where there is none, or more than the device has room for.
-    pub(in super::super) fn of_blocks(
-        draws: &[Draw<'_>],
-        seen: &SeenSplats,
-        rows: Range<u32>,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Option<Self> {
-        Self::of_rows(draws, &seen.boxes(&rows), rows, settings, limits)
-    }
-
-    /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
-    fn of_rows(
-        draws: &[Draw<'_>],
-        boxes: &[(u32, f64)],
-        rows: Range<u32>,
-        settings: &Settings,
-        limits: &Limits,
-    ) -> Option<Self> {
-        let invocations = Invocations::of(settings.tile_invocations, limits);
-        let hidden = match settings.cull {
-            // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
-            // taken for several: 3% of a frame.)
-            Cull::Auto => draws.len() > 1,
-            Cull::Setup | Cull::List => false,
-            Cull::Hidden => true,
-        };
-        let hidden = hidden
-            && invocations != Invocations::ColumnsAlone
-            && !draws.iter().any(|draw| draw.chunk.transparent);
-        let plan = Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations)?.within(rows);
-        Some(if hidden { plan.without_hidden() } else { plan })
-    }
-
-    /// The same for some rows of the image alone.
-    fn within(self, rows: Range<u32>) -> Self {
-        Self { tile_count: self.tiles_x * (rows.end - rows.start), rows, ..self }
-    }
-
-    /// The same as one of several bands, which have their pipelines and images in common, and buffers of the same sizes, so that
-    /// each lies where that of the band before was.
-    pub(super) fn among(&self, bands: &[Self]) -> Self {
-        let largest = |of: fn(&Self) -> u64| bands.iter().map(of).max().unwrap_or(0);
-        // A band that leaves splats to the graphics pipeline has no room for more tiles of each.
-        let with_room = bands.iter().filter(|band| band.may_be_large).map(|band| band.most_tiles).min();
-        let most_tiles = (largest(|band| band.most_tiles.into()) as u32).min(with_room.unwrap_or(u32::MAX));
-        Self {
-            record_room: largest(|band| band.record_room),
-            most_tiles,
-            round_length: (MOST_ITERATIONS / most_tiles.max(1)).min(self.segment_length),
-            segments: largest(|band| band.segments.into()) as u32,
-            entry_room: largest(|band| band.entry_room),
-            may_be_large: bands.iter().any(|band| band.may_be_large),
-            overfull_somewhere: bands.iter().any(Self::may_be_overfull),
-            ..self.clone()
-        }
-    }
-
-    /// Its rows in pixels of an image.
-    pub(super) fn area(&self, image: vk::Extent2D) -> vk::Rect2D {
-        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * TILE_PX).min(image.height));
-        vk::Rect2D {
-            offset: vk::Offset2D { x: 0, y: first as i32 },
-            extent: vk::Extent2D { width: image.width, height: end - first },
-        }
-    }
-
-    /// The first tile of its rows.
-    pub fn first_tile(&self) -> u32 {
-        self.rows.start * self.tiles_x
-    }
-
     /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
     pub fn bytes(&self) -> u64 {
         let records = self.record_room;

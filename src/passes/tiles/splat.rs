@@ -12,14 +12,14 @@ use super::{
         sum_format,
         variant::{Constants, splat_constants},
     },
-    COLOR_SUMS, DEPTH_BEFORE, LIGHTS, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS,
-    TilePass, TilePlan, Tiles, VISIBLE_DEPTH,
+    COLOR_SUMS, DEPTH_BEFORE, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass,
+    TilePlan, Tiles, VISIBLE_DEPTH,
     bins::part_length,
     overfull::{Parts, of_parts},
 };
 use crate::{
     error::Result,
-    graph::{Access, Buffer, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, Graph, Handle, Image, Start, execute::Body},
     scene::{Accumulate, Settings, Transition},
     shaders::Shader,
 };
@@ -86,7 +86,8 @@ impl TileStart {
         if self == Self::Empty { Self::Bands } else { self }
     }
 
-    fn access(self) -> (Access, Start) {
+    /// How a pass writes to them.
+    pub fn access(self) -> (Access, Start) {
         match self {
             Self::Empty => (Access::StorageWriteCompute, Start::Discard),
             Self::Polygons | Self::Bands | Self::Cleared => (Access::StorageReadWriteCompute, Start::Load),
@@ -141,55 +142,6 @@ pub(in super::super) fn shader(
         constants.push((18, u32::from(settings.transition == Transition::Paper)));
     }
     Ok((find(&format!("tile_splat{name}.comp"))?, constants))
-}
-
-/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and polygons, which are shaded already,
-/// blend with them as colors.
-pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
-    let alone = |plan: &TilePlan| !plan.may_be_overfull() && !plan.may_be_large;
-    let beside = inputs.meshes.is_empty() || inputs.settings.transition != Transition::Attributes;
-    beside && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
-}
-
-/// What tiles show, in place of sums.
-pub(in super::super) struct Shown {
-    pub image: Handle<Image>,
-    /// The image's.
-    pub precision: Accumulate,
-}
-
-/// Declares all of it in one pass, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
-/// [`fused`].
-pub(in super::super) fn shaded<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    kind: &str,
-    tiles: &mut Tiles<'a>,
-    shown: &mut Shown,
-    (polygons, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
-    start: TileStart,
-) -> Result<()> {
-    // Beside polygons more than what visibility lets through may count (`--transition paper`).
-    let (precision, hidden) = (shown.precision, tiles.plan.hidden && polygons.is_none());
-    let step = Step::Shaded { precision, beside: polygons.is_some(), lights: inputs.lights, hidden };
-    let shader = shader(inputs.settings, tiles.plan, step)?;
-    let mut shaded = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
-    shaded.storage_images = vec![(COLOR_SUMS, shown.image.id())];
-    shaded.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
-    let arguments = tiles.arguments.id();
-    let (access, content) = start.access();
-    let pass = graph.pass(&format!("see, sum and shade {kind}tiles"));
-    let mut pass = if hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadCompute);
-    }
-    if let Some(polygons) = polygons {
-        shaded.sampled_images = vec![(POLYGON_DEPTH, polygons.id())];
-        pass = pass.read(polygons, Access::SampledCompute);
-    }
-    pass.write(&mut shown.image, access, content)
-        .finish(Box::new(move |context| shaded.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
-    Ok(())
 }
 
 /// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
