@@ -70,16 +70,15 @@ impl<'a> Stage<'a> {
     /// Whatever device and oracle answer.
     pub fn check(&mut self, drawing: &Drawing) -> Result<Found> {
         let Drawing { scene, settings, check } = drawing;
-        if *check == Check::Light {
-            let frame = self.draw_as(*scene, settings, PICTURE)?;
-            return self.against_oracle(drawing, &frame);
-        }
-        let mut frame = self.draw(*scene, settings)?;
-        if *check == Check::Oracle && settings.rasterizer == Rasterizer::Compute {
-            frame.linear = self.draw_as(*scene, settings, PICTURE)?.linear;
-        }
+        let frame = self.draw(*scene, settings)?;
         let other = match check {
-            Check::Oracle | Check::Light => return self.against_oracle(drawing, &frame),
+            Check::Oracle | Check::Light => {
+                let linear = match settings.rasterizer {
+                    Rasterizer::Compute => self.draw_as(*scene, settings, PICTURE)?.linear,
+                    _ => frame.linear,
+                };
+                return self.against_oracle(drawing, &Frame { linear, ..frame });
+            }
             Check::AutoLayers => {
                 let layers = Layers::Fixed(settings.layers.most());
                 self.draw(*scene, &Settings { layers, ..settings.clone() })?
