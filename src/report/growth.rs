@@ -30,8 +30,8 @@ pub struct GrowthPoint {
     /// Bytes of device memory in splats.
     pub splat_bytes: u64,
     /// The most bytes that this process had from its own allocator, beyond what it had before, from the making of the splats
-    /// to their first frame. Drivers' own memory is not in it. `None` where the splats were there already.
-    pub host_peak_bytes: Option<u64>,
+    /// to their first frame. Drivers' own memory is not in it.
+    pub host_peak_bytes: u64,
 }
 
 /// A way to draw.
@@ -56,7 +56,7 @@ impl GrowthPoint {
         measured: &[Measured<'_>],
         transient_bytes: &[u64],
         splat_bytes: u64,
-        host_peak_bytes: Option<u64>,
+        host_peak_bytes: u64,
     ) -> Self {
         let method = |(own, bytes): (&Measured<'_>, &u64)| {
             let frames = own.times();
@@ -152,8 +152,8 @@ pub(super) mod tests {
             GrowthPoint::of((splats, [side; 2]), &measured, &[2_000_000, 3_000_000], 32 * splats, host)
         };
         GrowthReport {
-            over_splats: vec![point(1000, 64, 1.0, Some(500_000)), point(10_000, 64, 2.0, Some(5_000_000))],
-            over_pixels: vec![point(1000, 64, 1.0, None), point(1000, 128, 4.0, None)],
+            over_splats: vec![point(1000, 64, 1.0, 500_000), point(10_000, 64, 2.0, 5_000_000)],
+            over_pixels: vec![point(1000, 64, 1.0, 500_000), point(1000, 128, 4.0, 600_000)],
             left_out: vec!["5000000 splats: no memory".to_owned()],
         }
     }

@@ -3,7 +3,7 @@
 use super::{
     GrowthPoint, GrowthReport,
     contest::interval_cell,
-    grid::{Grid, NONE, cell, count_cell},
+    grid::{Grid, cell, count_cell},
     growth::growth_powers,
 };
 
@@ -86,7 +86,7 @@ fn frames_grid(title: &str, points: &[GrowthPoint], grows: fn(&GrowthPoint) -> u
                 count_cell(method.fragments()),
                 mega(point.splat_bytes),
                 mega(method.transient_bytes),
-                point.host_peak_bytes.map_or_else(|| NONE.to_owned(), mega),
+                mega(point.host_peak_bytes),
             ]);
         }
     }
@@ -130,7 +130,7 @@ mod tests {
         assert_eq!(splats.rows[2], expected);
         assert_eq!((splats.rows[3][5].as_str(), splats.rows[3][6].as_str()), ("0.30", "1.500"));
         // Four times the pixels take four times as long.
-        assert_eq!((pixels.rows[2][5].as_str(), pixels.rows[2][11].as_str()), ("1.00", "-"));
+        assert_eq!((pixels.rows[2][5].as_str(), pixels.rows[2][11].as_str()), ("1.00", "0.6"));
         assert_eq!(passes.rows.len(), 4 * 2 * 2);
     }
 }

@@ -41,8 +41,11 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<GrowthR
     let source = Source::open(stage)?;
     let mut report = GrowthReport { over_splats: Vec::new(), over_pixels: Vec::new(), left_out: Vec::new() };
     for splats in stage.arguments.growth_splats() {
-        match over_splats(headless, stage, &source, splats) {
-            Ok(point) => report.over_splats.push(point),
+        match point(headless, stage, &source, splats, stage.settings.size_px) {
+            Ok((point, inputs)) => {
+                report.over_splats.push(point);
+                stage.inputs.extend(inputs);
+            }
             // What was measured before is not lost; what is larger does not fit either.
             Err(error) if !report.over_splats.is_empty() => {
                 report.left_out.push(format!("{splats} splats and more: {error}"));
@@ -52,17 +55,12 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<GrowthR
         }
     }
     let splats = stage.arguments.middle_splats();
-    match place(headless, stage, &source, splats) {
-        Ok(placed) => {
-            for size_px in stage.arguments.growth_sizes() {
-                let [width, height] = size_px;
-                match point(headless, stage, &placed, size_px, None) {
-                    Ok(point) => report.over_pixels.push(point),
-                    Err(error) => report.left_out.push(format!("{width}x{height} pixels: {error}")),
-                }
-            }
+    for size_px in stage.arguments.growth_sizes() {
+        let [width, height] = size_px;
+        match point(headless, stage, &source, splats, size_px) {
+            Ok((point, _)) => report.over_pixels.push(point),
+            Err(error) => report.left_out.push(format!("{width}x{height} pixels: {error}")),
         }
-        Err(error) => report.left_out.push(format!("{splats} splats over pixels: {error}")),
     }
     stage.bars.clear();
     stage.flags.extend(report.left_out.iter().map(|what| format!("growth: left out: {what}")));
@@ -76,25 +74,24 @@ fn methods(stage: &Stage<'_>, size_px: [u32; 2]) -> Vec<Settings> {
     rasterizers.into_iter().map(with).collect()
 }
 
-/// A point of the first curve: the memory of the host is watched from the making of the splats on.
-fn over_splats(
+/// A point of either curve, and what its splats were made from. The memory of the host is watched from there to the first frame.
+fn point(
     headless: &mut Headless,
     stage: &mut Stage<'_>,
     source: &Source,
     splats: u64,
-) -> Result<GrowthPoint> {
+    size_px: [u32; 2],
+) -> Result<(GrowthPoint, Vec<InputReport>)> {
     let before = allocator::begin_peak();
     let placed = place(headless, stage, source, splats)?;
-    let size_px = stage.settings.size_px;
     // The first frame; those that are timed keep what they measure.
     if let Some(settings) = methods(stage, size_px).first() {
         let camera = Camera::fit(&placed.ball, size_px, Camera::DEFAULT_FOV_Y_RAD);
         headless.render(&placed.prepared, &camera, settings, surfel::Wanted::default())?;
     }
-    let host = allocator::peak_bytes().saturating_sub(before) as u64;
-    let point = point(headless, stage, &placed, size_px, Some(host))?;
-    stage.inputs.extend(placed.inputs);
-    Ok(point)
+    let host_peak_bytes = allocator::peak_bytes().saturating_sub(before) as u64;
+    let point = timed(headless, stage, &placed, size_px, host_peak_bytes)?;
+    Ok((point, placed.inputs))
 }
 
 /// Brings the model with so many splats to the device.
@@ -113,12 +110,12 @@ fn place(headless: &Headless, stage: &Stage<'_>, source: &Source, splats: u64) -
 }
 
 /// Times all rasterizers in turn.
-fn point(
+fn timed(
     headless: &mut Headless,
     stage: &mut Stage<'_>,
     placed: &Placed,
     size_px: [u32; 2],
-    host_peak_bytes: Option<u64>,
+    host_peak_bytes: u64,
 ) -> Result<GrowthPoint> {
     let camera = Camera::fit(&placed.ball, size_px, Camera::DEFAULT_FOV_Y_RAD);
     let methods = methods(stage, size_px);
