@@ -55,7 +55,7 @@ impl Compiler {
     /// # Errors
     ///
     /// Every error and warning of this file, a line each.
-    pub fn spirv(&self, path: &Path, words: &[&str], optimize: Optimize) -> Result<Vec<u32>, String> {
+    pub fn spirv(&self, path: &Path, words: &[String], optimize: Optimize) -> Result<Vec<u32>, String> {
         let shown = path.display().to_string();
         let failed = |problem: String| format!("{shown}: error: {problem}");
         let source = read_text(path).map_err(failed)?;
@@ -73,7 +73,7 @@ impl Compiler {
         }
     }
 
-    fn options(&self, words: &[&str], optimize: Optimize) -> shaderc::Result<CompileOptions<'_>> {
+    fn options(&self, words: &[String], optimize: Optimize) -> shaderc::Result<CompileOptions<'_>> {
         let mut options = CompileOptions::new()?;
         options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
         options.set_target_spirv(SpirvVersion::V1_6);

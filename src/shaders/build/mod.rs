@@ -8,9 +8,13 @@ mod spirv;
 mod table;
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     fs, io,
+    num::NonZero,
+    panic,
     path::{Path, PathBuf},
+    sync::atomic::{AtomicUsize, Ordering},
+    thread,
 };
 
 use compile::{Compiler, Optimize};
@@ -30,50 +34,31 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
     let compiler = Compiler::new(glsl, macros).map_err(|message| vec![message])?;
     let shared: Vec<&str> = host_structs.iter().map(|(glsl_name, _)| *glsl_name).collect();
     let mut errors = Vec::new();
+    let mut jobs = Vec::new();
+    for (file, path) in &sources {
+        match compile::read_text(path) {
+            Ok(source) => {
+                let all = permutations::permutations(&source).into_iter().enumerate();
+                jobs.extend(all.map(|(number, words)| Job { file, path, number, words }));
+            }
+            Err(problem) => errors.push(format!("{}: error: {problem}", path.display())),
+        }
+    }
     let mut shaders = Vec::new();
     let mut layouts = BTreeMap::new();
-    for (file, path) in sources {
-        let source = match compile::read_text(&path) {
-            Ok(source) => source,
-            Err(problem) => {
-                errors.push(format!("{}: error: {problem}", path.display()));
-                continue;
+    let mut failed = BTreeSet::new();
+    for (job, result) in jobs.iter().zip(in_parallel(&jobs, |job| job.compiled(&compiler, &shared))) {
+        match result {
+            Ok((spirv, found)) => {
+                let name = job.name();
+                for layout in found {
+                    errors.extend(layout::merge(&mut layouts, &name, layout).err());
+                }
+                shaders.push((name, spirv));
             }
-        };
-        for (number, words) in permutations::permutations(&source).into_iter().enumerate() {
-            let name = permutations::name(&file, &words);
-            let result = compiler.spirv(&path, &words, Optimize::Performance).and_then(|optimized| {
-                // Both splat passes must place a splat alike, to the last bit. Fragments say `precise` where they need it.
-                let optimized = match name.ends_with(".frag") {
-                    true => optimized,
-                    false => {
-                        exact::exact(&optimized).map_err(|e| format!("{}: error: {e}", path.display()))?
-                    }
-                };
-                // What a file shares with the host is the same in all of its permutations.
-                if number > 0 {
-                    return Ok((optimized, Vec::new()));
-                }
-                // The optimizer strips names, so that the struct members are read from a second, unoptimized copy.
-                let named = compiler.spirv(&path, &words, Optimize::Off)?;
-                Ok((
-                    optimized,
-                    struct_layouts(&named, &shared).map_err(|e| format!("{}: error: {e}", path.display()))?,
-                ))
-            });
-            match result {
-                Ok((spirv, found)) => {
-                    for layout in found {
-                        errors.extend(layout::merge(&mut layouts, &name, layout).err());
-                    }
-                    shaders.push((name, spirv));
-                }
-                // The permutations of a file mostly fail alike: the first says it.
-                Err(message) => {
-                    errors.push(message);
-                    break;
-                }
-            }
+            // The permutations of a file mostly fail alike: the first says it.
+            Err(message) if failed.insert(job.file) => errors.push(message),
+            Err(_) => {}
         }
     }
     shaders.sort();
@@ -88,6 +73,61 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
         return Err(errors);
     }
     Ok(table::shaders(&shaders) + &table::checks(host_structs, &layouts))
+}
+
+/// A permutation to compile.
+struct Job<'a> {
+    file: &'a str,
+    path: &'a Path,
+    number: usize,
+    words: Vec<String>,
+}
+
+impl Job<'_> {
+    fn name(&self) -> String {
+        permutations::name(self.file, &self.words)
+    }
+
+    /// Its SPIR-V and, of a file's first, those of the structs `shared` that it has: they are the same in all of its permutations.
+    fn compiled(
+        &self,
+        compiler: &Compiler,
+        shared: &[&str],
+    ) -> Result<(Vec<u32>, Vec<StructLayout>), String> {
+        let of_file = |problem: String| format!("{}: error: {problem}", self.path.display());
+        let mut spirv = compiler.spirv(self.path, &self.words, Optimize::Performance)?;
+        // Both splat passes must place a splat alike, to the last bit. Fragments say `precise` where they need it.
+        if !self.file.ends_with(".frag") {
+            spirv = exact::exact(&spirv).map_err(of_file)?;
+        }
+        if self.number > 0 {
+            return Ok((spirv, Vec::new()));
+        }
+        // The optimizer strips names, so that the struct members are read from a second, unoptimized copy.
+        let named = compiler.spirv(self.path, &self.words, Optimize::Off)?;
+        Ok((spirv, struct_layouts(&named, shared).map_err(of_file)?))
+    }
+}
+
+/// What `work` makes of each job, in their order, by as many threads as the machine has processors.
+fn in_parallel<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let some_of_all = || {
+        let mut done = Vec::new();
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = jobs.get(number) else { return done };
+            done.push((number, work(job)));
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let mut done: Vec<(usize, R)> = thread::scope(|scope| {
+        let running: Vec<_> = (0..threads).map(|_| scope.spawn(some_of_all)).collect();
+        let results = running.into_iter().map(|thread| thread.join());
+        results.flat_map(|done| done.unwrap_or_else(|panic| panic::resume_unwind(panic))).collect()
+    });
+    done.sort_by_key(|(number, _)| *number);
+    done.into_iter().map(|(_, result)| result).collect()
 }
 
 /// Every file and folder below `folder`, itself included: what has to be compiled again when it changes.

@@ -6,15 +6,17 @@
 const DIRECTIVE: &str = "// Permutations:";
 
 /// The words of each permutation that the source asks for.
-pub fn permutations(source: &str) -> Vec<Vec<&str>> {
+pub fn permutations(source: &str) -> Vec<Vec<String>> {
     let mut all = Vec::new();
     for line in source.lines().filter_map(|line| line.strip_prefix(DIRECTIVE)) {
         let mut choices = vec![Vec::new()];
         for group in line.split('|') {
-            let words: Vec<_> = group.split_whitespace().collect();
+            let words: Vec<_> = group.split_whitespace().map(str::to_owned).collect();
             choices = choices
                 .iter()
-                .flat_map(|chosen| words.iter().map(move |word| [chosen.as_slice(), &[*word]].concat()))
+                .flat_map(|chosen| {
+                    words.iter().map(move |word| [chosen.as_slice(), std::slice::from_ref(word)].concat())
+                })
                 .collect();
         }
         all.extend(choices);
@@ -26,7 +28,7 @@ pub fn permutations(source: &str) -> Vec<Vec<&str>> {
 }
 
 /// The name of a permutation: `visibility_points_plain.vert` of `visibility.vert`.
-pub fn name(file: &str, words: &[&str]) -> String {
+pub fn name(file: &str, words: &[String]) -> String {
     let (pass, stage) = file.rsplit_once('.').unwrap_or((file, ""));
     let words: String = words.iter().map(|word| format!("_{word}")).collect();
     format!("{pass}{words}.{stage}")
