@@ -109,35 +109,55 @@ void see(Range range, vec2 at_px, inout float visible[ROWS])
 #endif
 
 #if !defined(VISIBLE)
+// Adds what a splat is at a pixel.
+void add(Splat splat, Look look, Column column, int row, float visible, float polygon, inout vec4 colors, inout vec4 normals)
+{
+    vec3 uvw = uvw_of(column, row);
+    float depth = column.w0 * uvw.z;
+    bool inside = is_inside(uvw) && is_beyond_near(depth);
+#if defined(BESIDE)
+    inside = inside && (SHIFTED_FOR_ALL || depth >= visible)
+        && depth >= FORMULA(FORMULA_TOWARD_VIEWER, polygon * splat.inverse_shift);
+#else
+    inside = inside && depth >= visible;
+#endif
+    float weight = weight_of(uvw, look.share, inside);
+    colors += weight * vec4(look.color, 1.0);
+    normals.xyz += weight * look.normal;
+#if defined(WITH_DEPTH)
+    // Where the splat is not inside, depth may be 0.
+    normals.w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, visible / depth) : 0.0;
+#endif
+}
+
 void sum(Range range, vec2 at_px, float visible[ROWS], float polygon[ROWS], inout vec4 colors[ROWS], inout vec4 normals[ROWS])
 {
     Splat own;
     Look own_look;
     for (uint base = range.first; base < range.end; base += BATCH) {
         uint place = load(base, range, own, own_look);
+#if defined(PIXELS)
         [[unroll]] for (uint k = 0; k < BATCH; k++) {
             Splat splat = handed(own, place + k);
             Look look = handed(own_look, place + k);
-            Column column = column_of(splat, at_px);
-            [[unroll]] for (int row = 0; row < ROWS; row++) {
-                vec3 uvw = uvw_of(column, row);
-                float depth = column.w0 * uvw.z;
-                bool inside = is_inside(uvw) && is_beyond_near(depth);
-#if defined(BESIDE)
-                inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
-                    && depth >= FORMULA(FORMULA_TOWARD_VIEWER, polygon[row] * splat.inverse_shift);
+            add(splat, look, column_of(splat, at_px), 0, visible[0], polygon[0], colors[0], normals[0]);
+        }
 #else
-                inside = inside && depth >= visible[row];
-#endif
-                float weight = weight_of(uvw, look.share, inside);
-                colors[row] += weight * vec4(look.color, 1.0);
-                normals[row].xyz += weight * look.normal;
-#if defined(WITH_DEPTH)
-                // Where the splat is not inside, depth may be 0.
-                normals[row].w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, visible[row] / depth) : 0.0;
-#endif
+        // Row by row, for a CPU has no registers for the sums of all rows.
+        Splat splats[BATCH];
+        Look looks[BATCH];
+        Column columns[BATCH];
+        [[unroll]] for (uint k = 0; k < BATCH; k++) {
+            splats[k] = handed(own, place + k);
+            looks[k] = handed(own_look, place + k);
+            columns[k] = column_of(splats[k], at_px);
+        }
+        [[unroll]] for (int row = 0; row < ROWS; row++) {
+            [[unroll]] for (uint k = 0; k < BATCH; k++) {
+                add(splats[k], looks[k], columns[k], row, visible[row], polygon[row], colors[row], normals[row]);
             }
         }
+#endif
     }
 }
 #endif

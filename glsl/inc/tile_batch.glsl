@@ -1,6 +1,7 @@
 // The splats of a tile, BATCH at a time, and how the tile's invocations come by them. Invocation i of a column loads record i of
 // a batch and hands it to the others by shuffles. With PIXELS it loads record i of eight batches, and hands it on in memory that
-// they share. With DIRECT each loads every record.
+// they share. With DIRECT each loads every record. Columns fetch them by texels, which CPU drivers do without a loop over lanes
+// (src/passes/tiles/invocations.rs).
 //
 // A record is a splat, ready to be drawn: all in pixels, so that nothing of its chunk is needed any more.
 // records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; 1 / f.
@@ -21,14 +22,34 @@
 #define OWN_ENTRY gl_SubgroupInvocationID
 #endif
 
+#if defined(PIXELS) || defined(DIRECT)
 layout(set = 0, binding = 0, std430) readonly buffer Records0 { vec4 records0[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Records1 { vec4 records1[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Records2 { vec4 records2[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Records3 { uvec4 records3[]; };
+#define RECORD0(record) records0[record]
+#define RECORD1(record) records1[record]
+#define RECORD2(record) records2[record]
+#define RECORD3(record) records3[record]
+#else
+layout(set = 0, binding = 23) uniform textureBuffer records0;
+layout(set = 0, binding = 24) uniform textureBuffer records1;
+layout(set = 0, binding = 25) uniform textureBuffer records2;
+layout(set = 0, binding = 26) uniform utextureBuffer records3;
+#define RECORD0(record) texelFetch(records0, int(record))
+#define RECORD1(record) texelFetch(records1, int(record))
+#define RECORD2(record) texelFetch(records2, int(record))
+#define RECORD3(record) texelFetch(records3, int(record))
+#endif
 #if defined(HIDDEN)
 layout(set = 0, binding = 7, std430) coherent buffer Entries { uint entries[]; }; // written by inc/tile_hidden.glsl
-#else
+#define ENTRY(place) entries[place]
+#elif defined(PIXELS) || defined(DIRECT)
 layout(set = 0, binding = 7, std430) readonly buffer Entries { uint entries[]; };
+#define ENTRY(place) entries[place]
+#else
+layout(set = 0, binding = 27) uniform utextureBuffer entries;
+#define ENTRY(place) texelFetch(entries, int(place)).x
 #endif
 
 // What tells whether it covers a pixel, and how deep.
@@ -68,9 +89,9 @@ uint place_of(uint base, Range range)
 Splat load_splat(uint base, uint end)
 {
     uint entry = base + OWN_ENTRY;
-    uint record = entries[min(entry, end - 1)];
-    vec4 r0 = records0[record];
-    Splat splat = Splat(record, r0.xy, r0.z, r0.w, records1[record], records2[record].xy);
+    uint record = ENTRY(min(entry, end - 1));
+    vec4 r0 = RECORD0(record);
+    Splat splat = Splat(record, r0.xy, r0.z, r0.w, RECORD1(record), RECORD2(record).xy);
 #if !defined(DIRECT)
     if (entry >= end) {
         // Behind the list's end: far off, with a map that covers nothing there.
@@ -82,8 +103,8 @@ Splat load_splat(uint base, uint end)
 
 Look load_look(Splat splat)
 {
-    vec4 r2 = records2[splat.record];
-    uvec4 r3 = records3[splat.record];
+    vec4 r2 = RECORD2(splat.record);
+    uvec4 r3 = RECORD3(splat.record);
     vec2 red_green = unpackUnorm2x16(r3.z);
     vec2 blue_alpha = unpackUnorm2x16(r3.w);
     Look look;

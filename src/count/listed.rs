@@ -8,7 +8,7 @@ use rspirv::{
 };
 
 use super::{
-    module::{Id, ids},
+    module::{Id, Type, ids},
     numbering::Scalar,
     tally::Tally,
 };
@@ -23,6 +23,11 @@ impl Tally<'_, '_> {
                 let (variable, _) = self.specialized.place(pointer);
                 let class = self.specialized.module.variables.get(&variable);
                 self.listed.loads += u32::from(class == Some(&StorageClass::StorageBuffer));
+            }
+            Op::ImageFetch => {
+                let module = self.specialized.module;
+                let fetched = module.type_of.get(&pointer).and_then(|of| module.types.get(of));
+                self.listed.loads += u32::from(fetched == Some(&Type::Texels));
             }
             Op::Store => {
                 self.listed.stores += 1;

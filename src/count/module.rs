@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use rspirv::{
     dr::{Instruction, Operand},
-    spirv::{ExecutionModel, Op, StorageClass},
+    spirv::{Dim, ExecutionModel, Op, StorageClass},
 };
 
 use super::{
@@ -38,6 +38,8 @@ pub enum Type {
     Pointer {
         pointee: Id,
     },
+    /// Texels of a buffer.
+    Texels,
     /// Images, samplers and the like.
     Opaque,
 }
@@ -167,6 +169,9 @@ impl Module {
             Op::TypePointer => {
                 let pointee = ids(instruction).next().unwrap_or_default();
                 return self.type_(id, Type::Pointer { pointee });
+            }
+            Op::TypeImage if instruction.operands.contains(&Operand::Dim(Dim::DimBuffer)) => {
+                return self.type_(id, Type::Texels);
             }
             Op::TypeVoid | Op::TypeFunction | Op::TypeImage | Op::TypeSampler | Op::TypeSampledImage => {
                 return self.type_(id, Type::Opaque);

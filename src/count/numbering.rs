@@ -207,7 +207,7 @@ pub fn share_equal_values(specialized: &mut Specialized<'_>) {
                         let (variable, path) = specialized.place(operand);
                         Operand::Place(variable, path)
                     }
-                    Some(Type::Opaque) | None => Operand::Opaque(specialized.resolve(operand)),
+                    Some(Type::Opaque | Type::Texels) | None => Operand::Opaque(specialized.resolve(operand)),
                     Some(_) => Operand::Scalars(specialized.scalars(operand)),
                 }
             };

@@ -135,6 +135,14 @@ fn what_the_paper_does_not_count_is_listed() {
     let counts = count(&spirv(shaderc::ShaderKind::Vertex, attributes), &[]).unwrap();
     assert_eq!(words(&counts), "ADD");
     assert_eq!((counts.listed.loads, counts.listed.addresses), (2, 2), "2 i and 2 i + 1");
+
+    let texels = "#extension GL_EXT_samplerless_texture_functions : require\n\
+        layout(set = 0, binding = 0) uniform textureBuffer t;\n\
+        layout(set = 0, binding = 1) uniform texture2D image;\n\
+        layout(location = 0) out vec4 o;\n\
+        void main() { o = texelFetch(t, gl_VertexIndex) + texelFetch(image, ivec2(0), 0); }";
+    let counts = count(&spirv(shaderc::ShaderKind::Vertex, texels), &[]).unwrap();
+    assert_eq!(counts.listed.loads, 1, "images are no buffers");
 }
 
 #[test]

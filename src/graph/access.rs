@@ -22,6 +22,8 @@ pub enum Access {
     SampledFragment,
     /// Sampled in a compute shader.
     SampledCompute,
+    /// A texel buffer read in a compute shader.
+    TexelReadCompute,
     /// A storage buffer or image read in the vertex stage.
     StorageReadVertex,
     /// A storage buffer or image read in a compute shader.
@@ -76,13 +78,14 @@ pub struct AccessInfo {
 
 impl Access {
     /// Every access, in the order of the table.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::ColorAttachment,
         Self::DepthAttachment,
         Self::DepthTest,
         Self::DepthTestAndSampled,
         Self::SampledFragment,
         Self::SampledCompute,
+        Self::TexelReadCompute,
         Self::StorageReadVertex,
         Self::StorageReadCompute,
         Self::StorageWriteCompute,
@@ -132,6 +135,7 @@ impl Access {
             Self::DepthTestAndSampled     => row(depth | fragment, depth_reads | sampled_reads, none, (read_only(depth_usage | I::SAMPLED), None), Some(Graphics)),
             Self::SampledFragment         => row(fragment, sampled_reads, none, sampled, Some(Graphics)),
             Self::SampledCompute          => row(compute, sampled_reads, none, sampled, Some(Compute)),
+            Self::TexelReadCompute        => row(compute, sampled_reads, none, (None, Some(B::UNIFORM_TEXEL_BUFFER)), Some(Compute)),
             Self::StorageReadVertex       => row(S::VERTEX_SHADER, storage_reads, none, storage, Some(Graphics)),
             Self::StorageReadCompute      => row(compute, storage_reads, none, storage, Some(Compute)),
             Self::StorageWriteCompute     => row(compute, none, storage_writes, storage, Some(Compute)),

@@ -57,10 +57,19 @@ pub struct ImageDesc {
 }
 
 /// A buffer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BufferDesc {
     /// Its size in bytes, above 0.
     pub size_bytes: u64,
+    /// The format of its texels, where it is read by them; else `UNDEFINED`, the default.
+    pub texels: vk::Format,
+}
+
+impl BufferDesc {
+    /// A buffer of so many bytes that is not read by texels.
+    pub fn of_bytes(size_bytes: u64) -> Self {
+        Self { size_bytes, ..Self::default() }
+    }
 }
 
 /// What kind of resource, and its dimensions.

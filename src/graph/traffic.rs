@@ -82,8 +82,7 @@ mod tests {
         let mut sums = graph.create_image("sums", image(vk::Format::R16G16B16A16_SFLOAT));
         let mut target =
             graph.import_image("target", image(vk::Format::R8G8B8A8_SRGB), ImageState::default(), None);
-        let points =
-            graph.import_buffer("points", BufferDesc { size_bytes: 1000 }, BufferState::default(), None);
+        let points = graph.import_buffer("points", BufferDesc::of_bytes(1000), BufferState::default(), None);
         graph
             .pass("draw")
             .write(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))

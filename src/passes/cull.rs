@@ -99,7 +99,7 @@ impl Kept {
     ) -> Self {
         let words = words_of(draws);
         let mut buffer = |part: &str, words: u64| {
-            graph.create_buffer(&format!("{part} of {what}"), BufferDesc { size_bytes: 4 * words })
+            graph.create_buffer(&format!("{part} of {what}"), BufferDesc::of_bytes(4 * words))
         };
         Self {
             bits,
@@ -205,7 +205,7 @@ pub(super) fn list_kept<'a>(
 
 /// A bit a splat, which some pass is to set.
 pub(super) fn create_bits(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>, what: &str) -> Handle<Buffer> {
-    graph.create_buffer(&format!("bits of {what}"), BufferDesc { size_bytes: 4 * words_of(inputs.draws) })
+    graph.create_buffer(&format!("bits of {what}"), BufferDesc::of_bytes(4 * words_of(inputs.draws)))
 }
 
 /// The pipeline of each chunk.

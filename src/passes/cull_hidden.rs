@@ -39,7 +39,7 @@ pub(super) fn list_seen<'a>(
     let blocks = inputs.settings.size_px.map(|side| side.div_ceil(BLOCK_PX));
     // Of each block 64 cells and itself.
     let words = u64::from(blocks[0]) * u64::from(blocks[1]) * 65;
-    let mut cells = graph.create_buffer("cells of depth", BufferDesc { size_bytes: 4 * words });
+    let mut cells = graph.create_buffer("cells of depth", BufferDesc::of_bytes(4 * words));
     let (depth_id, cells_id, pipeline) = (depth.id(), cells.id(), inputs.shaders.compute(cells_key())?);
     graph
         .pass("cells of depth")

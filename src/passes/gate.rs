@@ -86,7 +86,7 @@ impl<'a> Gates<'a> {
     pub fn new(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, queries: &'a Occlusion) -> Self {
         let words = argument_words(inputs);
         let size_bytes = (words.len() * 4) as u64;
-        let mut arguments = graph.create_buffer("arguments of layers", BufferDesc { size_bytes });
+        let mut arguments = graph.create_buffer("arguments of layers", BufferDesc::of_bytes(size_bytes));
         let id = arguments.id();
         graph
             .pass("arguments of layers")
@@ -126,7 +126,7 @@ impl<'a> Gates<'a> {
     /// Declares the pass that takes over the count of a layer, from 0 on, that was declared.
     pub fn count(&mut self, graph: &mut Graph<Body<'a>>, layer: u32) {
         let name = format!("fragments of layer {}", layer + 1);
-        let mut fragments = graph.create_buffer(&name, BufferDesc { size_bytes: 4 });
+        let mut fragments = graph.create_buffer(&name, BufferDesc::of_bytes(4));
         let (id, queries) = (fragments.id(), self.queries);
         graph
             .pass(&format!("count layer {}", layer + 1))

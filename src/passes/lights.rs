@@ -32,7 +32,7 @@ pub(super) fn lights<'a>(graph: &mut Graph<Body<'a>>, lights: &'a [ShaderLight])
         return None;
     }
     let bytes: &[u8] = bytemuck::cast_slice(lights);
-    let mut buffer = graph.create_buffer("lights", BufferDesc { size_bytes: bytes.len() as u64 });
+    let mut buffer = graph.create_buffer("lights", BufferDesc::of_bytes(bytes.len() as u64));
     let id = buffer.id();
     graph.pass("lights").write(&mut buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
         move |context| {

@@ -47,7 +47,10 @@ impl LargeList {
     fn create(graph: &mut Graph<Body<'_>>, kind: &str, number: usize, draw: &Draw<'_>) -> Self {
         let blocks = u64::from(blocks_of(draw));
         let mut buffer = |what: &str, size_bytes| {
-            graph.create_buffer(&format!("large {what} of {kind}chunk {number}"), BufferDesc { size_bytes })
+            graph.create_buffer(
+                &format!("large {what} of {kind}chunk {number}"),
+                BufferDesc::of_bytes(size_bytes),
+            )
         };
         Self {
             bits: buffer("bits", blocks * u64::from(BLOCK) / 8),

@@ -47,7 +47,7 @@ impl Listed {
     pub(super) fn upload<'a>(&'a self, graph: &mut Graph<Body<'a>>, what: &str) -> Handle<Buffer> {
         let bytes: &[u8] = bytemuck::cast_slice(&self.0);
         let name = format!("blocks of {what}");
-        let mut buffer = graph.create_buffer(&name, BufferDesc { size_bytes: bytes.len() as u64 });
+        let mut buffer = graph.create_buffer(&name, BufferDesc::of_bytes(bytes.len() as u64));
         let id = buffer.id();
         graph.pass(&name).write(&mut buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
             move |context| {

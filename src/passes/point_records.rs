@@ -73,7 +73,7 @@ pub(super) fn set_up_points<'a>(
     for ((number, draw), large) in inputs.draws.iter().enumerate().zip(large) {
         let mut buffer = |part: u32| {
             let name = format!("records {part} of {kind}points in chunk {number}");
-            graph.create_buffer(&name, BufferDesc { size_bytes: BYTES * u64::from(draw.chunk.count) })
+            graph.create_buffer(&name, BufferDesc::of_bytes(BYTES * u64::from(draw.chunk.count)))
         };
         let of_chunk = Records([buffer(0), buffer(1), buffer(2), buffer(3)]);
         let mut buffers: Vec<_> = of_chunk.ids().bound().collect();

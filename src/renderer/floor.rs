@@ -131,7 +131,7 @@ impl<'a> Floor<'a> {
         let mut handles = Vec::new();
         for (number, chunk) in self.chunks.iter().enumerate() {
             let name = format!("floor points {number}");
-            let desc = GraphBufferDesc { size_bytes: chunk.buffer.size() };
+            let desc = GraphBufferDesc::of_bytes(chunk.buffer.size());
             let last = precompute.then_some(host);
             let handle = graph.import_buffer(&name, desc, BufferState::default(), last);
             imports.push((handle.id(), Physical::Buffer(chunk.buffer.raw())));

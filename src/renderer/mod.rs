@@ -63,6 +63,7 @@ impl Renderer {
     pub fn lower_limits(&mut self, to: &Limits) {
         let own = self.device.facts().limits;
         self.limits.max_storage_buffer_range = own.max_storage_buffer_range.min(to.max_storage_buffer_range);
+        self.limits.max_texels = own.max_texels.min(to.max_texels);
         self.limits.point_size_range[1] = own.point_size_range[1].min(to.point_size_range[1]);
         self.limits.max_image_side = own.max_image_side.min(to.max_image_side);
         self.limits.shuffles = own.shuffles && to.shuffles;
@@ -225,7 +226,7 @@ fn import_readback(
     };
     let last = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
     let name = format!("read-back of {what}");
-    graph.import_buffer(&name, BufferDesc { size_bytes }, initial, Some(last))
+    graph.import_buffer(&name, BufferDesc::of_bytes(size_bytes), initial, Some(last))
 }
 
 /// Bytes of a pixel, for the formats that are read back.

@@ -26,6 +26,7 @@ pub struct BufferDesc<'a> {
 pub struct Buffer {
     device: Device,
     raw: vk::Buffer,
+    texels: vk::BufferView,
     size: u64,
     allocation: Option<Allocation>,
 }
@@ -36,9 +37,8 @@ impl Buffer {
     /// # Errors
     /// [`crate::ErrorKind::Option`] for a size of 0; whatever the driver or the allocator answers.
     pub fn new(device: &Device, desc: BufferDesc<'_>, memory: MemoryUse) -> Result<Self> {
-        let raw = create(device, desc)?;
-        // From here on a failure must not leak the handle: the owner exists before the memory does.
-        let mut buffer = Self { device: device.clone(), raw, size: desc.size, allocation: None };
+        let mut buffer = Self::unbound(device, desc)?;
+        let raw = buffer.raw;
         // SAFETY: the buffer was just made from this device.
         let requirements = unsafe { device.raw().get_buffer_memory_requirements(raw) };
         let allocation = device.allocate(&AllocationCreateDesc {
@@ -65,8 +65,8 @@ impl Buffer {
         memory: &Memory,
         offset: u64,
     ) -> Result<Self> {
-        let raw = create(device, desc)?;
-        let buffer = Self { device: device.clone(), raw, size: desc.size, allocation: None };
+        let buffer = Self::unbound(device, desc)?;
+        let raw = buffer.raw;
         let (block, start) = memory.raw();
         // SAFETY: the buffer was just made from this device.
         let needed = unsafe { device.raw().get_buffer_memory_requirements(raw) };
@@ -77,9 +77,27 @@ impl Buffer {
         Ok(buffer)
     }
 
+    /// The same, read by texels of a format, too; its usage is `UNIFORM_TEXEL_BUFFER` among others.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub(crate) fn with_texels(mut self, name: &str, format: vk::Format) -> Result<Self> {
+        let info = vk::BufferViewCreateInfo::default().buffer(self.raw).format(format).range(vk::WHOLE_SIZE);
+        // SAFETY: the buffer is bound; formats are those that Vulkan demands of every device for this; who asks for one has seen to the number of texels.
+        self.texels = unsafe { self.device.raw().create_buffer_view(&info, None) }
+            .of_call("vkCreateBufferView", name)?;
+        self.device.set_name(self.texels, name);
+        Ok(self)
+    }
+
     /// The raw buffer.
     pub fn raw(&self) -> vk::Buffer {
         self.raw
+    }
+
+    /// The view of its texels, where it is read by them.
+    pub fn texels(&self) -> Option<vk::BufferView> {
+        (self.texels != vk::BufferView::null()).then_some(self.texels)
     }
 
     /// Its size in bytes.
@@ -100,26 +118,28 @@ impl Buffer {
         let size = mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX));
         &mut mapped[..size]
     }
+
+    /// The buffer without memory and view: an owner already, so that no failure after it leaks the handle.
+    fn unbound(device: &Device, desc: BufferDesc<'_>) -> Result<Self> {
+        if desc.size == 0 {
+            return Err(Error::option(desc.name, "a buffer of 0 bytes: at least 1"));
+        }
+        let largest = device.facts().limits.max_buffer_size;
+        if desc.size > largest {
+            let problem = format!("a buffer of {} bytes: the device makes at most {largest}", desc.size);
+            return Err(Error::option(desc.name, problem));
+        }
+        let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
+        // SAFETY: the device is alive; the size is above 0 and within the device's.
+        let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
+        device.set_name(raw, desc.name);
+        let (size, texels) = (desc.size, vk::BufferView::null());
+        Ok(Self { device: device.clone(), raw, texels, size, allocation: None })
+    }
 }
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        self.device.retire(Retired::Buffer(self.raw, self.allocation.take()));
+        self.device.retire(Retired::Buffer(self.raw, self.texels, self.allocation.take()));
     }
-}
-
-fn create(device: &Device, desc: BufferDesc<'_>) -> Result<vk::Buffer> {
-    if desc.size == 0 {
-        return Err(Error::option(desc.name, "a buffer of 0 bytes: at least 1"));
-    }
-    let largest = device.facts().limits.max_buffer_size;
-    if desc.size > largest {
-        let problem = format!("a buffer of {} bytes: the device makes at most {largest}", desc.size);
-        return Err(Error::option(desc.name, problem));
-    }
-    let info = vk::BufferCreateInfo::default().size(desc.size).usage(desc.usage);
-    // SAFETY: the device is alive; the size is above 0 and within the device's.
-    let raw = unsafe { device.raw().create_buffer(&info, None) }.of_call("vkCreateBuffer", desc.name)?;
-    device.set_name(raw, desc.name);
-    Ok(raw)
 }

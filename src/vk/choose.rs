@@ -54,6 +54,8 @@ pub struct DeviceFacts {
 pub struct Limits {
     /// Bytes of a storage buffer that a shader can reach.
     pub max_storage_buffer_range: u64,
+    /// Texels of a texel buffer.
+    pub max_texels: u32,
     /// The smallest and the largest point, in pixels.
     pub point_size_range: [f32; 2],
     /// The step of point sizes, in pixels.
@@ -83,6 +85,7 @@ impl Limits {
     pub fn for_tests() -> Self {
         Self {
             max_storage_buffer_range: 1 << 27,
+            max_texels: 1 << 16,
             point_size_range: [1.0, 255.0],
             point_size_granularity: 0.125,
             max_buffer_size: 1 << 30,

@@ -19,6 +19,8 @@ pub struct Binding {
 pub enum Descriptor {
     /// A whole buffer, storage or uniform as its binding is.
     Buffer(vk::Buffer),
+    /// The texels of a buffer.
+    Texels(vk::BufferView),
     /// A sampled image in this layout, read by `texelFetch`, or through the sampler of its binding.
     Sampled(vk::ImageView, vk::ImageLayout),
     /// A storage image, in the layout `GENERAL`.
@@ -84,6 +86,8 @@ pub struct PoolRoom {
     pub buffers: u32,
     /// Uniform buffers.
     pub uniform_buffers: u32,
+    /// Buffers read by texels.
+    pub texel_buffers: u32,
     /// Sampled images.
     pub images: u32,
     /// Sampled images with a sampler.
@@ -99,6 +103,7 @@ impl PoolRoom {
             sets: self.sets + other.sets,
             buffers: self.buffers + other.buffers,
             uniform_buffers: self.uniform_buffers + other.uniform_buffers,
+            texel_buffers: self.texel_buffers + other.texel_buffers,
             images: self.images + other.images,
             filtered_images: self.filtered_images + other.filtered_images,
             storage_images: self.storage_images + other.storage_images,
@@ -110,6 +115,7 @@ impl PoolRoom {
         wanted.sets <= self.sets
             && wanted.buffers <= self.buffers
             && wanted.uniform_buffers <= self.uniform_buffers
+            && wanted.texel_buffers <= self.texel_buffers
             && wanted.images <= self.images
             && wanted.filtered_images <= self.filtered_images
             && wanted.storage_images <= self.storage_images
@@ -140,6 +146,7 @@ impl DescriptorPool {
         let kinds = [
             (vk::DescriptorType::STORAGE_BUFFER, room.buffers),
             (vk::DescriptorType::UNIFORM_BUFFER, room.uniform_buffers),
+            (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, room.texel_buffers),
             (vk::DescriptorType::SAMPLED_IMAGE, room.images),
             (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, room.filtered_images),
             (vk::DescriptorType::STORAGE_IMAGE, room.storage_images),
@@ -173,11 +180,15 @@ impl DescriptorPool {
                 .dst_set(set)
                 .dst_binding(*number)
                 .descriptor_type(layout.kinds[*number as usize]);
-            let (buffer, image);
+            let (buffer, texels, image);
             let write = match *descriptor {
                 Descriptor::Buffer(raw) => {
                     buffer = [vk::DescriptorBufferInfo::default().buffer(raw).range(vk::WHOLE_SIZE)];
                     write.buffer_info(&buffer)
+                }
+                Descriptor::Texels(view) => {
+                    texels = [view];
+                    write.texel_buffer_view(&texels)
                 }
                 Descriptor::Sampled(view, layout) => {
                     image = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];

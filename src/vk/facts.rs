@@ -120,6 +120,7 @@ pub(super) unsafe fn facts(
             .all(|sums| format(sums).contains(blended)),
         limits: Limits {
             max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
+            max_texels: limits.max_texel_buffer_elements,
             point_size_range: match core.large_points == vk::TRUE {
                 true => limits.point_size_range,
                 false => [1.0, 1.0],

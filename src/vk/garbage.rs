@@ -7,7 +7,7 @@ use gpu_allocator::vulkan::{Allocation, Allocator};
 
 /// A raw object whose owner is gone.
 pub(super) enum Retired {
-    Buffer(vk::Buffer, Option<Allocation>),
+    Buffer(vk::Buffer, vk::BufferView, Option<Allocation>),
     Image(vk::Image, vk::ImageView, Option<Allocation>),
     Memory(Allocation),
     Pipeline(vk::Pipeline),
@@ -53,7 +53,8 @@ unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Allocat
     // SAFETY: this function's contract, for every call; memory goes after what is bound to it.
     unsafe {
         match object {
-            Retired::Buffer(buffer, allocation) => {
+            Retired::Buffer(buffer, texels, allocation) => {
+                device.destroy_buffer_view(texels, None);
                 device.destroy_buffer(buffer, None);
                 free(allocation, allocator);
             }

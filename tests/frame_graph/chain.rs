@@ -21,7 +21,7 @@ const BYTES: u64 = 4 * EXTENT.width as u64 * EXTENT.height as u64;
 pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<Body<'static>>, Imports) {
     let mut graph: Graph<Body<'static>> = Graph::new();
     let desc = ImageDesc { format: vk::Format::R8G8B8A8_UNORM, extent: EXTENT };
-    let bytes = GraphBufferDesc { size_bytes: BYTES };
+    let bytes = GraphBufferDesc::of_bytes(BYTES);
     let written = BufferState { stages: TRANSFER_WRITE.0, access: TRANSFER_WRITE.1 };
     let read = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
     let from = graph.import_buffer("pattern", bytes, BufferState::default(), None);

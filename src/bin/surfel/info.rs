@@ -186,6 +186,7 @@ mod tests {
             blend_f32: true,
             limits: Limits {
                 max_storage_buffer_range: 1 << 27,
+                max_texels: 1 << 16,
                 point_size_range: [1.0, 255.0],
                 point_size_granularity: 0.125,
                 max_buffer_size: 1 << 30,

@@ -38,6 +38,8 @@ pub enum Physical {
     Image(vk::Image, vk::ImageView),
     /// A buffer.
     Buffer(vk::Buffer),
+    /// A buffer, and the view of all of its texels.
+    TexelBuffer(vk::Buffer, vk::BufferView),
 }
 
 impl PassContext<'_> {
@@ -58,7 +60,9 @@ impl PassContext<'_> {
     pub fn image(&self, id: ResourceId) -> Result<(vk::Image, vk::ImageView)> {
         match self.declared(id)? {
             Physical::Image(image, view) => Ok((image, view)),
-            Physical::Buffer(_) => Err(self.refuse(id, "is a buffer, not an image")),
+            Physical::Buffer(_) | Physical::TexelBuffer(..) => {
+                Err(self.refuse(id, "is a buffer, not an image"))
+            }
         }
     }
 
@@ -68,8 +72,19 @@ impl PassContext<'_> {
     /// [`ErrorKind::Graph`] for one that it did not declare.
     pub fn buffer(&self, id: ResourceId) -> Result<vk::Buffer> {
         match self.declared(id)? {
-            Physical::Buffer(buffer) => Ok(buffer),
+            Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => Ok(buffer),
             Physical::Image(..) => Err(self.refuse(id, "is an image, not a buffer")),
+        }
+    }
+
+    /// The texels of a buffer that the pass declared to read by them.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Graph`] for one that it did not declare, or that has none.
+    pub fn texels(&self, id: ResourceId) -> Result<vk::BufferView> {
+        match self.declared(id)? {
+            Physical::TexelBuffer(_, texels) => Ok(texels),
+            _ => Err(self.refuse(id, "has no texels")),
         }
     }
 
@@ -162,11 +177,11 @@ fn check_objects(plan: &Plan, physical: &[Option<Physical>]) -> Result<()> {
     for (resource, object) in plan.resources.iter().zip(physical) {
         let reason = match (object, resource.desc) {
             (Some(Physical::Image(..)), ResourceDesc::Image(_))
-            | (Some(Physical::Buffer(_)), ResourceDesc::Buffer(_)) => continue,
+            | (Some(Physical::Buffer(_) | Physical::TexelBuffer(..)), ResourceDesc::Buffer(_)) => continue,
             (None, _) if resource.lifetime.is_none() => continue,
             (None, _) => "has no Vulkan object: an import was not given",
             (Some(Physical::Image(..)), ResourceDesc::Buffer(_)) => "is a buffer, and an image was given",
-            (Some(Physical::Buffer(_)), ResourceDesc::Image(_)) => "is an image, and a buffer was given",
+            (Some(_), ResourceDesc::Image(_)) => "is an image, and a buffer was given",
         };
         let (pass, resource) = (String::new(), resource.name.clone());
         return Err(ErrorKind::Graph { pass, resource, reason: reason.to_owned() }.into());
@@ -205,7 +220,9 @@ impl Recorder<'_> {
         for barrier in &batch.resources {
             match self.object(barrier.resource)? {
                 Physical::Image(image, _) => images.push(self.image_barrier(barrier, image)),
-                Physical::Buffer(buffer) => buffers.push(buffer_barrier(barrier.src, barrier.dst, buffer)),
+                Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => {
+                    buffers.push(buffer_barrier(barrier.src, barrier.dst, buffer));
+                }
             }
         }
         let info = vk::DependencyInfo::default()

@@ -97,8 +97,14 @@ impl Transients {
                     Some(Object::Image(Image::placed(device, desc, block, offset)?))
                 }
                 (ResourceDesc::Buffer(desc), Usage::Buffer(usage)) => {
+                    let texels =
+                        usage.contains(vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER).then_some(desc.texels);
                     let desc = BufferDesc { name: &resource.name, size: desc.size_bytes, usage };
-                    Some(Object::Buffer(Buffer::placed(device, desc, block, offset)?))
+                    let buffer = Buffer::placed(device, desc, block, offset)?;
+                    Some(Object::Buffer(match texels {
+                        Some(format) => buffer.with_texels(&resource.name, format)?,
+                        None => buffer,
+                    }))
                 }
                 _ => None,
             })
@@ -133,7 +139,10 @@ impl Transients {
     pub(super) fn physical(&self, count: usize) -> Vec<Option<Physical>> {
         let object = |object: &Option<Object>| match object {
             Some(Object::Image(image)) => Some(Physical::Image(image.raw(), image.view())),
-            Some(Object::Buffer(buffer)) => Some(Physical::Buffer(buffer.raw())),
+            Some(Object::Buffer(buffer)) => Some(match buffer.texels() {
+                Some(texels) => Physical::TexelBuffer(buffer.raw(), texels),
+                None => Physical::Buffer(buffer.raw()),
+            }),
             None => None,
         };
         let mut physical: Vec<_> = self.objects.iter().map(object).collect();

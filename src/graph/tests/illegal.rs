@@ -169,7 +169,7 @@ fn names_and_dimensions() {
     let same = refusal(|g, _, _, _| drop(g.create_buffer("color", buffer())));
     assert_eq!(same, "resource 'color': another resource has this name");
     assert_eq!(refusal(|g, _, _, _| drop(g.create_buffer("", buffer()))), "a resource has no name");
-    let empty = refusal(|g, _, _, _| drop(g.create_buffer("b", BufferDesc { size_bytes: 0 })));
+    let empty = refusal(|g, _, _, _| drop(g.create_buffer("b", BufferDesc::of_bytes(0))));
     assert_eq!(empty, "resource 'b': a buffer needs at least one byte");
     let extent = vk::Extent2D { width: 4, height: 0 };
     let empty = refusal(|g, _, _, _| drop(g.create_image("i", ImageDesc { format: COLOR, extent })));

@@ -51,7 +51,7 @@ fn the_first_access_waits_for_the_former_tenants_also_of_the_execution_before() 
 fn a_large_one_waits_for_all_the_small_ones_in_its_place() {
     let mut graph = Graph::new();
     let [mut x, mut y, mut large] = [("x", 256), ("y", 512), ("large", 1024)]
-        .map(|(n, size_bytes)| graph.create_buffer(n, BufferDesc { size_bytes }));
+        .map(|(n, size_bytes)| graph.create_buffer(n, BufferDesc::of_bytes(size_bytes)));
     let copy = Access::TransferWrite;
     let both = graph.pass("both").write(&mut x, copy, Start::Discard).write(&mut y, copy, Start::Discard);
     both.side_effect().finish(());

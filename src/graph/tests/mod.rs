@@ -23,7 +23,7 @@ pub(super) fn image(format: vk::Format) -> ImageDesc {
 }
 
 pub(super) fn buffer() -> BufferDesc {
-    BufferDesc { size_bytes: 1024 }
+    BufferDesc::of_bytes(1024)
 }
 
 /// A device on which a pixel takes four bytes.

@@ -2,12 +2,15 @@
 
 use crate::{scene::TileInvocations, vk::Limits};
 
+/// Texels of a buffer that are enough for lists; Vulkan promises 65536.
+const LEAST_TEXELS: u32 = 1 << 24;
+
 /// The two together, as the permutations of `glsl/tile_splat.comp.glsl` and `tile_layers.comp.glsl` have them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Invocations {
     /// A column of pixels; they load splats for each other.
     Columns,
-    /// A column of pixels; each loads every splat, where the device can't hand values on.
+    /// A column of pixels; each loads every splat, where the device can't hand values on or has small texel buffers.
     ColumnsAlone,
     /// A pixel; they load splats for each other.
     Pixels,
@@ -21,11 +24,17 @@ impl Invocations {
             TileInvocations::Column => false,
             TileInvocations::Pixel => true,
         };
-        match (pixels, limits.shuffles) {
+        match (pixels, limits.shuffles && limits.max_texels >= LEAST_TEXELS) {
             (true, _) => Self::Pixels,
             (false, true) => Self::Columns,
             (false, false) => Self::ColumnsAlone,
         }
+    }
+
+    /// Whether records are read by texels, not as words of storage buffers: for a vector of 8, llvmpipe makes 8 loads without a
+    /// branch of the one, and of the other for each component a loop over the lanes.
+    pub fn fetch_texels(self) -> bool {
+        self == Self::Columns
     }
 
     /// Splats of one step of a shader's loops: `BATCH` of `glsl/inc/tile_batch.glsl`.
@@ -61,14 +70,17 @@ mod tests {
     #[test]
     fn cpus_draw_columns_and_gpus_pixels_unless_asked_otherwise() {
         use TileInvocations::{Auto, Column, Pixel};
-        let gpu = Limits { shuffles: true, ..Limits::for_tests() };
+        let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::for_tests() };
         let cpu = Limits { is_cpu: true, ..gpu };
         assert_eq!(Invocations::of(Auto, &cpu), Invocations::Columns);
         assert_eq!(Invocations::of(Auto, &gpu), Invocations::Pixels);
         assert_eq!(Invocations::of(Column, &gpu), Invocations::Columns);
-        for limits in [cpu, Limits { shuffles: false, ..cpu }] {
+        let without = [Limits { shuffles: false, ..cpu }, Limits { max_texels: LEAST_TEXELS - 1, ..cpu }];
+        for limits in [cpu, without[0], without[1]] {
             assert_eq!(Invocations::of(Pixel, &limits), Invocations::Pixels);
         }
-        assert_eq!(Invocations::of(Auto, &Limits { shuffles: false, ..cpu }), Invocations::ColumnsAlone);
+        for limits in without {
+            assert_eq!(Invocations::of(Auto, &limits), Invocations::ColumnsAlone);
+        }
     }
 }

@@ -106,7 +106,8 @@ fn declare<'a>(
 ) -> Result<()> {
     let beside = Beside { opaque: opaque.is_some(), lights: inputs.lights };
     let shader = shader(inputs.settings, tiles.plan, beside, work)?;
-    let mut pass = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
+    let mut pass = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
+    tiles.bind_lists(&mut pass, false);
     pass.storage_images = vec![(COLOR_SUMS, layers.id())];
     pass.sampled_images = opaque.map(|opaque| (DEPTH_BEFORE, opaque.id())).into_iter().collect();
     pass.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
@@ -120,8 +121,9 @@ fn declare<'a>(
         }
     }
     let size_bytes = tiles.plan.most_overfull() * STATE_BYTES;
-    let mut kept = (work == Work::Parts)
-        .then(|| graph.create_buffer(&format!("state of {band}overfull tiles"), BufferDesc { size_bytes }));
+    let mut kept = (work == Work::Parts).then(|| {
+        graph.create_buffer(&format!("state of {band}overfull tiles"), BufferDesc::of_bytes(size_bytes))
+    });
     pass.buffers.extend(kept.iter().map(|kept| (PEELED_STATE, kept.id())));
 
     let (name, offset) = match work {

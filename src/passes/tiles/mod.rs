@@ -68,6 +68,8 @@ pub(super) const RUNS: u32 = 19;
 const KEPT_STARTS: u32 = 20;
 pub(super) const KEPT_LIST: u32 = 21;
 const KEPT_BLOCKS: u32 = 22;
+const RECORD_TEXELS: u32 = 23; // and the three after it
+const ENTRY_TEXELS: u32 = 27;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -106,20 +108,25 @@ pub(super) struct Tiles<'a> {
 
 impl<'a> Tiles<'a> {
     fn create(graph: &mut Graph<Body<'a>>, kind: &str, plan: &'a TilePlan) -> Self {
-        let mut buffer = |what: &str, size_bytes| {
-            graph.create_buffer(&format!("{what} of {kind}tiles"), BufferDesc { size_bytes })
+        let mut texels = |what: &str, size_bytes, texels| {
+            graph.create_buffer(&format!("{what} of {kind}tiles"), BufferDesc { size_bytes, texels })
         };
-        let records = plan.record_room;
+        const FLOATS: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+        const WORDS: vk::Format = vk::Format::R32G32B32A32_UINT;
         let (tiles, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
+        let quarters = [("first", FLOATS), ("second", FLOATS), ("third", FLOATS), ("fourth", WORDS)];
+        let records = quarters.map(|(quarter, format)| {
+            texels(&format!("{quarter} quarter of records"), plan.record_room * plan::RECORD_BYTES, format)
+        });
+        let entries = texels("entries", plan.entry_room * 4, vk::Format::R32_UINT);
+        let mut buffer = |what: &str, size_bytes| texels(what, size_bytes, vk::Format::UNDEFINED);
         Self {
             plan,
-            records: ["first", "second", "third", "fourth"].map(|quarter| {
-                buffer(&format!("{quarter} quarter of records"), records * plan::RECORD_BYTES)
-            }),
-            spans: buffer("spans", records * 4),
+            records,
+            entries,
+            spans: buffer("spans", plan.record_room * 4),
             counts: buffer("counts", u64::from(plan.segments) * bins * 4),
             starts: buffer("starts", (bins + 3) * 4),
-            entries: buffer("entries", plan.entry_room * 4),
             seen: buffer("seen", tiles * 4),
             runs: buffer("runs", tiles * 8),
             arguments: buffer("arguments", CHUNK_ARGUMENTS + 16 * u64::from(plan.chunk_count)),
@@ -131,32 +138,54 @@ impl<'a> Tiles<'a> {
         std::array::from_fn(|i| (RECORDS + i as u32, self.records[i].id()))
     }
 
-    /// What the passes read that draw from the lists.
-    fn lists(&self) -> Vec<(u32, ResourceId)> {
-        let mut all = self.records().to_vec();
-        all.extend([(STARTS, self.starts.id()), (ENTRIES, self.entries.id()), (SEEN, self.seen.id())]);
-        all.push((OVERFULL, self.overfull.id()));
-        all
+    /// What the passes bind that draw from the lists. `shortens`: entries are left out that nobody reads after the pass.
+    fn bind_lists(&self, pass: &mut TilePass<'_>, shortens: bool) {
+        pass.buffers.extend([(STARTS, &self.starts), (SEEN, &self.seen), (OVERFULL, &self.overfull)].map(id));
+        let by_texels = self.plan.invocations.fetch_texels();
+        if by_texels {
+            pass.texel_buffers.extend((RECORD_TEXELS..).zip(&self.records).map(id));
+        } else {
+            pass.buffers.extend(self.records());
+        }
+        match by_texels && !shortens {
+            true => pass.texel_buffers.push((ENTRY_TEXELS, self.entries.id())),
+            false => pass.buffers.push((ENTRIES, self.entries.id())),
+        }
     }
 
-    /// Declares that a pass reads [`Self::lists`] and is dispatched by their arguments.
-    fn read_lists<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        pass = pass.read(&self.entries, Access::StorageReadCompute);
-        self.read_all_but_entries(pass)
+    /// Declares that a pass reads them and is dispatched by their arguments.
+    fn read_lists<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        self.read_all_but_entries(pass).read(&self.entries, self.access())
     }
 
-    /// The same of a pass that leaves entries out that nobody reads after it.
-    fn shorten_lists<'g, B>(&mut self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        pass = pass.write(&mut self.entries, Access::StorageReadWriteCompute, Start::Load);
-        self.read_all_but_entries(pass)
+    /// The same of a pass that shortens them.
+    fn shorten_lists<'g, B>(&mut self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+        let pass = self.read_all_but_entries(pass);
+        pass.write(&mut self.entries, Access::StorageReadWriteCompute, Start::Load)
     }
 
     fn read_all_but_entries<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        for buffer in self.records.iter().chain([&self.starts, &self.seen, &self.overfull]) {
+        for quarter in &self.records {
+            pass = pass.read(quarter, self.access());
+        }
+        for buffer in [&self.starts, &self.seen, &self.overfull] {
             pass = pass.read(buffer, Access::StorageReadCompute);
         }
         pass.read(&self.arguments, Access::IndirectRead)
     }
+
+    /// How records and entries are read.
+    fn access(&self) -> Access {
+        if self.plan.invocations.fetch_texels() {
+            Access::TexelReadCompute
+        } else {
+            Access::StorageReadCompute
+        }
+    }
+}
+
+fn id((binding, buffer): (u32, &Handle<Buffer>)) -> (u32, ResourceId) {
+    (binding, buffer.id())
 }
 
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
@@ -166,6 +195,7 @@ pub(super) fn room(plan: &TilePlan) -> PoolRoom {
         sets,
         buffers: STORAGE_BUFFERS * sets,
         uniform_buffers: sets,
+        texel_buffers: 5 * sets,
         images: 4 * sets,
         storage_images: 4 * sets,
         ..PoolRoom::default()

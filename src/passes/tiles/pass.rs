@@ -26,6 +26,7 @@ pub(super) struct TilePass<'a> {
     pipeline: Arc<ComputePipeline>,
     pub constants: TileConstants,
     pub buffers: Vec<(u32, ResourceId)>,
+    pub texel_buffers: Vec<(u32, ResourceId)>,
     pub storage_images: Vec<(u32, ResourceId)>,
     pub sampled_images: Vec<(u32, ResourceId)>,
 }
@@ -43,6 +44,7 @@ impl<'a> TilePass<'a> {
             pipeline: inputs.shaders.compute(key)?,
             constants: super::constants(inputs, plan),
             buffers,
+            texel_buffers: Vec::new(),
             storage_images: Vec::new(),
             sampled_images: Vec::new(),
         })
@@ -52,6 +54,9 @@ impl<'a> TilePass<'a> {
         let mut given = Vec::new();
         for (number, id) in &self.buffers {
             given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
+        }
+        for (number, id) in &self.texel_buffers {
+            given.push((*number, Descriptor::Texels(context.texels(*id)?)));
         }
         for (number, id) in &self.storage_images {
             given.push((*number, Descriptor::Storage(context.image(*id)?.1)));

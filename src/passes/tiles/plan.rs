@@ -121,7 +121,10 @@ impl TilePlan {
         limits: &Limits,
         invocations: Invocations,
     ) -> Option<Self> {
-        let range = limits.max_storage_buffer_range;
+        let range = match invocations.fetch_texels() {
+            true => limits.max_storage_buffer_range.min(4 * u64::from(limits.max_texels)),
+            false => limits.max_storage_buffer_range,
+        };
         let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
         let [tiles_x, tiles_y] = [width, height].map(|side| side.div_ceil(TILE_PX));
         let tile_count = tiles_x * tiles_y;

@@ -41,7 +41,8 @@ pub(in super::super) fn shaded<'a>(
     let (precision, hidden) = (shown.precision, tiles.plan.hidden && polygons.is_none());
     let step = Step::Shaded { precision, beside: polygons.is_some(), lights: inputs.lights, hidden };
     let shader = shader(inputs.settings, tiles.plan, step)?;
-    let mut shaded = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
+    let mut shaded = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
+    tiles.bind_lists(&mut shaded, hidden);
     shaded.storage_images = vec![(COLOR_SUMS, shown.image.id())];
     shaded.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
     let arguments = tiles.arguments.id();

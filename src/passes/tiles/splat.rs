@@ -160,7 +160,8 @@ pub(in super::super) fn fused<'a>(
     if start != TileStart::Cleared {
         shader_of_step.1.push((KEEPS_DEPTH, 0));
     }
-    let mut fused = TilePass::new(inputs, tiles.plan, shader_of_step, tiles.lists())?;
+    let mut fused = TilePass::new(inputs, tiles.plan, shader_of_step, Vec::new())?;
+    tiles.bind_lists(&mut fused, tiles.plan.hidden);
     fused.storage_images = vec![
         (COLOR_SUMS, images.sums.color.id()),
         (NORMAL_SUMS, images.sums.normal.id()),
@@ -224,7 +225,8 @@ fn in_parts<'a>(
     (step, whole): (Step, Option<u64>),
 ) -> Result<()> {
     let shader = shader(inputs.settings, tiles.plan, step)?;
-    let mut of_tiles = TilePass::new(inputs, tiles.plan, shader, tiles.lists())?;
+    let mut of_tiles = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
+    tiles.bind_lists(&mut of_tiles, false);
     let TileImages { sums: Sums { color, normal }, depth: own_depth } = images;
     of_tiles.storage_images = vec![(VISIBLE_DEPTH, own_depth.id())];
     let which = if whole.is_some() { "tiles" } else { "overfull tiles" };

@@ -1,7 +1,7 @@
 use super::*;
 
 fn limits() -> Limits {
-    Limits { max_storage_buffer_range: 1 << 27, ..Limits::for_tests() }
+    Limits { max_storage_buffer_range: 1 << 27, max_texels: 1 << 27, ..Limits::for_tests() }
 }
 
 fn plan(boxes: &[(u32, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
@@ -73,6 +73,19 @@ fn what_has_no_room_has_no_plan() {
     assert_eq!(plan(&[(8_388_609, 3.0)], [64, 64]), None);
     assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
     assert_eq!(TilePlan::of_boxes(8192, &[(8192, 3.0)], [64, 64], &limits(), Invocations::Columns), None);
+}
+
+#[test]
+fn lists_that_are_fetched_have_no_more_texels_than_the_device() {
+    let limits = Limits { max_texels: 1 << 24, ..limits() };
+    for (count, px) in [(10_000, 500.0), (1_000_000, 100.0), (4_000_000, 12.0)] {
+        let plan = |invocations| TilePlan::of_boxes(1, &[(count, px)], [4096, 4096], &limits, invocations);
+        let fetched = plan(Invocations::Columns).unwrap();
+        assert!(fetched.entry_room.max(fetched.record_room) <= 1 << 24, "{fetched:?}");
+        // Words of a storage buffer are not.
+        assert!(plan(Invocations::Pixels).unwrap().entry_room > 1 << 24);
+    }
+    assert_eq!(TilePlan::of_boxes(1, &[(5_000_000, 3.0)], [64, 64], &limits, Invocations::Columns), None);
 }
 
 #[test]
