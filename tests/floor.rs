@@ -85,7 +85,7 @@ fn the_limits_shade_what_their_rates_count() {
                     assert!((probe.units()..=most).contains(&fragments), "{limit:?}: {fragments}");
                 }
                 Limit::Bytes => assert_eq!(fragments, None),
-                Limit::Invocations => assert_eq!(fragments, Some(probe.units())),
+                Limit::Invocations | Limit::Atomics => assert_eq!(fragments, Some(probe.units())),
             }
         }
     }

@@ -9,7 +9,7 @@ mod limits;
 use ash::vk;
 
 pub use limits::{
-    LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, limit_copy, limit_draws, limit_fill, limit_invocations,
+    LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, limit_copy, limit_dispatch, limit_draws, limit_fill,
 };
 
 use super::{

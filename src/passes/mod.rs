@@ -54,7 +54,7 @@ pub use draws::{Draw, draws};
 pub use export::Exported;
 pub use floor::{
     FLOOR_POINT_BYTES, FloorPoints, LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, floor_frame, floor_points,
-    limit_copy, limit_draws, limit_fill, limit_invocations,
+    limit_copy, limit_dispatch, limit_draws, limit_fill,
 };
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;

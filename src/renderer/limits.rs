@@ -94,12 +94,13 @@ impl LimitProbes {
             }
             Err(error) => made.notes.push(format!("bytes are not measured: {error}")),
         }
-        let size = 4 * u64::from(LIMIT_GROUPS);
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let groups = BufferDesc { name: "groups of the limit", size, usage };
-        let groups = Buffer::new(headless.device(), groups, MemoryUse::Device)?;
         let units = LIMIT_GROUP * u64::from(LIMIT_GROUPS);
-        made.probes.push(Probe::new(headless, Limit::Invocations, vec![groups], 0, units));
+        for (limit, words) in [(Limit::Invocations, u64::from(LIMIT_GROUPS)), (Limit::Atomics, units)] {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            let words = BufferDesc { name: "words of a limit", size: 4 * words, usage };
+            let words = Buffer::new(headless.device(), words, MemoryUse::Device)?;
+            made.probes.push(Probe::new(headless, limit, vec![words], 0, units));
+        }
         for probe in &mut made.probes {
             probe.calibrate(headless, &made.settings)?;
         }
@@ -197,7 +198,9 @@ impl Probe {
             (Limit::Bytes, [from, to]) => {
                 passes::limit_copy(&mut graph, from, to, self.buffers[0].size());
             }
-            (Limit::Invocations, [groups]) => passes::limit_invocations(&mut graph, inputs, groups)?,
+            (limit @ (Limit::Invocations | Limit::Atomics), [words]) => {
+                passes::limit_dispatch(&mut graph, inputs, limit, words)?;
+            }
             (limit, [points, ..]) => {
                 passes::limit_draws(&mut graph, inputs, limit, points, self.points)?;
             }
@@ -240,6 +243,6 @@ fn import(graph: &mut Graph<Body<'_>>, number: usize, buffer: &Buffer) -> Handle
         stages: vk::PipelineStageFlags2::ALL_TRANSFER | vk::PipelineStageFlags2::COMPUTE_SHADER,
         access: vk::AccessFlags2::TRANSFER_WRITE | vk::AccessFlags2::SHADER_STORAGE_WRITE,
     };
-    let desc = GraphBufferDesc { size_bytes: buffer.size() };
+    let desc = GraphBufferDesc::of_bytes(buffer.size());
     graph.import_buffer(&format!("buffer {number} of a limit"), desc, initial, None)
 }

@@ -27,6 +27,8 @@ pub enum Limit {
     Bytes,
     /// Invocations of a compute shader that does nothing.
     Invocations,
+    /// Atomics of such invocations, each on a word of its own.
+    Atomics,
 }
 
 impl Limit {
@@ -40,6 +42,7 @@ impl Limit {
             Self::BlendedFragments => "blended fragments",
             Self::Bytes => "bytes",
             Self::Invocations => "invocations",
+            Self::Atomics => "atomics",
         }
     }
 }

@@ -1,5 +1,5 @@
 //! What the device can do at most, one thing at a time: points without fragments, fragments without computing, blending,
-//! copies, invocations. Each is a pass of its own that repeats the one thing, and nothing else, for long enough to be timed.
+//! copies, invocations, atomics. Each is a pass of its own that repeats the one thing, and nothing else, for long enough to be timed.
 //!
 //! Fragments come from points of 32 pixels: a triangle over the whole image would be drawn only once by a driver that
 //! sees that the next one hides it tile by tile.
@@ -12,7 +12,7 @@ use super::super::{
     sum_format,
 };
 use crate::{
-    error::{ErrorKind, Result},
+    error::{Error, ErrorKind, Result},
     graph::{
         Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, ResourceId, Start,
         execute::{Body, PassContext},
@@ -23,10 +23,10 @@ use crate::{
     vk::{Blend, Descriptor, DescriptorPool},
 };
 
-/// Invocations of a workgroup, as in `glsl/limit_compute.comp.glsl`.
+/// Invocations of a workgroup, as in `glsl/limit_compute.comp.glsl` and `limit_atomics.comp.glsl`.
 pub const LIMIT_GROUP: u64 = 256;
 
-/// Workgroups in a row; each stores 4 bytes.
+/// Workgroups in a row.
 pub const LIMIT_GROUPS: u32 = 4096;
 
 /// What the pass of a limit is given.
@@ -83,10 +83,7 @@ pub fn limit_draws<'a>(
         Limit::BlendedFragments => {
             (GraphicsKey { blend: Blend::Add, ..key(&shaders::FLOOR_ADD_FRAG) }, vec![sums; 2])
         }
-        Limit::Bytes | Limit::Invocations => {
-            let (pass, reason) = (limit.name().to_owned(), "is not a limit of drawing".to_owned());
-            return Err(ErrorKind::Graph { pass, resource: String::new(), reason }.into());
-        }
+        Limit::Bytes | Limit::Invocations | Limit::Atomics => return Err(not_of(limit, "drawing")),
     };
     let has_depth = key.depth.is_some();
     let pipeline = inputs.shaders.graphics(GraphicsKey { color_formats: colors.clone(), ..key })?;
@@ -158,36 +155,44 @@ pub fn limit_copy(
         }));
 }
 
-/// Declares the pass that dispatches [`LIMIT_GROUPS`] × `repeats` workgroups of [`LIMIT_GROUP`] invocations. `groups` has 4
-/// bytes for each of a row.
+/// Declares the pass that dispatches [`LIMIT_GROUPS`] × `repeats` workgroups of [`LIMIT_GROUP`] invocations: for
+/// [`Limit::Invocations`], with 4 bytes in `words` for each group of a row; for [`Limit::Atomics`], for each invocation of one.
 ///
 /// # Errors
-/// Whatever the driver answers when the pipeline is made.
-pub fn limit_invocations<'a>(
+/// [`ErrorKind::Graph`] for a limit that is not one of compute; whatever the driver answers when the pipeline is made.
+pub fn limit_dispatch<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: LimitInputs<'a>,
-    groups: &mut Handle<Buffer>,
+    limit: Limit,
+    words: &mut Handle<Buffer>,
 ) -> Result<()> {
-    let key =
-        ComputeKey { shader: &shaders::LIMIT_COMPUTE_COMP, layout: Layout::List, constants: Vec::new() };
+    let (shader, access, content) = match limit {
+        Limit::Invocations => (&shaders::LIMIT_COMPUTE_COMP, Access::StorageWriteCompute, Start::Discard),
+        Limit::Atomics => (&shaders::LIMIT_ATOMICS_COMP, Access::StorageReadWriteCompute, Start::Load),
+        _ => return Err(not_of(limit, "dispatches")),
+    };
+    let key = ComputeKey { shader, layout: Layout::List, constants: Vec::new() };
     let pipeline = inputs.shaders.compute(key)?;
-    let id = groups.id();
-    graph.pass(Limit::Invocations.name()).write(groups, Access::StorageWriteCompute, Start::Discard).finish(
-        Box::new(move |context| {
-            let (device, commands) = (context.device(), context.commands());
-            let bind_point = vk::PipelineBindPoint::COMPUTE;
-            let layout = inputs.shaders.list_layout.raw();
-            let set = set_of(context, inputs, id)?;
-            // SAFETY: pipeline and set have one layout, whose push constants the shader does not use.
-            unsafe {
-                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
-                device.cmd_dispatch(commands, LIMIT_GROUPS, inputs.repeats, 1);
-            }
-            Ok(())
-        }),
-    );
+    let id = words.id();
+    graph.pass(limit.name()).write(words, access, content).finish(Box::new(move |context| {
+        let (device, commands) = (context.device(), context.commands());
+        let bind_point = vk::PipelineBindPoint::COMPUTE;
+        let layout = inputs.shaders.list_layout.raw();
+        let set = set_of(context, inputs, id)?;
+        // SAFETY: pipeline and set have one layout, whose push constants the shader does not use.
+        unsafe {
+            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+            device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
+            device.cmd_dispatch(commands, LIMIT_GROUPS, inputs.repeats, 1);
+        }
+        Ok(())
+    }));
     Ok(())
+}
+
+fn not_of(limit: Limit, kind: &str) -> Error {
+    let (pass, reason) = (limit.name().to_owned(), format!("is not a limit of {kind}"));
+    ErrorKind::Graph { pass, resource: String::new(), reason }.into()
 }
 
 /// Set 1 with one buffer.
