@@ -1,5 +1,5 @@
-// For the limits beside the floor benchmark: an atomic each, as a splat's would be that sees or sums by atomics: the least of what is
-// in a word and a value. No two invocations of a row of groups share a word: a splat's neighbors, which do, are slower at best.
+// For the limits beside the floor benchmark: an atomic each, as a splat would need for each pixel that it is seen in or summed to. No
+// two invocations of a row of groups share a word; of splats that overlap some do, and can at most be as fast.
 #version 460
 
 layout(local_size_x = 256) in;
@@ -7,6 +7,5 @@ layout(set = 1, binding = 0, std430) buffer Words { uint words[]; };
 
 void main()
 {
-    uint word = gl_GlobalInvocationID.x;
-    atomicMin(words[word], word ^ gl_WorkGroupID.y);
+    atomicAdd(words[gl_GlobalInvocationID.x], 1);
 }

@@ -68,6 +68,20 @@ fn an_error_names_file_and_line_and_every_faulty_shader_is_named() {
     let said = errors(&[("a.comp.glsl", &broken), ("b.comp.glsl", &broken)], &[]);
     assert!(said.contains("glsl/a.comp.glsl:4: error: 'x' : undeclared identifier"), "{said}");
     assert!(said.contains("glsl/b.comp.glsl:4: error: 'x' : undeclared identifier"), "{said}");
+    assert!(said.find("a.comp") < said.find("b.comp"), "{said}");
+}
+
+#[test]
+fn of_permutations_that_fail_the_first_speaks() {
+    let text = |condition: &str| {
+        format!(
+            "{COMPUTE}// Permutations: a b c\nvoid main() {{\n#if {condition}\n#error wrong\n#endif\n}}\n"
+        )
+    };
+    for condition in ["1", "defined(B) || defined(C)", "defined(C)"] {
+        let said = errors(&[("a.comp.glsl", &text(condition))], &[]);
+        assert_eq!(said.matches("'#error'").count(), 1, "{condition}: {said}");
+    }
 }
 
 #[test]

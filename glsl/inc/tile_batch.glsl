@@ -1,7 +1,7 @@
 // The splats of a tile, BATCH at a time, and how the tile's invocations come by them. Invocation i of a column loads record i of
 // a batch and hands it to the others by shuffles. With PIXELS it loads record i of eight batches, and hands it on in memory that
-// they share. With DIRECT each loads every record. Columns fetch them by texels, which CPU drivers do without a loop over lanes
-// (src/passes/tiles/invocations.rs).
+// they share. With DIRECT each loads every record. Without either, records and lists are texel buffers (but a list that is to be
+// shortened), which CPU drivers read without a loop over lanes (src/passes/tiles/invocations.rs).
 //
 // A record is a splat, ready to be drawn: all in pixels, so that nothing of its chunk is needed any more.
 // records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; 1 / f.
@@ -43,13 +43,13 @@ layout(set = 0, binding = 26) uniform utextureBuffer records3;
 #endif
 #if defined(HIDDEN)
 layout(set = 0, binding = 7, std430) coherent buffer Entries { uint entries[]; }; // written by inc/tile_hidden.glsl
-#define ENTRY(place) entries[place]
+#define ENTRY(number) entries[number]
 #elif defined(PIXELS) || defined(DIRECT)
 layout(set = 0, binding = 7, std430) readonly buffer Entries { uint entries[]; };
-#define ENTRY(place) entries[place]
+#define ENTRY(number) entries[number]
 #else
 layout(set = 0, binding = 27) uniform utextureBuffer entries;
-#define ENTRY(place) texelFetch(entries, int(place)).x
+#define ENTRY(number) texelFetch(entries, int(number)).x
 #endif
 
 // What tells whether it covers a pixel, and how deep.

@@ -49,7 +49,7 @@ pub struct Counts {
 /// What is listed beside the paper-comparable count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Listed {
-    /// Registers loaded from storage buffers, attributes of a vertex there, and texels of buffers.
+    /// Registers loaded from storage buffers, attributes of a vertex there; and texels of buffers, which are fetches (TEX), too.
     pub loads: u32,
     /// Stores to outputs and buffers.
     pub stores: u32,

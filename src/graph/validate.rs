@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use ash::vk;
 
 use super::{
-    access::PassKind,
+    access::{Access, PassKind},
     declare::{Declared, Pass, Resource, Start, Use},
     resource::{ClearValue, Origin, ResourceDesc, aspect_of},
 };
@@ -114,7 +114,11 @@ fn check_use(graph: &Declared, pass: &Pass, usage: &Use) -> Result<()> {
         ResourceDesc::Buffer(_) if access.info().buffer.is_none() => {
             return refuse(format!("{access:?} is not an access to a buffer"));
         }
-        ResourceDesc::Buffer(_) => {}
+        ResourceDesc::Buffer(desc) => {
+            if access == Access::TexelReadCompute && desc.texels == vk::Format::UNDEFINED {
+                return refuse(format!("{access:?} needs a format of texels"));
+            }
+        }
     }
     match (access.writes(), usage.start) {
         (true, None) => return refuse(format!("{access:?} writes: declare it by `write`")),

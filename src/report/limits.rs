@@ -27,7 +27,7 @@ pub enum Limit {
     Bytes,
     /// Invocations of a compute shader that does nothing.
     Invocations,
-    /// Atomics of such invocations, each on a word of its own.
+    /// Atomic sums, one of each invocation of a compute shader, on as many words as there are in 4096 workgroups of 256.
     Atomics,
 }
 

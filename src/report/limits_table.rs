@@ -36,7 +36,7 @@ impl LimitsReport {
         }
         grid.notes.push(
             "points: outside of the clip volume; drawn points: one pixel each, behind what is there; fragments: one color, without blending; depth fragments: depth alone; \
-             blended fragments: added into both sums; bytes: read and written by a copy; invocations: of compute; atomics: one of each invocation, on a word of its own"
+             blended fragments: added into both sums; bytes: read and written by a copy; invocations: of compute; atomics: a sum of each invocation, on a million words"
                 .to_owned(),
         );
         grid.notes.extend(self.notes.iter().cloned());

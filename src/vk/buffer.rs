@@ -80,10 +80,22 @@ impl Buffer {
     /// The same, read by texels of a format, too; its usage is `UNIFORM_TEXEL_BUFFER` among others.
     ///
     /// # Errors
-    /// Whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] for another format than the few that are used so, and for more texels than the device has;
+    /// whatever the driver answers.
     pub(crate) fn with_texels(mut self, name: &str, format: vk::Format) -> Result<Self> {
+        debug_assert!(self.texels().is_none(), "{name} has texels already");
+        // Of those that Vulkan demands of every device.
+        let texel_bytes = match format {
+            vk::Format::R32_UINT => 4,
+            vk::Format::R32G32B32A32_UINT | vk::Format::R32G32B32A32_SFLOAT => 16,
+            _ => return Err(Error::option(name, format!("texels of {format:?}: not one of those in use"))),
+        };
+        let (texels, most) = (self.size / texel_bytes, self.device.facts().limits.max_texels);
+        if texels > u64::from(most) {
+            return Err(Error::option(name, format!("{texels} texels: the device has at most {most}")));
+        }
         let info = vk::BufferViewCreateInfo::default().buffer(self.raw).format(format).range(vk::WHOLE_SIZE);
-        // SAFETY: the buffer is bound; formats are those that Vulkan demands of every device for this; who asks for one has seen to the number of texels.
+        // SAFETY: the buffer is bound; every device has the format, and so many texels.
         self.texels = unsafe { self.device.raw().create_buffer_view(&info, None) }
             .of_call("vkCreateBufferView", name)?;
         self.device.set_name(self.texels, name);

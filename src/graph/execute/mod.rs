@@ -11,8 +11,8 @@ pub use self::{
     transients::{Transients, memory_need},
 };
 use super::{
-    Attachment, Barrier, Batch, Compiled, PassKind, Plan, PlannedPass, ResourceDesc, ResourceId, Scope,
-    aspect_of,
+    Access, Attachment, Barrier, Batch, Compiled, PassKind, Plan, PlannedPass, ResourceDesc, ResourceId,
+    Scope, aspect_of,
 };
 use crate::{
     error::{ErrorKind, Result},
@@ -72,6 +72,9 @@ impl PassContext<'_> {
     /// [`ErrorKind::Graph`] for one that it did not declare.
     pub fn buffer(&self, id: ResourceId) -> Result<vk::Buffer> {
         match self.declared(id)? {
+            Physical::TexelBuffer(..) if self.reads_texels(id) => {
+                Err(self.refuse(id, "was declared to be read by texels"))
+            }
             Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => Ok(buffer),
             Physical::Image(..) => Err(self.refuse(id, "is an image, not a buffer")),
         }
@@ -83,9 +86,14 @@ impl PassContext<'_> {
     /// [`ErrorKind::Graph`] for one that it did not declare, or that has none.
     pub fn texels(&self, id: ResourceId) -> Result<vk::BufferView> {
         match self.declared(id)? {
-            Physical::TexelBuffer(_, texels) => Ok(texels),
+            Physical::TexelBuffer(_, texels) if self.reads_texels(id) => Ok(texels),
+            Physical::TexelBuffer(..) => Err(self.refuse(id, "was not declared to be read by texels")),
             _ => Err(self.refuse(id, "has no texels")),
         }
+    }
+
+    fn reads_texels(&self, id: ResourceId) -> bool {
+        self.pass.uses.iter().any(|usage| usage.resource == id && usage.access == Access::TexelReadCompute)
     }
 
     /// The layout in which the pass finds an image that it declared.

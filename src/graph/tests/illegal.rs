@@ -171,6 +171,9 @@ fn names_and_dimensions() {
     assert_eq!(refusal(|g, _, _, _| drop(g.create_buffer("", buffer()))), "a resource has no name");
     let empty = refusal(|g, _, _, _| drop(g.create_buffer("b", BufferDesc::of_bytes(0))));
     assert_eq!(empty, "resource 'b': a buffer needs at least one byte");
+    let wordless =
+        refusal(|g, _, _, l| g.pass("p").read(l, Access::TexelReadCompute).side_effect().finish(()));
+    assert_eq!(wordless, "pass 'p', resource 'list': TexelReadCompute needs a format of texels");
     let extent = vk::Extent2D { width: 4, height: 0 };
     let empty = refusal(|g, _, _, _| drop(g.create_image("i", ImageDesc { format: COLOR, extent })));
     assert_eq!(empty, "resource 'i': an image needs at least one pixel");

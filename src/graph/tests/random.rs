@@ -39,7 +39,7 @@ fn build(resources: &[ResourceSeed], passes: &[PassSeed]) -> Graph<()> {
         let (name, imported) = (format!("r{i}"), initial % 4 == 0);
         let (first, end) = (state(initial / 4), state(last / 2));
         if kind % 3 == 2 {
-            let size = BufferDesc::of_bytes(1 + u64::from(kind));
+            let size = BufferDesc { size_bytes: 1 + u64::from(kind), texels: vk::Format::R32_UINT };
             let as_buffer = |State { stages, access, .. }: State| BufferState { stages, access };
             handles.push(Any::Buffer(if imported {
                 graph.import_buffer(&name, size, as_buffer(first), (last % 2 == 0).then(|| as_buffer(end)))

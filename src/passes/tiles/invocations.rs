@@ -2,7 +2,8 @@
 
 use crate::{scene::TileInvocations, vk::Limits};
 
-/// Texels of a buffer that are enough for lists; Vulkan promises 65536.
+/// Texels of a buffer below which lists are rather read as words: Vulkan promises 65536. Where there are more entries than texels,
+/// large splats are left to the graphics pipeline.
 const LEAST_TEXELS: u32 = 1 << 24;
 
 /// The two together, as the permutations of `glsl/tile_splat.comp.glsl` and `tile_layers.comp.glsl` have them.
@@ -31,8 +32,8 @@ impl Invocations {
         }
     }
 
-    /// Whether records are read by texels, not as words of storage buffers: for a vector of 8, llvmpipe makes 8 loads without a
-    /// branch of the one, and of the other for each component a loop over the lanes.
+    /// Whether records and lists are read as texel buffers, not as storage buffers. Of a storage buffer, llvmpipe reads each component
+    /// for the 8 lanes of a vector by a loop over them; a texel, by 8 loads without a branch.
     pub fn fetch_texels(self) -> bool {
         self == Self::Columns
     }

@@ -108,7 +108,7 @@ pub(super) struct Tiles<'a> {
 
 impl<'a> Tiles<'a> {
     fn create(graph: &mut Graph<Body<'a>>, kind: &str, plan: &'a TilePlan) -> Self {
-        let mut texels = |what: &str, size_bytes, texels| {
+        let mut create = |what: &str, size_bytes, texels| {
             graph.create_buffer(&format!("{what} of {kind}tiles"), BufferDesc { size_bytes, texels })
         };
         const FLOATS: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
@@ -116,10 +116,10 @@ impl<'a> Tiles<'a> {
         let (tiles, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
         let quarters = [("first", FLOATS), ("second", FLOATS), ("third", FLOATS), ("fourth", WORDS)];
         let records = quarters.map(|(quarter, format)| {
-            texels(&format!("{quarter} quarter of records"), plan.record_room * plan::RECORD_BYTES, format)
+            create(&format!("{quarter} quarter of records"), plan.record_room * plan::RECORD_BYTES, format)
         });
-        let entries = texels("entries", plan.entry_room * 4, vk::Format::R32_UINT);
-        let mut buffer = |what: &str, size_bytes| texels(what, size_bytes, vk::Format::UNDEFINED);
+        let entries = create("entries", plan.entry_room * 4, vk::Format::R32_UINT);
+        let mut buffer = |what: &str, size_bytes| create(what, size_bytes, vk::Format::UNDEFINED);
         Self {
             plan,
             records,
@@ -140,10 +140,11 @@ impl<'a> Tiles<'a> {
 
     /// What the passes bind that draw from the lists. `shortens`: entries are left out that nobody reads after the pass.
     fn bind_lists(&self, pass: &mut TilePass<'_>, shortens: bool) {
-        pass.buffers.extend([(STARTS, &self.starts), (SEEN, &self.seen), (OVERFULL, &self.overfull)].map(id));
+        pass.buffers
+            .extend([(STARTS, &self.starts), (SEEN, &self.seen), (OVERFULL, &self.overfull)].map(with_id));
         let by_texels = self.plan.invocations.fetch_texels();
         if by_texels {
-            pass.texel_buffers.extend((RECORD_TEXELS..).zip(&self.records).map(id));
+            pass.texel_buffers.extend((RECORD_TEXELS..).zip(&self.records).map(with_id));
         } else {
             pass.buffers.extend(self.records());
         }
@@ -155,7 +156,7 @@ impl<'a> Tiles<'a> {
 
     /// Declares that a pass reads them and is dispatched by their arguments.
     fn read_lists<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        self.read_all_but_entries(pass).read(&self.entries, self.access())
+        self.read_all_but_entries(pass).read(&self.entries, self.access_of_lists())
     }
 
     /// The same of a pass that shortens them.
@@ -166,7 +167,7 @@ impl<'a> Tiles<'a> {
 
     fn read_all_but_entries<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
         for quarter in &self.records {
-            pass = pass.read(quarter, self.access());
+            pass = pass.read(quarter, self.access_of_lists());
         }
         for buffer in [&self.starts, &self.seen, &self.overfull] {
             pass = pass.read(buffer, Access::StorageReadCompute);
@@ -175,7 +176,7 @@ impl<'a> Tiles<'a> {
     }
 
     /// How records and entries are read.
-    fn access(&self) -> Access {
+    fn access_of_lists(&self) -> Access {
         if self.plan.invocations.fetch_texels() {
             Access::TexelReadCompute
         } else {
@@ -184,7 +185,7 @@ impl<'a> Tiles<'a> {
     }
 }
 
-fn id((binding, buffer): (u32, &Handle<Buffer>)) -> (u32, ResourceId) {
+fn with_id((binding, buffer): (u32, &Handle<Buffer>)) -> (u32, ResourceId) {
     (binding, buffer.id())
 }
 

@@ -121,17 +121,17 @@ impl TilePlan {
         limits: &Limits,
         invocations: Invocations,
     ) -> Option<Self> {
-        let range = match invocations.fetch_texels() {
-            true => limits.max_storage_buffer_range.min(4 * u64::from(limits.max_texels)),
-            false => limits.max_storage_buffer_range,
-        };
+        let range = limits.max_storage_buffer_range;
+        // A record, or an entry, is a texel of each buffer that it is in.
+        let most_texels = if invocations.fetch_texels() { u64::from(limits.max_texels) } else { u64::MAX };
         let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
         let [tiles_x, tiles_y] = [width, height].map(|side| side.div_ceil(TILE_PX));
         let tile_count = tiles_x * tiles_y;
         let bins = u64::from(tile_count) + chunks as u64;
         let segments_with_room = range / 4 / bins / u64::from(WALKERS) * u64::from(WALKERS);
+        let most_records = (range / RECORD_BYTES).min(most_texels);
         let refused =
-            records == 0 || records * RECORD_BYTES > range || chunks > MOST_CHUNKS || segments_with_room == 0;
+            records == 0 || records > most_records || chunks > MOST_CHUNKS || segments_with_room == 0;
         if refused {
             return None;
         }
@@ -144,7 +144,8 @@ impl TilePlan {
         let segments = segments_with_room.min(u64::from(segments_with_work)) as u32;
         let segment_length = blocks.div_ceil(segments) * BLOCK;
         let of_pixels = u64::from(width) * u64::from(height) * ENTRIES_A_PIXEL;
-        let room = (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4);
+        let room =
+            (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4).min(most_texels);
         // Rounds are as long as if each of their records had the most; there must not be too many.
         let in_rounds = u64::from(MOST_ROUNDS * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
         let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);

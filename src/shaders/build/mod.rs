@@ -9,7 +9,7 @@ mod table;
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs, io,
+    env, fs, io,
     num::NonZero,
     panic,
     path::{Path, PathBuf},
@@ -47,18 +47,27 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
     let mut shaders = Vec::new();
     let mut layouts = BTreeMap::new();
     let mut failed = BTreeSet::new();
-    for (job, result) in jobs.iter().zip(in_parallel(&jobs, |job| job.compiled(&compiler, &shared))) {
-        match result {
-            Ok((spirv, found)) => {
-                let name = job.name();
-                for layout in found {
-                    errors.extend(layout::merge(&mut layouts, &name, layout).err());
+    // The permutations of a file mostly fail alike: the others wait for the first of each.
+    let (first, others): (Vec<_>, Vec<_>) = jobs.into_iter().partition(|job| job.number == 0);
+    for jobs in [first, others] {
+        if !errors.is_empty() {
+            break;
+        }
+        for (job, result) in jobs.iter().zip(in_parallel(&jobs, |job| job.compiled(&compiler, &shared))) {
+            match result {
+                Ok((spirv, found)) => {
+                    let name = job.name();
+                    for layout in found {
+                        errors.extend(layout::merge(&mut layouts, &name, layout).err());
+                    }
+                    shaders.push((name, spirv));
                 }
-                shaders.push((name, spirv));
+                Err(message) => {
+                    if failed.insert(job.file) {
+                        errors.push(message);
+                    }
+                }
             }
-            // The permutations of a file mostly fail alike: the first says it.
-            Err(message) if failed.insert(job.file) => errors.push(message),
-            Err(_) => {}
         }
     }
     shaders.sort();
@@ -109,7 +118,7 @@ impl Job<'_> {
     }
 }
 
-/// What `work` makes of each job, in their order, by as many threads as the machine has processors.
+/// What `work` makes of each job, in their order, by as many threads as cargo may use, or the machine has processors.
 fn in_parallel<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let some_of_all = || {
@@ -120,7 +129,9 @@ fn in_parallel<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync) -> V
             done.push((number, work(job)));
         }
     };
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let asked = env::var("NUM_JOBS").ok().and_then(|number| number.parse().ok());
+    let threads = asked.unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get));
+    let threads = threads.clamp(1, jobs.len().max(1));
     let mut done: Vec<(usize, R)> = thread::scope(|scope| {
         let running: Vec<_> = (0..threads).map(|_| scope.spawn(some_of_all)).collect();
         let results = running.into_iter().map(|thread| thread.join());

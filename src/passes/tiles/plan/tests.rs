@@ -77,15 +77,16 @@ fn what_has_no_room_has_no_plan() {
 
 #[test]
 fn lists_that_are_fetched_have_no_more_texels_than_the_device() {
-    let limits = Limits { max_texels: 1 << 24, ..limits() };
-    for (count, px) in [(10_000, 500.0), (1_000_000, 100.0), (4_000_000, 12.0)] {
-        let plan = |invocations| TilePlan::of_boxes(1, &[(count, px)], [4096, 4096], &limits, invocations);
-        let fetched = plan(Invocations::Columns).unwrap();
+    let limits = Limits { max_storage_buffer_range: 1 << 30, max_texels: 1 << 24, ..limits() };
+    let plan =
+        |(count, px), invocations| TilePlan::of_boxes(1, &[(count, px)], [4096, 4096], &limits, invocations);
+    for boxes in [(10_000, 500.0), (1_000_000, 100.0), (4_000_000, 12.0), (1 << 24, 12.0)] {
+        let fetched = plan(boxes, Invocations::Columns).unwrap();
         assert!(fetched.entry_room.max(fetched.record_room) <= 1 << 24, "{fetched:?}");
         // Words of a storage buffer are not.
-        assert!(plan(Invocations::Pixels).unwrap().entry_room > 1 << 24);
+        assert!(plan(boxes, Invocations::Pixels).unwrap().entry_room > 1 << 24, "{boxes:?}");
     }
-    assert_eq!(TilePlan::of_boxes(1, &[(5_000_000, 3.0)], [64, 64], &limits, Invocations::Columns), None);
+    assert_eq!(plan(((1 << 24) + 1, 3.0), Invocations::Columns), None);
 }
 
 #[test]
