@@ -39,7 +39,7 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
 
     // In the same rounds: the device's limits, and which of them binds each pass.
     let limits = report["limits"]["limits"].as_array().unwrap();
-    assert_eq!((limits.len(), &report["limits"]["notes"]), (7, &Value::Array(Vec::new())));
+    assert_eq!((limits.len(), &report["limits"]["notes"]), (8, &Value::Array(Vec::new())));
     assert!(limits.iter().all(|limit| limit["units_per_sec"].as_f64() > Some(0.0)), "{limits:?}");
     let bounds = report["limits"]["bounds"].as_array().unwrap();
     for (bound, row) in bounds.iter().zip(rows) {
