@@ -5,8 +5,8 @@
 // BEHIND: opaque things hide what is behind them. SEVERAL: one of several dispatches, whose light, depth and weight go on in
 // images: loops have an end on llvmpipe (inc/tiles.glsl). PARTS: of the tiles with more splats than that leaves room for, a
 // step of one layer and a part of their splats in each dispatch, with all that is found kept in a buffer. LIT: the scene has
-// lights of its own. HALF, SINGLE: of the light in its image. DIRECT, PIXELS: as in tile_splat.comp.glsl.
-// Permutations: half single | _ lit | _ behind | _ several parts | _ direct pixels
+// lights of its own. HALF, SINGLE: of the light in its image. DIRECT, PIXELS, SHORT: as in tile_splat.comp.glsl.
+// Permutations: half single | _ lit | _ behind | _ several parts | _ direct pixels short
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -93,8 +93,8 @@ void main()
     }
 #if defined(PARTS)
     // What is found of the tile so far.
-    uint column = GROUP_NUMBER * TILE + gl_LocalInvocationID.x;
-    uint states = (column * TILE + FIRST_ROW) * STATE_VECTORS;
+    uint column = GROUP_NUMBER * TILE_WIDTH + gl_LocalInvocationID.x;
+    uint states = (column * TILE_HEIGHT + FIRST_ROW) * STATE_VECTORS;
     bool goes_on = push.part > 0;
     [[unroll]] for (int row = 0; row < ROWS; row++) {
         uint at = states + uint(row) * STATE_VECTORS;

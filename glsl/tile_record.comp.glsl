@@ -9,6 +9,7 @@
 #include "inc/kept.glsl"
 
 layout(constant_id = 22) const uint MOST_TILES = 64; // that a splat of a record touches
+layout(constant_id = 25) const uint TILE_HEIGHT = 8;
 layout(constant_id = 16) const bool MAY_BE_LARGE = false; // some splats are left to the graphics pipeline; chunk: which bin
 layout(constant_id = 17) const uint CHUNK = 0;
 
@@ -37,15 +38,17 @@ uint span_of(Mapping m)
     if (!pixel_box(splat_box(m), px)) {
         return SPAN_NONE;
     }
-    uvec2 first = uvec2(px.first) / TILE;
-    uvec2 more = uvec2(px.last) / TILE - first;
+    const uvec2 tile = uvec2(TILE_WIDTH, TILE_HEIGHT);
+    uvec2 first = uvec2(px.first) / tile;
+    uvec2 more = uvec2(px.last) / tile - first;
     if (max(more.x, more.y) > MOST_MORE || (more.x + 1) * (more.y + 1) > MOST_TILES) {
         return large;
     }
 #if defined(KEPT)
     // Of the band's rows. Behind the choice above, so that a splat is drawn the same way in every band.
-    uint last_y = min(first.y + more.y, kept_rows.y - 1);
-    first.y = max(first.y, kept_rows.x);
+    const uint each = BAND_ROW / TILE_HEIGHT;
+    uint last_y = min(first.y + more.y, kept_rows.y * each - 1);
+    first.y = max(first.y, kept_rows.x * each);
     if (first.y > last_y) {
         return SPAN_NONE;
     }

@@ -82,6 +82,9 @@ fn scenes_of_blocks() -> Vec<Hard> {
         with("unfiltered", &|hard| hard.settings.filter = Filter::None),
         with("ewa", &|hard| hard.settings.filter = Filter::Ewa),
         with("without what is hidden", &|hard| hard.settings.cull = Cull::Hidden),
+        with("tiles half as high", &|hard| {
+            hard.settings.tile_invocations = TileInvocations::ShortColumn;
+        }),
         with("an invocation a pixel", &|hard| hard.settings.tile_invocations = TileInvocations::Pixel),
         with("packed", &|hard| {
             hard.scene.storage = Storage { format: SplatFormat::Packed, ..Storage::default() };

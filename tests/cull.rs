@@ -108,7 +108,9 @@ fn tiles_without_what_is_hidden_are_the_same_bits_on_every_hard_scene() {
     let mut behind = balls(Settings::default());
     behind.camera = scenes::builder::camera([6.0, 0.0, 0.0], [0.0; 3]);
     for scene in scenes::all().into_iter().chain([behind]) {
-        for tile_invocations in [TileInvocations::Column, TileInvocations::Pixel] {
+        for tile_invocations in
+            [TileInvocations::Column, TileInvocations::ShortColumn, TileInvocations::Pixel]
+        {
             for mut hard in views(&scene) {
                 hard.settings = Settings {
                     size_px: [64, 48],
@@ -123,7 +125,7 @@ fn tiles_without_what_is_hidden_are_the_same_bits_on_every_hard_scene() {
         }
     }
     let pipelines = headless.renderer.shaders.pipeline_names();
-    for word in ["hidden.comp", "hidden_pixels.comp"] {
+    for word in ["hidden.comp", "hidden_short.comp", "hidden_pixels.comp"] {
         assert!(pipelines.iter().any(|name| name.ends_with(word)), "{word}: {pipelines:?}");
     }
     assert_validation_is_silent(&headless);

@@ -84,6 +84,7 @@ fn our_pipelines_have_the_pinned_counts() {
         let (rasterizer, filter) = (settings.rasterizer.name(), settings.filter.name());
         let pixels = match settings.tile_invocations {
             TileInvocations::Pixel => ", an invocation a pixel",
+            TileInvocations::ShortColumn => ", tiles half as high",
             TileInvocations::Auto | TileInvocations::Column => "",
         };
         let once = if settings.set_up == SetUp::Once { ", set up once" } else { "" };

@@ -47,12 +47,14 @@ fn every_rasterizer_with_every_filter_agrees_with_its_oracle_on_every_hard_scene
                 let errors = compare(&frame, oracle);
                 let name = format!("{} {} {}", rasterizer.name(), filter.name(), hard.name);
                 if *rasterizer == Rasterizer::Compute {
-                    let tile_invocations = TileInvocations::Pixel;
-                    let by_pixels = Hard {
-                        settings: Settings { tile_invocations, ..hard.settings.clone() },
-                        ..hard.clone()
-                    };
-                    assert_same_bits(&frame, &render(&mut headless, &by_pixels), &name);
+                    for tile_invocations in [TileInvocations::Pixel, TileInvocations::ShortColumn] {
+                        let otherwise = Hard {
+                            settings: Settings { tile_invocations, ..hard.settings.clone() },
+                            ..hard.clone()
+                        };
+                        let name = format!("{name} {tile_invocations:?}");
+                        assert_same_bits(&frame, &render(&mut headless, &otherwise), &name);
+                    }
                 }
                 println!("{}", errors.row(&name));
                 let limit = tolerance::of(&hard);

@@ -39,10 +39,14 @@ fn passes(frame: &Frame) -> Vec<&str> {
     frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
 }
 
-/// The same by tiles, an invocation a pixel.
-fn by_pixels(hard: &Hard) -> Hard {
-    let settings = Settings { tile_invocations: TileInvocations::Pixel, ..hard.settings.clone() };
+/// The same by tiles, drawn so.
+fn by(hard: &Hard, tile_invocations: TileInvocations) -> Hard {
+    let settings = Settings { tile_invocations, ..hard.settings.clone() };
     Hard { settings, ..hard.clone() }
+}
+
+fn by_pixels(hard: &Hard) -> Hard {
+    by(hard, TileInvocations::Pixel)
 }
 
 fn hard(objects: Vec<Object>, camera: Camera, size_px: [u32; 2]) -> Hard {
@@ -84,6 +88,9 @@ fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
         assert!(passes(&tiles).contains(&"sum overfull tiles"));
         let pixels = picture(headless, &by_pixels(&hard), Rasterizer::Compute, common::ALL);
         assert_same_bits(&tiles, &pixels, "an invocation a pixel");
+        let short =
+            picture(headless, &by(&hard, TileInvocations::ShortColumn), Rasterizer::Compute, common::ALL);
+        assert_same_bits(&tiles, &short, "tiles half as high");
         // Half a million weights are added in another order: 2^-24 of the sum each, at random.
         for (a, b) in tiles.weight.iter().zip(&points.weight) {
             assert!((a - b).abs() <= 1e-3 * b, "{a} {b}");
@@ -98,7 +105,7 @@ fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
 /// Filtered and not, images of odd sizes, sums of 16 bits, data; splats that the graphics pipeline draws before, polygons beside,
 /// layers. All filters are in `tests/methods.rs`.
 #[test]
-fn an_invocation_a_pixel_draws_the_same_bits_as_one_a_column() {
+fn an_invocation_a_pixel_or_a_short_column_draws_the_same_bits_as_one_a_column() {
     let mut headless = shared();
     let near = || sphere(4000, DVec3::ZERO);
     let with_large = scenes::builder::camera([0.0, 0.0, 0.98], [0.3, 0.1, -1.0]);
@@ -109,9 +116,12 @@ fn an_invocation_a_pixel_draws_the_same_bits_as_one_a_column() {
     let opaque = scenes::all().into_iter().chain([cloud, stacked]);
     for mut hard in opaque.chain(transparent::all()) {
         hard.settings.size_px = hard.settings.size_px.map(|side| side.min(131));
-        let columns = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
-        let pixels = picture(&mut headless, &by_pixels(&hard), Rasterizer::Compute, common::ALL);
-        assert_same_bits(&columns, &pixels, hard.name);
+        let columns = by(&hard, TileInvocations::Column);
+        let columns = picture(&mut headless, &columns, Rasterizer::Compute, common::ALL);
+        for other in [TileInvocations::Pixel, TileInvocations::ShortColumn] {
+            let drawn = picture(&mut headless, &by(&hard, other), Rasterizer::Compute, common::ALL);
+            assert_same_bits(&columns, &drawn, &format!("{} {other:?}", hard.name));
+        }
     }
     assert_validation_is_silent(&headless);
 }

@@ -5,6 +5,6 @@ struct FinalizeConstants {
     vec4 background; // linear, straight alpha
     vec2 half_size_px;
     float focal_px;
-    uint padding;
+    uint tile_height; // pixels; 0 without tiles
 };
 layout(push_constant, std430) uniform Push { FinalizeConstants push; };

@@ -71,7 +71,7 @@ struct Look {
 };
 
 #if defined(PIXELS)
-#define LOADED (TILE * TILE)
+#define LOADED (TILE_WIDTH * TILE_HEIGHT)
 shared Splat shared_splats[LOADED];
 shared Look shared_looks[LOADED];
 #endif

@@ -5,11 +5,11 @@
 // keeps the order of what it rounds, so that no pixel's is nearer. A tile with an empty pixel keeps all.
 
 #if defined(PIXELS)
-#define INVOCATIONS (TILE * TILE)
+#define INVOCATIONS (TILE_WIDTH * TILE_HEIGHT)
 shared uint farthest_bits;
 shared uint vote_words[INVOCATIONS / 32];
 #else
-#define INVOCATIONS TILE
+#define INVOCATIONS TILE_WIDTH
 #endif
 
 float farthest_of_tile(float visible[ROWS])
@@ -64,7 +64,7 @@ Range unhidden(Range range, vec2 at_px, float visible[ROWS])
     for (uint base = range.first; base < range.end; base += INVOCATIONS) {
         uint entry = base + OWN_ENTRY;
         Splat splat = load_splat(base, range.end);
-        vec2 corner = vec2(greaterThan(splat.w, vec2(0.0))) * float(TILE - 1);
+        vec2 corner = vec2(greaterThan(splat.w, vec2(0.0))) * vec2(TILE_WIDTH - 1, TILE_HEIGHT - 1);
         float dx = first_px.x + corner.x - splat.x0_px.x;
         float dy = first_px.y - splat.x0_px.y + corner.y;
         float along_x = 1.0 + splat.w.x * dx;

@@ -1,5 +1,5 @@
 // What a workgroup works on: a tile, and of its list as much as one dispatch takes. An invocation draws a column of the tile's
-// pixels; with PIXELS a row of it, one pixel.
+// pixels; with PIXELS a row of it, one pixel. SHORT: columns, and so tiles, are half as high.
 //
 // IS_WHOLE: whether this dispatch does whole tiles and leaves out the overfull; else it does part push.part of those.
 
@@ -9,14 +9,19 @@ layout(set = 0, binding = 10, std430) readonly buffer OverfullTiles { uint overf
 
 layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one dispatch takes (inc/tiles.glsl)
 
+#if defined(SHORT)
+#define TILE_HEIGHT 4
+#else
+#define TILE_HEIGHT 8
+#endif
 #if defined(PIXELS)
 #define ROWS 1
 #define FIRST_ROW int(gl_LocalInvocationID.y)
 #else
-#define ROWS TILE
+#define ROWS TILE_HEIGHT
 #define FIRST_ROW 0
 #endif
-layout(local_size_x = TILE, local_size_y = TILE / ROWS) in;
+layout(local_size_x = TILE_WIDTH, local_size_y = TILE_HEIGHT / ROWS) in;
 
 struct Range {
     uint first;
@@ -50,7 +55,8 @@ bool find_work(out Work work)
 ivec2 top_pixel(uint tile)
 {
     uint of_image = push.first_tile + tile;
-    return TILE * ivec2(of_image % push.tiles_x, of_image / push.tiles_x) + ivec2(gl_LocalInvocationID.x, 0);
+    ivec2 place = ivec2(of_image % push.tiles_x, of_image / push.tiles_x);
+    return ivec2(TILE_WIDTH, TILE_HEIGHT) * place + ivec2(gl_LocalInvocationID.x, 0);
 }
 
 // The pixel of one of the invocation's rows.

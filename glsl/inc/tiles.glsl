@@ -1,7 +1,7 @@
 // Splats by tiles of the image, in compute: what the passes share. The host's mirror is `TileConstants` in
 // src/passes/constants.rs; the build compares the offsets.
 //
-// A tile is TILE x TILE pixels. Each splat is set up once, to a record (tile_batch.glsl) and a *span*, the tiles that its box
+// A tile is TILE_WIDTH pixels wide and as many high; or half as many, where splats are small (TILE_HEIGHT). Each splat is set up once, to a record (tile_batch.glsl) and a *span*, the tiles that its box
 // touches. Records are dealt out to segments, BLOCK at a time, so that all segments have as much to do wherever in space the
 // records are; one invocation walks over one segment, in order (tile_walk.glsl), first to count what falls into each bin, then
 // to list it. So lists need no atomics and are the same in every run: by segment, and in each in the order of the records.
@@ -10,7 +10,10 @@
 
 #include "inc/groups.glsl"
 
-#define TILE 8
+#define TILE_WIDTH 8
+
+// Pixels of the rows that a band has, each a row of tiles or two.
+#define BAND_ROW 8
 
 #define BLOCK 32
 

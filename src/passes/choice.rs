@@ -126,7 +126,8 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
     let kept = if part.kept.is_some() { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(&part.splats, !part.meshes.is_empty(), settings, limits)) {
         (Some(plan), Ok(why)) => {
-            let (most, draws) = (plan.most_tiles, plan.invocations.draws());
+            let (most, draws, height) =
+                (plan.most_tiles, plan.invocations.draws(), plan.invocations.tile_height());
             let large =
                 if plan.may_be_large { "; what touches more, or comes near the eye, as quads" } else { "" };
             let bands = match part.bands.len() {
@@ -134,7 +135,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
                 bands => format!(", in {bands} bands for the lists' memory"),
             };
             format!(
-                "by tiles of 8x8 pixels in compute ({why}), {draws} an invocation, splats of up to {most} tiles{large}{bands}"
+                "by tiles of 8x{height} pixels in compute ({why}), {draws} an invocation, splats of up to {most} tiles{large}{bands}"
             )
         }
         (None, Ok(_)) if !part.meshes.is_empty() => {

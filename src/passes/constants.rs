@@ -77,8 +77,8 @@ pub struct FinalizeConstants {
     pub half_size_px: [f32; 2],
     /// An image-plane unit in pixels.
     pub focal_px: f32,
-    /// Not used.
-    pub padding: u32,
+    /// Pixels of a tile's column; 0 without tiles.
+    pub tile_height: u32,
 }
 
 /// What the export is told; see `glsl/export.frag.glsl`.

@@ -105,7 +105,7 @@ pub(super) fn constants(inputs: Inputs<'_>) -> FinalizeConstants {
         }),
         half_size_px: [0.5 * width as f32, 0.5 * height as f32],
         focal_px: inputs.camera.focal_px(height) as f32,
-        padding: 0,
+        tile_height: 0,
     }
 }
 
@@ -238,7 +238,7 @@ fn finalize_tiles<'a>(
     pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
             let set = read_set(context, inputs, &inputs.shaders.sums_set, (&ids, lights))?;
-            draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, bytemuck::bytes_of(&constants))
+            draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, constants)
         }));
     Ok(())
 }
@@ -261,8 +261,8 @@ fn finalize_polygons_and_tiles<'a>(
         .read(depth, Access::DepthTest)
         .write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
-            let constants = bytemuck::bytes_of(&constants);
-            draw_fullscreen(context, inputs, &of_polygons, layout, (&images, None), constants)?;
+            let bytes = bytemuck::bytes_of(&constants);
+            draw_fullscreen(context, inputs, &of_polygons, layout, (&images, None), bytes)?;
             let set = read_set(context, inputs, &inputs.shaders.sums_set, (&images, None))?;
             draw_quads_of_tiles(context, inputs, &of_tiles, &seen, set, constants)
         }));

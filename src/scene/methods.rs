@@ -92,12 +92,15 @@ named! {
 }
 
 named! {
-    /// What an invocation draws of a tile of 8×8 pixels ([`Rasterizer::Compute`]). The picture is the same, bit by bit.
+    /// What an invocation draws of a tile of 8×8 pixels, or 8×4 ([`Rasterizer::Compute`]). The picture is the same, bit by bit, unless a
+    /// splat is too large for tiles of one height alone: then the graphics pipeline draws it, and sums have another order.
     TileInvocations {
-        /// `Column` on CPU drivers, else `Pixel`.
+        /// `Column` on CPU drivers, `ShortColumn` there where splats are small, else `Pixel`.
         Auto = "auto",
         /// A column of 8 pixels, all sums of which it holds. Eight of them are a tile: a CPU's vector is no longer.
         Column = "column",
+        /// A column of 4 pixels, of tiles half as high. Of them, small splats cover more; but they lie in more of them.
+        ShortColumn = "short-column",
         /// A pixel. 64 of them are a tile, and read its splats from memory that they share: a GPU's vectors are long.
         Pixel = "pixel",
     }

@@ -85,8 +85,13 @@ impl<'a> Stage<'a> {
             }
             Check::EarlyDepth => self.draw(*scene, &Settings { early_depth: true, ..settings.clone() })?,
             Check::TileInvocations => {
-                let tile_invocations = TileInvocations::Column;
-                self.draw(*scene, &Settings { tile_invocations, ..settings.clone() })?
+                let mut by =
+                    |tile_invocations| self.draw(*scene, &Settings { tile_invocations, ..settings.clone() });
+                let columns = by(TileInvocations::Column)?;
+                match agreement::different_values(&frame, &columns) {
+                    0 => by(TileInvocations::ShortColumn)?,
+                    _ => columns,
+                }
             }
             Check::Repeat => {
                 self.prepared = None;

@@ -48,7 +48,7 @@ pub(in super::super) fn depth_buffer<'a>(
     );
     read_seen(slice::from_ref(tiles), pass).finish(Box::new(move |context| {
         let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, id)], None))?;
-        draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, bytemuck::bytes_of(&constants))
+        draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, constants)
     }));
     Ok(depth)
 }

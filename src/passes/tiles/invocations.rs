@@ -11,37 +11,53 @@ const LEAST_TEXELS: u32 = 1 << 24;
 pub enum Invocations {
     /// A column of pixels; they load splats for each other.
     Columns,
+    /// The same of tiles half as high.
+    ShortColumns,
     /// A column of pixels; each loads every splat, where the device can't hand values on or has small texel buffers.
     ColumnsAlone,
     /// A pixel; they load splats for each other.
     Pixels,
 }
 
+/// The mean of splats' boxes in pixels below which tiles are half as high. Such splats cover less of a tile's pixels, all of which are
+/// computed; larger ones lie in so many tiles more that lists take what that gains.
+const SHORT_BELOW_PX: f64 = 13.0;
+
 impl Invocations {
-    /// What was asked for, as this device can do it.
-    pub fn of(wanted: TileInvocations, limits: &Limits) -> Self {
-        let pixels = match wanted {
-            TileInvocations::Auto => !limits.is_cpu,
-            TileInvocations::Column => false,
-            TileInvocations::Pixel => true,
+    /// What was asked for, as this device can do it, for splats with boxes of so many pixels in the mean.
+    pub fn of(wanted: TileInvocations, limits: &Limits, mean_box_px: f64) -> Self {
+        let hands_on = limits.shuffles && limits.max_texels >= LEAST_TEXELS;
+        let columns = |short| match (hands_on, short) {
+            (false, _) => Self::ColumnsAlone,
+            (true, false) => Self::Columns,
+            (true, true) => Self::ShortColumns,
         };
-        match (pixels, limits.shuffles && limits.max_texels >= LEAST_TEXELS) {
-            (true, _) => Self::Pixels,
-            (false, true) => Self::Columns,
-            (false, false) => Self::ColumnsAlone,
+        match wanted {
+            TileInvocations::Auto if limits.is_cpu => columns(mean_box_px < SHORT_BELOW_PX),
+            TileInvocations::Auto | TileInvocations::Pixel => Self::Pixels,
+            TileInvocations::Column => columns(false),
+            TileInvocations::ShortColumn => columns(true),
+        }
+    }
+
+    /// Pixels of a tile's column.
+    pub fn tile_height(self) -> u32 {
+        match self {
+            Self::ShortColumns => 4,
+            Self::Columns | Self::ColumnsAlone | Self::Pixels => 8,
         }
     }
 
     /// Whether records and lists are read as texel buffers, not as storage buffers. Of a storage buffer, llvmpipe reads each component
     /// for the 8 lanes of a vector by a loop over them; a texel, by 8 loads without a branch.
     pub fn fetch_texels(self) -> bool {
-        self == Self::Columns
+        matches!(self, Self::Columns | Self::ShortColumns)
     }
 
     /// Splats of one step of a shader's loops: `BATCH` of `glsl/inc/tile_batch.glsl`.
     pub fn batch(self) -> u32 {
         match self {
-            Self::Columns | Self::Pixels => 8,
+            Self::Columns | Self::ShortColumns | Self::Pixels => 8,
             Self::ColumnsAlone => 1,
         }
     }
@@ -50,6 +66,7 @@ impl Invocations {
     pub fn word(self) -> Option<&'static str> {
         match self {
             Self::Columns => None,
+            Self::ShortColumns => Some("short"),
             Self::ColumnsAlone => Some("direct"),
             Self::Pixels => Some("pixels"),
         }
@@ -58,7 +75,7 @@ impl Invocations {
     /// In words, what an invocation draws.
     pub fn draws(self) -> &'static str {
         match self {
-            Self::Columns | Self::ColumnsAlone => "a column of pixels",
+            Self::Columns | Self::ShortColumns | Self::ColumnsAlone => "a column of pixels",
             Self::Pixels => "a pixel",
         }
     }
@@ -70,18 +87,33 @@ mod tests {
 
     #[test]
     fn cpus_draw_columns_and_gpus_pixels_unless_asked_otherwise() {
-        use TileInvocations::{Auto, Column, Pixel};
+        use TileInvocations::{Auto, Column, Pixel, ShortColumn};
         let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::for_tests() };
         let cpu = Limits { is_cpu: true, ..gpu };
-        assert_eq!(Invocations::of(Auto, &cpu), Invocations::Columns);
-        assert_eq!(Invocations::of(Auto, &gpu), Invocations::Pixels);
-        assert_eq!(Invocations::of(Column, &gpu), Invocations::Columns);
+        let of = |wanted, limits| Invocations::of(wanted, limits, 20.0);
+        assert_eq!(of(Auto, &cpu), Invocations::Columns);
+        assert_eq!(of(Auto, &gpu), Invocations::Pixels);
+        assert_eq!(of(Column, &gpu), Invocations::Columns);
+        assert_eq!(of(ShortColumn, &gpu), Invocations::ShortColumns);
         let without = [Limits { shuffles: false, ..cpu }, Limits { max_texels: LEAST_TEXELS - 1, ..cpu }];
         for limits in [cpu, without[0], without[1]] {
-            assert_eq!(Invocations::of(Pixel, &limits), Invocations::Pixels);
+            assert_eq!(of(Pixel, &limits), Invocations::Pixels);
         }
         for limits in without {
-            assert_eq!(Invocations::of(Auto, &limits), Invocations::ColumnsAlone);
+            assert_eq!([of(Auto, &limits), of(ShortColumn, &limits)], [Invocations::ColumnsAlone; 2]);
         }
+    }
+
+    #[test]
+    fn tiles_are_half_as_high_for_small_splats_on_cpus_unless_asked_otherwise() {
+        use TileInvocations::{Auto, Column, ShortColumn};
+        let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::for_tests() };
+        let cpu = Limits { is_cpu: true, ..gpu };
+        let height = |wanted, limits, px| Invocations::of(wanted, limits, px).tile_height();
+        assert_eq!([height(Auto, &cpu, 5.0), height(Auto, &cpu, 50.0)], [4, 8]);
+        // Of what no box bounds.
+        assert_eq!([height(Auto, &cpu, f64::INFINITY), height(Auto, &cpu, f64::NAN)], [8, 8]);
+        assert_eq!([height(Column, &cpu, 5.0), height(ShortColumn, &cpu, 50.0)], [8, 4]);
+        assert_eq!(height(Auto, &gpu, 5.0), 8);
     }
 }

@@ -31,7 +31,7 @@ pub(super) use self::{
     layers::layers,
     layouts::TileLayouts,
     pass::rows_of,
-    plan::{TILE_PX, rows_of_image},
+    plan::{ROW_PX, rows_of_image},
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
     shaded::{Shown, can_shade, shaded},

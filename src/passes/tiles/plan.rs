@@ -6,11 +6,15 @@ use std::ops::Range;
 
 pub(in super::super) use self::rows::rows_of_image;
 
+use self::rows::tile_rows;
 use super::Invocations;
 use crate::{math::size::pixels_along, vk::Limits};
 
-/// Pixels along a side of a tile, as in `glsl/inc/tiles.glsl`.
-pub(in super::super) const TILE_PX: u32 = 8;
+/// Pixels along a row of a tile, as in `glsl/inc/tiles.glsl`.
+const TILE_WIDTH: u32 = 8;
+
+/// Pixels of the rows that bands have, each a row of tiles or two: `BAND_ROW` there.
+pub(in super::super) const ROW_PX: u32 = 8;
 
 /// Bits of a tile's column or row in a span, as in `glsl/inc/tiles.glsl`; what is left of 16 is for how many tiles a splat touches
 /// along a side. The first that has room for the image is taken.
@@ -52,11 +56,13 @@ const MOST_CHUNKS: usize = 8191;
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(in super::super) const RECORD_BYTES: u64 = 16;
 
-/// Tiles that a box of so many pixels touches at most: along a side one more for each 8 pixels beyond the first.
-fn tiles_of(box_px: f64) -> u64 {
-    let side = f64::from(TILE_PX);
-    let a_side = ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0;
-    (a_side * a_side) as u64 // of what has no bound, the largest number
+/// Tiles that a box of so many pixels touches at most: along a side one more for each tile's pixels beyond the first.
+fn tiles_of(box_px: f64, invocations: Invocations) -> u64 {
+    let along = |side: u32| {
+        let side = f64::from(side);
+        ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0
+    };
+    (along(TILE_WIDTH) * along(invocations.tile_height())) as u64 // of what has no bound, the largest number
 }
 
 /// How splats are drawn by tiles.
@@ -64,7 +70,7 @@ fn tiles_of(box_px: f64) -> u64 {
 pub struct TilePlan {
     /// Tiles along a row.
     pub tiles_x: u32,
-    /// The rows of tiles that it is for: all of the image, or a band.
+    /// The rows that it is for: all of the image, or a band.
     pub rows: Range<u32>,
     /// Tiles of these.
     pub tile_count: u32,
@@ -125,7 +131,8 @@ impl TilePlan {
         // A record, or an entry, is a texel of each buffer that it is in.
         let most_texels = if invocations.fetch_texels() { u64::from(limits.max_texels) } else { u64::MAX };
         let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
-        let [tiles_x, tiles_y] = [width, height].map(|side| side.div_ceil(TILE_PX));
+        let rows = 0..height.div_ceil(ROW_PX);
+        let (tiles_x, tiles_y) = (width.div_ceil(TILE_WIDTH), tile_rows(rows.end, invocations));
         let tile_count = tiles_x * tiles_y;
         let bins = u64::from(tile_count) + chunks as u64;
         let segments_with_room = range / 4 / bins / u64::from(WALKERS) * u64::from(WALKERS);
@@ -151,19 +158,21 @@ impl TilePlan {
         let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);
         // A splat that is left to the graphics pipeline has an entry, too.
         let entries = |most: u64| -> u64 {
-            boxes.iter().map(|(count, px)| u64::from(*count) * tiles_of(*px).min(most)).sum()
+            boxes.iter().map(|(count, px)| u64::from(*count) * tiles_of(*px, invocations).min(most)).sum()
         };
         let largest = boxes.iter().map(|(_, px)| *px).fold(0.0, f64::max);
         // As many as there is room for if all have them; or as they have, where there is room for all.
         let most_tiles =
-            if entries(most_of_all) <= room { tiles_of(largest) } else { room / records }.min(most_of_all);
+            if entries(most_of_all) <= room { tiles_of(largest, invocations) } else { room / records };
+        let most_tiles = most_tiles.min(most_of_all);
         let entry_room = entries(most_tiles);
-        let fits = largest <= f64::from((most_a_side - 1) * TILE_PX) && tiles_of(largest) <= most_tiles;
+        let longest = f64::from((most_a_side - 1) * invocations.tile_height().min(TILE_WIDTH));
+        let fits = largest <= longest && tiles_of(largest, invocations) <= most_tiles;
         let most_tiles = most_tiles as u32;
         let walk_length = invocations.batch() * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
-            rows: 0..tiles_y,
+            rows,
             tile_count,
             record_count,
             record_room: records,

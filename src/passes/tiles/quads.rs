@@ -5,6 +5,7 @@ use ash::vk;
 use super::{
     super::{
         Inputs,
+        constants::FinalizeConstants,
         pipelines::{GraphicsKey, Layout},
         variant::Constants,
     },
@@ -17,13 +18,21 @@ use crate::{
     vk::{Descriptor, GraphicsPipeline},
 };
 
-/// Which tiles have splats, for the passes that draw over them: of each band the runs, and the arguments of their draw.
-pub(in super::super) struct SeenTiles(Vec<(ResourceId, ResourceId)>);
+/// Which tiles have splats, for the passes that draw over them.
+pub(in super::super) struct SeenTiles {
+    /// Of each band the runs, and the arguments of their draw.
+    bands: Vec<(ResourceId, ResourceId)>,
+    /// Pixels of each tile's columns.
+    tile_height: u32,
+}
 
 impl SeenTiles {
     /// Those of a frame's lists.
     pub fn of(bands: &[Tiles<'_>]) -> Self {
-        Self(bands.iter().map(|tiles| (tiles.runs.id(), tiles.arguments.id())).collect())
+        Self {
+            bands: bands.iter().map(|tiles| (tiles.runs.id(), tiles.arguments.id())).collect(),
+            tile_height: bands.first().map_or(0, |tiles| tiles.plan.invocations.tile_height()),
+        }
     }
 }
 
@@ -43,19 +52,20 @@ pub(in super::super) fn quads_of_tiles(fragment: &'static Shader, constants: Con
     GraphicsKey::new(stages, Layout::TileQuads, vk::PrimitiveTopology::TRIANGLE_STRIP, constants)
 }
 
-/// Records the draws. `set`: what the fragments read; `constants`: finalization's.
+/// Records the draws. `set`: what the fragments read; `constants`: finalization's, without the tiles' height.
 pub(in super::super) fn draw_quads_of_tiles(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipeline: &GraphicsPipeline,
     seen: &SeenTiles,
     set: vk::DescriptorSet,
-    constants: &[u8],
+    constants: FinalizeConstants,
 ) -> Result<()> {
     let layout = &inputs.shaders.tiles()?.quads;
     let bind_point = vk::PipelineBindPoint::GRAPHICS;
     let (device, commands) = (context.device(), context.commands());
-    for (runs, arguments) in &seen.0 {
+    let constants = FinalizeConstants { tile_height: seen.tile_height, ..constants };
+    for (runs, arguments) in &seen.bands {
         let list = [(RUNS, Descriptor::Buffer(context.buffer(*runs)?))];
         let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
         let arguments = context.buffer(*arguments)?;
@@ -64,7 +74,13 @@ pub(in super::super) fn draw_quads_of_tiles(
         unsafe {
             device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
             device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-            device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
+            device.cmd_push_constants(
+                commands,
+                layout.raw(),
+                layout.push_stages(),
+                0,
+                bytemuck::bytes_of(&constants),
+            );
             device.cmd_draw_indirect(commands, arguments, QUAD_ARGUMENTS, 1, 16);
         }
     }

@@ -41,6 +41,7 @@ fn compute((shader, constants): (&'static Shader, Constants)) -> ComputeKey {
 fn invocations(settings: &Settings) -> Invocations {
     match settings.tile_invocations {
         TileInvocations::Auto | TileInvocations::Column => Invocations::Columns,
+        TileInvocations::ShortColumn => Invocations::ShortColumns,
         TileInvocations::Pixel => Invocations::Pixels,
     }
 }

@@ -25,7 +25,7 @@ const GROUP: u32 = 64;
 /// What the pipeline is, for one chunk, of which perhaps a list is set up.
 pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, kept: bool) -> ComputeKey {
     let mut constants = variant.clone();
-    constants.extend([(22, plan.most_tiles), place_bits(plan)]);
+    constants.extend([(22, plan.most_tiles), place_bits(plan), (25, plan.invocations.tile_height())]);
     if plan.may_be_large {
         constants.extend([(16, 1), (17, chunk)]);
     }

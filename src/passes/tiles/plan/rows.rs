@@ -4,16 +4,30 @@ use std::ops::Range;
 
 use ash::vk;
 
-use super::{MOST_ITERATIONS, TILE_PX, TilePlan};
+use super::{MOST_ITERATIONS, ROW_PX, TilePlan};
 use crate::{
     passes::{draws::Draw, seen::SeenSplats, tiles::Invocations},
     scene::{Cull, Settings},
     vk::Limits,
 };
 
-/// All rows of tiles.
+/// All rows that bands can have.
 pub(in super::super::super) fn rows_of_image(settings: &Settings) -> Range<u32> {
-    0..settings.size_px[1].div_ceil(TILE_PX)
+    0..settings.size_px[1].div_ceil(ROW_PX)
+}
+
+/// Rows of tiles in so many rows of a band.
+pub(super) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
+    rows * (ROW_PX / invocations.tile_height())
+}
+
+/// The mean of the pixels that splats' boxes have along a side at most.
+fn mean_box_px<'a>(boxes: impl Iterator<Item = &'a (u32, f64)>) -> f64 {
+    let (count, px) = boxes.fold((0.0, 0.0), |(count, px), (more, box_px)| {
+        let more = f64::from(*more);
+        (count + more, px + more * box_px)
+    });
+    px / count
 }
 
 impl TilePlan {
@@ -56,7 +70,9 @@ impl TilePlan {
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
-        let invocations = Invocations::of(settings.tile_invocations, limits);
+        // By all that is drawn, so that all bands have the same.
+        let all = || draws.iter().flat_map(|draw| &draw.boxes);
+        let invocations = Invocations::of(settings.tile_invocations, limits, mean_box_px(all()));
         let hidden = match settings.cull {
             // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
             // taken for several: 3% of a frame.)
@@ -72,8 +88,9 @@ impl TilePlan {
     }
 
     /// The same for some rows of the image alone.
-    fn within(self, rows: Range<u32>) -> Self {
-        Self { tile_count: self.tiles_x * (rows.end - rows.start), rows, ..self }
+    pub(super) fn within(self, rows: Range<u32>) -> Self {
+        let tile_count = self.tiles_x * tile_rows(rows.end - rows.start, self.invocations);
+        Self { tile_count, rows, ..self }
     }
 
     /// The same as one of several bands, which have their pipelines and images in common, and buffers of the same sizes, so that
@@ -95,9 +112,9 @@ impl TilePlan {
         }
     }
 
-    /// Its rows in pixels of an image.
+    /// Its rows as pixels of an image.
     pub(in super::super) fn area(&self, image: vk::Extent2D) -> vk::Rect2D {
-        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * TILE_PX).min(image.height));
+        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * ROW_PX).min(image.height));
         vk::Rect2D {
             offset: vk::Offset2D { x: 0, y: first as i32 },
             extent: vk::Extent2D { width: image.width, height: end - first },
@@ -106,6 +123,6 @@ impl TilePlan {
 
     /// The first tile of its rows.
     pub fn first_tile(&self) -> u32 {
-        self.rows.start * self.tiles_x
+        tile_rows(self.rows.start, self.invocations) * self.tiles_x
     }
 }

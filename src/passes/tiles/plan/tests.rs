@@ -1,3 +1,5 @@
+use ash::vk;
+
 use super::*;
 
 fn limits() -> Limits {
@@ -5,15 +7,24 @@ fn limits() -> Limits {
 }
 
 fn plan(boxes: &[(u32, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
-    TilePlan::of_boxes(1, boxes, size_px, &limits(), Invocations::Columns)
+    plan_of(boxes, size_px, Invocations::Columns)
 }
+
+fn plan_of(boxes: &[(u32, f64)], size_px: [u32; 2], invocations: Invocations) -> Option<TilePlan> {
+    TilePlan::of_boxes(1, boxes, size_px, &limits(), invocations)
+}
+
+const HEIGHTS: [Invocations; 2] = [Invocations::Columns, Invocations::ShortColumns];
 
 #[test]
 fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
     for count in [1, 7, 1000, 154_000, 1_400_000, 5_000_000, 8_388_608] {
         for px in [3.0, 11.0, 40.0, 500.0, f64::INFINITY] {
-            for size_px in [[1, 1], [1024, 1024], [4096, 4096], [16_384, 8192]] {
-                let plan = plan(&[(count, px)], size_px).unwrap();
+            let sizes = [[1, 1], [1024, 1024], [4096, 4096], [16_384, 8192]];
+            for (size_px, invocations) in
+                sizes.into_iter().flat_map(|size_px| HEIGHTS.map(|of| (size_px, of)))
+            {
+                let plan = plan_of(&[(count, px)], size_px, invocations).unwrap();
                 assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
                 assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
                 assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
@@ -48,12 +59,15 @@ fn splats_that_are_small_for_sure_leave_nothing_to_the_graphics_pipeline() {
 fn no_run_of_pixels_touches_more_tiles_than_its_box_says() {
     for pixels in 1..100_u32 {
         // A box of so many pixels: 1.5 of it are for rounding.
-        let a_side = u64::from((0..8).map(|first| (first + pixels - 1) / 8 + 1).max().unwrap());
+        let along =
+            |side: u32| u64::from((0..side).map(|first| (first + pixels - 1) / side + 1).max().unwrap());
         for box_px in [f64::from(pixels) + 1.5, f64::from(pixels) + 2.4] {
-            assert_eq!(tiles_of(box_px), a_side * a_side, "{pixels} {box_px}");
+            for (invocations, most) in HEIGHTS.into_iter().zip([along(8) * along(8), along(8) * along(4)]) {
+                assert_eq!(tiles_of(box_px, invocations), most, "{pixels} {box_px}");
+            }
         }
     }
-    assert_eq!(tiles_of(f64::INFINITY), u64::MAX);
+    assert_eq!(tiles_of(f64::INFINITY, Invocations::ShortColumns), u64::MAX);
 }
 
 #[test]
@@ -64,6 +78,12 @@ fn spans_have_bits_for_every_place_of_the_image_and_for_splats_as_large_as_that_
         let plan = |px| plan(&[(10, px)], [side_px, 100]).unwrap();
         let largest = f64::from(8 * (a_side - 1));
         assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{side_px}");
+    }
+    // Of tiles half as high, twice as many lie above each other.
+    for (height_px, a_side) in [(3840, 64), (3841, 32), (32_736, 8)] {
+        let plan = |px| plan_of(&[(10, px)], [100, height_px], Invocations::ShortColumns).unwrap();
+        let largest = f64::from(4 * (a_side - 1));
+        assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{height_px}");
     }
 }
 
@@ -90,6 +110,19 @@ fn lists_that_are_fetched_have_no_more_texels_than_the_device() {
 }
 
 #[test]
+fn rows_of_bands_are_one_row_of_tiles_or_two() {
+    for (invocations, rows_of_tiles) in [(Invocations::Columns, 3), (Invocations::ShortColumns, 6)] {
+        let whole = plan_of(&[(10, 3.0)], [100, 20], invocations).unwrap();
+        assert_eq!((whole.rows.clone(), whole.tile_count), (0..3, 13 * rows_of_tiles));
+        let band = whole.clone().within(1..3);
+        assert_eq!(band.tile_count, 13 * rows_of_tiles / 3 * 2);
+        assert_eq!(band.first_tile() + band.tile_count, whole.tile_count);
+        let image = vk::Extent2D { width: 100, height: 20 };
+        assert_eq!((band.area(image).offset.y, band.area(image).extent.height), (8, 12));
+    }
+}
+
+#[test]
 fn bands_agree_on_what_they_have_in_common() {
     let bands =
         [(9000, 3.0), (1_000_000, 3.0), (20_000, f64::INFINITY)].map(|of| plan(&[of], [1024, 1024]).unwrap());
@@ -110,10 +143,11 @@ fn bands_agree_on_what_they_have_in_common() {
         for (of, boxes) in bands.each_ref().map(|band| band.among(&bands)).iter().zip(&boxes) {
             assert!(of.round_length * of.most_tiles <= MOST_ITERATIONS && of.round_length > 0, "{of:?}");
             assert!(of.segments * of.segment_length >= of.record_count, "{of:?}");
-            let entries =
-                |(count, px): &(u32, f64)| u64::from(*count) * tiles_of(*px).min(of.most_tiles.into());
+            let entries = |(count, px): &(u32, f64)| {
+                u64::from(*count) * tiles_of(*px, of.invocations).min(of.most_tiles.into())
+            };
             assert!(boxes.iter().map(entries).sum::<u64>() <= of.entry_room, "{of:?}");
-            let all_fit = boxes.iter().all(|(_, px)| tiles_of(*px) <= of.most_tiles.into());
+            let all_fit = boxes.iter().all(|(_, px)| tiles_of(*px, of.invocations) <= of.most_tiles.into());
             assert!(all_fit || of.may_be_large, "{of:?}");
         }
     }
