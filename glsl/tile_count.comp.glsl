@@ -1,6 +1,7 @@
 // How many records of each segment fall into each bin: the invocation's own counts.
-// Permutations: _ kept
+// Permutations: _ kept | _ texels
 #version 460
+#extension GL_EXT_samplerless_texture_functions : require
 #include "inc/tiles.glsl"
 
 layout(local_size_x = WALKERS) in;

@@ -1,7 +1,16 @@
 // A walk over the records of a segment, in order: `visit(record, bin)` for each bin that a record falls into. One loop, whose
 // steps are a record or a further tile, so that invocations with large splats don't hold up the others.
 
+//
+// TEXELS: what is only read is texel buffers, as in tile_batch.glsl.
+
+#if defined(TEXELS)
+layout(set = 0, binding = 28) uniform utextureBuffer spans;
+#define SPAN(record) texelFetch(spans, int(record)).x
+#else
 layout(set = 0, binding = 4, std430) readonly buffer Spans { uint spans[]; };
+#define SPAN(record) spans[record]
+#endif
 
 // KEPT: records are those of a list, whose length only the device knows.
 #if defined(KEPT)
@@ -43,7 +52,7 @@ void walk()
         if (left == 0) {
             record = (next / BLOCK * push.segments + segment) * BLOCK + next % BLOCK;
             next++;
-            uint span = record < record_count ? spans[record] : SPAN_NONE;
+            uint span = record < record_count ? SPAN(record) : SPAN_NONE;
             if (span >= SPAN_CHUNK) {
                 if (span != SPAN_NONE) {
                     visit(record, push.tile_count + chunk_of(span));

@@ -10,8 +10,8 @@ use super::{
         cull::{Kept, list_kept},
         variant::Constants,
     },
-    ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPANS, STARTS, TilePass,
-    TilePlan, Tiles, after_dispatches_before,
+    ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPAN_TEXELS, SPANS,
+    START_TEXELS, STARTS, TilePass, TilePlan, Tiles, after_dispatches_before,
     plan::WALKERS,
     record::record,
 };
@@ -36,16 +36,26 @@ pub(super) fn place_bits(plan: &TilePlan) -> (u32, u32) {
 
 /// What counts. `kept`: records are those of a list.
 pub(super) fn count_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
-    let shader = if kept { &shaders::TILE_COUNT_KEPT_COMP } else { &shaders::TILE_COUNT_COMP };
+    let shader = match (kept, plan.invocations.fetch_texels()) {
+        (false, false) => &shaders::TILE_COUNT_COMP,
+        (false, true) => &shaders::TILE_COUNT_TEXELS_COMP,
+        (true, false) => &shaders::TILE_COUNT_KEPT_COMP,
+        (true, true) => &shaders::TILE_COUNT_KEPT_TEXELS_COMP,
+    };
     (shader, vec![place_bits(plan)])
 }
 
 /// What fills.
 pub(super) fn fill_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
-    match kept {
-        true => (&shaders::TILE_FILL_KEPT_COMP, vec![place_bits(plan), (16, u32::from(plan.may_be_large))]),
-        false => (&shaders::TILE_FILL_COMP, vec![place_bits(plan)]),
-    }
+    let shader = match (kept, plan.invocations.fetch_texels()) {
+        (false, false) => &shaders::TILE_FILL_COMP,
+        (false, true) => &shaders::TILE_FILL_TEXELS_COMP,
+        (true, false) => &shaders::TILE_FILL_KEPT_COMP,
+        (true, true) => &shaders::TILE_FILL_KEPT_TEXELS_COMP,
+    };
+    let mut constants = vec![place_bits(plan)];
+    constants.extend(kept.then_some((16, u32::from(plan.may_be_large))));
+    (shader, constants)
 }
 
 /// What walks bind of a list.
@@ -76,8 +86,8 @@ pub(in super::super) fn list<'a>(
     let mut tiles = Tiles::create(graph, kind, plan);
     record(graph, inputs, kind, &mut tiles, kept.as_ref())?;
     let (kept, kept_buffers) = (kept.as_ref(), kept_buffers(kept.as_ref()));
-    let (spans, counts, starts) =
-        ((SPANS, tiles.spans.id()), (COUNTS, tiles.counts.id()), (STARTS, tiles.starts.id()));
+    let (counts, starts) = ((COUNTS, tiles.counts.id()), (STARTS, tiles.starts.id()));
+    let read = tiles.access_of_lists();
 
     let cleared = tiles.counts.id();
     graph
@@ -90,10 +100,11 @@ pub(in super::super) fn list<'a>(
             Ok(())
         }));
 
-    let counted = [&[spans, counts], kept_buffers.as_slice()].concat();
-    let count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept.is_some()), counted)?;
+    let counted = [&[counts], kept_buffers.as_slice()].concat();
+    let mut count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept.is_some()), counted)?;
+    tiles.bind_read(&mut count, [SPANS, SPAN_TEXELS], &tiles.spans);
     read_kept(graph.pass(&format!("count {kind}tiles")), kept)
-        .read(&tiles.spans, Access::StorageReadCompute)
+        .read(&tiles.spans, read)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .finish(Box::new(move |context| walk(context, &count)));
 
@@ -122,11 +133,13 @@ pub(in super::super) fn list<'a>(
         .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| start.dispatch(context, 1)));
 
-    let filled = [&[spans, counts, starts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
-    let fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept.is_some()), filled)?;
+    let filled = [&[counts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
+    let mut fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept.is_some()), filled)?;
+    tiles.bind_read(&mut fill, [SPANS, SPAN_TEXELS], &tiles.spans);
+    tiles.bind_read(&mut fill, [STARTS, START_TEXELS], &tiles.starts);
     read_kept(graph.pass(&format!("fill {kind}tiles")), kept)
-        .read(&tiles.spans, Access::StorageReadCompute)
-        .read(&tiles.starts, Access::StorageReadCompute)
+        .read(&tiles.spans, read)
+        .read(&tiles.starts, read)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .write(&mut tiles.entries, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| walk(context, &fill)));

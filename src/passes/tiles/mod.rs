@@ -70,6 +70,8 @@ pub(super) const KEPT_LIST: u32 = 21;
 const KEPT_BLOCKS: u32 = 22;
 const RECORD_TEXELS: u32 = 23; // and the three after it
 const ENTRY_TEXELS: u32 = 27;
+const SPAN_TEXELS: u32 = 28;
+const START_TEXELS: u32 = 29;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -118,15 +120,17 @@ impl<'a> Tiles<'a> {
         let records = quarters.map(|(quarter, format)| {
             create(&format!("{quarter} quarter of records"), plan.record_room * plan::RECORD_BYTES, format)
         });
-        let entries = create("entries", plan.entry_room * 4, vk::Format::R32_UINT);
+        let mut words = |what: &str, count| create(what, count * 4, vk::Format::R32_UINT);
+        let (entries, spans) = (words("entries", plan.entry_room), words("spans", plan.record_room));
+        let starts = words("starts", bins + 3);
         let mut buffer = |what: &str, size_bytes| create(what, size_bytes, vk::Format::UNDEFINED);
         Self {
             plan,
             records,
             entries,
-            spans: buffer("spans", plan.record_room * 4),
+            spans,
+            starts,
             counts: buffer("counts", u64::from(plan.segments) * bins * 4),
-            starts: buffer("starts", (bins + 3) * 4),
             seen: buffer("seen", tiles * 4),
             runs: buffer("runs", tiles * 8),
             arguments: buffer("arguments", CHUNK_ARGUMENTS + 16 * u64::from(plan.chunk_count)),
@@ -142,15 +146,20 @@ impl<'a> Tiles<'a> {
     fn bind_lists(&self, pass: &mut TilePass<'_>, shortens: bool) {
         pass.buffers
             .extend([(STARTS, &self.starts), (SEEN, &self.seen), (OVERFULL, &self.overfull)].map(with_id));
-        let by_texels = self.plan.invocations.fetch_texels();
-        if by_texels {
-            pass.texel_buffers.extend((RECORD_TEXELS..).zip(&self.records).map(with_id));
-        } else {
-            pass.buffers.extend(self.records());
+        for (number, quarter) in (0..).zip(&self.records) {
+            self.bind_read(pass, [RECORDS + number, RECORD_TEXELS + number], quarter);
         }
-        match by_texels && !shortens {
-            true => pass.texel_buffers.push((ENTRY_TEXELS, self.entries.id())),
-            false => pass.buffers.push((ENTRIES, self.entries.id())),
+        match shortens {
+            true => pass.buffers.push((ENTRIES, self.entries.id())),
+            false => self.bind_read(pass, [ENTRIES, ENTRY_TEXELS], &self.entries),
+        }
+    }
+
+    /// Binds what a pass only reads, as words or as texels.
+    fn bind_read(&self, pass: &mut TilePass<'_>, [as_words, as_texels]: [u32; 2], buffer: &Handle<Buffer>) {
+        match self.plan.invocations.fetch_texels() {
+            true => pass.texel_buffers.push((as_texels, buffer.id())),
+            false => pass.buffers.push((as_words, buffer.id())),
         }
     }
 
@@ -175,7 +184,7 @@ impl<'a> Tiles<'a> {
         pass.read(&self.arguments, Access::IndirectRead)
     }
 
-    /// How records and entries are read.
+    /// How that is read.
     fn access_of_lists(&self) -> Access {
         if self.plan.invocations.fetch_texels() {
             Access::TexelReadCompute
@@ -196,7 +205,7 @@ pub(super) fn room(plan: &TilePlan) -> PoolRoom {
         sets,
         buffers: STORAGE_BUFFERS * sets,
         uniform_buffers: sets,
-        texel_buffers: 5 * sets,
+        texel_buffers: 7 * sets,
         images: 4 * sets,
         storage_images: 4 * sets,
         ..PoolRoom::default()
