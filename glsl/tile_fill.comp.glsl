@@ -7,13 +7,7 @@
 layout(local_size_x = WALKERS) in;
 layout(push_constant, std430) uniform Push { TileConstants push; };
 layout(set = 0, binding = 5, std430) buffer Counts { uint counts[]; };
-#if defined(TEXELS)
-layout(set = 0, binding = 29) uniform utextureBuffer starts;
-#define START(bin) texelFetch(starts, int(bin)).x
-#else
 layout(set = 0, binding = 6, std430) readonly buffer Starts { uint starts[]; };
-#define START(bin) starts[bin]
-#endif
 #if defined(KEPT)
 layout(constant_id = 16) const bool MAY_BE_LARGE = false; // some splats are left to the graphics pipeline
 layout(set = 0, binding = 21, std430) readonly buffer KeptList { uint kept_list[]; };
@@ -35,7 +29,7 @@ void visit(uint record, uint bin)
     uint place = PLACE_OF_COUNT(gl_GlobalInvocationID.x, bin);
     uint before = counts[place];
     counts[place] = before + 1;
-    entries[START(bin) + before] = entry_of(record, bin);
+    entries[starts[bin] + before] = entry_of(record, bin);
 }
 
 #include "inc/tile_walk.glsl"

@@ -94,7 +94,7 @@ void main()
 #if defined(PARTS)
     // What is found of the tile so far.
     uint column = GROUP_NUMBER * TILE_WIDTH + gl_LocalInvocationID.x;
-    uint states = (column * TILE_HEIGHT + FIRST_ROW) * STATE_VECTORS;
+    uint states = (column * TILE_HEIGHT + OWN_ROW) * STATE_VECTORS;
     bool goes_on = push.part > 0;
     [[unroll]] for (int row = 0; row < ROWS; row++) {
         uint at = states + uint(row) * STATE_VECTORS;

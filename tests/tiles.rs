@@ -11,6 +11,7 @@ use surfel::{
         Accumulate, Camera, Colors, Cull, Epsilon, FilterWeight, LastLayer, Layers, Light, LightKind, Object,
         Order, Rasterizer, Scene, Settings, Shading, TileInvocations, Transition,
     },
+    vk::Limits,
 };
 
 const PICTURE: Wanted = Wanted { picture: true, linear: true, surface: false, profile: None };
@@ -237,17 +238,43 @@ fn what_draws_columns_has_no_pipeline_of_pixels() {
 }
 
 #[test]
-fn devices_whose_invocations_hand_nothing_over_draw_the_same_bits() {
-    let mut headless = shared();
-    for hard in [scenes::sphere_of_disks(), scenes::ground()] {
-        let handed = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
-        let direct = with_limits(
-            &mut headless,
-            |limits| limits.shuffles = false,
-            |headless| picture(headless, &hard, Rasterizer::Compute, common::ALL),
-        );
-        assert_same_bits(&handed, &direct, hard.name);
+fn devices_whose_invocations_hand_nothing_over_or_that_have_few_texels_draw_the_same_bits() {
+    let without: [fn(&mut Limits); 2] =
+        [|limits| limits.shuffles = false, |limits| limits.max_texels = 1 << 16];
+    for without in without {
+        let mut headless = common::headless();
+        for hard in [scenes::sphere_of_disks(), scenes::ground()] {
+            let handed = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+            let direct = with_limits(&mut headless, without, |headless| {
+                picture(headless, &hard, Rasterizer::Compute, common::ALL)
+            });
+            assert_same_bits(&handed, &direct, hard.name);
+        }
+        let names = headless.renderer.shaders.pipeline_names();
+        assert!(names.iter().any(|name| name.contains("direct")), "{names:?}");
+        assert_validation_is_silent(&headless);
     }
+}
+
+/// Counts of twice as many tiles take twice the room.
+#[test]
+fn images_without_room_for_tiles_half_as_high_have_full_ones() {
+    let mut headless = common::headless();
+    let camera = scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
+    let hard = by(&hard(vec![sphere(1000, DVec3::ZERO)], camera, [512, 512]), TileInvocations::ShortColumn);
+    let is_short = |headless: &Headless| {
+        headless.renderer.shaders.pipeline_names().iter().any(|name| name.contains("short"))
+    };
+    let full = with_limits(
+        &mut headless,
+        |limits| limits.max_storage_buffer_range = 200_000,
+        |headless| picture(headless, &hard, Rasterizer::Compute, common::ALL),
+    );
+    assert!(!is_short(&headless) && passes(&full).contains(&"see and sum tiles"), "{:?}", passes(&full));
+    let short = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
+    assert!(is_short(&headless));
+    assert_same_bits(&full, &short, hard.name);
+    assert_validation_is_silent(&headless);
 }
 
 /// Lists are in input order, whichever core walks over a segment first.

@@ -5,7 +5,7 @@ struct Column {
     float w0;
     vec3 at_center_row;
     vec3 along_y;
-    float dy; // of the first row, from the splat's center
+    float dy; // of the row from which rows are counted, from the splat's center
 };
 
 Column column_of(Splat splat, vec2 at_px)
@@ -21,7 +21,7 @@ Column column_of(Splat splat, vec2 at_px)
     return column;
 }
 
-// From the column's first row, whichever is the invocation's own, so that pixels have the same bits in either way.
+// From the row of which all others are counted, whichever is the invocation's own, so that pixels have the same bits in either way.
 vec3 uvw_of(Column column, int row)
 {
     return column.at_center_row + column.along_y * (column.dy + float(FIRST_ROW + row));

@@ -65,6 +65,7 @@ Range unhidden(Range range, vec2 at_px, float visible[ROWS])
         uint entry = base + OWN_ENTRY;
         Splat splat = load_splat(base, range.end);
         vec2 corner = vec2(greaterThan(splat.w, vec2(0.0))) * vec2(TILE_WIDTH - 1, TILE_HEIGHT - 1);
+        corner.y += float(rows_above);
         float dx = first_px.x + corner.x - splat.x0_px.x;
         float dy = first_px.y - splat.x0_px.y + corner.y;
         float along_x = 1.0 + splat.w.x * dx;

@@ -16,11 +16,19 @@ layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one
 #endif
 #if defined(PIXELS)
 #define ROWS 1
-#define FIRST_ROW int(gl_LocalInvocationID.y)
+#define OWN_ROW int(gl_LocalInvocationID.y)
 #else
 #define ROWS TILE_HEIGHT
-#define FIRST_ROW 0
+#define OWN_ROW 0
 #endif
+
+// Rows are counted from one of the image's that is a multiple of 8, so that pixels have the same bits in tiles of either height.
+#if defined(SHORT)
+int rows_above; // between that and the tile's first; known once top_pixel was asked
+#else
+const int rows_above = 0;
+#endif
+#define FIRST_ROW (rows_above + OWN_ROW)
 layout(local_size_x = TILE_WIDTH, local_size_y = TILE_HEIGHT / ROWS) in;
 
 struct Range {
@@ -51,12 +59,15 @@ bool find_work(out Work work)
     return true;
 }
 
-// The uppermost pixel of the column.
+// The pixel from which the column's rows are counted.
 ivec2 top_pixel(uint tile)
 {
     uint of_image = push.first_tile + tile;
-    ivec2 place = ivec2(of_image % push.tiles_x, of_image / push.tiles_x);
-    return ivec2(TILE_WIDTH, TILE_HEIGHT) * place + ivec2(gl_LocalInvocationID.x, 0);
+    ivec2 top = ivec2(TILE_WIDTH, TILE_HEIGHT) * ivec2(of_image % push.tiles_x, of_image / push.tiles_x);
+#if defined(SHORT)
+    rows_above = top.y % 8;
+#endif
+    return top + ivec2(gl_LocalInvocationID.x, -rows_above);
 }
 
 // The pixel of one of the invocation's rows.

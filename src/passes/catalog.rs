@@ -114,7 +114,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         if by_tiles && !traits.polygons && !traits.may_be_large {
             let mut open = splat_constants(settings, traits.ellipses, false);
             open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
-            let (_, set_up) = tiles::list_recipes(&open, false, false).swap_remove(0);
+            let (_, set_up) = tiles::list_recipes(settings, &open, false, false).swap_remove(0);
             all.push(compute("set up transparent splats", set_up));
             let (pass, key) = tiles::layers_recipe(settings, traits.lights())?;
             all.push(compute(pass, key));
@@ -208,8 +208,10 @@ fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> 
     let mut all = Vec::new();
     let culled = if settings.cull == Cull::Setup { Vec::new() } else { cull::recipes(variant) };
     let set_up = culled.len();
-    let passes =
-        [tiles::list_recipes(variant, may_be_large, set_up > 0), tiles::opaque_recipes(settings, of_tiles)?];
+    let passes = [
+        tiles::list_recipes(settings, variant, may_be_large, set_up > 0),
+        tiles::opaque_recipes(settings, of_tiles)?,
+    ];
     all.extend(culled.into_iter().chain(passes.into_iter().flatten()).map(|(pass, key)| compute(pass, key)));
     // The same shaders do all splats, or leave the large ones out.
     for recipe in all.iter_mut().filter(|recipe| ["set up splats", "fill tiles"].contains(&recipe.pass)) {

@@ -86,8 +86,8 @@ pub struct StyleArguments {
     pub rasterizer: Rasterizer,
 
     /// What an invocation draws of a tile of 8x8 pixels where splats are drawn by tiles (--rasterizer compute): a column of
-    /// it, as suits the short vectors of CPUs; a pixel, for the long ones of GPUs; auto is the one for the device. The
-    /// picture is the same, and the reference's too
+    /// it, as suits the short vectors of CPUs; a short column, of tiles of 8x4, for small splats; a pixel, for the long
+    /// vectors of GPUs; auto is the one for the device and the splats. The picture is the same, and the reference's too
     #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(TileInvocations::NAMES))]
     pub tile_invocations: TileInvocations,
 

@@ -10,8 +10,8 @@ use super::{
         cull::{Kept, list_kept},
         variant::Constants,
     },
-    ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPAN_TEXELS, SPANS,
-    START_TEXELS, STARTS, TilePass, TilePlan, Tiles, after_dispatches_before,
+    ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPAN_TEXELS, SPANS, STARTS,
+    TilePass, TilePlan, Tiles, after_dispatches_before,
     plan::WALKERS,
     record::record,
 };
@@ -133,13 +133,12 @@ pub(in super::super) fn list<'a>(
         .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| start.dispatch(context, 1)));
 
-    let filled = [&[counts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
+    let filled = [&[counts, starts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
     let mut fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept.is_some()), filled)?;
     tiles.bind_read(&mut fill, [SPANS, SPAN_TEXELS], &tiles.spans);
-    tiles.bind_read(&mut fill, [STARTS, START_TEXELS], &tiles.starts);
     read_kept(graph.pass(&format!("fill {kind}tiles")), kept)
         .read(&tiles.spans, read)
-        .read(&tiles.starts, read)
+        .read(&tiles.starts, Access::StorageReadCompute)
         .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .write(&mut tiles.entries, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| walk(context, &fill)));

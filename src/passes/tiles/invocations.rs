@@ -19,13 +19,26 @@ pub enum Invocations {
     Pixels,
 }
 
-/// The mean of splats' boxes in pixels below which tiles are half as high. Such splats cover less of a tile's pixels, all of which are
-/// computed; larger ones lie in so many tiles more that lists take what that gains.
-const SHORT_BELOW_PX: f64 = 13.0;
+/// Pixels below which the mean of splats' boxes is where tiles are half as high, and up to which all of them are. Such splats cover
+/// less of a tile's pixels, all of which are computed; larger ones lie in so many tiles more that lists take what that gains, and their
+/// memory.
+const SMALL_BELOW_PX: f64 = 13.0;
+const LARGEST_SMALL_PX: f64 = 32.0;
+
+/// Whether splats with such boxes, how many with how many pixels along a side at most, are small for a tile.
+pub(super) fn are_small<'a>(boxes: impl Iterator<Item = &'a (u32, f64)>) -> bool {
+    let (mut count, mut sum_px, mut largest_px) = (0.0, 0.0, 0.0_f64);
+    for (more, px) in boxes {
+        count += f64::from(*more);
+        sum_px += f64::from(*more) * px;
+        largest_px = largest_px.max(*px);
+    }
+    sum_px < SMALL_BELOW_PX * count && largest_px <= LARGEST_SMALL_PX
+}
 
 impl Invocations {
-    /// What was asked for, as this device can do it, for splats with boxes of so many pixels in the mean.
-    pub fn of(wanted: TileInvocations, limits: &Limits, mean_box_px: f64) -> Self {
+    /// What was asked for, as this device can do it; `small`: the splats are.
+    pub fn of(wanted: TileInvocations, limits: &Limits, small: bool) -> Self {
         let hands_on = limits.shuffles && limits.max_texels >= LEAST_TEXELS;
         let columns = |short| match (hands_on, short) {
             (false, _) => Self::ColumnsAlone,
@@ -33,11 +46,16 @@ impl Invocations {
             (true, true) => Self::ShortColumns,
         };
         match wanted {
-            TileInvocations::Auto if limits.is_cpu => columns(mean_box_px < SHORT_BELOW_PX),
+            TileInvocations::Auto if limits.is_cpu => columns(small),
             TileInvocations::Auto | TileInvocations::Pixel => Self::Pixels,
             TileInvocations::Column => columns(false),
             TileInvocations::ShortColumn => columns(true),
         }
+    }
+
+    /// The same of tiles that are not half as high.
+    pub fn of_full_height(self) -> Self {
+        if self == Self::ShortColumns { Self::Columns } else { self }
     }
 
     /// Pixels of a tile's column.
@@ -90,7 +108,7 @@ mod tests {
         use TileInvocations::{Auto, Column, Pixel, ShortColumn};
         let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::for_tests() };
         let cpu = Limits { is_cpu: true, ..gpu };
-        let of = |wanted, limits| Invocations::of(wanted, limits, 20.0);
+        let of = |wanted, limits: &Limits| Invocations::of(wanted, limits, false);
         assert_eq!(of(Auto, &cpu), Invocations::Columns);
         assert_eq!(of(Auto, &gpu), Invocations::Pixels);
         assert_eq!(of(Column, &gpu), Invocations::Columns);
@@ -109,11 +127,20 @@ mod tests {
         use TileInvocations::{Auto, Column, ShortColumn};
         let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::for_tests() };
         let cpu = Limits { is_cpu: true, ..gpu };
-        let height = |wanted, limits, px| Invocations::of(wanted, limits, px).tile_height();
-        assert_eq!([height(Auto, &cpu, 5.0), height(Auto, &cpu, 50.0)], [4, 8]);
-        // Of what no box bounds.
-        assert_eq!([height(Auto, &cpu, f64::INFINITY), height(Auto, &cpu, f64::NAN)], [8, 8]);
-        assert_eq!([height(Column, &cpu, 5.0), height(ShortColumn, &cpu, 50.0)], [8, 4]);
-        assert_eq!(height(Auto, &gpu, 5.0), 8);
+        let height = |wanted, limits: &Limits, small| Invocations::of(wanted, limits, small).tile_height();
+        assert_eq!([height(Auto, &cpu, true), height(Auto, &cpu, false)], [4, 8]);
+        assert_eq!([height(Column, &cpu, true), height(ShortColumn, &cpu, false)], [8, 4]);
+        assert_eq!(height(Auto, &gpu, true), 8);
+    }
+
+    #[test]
+    fn splats_are_small_where_most_are_and_none_is_large() {
+        assert!(are_small([(1000, 11.0), (10, 32.0)].iter()));
+        assert!(!are_small([(1000, 14.0)].iter()) && !are_small([(1000, 5.0), (1, 33.0)].iter()));
+        // Such as no box bounds, and none at all.
+        assert!(
+            !are_small([(1000, 5.0), (1, f64::INFINITY)].iter()) && !are_small([(1000, f64::NAN)].iter())
+        );
+        assert!(!are_small([].iter()));
     }
 }

@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::{
     super::constants::{FinalizeConstants, FrameConstants, TileConstants},
-    START_TEXELS,
+    SPAN_TEXELS,
 };
 use crate::{
     error::Result,
@@ -33,8 +33,8 @@ impl TileLayouts {
         in_tiles.extend([sums, sums, sums, fetched, fetched, lights, sums, words]);
         in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
         in_tiles.extend([words, words, words]);
-        in_tiles.extend([of(vk::DescriptorType::UNIFORM_TEXEL_BUFFER, compute); 7]);
-        debug_assert_eq!(in_tiles.len() - 1, START_TEXELS as usize);
+        in_tiles.extend([of(vk::DescriptorType::UNIFORM_TEXEL_BUFFER, compute); 6]);
+        debug_assert_eq!(in_tiles.len() - 1, SPAN_TEXELS as usize);
         let set = SetLayout::new(device, "tiles", &in_tiles)?;
         let record = PipelineLayout::new(
             device,

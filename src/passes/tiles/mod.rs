@@ -71,7 +71,6 @@ const KEPT_BLOCKS: u32 = 22;
 const RECORD_TEXELS: u32 = 23; // and the three after it
 const ENTRY_TEXELS: u32 = 27;
 const SPAN_TEXELS: u32 = 28;
-const START_TEXELS: u32 = 29;
 
 // Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
 const SEEN_ARGUMENTS: u64 = 0;
@@ -122,15 +121,14 @@ impl<'a> Tiles<'a> {
         });
         let mut words = |what: &str, count| create(what, count * 4, vk::Format::R32_UINT);
         let (entries, spans) = (words("entries", plan.entry_room), words("spans", plan.record_room));
-        let starts = words("starts", bins + 3);
         let mut buffer = |what: &str, size_bytes| create(what, size_bytes, vk::Format::UNDEFINED);
         Self {
             plan,
             records,
             entries,
             spans,
-            starts,
             counts: buffer("counts", u64::from(plan.segments) * bins * 4),
+            starts: buffer("starts", (bins + 3) * 4),
             seen: buffer("seen", tiles * 4),
             runs: buffer("runs", tiles * 8),
             arguments: buffer("arguments", CHUNK_ARGUMENTS + 16 * u64::from(plan.chunk_count)),
@@ -205,7 +203,7 @@ pub(super) fn room(plan: &TilePlan) -> PoolRoom {
         sets,
         buffers: STORAGE_BUFFERS * sets,
         uniform_buffers: sets,
-        texel_buffers: 7 * sets,
+        texel_buffers: 6 * sets,
         images: 4 * sets,
         storage_images: 4 * sets,
         ..PoolRoom::default()

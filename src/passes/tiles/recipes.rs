@@ -48,11 +48,12 @@ fn invocations(settings: &Settings) -> Invocations {
 
 /// The passes that set splats up and list them, each with its pipeline.
 pub(in super::super) fn list_recipes(
+    settings: &Settings,
     variant: &Constants,
     may_be_large: bool,
     kept: bool,
 ) -> Vec<(&'static str, ComputeKey)> {
-    let plan = TilePlan::for_recipes(may_be_large);
+    let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(may_be_large) };
     vec![
         ("set up splats", record::key(variant, &plan, 0, kept)),
         ("count tiles", compute(count_shader(&plan, kept))),

@@ -6,7 +6,11 @@ use ash::vk;
 
 use super::{MOST_ITERATIONS, ROW_PX, TilePlan};
 use crate::{
-    passes::{draws::Draw, seen::SeenSplats, tiles::Invocations},
+    passes::{
+        draws::Draw,
+        seen::SeenSplats,
+        tiles::{Invocations, invocations::are_small},
+    },
     scene::{Cull, Settings},
     vk::Limits,
 };
@@ -19,15 +23,6 @@ pub(in super::super::super) fn rows_of_image(settings: &Settings) -> Range<u32> 
 /// Rows of tiles in so many rows of a band.
 pub(super) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
     rows * (ROW_PX / invocations.tile_height())
-}
-
-/// The mean of the pixels that splats' boxes have along a side at most.
-fn mean_box_px<'a>(boxes: impl Iterator<Item = &'a (u32, f64)>) -> f64 {
-    let (count, px) = boxes.fold((0.0, 0.0), |(count, px), (more, box_px)| {
-        let more = f64::from(*more);
-        (count + more, px + more * box_px)
-    });
-    px / count
 }
 
 impl TilePlan {
@@ -72,7 +67,7 @@ impl TilePlan {
     ) -> Option<Self> {
         // By all that is drawn, so that all bands have the same.
         let all = || draws.iter().flat_map(|draw| &draw.boxes);
-        let invocations = Invocations::of(settings.tile_invocations, limits, mean_box_px(all()));
+        let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
         let hidden = match settings.cull {
             // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
             // taken for several: 3% of a frame.)
@@ -83,7 +78,9 @@ impl TilePlan {
         let hidden = hidden
             && invocations != Invocations::ColumnsAlone
             && !draws.iter().any(|draw| draw.chunk.transparent);
-        let plan = Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations)?.within(rows);
+        let of = |invocations| Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations);
+        // Twice as many tiles of a huge image may have no room; in no band then.
+        let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
         Some(if hidden { plan.without_hidden() } else { plan })
     }
 

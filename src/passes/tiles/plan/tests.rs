@@ -20,10 +20,10 @@ const HEIGHTS: [Invocations; 2] = [Invocations::Columns, Invocations::ShortColum
 fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
     for count in [1, 7, 1000, 154_000, 1_400_000, 5_000_000, 8_388_608] {
         for px in [3.0, 11.0, 40.0, 500.0, f64::INFINITY] {
-            let sizes = [[1, 1], [1024, 1024], [4096, 4096], [16_384, 8192]];
-            for (size_px, invocations) in
-                sizes.into_iter().flat_map(|size_px| HEIGHTS.map(|of| (size_px, of)))
-            {
+            let sizes = [[1, 1], [1024, 1024], [4096, 4096], [8192, 8192]];
+            let of_both = sizes.map(|size_px| HEIGHTS.map(|of| (size_px, of)));
+            let largest = ([16_384, 8192], Invocations::Columns);
+            for (size_px, invocations) in of_both.into_iter().flatten().chain([largest]) {
                 let plan = plan_of(&[(count, px)], size_px, invocations).unwrap();
                 assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
                 assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
@@ -92,6 +92,8 @@ fn what_has_no_room_has_no_plan() {
     assert_eq!(plan(&[], [64, 64]), None);
     assert_eq!(plan(&[(8_388_609, 3.0)], [64, 64]), None);
     assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
+    // Counts of twice as many tiles.
+    assert_eq!(plan_of(&[(10, 3.0)], [16_384, 8192], Invocations::ShortColumns), None);
     assert_eq!(TilePlan::of_boxes(8192, &[(8192, 3.0)], [64, 64], &limits(), Invocations::Columns), None);
 }
 
