@@ -273,7 +273,8 @@ fn images_without_room_for_tiles_half_as_high_have_full_ones() {
     assert!(!is_short(&headless) && passes(&full).contains(&"see and sum tiles"), "{:?}", passes(&full));
     let short = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
     assert!(is_short(&headless));
-    assert_same_bits(&full, &short, hard.name);
+    // There is room for fewer segments then, so that lists have another order.
+    assert_eq!(different(&full, &short), 0);
     assert_validation_is_silent(&headless);
 }
 
