@@ -21,7 +21,7 @@ Column column_of(Splat splat, vec2 at_px)
     return column;
 }
 
-// From the row of which all others are counted, whichever is the invocation's own, so that pixels have the same bits in either way.
+// From the row from which all others are counted, whichever is the invocation's own, so that pixels have the same bits in every way.
 vec3 uvw_of(Column column, int row)
 {
     return column.at_center_row + column.along_y * (column.dy + float(FIRST_ROW + row));

@@ -1,10 +1,11 @@
 // Splats by tiles of the image, in compute: what the passes share. The host's mirror is `TileConstants` in
 // src/passes/constants.rs; the build compares the offsets.
 //
-// A tile is TILE_WIDTH pixels wide and as many high; or half as many, where splats are small (TILE_HEIGHT). Each splat is set up once, to a record (tile_batch.glsl) and a *span*, the tiles that its box
-// touches. Records are dealt out to segments, BLOCK at a time, so that all segments have as much to do wherever in space the
-// records are; one invocation walks over one segment, in order (tile_walk.glsl), first to count what falls into each bin, then
-// to list it. So lists need no atomics and are the same in every run: by segment, and in each in the order of the records.
+// A tile is TILE_WIDTH pixels wide and as many high; or half as many, where splats are small (TILE_HEIGHT). Each splat is set up
+// once, to a record (tile_batch.glsl) and a *span*, the tiles that its box touches. Records are dealt out to segments, BLOCK at a
+// time, so that all segments have as much to do wherever in space the records are; one invocation walks over one segment, in order
+// (tile_walk.glsl), first to count what falls into each bin, then to list it. So lists need no atomics and are the same in every
+// run: by segment, and in each in the order of the records.
 //
 // Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular).
 

@@ -67,7 +67,7 @@ pub struct PaperConstants {
     pub epsilon_radii: f32,
 }
 
-/// What finalization is told; see `glsl/inc/image_plane.glsl`.
+/// What finalization is told; see `glsl/inc/finalize.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct FinalizeConstants {

@@ -105,7 +105,7 @@ pub(super) fn constants(inputs: Inputs<'_>) -> FinalizeConstants {
         }),
         half_size_px: [0.5 * width as f32, 0.5 * height as f32],
         focal_px: inputs.camera.focal_px(height) as f32,
-        tile_height: 0,
+        tile_height: 0, // quads of tiles bring their own
     }
 }
 

@@ -92,9 +92,9 @@ named! {
 }
 
 named! {
-    /// What an invocation draws of a tile of 8×8 pixels, or 8×4 ([`Rasterizer::Compute`]). The picture is the same, bit by bit unless sums
-    /// have another order: where a splat is too large for tiles of one height alone, so that the graphics pipeline draws it, in images above 4096×4096
-    /// pixels, and in bands that differ (`--tile-memory`).
+    /// What an invocation draws of a tile of 8×8 pixels, or 8×4 ([`Rasterizer::Compute`]). The picture is the same; bit by bit
+    /// unless sums have another order: where a splat is too large for tiles of one height alone, so that the graphics pipeline
+    /// draws it, in images above 4096×4096 pixels, and in bands that differ (`--tile-memory`).
     TileInvocations {
         /// `Column` on CPU drivers, `ShortColumn` there where splats are small, else `Pixel`.
         Auto = "auto",
