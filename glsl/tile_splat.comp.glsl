@@ -3,10 +3,11 @@
 // work. One workgroup a tile, of 8 invocations, each a column of its pixels.
 //
 // FUSED: both, of one tile after the other. VISIBLE, SUMMED: one of them, where the graphics pipeline draws in between; or of a
-// part of a tile with more splats than one dispatch takes: then depths and sums go on from what the image holds.
+// part of a tile with more splats than one dispatch takes: then depths and sums go on from what the image holds, which may be an image
+// of such tiles alone (IN_SLOTS).
 // SHADED: both, and then what a pixel shows instead of its sums (finalize.frag.glsl), which never leave the registers; where nobody
-// else reads them, and no tile has more splats than one dispatch takes. With BESIDE, polygons were drawn and shaded as if there were
-// no splats. LIT: the scene has lights of its own.
+// else reads them. Tiles with more splats than one dispatch takes are left to tile_shade.comp.glsl. With BESIDE, polygons were drawn
+// and shaded as if there were no splats. LIT: the scene has lights of its own.
 // HALF, SINGLE: the precision of what is left in images. In registers it is f32.
 // UPON: the graphics pipeline has drawn visible splats before. WITH_DEPTH, BESIDE: as in accumulate.frag.glsl.
 // HIDDEN: what the tile's visible depth hides is not summed (inc/tile_hidden.glsl).
@@ -85,6 +86,17 @@ layout(set = 0, binding = 15) uniform texture2D polygon_depth; // summed: of spl
 #endif
 
 layout(constant_id = 23) const bool KEEPS_DEPTH = true; // someone reads it
+#if defined(VISIBLE) || defined(SUMMED)
+layout(constant_id = 26) const bool IN_SLOTS = false; // images hold overfull tiles alone; others are done elsewhere
+#else
+const bool IN_SLOTS = false;
+#endif
+
+// Where images have what a pixel of the tile has.
+ivec2 stored_at(ivec2 top, int row)
+{
+    return IN_SLOTS ? pixel_in_slot(row) : pixel_of(top, row);
+}
 
 #if !defined(SUMMED)
 void see(Range range, vec2 at_px, inout float visible[ROWS])
@@ -175,15 +187,14 @@ void main()
 
     float visible[ROWS];
     [[unroll]] for (int row = 0; row < ROWS; row++) {
-        ivec2 pixel = pixel_of(top, row);
         visible[row] = 0.0;
 #if defined(UPON)
-        visible[row] = texelFetch(depth_before, within_image(pixel), 0).r;
+        visible[row] = texelFetch(depth_before, within_image(pixel_of(top, row)), 0).r;
 #endif
 #if defined(SUMMED)
-        visible[row] = imageLoad(visible_depth, pixel).r;
+        visible[row] = imageLoad(visible_depth, stored_at(top, row)).r;
 #elif defined(VISIBLE)
-        visible[row] = goes_on ? imageLoad(visible_depth, pixel).r : visible[row];
+        visible[row] = goes_on ? imageLoad(visible_depth, stored_at(top, row)).r : visible[row];
 #endif
     }
 #if !defined(SUMMED)
@@ -191,7 +202,7 @@ void main()
 #if !defined(SHADED)
     if (KEEPS_DEPTH) {
         [[unroll]] for (int row = 0; row < ROWS; row++) {
-            imageStore(visible_depth, pixel_of(top, row), vec4(visible[row]));
+            imageStore(visible_depth, stored_at(top, row), vec4(visible[row]));
         }
     }
 #endif
@@ -201,16 +212,15 @@ void main()
     vec4 normals[ROWS];
     float polygon[ROWS];
     [[unroll]] for (int row = 0; row < ROWS; row++) {
-        ivec2 pixel = pixel_of(top, row);
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
 #if defined(SUMMED)
-        colors[row] = goes_on ? imageLoad(color_sums, pixel) : vec4(0.0);
-        normals[row] = goes_on ? imageLoad(normal_sums, pixel) : vec4(0.0);
+        colors[row] = goes_on ? imageLoad(color_sums, stored_at(top, row)) : vec4(0.0);
+        normals[row] = goes_on ? imageLoad(normal_sums, stored_at(top, row)) : vec4(0.0);
 #endif
         polygon[row] = 0.0;
 #if defined(BESIDE)
-        polygon[row] = texelFetch(polygon_depth, within_image(pixel), 0).r;
+        polygon[row] = texelFetch(polygon_depth, within_image(pixel_of(top, row)), 0).r;
 #if defined(SHADED)
         polygon[row] = max(polygon[row], visible[row]);
 #endif
@@ -249,8 +259,8 @@ void main()
         colors[row] *= factor;
         normals[row] *= factor;
 #endif
-        imageStore(color_sums, pixel_of(top, row), colors[row]);
-        imageStore(normal_sums, pixel_of(top, row), normals[row]);
+        imageStore(color_sums, stored_at(top, row), colors[row]);
+        imageStore(normal_sums, stored_at(top, row), normals[row]);
     }
 #endif
 #endif

@@ -168,15 +168,26 @@ fn bands_with_and_without_overfull_tiles_are_one_image() {
         &mut headless,
         |limits| limits.shuffles = false,
         |headless| {
+            // Shaded by tiles.
+            let picture = |headless: &mut Headless, memory| {
+                let picture = draw_as(headless, &hard, memory, Wanted { surface: false, ..ALL });
+                let shades = |name: &str| name.starts_with("shade ") && name.ends_with("overfull tiles");
+                let count = picture.plan.passes.iter().filter(|pass| shades(&pass.name)).count();
+                assert!([0, bands(&picture).max(1)].contains(&count), "{count}");
+                picture
+            };
             let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
+            let shown = picture(headless, TileMemory::Most(u64::MAX));
             let mut overfull_in_some = 0;
             for megabytes in [2.5, 3.0, 3.5, 4.0, 4.5] {
-                let cut = draw(headless, &hard, TileMemory::Most((megabytes * 1e6) as u64));
+                let memory = TileMemory::Most((megabytes * 1e6) as u64);
+                let cut = draw(headless, &hard, memory);
                 let overfull = cut.plan.passes.iter().filter(|pass| pass.name.contains("overfull")).count();
                 println!("{megabytes} MB: {} bands, {overfull} passes of overfull tiles", bands(&cut));
                 // Where no band has them sums have 16 bits, other than those of the whole image.
                 if overfull > 0 && bands(&cut) > 1 {
                     assert_same_surface(&cut, &whole, hard.name);
+                    assert_same_surface(&picture(headless, memory), &shown, hard.name);
                     overfull_in_some += 1;
                 }
             }

@@ -193,6 +193,45 @@ fn tiles_that_are_shaded_at_once_are_the_same_picture_as_by_their_sums() {
     assert_validation_is_silent(&headless);
 }
 
+/// Tiles with more splats than one dispatch takes are shaded after the others: here a ball in the middle of one, beside a tile
+/// with few, and another ball where four tiles meet.
+#[test]
+fn overfull_tiles_are_shaded_as_by_their_sums() {
+    let mut headless = shared();
+    let camera = scenes::builder::camera([0.0, 0.0, 900.0], [0.0; 3]);
+    // A pixel of 24 along a side is 31 units wide there.
+    let colored = |count, x, y, color| {
+        let mut ball = sphere(count, DVec3::new(31.0 * x, 31.0 * y, 0.0));
+        ball.splats.colors = Colors::Uniform(color);
+        ball
+    };
+    let balls = |count| {
+        let alone = colored(count, -8.0, 8.0, [0.8, 0.1, 0.1, 1.0]);
+        let few = colored(1000, 8.0, -8.0, [0.1, 0.8, 0.1, 1.0]);
+        vec![alone, few, colored(count, 4.0, 4.0, [0.1, 0.1, 0.8, 1.0])]
+    };
+    let lights = [Light { kind: LightKind::Eye, color: [0.5, 0.3, 0.4] }];
+    let check = |headless: &mut Headless, count, tile_invocations, lights: &[Light]| {
+        let mut hard = by(&hard(balls(count), camera, [24, 24]), tile_invocations);
+        hard.scene.lights = lights.to_vec();
+        assert!(is_shaded_as_by_sums(headless, &hard), "{tile_invocations:?}");
+        let frame = picture(headless, &hard, Rasterizer::Compute, PICTURE);
+        assert!(passes(&frame).contains(&"shade overfull tiles"), "{tile_invocations:?}");
+        let points = picture(headless, &hard, Rasterizer::Perspective, PICTURE);
+        assert_eq!(different(&frame, &points), 0, "{tile_invocations:?}");
+        let shown = frame.linear.iter().filter(|color| color[3] > 0.0).count();
+        assert!(shown >= 3, "{shown}");
+    };
+    check(&mut headless, 260_000, TileInvocations::ShortColumn, &[]);
+    check(&mut headless, 260_000, TileInvocations::Pixel, &lights);
+    let directly = |headless: &mut Headless| {
+        check(headless, 70_000, TileInvocations::Column, &[]);
+        check(headless, 70_000, TileInvocations::Column, &lights);
+    };
+    with_limits(&mut headless, |limits| limits.shuffles = false, directly);
+    assert_validation_is_silent(&headless);
+}
+
 /// What tiles show is rounded to 16 bits where the target has fewer, and light ends with half floats: neither is seen there. A target
 /// of 32 bits loses nothing.
 #[test]

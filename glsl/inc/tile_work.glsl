@@ -76,6 +76,13 @@ ivec2 pixel_of(ivec2 top, int row)
     return top + ivec2(0, FIRST_ROW + row);
 }
 
+// The same in images that hold overfull tiles alone, in their order.
+ivec2 pixel_in_slot(int row)
+{
+    ivec2 slot = ivec2(GROUP_NUMBER % SLOTS_IN_ROW, GROUP_NUMBER / SLOTS_IN_ROW);
+    return ivec2(TILE_WIDTH, TILE_HEIGHT) * slot + ivec2(gl_LocalInvocationID.x, OWN_ROW + row);
+}
+
 // From the middle of the image to the pixel's.
 vec2 from_middle_px(ivec2 pixel)
 {

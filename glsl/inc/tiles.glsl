@@ -18,6 +18,9 @@
 
 #define BLOCK 32
 
+// Tiles in a row of an image that holds overfull ones alone.
+#define SLOTS_IN_ROW 256
+
 // Words behind the starts of bins: how many entries there are in all, how many tiles have some, how many are overfull.
 #define STARTS_SEEN (push.bin_count + 1)
 #define STARTS_OVERFULL (push.bin_count + 2)

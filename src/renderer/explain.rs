@@ -209,7 +209,9 @@ fn reason(pass: &str) -> &'static str {
         "see and sum tiles" => "opaque splats: visibility and sums of one tile after the other",
         "see tiles" => "opaque splats beside polygons: the depth of the nearest surface of each tile",
         "sum tiles" => "opaque splats beside polygons: sums of the nearest surface of each tile",
-        "see overfull tiles" | "sum overfull tiles" => "a tile may have more splats than one dispatch takes",
+        "see overfull tiles" | "sum overfull tiles" | "shade overfull tiles" => {
+            "a tile may have more splats than one dispatch takes"
+        }
         "see large splats" | "sum large splats" => {
             "a splat may be too large for tiles, or come near the eye plane"
         }

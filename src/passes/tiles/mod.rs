@@ -17,6 +17,7 @@ mod plan;
 mod quads;
 mod recipes;
 mod record;
+mod shade;
 mod shaded;
 mod splat;
 

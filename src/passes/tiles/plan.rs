@@ -204,6 +204,11 @@ impl TilePlan {
         self.tile_count + self.chunk_count
     }
 
+    /// A tile's pixels along both sides.
+    pub(super) fn tile_px(&self) -> [u32; 2] {
+        [TILE_WIDTH, self.invocations.tile_height()]
+    }
+
     /// A plan of no scene, for pipelines alone: a thousand splats on a device that has what tiles like.
     pub(super) fn for_recipes(may_be_large: bool) -> Self {
         Self {

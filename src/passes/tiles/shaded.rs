@@ -1,8 +1,10 @@
-//! Visibility, accumulation and shading of the listed splats in one dispatch, a tile at a time: tiles leave what they show.
+//! Visibility, accumulation and shading of the listed splats in one dispatch, a tile at a time: tiles leave what they show. Those with
+//! more splats than one dispatch takes do so after it.
 
 use super::{
     super::Inputs,
     COLOR_SUMS, LIGHTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass, TilePlan, Tiles,
+    shade::shade_overfull,
     splat::{Step, TileStart, shader},
 };
 use crate::{
@@ -11,12 +13,13 @@ use crate::{
     scene::{Accumulate, Transition},
 };
 
-/// Whether tiles can be shaded in the dispatch that sums their splats: one takes all of these, and polygons, which are shaded already,
-/// blend with them as colors.
+/// Whether tiles can be shaded in the dispatch that sums their splats: the graphics pipeline draws none of these; and polygons, which
+/// are shaded already, blend with them as colors, beside tiles that one dispatch takes.
 pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
-    let alone = |plan: &TilePlan| !plan.may_be_overfull() && !plan.may_be_large;
-    let beside = inputs.meshes.is_empty() || inputs.settings.transition != Transition::Attributes;
-    beside && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
+    let polygons = !inputs.meshes.is_empty();
+    let alone = |plan: &TilePlan| !plan.may_be_large && !(polygons && plan.may_be_overfull());
+    let as_colors = !polygons || inputs.settings.transition != Transition::Attributes;
+    as_colors && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
 }
 
 /// What tiles show, in place of sums.
@@ -26,7 +29,7 @@ pub(in super::super) struct Shown {
     pub precision: Accumulate,
 }
 
-/// Declares all of it in one pass, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
+/// Declares all of it, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
 /// [`super::fused`].
 pub(in super::super) fn shaded<'a>(
     graph: &mut Graph<Body<'a>>,
@@ -58,5 +61,5 @@ pub(in super::super) fn shaded<'a>(
     }
     pass.write(&mut shown.image, access, content)
         .finish(Box::new(move |context| shaded.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
-    Ok(())
+    shade_overfull(graph, inputs, kind, tiles, shown, lights)
 }

@@ -16,10 +16,11 @@ use super::{
     TilePlan, Tiles, VISIBLE_DEPTH,
     bins::part_length,
     overfull::{Parts, of_parts},
+    shade::extent_of_slots,
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, Graph, Handle, Image, ImageDesc, Start, execute::Body},
     scene::{Accumulate, Settings, Transition},
     shaders::Shader,
 };
@@ -30,10 +31,15 @@ pub(in super::super) const VISIBLE_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
 /// The constant of whether anyone reads the depth that tiles find.
 const KEEPS_DEPTH: u32 = 23;
 
+/// The constant of whether images hold overfull tiles alone.
+const IN_SLOTS: u32 = 26;
+
 /// What tiles leave. Outside of tiles with splats, the images hold nothing unless they were cleared.
 pub(in super::super) struct TileImages {
     pub sums: Sums,
     pub depth: Handle<Image>,
+    /// They hold overfull tiles alone, one beside the other.
+    in_slots: bool,
 }
 
 impl TileImages {
@@ -49,12 +55,35 @@ impl TileImages {
         let mut images = Self {
             sums: Sums { color: image("color sums", format), normal: image("normal sums", format) },
             depth: image("visible depth", VISIBLE_FORMAT),
+            in_slots: false,
         };
         if cleared {
-            let TileImages { sums: Sums { color, normal }, depth } = &mut images;
+            let TileImages { sums: Sums { color, normal }, depth, .. } = &mut images;
             super::clear(graph, "clear sums", &mut [color, normal, depth]);
         }
         images
+    }
+
+    /// Images of as many overfull tiles as there may be.
+    pub fn of_overfull<'a>(graph: &mut Graph<Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
+        let extent = extent_of_slots(plan.most_overfull() as u32, plan.tile_px());
+        let mut image = |what, format| {
+            graph.create_image(&format!("{what} of {kind}overfull tiles"), ImageDesc { format, extent })
+        };
+        let format = sum_format(Accumulate::F32);
+        Self {
+            sums: Sums { color: image("color sums", format), normal: image("normal sums", format) },
+            depth: image("visible depth", VISIBLE_FORMAT),
+            in_slots: true,
+        }
+    }
+}
+
+/// The word of a precision in the names of permutations.
+pub(super) fn bits(precision: Accumulate) -> &'static str {
+    match precision {
+        Accumulate::F16 => "half",
+        Accumulate::F32 => "single",
     }
 }
 
@@ -110,10 +139,6 @@ pub(in super::super) fn shader(
     plan: &TilePlan,
     step: Step,
 ) -> Result<(&'static Shader, Constants)> {
-    let bits = |precision: Accumulate| match precision {
-        Accumulate::F16 => "half",
-        Accumulate::F32 => "single",
-    };
     let sums = bits(accumulate_of(settings, plan));
     let word = |choice: bool, word: &'static str| choice.then_some(word);
     let words = match step {
@@ -215,7 +240,7 @@ pub(in super::super) fn accumulate<'a>(
 
 /// Visibility or accumulation: of whole tiles, where there are arguments for them, then of the parts of overfull ones. `depth`: what
 /// it reads beside the tiles' own.
-fn in_parts<'a>(
+pub(super) fn in_parts<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
@@ -224,10 +249,14 @@ fn in_parts<'a>(
     depth: Option<&Handle<Image>>,
     (step, whole): (Step, Option<u64>),
 ) -> Result<()> {
-    let shader = shader(inputs.settings, tiles.plan, step)?;
+    let mut shader = shader(inputs.settings, tiles.plan, step)?;
+    let start = if images.in_slots { Start::Discard } else { Start::Load };
+    if images.in_slots {
+        shader.1.push((IN_SLOTS, 1));
+    }
     let mut of_tiles = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
     tiles.bind_lists(&mut of_tiles, false);
-    let TileImages { sums: Sums { color, normal }, depth: own_depth } = images;
+    let TileImages { sums: Sums { color, normal }, depth: own_depth, .. } = images;
     of_tiles.storage_images = vec![(VISIBLE_DEPTH, own_depth.id())];
     let which = if whole.is_some() { "tiles" } else { "overfull tiles" };
     let sums = matches!(step, Step::Summed { .. });
@@ -237,11 +266,11 @@ fn in_parts<'a>(
         of_tiles.storage_images.extend([(COLOR_SUMS, color.id()), (NORMAL_SUMS, normal.id())]);
         pass = pass
             .read(own_depth, Access::StorageReadCompute)
-            .write(color, Access::StorageReadWriteCompute, Start::Load)
-            .write(normal, Access::StorageReadWriteCompute, Start::Load);
+            .write(color, Access::StorageReadWriteCompute, start)
+            .write(normal, Access::StorageReadWriteCompute, start);
         POLYGON_DEPTH
     } else {
-        pass = pass.write(own_depth, Access::StorageReadWriteCompute, Start::Load);
+        pass = pass.write(own_depth, Access::StorageReadWriteCompute, start);
         DEPTH_BEFORE
     };
     if let Some(depth) = depth {
