@@ -4,9 +4,11 @@
 // KEPT: only those of a list, whose records lie one behind the other (inc/kept.glsl).
 // Permutations: _ kept
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #include "inc/setup.glsl"
 #include "inc/tiles.glsl"
 #include "inc/kept.glsl"
+#include "inc/tile_corners.glsl"
 
 layout(constant_id = 22) const uint MOST_TILES = 64; // that a splat of a record touches
 layout(constant_id = 25) const uint TILE_HEIGHT = 8;
@@ -28,7 +30,7 @@ layout(set = 1, binding = 4, std430) writeonly buffer Spans { uint spans[]; };
 #endif
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
-uint span_of(Mapping m)
+uint span_of(Mapping m, ImageMap map)
 {
     const uint large = MAY_BE_LARGE ? SPAN_CHUNK + CHUNK : SPAN_NONE;
     if (!m.regular) {
@@ -40,21 +42,24 @@ uint span_of(Mapping m)
     }
     const uvec2 tile = uvec2(TILE_WIDTH, TILE_HEIGHT);
     uvec2 first = uvec2(px.first) / tile;
-    uvec2 more = uvec2(px.last) / tile - first;
+    uvec2 last = uvec2(px.last) / tile;
+    uvec2 more = last - first;
     if (max(more.x, more.y) > MOST_MORE || (more.x + 1) * (more.y + 1) > MOST_TILES) {
         return large;
     }
+    uint outside = max(more.x, more.y) <= MOST_MORE_OF_SMALL ? corners_outside(map, first, last, vec2(tile)) : 0;
 #if defined(KEPT)
     // Of the band's rows. Behind the choice above, so that a splat is drawn the same way in every band.
     const uint each = BAND_ROW / TILE_HEIGHT;
-    uint last_y = min(first.y + more.y, kept_rows.y * each - 1);
-    first.y = max(first.y, kept_rows.x * each);
-    if (first.y > last_y) {
+    uvec2 rows = uvec2(max(first.y, kept_rows.x * each), min(last.y, kept_rows.y * each - 1));
+    if (rows.x > rows.y) {
         return SPAN_NONE;
     }
-    more.y = last_y - first.y;
+    outside &= (rows.x > first.y ? 12 : 15) & (rows.y < last.y ? 3 : 15);
+    first.y = rows.x;
+    more.y = rows.y - rows.x;
 #endif
-    return span_from(first, more);
+    return span_from(first, more, outside);
 }
 
 void main()
@@ -65,15 +70,16 @@ void main()
         return;
     }
     Mapping m;
-    uint span = SPAN_NONE;
-    if (map_splat(index, m)) {
-        span = span_of(m);
+    if (!map_splat(index, m)) {
+        spans[place] = SPAN_NONE;
+        return;
     }
+    ImageMap map = regular_map(m);
+    uint span = span_of(m, map);
     spans[place] = span;
     if (span >= SPAN_CHUNK) {
         return;
     }
-    ImageMap map = regular_map(m);
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
     float share = share_of(m);

@@ -44,12 +44,15 @@ void walk()
     uint record_count = count_of_records();
     uint end = min(next + push.round_length, own_records(segment, record_count));
     uint record = 0;
-    uint left = 0; // tiles of the record that are not visited yet
-    uint width = 1;
+    // Of the record, what is not visited yet: tiles of a row, and rows behind it.
     uint in_row = 0;
+    uint rows = 0;
+    uint width = 1;
     uint tile = 0;
-    while (next < end || left > 0) {
-        if (left == 0) {
+    uint row_tile = 0; // the first of the row
+    uint outside = 0;
+    while (next < end || in_row > 0) {
+        if (in_row == 0) {
             record = (next / BLOCK * push.segments + segment) * BLOCK + next % BLOCK;
             next++;
             uint span = record < record_count ? SPAN(record) : SPAN_NONE;
@@ -60,20 +63,24 @@ void walk()
             } else {
                 uvec2 first = first_of(span);
                 uvec2 more = more_of(span);
+                outside = outside_of(span);
                 width = more.x + 1;
-                left = width * (more.y + 1);
-                in_row = width;
-                tile = first.x + first.y * push.tiles_x - push.first_tile;
+                rows = more.y;
+                row_tile = first.x + first.y * push.tiles_x - push.first_tile;
+                tile = row_tile + (outside & 1);
+                in_row = width - bitCount(outside & 3);
             }
         }
-        if (left > 0) {
+        if (in_row > 0) {
             visit(record, tile);
-            left--;
-            in_row--;
             tile++;
-            if (in_row == 0) {
-                in_row = width;
-                tile += push.tiles_x - width;
+            in_row--;
+            if (in_row == 0 && rows > 0) {
+                rows--;
+                row_tile += push.tiles_x;
+                uint out_of_row = rows == 0 ? outside >> 2 : 0;
+                tile = row_tile + (out_of_row & 1);
+                in_row = width - bitCount(out_of_row);
             }
         }
     }

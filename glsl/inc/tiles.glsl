@@ -57,19 +57,27 @@ struct TileConstants {
 #define WALKERS 8
 #define PLACE_OF_COUNT(segment, bin) (((segment) / WALKERS * push.bin_count + (bin)) * WALKERS + (segment) % WALKERS)
 
-// A span: tile of the first corner, x and y in PLACE_BITS each, then how many tiles more, in as many bits as are left for each.
+// A span: tile of the first corner, x and y in PLACE_BITS each, then how many tiles more, in half of the bits that are left for each;
+// those along x are below three quarters of what these hold. The last quarter is of small spans, whose tiles have 3 bits less each, and
+// 4 bits for those in the corners that it does not touch (tile_corners.glsl).
 // Spans that would reach beyond all places mean other things: from SPAN_CHUNK on, drawn by the graphics pipeline, of the chunk in
 // the last bits; all ones, not seen.
 layout(constant_id = 24) const uint PLACE_BITS = 11;
 const uint MORE_BITS = 16 - PLACE_BITS;
 const uint LAST_PLACE = (1u << PLACE_BITS) - 1;
-const uint MOST_MORE = (1u << MORE_BITS) - 1;
+const uint MOST_MORE = 3 * (1u << (MORE_BITS - 2)) - 1;
+const uint SMALL_BITS = MORE_BITS - 3;
+const uint MOST_MORE_OF_SMALL = (1u << SMALL_BITS) - 1;
+const uint SMALL = 3u << (2 * MORE_BITS - 2);
 const uint SPAN_CHUNK = 0xffffe000u;
 const uint SPAN_NONE = 0xffffffffu;
 
-uint span_from(uvec2 first, uvec2 more)
+// `outside`: bits of the corners that it does not touch: the first tile, the last of the first row, and both of the last row.
+uint span_from(uvec2 first, uvec2 more, uint outside)
 {
-    return first.x | first.y << PLACE_BITS | (more.x | more.y << MORE_BITS) << (2 * PLACE_BITS);
+    bool small = max(more.x, more.y) <= MOST_MORE_OF_SMALL;
+    uint size = small ? SMALL | outside << (2 * SMALL_BITS) | more.x << SMALL_BITS | more.y : more.x << MORE_BITS | more.y;
+    return first.x | first.y << PLACE_BITS | size << (2 * PLACE_BITS);
 }
 
 uvec2 first_of(uint span)
@@ -79,7 +87,15 @@ uvec2 first_of(uint span)
 
 uvec2 more_of(uint span)
 {
-    return uvec2(span >> (2 * PLACE_BITS), span >> (2 * PLACE_BITS + MORE_BITS)) & MOST_MORE;
+    uint size = span >> (2 * PLACE_BITS);
+    return size >= SMALL ? uvec2(size >> SMALL_BITS, size) & MOST_MORE_OF_SMALL
+                         : uvec2(size >> MORE_BITS, size & ((1u << MORE_BITS) - 1));
+}
+
+uint outside_of(uint span)
+{
+    uint size = span >> (2 * PLACE_BITS);
+    return size >= SMALL ? (size >> (2 * SMALL_BITS)) & 15 : 0;
 }
 
 uint chunk_of(uint span)

@@ -20,9 +20,9 @@ pub(in super::super) const ROW_PX: u32 = 8;
 /// along a side. The first that has room for the image is taken.
 const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
 
-/// Tiles along a side that a splat of a record touches at most.
+/// Tiles along a side that a splat of a record touches at most: `MOST_MORE` and one there.
 fn most_tiles_a_side(place_bits: u32) -> u32 {
-    1 << (16 - place_bits)
+    3 << (14 - place_bits)
 }
 
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.

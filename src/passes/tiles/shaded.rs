@@ -17,9 +17,9 @@ use crate::{
 /// are shaded already, blend with them as colors, beside tiles that one dispatch takes.
 pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
     let polygons = !inputs.meshes.is_empty();
-    let alone = |plan: &TilePlan| !plan.may_be_large && !(polygons && plan.may_be_overfull());
+    let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_be_overfull();
     let as_colors = !polygons || inputs.settings.transition != Transition::Attributes;
-    as_colors && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(alone))
+    as_colors && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(|plan| !by_sums(plan)))
 }
 
 /// What tiles show, in place of sums.

@@ -73,14 +73,14 @@ fn no_run_of_pixels_touches_more_tiles_than_its_box_says() {
 #[test]
 fn spans_have_bits_for_every_place_of_the_image_and_for_splats_as_large_as_that_leaves() {
     for (side_px, a_side) in
-        [(7680, 64), (7681, 32), (16_128, 32), (16_129, 16), (32_640, 16), (32_641, 8), (65_472, 8)]
+        [(7808, 48), (7809, 24), (16_192, 24), (16_193, 12), (32_672, 12), (32_673, 6), (65_488, 6)]
     {
         let plan = |px| plan(&[(10, px)], [side_px, 100]).unwrap();
         let largest = f64::from(8 * (a_side - 1));
         assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{side_px}");
     }
     // Of tiles half as high, twice as many lie above each other.
-    for (height_px, a_side) in [(3840, 64), (3841, 32), (32_736, 8)] {
+    for (height_px, a_side) in [(3904, 48), (3905, 24), (32_744, 6)] {
         let plan = |px| plan_of(&[(10, px)], [100, height_px], Invocations::ShortColumns).unwrap();
         let largest = f64::from(4 * (a_side - 1));
         assert!(!plan(largest).may_be_large && plan(largest + 1.0).may_be_large, "{height_px}");
