@@ -4,6 +4,8 @@
 //! fall into one tile. So many dispatches are recorded as the whole scene in one tile would need; for most frames the device
 //! finds that there is no such tile, and leaves each of them out.
 
+use ash::vk;
+
 use super::{TilePass, TilePlan, WHOLE, after_dispatches_before};
 use crate::{
     error::Result,
@@ -25,6 +27,15 @@ pub(super) struct Parts {
 /// How many parts a tile may have; none where it can't be overfull.
 pub(super) fn of_parts(plan: &TilePlan) -> u32 {
     if plan.may_be_overfull() { plan.parts() } else { 0 }
+}
+
+/// Pixels of an image that has room for so many tiles: `SLOTS_IN_ROW` of `glsl/inc/tiles.glsl` in a row.
+pub(super) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -> vk::Extent2D {
+    const SLOTS_IN_ROW: u32 = 256;
+    vk::Extent2D {
+        width: tiles.min(SLOTS_IN_ROW) * tile_width,
+        height: tiles.div_ceil(SLOTS_IN_ROW) * tile_height,
+    }
 }
 
 impl Parts {
@@ -50,5 +61,20 @@ impl Parts {
             dispatch(part, self.overfull)?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn images_of_slots_have_a_place_for_each_and_are_no_larger_than_devices_have_to_take() {
+        for tiles in [1, 2, 255, 256, 257, 280, 5000] {
+            let vk::Extent2D { width, height } = extent_of_slots(tiles, [8, 4]);
+            assert!(width <= 4096 && height <= 4096, "{tiles}");
+            let last = [(tiles - 1) % 256, (tiles - 1) / 256];
+            assert!((last[0] + 1) * 8 <= width && (last[1] + 1) * 4 == height, "{tiles}: {width}x{height}");
+        }
     }
 }

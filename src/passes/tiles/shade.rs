@@ -1,8 +1,6 @@
 //! Tiles with more splats than one dispatch takes, where tiles are shaded: seen and summed in parts, in images of such tiles alone,
 //! then shaded from these. There can't be many, and most frames have none.
 
-use ash::vk;
-
 use super::{
     super::{Inputs, finalize::shown_constants, splat_shaders::find, variant::Constants},
     COLOR_SUMS, LIGHTS, NORMAL_SUMS, OVERFULL_ARGUMENTS, Shown, TileImages, TilePass, TilePlan, Tiles,
@@ -67,28 +65,4 @@ pub(super) fn shade_overfull<'a>(
     pass.write(&mut shown.image, access, content)
         .finish(Box::new(move |context| shade.dispatch_indirect(context, arguments, OVERFULL_ARGUMENTS)));
     Ok(())
-}
-
-/// Pixels of an image that has room for so many tiles: `SLOTS_IN_ROW` of `glsl/inc/tiles.glsl` in a row.
-pub(super) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -> vk::Extent2D {
-    const SLOTS_IN_ROW: u32 = 256;
-    vk::Extent2D {
-        width: tiles.min(SLOTS_IN_ROW) * tile_width,
-        height: tiles.div_ceil(SLOTS_IN_ROW) * tile_height,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn images_of_slots_have_a_place_for_each_and_are_no_larger_than_devices_have_to_take() {
-        for tiles in [1, 2, 255, 256, 257, 280, 5000] {
-            let vk::Extent2D { width, height } = extent_of_slots(tiles, [8, 4]);
-            assert!(width <= 4096 && height <= 4096, "{tiles}");
-            let last = [(tiles - 1) % 256, (tiles - 1) / 256];
-            assert!((last[0] + 1) * 8 <= width && (last[1] + 1) * 4 == height, "{tiles}: {width}x{height}");
-        }
-    }
 }

@@ -15,8 +15,7 @@ use super::{
     COLOR_SUMS, DEPTH_BEFORE, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass,
     TilePlan, Tiles, VISIBLE_DEPTH,
     bins::part_length,
-    overfull::{Parts, of_parts},
-    shade::extent_of_slots,
+    overfull::{Parts, extent_of_slots, of_parts},
 };
 use crate::{
     error::Result,
