@@ -116,8 +116,8 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// A frame's figures belong together: the passes' times, the span from first to last timestamp, and the wall time
-/// around submission and wait. The aim is 5%; what is held fast here is loose, so that a busy machine passes.
+/// A frame's figures belong together: the passes' times, the time of a frame in which they are not measured, and the wall
+/// time around submission and wait. The aim is 5%; what is held fast here is loose, so that a busy machine passes.
 #[test]
 fn the_passes_times_add_up_to_the_frame() {
     let mut headless = headless();
@@ -127,27 +127,36 @@ fn the_passes_times_add_up_to_the_frame() {
     }
     let scene = headless.prepare(&sphere(50_000), &|_, _| {}).unwrap();
     let settings = Settings { size_px: [512, 512], ..builder::settings() };
-    let wanted = Wanted { profile: Some(Profile::Times), ..Wanted::default() };
-    let (mut sum_of_span, mut span_of_wall, mut wall_ms) = (Vec::new(), Vec::new(), Vec::new());
-    for frame in 0..24 {
-        let done = headless.render(&scene, &camera(), &settings, wanted).unwrap();
-        let profile = done.profile.unwrap();
-        let passes: Vec<_> = profile.passes.iter().map(|pass| pass.secs.unwrap()).collect();
-        let (sum, span) = (passes.iter().sum::<f64>(), profile.span_secs.unwrap());
+    let mut render = |profile| {
+        let wanted = Wanted { profile: Some(profile), ..Wanted::default() };
+        let frame = headless.render(&scene, &camera(), &settings, wanted).unwrap();
+        (frame.profile.unwrap(), frame.wall_secs)
+    };
+    let (mut sum_of_frame, mut frame_of_wall, mut wall_ms) = (Vec::new(), Vec::new(), Vec::new());
+    for round in 0..24 {
+        let (frame, wall_secs) = render(Profile::Frame);
+        assert_eq!(frame.passes.len(), 3);
+        assert!(frame.passes.iter().all(|pass| pass.secs.is_none()), "no pass is timed: {frame:?}");
+        let frame_secs = frame.span_secs.unwrap();
+        assert!(frame_secs > 0.0);
+        let (timed, _) = render(Profile::Times);
+        let passes: Vec<_> = timed.passes.iter().map(|pass| pass.secs.unwrap()).collect();
+        let (sum, span) = (passes.iter().sum::<f64>(), timed.span_secs.unwrap());
         assert_eq!(passes.len(), 3);
-        assert!(passes.iter().all(|secs| *secs >= 0.0) && span > 0.0);
-        assert!(sum <= span * (1.0 + 1e-9), "passes don't overlap: {sum} s of {span} s");
+        assert!(passes.iter().all(|secs| *secs >= 0.0), "{passes:?}");
+        // One pass begins where the one before ends. Differences of whole ticks, scaled one by one: a few roundings.
+        assert!((sum - span).abs() <= 1e-12 * span, "passes leave nothing out: {sum} s of {span} s");
         // Warm-up: pipelines are compiled, pages are touched.
-        if frame >= 4 {
-            sum_of_span.push(sum / span);
-            span_of_wall.push(span / done.wall_secs);
-            wall_ms.push(1e3 * done.wall_secs);
+        if round >= 4 {
+            sum_of_frame.push(sum / frame_secs);
+            frame_of_wall.push(frame_secs / wall_secs);
+            wall_ms.push(1e3 * wall_secs);
         }
     }
-    let (sum, span, wall) = (median(sum_of_span), median(span_of_wall), median(wall_ms));
-    println!("medians: passes / span {sum:.4}, span / wall {span:.4}, wall {wall:.2} ms");
-    assert!((0.75..=1.0 + 1e-9).contains(&sum), "passes / span: {sum}");
-    assert!((0.75..=1.25).contains(&span), "span / wall: {span}");
+    let (sum, frame, wall) = (median(sum_of_frame), median(frame_of_wall), median(wall_ms));
+    println!("medians: passes / frame {sum:.4}, frame / wall {frame:.4}, wall {wall:.2} ms");
+    assert!((0.75..=1.5).contains(&sum), "passes / frame: {sum}");
+    assert!((0.75..=1.25).contains(&frame), "frame / wall: {frame}");
     assert_validation_is_silent(&headless);
 }
 

@@ -34,7 +34,8 @@ fn any_order_of_drops_with_a_frame_under_way_leaks_nothing_and_destroys_nothing_
     for seed in 0..12 {
         let watched = Watched::new();
         let (messages, device) = (watched.messages.clone(), watched.device.clone());
-        let mut things = everything(watched, if seed % 2 == 0 { Profile::Times } else { Profile::Counts });
+        let profile = [Profile::Times, Profile::Counts, Profile::Frame][(seed % 3) as usize];
+        let mut things = everything(watched, profile);
         shuffle(&mut things, &mut Random(seed));
         // Every second time our clone is gone first, so that the last of the things takes the device with it.
         let device = (seed % 4 < 2).then_some(device);

@@ -30,7 +30,7 @@ impl Contestant {
     pub fn all(measured: &[Measured<'_>], transient_bytes: &[u64], floor: &Measured<'_>) -> Vec<Self> {
         let of = |(own, bytes): (&Measured<'_>, &u64)| {
             let frames = own.times();
-            let ms = frames.sum_of_passes_ms.map(|spread| spread.median).filter(|ms| *ms > 0.0);
+            let ms = frames.frame_ms.map(|spread| spread.median).filter(|ms| *ms > 0.0);
             Self {
                 name: own.name.to_owned(),
                 fps: ms.map(|ms| 1e3 / ms),
@@ -64,7 +64,7 @@ impl Contestant {
 
     /// Milliseconds, and the interval that holds their median.
     pub(super) fn ms_cells(&self) -> [String; 2] {
-        let ms = self.frames.sum_of_passes_ms;
+        let ms = self.frames.frame_ms;
         [cell(ms.map(|ms| ms.median), 2), interval_cell(ms.as_ref(), 2)]
     }
 
@@ -104,7 +104,7 @@ pub(super) mod tests {
     pub(in crate::report) fn rounds(passes_ms: &[f64]) -> Vec<Vec<FrameSample>> {
         let frame = |slow: f64| FrameSample {
             passes_ms: passes_ms.iter().map(|ms| Some(slow * ms)).collect(),
-            span_ms: None,
+            frame_ms: Some(slow * passes_ms.iter().sum::<f64>()),
             wall_ms: slow * passes_ms.iter().sum::<f64>(),
             record_ms: 0.1,
         };

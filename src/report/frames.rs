@@ -10,13 +10,14 @@ const TOLERANCE: f64 = 0.05;
 /// What one frame took.
 #[derive(Clone, Debug)]
 pub struct FrameSample {
-    /// Milliseconds of each pass, in the frame's order; `None` where not measured.
+    /// Milliseconds of each pass, in the frame's order, in a frame of its own, since timing them may make it longer; `None`
+    /// where not measured.
     pub passes_ms: Vec<Option<f64>>,
-    /// Milliseconds from the first timestamp to the last; `None` where not measured.
-    pub span_ms: Option<f64>,
-    /// Milliseconds from the submission to the end of the wait for it.
+    /// Milliseconds of a frame whose passes are not timed, from its first timestamp to its last; `None` where not measured.
+    pub frame_ms: Option<f64>,
+    /// Milliseconds from that frame's submission to the end of the wait for it.
     pub wall_ms: f64,
-    /// Milliseconds in which the host recorded it.
+    /// Milliseconds in which the host recorded that frame.
     pub record_ms: f64,
 }
 
@@ -25,7 +26,7 @@ type Figure = fn(&FrameSample) -> Option<f64>;
 
 impl FrameSample {
     /// The passes together; `None` where one is missing.
-    pub(super) fn sum_ms(&self) -> Option<f64> {
+    fn sum_ms(&self) -> Option<f64> {
         self.passes_ms.iter().copied().sum()
     }
 }
@@ -52,11 +53,12 @@ pub struct FrameTimes {
     pub timed_frames: u32,
     /// Each pass, in the frame's order.
     pub passes: Vec<PassFigures>,
-    /// The passes of a frame together, in milliseconds; `None` where not measured.
+    /// The passes of a frame together, with what timing them costs, in milliseconds; `None` where not measured.
     pub sum_of_passes_ms: Option<Spread>,
-    /// From a frame's first timestamp to its last, in milliseconds; `None` where not measured.
-    pub first_to_last_timestamp_ms: Option<Spread>,
-    /// From the submission to the end of the wait for it, in milliseconds.
+    /// A frame whose passes are not timed, from its first timestamp to its last, in milliseconds: what a frame takes; `None`
+    /// where not measured.
+    pub frame_ms: Option<Spread>,
+    /// From such a frame's submission to the end of the wait for it, in milliseconds.
     pub submit_to_wait_ms: Option<Spread>,
     /// In which the host recorded the frame, in milliseconds.
     pub record_ms: Option<Spread>,
@@ -91,7 +93,7 @@ impl FrameTimes {
             warm_up_frames,
             timed_frames: u32::try_from(samples.len()).unwrap_or(u32::MAX),
             sum_of_passes_ms: all(FrameSample::sum_ms),
-            first_to_last_timestamp_ms: all(|sample| sample.span_ms),
+            frame_ms: all(|sample| sample.frame_ms),
             submit_to_wait_ms: all(|sample| Some(sample.wall_ms)),
             record_ms: all(|sample| Some(sample.record_ms)),
             flags: flags(samples, &passes),
@@ -114,14 +116,24 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
             "vertices and fragments were not counted: the device can't (pipelineStatisticsQuery)".to_owned(),
         );
     }
-    let against: [(&str, Figure); 2] = [
-        ("the time from the first to the last timestamp", |sample| sample.span_ms),
-        ("the time from submission to the end of the wait", |sample| Some(sample.wall_ms)),
+    let against: [(&str, Figure, &str, Figure); 2] = [
+        (
+            "the sum of the passes",
+            FrameSample::sum_ms,
+            "the time of a frame whose passes are not timed",
+            |sample| sample.frame_ms,
+        ),
+        (
+            "the time of a frame",
+            |sample| sample.frame_ms,
+            "the time from its submission to the end of the wait",
+            |sample| Some(sample.wall_ms),
+        ),
     ];
-    for (what, whole) in against {
+    for (what, part, other, whole) in against {
         let difference = |sample: &FrameSample| {
-            let (sum, whole) = sample.sum_ms().zip(whole(sample))?;
-            (whole > 0.0).then(|| (sum - whole) / whole)
+            let (part, whole) = part(sample).zip(whole(sample))?;
+            (whole > 0.0).then(|| (part - whole) / whole)
         };
         let Some(median) = Spread::of(samples.iter().filter_map(difference)).map(|spread| spread.median)
         else {
@@ -130,7 +142,7 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
         if median.abs() > TOLERANCE {
             let (percent, side) = (100.0 * median.abs(), if median < 0.0 { "below" } else { "above" });
             flags.push(format!(
-                "the sum of the passes is {percent:.1}% {side} {what} (median over {} frames; up to 5% is fine)",
+                "{what} is {percent:.1}% {side} {other} (median over {} frames; up to 5% is fine)",
                 samples.len()
             ));
         }
@@ -142,10 +154,10 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
 mod tests {
     use super::*;
 
-    fn sample(passes_ms: [f64; 2], span_ms: f64, wall_ms: f64) -> FrameSample {
+    fn sample(passes_ms: [f64; 2], frame_ms: f64, wall_ms: f64) -> FrameSample {
         FrameSample {
             passes_ms: passes_ms.map(Some).to_vec(),
-            span_ms: Some(span_ms),
+            frame_ms: Some(frame_ms),
             wall_ms,
             record_ms: 0.1,
         }
@@ -162,31 +174,35 @@ mod tests {
         assert_eq!(times.passes[1].ms, Spread::of([10.0, 8.0]));
         assert_eq!((times.passes[1].vertices, times.passes[1].fragments), (Some(5), Some(6)));
         assert_eq!(times.sum_of_passes_ms, Spread::of([11.0, 10.0]));
+        assert_eq!(times.frame_ms, Spread::of([11.0, 10.1]));
         assert_eq!(times.timed_frames, 2);
         assert!(times.flags.is_empty(), "{:?}", times.flags);
     }
 
     #[test]
     fn contradictions_beyond_five_percent_are_flagged_one_by_one() {
-        let span = times(&[sample([5.0, 5.0], 10.6, 10.1)]).flags;
-        assert_eq!(span.len(), 1);
-        assert!(span[0].contains("5.7% below the time from the first to the last timestamp"), "{span:?}");
+        let timing = times(&[sample([5.0, 5.0], 9.4, 9.5)]).flags;
+        assert_eq!(timing.len(), 1);
+        assert!(
+            timing[0].starts_with("the sum of the passes is 6.4% above the time of a frame"),
+            "{timing:?}"
+        );
         let wall = times(&[sample([5.0, 5.0], 10.0, 9.0)]).flags;
         assert_eq!(wall.len(), 1);
-        assert!(wall[0].contains("11.1% above the time from submission"), "{wall:?}");
+        assert!(wall[0].contains("11.1% above the time from its submission"), "{wall:?}");
         assert!(times(&[sample([5.0, 5.0], 10.5, 10.5)]).flags.is_empty());
         // One slow frame among many is no contradiction of the figures, which are medians.
         let outlier =
-            [sample([5.0, 5.0], 10.0, 10.0), sample([5.0, 5.0], 10.0, 30.0), sample([5.0, 5.0], 10.0, 10.0)];
+            [sample([5.0, 5.0], 10.0, 10.0), sample([5.0, 5.0], 30.0, 10.0), sample([5.0, 5.0], 10.0, 10.0)];
         assert!(times(&outlier).flags.is_empty());
     }
 
     #[test]
     fn what_was_not_measured_has_no_figure_and_a_reason() {
         let untimed =
-            FrameSample { passes_ms: vec![None, None], span_ms: None, wall_ms: 3.0, record_ms: 0.1 };
+            FrameSample { passes_ms: vec![None, None], frame_ms: None, wall_ms: 3.0, record_ms: 0.1 };
         let times = FrameTimes::of(&["a".to_owned(), "b".to_owned()], 0, &[untimed], &[None, None]);
-        assert_eq!((times.sum_of_passes_ms, times.first_to_last_timestamp_ms), (None, None));
+        assert_eq!((times.sum_of_passes_ms, times.frame_ms), (None, None));
         assert!(times.submit_to_wait_ms.is_some() && times.passes[0].ms.is_none());
         assert_eq!(times.flags.len(), 2);
         assert!(times.flags[0].contains("timestamps") && times.flags[1].contains("pipelineStatisticsQuery"));

@@ -60,7 +60,7 @@ impl GrowthPoint {
     ) -> Self {
         let method = |(own, bytes): (&Measured<'_>, &u64)| {
             let frames = own.times();
-            let secs = frames.sum_of_passes_ms.map(|ms| 1e-3 * ms.median).filter(|secs| *secs > 0.0);
+            let secs = frames.frame_ms.map(|ms| 1e-3 * ms.median).filter(|secs| *secs > 0.0);
             GrowthMethod {
                 name: own.name.to_owned(),
                 splats_per_sec: secs.map(|secs| splats as f64 / secs),
@@ -82,7 +82,7 @@ impl GrowthPoint {
 impl GrowthMethod {
     /// The median of the passes together, in milliseconds.
     pub fn ms(&self) -> Option<f64> {
-        self.frames.sum_of_passes_ms.map(|ms| ms.median)
+        self.frames.frame_ms.map(|ms| ms.median)
     }
 
     /// Fragments of all passes; `None` where none were counted.

@@ -50,7 +50,7 @@ fn curves<B: DrawingBackend>(
 ) -> std::result::Result<(), DrawingAreaErrorKind<B::ErrorType>> {
     let methods = points.iter().map(|point| point.methods.len()).max().unwrap_or(0);
     let spread = |point: &GrowthPoint, i: usize| {
-        let ms = point.methods.get(i)?.frames.sum_of_passes_ms.filter(|ms| ms.min > 0.0)?;
+        let ms = point.methods.get(i)?.frames.frame_ms.filter(|ms| ms.min > 0.0)?;
         Some((grows(point) as f64, ms))
     };
     let all = || (0..methods).flat_map(|i| points.iter().filter_map(move |point| spread(point, i)));

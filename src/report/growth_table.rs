@@ -73,7 +73,7 @@ fn frames_grid(title: &str, points: &[GrowthPoint], grows: fn(&GrowthPoint) -> u
     let mega = |bytes: u64| format!("{:.1}", 1e-6 * bytes as f64);
     for (at, point) in points.iter().enumerate() {
         for (method, powers) in point.methods.iter().zip(&powers) {
-            let ms = method.frames.sum_of_passes_ms;
+            let ms = method.frames.frame_ms;
             grid.row([
                 point.splats.to_string(),
                 size_cell(point),

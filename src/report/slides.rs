@@ -66,7 +66,7 @@ pub fn slides_grid(row: &ThroughputRow) -> Grid {
             instructions_cell(method, "accumulate"),
             ms("visibility"),
             ms("accumulate"),
-            cell(method.frames.sum_of_passes_ms.map(|ms| ms.median), 2),
+            cell(method.frames.frame_ms.map(|ms| ms.median), 2),
             cell(beside.map(|spread| spread.median), 3),
         ]);
     }

@@ -30,7 +30,7 @@ impl fmt::Display for FrameTimes {
         }
         for (name, spread) in [
             ("sum of the passes", self.sum_of_passes_ms),
-            ("first to last timestamp", self.first_to_last_timestamp_ms),
+            ("frame, passes not timed", self.frame_ms),
             ("submission to end of wait", self.submit_to_wait_ms),
             ("recorded by the host", self.record_ms),
         ] {

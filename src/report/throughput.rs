@@ -109,7 +109,7 @@ impl Measured<'_> {
     /// frame only makes it longer.
     fn rounds_ms(&self) -> Vec<Vec<Option<f64>>> {
         let pass = |round: &[FrameSample], i: usize| least(round.iter().map(|frame| frame.passes_ms[i]));
-        let frame = |round: &[FrameSample]| least(round.iter().map(FrameSample::sum_ms));
+        let frame = |round: &[FrameSample]| least(round.iter().map(|frame| frame.frame_ms));
         let round = |round: &Vec<FrameSample>| {
             (0..self.passes.len()).map(|i| pass(round, i)).chain([frame(round)]).collect()
         };
@@ -161,7 +161,7 @@ impl ThroughputRow {
         let method = |measured: &Measured<'_>| {
             let own_ms = measured.rounds_ms();
             let frames = measured.times();
-            let secs = frames.sum_of_passes_ms.map(|spread| 1e-3 * spread.median).filter(|secs| *secs > 0.0);
+            let secs = frames.frame_ms.map(|spread| 1e-3 * spread.median).filter(|secs| *secs > 0.0);
             MethodThroughput {
                 name: measured.name.to_owned(),
                 over_floor: measured
@@ -204,7 +204,7 @@ pub(super) mod tests {
         // The machine becomes slower from round to round.
         let frame = |slow: f64| FrameSample {
             passes_ms: [1.0, 2.0, 0.5].map(|ms| Some(scale * slow * ms)).to_vec(),
-            span_ms: None,
+            frame_ms: Some(scale * slow * 3.5),
             wall_ms: 4.0,
             record_ms: 0.1,
         };
@@ -239,7 +239,7 @@ pub(super) mod tests {
         assert_eq!(row.beside_first, [1.0, 1.5, 1.5].map(|ratio| Spread::of([ratio; 6])));
         assert_eq!(row.methods[0].over_floor, vec![Spread::of([2.0; 6]); 4]);
         // 12 frames from 7 to 63 ms.
-        let median = row.methods[0].frames.sum_of_passes_ms.unwrap().median;
+        let median = row.methods[0].frames.frame_ms.unwrap().median;
         assert!((row.methods[0].fps.unwrap() - 1e3 / median).abs() < 1e-9);
         assert_eq!(row.methods[1].paper, None);
         assert_eq!(

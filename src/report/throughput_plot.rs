@@ -51,7 +51,7 @@ fn draw<B: DrawingBackend>(
     }
     for row in rows {
         for (i, method) in row.methods.iter().enumerate() {
-            if let Some(ms) = method.frames.sum_of_passes_ms.filter(|ms| ms.min > 0.0) {
+            if let Some(ms) = method.frames.frame_ms.filter(|ms| ms.min > 0.0) {
                 let bar = [(row.splats as f64, ms.min), (row.splats as f64, ms.max)];
                 chart.draw_series([PathElement::new(bar, color(i).stroke_width(1))])?;
             }
@@ -67,7 +67,7 @@ fn curves(rows: &[ThroughputRow]) -> Vec<Curve> {
     let on_axes = |(splats, ms): (u64, Option<f64>)| {
         ms.filter(|ms| *ms > 0.0 && ms.is_finite()).map(|ms| (splats as f64, ms))
     };
-    let median = |frames: &super::FrameTimes| frames.sum_of_passes_ms.map(|ms| ms.median);
+    let median = |frames: &super::FrameTimes| frames.frame_ms.map(|ms| ms.median);
     let methods = rows.first().map(|row| row.methods.as_slice()).unwrap_or_default();
     let mut curves = Vec::new();
     for (i, method) in methods.iter().enumerate() {
@@ -91,5 +91,5 @@ fn curves(rows: &[ThroughputRow]) -> Vec<Curve> {
 /// The ends of all bars.
 fn ends(rows: &[ThroughputRow]) -> impl Iterator<Item = f64> {
     let methods = rows.iter().flat_map(|row| &row.methods);
-    methods.filter_map(|method| method.frames.sum_of_passes_ms).flat_map(|ms| [ms.min, ms.max])
+    methods.filter_map(|method| method.frames.frame_ms).flat_map(|ms| [ms.min, ms.max])
 }

@@ -31,7 +31,7 @@ pub fn throughput_grid(title: &str, rows: &[ThroughputRow]) -> Grid {
         let mega = 1e-6 * (row.splat_bytes + row.transient_bytes) as f64;
         let first_paper = row.methods.first().and_then(|method| method.paper);
         for (method, beside) in row.methods.iter().zip(&row.beside_first) {
-            let ms = method.frames.sum_of_passes_ms;
+            let ms = method.frames.frame_ms;
             let paper_ratio = first_paper.zip(method.paper).map(|(first, own)| first.fps / own.fps);
             grid.row([
                 row.splats.to_string(),

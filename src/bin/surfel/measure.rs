@@ -6,7 +6,7 @@ use surfel::{
     Result,
     graph::execute::Profile,
     prepare::PreparedScene,
-    renderer::{Headless, Wanted},
+    renderer::Headless,
     report::FrameTimes,
     scene::{Camera, Settings},
 };
@@ -27,7 +27,8 @@ pub struct View<'a> {
     pub settings: &'a Settings,
 }
 
-/// Warms up, with the very first frame split into what host and device did, times `frames` frames, and counts vertices and fragments in one more, because counting may cost time.
+/// Warms up, with the very first frame split into what host and device did, times `frames` frames and the
+/// passes of as many more, and counts vertices and fragments in one more, because timing and counting cost time.
 ///
 /// # Errors
 /// As [`Headless::render`].
@@ -37,26 +38,17 @@ pub fn frame_times(
     frames: u32,
     steps: &mut Steps,
 ) -> Result<(FrameTimes, u64)> {
-    let timed = Wanted { profile: Some(Profile::Times), ..Wanted::default() };
-    let counted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
-    let draw =
-        |headless: &mut Headless, wanted| headless.render(view.scene, view.camera, view.settings, wanted);
+    let mut draw = turns::frames(view.scene, view.camera, view.settings.clone());
     let start = Instant::now();
-    let first = draw(headless, timed)?;
+    let first = draw(headless, Profile::Frame)?;
     let host_secs = start.elapsed().as_secs_f64() - first.wall_secs;
     steps.add("make pipelines, record the first frame", host_secs);
     steps.add("first frame, submission to end of wait", first.wall_secs);
     for _ in 1..WARM_UP_FRAMES {
-        draw(headless, timed)?;
+        draw(headless, Profile::Frame)?;
     }
-    let mut samples = Vec::new();
-    for _ in 0..frames {
-        let frame = draw(headless, timed)?;
-        let profile = frame.profile.unwrap_or_default();
-        samples.push(turns::sample(&profile, frame.wall_secs, frame.record_secs));
-    }
+    let (samples, names) = turns::samples(headless, &mut draw, frames)?;
     let transient_bytes = headless.transient_bytes();
-    let counts = turns::counts(&draw(headless, counted)?.profile.unwrap_or_default());
-    let names: Vec<_> = first.plan.passes.iter().map(|pass| pass.name.clone()).collect();
+    let counts = turns::counts(&draw(headless, Profile::Counts)?.profile);
     Ok((FrameTimes::of(&names, WARM_UP_FRAMES, &samples, &counts), transient_bytes))
 }

@@ -12,7 +12,7 @@ use surfel::{
 
 use crate::console::Bars;
 
-/// Timed frames in a turn.
+/// Timed frames in a turn, and as many again for the times of their passes.
 pub const FRAMES_A_TURN: u32 = 2;
 
 /// Frames before them that are not timed: what drew before needed other images, whose memory is touched for the first
@@ -21,10 +21,12 @@ pub const UNTIMED_A_TURN: u32 = 1;
 
 /// One frame, measured.
 pub struct Drawn {
-    /// What its passes cost.
+    /// What was measured of it.
     pub profile: FrameProfile,
-    /// The times of it.
-    pub sample: FrameSample,
+    /// Seconds from its submission to the end of the wait for it.
+    pub wall_secs: f64,
+    /// Seconds in which the host recorded it.
+    pub record_secs: f64,
 }
 
 /// Draws a frame and measures it.
@@ -53,20 +55,40 @@ pub fn frames<'a>(scene: &'a PreparedScene, camera: &'a Camera, settings: Settin
     Box::new(move |headless, profile| {
         let wanted = Wanted { profile: Some(profile), ..Wanted::default() };
         let frame = headless.render(scene, camera, &settings, wanted)?;
-        let profile = frame.profile.unwrap_or_default();
-        Ok(Drawn { sample: sample(&profile, frame.wall_secs, frame.record_secs), profile })
+        let (profile, wall_secs, record_secs) =
+            (frame.profile.unwrap_or_default(), frame.wall_secs, frame.record_secs);
+        Ok(Drawn { profile, wall_secs, record_secs })
     })
 }
 
-/// The times of one frame.
-pub fn sample(profile: &FrameProfile, wall_secs: f64, record_secs: f64) -> FrameSample {
-    let ms = |secs: f64| 1e3 * secs;
-    FrameSample {
-        passes_ms: profile.passes.iter().map(|pass| pass.secs.map(ms)).collect(),
-        span_ms: profile.span_secs.map(ms),
-        wall_ms: ms(wall_secs),
-        record_ms: ms(record_secs),
+/// Draws `frames` frames whose passes are not timed, then as many of which they are: the times of both, and the passes'
+/// names.
+///
+/// # Errors
+/// As `draw`.
+pub fn samples(
+    headless: &mut Headless,
+    draw: &mut dyn FnMut(&mut Headless, Profile) -> Result<Drawn>,
+    frames: u32,
+) -> Result<(Vec<FrameSample>, Vec<String>)> {
+    let whole: Vec<Drawn> = (0..frames).map(|_| draw(headless, Profile::Frame)).collect::<Result<_>>()?;
+    let mut names = Vec::new();
+    let mut samples = Vec::new();
+    for whole in whole {
+        let passes = draw(headless, Profile::Times)?.profile.passes;
+        samples.push(FrameSample {
+            passes_ms: passes.iter().map(|pass| pass.secs.map(in_ms)).collect(),
+            frame_ms: whole.profile.span_secs.map(in_ms),
+            wall_ms: in_ms(whole.wall_secs),
+            record_ms: in_ms(whole.record_secs),
+        });
+        names = passes.into_iter().map(|pass| pass.name).collect();
     }
+    Ok((samples, names))
+}
+
+fn in_ms(secs: f64) -> f64 {
+    1e3 * secs
 }
 
 /// Times `frames` frames of each contestant and counts vertices and fragments of one more. One that fails is left out of
@@ -124,16 +146,13 @@ fn one_turn(
     timed: &mut Timed,
     timed_frames: u32,
 ) -> Result<(), Error> {
-    let mut round = Vec::new();
-    for frame in 0..UNTIMED_A_TURN + timed_frames {
-        let drawn = draw(headless, Profile::Times)?;
-        if frame >= UNTIMED_A_TURN {
-            round.push(drawn.sample);
-        }
-        timed.names = drawn.profile.passes.into_iter().map(|pass| pass.name).collect();
+    for _ in 0..UNTIMED_A_TURN {
+        draw(headless, Profile::Frame)?;
     }
+    let (round, names) = samples(headless, draw, timed_frames)?;
     if !round.is_empty() {
         timed.rounds.push(round);
+        timed.names = names;
     }
     Ok(())
 }

@@ -157,7 +157,6 @@ pub unsafe fn execute(
         device.begin_label(commands, &pass.name);
         // SAFETY: this function's contract, here and below.
         unsafe {
-            profiler.inspect(|profiler| profiler.begin_pass(commands, index));
             recorder.barriers(&pass.barriers)?;
             recorder.begin_rendering(pass)?;
             profiler.filter(|_| counts).inspect(|profiler| profiler.begin_counts(commands, index));

@@ -1,6 +1,8 @@
-//! What each pass costs: a pair of timestamps, or counts of vertices and fragments, or of invocations of compute.
+//! What a frame costs: its time, or the time of each pass, or counts of vertices and fragments, or of invocations of
+//! compute.
 //!
-//! Times and counts are taken in different frames: counting may cost time.
+//! Each is taken in frames of its own: counting costs time, and so do timestamps. On llvmpipe one is work in every part of
+//! the image that was drawn to last: in an image of 4096×4096 pixels, half a millisecond behind each dispatch.
 
 use ash::vk;
 
@@ -16,7 +18,10 @@ const MAX_PASSES: u32 = 2048;
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
-    /// Times.
+    /// The frame's time: one timestamp before its first pass, and one behind its last.
+    Frame,
+    /// The time of each pass: one timestamp more behind each, so that it is from the end of the pass before, its barriers
+    /// with it.
     Times,
     /// Counts of vertices and fragments, and of invocations of compute.
     Counts,
@@ -29,6 +34,7 @@ pub struct Profiler {
 }
 
 enum Queries {
+    Frame(Timestamps),
     Times(Timestamps),
     Counts(Statistics),
     /// The device can't.
@@ -40,7 +46,8 @@ enum Queries {
 pub struct FrameProfile {
     /// One a pass.
     pub passes: Vec<PassProfile>,
-    /// From the first pass's first timestamp to the last pass's last; `None` where not measured.
+    /// From before the first pass to behind the last; `None` where not measured. With [`Profile::Times`] timing the passes
+    /// is in it.
     pub span_secs: Option<f64>,
 }
 
@@ -73,7 +80,8 @@ impl Profiler {
     /// Whatever the driver answers.
     pub fn new(device: &Device, profile: Profile) -> Result<Self> {
         let queries = match profile {
-            Profile::Times => Timestamps::new(device, "pass times", 2 * MAX_PASSES)?.map(Queries::Times),
+            Profile::Frame => Timestamps::new(device, "frame time", 2)?.map(Queries::Frame),
+            Profile::Times => Timestamps::new(device, "pass times", MAX_PASSES + 1)?.map(Queries::Times),
             Profile::Counts => Statistics::new(device, "pass counts", MAX_PASSES)?.map(Queries::Counts),
         };
         Ok(Self { queries: queries.unwrap_or(Queries::Nothing), passes: Vec::new() })
@@ -88,13 +96,18 @@ impl Profiler {
         let (mut secs, mut counts) = (vec![None; self.passes.len()], vec![None; self.passes.len()]);
         let mut span_secs = None;
         match &self.queries {
-            Queries::Times(timestamps) => {
-                let ticks = timestamps.read(2 * measured)?;
-                for (secs, pair) in secs.iter_mut().zip(ticks.chunks_exact(2)) {
-                    *secs = pair[0].zip(pair[1]).map(|(begin, end)| timestamps.seconds_between(begin, end));
+            Queries::Frame(timestamps) => {
+                if let [begin, end] = timestamps.read(2)?[..] {
+                    span_secs = secs_between(timestamps, begin, end);
                 }
-                let ends = ticks.first().copied().flatten().zip(ticks.last().copied().flatten());
-                span_secs = ends.map(|(begin, end)| timestamps.seconds_between(begin, end));
+            }
+            Queries::Times(timestamps) => {
+                let ticks = timestamps.read(measured + 1)?;
+                for (secs, ends) in secs.iter_mut().zip(ticks.windows(2)) {
+                    *secs = secs_between(timestamps, ends[0], ends[1]);
+                }
+                let (begin, end) = (ticks.first().copied().flatten(), ticks.last().copied().flatten());
+                span_secs = secs_between(timestamps, begin, end);
             }
             Queries::Counts(statistics) => {
                 let read = statistics.read(measured)?;
@@ -127,26 +140,20 @@ impl Profiler {
         // SAFETY: this function's contract.
         unsafe {
             match &self.queries {
-                Queries::Times(timestamps) => timestamps.reset(commands),
+                Queries::Frame(timestamps) | Queries::Times(timestamps) => {
+                    timestamps.reset(commands);
+                    timestamps.write(commands, 0);
+                }
                 Queries::Counts(statistics) => statistics.reset(commands),
                 Queries::Nothing => {}
             }
         }
     }
 
-    /// # Safety
-    /// As [`Profiler::begin_frame`], after it; once for each pass, in order, before its barriers.
-    pub(super) unsafe fn begin_pass(&self, commands: vk::CommandBuffer, pass: u32) {
-        if let (Queries::Times(timestamps), true) = (&self.queries, pass < MAX_PASSES) {
-            // SAFETY: this function's contract.
-            unsafe { timestamps.write(commands, 2 * pass) };
-        }
-    }
-
     /// Counts begin inside of rendering where a pass draws: nothing but its draws, or its dispatches, shall be counted.
     ///
     /// # Safety
-    /// After [`Profiler::begin_pass`]; `commands` is inside of the pass's rendering, where it has one.
+    /// After [`Profiler::begin_frame`], once for each pass, in order; `commands` is inside of the pass's rendering, where it has one.
     pub(super) unsafe fn begin_counts(&self, commands: vk::CommandBuffer, pass: u32) {
         if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {
             // SAFETY: this function's contract.
@@ -164,11 +171,19 @@ impl Profiler {
     }
 
     /// # Safety
-    /// After [`Profiler::begin_pass`] and the pass's last command.
+    /// After [`Profiler::begin_frame`], once for each pass, in order, outside of rendering and after its last command.
     pub(super) unsafe fn end_pass(&self, commands: vk::CommandBuffer, pass: u32) {
-        if let (Queries::Times(timestamps), true) = (&self.queries, pass < MAX_PASSES) {
-            // SAFETY: this function's contract.
-            unsafe { timestamps.write(commands, 2 * pass + 1) };
-        }
+        let (timestamps, index) = match &self.queries {
+            Queries::Frame(timestamps) if pass as usize + 1 == self.passes.len() => (timestamps, 1),
+            Queries::Times(timestamps) if pass < MAX_PASSES => (timestamps, pass + 1),
+            _ => return,
+        };
+        // SAFETY: this function's contract; each index is written once after the reset.
+        unsafe { timestamps.write(commands, index) };
     }
+}
+
+/// Seconds between two timestamps; `None` where one was not written.
+fn secs_between(timestamps: &Timestamps, begin: Option<u64>, end: Option<u64>) -> Option<f64> {
+    begin.zip(end).map(|(begin, end)| timestamps.seconds_between(begin, end))
 }

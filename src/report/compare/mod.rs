@@ -118,7 +118,7 @@ impl MethodRow {
         Self {
             method,
             passes: times.passes.into_iter().map(pass).collect(),
-            frame_ms: times.sum_of_passes_ms,
+            frame_ms: times.frame_ms,
             flags: times.flags,
             implementation_error,
             method_error,

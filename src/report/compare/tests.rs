@@ -32,7 +32,7 @@ fn figures(rms: f64) -> ErrorFigures {
 fn times(ms: f64) -> FrameTimes {
     let sample = |ms: f64| FrameSample {
         passes_ms: vec![Some(ms), Some(2.0 * ms), Some(0.5), Some(0.25)],
-        span_ms: None,
+        frame_ms: Some(3.0 * ms + 0.75),
         wall_ms: 4.0 * ms,
         record_ms: 0.1,
     };

@@ -52,8 +52,8 @@ pub struct BenchArguments {
     #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
     pub accumulate: Accumulate,
 
-    /// Frames timed of each method, in turn with the floor: in pairs after an untimed one, but for floor, which has as many
-    /// rounds of single frames
+    /// Frames timed of each method, in turn with the floor: in pairs after an untimed one, and as many again for the times
+    /// of their passes; floor has as many rounds of single frames
     #[arg(long, value_name = "N", default_value_t = 20, help_heading = "Device and measurement")]
     #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,

@@ -116,7 +116,7 @@ fn flag(stage: &mut Stage<'_>, table: &str, contest: &Contest) {
     for entry in &entries {
         let what = format!("{table}, {}", entry.name);
         let times = entry.times();
-        stage.flags.extend(spread_flag(&what, times.sum_of_passes_ms.as_ref(), &stage.limits));
+        stage.flags.extend(spread_flag(&what, times.frame_ms.as_ref(), &stage.limits));
         stage.flags.extend(times.flags.iter().map(|flag| format!("{what}: {flag}")));
     }
 }

@@ -147,7 +147,7 @@ fn timed(
     stage.flags.extend(drift_flag(&what, &rounds, &stage.limits));
     for method in &point.methods {
         let what = format!("{what}, {}", method.name);
-        stage.flags.extend(spread_flag(&what, method.frames.sum_of_passes_ms.as_ref(), &stage.limits));
+        stage.flags.extend(spread_flag(&what, method.frames.frame_ms.as_ref(), &stage.limits));
         stage.flags.extend(method.frames.flags.iter().map(|flag| format!("{what}: {flag}")));
     }
     Ok(point)

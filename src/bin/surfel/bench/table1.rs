@@ -115,7 +115,7 @@ pub fn row(
     stage.flags.extend(drift_flag(&format!("{splats} splats"), &frames, &stage.limits));
     for method in &row.methods {
         let what = format!("{splats} splats, {}", method.name);
-        stage.flags.extend(spread_flag(&what, method.frames.sum_of_passes_ms.as_ref(), &stage.limits));
+        stage.flags.extend(spread_flag(&what, method.frames.frame_ms.as_ref(), &stage.limits));
         stage.flags.extend(method.frames.flags.iter().map(|flag| format!("{what}: {flag}")));
     }
     stage.inputs.extend(inputs);
@@ -128,7 +128,6 @@ pub fn floor_frames(mut floor: Floor<'_>) -> Draw<'_> {
         let begun = std::time::Instant::now();
         let profile = floor.frame(headless, profile)?;
         // What the host does for it is not told apart from the wait.
-        let sample = turns::sample(&profile, begun.elapsed().as_secs_f64(), f64::NAN);
-        Ok(Drawn { profile, sample })
+        Ok(Drawn { profile, wall_secs: begun.elapsed().as_secs_f64(), record_secs: f64::NAN })
     })
 }

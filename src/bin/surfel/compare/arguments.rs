@@ -95,7 +95,8 @@ pub struct CompareArguments {
     #[command(flatten)]
     pub common: CommonArguments,
 
-    /// Frames timed of each method, in pairs: the methods take turns, an untimed frame before each pair
+    /// Frames timed of each method, in pairs: the methods take turns, an untimed frame before each pair, and a pair behind
+    /// it for the times of their passes
     #[arg(long, value_name = "N", default_value_t = 10, help_heading = "Device and measurement")]
     #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
