@@ -5,6 +5,7 @@ mod common;
 use common::{assert_same_bits, assert_validation_is_silent, compare::F32, scenes, shared, with_limits};
 use glam::DVec3;
 use surfel::{
+    graph::execute::Profile,
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Frame, Headless, Wanted},
     scene::{
@@ -34,6 +35,11 @@ fn different(a: &Frame, b: &Frame) -> usize {
     };
     assert_eq!(a.linear.len(), b.linear.len());
     a.linear.iter().zip(&b.linear).filter(|pair| far(*pair)).count()
+}
+
+/// How many pixels are not as the first, which is background.
+fn shown(frame: &Frame) -> usize {
+    frame.linear.iter().filter(|color| **color != frame.linear[0]).count()
 }
 
 fn passes(frame: &Frame) -> Vec<&str> {
@@ -232,6 +238,41 @@ fn splats_lose_no_pixel_in_the_corners_of_their_boxes() {
     assert_validation_is_silent(&headless);
 }
 
+/// And they are left out: an ellipse that faces the eye in the middle of the image has tiles in the corners of its box without a pixel
+/// of it, and only tiles of lists are drawn.
+#[test]
+fn tiles_in_the_corners_of_a_box_are_in_no_list() {
+    let mut headless = shared();
+    if !headless.device().facts().pipeline_statistics {
+        println!("NOT TESTED: the device has no pipeline statistics");
+        return;
+    }
+    let camera = scenes::builder::camera([0.0, 0.0, 5.0], [0.0; 3]);
+    // World units a pixel of 128 along a side.
+    let unit = 2.0 * 5.0 * (0.5 * camera.fov_y_rad).tan() / 128.0;
+    let counted = Wanted { profile: Some(Profile::Counts), ..PICTURE };
+    // Its half axes in pixels, and the invocations of a tile. The box has 4x4 tiles. Of the first, the pixel nearest to the ellipse's center is 8.5 pixels
+    // from it along both sides, 12.0 in all; of the first of tiles half as high 8.5 and 4.5 pixels, 1.1 of the way to the rim beyond.
+    for (half_axes_px, tile_invocations, a_tile) in [
+        ([11.5, 11.5], TileInvocations::Column, 8),
+        ([11.5, 11.5], TileInvocations::Pixel, 64),
+        ([11.5, 5.5], TileInvocations::ShortColumn, 8),
+    ] {
+        let [s, t] = [DVec3::X * half_axes_px[0] * unit, DVec3::Y * half_axes_px[1] * unit];
+        let mut builder = scenes::builder::Builder::default();
+        builder.ellipse(DVec3::ZERO, s, t, [0.5, 0.5, 0.5, 1.0]);
+        let mut hard = by(&hard(vec![builder.object(false)], camera.clone(), [128, 128]), tile_invocations);
+        hard.settings.filter = Filter::None;
+        let frame = picture(&mut headless, &hard, Rasterizer::Compute, counted);
+        let area_px = std::f64::consts::PI * half_axes_px[0] * half_axes_px[1];
+        assert!((shown(&frame) as f64 / area_px - 1.0).abs() < 0.05, "{} of {area_px} px", shown(&frame));
+        let passes = frame.profile.unwrap().passes;
+        let tiles = passes.iter().find(|pass| pass.name == "see, sum and shade tiles").unwrap();
+        assert_eq!(tiles.invocations, Some(a_tile * (4 * 4 - 4)), "{tile_invocations:?}");
+    }
+    assert_validation_is_silent(&headless);
+}
+
 /// Tiles with more splats than one dispatch takes are shaded after the others: here a ball in the middle of one, beside a tile
 /// with few, and another ball where four tiles meet.
 #[test]
@@ -258,8 +299,7 @@ fn overfull_tiles_are_shaded_as_by_their_sums() {
         assert!(passes(&frame).contains(&"shade overfull tiles"), "{tile_invocations:?}");
         let points = picture(headless, &hard, Rasterizer::Perspective, PICTURE);
         assert_eq!(different(&frame, &points), 0, "{tile_invocations:?}");
-        let shown = frame.linear.iter().filter(|color| color[3] > 0.0).count();
-        assert!(shown >= 3, "{shown}");
+        assert!(shown(&frame) >= 3, "{}", shown(&frame));
     };
     check(&mut headless, 260_000, TileInvocations::ShortColumn, &[]);
     check(&mut headless, 260_000, TileInvocations::Pixel, &lights);
