@@ -251,8 +251,9 @@ fn tiles_in_the_corners_of_a_box_are_in_no_list() {
     // World units a pixel of 128 along a side.
     let unit = 2.0 * 5.0 * (0.5 * camera.fov_y_rad).tan() / 128.0;
     let counted = Wanted { profile: Some(Profile::Counts), ..PICTURE };
-    // Its half axes in pixels, and the invocations of a tile. The box has 4x4 tiles. Of the first, the pixel nearest to the ellipse's center is 8.5 pixels
-    // from it along both sides, 12.0 in all; of the first of tiles half as high 8.5 and 4.5 pixels, 1.1 of the way to the rim beyond.
+    // Its half axes in pixels, and the invocations of a tile. The box has 4x4 tiles. Of the first, the pixel nearest to the ellipse's
+    // center is 8.5 pixels from it along both sides, 12.0 in all; of the first of tiles half as high 8.5 and 4.5 pixels, which is
+    // (8.5/11.5)^2 + (4.5/5.5)^2 = 1.2.
     for (half_axes_px, tile_invocations, a_tile) in [
         ([11.5, 11.5], TileInvocations::Column, 8),
         ([11.5, 11.5], TileInvocations::Pixel, 64),

@@ -204,7 +204,8 @@ pub struct RenderArguments {
     #[arg(help_heading = "Device and measurement")]
     pub splat_format: SplatFormat,
 
-    /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with --timings, else none]
+    /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
+    /// --timings, else none]
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     #[arg(help_heading = "Device and measurement")]
     pub frames: Option<u32>,

@@ -27,8 +27,8 @@ pub struct View<'a> {
     pub settings: &'a Settings,
 }
 
-/// Warms up, with the very first frame split into what host and device did, times `frames` frames and the
-/// passes of as many more, and counts vertices and fragments in one more, because timing and counting cost time.
+/// Warms up, with the very first frame split into what host and device did, times `frames` frames and the passes of as many
+/// more, and counts vertices and fragments in one more, because timing passes and counting cost time.
 ///
 /// # Errors
 /// As [`Headless::render`].

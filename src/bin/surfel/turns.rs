@@ -71,24 +71,24 @@ pub fn samples(
     draw: &mut dyn FnMut(&mut Headless, Profile) -> Result<Drawn>,
     frames: u32,
 ) -> Result<(Vec<FrameSample>, Vec<String>)> {
-    let whole: Vec<Drawn> = (0..frames).map(|_| draw(headless, Profile::Frame)).collect::<Result<_>>()?;
-    let mut names = Vec::new();
+    let ms = |secs: f64| 1e3 * secs;
     let mut samples = Vec::new();
-    for whole in whole {
-        let passes = draw(headless, Profile::Times)?.profile.passes;
+    for _ in 0..frames {
+        let whole = draw(headless, Profile::Frame)?;
         samples.push(FrameSample {
-            passes_ms: passes.iter().map(|pass| pass.secs.map(in_ms)).collect(),
-            frame_ms: whole.profile.span_secs.map(in_ms),
-            wall_ms: in_ms(whole.wall_secs),
-            record_ms: in_ms(whole.record_secs),
+            passes_ms: Vec::new(),
+            frame_ms: whole.profile.span_secs.map(ms),
+            wall_ms: ms(whole.wall_secs),
+            record_ms: ms(whole.record_secs),
         });
+    }
+    let mut names = Vec::new();
+    for sample in &mut samples {
+        let passes = draw(headless, Profile::Times)?.profile.passes;
+        sample.passes_ms = passes.iter().map(|pass| pass.secs.map(ms)).collect();
         names = passes.into_iter().map(|pass| pass.name).collect();
     }
     Ok((samples, names))
-}
-
-fn in_ms(secs: f64) -> f64 {
-    1e3 * secs
 }
 
 /// Times `frames` frames of each contestant and counts vertices and fragments of one more. One that fails is left out of

@@ -153,7 +153,8 @@ impl Profiler {
     /// Counts begin inside of rendering where a pass draws: nothing but its draws, or its dispatches, shall be counted.
     ///
     /// # Safety
-    /// After [`Profiler::begin_frame`], once for each pass, in order; `commands` is inside of the pass's rendering, where it has one.
+    /// After [`Profiler::begin_frame`], once for each pass, in order; `commands` is inside of the pass's rendering, where it
+    /// has one.
     pub(super) unsafe fn begin_counts(&self, commands: vk::CommandBuffer, pass: u32) {
         if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {
             // SAFETY: this function's contract.
