@@ -262,7 +262,7 @@ fn tiles_in_the_corners_of_a_box_are_in_no_list() {
         let [s, t] = [DVec3::X * half_axes_px[0] * unit, DVec3::Y * half_axes_px[1] * unit];
         let mut builder = scenes::builder::Builder::default();
         builder.ellipse(DVec3::ZERO, s, t, [0.5, 0.5, 0.5, 1.0]);
-        let mut hard = by(&hard(vec![builder.object(false)], camera.clone(), [128, 128]), tile_invocations);
+        let mut hard = by(&hard(vec![builder.object(false)], camera, [128, 128]), tile_invocations);
         hard.settings.filter = Filter::None;
         let frame = picture(&mut headless, &hard, Rasterizer::Compute, counted);
         let area_px = std::f64::consts::PI * half_axes_px[0] * half_axes_px[1];
