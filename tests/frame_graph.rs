@@ -143,7 +143,6 @@ fn the_passes_times_add_up_to_the_frame() {
         let passes: Vec<_> = timed.passes.iter().map(|pass| pass.secs.unwrap()).collect();
         let (sum, span) = (passes.iter().sum::<f64>(), timed.span_secs.unwrap());
         assert_eq!(passes.len(), 3);
-        assert!(passes.iter().all(|secs| *secs >= 0.0), "{passes:?}");
         // One pass begins where the one before ends. Differences of whole ticks, scaled one by one: a few roundings.
         assert!((sum - span).abs() <= 1e-12 * span, "passes leave nothing out: {sum} s of {span} s");
         // Warm-up: pipelines are compiled, pages are touched.

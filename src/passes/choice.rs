@@ -14,9 +14,9 @@ use crate::{
 
 /// Whether splats are drawn by tiles: why, or why not.
 ///
-/// On CPU drivers tiles take a third of the time of points, from 154 thousand splats to 5 million, half of it with ten thousand; with
-/// a thousand opaque ones they gain little, so that these keep their few passes and no lists (`benches/README.md`). On GPUs that was
-/// not measured yet, so that they keep to points.
+/// On CPU drivers tiles take a quarter to a fifth of the time of points, from 154 thousand splats to 5 million, and two fifths with ten
+/// thousand; with some hundred opaque ones, which are large, points are as fast, so that few keep their few passes and no lists
+/// (`benches/README.md`). On GPUs that was not measured yet, so that they keep to points.
 ///
 /// # Errors
 /// The reason against, as a sentence.
@@ -45,7 +45,7 @@ fn by_tiles_of(
     }
 }
 
-/// Pixels of the image for each splat above which tiles gain little.
+/// Pixels of the image for each splat above which tiles are not taken: they lose above 1300 to 4200 of them.
 const MOST_PIXELS_A_SPLAT: u64 = 1000;
 
 fn are_few(splats: u64, settings: &Settings) -> bool {

@@ -150,12 +150,14 @@ impl Headless {
     ) -> Result<Frame> {
         // Before any image of that size is made.
         self.renderer.check(camera, settings)?;
-        if self.targets.as_ref().is_none_or(|t| t.size_px != settings.size_px || t.wanted != wanted) {
+        // What is measured changes no image: frames that are measured in different ways find the same memory, touched.
+        let read = Wanted { profile: None, ..wanted };
+        if self.targets.as_ref().is_none_or(|t| t.size_px != settings.size_px || t.wanted != read) {
             self.targets = None;
         }
         let targets = match &mut self.targets {
             Some(targets) => targets,
-            none => none.insert(Targets::new(&self.device, settings.size_px, wanted)?),
+            none => none.insert(Targets::new(&self.device, settings.size_px, read)?),
         };
         // Once more, in case that the wait for the frame before failed.
         self.queue.wait_submitted()?;

@@ -15,7 +15,7 @@ pub struct Contestant {
     pub name: String,
     /// Its frames.
     pub frames: FrameTimes,
-    /// Frames a second, by the median of the passes together; `None` where not measured.
+    /// Frames a second, by the median of frames whose passes are not timed; `None` where not measured.
     pub fps: Option<f64>,
     /// How many times the first contestant's frame its own takes, round by round.
     pub beside_first: Option<Spread>,

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::Spread;
 
-/// How far the sum of the passes may be from the frame's time before it is flagged, as a part of that time.
+/// How far the sum of the passes may be from the frame's time, and that from the time of submission and wait, before it is flagged,
+/// as a part of the latter.
 const TOLERANCE: f64 = 0.05;
 
 /// What one frame took.
@@ -107,8 +108,11 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
     let mut flags = Vec::new();
     if samples.is_empty() {
         flags.push("no frame was timed".to_owned());
-    } else if passes.iter().any(|pass| pass.ms.is_none()) {
-        flags.push("passes were not timed: the device's queue has no timestamps, or lost one".to_owned());
+    } else if passes.iter().any(|pass| pass.ms.is_none())
+        || samples.iter().any(|sample| sample.frame_ms.is_none())
+    {
+        let reason = "frames or passes were not timed: the device's queue has no timestamps, or lost one";
+        flags.push(reason.to_owned());
     }
     // Passes without draws, such as dispatches and copies, have nothing to count.
     if !passes.is_empty() && passes.iter().all(|pass| pass.fragments.is_none()) {

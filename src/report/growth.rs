@@ -41,7 +41,7 @@ pub struct GrowthMethod {
     pub name: String,
     /// Its frames.
     pub frames: FrameTimes,
-    /// Splats a second, drawn or culled, by the median of the passes together; `None` where not measured.
+    /// Splats a second, drawn or culled, by the median of frames whose passes are not timed; `None` where not measured.
     pub splats_per_sec: Option<f64>,
     /// How many times the first one's frame its own takes, round by round.
     pub beside_first: Option<Spread>,
@@ -80,7 +80,7 @@ impl GrowthPoint {
 }
 
 impl GrowthMethod {
-    /// The median of the passes together, in milliseconds.
+    /// The median of frames whose passes are not timed, in milliseconds.
     pub fn ms(&self) -> Option<f64> {
         self.frames.frame_ms.map(|ms| ms.median)
     }

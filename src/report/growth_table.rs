@@ -91,7 +91,7 @@ fn frames_grid(title: &str, points: &[GrowthPoint], grows: fn(&GrowthPoint) -> u
         }
     }
     grid.notes.push(
-        "medians; power: of what grows, from the row before: 1 where twice as much takes twice as long; x first: the median \
+        "medians, of frames whose passes are not timed; power: of what grows, from the row before: 1 where twice as much takes twice as long; x first: the median \
          of the rounds' own ratios to the first rasterizer; MB: device memory of splats and of a frame, and the most of this \
          process's own from the making of the splats to their first frame"
             .to_owned(),

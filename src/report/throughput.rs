@@ -31,7 +31,7 @@ pub struct MethodThroughput {
     pub frames: FrameTimes,
     /// How many times the floor's pass each of its passes takes, then the frame, round by round.
     pub over_floor: Vec<Option<Spread>>,
-    /// Frames a second, by the median of the passes together; `None` where not measured.
+    /// Frames a second, by the median of frames whose passes are not timed; `None` where not measured.
     pub fps: Option<f64>,
     /// Million splats a second, drawn or culled.
     pub million_splats_per_sec: Option<f64>,

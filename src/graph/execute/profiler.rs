@@ -2,7 +2,7 @@
 //! compute.
 //!
 //! Each is taken in frames of its own: counting costs time, and so do timestamps. On llvmpipe one is work in every part of
-//! the image that was drawn to last: in an image of 4096×4096 pixels, half a millisecond behind each dispatch.
+//! the image that was drawn to last: in an image of 4096×4096 pixels, more than half a millisecond behind each dispatch.
 
 use ash::vk;
 
@@ -46,8 +46,8 @@ enum Queries {
 pub struct FrameProfile {
     /// One a pass.
     pub passes: Vec<PassProfile>,
-    /// From before the first pass to behind the last; `None` where not measured. With [`Profile::Times`] timing the passes
-    /// is in it.
+    /// From before the first pass to behind the last; `None` where not measured. With [`Profile::Times`] to behind the last that
+    /// is timed, with what timing them costs.
     pub span_secs: Option<f64>,
 }
 
@@ -153,7 +153,7 @@ impl Profiler {
     /// Counts begin inside of rendering where a pass draws: nothing but its draws, or its dispatches, shall be counted.
     ///
     /// # Safety
-    /// After [`Profiler::begin_frame`], once for each pass, in order; `commands` is inside of the pass's rendering, where it
+    /// After [`Profiler::begin_frame`], at most once for each pass, in order; `commands` is inside of the pass's rendering, where it
     /// has one.
     pub(super) unsafe fn begin_counts(&self, commands: vk::CommandBuffer, pass: u32) {
         if let (Queries::Counts(statistics), true) = (&self.queries, pass < MAX_PASSES) {

@@ -63,7 +63,7 @@ pub struct MethodRow {
     pub method: MethodNames,
     /// Its passes.
     pub passes: Vec<PassRow>,
-    /// Milliseconds of all passes together; `None` where not measured.
+    /// Milliseconds of a frame whose passes are not timed; `None` where not measured.
     pub frame_ms: Option<Spread>,
     /// Against the oracle of the same method.
     pub implementation_error: ErrorFigures,

@@ -10,7 +10,8 @@ const COMMON_PASSES: [&str; 3] = ["visibility", "accumulate", "finalize"];
 
 /// What the columns mean.
 const FOOT: &str = "\
-ms: milliseconds, medians, each with how far the smallest and the largest lie from it; other: all further passes together
+ms: milliseconds, medians, each with how far the smallest and the largest lie from it; other: all further passes together;
+frame: one whose passes are not timed, which may take less than they do together
 fragments: invocations of the fragment stage in one frame; VP/FP: instructions as in vertex and fragment programs of 2006
 implementation error: against the 64-bit oracle of the same method; method error: against the ground truth
 max, rms: linear color, white is 1; psnr: decibels below white; ssim: 1 for equal pictures, over the whole picture
