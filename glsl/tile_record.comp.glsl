@@ -56,6 +56,8 @@ uint span_of(Mapping m, ImageMap map)
         return SPAN_NONE;
     }
     outside &= (rows.x > first.y ? 12 : 15) & (rows.y < last.y ? 3 : 15);
+    // Where only the last row is left, it is the first one.
+    outside >>= rows.x > first.y && rows.x == last.y ? 2 : 0;
     first.y = rows.x;
     more.y = rows.y - rows.x;
 #endif

@@ -98,6 +98,8 @@ ivec2 stored_at(ivec2 top, int row)
     return IN_SLOTS ? pixel_in_slot(row) : pixel_of(top, row);
 }
 
+#include "inc/tile_pixel.glsl"
+
 #if !defined(SUMMED)
 void see(Range range, vec2 at_px, inout float visible[ROWS])
 {
@@ -108,12 +110,7 @@ void see(Range range, vec2 at_px, inout float visible[ROWS])
             Splat splat = handed(own, place + k);
             Column column = column_of(splat, at_px);
             [[unroll]] for (int row = 0; row < ROWS; row++) {
-                vec3 uvw = uvw_of(column, row);
-                bool inside = is_inside(uvw);
-                float depth = column.w0 * uvw.z;
-                float shifted = depth * splat.inverse_shift;
-                inside = inside && is_beyond_near(depth);
-                visible[row] = inside ? max(visible[row], shifted) : visible[row];
+                see(splat, column, row, visible[row]);
             }
         }
     }
@@ -121,27 +118,6 @@ void see(Range range, vec2 at_px, inout float visible[ROWS])
 #endif
 
 #if !defined(VISIBLE)
-// Adds what a splat is at a pixel.
-void add(Splat splat, Look look, Column column, int row, float visible, float polygon, inout vec4 colors, inout vec4 normals)
-{
-    vec3 uvw = uvw_of(column, row);
-    float depth = column.w0 * uvw.z;
-    bool inside = is_inside(uvw) && is_beyond_near(depth);
-#if defined(BESIDE)
-    inside = inside && (SHIFTED_FOR_ALL || depth >= visible)
-        && depth >= FORMULA(FORMULA_TOWARD_VIEWER, polygon * splat.inverse_shift);
-#else
-    inside = inside && depth >= visible;
-#endif
-    float weight = weight_of(uvw, look.share, inside);
-    colors += weight * vec4(look.color, 1.0);
-    normals.xyz += weight * look.normal;
-#if defined(WITH_DEPTH)
-    // Where the splat is not inside, depth may be 0.
-    normals.w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, visible / depth) : 0.0;
-#endif
-}
-
 void sum(Range range, vec2 at_px, float visible[ROWS], float polygon[ROWS], inout vec4 colors[ROWS], inout vec4 normals[ROWS])
 {
     Splat own;

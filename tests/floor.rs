@@ -86,6 +86,11 @@ fn the_limits_shade_what_their_rates_count() {
                 }
                 Limit::Bytes => assert_eq!(fragments, None),
                 Limit::Invocations | Limit::Atomics => assert_eq!(fragments, Some(probe.units())),
+                // 64 splats at each pixel of an invocation: a column of 8 on a CPU, one on others.
+                Limit::Kernels => {
+                    let pixels = if headless.device().facts().limits.is_cpu { 8 } else { 1 };
+                    assert_eq!(fragments.map(|counted| 64 * pixels * counted), Some(probe.units()));
+                }
             }
         }
     }

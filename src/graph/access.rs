@@ -32,6 +32,8 @@ pub enum Access {
     StorageWriteCompute,
     /// A storage buffer or image read and written in a compute shader.
     StorageReadWriteCompute,
+    /// A storage buffer or image of which a compute shader reads and writes some places, which only the device knows.
+    StorageUpdateCompute,
     /// A uniform buffer read in the vertex stage.
     UniformReadVertex,
     /// A uniform buffer read in the fragment stage.
@@ -78,7 +80,7 @@ pub struct AccessInfo {
 
 impl Access {
     /// Every access, in the order of the table.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::ColorAttachment,
         Self::DepthAttachment,
         Self::DepthTest,
@@ -90,6 +92,7 @@ impl Access {
         Self::StorageReadCompute,
         Self::StorageWriteCompute,
         Self::StorageReadWriteCompute,
+        Self::StorageUpdateCompute,
         Self::UniformReadVertex,
         Self::UniformReadFragment,
         Self::UniformReadCompute,
@@ -140,6 +143,7 @@ impl Access {
             Self::StorageReadCompute      => row(compute, storage_reads, none, storage, Some(Compute)),
             Self::StorageWriteCompute     => row(compute, none, storage_writes, storage, Some(Compute)),
             Self::StorageReadWriteCompute => row(compute, storage_reads, storage_writes, storage, Some(Compute)),
+            Self::StorageUpdateCompute    => row(compute, storage_reads, storage_writes, storage, Some(Compute)),
             Self::UniformReadVertex       => row(S::VERTEX_SHADER, A::UNIFORM_READ, none, uniform, Some(Graphics)),
             Self::UniformReadFragment     => row(fragment, A::UNIFORM_READ, none, uniform, Some(Graphics)),
             Self::UniformReadCompute      => row(compute, A::UNIFORM_READ, none, uniform, Some(Compute)),

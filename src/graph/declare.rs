@@ -130,6 +130,15 @@ impl<Body> Graph<Body> {
         self.declared.add(name, ResourceDesc::Buffer(desc), origin)
     }
 
+    /// What is in a buffer after all passes declared so far, by its name, for tools that look into frames which others declared.
+    pub fn content_of(&self, name: &str) -> Option<(Handle<Buffer>, BufferDesc)> {
+        let place = self.declared.resources.iter().position(|resource| &*resource.name == name)?;
+        let resource = &self.declared.resources[place];
+        let ResourceDesc::Buffer(desc) = resource.desc else { return None };
+        let (graph, id, name) = (self.declared.id, ResourceId(place as u32), resource.name.clone());
+        Some((Handle { graph, id, version: resource.version, name, kind: PhantomData }, desc))
+    }
+
     /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
     pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
         let pass = Pass { name: name.to_owned(), uses: Vec::new(), side_effect: false, fault: None };

@@ -42,3 +42,4 @@ pub use resource::{
     Buffer, BufferDesc, BufferState, ClearValue, Handle, Image, ImageDesc, ImageState, Origin, ResourceDesc,
     ResourceId, State, aspect_of,
 };
+pub use traffic::Executed;

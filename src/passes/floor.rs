@@ -8,9 +8,7 @@ mod limits;
 
 use ash::vk;
 
-pub use limits::{
-    LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, limit_copy, limit_dispatch, limit_draws, limit_fill,
-};
+pub use limits::{LimitDispatch, LimitInputs, limit_dispatch, limit_draws, limit_fill};
 
 use super::{
     DEPTH_FORMAT, Draw, Inputs,

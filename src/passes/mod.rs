@@ -53,8 +53,8 @@ pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperCon
 pub use draws::{Draw, draws};
 pub use export::Exported;
 pub use floor::{
-    FLOOR_POINT_BYTES, FloorPoints, LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, floor_frame, floor_points,
-    limit_copy, limit_dispatch, limit_draws, limit_fill,
+    FLOOR_POINT_BYTES, FloorPoints, LimitDispatch, LimitInputs, floor_frame, floor_points, limit_dispatch,
+    limit_draws, limit_fill,
 };
 #[cfg(feature = "test-formulas")]
 pub use formula::Formula;
@@ -66,9 +66,11 @@ pub use needs::{Needs, needs};
 pub use paper::paper_frame;
 pub use parts::{Part, Parts};
 pub use pipelines::{Shaders, room_of_lists};
-pub use readback::readback;
+pub use readback::{readback, readback_buffer};
 pub use recipe::{PipelineRecipe, PipelineStages};
-pub use tiles::{Invocations, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan};
+pub use tiles::{
+    Invocations, ListsInUse, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan, TilesInUse, told_by,
+};
 
 use self::{finalize::Opaque, lists::Lists, tiles::TileStart};
 use crate::{

@@ -1,4 +1,4 @@
-//! Copies an image to a buffer that the host reads after the frame.
+//! Copies an image, or a buffer, to a buffer that the host reads after the frame.
 
 use ash::vk;
 
@@ -28,6 +28,28 @@ pub fn readback(
                 let device = context.device();
                 device.cmd_copy_image_to_buffer(context.commands(), image, layout, buffer, &[region]);
             }
+            Ok(())
+        }));
+}
+
+/// Declares the pass that copies the first `size_bytes` of a buffer.
+pub fn readback_buffer(
+    graph: &mut Graph<Body<'_>>,
+    name: &str,
+    from: &Handle<Buffer>,
+    to: &mut Handle<Buffer>,
+    size_bytes: u64,
+) {
+    let (from_id, to_id) = (from.id(), to.id());
+    graph
+        .pass(name)
+        .read(from, Access::TransferRead)
+        .write(to, Access::TransferWrite, Start::Discard)
+        .finish(Box::new(move |context| {
+            let region = vk::BufferCopy::default().size(size_bytes);
+            let (from, to) = (context.buffer(from_id)?, context.buffer(to_id)?);
+            // SAFETY: outside of rendering; two buffers of at least that size, as the caller has it.
+            unsafe { context.device().cmd_copy_buffer(context.commands(), from, to, &[region]) };
             Ok(())
         }));
 }

@@ -15,7 +15,7 @@ use crate::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
         execute::{Body, FrameProfile, PassProfile, Physical, Profile, Transients, execute, memory_need},
     },
-    passes::{self, LIMIT_GROUP, LIMIT_GROUPS, LimitInputs, Needs},
+    passes::{self, LimitDispatch, LimitInputs, Needs},
     report::Limit,
     scene::{Accumulate, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
@@ -94,12 +94,12 @@ impl LimitProbes {
             }
             Err(error) => made.notes.push(format!("bytes are not measured: {error}")),
         }
-        let units = LIMIT_GROUP * u64::from(LIMIT_GROUPS);
-        for (limit, words) in [(Limit::Invocations, u64::from(LIMIT_GROUPS)), (Limit::Atomics, units)] {
+        for limit in [Limit::Invocations, Limit::Atomics, Limit::Kernels] {
+            let Some(dispatch) = LimitDispatch::of(limit, &headless.renderer.limits) else { continue };
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-            let words = BufferDesc { name: "words of a limit", size: 4 * words, usage };
+            let words = BufferDesc { name: "words of a limit", size: 4 * dispatch.words, usage };
             let words = Buffer::new(headless.device(), words, MemoryUse::Device)?;
-            made.probes.push(Probe::new(headless, limit, vec![words], 0, units));
+            made.probes.push(Probe::new(headless, limit, vec![words], 0, dispatch.units));
         }
         for probe in &mut made.probes {
             probe.calibrate(headless, &made.settings)?;
@@ -194,16 +194,15 @@ impl Probe {
             imports.push((handle.id(), Physical::Buffer(buffer.raw())));
             handles.push(handle);
         }
+        let dispatch = LimitDispatch::of(self.limit, &headless.renderer.limits);
         match (self.limit, handles.as_mut_slice()) {
             (Limit::Bytes, [from, to]) => {
-                passes::limit_copy(&mut graph, from, to, self.buffers[0].size());
+                passes::readback_buffer(&mut graph, Limit::Bytes.name(), from, to, self.buffers[0].size());
             }
-            (limit @ (Limit::Invocations | Limit::Atomics), [words]) => {
-                passes::limit_dispatch(&mut graph, inputs, limit, words)?;
-            }
-            (limit, [points, ..]) => {
-                passes::limit_draws(&mut graph, inputs, limit, points, self.points)?;
-            }
+            (limit, [buffer, ..]) => match dispatch {
+                Some(dispatch) => passes::limit_dispatch(&mut graph, inputs, limit, dispatch, buffer)?,
+                None => passes::limit_draws(&mut graph, inputs, limit, buffer, self.points)?,
+            },
             // No probe is made without a buffer.
             (_, []) => return Ok(FrameProfile::default()),
         }

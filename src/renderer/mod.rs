@@ -4,6 +4,7 @@
 mod explain;
 mod floor;
 mod headless;
+mod in_use;
 mod limit_points;
 mod limits;
 mod paper;

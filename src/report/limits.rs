@@ -29,6 +29,8 @@ pub enum Limit {
     Invocations,
     /// Atomic sums, one of each invocation of a compute shader, on as many words as there are in 4096 workgroups of 256.
     Atomics,
+    /// Splats at pixels, each seen and then added in registers, as tiles do it, without what brings them there.
+    Kernels,
 }
 
 impl Limit {
@@ -43,6 +45,7 @@ impl Limit {
             Self::Bytes => "bytes",
             Self::Invocations => "invocations",
             Self::Atomics => "atomics",
+            Self::Kernels => "kernels",
         }
     }
 }

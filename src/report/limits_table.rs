@@ -5,8 +5,8 @@ use super::{
     grid::{Grid, NONE, cell},
 };
 
-/// The limits in the order of the second table's columns.
-const COLUMNS: [Limit; 7] = [
+/// The limits in the order of the second table's columns; those are left out of which no pass is known to do anything.
+const COLUMNS: [Limit; 8] = [
     Limit::Points,
     Limit::DrawnPoints,
     Limit::Fragments,
@@ -14,6 +14,7 @@ const COLUMNS: [Limit; 7] = [
     Limit::BlendedFragments,
     Limit::Bytes,
     Limit::Invocations,
+    Limit::Kernels,
 ];
 
 impl LimitsReport {
@@ -36,7 +37,7 @@ impl LimitsReport {
         }
         grid.notes.push(
             "points: outside of the clip volume; drawn points: one pixel each, behind what is there; fragments: one color, without blending; depth fragments: depth alone; \
-             blended fragments: added into both sums; bytes: read and written by a copy; invocations: of compute; atomics: a sum of each invocation, on a million words"
+             blended fragments: added into both sums; bytes: read and written by a copy; invocations: of compute; atomics: a sum of each invocation, on a million words; kernels: splats seen at a pixel and added to it, in registers"
                 .to_owned(),
         );
         grid.notes.extend(self.notes.iter().cloned());
@@ -44,13 +45,15 @@ impl LimitsReport {
     }
 
     fn bounds_grid(&self) -> Grid {
-        let names = COLUMNS.map(Limit::name);
+        let is_known = |limit: &Limit| self.bounds.iter().any(|row| row.limit_ms.contains_key(limit));
+        let columns: Vec<Limit> = COLUMNS.into_iter().filter(is_known).collect();
+        let names = columns.iter().map(|limit| limit.name());
         let head: Vec<&str> =
             ["", "ms"].into_iter().chain(names).chain(["bound", "binds", "x bound"]).collect();
         let title = "bounds: milliseconds that each limit alone would take, in the same rounds";
         let mut grid = Grid::new(title, &head);
         for row in &self.bounds {
-            let alone = COLUMNS.map(|limit| cell(row.limit_ms.get(&limit).copied(), 3));
+            let alone = columns.iter().map(|limit| cell(row.limit_ms.get(limit).copied(), 3));
             let cells = [row.name.clone(), cell(row.ms.map(|ms| ms.median), 3)].into_iter().chain(alone);
             grid.row(cells.chain([
                 cell(row.bound_ms.map(|ms| ms.median), 3),
@@ -80,9 +83,11 @@ mod tests {
         assert_eq!(limits.rows[1], ["blended fragments", "1000000", "3.000", "0.3333", "10.67"]);
         assert_eq!(limits.notes.last().map(String::as_str), Some("a note"));
         let row = &bounds.rows[1];
-        assert_eq!((row[0].as_str(), row[2].as_str(), row[6].as_str()), ("accumulate", "1.500", "6.000"));
-        assert_eq!(row[9..], ["6.000", "blended fragments", "2.00"]);
-        assert_eq!(bounds.rows[2][9..], ["-", "-", "-"]);
+        // Only of three limits is anything known.
+        assert_eq!(bounds.head[2..5], ["points", "blended fragments", "bytes"]);
+        assert_eq!(row[..5], ["accumulate", "12.000", "1.500", "6.000", "-"].map(str::to_owned));
+        assert_eq!(row[5..], ["6.000", "blended fragments", "2.00"]);
+        assert_eq!(bounds.rows[2][5..], ["-", "-", "-"]);
         assert!(bounds.notes.last().is_some_and(|note| note.contains("without a bound")));
     }
 }

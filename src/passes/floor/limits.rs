@@ -1,5 +1,5 @@
 //! What the device can do at most, one thing at a time: points without fragments, fragments without computing, blending,
-//! copies, invocations, atomics. Each is a pass of its own that repeats the one thing, and nothing else, for long enough to be timed.
+//! copies, invocations, atomics, splats at pixels. Each is a pass of its own that repeats the one thing, and nothing else, for long enough to be timed.
 //!
 //! Fragments come from points of 32 pixels: a triangle over the whole image would be drawn only once by a driver that
 //! sees that the next one hides it tile by tile.
@@ -10,24 +10,86 @@ use super::super::{
     DEPTH_FORMAT, Shaders,
     pipelines::{ComputeKey, GraphicsKey, Layout},
     sum_format,
+    tiles::Invocations,
+    variant::splat_constants,
 };
 use crate::{
-    error::{Error, ErrorKind, Result},
+    error::{ErrorKind, Result},
     graph::{
         Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, ResourceId, Start,
         execute::{Body, PassContext},
     },
     report::Limit,
-    scene::Settings,
-    shaders,
-    vk::{Blend, Descriptor, DescriptorPool},
+    scene::{Settings, TileInvocations},
+    shaders::{self, Shader},
+    vk::{Blend, Descriptor, DescriptorPool, Limits},
 };
 
-/// Invocations of a workgroup, as in `glsl/limit_compute.comp.glsl` and `limit_atomics.comp.glsl`.
-pub const LIMIT_GROUP: u64 = 256;
+/// Splats of each invocation of the kernels' limit.
+const KERNEL_SPLATS: u32 = 64;
 
-/// Workgroups in a row.
-pub const LIMIT_GROUPS: u32 = 4096;
+/// A row of workgroups of a limit of compute.
+#[derive(Clone, Copy, Debug)]
+pub struct LimitDispatch {
+    shader: &'static Shader,
+    access: Access,
+    content: Start,
+    groups: u32,
+    /// Invocations of it.
+    pub invocations: u64,
+    /// Units of the limit.
+    pub units: u64,
+    /// Words of the buffer that it writes to.
+    pub words: u64,
+}
+
+impl LimitDispatch {
+    /// That of a limit as this device has it; `None` where it is not one of compute.
+    pub fn of(limit: Limit, limits: &Limits) -> Option<Self> {
+        // As in `glsl/limit_compute.comp.glsl` and `limit_atomics.comp.glsl`.
+        const GROUP: u64 = 256;
+        const GROUPS: u32 = 4096;
+        // As in `glsl/limit_kernels.comp.glsl`.
+        const GROUP_OF_KERNELS: u64 = 64;
+        const GROUPS_OF_KERNELS: u32 = 256;
+        let nothing = Self {
+            shader: &shaders::LIMIT_COMPUTE_COMP,
+            access: Access::StorageWriteCompute,
+            content: Start::Discard,
+            groups: GROUPS,
+            invocations: GROUP * u64::from(GROUPS),
+            units: GROUP * u64::from(GROUPS),
+            words: GROUPS.into(),
+        };
+        match limit {
+            Limit::Invocations => Some(nothing),
+            Limit::Atomics => Some(Self {
+                shader: &shaders::LIMIT_ATOMICS_COMP,
+                access: Access::StorageReadWriteCompute,
+                content: Start::Load,
+                words: nothing.invocations,
+                ..nothing
+            }),
+            Limit::Kernels => {
+                let invocations = GROUP_OF_KERNELS * u64::from(GROUPS_OF_KERNELS);
+                let (shader, pixels) = match Invocations::of(TileInvocations::Auto, limits, false) {
+                    Invocations::Pixels => (&shaders::LIMIT_KERNELS_PIXELS_COMP, 1),
+                    columns => (&shaders::LIMIT_KERNELS_COMP, columns.tile_height().into()),
+                };
+                let units = invocations * pixels * u64::from(KERNEL_SPLATS);
+                Some(Self {
+                    shader,
+                    groups: GROUPS_OF_KERNELS,
+                    invocations,
+                    units,
+                    words: invocations,
+                    ..nothing
+                })
+            }
+            _ => None,
+        }
+    }
+}
 
 /// What the pass of a limit is given.
 #[derive(Clone, Copy)]
@@ -83,7 +145,10 @@ pub fn limit_draws<'a>(
         Limit::BlendedFragments => {
             (GraphicsKey { blend: Blend::Add, ..key(&shaders::FLOOR_ADD_FRAG) }, vec![sums; 2])
         }
-        Limit::Bytes | Limit::Invocations | Limit::Atomics => return Err(not_of(limit, "drawing")),
+        Limit::Bytes | Limit::Invocations | Limit::Atomics | Limit::Kernels => {
+            let (pass, reason) = (limit.name().to_owned(), "is not a limit of drawing".to_owned());
+            return Err(ErrorKind::Graph { pass, resource: String::new(), reason }.into());
+        }
     };
     let has_depth = key.depth.is_some();
     let pipeline = inputs.shaders.graphics(GraphicsKey { color_formats: colors.clone(), ..key })?;
@@ -134,45 +199,22 @@ pub fn limit_fill(graph: &mut Graph<Body<'_>>, buffer: &mut Handle<Buffer>) {
     ));
 }
 
-/// Declares the pass that copies `size_bytes` once.
-pub fn limit_copy(
-    graph: &mut Graph<Body<'_>>,
-    from: &Handle<Buffer>,
-    to: &mut Handle<Buffer>,
-    size_bytes: u64,
-) {
-    let (from_id, to_id) = (from.id(), to.id());
-    graph
-        .pass(Limit::Bytes.name())
-        .read(from, Access::TransferRead)
-        .write(to, Access::TransferWrite, Start::Discard)
-        .finish(Box::new(move |context| {
-            let region = vk::BufferCopy::default().size(size_bytes);
-            let (from, to) = (context.buffer(from_id)?, context.buffer(to_id)?);
-            // SAFETY: outside of rendering; two buffers of at least that size.
-            unsafe { context.device().cmd_copy_buffer(context.commands(), from, to, &[region]) };
-            Ok(())
-        }));
-}
-
-/// Declares the pass that dispatches [`LIMIT_GROUPS`] × `repeats` workgroups of [`LIMIT_GROUP`] invocations: for
-/// [`Limit::Invocations`], with 4 bytes in `words` for each group of a row; for [`Limit::Atomics`], for each invocation of one.
+/// Declares the pass that dispatches a limit of compute, `repeats` rows of it, which write to `words`.
 ///
 /// # Errors
-/// [`ErrorKind::Graph`] for a limit that is not one of compute; whatever the driver answers when the pipeline is made.
+/// Whatever the driver answers when the pipeline is made.
 pub fn limit_dispatch<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: LimitInputs<'a>,
     limit: Limit,
+    dispatch: LimitDispatch,
     words: &mut Handle<Buffer>,
 ) -> Result<()> {
-    let (shader, access, content) = match limit {
-        Limit::Invocations => (&shaders::LIMIT_COMPUTE_COMP, Access::StorageWriteCompute, Start::Discard),
-        Limit::Atomics => (&shaders::LIMIT_ATOMICS_COMP, Access::StorageReadWriteCompute, Start::Load),
-        _ => return Err(not_of(limit, "dispatches")),
-    };
-    let key = ComputeKey { shader, layout: Layout::List, constants: Vec::new() };
-    let pipeline = inputs.shaders.compute(key)?;
+    let LimitDispatch { shader, access, content, groups, .. } = dispatch;
+    // Those that are not the shader's own have no effect.
+    let mut constants = splat_constants(inputs.settings, false, false);
+    constants.push((27, KERNEL_SPLATS));
+    let pipeline = inputs.shaders.compute(ComputeKey { shader, layout: Layout::List, constants })?;
     let id = words.id();
     graph.pass(limit.name()).write(words, access, content).finish(Box::new(move |context| {
         let (device, commands) = (context.device(), context.commands());
@@ -183,16 +225,11 @@ pub fn limit_dispatch<'a>(
         unsafe {
             device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
             device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
-            device.cmd_dispatch(commands, LIMIT_GROUPS, inputs.repeats, 1);
+            device.cmd_dispatch(commands, groups, inputs.repeats, 1);
         }
         Ok(())
     }));
     Ok(())
-}
-
-fn not_of(limit: Limit, kind: &str) -> Error {
-    let (pass, reason) = (limit.name().to_owned(), format!("is not a limit of {kind}"));
-    ErrorKind::Graph { pass, resource: String::new(), reason }.into()
 }
 
 /// Set 1 with one buffer.

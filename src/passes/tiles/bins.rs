@@ -18,7 +18,7 @@ use super::{
 use crate::{
     error::Result,
     graph::{
-        Access, Graph, PassBuilder, ResourceId, Start,
+        Access, Graph, PassBuilder, Start,
         execute::{Body, PassContext},
     },
     shaders::{self, Shader},
@@ -58,20 +58,11 @@ pub(super) fn fill_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Cons
     (shader, constants)
 }
 
-/// What walks bind of a list.
-fn kept_buffers(kept: Option<&Kept>) -> Vec<(u32, ResourceId)> {
-    let of = |kept: &Kept| vec![(KEPT_STARTS, kept.starts().id()), (KEPT_LIST, kept.list().id())];
-    kept.map_or_else(Vec::new, of)
-}
-
-/// Declares that a pass reads them.
-fn read_kept<'g, B>(pass: PassBuilder<'g, B>, kept: Option<&Kept>) -> PassBuilder<'g, B> {
-    match kept {
-        Some(kept) => {
-            pass.read(kept.starts(), Access::StorageReadCompute).read(kept.list(), Access::StorageReadCompute)
-        }
-        None => pass,
-    }
+/// Declares that a walk reads how many records a list has; and, where the graphics pipeline draws some, the splats' own numbers.
+fn read_kept<'g, B>(pass: PassBuilder<'g, B>, kept: Option<&Kept>, numbers: bool) -> PassBuilder<'g, B> {
+    let Some(kept) = kept else { return pass };
+    let pass = pass.read(kept.starts(), Access::StorageReadCompute);
+    if numbers { pass.read(kept.list(), Access::StorageReadCompute) } else { pass }
 }
 
 /// Declares the passes that set splats up and list them by tile. `kind`, in front of the names, tells several such lists of a
@@ -85,7 +76,8 @@ pub(in super::super) fn list<'a>(
     let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
     let mut tiles = Tiles::create(graph, kind, plan);
     record(graph, inputs, kind, &mut tiles, kept.as_ref())?;
-    let (kept, kept_buffers) = (kept.as_ref(), kept_buffers(kept.as_ref()));
+    let kept = kept.as_ref();
+    let kept_starts = kept.map(|kept| (KEPT_STARTS, kept.starts().id()));
     let (counts, starts) = ((COUNTS, tiles.counts.id()), (STARTS, tiles.starts.id()));
     let read = tiles.access_of_lists();
 
@@ -100,12 +92,12 @@ pub(in super::super) fn list<'a>(
             Ok(())
         }));
 
-    let counted = [&[counts], kept_buffers.as_slice()].concat();
+    let counted = [counts].into_iter().chain(kept_starts).collect();
     let mut count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept.is_some()), counted)?;
     tiles.bind_read(&mut count, [SPANS, SPAN_TEXELS], &tiles.spans);
-    read_kept(graph.pass(&format!("count {kind}tiles")), kept)
+    read_kept(graph.pass(&format!("count {kind}tiles")), kept, false)
         .read(&tiles.spans, read)
-        .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
+        .write(&mut tiles.counts, Access::StorageUpdateCompute, Start::Load)
         .finish(Box::new(move |context| walk(context, &count)));
 
     let total = TilePass::new(inputs, plan, (&shaders::TILE_TOTAL_COMP, Vec::new()), vec![counts, starts])?;
@@ -133,13 +125,17 @@ pub(in super::super) fn list<'a>(
         .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| start.dispatch(context, 1)));
 
-    let filled = [&[counts, starts, (ENTRIES, tiles.entries.id())], kept_buffers.as_slice()].concat();
+    // A binding needs a buffer, also where nobody reads it.
+    let numbers = kept.map(|kept| if plan.may_be_large { kept.list() } else { kept.starts() });
+    let numbers = numbers.map(|list| (KEPT_LIST, list.id()));
+    let filled = [counts, starts, (ENTRIES, tiles.entries.id())];
+    let filled = filled.into_iter().chain(kept_starts).chain(numbers).collect();
     let mut fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept.is_some()), filled)?;
     tiles.bind_read(&mut fill, [SPANS, SPAN_TEXELS], &tiles.spans);
-    read_kept(graph.pass(&format!("fill {kind}tiles")), kept)
+    read_kept(graph.pass(&format!("fill {kind}tiles")), kept, plan.may_be_large)
         .read(&tiles.spans, read)
         .read(&tiles.starts, Access::StorageReadCompute)
-        .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
+        .write(&mut tiles.counts, Access::StorageUpdateCompute, Start::Load)
         .write(&mut tiles.entries, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| walk(context, &fill)));
     Ok(tiles)

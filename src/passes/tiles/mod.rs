@@ -6,6 +6,7 @@
 mod bands;
 mod bins;
 mod depth;
+mod in_use;
 mod invocations;
 mod large;
 mod layer_work;
@@ -23,7 +24,12 @@ mod splat;
 
 use ash::vk;
 
-pub use self::{bands::Band, invocations::Invocations, plan::TilePlan};
+pub use self::{
+    bands::Band,
+    in_use::{ListsInUse, TilesInUse, told_by},
+    invocations::Invocations,
+    plan::TilePlan,
+};
 pub(super) use self::{
     bands::{bands, most_bytes},
     bins::list,
@@ -82,6 +88,14 @@ const CHUNK_ARGUMENTS: u64 = 48;
 /// Storage buffers in the layout of the pass that makes records.
 pub const STORAGE_BUFFERS: u32 = 18;
 
+/// What the buffers of records are called.
+const RECORD_QUARTERS: [&str; 4] = [
+    "first quarter of records",
+    "second quarter of records",
+    "third quarter of records",
+    "fourth quarter of records",
+];
+
 /// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
 const WHOLE: u32 = u32::MAX;
 
@@ -116,9 +130,9 @@ impl<'a> Tiles<'a> {
         const FLOATS: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
         const WORDS: vk::Format = vk::Format::R32G32B32A32_UINT;
         let (tiles, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
-        let quarters = [("first", FLOATS), ("second", FLOATS), ("third", FLOATS), ("fourth", WORDS)];
-        let records = quarters.map(|(quarter, format)| {
-            create(&format!("{quarter} quarter of records"), plan.record_room * plan::RECORD_BYTES, format)
+        let formats = [FLOATS, FLOATS, FLOATS, WORDS];
+        let records = std::array::from_fn(|i| {
+            create(RECORD_QUARTERS[i], plan.record_room * plan::RECORD_BYTES, formats[i])
         });
         let mut words = |what: &str, count| create(what, count * 4, vk::Format::R32_UINT);
         let (entries, spans) = (words("entries", plan.entry_room), words("spans", plan.record_room));
@@ -170,7 +184,7 @@ impl<'a> Tiles<'a> {
     /// The same of a pass that shortens them.
     fn shorten_lists<'g, B>(&mut self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
         let pass = self.read_all_but_entries(pass);
-        pass.write(&mut self.entries, Access::StorageReadWriteCompute, Start::Load)
+        pass.write(&mut self.entries, Access::StorageUpdateCompute, Start::Load)
     }
 
     fn read_all_but_entries<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {

@@ -53,6 +53,9 @@ const MOST_OF_MANY: u64 = 64;
 /// Chunks that spans can tell apart.
 const MOST_CHUNKS: usize = 8191;
 
+/// Where spans begin that stand for no tiles, as in `glsl/inc/tiles.glsl`.
+pub(super) const SPAN_CHUNK: u32 = u32::MAX - MOST_CHUNKS as u32;
+
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(in super::super) const RECORD_BYTES: u64 = 16;
 

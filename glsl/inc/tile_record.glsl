@@ -1,0 +1,25 @@
+// A record is a splat, ready to be drawn: all in pixels, so that nothing of its chunk is needed any more.
+// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; 1 / f.
+// records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
+// that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each.
+//
+// (uw, vw, w) are over w0: w is about 1 in all pixels of a regular splat, so that squares neither under- nor overflow and
+// coverage needs no division: u^2 + v^2 <= R^2 is (uw)^2 + (vw)^2 <= R^2 w^2. Where the map is affine, u and v are as they are.
+
+// What tells whether it covers a pixel, and how deep.
+struct Splat {
+    uint record;
+    vec2 x0_px;
+    float w0;
+    float inverse_shift;
+    vec4 uv;
+    vec2 w;
+};
+
+// What it looks like.
+struct Look {
+    vec3 color;  // linear
+    float alpha;
+    vec3 normal;
+    float share;
+};

@@ -1,0 +1,72 @@
+//! Looks into the lists of a frame: how much they hold only the device knows.
+
+use std::collections::BTreeMap;
+
+use ash::vk;
+
+use super::{Headless, Readbacks, declare, headless::submit_and_wait};
+use crate::{
+    error::Result,
+    frame::{FrameSlot, HeadlessTarget, SlotParts},
+    graph::{
+        BufferDesc as GraphBufferDesc, BufferState,
+        execute::{Physical, Transients, execute, memory_need},
+    },
+    passes::{self, Inputs, ListsInUse, Parts},
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+    vk::{Buffer, BufferDesc, MemoryUse},
+};
+
+impl Headless {
+    /// What the lists of a frame hold: draws it once, in memory of its own, and reads back the buffers that tell it.
+    ///
+    /// # Errors
+    /// As [`super::Renderer::record`].
+    pub fn lists_in_use(
+        &self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<ListsInUse> {
+        let (device, renderer) = (self.device(), &self.renderer);
+        renderer.check(camera, settings)?;
+        let parts = Parts::of(scene, camera, settings, &renderer.limits);
+        let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
+        let mut slot = FrameSlot::new(device);
+        let counts_draws = device.features().draw_indirect_count;
+        // SAFETY: nothing was recorded in it.
+        unsafe { slot.begin(passes::needs(&parts, settings, counts_draws), None) }?;
+        let SlotParts { descriptors, occlusion, transients, .. } = slot.parts()?;
+        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &renderer.shaders, descriptors) };
+        let (mut graph, mut imports) = declare(inputs, &parts, &target.target(), Readbacks::default())?;
+
+        let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
+        let mut buffers = Vec::new();
+        for name in passes::told_by(inputs, &parts) {
+            let Some((content, GraphBufferDesc { size_bytes: size, .. })) = graph.content_of(&name) else {
+                continue;
+            };
+            let copy = format!("read-back of {name}");
+            let desc = BufferDesc { name: &copy, size, usage: vk::BufferUsageFlags::TRANSFER_DST };
+            let buffer = Buffer::new(device, desc, MemoryUse::Readback)?;
+            let desc = GraphBufferDesc::of_bytes(size);
+            let mut to = graph.import_buffer(&copy, desc, BufferState::default(), Some(host));
+            imports.push((to.id(), Physical::Buffer(buffer.raw())));
+            passes::readback_buffer(&mut graph, &format!("read back {name}"), &content, &mut to, size);
+            buffers.push((name, buffer));
+        }
+        let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
+        let transients = Transients::for_plan(transients, device, &compiled.plan)?;
+        submit_and_wait(self, |commands| {
+            // SAFETY: recording; all that is used is alive until the wait.
+            unsafe { execute(device, commands, compiled, transients, &imports, None) }
+        })?;
+        let words = |buffer: &Buffer| {
+            buffer.bytes().chunks_exact(4).map(bytemuck::pod_read_unaligned).collect::<Vec<u32>>()
+        };
+        let told: BTreeMap<_, _> =
+            buffers.iter().map(|(name, buffer)| (name.clone(), words(buffer))).collect();
+        Ok(ListsInUse::of(inputs, &parts, &told))
+    }
+}

@@ -1,0 +1,149 @@
+//! What lists are told to hold is what they hold: scenes of which it is known, and what the device counts beside.
+
+mod common;
+
+use common::{assert_validation_is_silent, scenes, shared};
+use glam::DVec3;
+use surfel::{
+    graph::execute::{FrameProfile, Profile},
+    hard_scenes::{Hard, sphere},
+    passes::{ListsInUse, TilesInUse},
+    renderer::{Headless, Wanted},
+    scene::{Colors, Cull, Filter, Object, Rasterizer, Scene, Settings, TileInvocations, TileMemory},
+};
+
+fn hard(objects: Vec<Object>, eye: [f64; 3], settings: Settings) -> Hard {
+    let scene = Scene { objects, ..Scene::default() };
+    Hard { name: "", scene, camera: scenes::builder::camera(eye, [0.0; 3]), settings }
+}
+
+fn by_tiles(size_px: [u32; 2]) -> Settings {
+    Settings { size_px, rasterizer: Rasterizer::Compute, ..Settings::default() }
+}
+
+fn in_use(headless: &mut Headless, hard: &Hard) -> ListsInUse {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    headless.lists_in_use(&prepared, &hard.camera, &hard.settings).unwrap()
+}
+
+fn counted(headless: &mut Headless, hard: &Hard) -> FrameProfile {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+    headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap().profile.unwrap()
+}
+
+/// Two ellipses in one place, whose box has 4x4 tiles and which do not reach into those in its corners, a smaller one inside of one
+/// tile, one between the pixels' centers, and one beside the image (see `tiles_in_the_corners_of_a_box_are_in_no_list` in tests/tiles.rs).
+#[test]
+fn lists_of_a_few_splats_hold_what_they_must() {
+    let mut headless = shared();
+    let unit = |eye_z: f64, camera: &surfel::Camera| 2.0 * eye_z * (0.5 * camera.fov_y_rad).tan() / 128.0;
+    for (half_axes_px, tile_invocations, tile_px) in [
+        ([11.5, 11.5], TileInvocations::Column, 64),
+        ([11.5, 11.5], TileInvocations::Pixel, 64),
+        ([11.5, 5.5], TileInvocations::ShortColumn, 32),
+    ] {
+        let mut hard = hard(Vec::new(), [0.0, 0.0, 5.0], by_tiles([128, 128]));
+        let unit = unit(5.0, &hard.camera);
+        let mut builder = scenes::builder::Builder::default();
+        let mut ellipse = |at_px: [f64; 2], half_axes_px: [f64; 2]| {
+            let [s, t] = [DVec3::X * half_axes_px[0] * unit, DVec3::Y * half_axes_px[1] * unit];
+            let at = DVec3::new(at_px[0], at_px[1], 0.0) * unit;
+            builder.ellipse(at, s, t, [0.5, 0.5, 0.5, 1.0]);
+        };
+        ellipse([0.0, 0.0], half_axes_px);
+        ellipse([0.0, 0.0], half_axes_px);
+        ellipse([42.0, 42.0], [1.5, 1.5]);
+        ellipse([20.0, 20.0], [0.2, 0.2]);
+        ellipse([100.0, 0.0], [5.0, 5.0]);
+        hard.scene.objects = vec![builder.object(false)];
+        hard.settings = Settings { filter: Filter::None, tile_invocations, ..hard.settings };
+        let ListsInUse { bytes, tiles } = in_use(&mut headless, &hard);
+        let tiles_of_ellipse = 4 * 4 - 4;
+        let expected = TilesInUse {
+            kind: String::new(),
+            records: 3,
+            entries: 2 * tiles_of_ellipse + 1,
+            tiles: tiles_of_ellipse + 1,
+            overfull: 0,
+            pixels: (tiles_of_ellipse + 1) * tile_px,
+            splat_pixels: (2 * tiles_of_ellipse + 1) * tile_px,
+        };
+        assert_eq!(tiles, [expected], "{tile_invocations:?}");
+        // Four rows of tiles, which invocations may have cut, and one tile; of the list, the four in view are set up, if no more.
+        let of = |name: &str| bytes[name];
+        assert!((8 * 5..=8 * 13).contains(&of("runs of tiles")), "{}", of("runs of tiles"));
+        assert_eq!(of("seen of tiles"), 4 * 13);
+        assert_eq!((of("entries of tiles"), of("first quarter of records of tiles")), (4 * 25, 16 * 3));
+        assert!((4 * 4..=4 * 5).contains(&of("spans of tiles")), "{}", of("spans of tiles"));
+        assert_eq!(bytes.get("list of kept splats"), Some(&of("spans of tiles")));
+        assert_eq!(of("overfull of tiles"), 0);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+/// A tile's list has the same splats however the image is cut; those at the borders of bands are set up for both.
+#[test]
+fn lists_of_bands_hold_together_what_one_of_all_does() {
+    let mut headless = shared();
+    for transparent in [false, true] {
+        let mut ball = sphere(100_000, DVec3::ZERO);
+        ball.splats.colors = Colors::Uniform([0.5, 0.5, 0.5, if transparent { 0.5 } else { 1.0 }]);
+        let mut hard = hard(vec![ball], [0.3, 0.2, 3.2], by_tiles([131, 203]));
+        let part = if transparent { "transparent " } else { "" };
+        let mut lists = |tile_memory| {
+            hard.settings.tile_memory = tile_memory;
+            in_use(&mut headless, &hard).tiles
+        };
+        let all = lists(TileMemory::Most(u64::MAX));
+        let bands = lists(TileMemory::Most(0));
+        let [whole] = all.as_slice() else { panic!("one list") };
+        assert_eq!(whole.kind, part);
+        assert!(bands.len() > 1, "{}", bands.len());
+        for (number, band) in (1..).zip(&bands) {
+            assert_eq!(band.kind, format!("{part}band-{number} "));
+        }
+        let sum = |of: fn(&TilesInUse) -> u64| bands.iter().map(of).sum::<u64>();
+        assert_eq!([sum(|t| t.entries), sum(|t| t.tiles)], [whole.entries, whole.tiles]);
+        assert_eq!(sum(|t| t.splat_pixels), whole.splat_pixels);
+        assert!(sum(|t| t.records) > whole.records, "{} {}", sum(|t| t.records), whole.records);
+    }
+    assert_validation_is_silent(&headless);
+}
+
+#[test]
+fn the_device_counts_no_less_than_lists_are_told_to_hold() {
+    let mut headless = shared();
+    if !headless.device().facts().pipeline_statistics {
+        println!("NOT TESTED: the device has no pipeline statistics");
+        return;
+    }
+    let counts_of = |profile: &FrameProfile, name: &str| {
+        profile.passes.iter().find(|pass| pass.name == name).unwrap().clone()
+    };
+    // Tiles at the right and lower borders reach beyond the image, which a ball fills that is near.
+    let near = hard(vec![sphere(10_000, DVec3::ZERO)], [0.0, 0.0, 1.2], by_tiles([131, 203]));
+    assert_eq!(in_use(&mut headless, &near).tiles[0].pixels, 131 * 203);
+    // And of one that does not, no more than are there.
+    let mut hard = hard(vec![sphere(10_000, DVec3::ZERO)], [0.0, 0.0, 2.2], by_tiles([131, 203]));
+    let tiles = in_use(&mut headless, &hard).tiles.remove(0);
+    let profile = counted(&mut headless, &hard);
+    // The finalizing quads are as large as the runs of tiles, and are cut at the borders.
+    let covered = counts_of(&profile, "finalize").counts.unwrap().fragments;
+    println!("{tiles:?}; {covered} fragments");
+    assert!(tiles.pixels <= covered && tiles.pixels > covered / 2, "{} {covered}", tiles.pixels);
+    let set_up = counts_of(&profile, "set up splats").invocations.unwrap();
+    assert!(tiles.records <= set_up && tiles.records > set_up / 2, "{} {set_up}", tiles.records);
+
+    // As points, of a list.
+    hard.settings = Settings { rasterizer: Rasterizer::Perspective, cull: Cull::List, ..hard.settings };
+    let ListsInUse { bytes, tiles } = in_use(&mut headless, &hard);
+    let profile = counted(&mut headless, &hard);
+    let vertices = counts_of(&profile, "visibility").counts.unwrap().vertices;
+    assert_eq!((bytes["list of kept splats"], tiles.len()), (4 * vertices, 0));
+
+    // Without lists nothing is told.
+    hard.settings.cull = Cull::Setup;
+    assert_eq!(in_use(&mut headless, &hard), ListsInUse::default());
+    assert_validation_is_silent(&headless);
+}
