@@ -39,7 +39,7 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
 
     // In the same rounds: the device's limits, and which of them binds each pass.
     let limits = report["limits"]["limits"].as_array().unwrap();
-    assert_eq!((limits.len(), &report["limits"]["notes"]), (8, &Value::Array(Vec::new())));
+    assert_eq!((limits.len(), &report["limits"]["notes"]), (9, &Value::Array(Vec::new())));
     assert!(limits.iter().all(|limit| limit["units_per_sec"].as_f64() > Some(0.0)), "{limits:?}");
     let bounds = report["limits"]["bounds"].as_array().unwrap();
     for (bound, row) in bounds.iter().zip(rows) {
@@ -51,12 +51,61 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
     assert_eq!(bounds[1]["work"]["drawn_points"], report["strict_points"]);
     // 96 x 96 pixels: two sums of 8 bytes and a depth; 150 000 splats of 32 bytes, without colors.
     assert_eq!(bounds[1]["work"]["bytes"], 96 * 96 * 20 + 32 * 150_000);
-    for (name, lines) in [("floor.csv", 5), ("floor-limits.csv", 9), ("floor-bounds.csv", 5)] {
+    for (name, lines) in [("floor.csv", 5), ("floor-limits.csv", 10), ("floor-bounds.csv", 5)] {
         let csv = fs::read_to_string(folder.path(&format!("tables/{name}"))).unwrap();
         assert_eq!(csv.lines().count(), lines, "{name}");
     }
     let refused = bench(&folder, &["floor", "--json", "no/such/folder/x.json"]);
     assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
+}
+
+#[test]
+fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
+    let folder = Folder::new();
+    let words = ["floor", "--rasterizer", "compute", "--frames", "3", "--json", "floor.json", "--validate"];
+    let run = bench(&folder, &words);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let report = json(&folder, "floor.json");
+    assert_eq!(report["settings"]["rasterizer"], "compute", "{}", report["settings"]);
+    let rows = report["floor"]["rows"].as_array().unwrap();
+    let bounds = report["floor"]["limits"]["bounds"].as_array().unwrap();
+    let bound = |name: &str| bounds.iter().find(|bound| bound["name"] == name).expect(name);
+    for (bound, row) in bounds.iter().zip(rows) {
+        assert_eq!((&bound["name"], &bound["ms"]), (&row["name"], &row["ms"]));
+        assert!(bound["ratio"]["median"].as_f64() > Some(0.0), "{bound}");
+        assert_eq!(bound["binds"].is_string(), bound["name"] != "frame", "{bound}");
+    }
+    // Only what fills the target has a floor, as points have it; and the frame as a whole.
+    let floored = rows.iter().filter(|row| !row["floor_ms"].is_null());
+    let floored: Vec<_> = floored.map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(floored, ["finalize", "frame"]);
+    // Every splat of a tile is looked for at each of its pixels. No more is moved than there is: of some 75 000 splats of 32 bytes
+    // that may be seen, a record of 64 and a span of 4 are made at most.
+    let tiles = bound("see, sum and shade tiles");
+    let kernels = tiles["work"]["kernels"].as_u64().unwrap();
+    assert!(kernels > 32 * 10_000 && kernels % 32 == 0, "{kernels}");
+    let set_up = bound("set up splats")["work"]["bytes"].as_u64().unwrap();
+    assert!((1_000_000..=150_000 * 100).contains(&set_up), "{set_up}");
+    for pass in ["count tiles", "fill tiles", "see, sum and shade tiles"] {
+        let bytes = bound(pass)["work"]["bytes"].as_u64().unwrap();
+        assert!(bytes > 0 && bytes < 150_000 * 100, "{pass}: {bytes}");
+    }
+}
+
+#[test]
+fn lists_are_refused_where_a_table_takes_one_or_none() {
+    let folder = Folder::new();
+    for (words, named) in [
+        (["floor", "--rasterizer", "compute,perspective"], "--rasterizer"),
+        (["table1", "--rasterizer", "compute"], "--rasterizer"),
+        (["all", "--rasterizer", "compute"], "--rasterizer"),
+        (["floor", "--sizes", "64,128"], "--sizes"),
+        (["table1", "--sizes", "64"], "--sizes"),
+    ] {
+        let refused = bench(&folder, &words);
+        assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{words:?}: {}", refused.stderr);
+        assert!(refused.stderr.contains(named) && refused.stderr.contains(words[0]), "{}", refused.stderr);
+    }
 }
 
 #[test]

@@ -81,11 +81,6 @@ fn growth_takes_closed_meshes_and_has_its_lists_alone() {
     let open = growth(&folder, &["--model", "one.obj"]);
     assert_eq!(open.code, 1, "{}", open.stderr);
     assert!(open.stderr.contains("not closed"), "{}", open.stderr);
-    for list in [["--sizes", "64"], ["--rasterizer", "quad"]] {
-        let refused = surfel(&folder, &[&["bench", "floor"], &list[..]].concat());
-        assert_eq!((refused.code, refused.stderr.lines().count()), (1, 1), "{}", refused.stderr);
-        assert!(refused.stderr.contains("only growth has a list of them"), "{}", refused.stderr);
-    }
     let refused = growth(&folder, &["--sizes", "64x"]);
     assert!(refused.code != 0 && refused.stderr.contains("the side of a square"), "{}", refused.stderr);
 }

@@ -4,6 +4,7 @@ use std::{collections::HashSet, hash::Hash, path::PathBuf};
 
 use clap::Args;
 use surfel::{
+    Error, Result,
     report::PAPER_SPLATS,
     scene::{Accumulate, Filter, KernelEval, Rasterizer, Settings},
 };
@@ -36,7 +37,7 @@ pub struct BenchArguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::square_or_size)]
     pub sizes: Vec<[u32; 2]>,
 
-    /// Rasterizers of growth, with commas between, in turn and beside the first [default: perspective]
+    /// The rasterizer of floor; of growth several, with commas between, in turn and beside the first [default: perspective]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(Rasterizer::NAMES))]
     pub rasterizer: Vec<Rasterizer>,
 
@@ -201,9 +202,34 @@ impl BenchArguments {
             filter: self.filter,
             kernel_eval: self.kernel_eval,
             accumulate: self.accumulate,
-            // The floor is made of points.
-            rasterizer: Rasterizer::Perspective,
+            // Other tables have their own, or are set beside the floor, which is made of points.
+            rasterizer: match (self.table, self.rasterizer.as_slice()) {
+                (Bench::Floor, [rasterizer]) => *rasterizer,
+                _ => Rasterizer::Perspective,
+            },
             ..Settings::default()
+        }
+    }
+
+    /// Refuses lists that the table does not take.
+    ///
+    /// # Errors
+    /// [`surfel::error::ErrorKind::Option`].
+    pub fn check_lists(&self) -> Result<()> {
+        let refused = |option, problem: &str| {
+            Err(Error::option(option, format!("bench {} {problem}", self.table.name())))
+        };
+        match self.table {
+            Bench::Growth => Ok(()),
+            _ if !self.sizes.is_empty() => refused("--sizes", "has one, by --size: only growth has several"),
+            Bench::Floor if self.rasterizer.len() > 1 => {
+                refused("--rasterizer", "takes one: only growth takes several")
+            }
+            Bench::Floor => Ok(()),
+            _ if !self.rasterizer.is_empty() => {
+                refused("--rasterizer", "has its own: only floor and growth take one")
+            }
+            _ => Ok(()),
         }
     }
 

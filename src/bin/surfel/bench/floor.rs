@@ -1,5 +1,5 @@
-//! The three passes against the floor under them and against the device's limits, in turn, so that a change of the
-//! machine's speed meets all.
+//! A frame's passes against the floor under them, which is made of points, and against the device's limits, in turn, so that a
+//! change of the machine's speed meets all.
 
 use surfel::{
     Error, Progress as _, Result,
@@ -7,9 +7,13 @@ use surfel::{
     load::Representation,
     renderer::{Floor, Headless, Wanted},
     report::{FloorReport, FloorRow, drift_flag, spread_flag},
+    scene::{Rasterizer, Settings},
 };
 
-use super::{Stage, limits::Limits};
+use super::{
+    Stage,
+    limits::{FrameWork, Limits},
+};
 use crate::{
     camera::CameraChoice,
     machine::clock_mhz,
@@ -33,8 +37,9 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     let Loaded { scene, inputs, .. } = loaded;
     let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
     drop(scene);
-    let mut floor = Floor::new(headless, &prepared, &camera, settings, false)?;
-    let mut strict = Floor::new(headless, &prepared, &camera, settings, true)?;
+    let points = Settings { rasterizer: Rasterizer::Perspective, ..settings.clone() };
+    let mut floor = Floor::new(headless, &prepared, &camera, &points, false)?;
+    let mut strict = Floor::new(headless, &prepared, &camera, &points, true)?;
     let mut limits = Limits::new(headless, settings)?;
 
     let mut rounds = Vec::new();
@@ -65,6 +70,9 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     let frame = headless.render(&prepared, &camera, settings, wanted)?;
     let counted = frame.profile.unwrap_or_default();
     let fragments = [fragments(&counted), fragments(&floor.frame(headless, Profile::Counts)?)];
+    let in_use = headless.lists_in_use(&prepared, &camera, settings)?;
+    let work =
+        FrameWork { plan: &frame.plan, scene: &prepared, drawn_points: strict.count(), in_use: &in_use };
     let report = FloorReport {
         camera: (&camera).into(),
         scene: scene_report(inputs.clone(), &prepared, transient_bytes),
@@ -72,7 +80,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
         strict_points: strict.count(),
         rounds: arguments.frames,
         rows: FloorRow::rows(&names, &rounds, [&fragments[0], &fragments[1]]),
-        limits: limits.report(&frame.plan, &counted, &prepared, strict.count()),
+        limits: limits.report(&work, &counted),
     };
     let frames: Vec<Vec<f64>> =
         (0..3).map(|kind| rounds.iter().map(|round| round[kind].iter().sum()).collect()).collect();

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use surfel::{
     Result,
     graph::{
-        Plan, PlannedPass,
+        Access, Executed, Plan, PlannedPass, Use,
         execute::{FrameProfile, PassCounts, PassProfile},
     },
+    passes::{ListsInUse, TilesInUse},
     prepare::{Chunk, PreparedScene},
     renderer::{Headless, LimitProbes, Probe},
     report::{Limit, LimitRound, LimitWork, LimitsReport, PassWork},
@@ -42,15 +43,8 @@ impl Limits {
         Ok(())
     }
 
-    /// What came of it. `counted` are the counts of a frame that was recorded as `plan`, `drawn_points` the splats of it
-    /// that are seen.
-    pub fn report(
-        self,
-        plan: &Plan,
-        counted: &FrameProfile,
-        prepared: &PreparedScene,
-        drawn_points: u64,
-    ) -> LimitsReport {
+    /// What came of it. `counted` are the counts of the frame.
+    pub fn report(self, frame: &FrameWork<'_>, counted: &FrameProfile) -> LimitsReport {
         let bytes_per_blended = self.probes.bytes_per_blended_fragment();
         let work = |probe: &Probe| LimitWork {
             limit: probe.limit(),
@@ -62,50 +56,91 @@ impl Limits {
             },
         };
         let works: Vec<LimitWork> = self.probes.probes.iter().map(work).collect();
-        let passes: Vec<PassWork> = plan
-            .passes
-            .iter()
-            .zip(&counted.passes)
-            .map(|(pass, counted)| pass_work(plan, pass, counted, (prepared, drawn_points)))
-            .collect();
+        let passes = frame.plan.passes.iter().zip(&counted.passes);
+        let passes: Vec<PassWork> = passes.map(|(pass, counted)| frame.pass(pass, counted)).collect();
         LimitsReport::of(&works, &passes, &self.rounds, self.probes.notes)
     }
 }
 
-/// How much a pass does. Of a pass of compute that are its invocations and the bytes that its plan tells.
-fn pass_work(
-    plan: &Plan,
-    pass: &PlannedPass,
-    counted: &PassProfile,
-    (prepared, drawn_points): (&PreparedScene, u64),
-) -> PassWork {
-    let mut units = BTreeMap::new();
-    let mut bytes = plan.least_bytes(pass, counted.counts.map(|counts| counts.fragments));
-    units.extend(counted.invocations.map(|invocations| (Limit::Invocations, invocations)));
-    if let Some(PassCounts { vertices, fragments }) = counted.counts {
-        units.insert(Limit::Points, vertices);
-        units.insert(fragments_of(pass), fragments);
-        // Splats are bound by the passes' bodies, not by the graph: whatever draws them all reads them all.
-        if vertices >= prepared.splat_count() {
-            units.insert(Limit::DrawnPoints, drawn_points);
-            bytes = bytes.map(|bytes| bytes + shape_bytes(prepared));
+/// A frame, as far as it tells what its passes do.
+pub struct FrameWork<'a> {
+    pub plan: &'a Plan,
+    pub scene: &'a PreparedScene,
+    /// Splats that are drawn where they are drawn as points.
+    pub drawn_points: u64,
+    pub in_use: &'a ListsInUse,
+}
+
+impl FrameWork<'_> {
+    /// How much a pass does. Of one of compute that are its invocations, the bytes that it is known to move, and, of tiles, the
+    /// splats at their pixels.
+    fn pass(&self, pass: &PlannedPass, counted: &PassProfile) -> PassWork {
+        let mut units = BTreeMap::new();
+        let tiles = self.tiles_of(pass);
+        let executed = Executed {
+            fragments: counted.counts.map(|counts| counts.fragments),
+            pixels: tiles.map_or(0, |tiles| tiles.pixels),
+            in_use: &self.in_use.bytes,
+        };
+        let mut bytes = self.plan.least_bytes(pass, executed);
+        units.extend(counted.invocations.map(|invocations| (Limit::Invocations, invocations)));
+        if let Some(PassCounts { vertices, fragments }) = counted.counts {
+            units.insert(Limit::Points, vertices);
+            units.insert(fragments_of(pass), fragments);
+            if vertices >= self.scene.splat_count() || uses(pass, Access::IndexRead) {
+                units.insert(Limit::DrawnPoints, self.drawn_points);
+                bytes = bytes.map(|bytes| bytes + self.shape_bytes(vertices));
+            }
         }
+        if let Some(tiles) = tiles {
+            units.extend(kernels(pass, tiles).map(|kernels| (Limit::Kernels, kernels)));
+            if pass.name.starts_with("set up") {
+                bytes = bytes.map(|bytes| bytes + self.shape_bytes(tiles.records));
+            }
+        }
+        // Overfull tiles are few, or none: of lists they read an unknown part.
+        let bytes = bytes.filter(|_| !pass.name.ends_with("overfull tiles"));
+        units.extend(bytes.map(|bytes| (Limit::Bytes, bytes)));
+        PassWork { name: pass.name.clone(), units }
     }
-    units.extend(bytes.map(|bytes| (Limit::Bytes, bytes)));
-    PassWork { name: pass.name.clone(), units }
+
+    /// The list of tiles that a pass makes or reads.
+    fn tiles_of(&self, pass: &PlannedPass) -> Option<&TilesInUse> {
+        let of = |tiles: &&TilesInUse| {
+            let names = ["spans", "starts"].map(|what| format!("{what} of {}tiles", tiles.kind));
+            let is_one = |usage: &Use| names.contains(&self.plan.resource(usage.resource).name);
+            pass.uses.iter().any(is_one)
+        };
+        self.in_use.tiles.iter().find(of)
+    }
+
+    /// Bytes of so many of the splats without their colors, which only those need that are seen, and not in every pass. Splats are
+    /// bound by the passes' bodies, not by the graph.
+    fn shape_bytes(&self, splats: u64) -> u64 {
+        let of = |chunk: &Chunk| {
+            let colors = if chunk.uniform_color { 1 } else { u64::from(chunk.count) };
+            chunk.bytes().saturating_sub(COLOR_BYTES * colors)
+        };
+        let all: u64 = self.scene.chunks.iter().map(of).sum();
+        let share = splats as f64 / self.scene.splat_count().max(1) as f64;
+        (all as f64 * share.min(1.0)) as u64
+    }
+}
+
+fn uses(pass: &PlannedPass, access: Access) -> bool {
+    pass.uses.iter().any(|usage| usage.access == access)
+}
+
+/// Splats that a pass sees and adds at pixels: all of the lists that it reads, unless it shortens them in between or leaves some to
+/// other passes.
+fn kernels(pass: &PlannedPass, tiles: &TilesInUse) -> Option<u64> {
+    let does_both = pass.name.starts_with("see") && pass.name.contains("sum");
+    let does_all = tiles.overfull == 0 && !uses(pass, Access::StorageUpdateCompute);
+    (does_both && does_all).then_some(tiles.splat_pixels)
 }
 
 /// Bytes of a color in the buffers of a chunk.
 const COLOR_BYTES: u64 = 8;
-
-/// Bytes of the splats without their colors, which only those need that are seen, and not in every pass.
-fn shape_bytes(prepared: &PreparedScene) -> u64 {
-    let of = |chunk: &Chunk| {
-        let colors = if chunk.uniform_color { 1 } else { u64::from(chunk.count) };
-        chunk.bytes().saturating_sub(COLOR_BYTES * colors)
-    };
-    prepared.chunks.iter().map(of).sum()
-}
 
 /// What a pass's fragments are: the plan has the attachments, but only the pass's name tells whether it blends.
 fn fragments_of(pass: &PlannedPass) -> Limit {

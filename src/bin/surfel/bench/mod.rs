@@ -60,10 +60,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     if arguments.table == Bench::Layers && arguments.model.is_some() {
         return Err(Error::option("--model", "bench layers draws its own balls"));
     }
-    if arguments.table != Bench::Growth && !(arguments.sizes.is_empty() && arguments.rasterizer.is_empty()) {
-        let problem = format!("only growth has a list of them, {} has not", arguments.table.name());
-        return Err(Error::option("--sizes, --rasterizer", problem));
-    }
+    arguments.check_lists()?;
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
     // Instructions are counted without a device.
