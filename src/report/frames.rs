@@ -120,38 +120,33 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
             "vertices and fragments were not counted: the device can't (pipelineStatisticsQuery)".to_owned(),
         );
     }
-    let against: [(&str, Figure, &str, Figure); 2] = [
-        (
-            "the sum of the passes",
-            FrameSample::sum_ms,
-            "the time of a frame whose passes are not timed",
-            |sample| sample.frame_ms,
-        ),
-        (
-            "the time of a frame",
-            |sample| sample.frame_ms,
-            "the time from its submission to the end of the wait",
-            |sample| Some(sample.wall_ms),
-        ),
-    ];
-    for (what, part, other, whole) in against {
-        let difference = |sample: &FrameSample| {
-            let (part, whole) = part(sample).zip(whole(sample))?;
-            (whole > 0.0).then(|| (part - whole) / whole)
-        };
-        let Some(median) = Spread::of(samples.iter().filter_map(difference)).map(|spread| spread.median)
-        else {
-            continue;
-        };
-        if median.abs() > TOLERANCE {
-            let (percent, side) = (100.0 * median.abs(), if median < 0.0 { "below" } else { "above" });
-            flags.push(format!(
-                "{what} is {percent:.1}% {side} {other} (median over {} frames; up to 5% is fine)",
-                samples.len()
-            ));
-        }
-    }
+    let sums = samples.iter().filter_map(|sample| sample.sum_ms().zip(sample.frame_ms));
+    flags.extend(passes_flag(sums));
+    let waits = samples.iter().filter_map(|sample| Some((sample.frame_ms?, sample.wall_ms)));
+    flags.extend(apart_flag(
+        "the time of a frame",
+        "the time from its submission to the end of the wait",
+        waits,
+    ));
     flags
+}
+
+/// What to know where timing the passes costs something: of each frame their sum, and the time of one whose passes are not timed.
+pub fn passes_flag(sums_and_frames_ms: impl Iterator<Item = (f64, f64)>) -> Option<String> {
+    let other = "the time of a frame whose passes are not timed";
+    apart_flag("the sum of the passes", other, sums_and_frames_ms)
+}
+
+/// Says so where one figure of each frame is not near the other, which is to be the same.
+fn apart_flag(what: &str, other: &str, both: impl Iterator<Item = (f64, f64)>) -> Option<String> {
+    let differences: Vec<f64> =
+        both.filter(|(_, whole)| *whole > 0.0).map(|(part, whole)| (part - whole) / whole).collect();
+    let frames = differences.len();
+    let median = Spread::of(differences)?.median;
+    let (percent, side) = (100.0 * median.abs(), if median < 0.0 { "below" } else { "above" });
+    (median.abs() > TOLERANCE).then(|| {
+        format!("{what} is {percent:.1}% {side} {other} (median over {frames} frames; up to 5% is fine)")
+    })
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ pub use bench::{BenchReport, floor_gate, throughput_gate};
 pub use contest::Contestant;
 pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRow, Round};
-pub use frames::{FrameSample, FrameTimes, PassFigures};
+pub use frames::{FrameSample, FrameTimes, PassFigures, passes_flag};
 pub use grid::{Grid, NONE, cell, count_cell};
 pub use growth::{GrowthMethod, GrowthPoint, GrowthReport, growth_powers};
 #[cfg(feature = "compare")]

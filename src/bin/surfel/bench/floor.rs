@@ -6,7 +6,7 @@ use surfel::{
     graph::execute::{FrameProfile, Profile},
     load::Representation,
     renderer::{Floor, Headless, Wanted},
-    report::{FloorReport, FloorRow, drift_flag, spread_flag},
+    report::{FloorReport, FloorRow, drift_flag, passes_flag, spread_flag},
     scene::{Rasterizer, Settings},
 };
 
@@ -44,12 +44,17 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
 
     let mut rounds = Vec::new();
     let mut names = Vec::new();
+    let mut sums_and_frames_ms = Vec::new();
     let facts = headless.device().facts().clone();
     for round in 0..WARM_UP_ROUNDS + arguments.frames {
         bars.step("rounds", round.into(), (WARM_UP_ROUNDS + arguments.frames).into());
-        let wanted = Wanted { profile: Some(Profile::Times), ..Wanted::default() };
-        let frame = headless.render(&prepared, &camera, settings, wanted)?;
-        let profile = frame.profile.unwrap_or_default();
+        let mut measured = |profile| -> Result<FrameProfile> {
+            let wanted = Wanted { profile: Some(profile), ..Wanted::default() };
+            let frame = headless.render(&prepared, &camera, settings, wanted)?;
+            Ok(frame.profile.unwrap_or_default())
+        };
+        let frame_ms = measured(Profile::Frame)?.span_secs.map(|secs| 1e3 * secs);
+        let profile = measured(Profile::Times)?;
         let times = [
             passes_ms(&profile)?,
             passes_ms(&floor.frame(headless, Profile::Times)?)?,
@@ -57,6 +62,7 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
         ];
         limits.round(headless, (round >= WARM_UP_ROUNDS).then_some(&times[0]))?;
         if round >= WARM_UP_ROUNDS {
+            sums_and_frames_ms.extend(frame_ms.map(|frame_ms| (times[0].iter().sum(), frame_ms)));
             rounds.push(times);
         }
         names = profile.passes.into_iter().map(|pass| pass.name).collect();
@@ -85,6 +91,8 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     let frames: Vec<Vec<f64>> =
         (0..3).map(|kind| rounds.iter().map(|round| round[kind].iter().sum()).collect()).collect();
     stage.flags.extend(drift_flag("floor", &frames, &stage.limits));
+    let costs = passes_flag(sums_and_frames_ms.into_iter());
+    stage.flags.extend(costs.map(|flag| format!("floor: {flag}")));
     if let Some(frame) = report.rows.last() {
         stage.flags.extend(spread_flag("floor, frame", frame.ms.as_ref(), &stage.limits));
     }
