@@ -1,4 +1,4 @@
-// Sets each splat up once: culls it, or makes a record and a span of it (inc/tiles.glsl, inc/tile_batch.glsl); or leaves it to the
+// Sets each splat up once: culls it, or makes a record and a span of it (inc/tiles.glsl, inc/tile_record.glsl); or leaves it to the
 // graphics pipeline: what is not regular, and what touches more tiles than lists have room for.
 //
 // KEPT: only those of a list, whose records lie one behind the other (inc/kept.glsl).

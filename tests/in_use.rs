@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{assert_validation_is_silent, scenes, shared};
+use common::{assert_validation_is_silent, scenes, shared, with_limits};
 use glam::DVec3;
 use surfel::{
     graph::execute::{FrameProfile, Profile},
@@ -79,6 +79,36 @@ fn lists_of_a_few_splats_hold_what_they_must() {
         assert_eq!(bytes.get("list of kept splats"), Some(&of("spans of tiles")));
         assert_eq!(of("overfull of tiles"), 0);
     }
+    assert_validation_is_silent(&headless);
+}
+
+/// More in one tile than a dispatch takes; chunks; and no list of those that may be seen.
+#[test]
+fn lists_of_overfull_tiles_of_chunks_and_of_all_splats_are_told() {
+    let mut headless = shared();
+    // A pixel of 24 along a side is 31 units wide: the ball is in the middle of one tile.
+    let mut ball = sphere(260_000, DVec3::new(-8.0 * 31.0, 8.0 * 31.0, 0.0));
+    ball.closed = false;
+    let settings = Settings { tile_invocations: TileInvocations::Column, ..by_tiles([24, 24]) };
+    let one_tile = hard(vec![ball], [0.0, 0.0, 900.0], settings);
+    let told = in_use(&mut headless, &one_tile).tiles.remove(0);
+    assert_eq!((told.tiles, told.overfull, told.entries), (1, 1, told.records));
+    assert!(told.records > 200_000, "{}", told.records);
+
+    let mut ball = hard(vec![sphere(10_000, DVec3::ZERO)], [0.0, 0.0, 3.2], by_tiles([131, 203]));
+    let whole = in_use(&mut headless, &ball);
+    let in_chunks = with_limits(
+        &mut headless,
+        |limits| limits.max_storage_buffer_range = 200_000,
+        |headless| in_use(headless, &ball),
+    );
+    // Splats are set up the same way in either; where they are of several chunks, each chunk has arguments of its own.
+    assert_eq!(in_chunks.tiles, whole.tiles);
+    ball.settings.cull = Cull::Setup;
+    let of_all = in_use(&mut headless, &ball);
+    assert_eq!(of_all.tiles, whole.tiles);
+    assert_eq!(of_all.bytes["spans of tiles"], 4 * 10_000);
+    assert!(whole.bytes["spans of tiles"] < 4 * 6_000, "{}", whole.bytes["spans of tiles"]);
     assert_validation_is_silent(&headless);
 }
 

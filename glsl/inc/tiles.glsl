@@ -2,7 +2,7 @@
 // src/passes/constants.rs; the build compares the offsets.
 //
 // A tile is TILE_WIDTH pixels wide and as many high; or half as many, where splats are small (TILE_HEIGHT). Each splat is set up
-// once, to a record (tile_batch.glsl) and a *span*, the tiles that its box touches. Records are dealt out to segments, BLOCK at a
+// once, to a record (tile_record.glsl) and a *span*, the tiles that its box touches. Records are dealt out to segments, BLOCK at a
 // time, so that all segments have as much to do wherever in space the records are; one invocation walks over one segment, in order
 // (tile_walk.glsl), first to count what falls into each bin, then to list it. So lists need no atomics and are the same in every
 // run: by segment, and in each in the order of the records.

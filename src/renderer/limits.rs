@@ -45,6 +45,8 @@ pub struct Probe {
     limit: Limit,
     /// What it works on: points to draw; source and target of a copy; what a dispatch writes.
     buffers: Vec<Buffer>,
+    /// Where it is one of compute.
+    dispatch: Option<LimitDispatch>,
     /// Points in the first of them.
     points: u32,
     /// Units of work in one repeat.
@@ -99,7 +101,8 @@ impl LimitProbes {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
             let words = BufferDesc { name: "words of a limit", size: 4 * dispatch.words, usage };
             let words = Buffer::new(headless.device(), words, MemoryUse::Device)?;
-            made.probes.push(Probe::new(headless, limit, vec![words], 0, dispatch.units));
+            let probe = Probe::new(headless, limit, vec![words], 0, dispatch.units);
+            made.probes.push(Probe { dispatch: Some(dispatch), ..probe });
         }
         for probe in &mut made.probes {
             probe.calibrate(headless, &made.settings)?;
@@ -145,7 +148,7 @@ impl Probe {
         let slot = FrameSlot::new(headless.device());
         let covers = matches!(limit, Limit::Fragments | Limit::DepthFragments | Limit::BlendedFragments);
         let repeats = if covers { FEWEST_COVERS } else { 1 };
-        Self { limit, buffers, points, units, repeats, slot }
+        Self { limit, buffers, dispatch: None, points, units, repeats, slot }
     }
 
     /// What it measures.
@@ -194,12 +197,11 @@ impl Probe {
             imports.push((handle.id(), Physical::Buffer(buffer.raw())));
             handles.push(handle);
         }
-        let dispatch = LimitDispatch::of(self.limit, &headless.renderer.limits);
         match (self.limit, handles.as_mut_slice()) {
             (Limit::Bytes, [from, to]) => {
                 passes::readback_buffer(&mut graph, Limit::Bytes.name(), from, to, self.buffers[0].size());
             }
-            (limit, [buffer, ..]) => match dispatch {
+            (limit, [buffer, ..]) => match self.dispatch {
                 Some(dispatch) => passes::limit_dispatch(&mut graph, inputs, limit, dispatch, buffer)?,
                 None => passes::limit_draws(&mut graph, inputs, limit, buffer, self.points)?,
             },

@@ -117,6 +117,15 @@ impl Renderer {
         passes::check_choice(settings, &self.limits)
     }
 
+    /// The parts of a scene that can be drawn so.
+    fn parts<'a>(&self, scene: &'a PreparedScene, camera: &Camera, settings: &Settings) -> Result<Parts<'a>> {
+        self.check(camera, settings)?;
+        for chunk in &scene.chunks {
+            settings.check_object("the scene", chunk.ellipses)?;
+        }
+        Ok(Parts::of(scene, camera, settings, &self.limits))
+    }
+
     /// Records one frame. Returns the plan that was recorded.
     ///
     /// # Errors
@@ -140,17 +149,13 @@ impl Renderer {
         readbacks: Readbacks,
         profile: Option<Profile>,
     ) -> Result<Plan> {
-        self.check(camera, settings)?;
+        let parts = self.parts(scene, camera, settings)?;
         let [width, height] = settings.size_px;
         if target.extent != (vk::Extent2D { width, height }) {
             let vk::Extent2D { width: w, height: h } = target.extent;
             let problem = format!("{w}x{h} pixels, but the settings say {width}x{height}");
             return Err(Error::option("target", problem));
         }
-        for chunk in &scene.chunks {
-            settings.check_object("the scene", chunk.ellipses)?;
-        }
-        let parts = Parts::of(scene, camera, settings, &self.limits);
         let counts_draws = self.device.features().draw_indirect_count;
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::needs(&parts, settings, counts_draws), profile) }?;

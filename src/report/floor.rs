@@ -1,4 +1,4 @@
-//! The three passes against the floor under them; see [`crate::passes::floor_frame`].
+//! A frame's passes against the floor under the three of points; see [`crate::passes::floor_frame`].
 
 use serde::Serialize;
 

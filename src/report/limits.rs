@@ -1,7 +1,8 @@
 //! How far each pass is from what the device can do at most: the limits themselves are measured in the same rounds.
 //!
 //! A pass has so many points, fragments and bytes. Each, at the speed that the device reached when it did nothing else, takes
-//! a time below which the pass can't get; the largest of these times is its *bound*, and that limit *binds*.
+//! a time below which the pass can't get; the largest of these times is its *bound*, and that limit *binds*. Fragments are those that
+//! are shaded: what a shader then discards may cost less than one that is written or blended.
 
 use std::collections::BTreeMap;
 

@@ -70,6 +70,7 @@ fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
     let rows = report["floor"]["rows"].as_array().unwrap();
     let bounds = report["floor"]["limits"]["bounds"].as_array().unwrap();
     let bound = |name: &str| bounds.iter().find(|bound| bound["name"] == name).expect(name);
+    let strict = report["floor"]["strict_points"].as_u64().unwrap();
     for (bound, row) in bounds.iter().zip(rows) {
         assert_eq!((&bound["name"], &bound["ms"]), (&row["name"], &row["ms"]));
         assert!(bound["ratio"]["median"].as_f64() > Some(0.0), "{bound}");
@@ -79,17 +80,25 @@ fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
     let floored = rows.iter().filter(|row| !row["floor_ms"].is_null());
     let floored: Vec<_> = floored.map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(floored, ["finalize", "frame"]);
-    // Every splat of a tile is looked for at each of its pixels. No more is moved than there is: of some 75 000 splats of 32 bytes
-    // that may be seen, a record of 64 and a span of 4 are made at most.
-    let tiles = bound("see, sum and shade tiles");
-    let kernels = tiles["work"]["kernels"].as_u64().unwrap();
-    assert!(kernels > 32 * 10_000 && kernels % 32 == 0, "{kernels}");
-    let set_up = bound("set up splats")["work"]["bytes"].as_u64().unwrap();
-    assert!((1_000_000..=150_000 * 100).contains(&set_up), "{set_up}");
-    for pass in ["count tiles", "fill tiles", "see, sum and shade tiles"] {
-        let bytes = bound(pass)["work"]["bytes"].as_u64().unwrap();
-        assert!(bytes > 0 && bytes < 150_000 * 100, "{pass}: {bytes}");
-    }
+    // Every splat of a tile is looked for at each of its pixels. Of some 55 500 splats that may be seen, each has a span of 4 bytes; those
+    // that cover some pixel, a record of 64, made from 32, and an entry of 4 in each of two tiles or less. A tile of 32 pixels has 8
+    // bytes of each, and 4 for its number and its start.
+    let work = |pass: &str, what: &str| bound(pass)["work"][what].as_u64().unwrap();
+    let kernels = work("see, sum and shade tiles", "kernels");
+    let entries = kernels / 32;
+    assert!((strict..=2 * strict).contains(&entries) && kernels % 32 == 0, "{kernels}");
+    let close = |pass: &str, least: u64, most: u64| {
+        let bytes = work(pass, "bytes");
+        assert!((least..=most).contains(&bytes), "{pass}: {bytes}, expected {least} to {most}");
+    };
+    close("count tiles", 4 * strict, 4 * 60_000);
+    close("fill tiles", 4 * (strict + entries), 4 * (60_000 + entries) + 4 * 300);
+    close("set up splats", 90 * strict, 110 * strict);
+    close(
+        "see, sum and shade tiles",
+        60 * strict + 4 * entries,
+        70 * strict + 4 * entries + 300 * (32 * 8 + 8),
+    );
 }
 
 #[test]

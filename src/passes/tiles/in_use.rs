@@ -11,7 +11,8 @@ use super::{
 /// What the lists of one frame held.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ListsInUse {
-    /// Bytes in use of buffers that have room for more, by their names in the plan.
+    /// Bytes of buffers that have room for more than is in use, or of which a pass may read less than there is, by their names in the
+    /// plan: as many as each pass that accesses them reads or writes at least. 0 where that is not known.
     pub bytes: BTreeMap<String, u64>,
     /// The lists of tiles: one of each part and band that is drawn so.
     pub tiles: Vec<TilesInUse>,
@@ -83,7 +84,11 @@ impl ListsInUse {
             let names = Names::of(&kind);
             let words = |name: &String| told.get(name).map_or(&[][..], Vec::as_slice);
             let kept = words(&names.kept_starts).last().map(|count| u64::from(*count));
-            all.bytes.extend(kept.map(|kept| (format!("list of kept {kind}splats"), 4 * kept)));
+            if let Some(kept) = kept {
+                let of_kept = |what: &str| format!("{what} of kept {kind}splats");
+                // Of starts, how many there are.
+                all.bytes.extend([(of_kept("list"), 4 * kept), (of_kept("starts"), 4)]);
+            }
             if let Some(plan) = inputs.tiles {
                 let set_up = kept.unwrap_or(plan.record_count.into());
                 let told = [&names.spans, &names.starts, &names.arguments].map(words);
@@ -104,12 +109,14 @@ impl ListsInUse {
         let word = |words: &[u32], place: u64| words.get(place as usize).copied().unwrap_or(0).into();
         let (tile_count, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
         let records = spans.iter().take(set_up as usize).filter(|span| **span < SPAN_CHUNK).count() as u64;
-        let [entries, of_tiles] = [bins, tile_count].map(|bin| word(starts, bin));
+        // Behind those of tiles are those of chunks, which other passes read.
+        let entries = word(starts, tile_count);
         let [tiles, overfull] = [bins + 1, bins + 2].map(|place| word(starts, place));
         let runs: u64 = word(arguments, QUAD_ARGUMENTS / 4 + 1);
         let lists = [
             ("spans", 4 * set_up),
             ("entries", 4 * entries),
+            ("starts", 4 * tiles),
             ("seen", 4 * tiles),
             ("runs", 8 * runs),
             ("overfull", 4 * overfull),
@@ -123,16 +130,8 @@ impl ListsInUse {
         let rows_px = (plan.rows.end * ROW_PX).min(size_px[1]) - plan.rows.start * ROW_PX;
         // Tiles at the image's border reach beyond it: as if all of them had splats.
         let beyond = tile_count * tile_pixels - u64::from(size_px[0]) * u64::from(rows_px);
-        let splat_pixels = of_tiles * tile_pixels;
+        let splat_pixels = entries * tile_pixels;
         let pixels = (tiles * tile_pixels).saturating_sub(beyond);
-        self.tiles.push(TilesInUse {
-            kind,
-            records,
-            entries: of_tiles,
-            tiles,
-            overfull,
-            pixels,
-            splat_pixels,
-        });
+        self.tiles.push(TilesInUse { kind, records, entries, tiles, overfull, pixels, splat_pixels });
     }
 }

@@ -77,8 +77,10 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     let counted = frame.profile.unwrap_or_default();
     let fragments = [fragments(&counted), fragments(&floor.frame(headless, Profile::Counts)?)];
     let in_use = headless.lists_in_use(&prepared, &camera, settings)?;
-    let work =
-        FrameWork { plan: &frame.plan, scene: &prepared, drawn_points: strict.count(), in_use: &in_use };
+    // Others have other points, or none.
+    let as_points = matches!(settings.rasterizer, Rasterizer::Perspective | Rasterizer::Auto);
+    let drawn_points = as_points.then(|| strict.count());
+    let work = FrameWork { plan: &frame.plan, scene: &prepared, drawn_points, in_use: &in_use };
     let report = FloorReport {
         camera: (&camera).into(),
         scene: scene_report(inputs.clone(), &prepared, transient_bytes),

@@ -66,17 +66,17 @@ impl Limits {
 pub struct FrameWork<'a> {
     pub plan: &'a Plan,
     pub scene: &'a PreparedScene,
-    /// Splats that are drawn where they are drawn as points.
-    pub drawn_points: u64,
+    /// Splats that are drawn, where they are drawn as points.
+    pub drawn_points: Option<u64>,
     pub in_use: &'a ListsInUse,
 }
 
-impl FrameWork<'_> {
+impl<'a> FrameWork<'a> {
     /// How much a pass does. Of one of compute that are its invocations, the bytes that it is known to move, and, of tiles, the
     /// splats at their pixels.
     fn pass(&self, pass: &PlannedPass, counted: &PassProfile) -> PassWork {
         let mut units = BTreeMap::new();
-        let tiles = self.tiles_of(pass);
+        let (tiles, access_of_tiles) = self.tiles_of(pass).unzip();
         let executed = Executed {
             fragments: counted.counts.map(|counts| counts.fragments),
             pixels: tiles.map_or(0, |tiles| tiles.pixels),
@@ -88,55 +88,76 @@ impl FrameWork<'_> {
             units.insert(Limit::Points, vertices);
             units.insert(fragments_of(pass), fragments);
             if vertices >= self.scene.splat_count() || uses(pass, Access::IndexRead) {
-                units.insert(Limit::DrawnPoints, self.drawn_points);
+                units.extend(self.drawn_points.map(|points| (Limit::DrawnPoints, points)));
                 bytes = bytes.map(|bytes| bytes + self.shape_bytes(vertices));
             }
         }
-        if let Some(tiles) = tiles {
-            units.extend(kernels(pass, tiles).map(|kernels| (Limit::Kernels, kernels)));
-            if pass.name.starts_with("set up") {
+        match (tiles, access_of_tiles) {
+            (Some(tiles), Some(OfTiles::SetUp)) => {
                 bytes = bytes.map(|bytes| bytes + self.shape_bytes(tiles.records));
             }
+            (Some(tiles), Some(OfTiles::DrawsAll)) => {
+                units.insert(Limit::Kernels, tiles.splat_pixels);
+            }
+            // Of lists, an unknown part.
+            (_, Some(OfTiles::Draws)) => bytes = None,
+            _ => {}
         }
-        // Overfull tiles are few, or none: of lists they read an unknown part.
-        let bytes = bytes.filter(|_| !pass.name.ends_with("overfull tiles"));
         units.extend(bytes.map(|bytes| (Limit::Bytes, bytes)));
         PassWork { name: pass.name.clone(), units }
     }
 
-    /// The list of tiles that a pass makes or reads.
-    fn tiles_of(&self, pass: &PlannedPass) -> Option<&TilesInUse> {
-        let of = |tiles: &&TilesInUse| {
-            let names = ["spans", "starts"].map(|what| format!("{what} of {}tiles", tiles.kind));
-            let is_one = |usage: &Use| names.contains(&self.plan.resource(usage.resource).name);
-            pass.uses.iter().any(is_one)
+    /// The list of tiles that a pass makes or reads, and what it does with it.
+    fn tiles_of(&self, pass: &PlannedPass) -> Option<(&'a TilesInUse, OfTiles)> {
+        let of = |tiles: &'a TilesInUse| {
+            let writes = |what: &str| {
+                let name = format!("{what} of {}tiles", tiles.kind);
+                let own = |usage: &&Use| self.plan.resource(usage.resource).name == name;
+                pass.uses.iter().find(own).map(|usage| usage.start.is_some())
+            };
+            let does = match [writes("spans"), writes("starts"), writes("entries")] {
+                [None, None, None] => return None,
+                [Some(true), ..] => OfTiles::SetUp,
+                [Some(false), ..] | [_, Some(true), _] => OfTiles::Lists,
+                // Tiles with too many splats are left to other passes, as are large splats.
+                [None, Some(false), Some(false)]
+                    if tiles.overfull == 0 && pass.name.starts_with("see") && pass.name.contains("sum") =>
+                {
+                    OfTiles::DrawsAll
+                }
+                _ => OfTiles::Draws,
+            };
+            Some((tiles, does))
         };
-        self.in_use.tiles.iter().find(of)
+        self.in_use.tiles.iter().find_map(of)
     }
 
-    /// Bytes of so many of the splats without their colors, which only those need that are seen, and not in every pass. Splats are
-    /// bound by the passes' bodies, not by the graph.
+    /// Bytes of so many of the splats at least, without their colors, which only those need that are seen, and not in every pass.
+    /// Splats are bound by the passes' bodies, not by the graph.
     fn shape_bytes(&self, splats: u64) -> u64 {
-        let of = |chunk: &Chunk| {
+        let of_one = |chunk: &Chunk| {
             let colors = if chunk.uniform_color { 1 } else { u64::from(chunk.count) };
-            chunk.bytes().saturating_sub(COLOR_BYTES * colors)
+            chunk.bytes().saturating_sub(COLOR_BYTES * colors) / u64::from(chunk.count.max(1))
         };
-        let all: u64 = self.scene.chunks.iter().map(of).sum();
-        let share = splats as f64 / self.scene.splat_count().max(1) as f64;
-        (all as f64 * share.min(1.0)) as u64
+        splats.min(self.scene.splat_count()) * self.scene.chunks.iter().map(of_one).min().unwrap_or(0)
     }
+}
+
+/// What a pass does with a list of tiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum OfTiles {
+    /// Makes the records that are listed.
+    SetUp,
+    /// Counts, places or fills.
+    Lists,
+    /// Sees and sums all of it.
+    DrawsAll,
+    /// Draws some of it, or shortens it in between.
+    Draws,
 }
 
 fn uses(pass: &PlannedPass, access: Access) -> bool {
     pass.uses.iter().any(|usage| usage.access == access)
-}
-
-/// Splats that a pass sees and adds at pixels: all of the lists that it reads, unless it shortens them in between or leaves some to
-/// other passes.
-fn kernels(pass: &PlannedPass, tiles: &TilesInUse) -> Option<u64> {
-    let does_both = pass.name.starts_with("see") && pass.name.contains("sum");
-    let does_all = tiles.overfull == 0 && !uses(pass, Access::StorageUpdateCompute);
-    (does_both && does_all).then_some(tiles.splat_pixels)
 }
 
 /// Bytes of a color in the buffers of a chunk.
