@@ -141,6 +141,42 @@ fn lists_of_bands_hold_together_what_one_of_all_does() {
     assert_validation_is_silent(&headless);
 }
 
+/// Buffers are known by their names alone: one that is called something else would count as if it were full.
+#[test]
+fn what_is_told_is_told_of_buffers_that_the_frame_has() {
+    let mut headless = shared();
+    let ball = |alpha: f32| {
+        let mut ball = sphere(10_000, DVec3::ZERO);
+        ball.splats.colors = Colors::Uniform([0.5, 0.5, 0.5, alpha]);
+        ball
+    };
+    let points = Settings { rasterizer: Rasterizer::Perspective, ..by_tiles([131, 203]) };
+    let in_bands = Settings { tile_memory: TileMemory::Most(0), ..by_tiles([131, 203]) };
+    for (object, eye_z, settings, unknown) in [
+        (ball(1.0), 3.2, by_tiles([131, 203]), &[][..]),
+        (ball(0.5), 3.2, by_tiles([131, 203]), &[]),
+        (ball(1.0), 3.2, in_bands, &[]),
+        (ball(1.0), 3.2, Settings { cull: Cull::List, ..points.clone() }, &[]),
+        (ball(1.0), 3.2, Settings { cull: Cull::Hidden, ..points.clone() }, &["list of seen splats"]),
+        (ball(1.0), 1.001, Settings { cull: Cull::Setup, ..points }, &["large list of chunk 0"]),
+    ] {
+        let hard = hard(vec![object], [0.0, 0.0, eye_z], settings);
+        let bytes = in_use(&mut headless, &hard).bytes;
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        let plan = headless.render(&prepared, &hard.camera, &hard.settings, Wanted::default()).unwrap().plan;
+        let rooms: Vec<&str> = plan.resources.iter().map(|resource| resource.name.as_str()).collect();
+        assert!(
+            !bytes.is_empty() && bytes.keys().all(|name| rooms.contains(&name.as_str())),
+            "{bytes:?} {rooms:?}"
+        );
+        // And all lists are.
+        for name in rooms.iter().filter(|name| name.contains("list of") || name.contains(" of records of")) {
+            assert_eq!(bytes.get(*name) == Some(&0), unknown.contains(name), "{name}: {bytes:?}");
+        }
+    }
+    assert_validation_is_silent(&headless);
+}
+
 #[test]
 fn the_device_counts_no_less_than_lists_are_told_to_hold() {
     let mut headless = shared();

@@ -101,6 +101,35 @@ fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
     );
 }
 
+/// A mesh that is closed, and as wide as it is high.
+const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
+f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/// What tiles with more splats than a dispatch takes leave to others is not known, of neither.
+#[test]
+fn passes_that_do_an_unknown_part_of_lists_have_no_bound() {
+    let folder = Folder::new();
+    folder.write("cube.obj", CUBE);
+    let made = surfel(&folder, &["convert", "cube.obj", "cube.ply", "--resample", "1500000"]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let floor = ["bench", "floor", "--rasterizer", "compute", "--frames", "1", "--json", "floor.json"];
+    // Two tiles, and two hundred.
+    for (size, is_known) in [("8x8", false), ("80x80", true)] {
+        let run = surfel(&folder, &[&floor[..], &["--model", "cube.ply", "--size", size]].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let report = json(&folder, "floor.json");
+        let bounds = report["floor"]["limits"]["bounds"].as_array().unwrap();
+        let of = |what: &str| {
+            let found = bounds.iter().find(|row| row["name"].as_str().unwrap().contains(what));
+            found.unwrap_or_else(|| panic!("{size}: {what}")).clone()
+        };
+        let (all, overfull) = (of("see, sum and shade"), of("overfull"));
+        assert_eq!(all["work"]["kernels"].is_u64(), is_known, "{all}");
+        assert_eq!(all["binds"].is_string(), is_known, "{all}");
+        assert_eq!(overfull["binds"], Value::Null, "{overfull}");
+    }
+}
+
 #[test]
 fn lists_are_refused_where_a_table_takes_one_or_none() {
     let folder = Folder::new();

@@ -99,8 +99,8 @@ impl<'a> FrameWork<'a> {
             (Some(tiles), Some(OfTiles::DrawsAll)) => {
                 units.insert(Limit::Kernels, tiles.splat_pixels);
             }
-            // Of lists, an unknown part.
-            (_, Some(OfTiles::Draws)) => bytes = None,
+            // Of lists, an unknown part: by what else is known of it, its bound would be next to nothing.
+            (_, Some(OfTiles::Draws)) => (units, bytes) = (BTreeMap::new(), None),
             _ => {}
         }
         units.extend(bytes.map(|bytes| (Limit::Bytes, bytes)));
