@@ -1,24 +1,23 @@
 //! Every pipeline that a frame would be drawn with, without a scene: the passes' own recipes, for whoever counts them or
 //! compiles them ahead.
 
+mod layers;
+mod opaque;
+
 use ash::vk;
 
 use super::{
-    accumulate, cull, cull_hidden, export, finalize, floor, kernel_texture, layer_accumulate,
-    layer_compose::{self, LayerKind},
-    layer_rest, layer_visibility, list_large, paper,
+    export, finalize, floor, paper,
     pipelines::GraphicsKey,
-    point_records, polygons,
+    polygons,
     recipe::{Key, PipelineRecipe, compute, graphics},
     splat_pass::SplatPass,
-    splat_shaders::{Primitive, Summed, sets_up_once},
-    tiles,
-    variant::{Constants, IN_LAYERS, OUTWARD, splat_constants},
-    visibility,
+    splat_shaders::{Primitive, sets_up_once},
+    variant::{Constants, splat_constants},
 };
 use crate::{
     error::Result,
-    scene::{Cull, KernelEval, Rasterizer, SetUp, Settings, Transition},
+    scene::{Rasterizer, SetUp, Settings, Transition},
     shaders,
 };
 
@@ -99,9 +98,9 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     let by_tiles = settings.rasterizer == Rasterizer::Compute;
     let has_list = traits.may_be_large && !by_tiles && Primitive::of(settings.rasterizer) != Primitive::Quad;
     if by_tiles {
-        all.extend(opaque_by_tiles(settings, traits, &variant)?);
+        all.extend(opaque::by_tiles(settings, traits, &variant)?);
     } else {
-        all.extend(opaque(settings, traits, &variant, has_list)?);
+        all.extend(opaque::drawn(settings, traits, &variant, has_list)?);
     }
     if traits.polygons {
         let drawn = match by_tiles && !traits.leaves_sums(settings) {
@@ -111,16 +110,12 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.push(graphics("polygons", "triangles", drawn.key(traits.closed, false)));
     }
     if traits.transparent {
-        if by_tiles && !traits.polygons && !traits.may_be_large {
-            let mut open = splat_constants(settings, traits.ellipses, false);
-            open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
-            let (_, set_up) = tiles::list_recipes(settings, &open, false, false).swap_remove(0);
-            all.push(compute("set up transparent splats", set_up));
-            let (pass, key) = tiles::layers_recipe(settings, traits.lights())?;
-            all.push(compute(pass, key));
+        let tiles = by_tiles && !traits.polygons && !traits.may_be_large;
+        all.extend(if tiles {
+            layers::by_tiles(settings, traits)?
         } else {
-            all.extend(layers(settings, traits)?);
-        }
+            layers::drawn(settings, traits)?
+        });
     }
     let shown = finalize::Traits {
         splats: true,
@@ -149,132 +144,6 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.push(graphics("floor add", "points", add));
         all.push(graphics("floor fill", "", fill));
     }
-    Ok(all)
-}
-
-/// The splat passes of the opaque part by the graphics pipeline.
-fn opaque(
-    settings: &Settings,
-    traits: Traits,
-    variant: &Constants,
-    has_list: bool,
-) -> Result<Vec<PipelineRecipe>> {
-    let mut all = Vec::new();
-    if has_list {
-        let [count, scan, list] = list_large::keys(variant);
-        all.push(compute("count large splats", count));
-        all.push(compute("scan large splats", scan));
-        all.push(compute("list large splats", list));
-    }
-    let points = Primitive::of(settings.rasterizer) == Primitive::Point;
-    let culled = match settings.cull {
-        Cull::List | Cull::Hidden if points => cull::recipes(variant),
-        _ => Vec::new(),
-    };
-    let kept = !culled.is_empty();
-    all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
-    if records_points(settings) {
-        all.push(compute("set up points", point_records::key(variant, has_list, kept)));
-    }
-    if kept && settings.cull == Cull::Hidden {
-        all.push(compute("cells of depth", cull_hidden::cells_key()));
-        all.push(compute("mark seen splats", cull_hidden::hidden_key(variant)));
-    }
-    let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
-    let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
-    let splat_passes = [
-        ("visibility", visibility::splat_pass(settings, None)?),
-        (accumulate_name, accumulate::splat_pass(settings, summed)?),
-    ];
-    for (pass, splats) in splat_passes {
-        if pass == accumulate_name && settings.kernel_eval == KernelEval::Texture {
-            all.push(graphics(
-                "kernel texture",
-                "",
-                kernel_texture::key(&shaders::KERNEL_TEXTURE_FRAG, settings.kernel),
-            ));
-        }
-        let keys = splat_keys(&splats, settings, variant, has_list);
-        all.extend(keys.into_iter().map(|(draws, key)| graphics(pass, draws, key)));
-    }
-    Ok(all)
-}
-
-/// The same by tiles.
-fn opaque_by_tiles(settings: &Settings, traits: Traits, variant: &Constants) -> Result<Vec<PipelineRecipe>> {
-    let Traits { may_be_large, polygons, export, .. } = traits;
-    let (leaves_sums, lights) = (traits.leaves_sums(settings), traits.lights());
-    let of_tiles = tiles::TileTraits { may_be_large, polygons, export, leaves_sums, lights };
-    let mut all = Vec::new();
-    let culled = if settings.cull == Cull::Setup { Vec::new() } else { cull::recipes(variant) };
-    let set_up = culled.len();
-    let passes = [
-        tiles::list_recipes(settings, variant, may_be_large, set_up > 0),
-        tiles::opaque_recipes(settings, of_tiles)?,
-    ];
-    all.extend(culled.into_iter().chain(passes.into_iter().flatten()).map(|(pass, key)| compute(pass, key)));
-    // The same shaders do all splats, or leave the large ones out.
-    for recipe in all.iter_mut().filter(|recipe| ["set up splats", "fill tiles"].contains(&recipe.pass)) {
-        recipe.draws = if may_be_large { "small splats" } else { "all splats" };
-    }
-    if may_be_large {
-        let summed = Summed::Opaque { with_depth: export, beside_polygons: polygons };
-        for (pass, splats) in [
-            ("see large splats", visibility::splat_pass(settings, None)?),
-            ("sum large splats", accumulate::splat_pass(settings, summed)?),
-        ] {
-            let key = splats.key(splats.shaders.listed, Primitive::Quad, variant);
-            all.push(graphics(pass, "listed quads", key));
-        }
-    }
-    if leaves_sums {
-        let (pass, key) = tiles::depth_recipe();
-        all.push(graphics(pass, "tiles", key));
-    }
-    Ok(all)
-}
-
-/// The passes of transparent layers by the graphics pipeline.
-fn layers(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
-    let mut all = Vec::new();
-    let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
-    let mut open = splat_constants(settings, traits.ellipses, false);
-    open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
-    if records_points(settings) {
-        all.push(compute("set up transparent points", point_records::key(&open, has_list, false)));
-    }
-    let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
-    for peeled in [false, true] {
-        let names = if peeled {
-            ["visibility of a layer", "accumulate a layer", "polygons of a layer"]
-        } else {
-            ["visibility of layer 1", "accumulate layer 1", "polygons of layer 1"]
-        };
-        let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
-        let of_splats = [
-            (names[0], visibility::splat_pass(settings, Some(peeled))?),
-            (names[1], layer_accumulate::splat_pass(settings, peeled)?),
-            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lights())?),
-        ];
-        for (name, pass) in &of_splats {
-            all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
-        }
-        let of_polygons = [
-            (names[0], layer_visibility::mesh_pass(peeled)),
-            (names[2], layer_accumulate::mesh_pass(settings, peeled)),
-            (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lights())),
-        ];
-        for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
-            all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
-        }
-    }
-    let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
-    all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lights())));
-    all.push(graphics(
-        "compose the last layer",
-        "",
-        layer_compose::key(settings, LayerKind::Rest, traits.lights()),
-    ));
     Ok(all)
 }
 
@@ -308,6 +177,7 @@ fn splat_keys(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::KernelEval;
 
     #[test]
     fn a_frame_has_the_pipelines_of_its_passes() {

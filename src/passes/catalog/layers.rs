@@ -1,0 +1,74 @@
+//! The pipelines of transparent layers.
+
+use super::{
+    super::{
+        layer_accumulate,
+        layer_compose::{self, LayerKind},
+        layer_rest, layer_visibility, point_records,
+        recipe::{PipelineRecipe, compute, graphics},
+        splat_pass::SplatPass,
+        splat_shaders::Primitive,
+        tiles,
+        variant::{Constants, IN_LAYERS, OUTWARD, splat_constants},
+        visibility,
+    },
+    Traits, records_points, splat_keys,
+};
+use crate::{error::Result, scene::Settings};
+
+/// By tiles.
+pub(super) fn by_tiles(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
+    let (_, set_up) = tiles::list_recipes(settings, &open(settings, traits), false, false).swap_remove(0);
+    let (pass, layers) = tiles::layers_recipe(settings, traits.lights())?;
+    Ok(vec![compute("set up transparent splats", set_up), compute(pass, layers)])
+}
+
+/// What a transparent splat's shaders are made for.
+fn open(settings: &Settings, traits: Traits) -> Constants {
+    let mut open = splat_constants(settings, traits.ellipses, false);
+    open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
+    open
+}
+
+/// By the graphics pipeline.
+pub(super) fn drawn(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
+    let mut all = Vec::new();
+    let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
+    let open = open(settings, traits);
+    if records_points(settings) {
+        all.push(compute("set up transparent points", point_records::key(&open, has_list, false)));
+    }
+    let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
+    for peeled in [false, true] {
+        let names = if peeled {
+            ["visibility of a layer", "accumulate a layer", "polygons of a layer"]
+        } else {
+            ["visibility of layer 1", "accumulate layer 1", "polygons of layer 1"]
+        };
+        let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
+        let of_splats = [
+            (names[0], visibility::splat_pass(settings, Some(peeled))?),
+            (names[1], layer_accumulate::splat_pass(settings, peeled)?),
+            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lights())?),
+        ];
+        for (name, pass) in &of_splats {
+            all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
+        }
+        let of_polygons = [
+            (names[0], layer_visibility::mesh_pass(peeled)),
+            (names[2], layer_accumulate::mesh_pass(settings, peeled)),
+            (rest, layer_rest::mesh_pass(settings, peeled, true, traits.lights())),
+        ];
+        for (name, pass) in of_polygons.iter().filter(|_| traits.polygons) {
+            all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
+        }
+    }
+    let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
+    all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lights())));
+    all.push(graphics(
+        "compose the last layer",
+        "",
+        layer_compose::key(settings, LayerKind::Rest, traits.lights()),
+    ));
+    Ok(all)
+}
