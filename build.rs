@@ -3,7 +3,11 @@
 #[path = "src/shaders/build/mod.rs"]
 mod shader_build;
 
-use std::{env, fs, path::Path, process::Command};
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
 
 /// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
 /// offset, and the size; a listed struct that no shader has is an error.
@@ -28,11 +32,19 @@ fn main() {
     let macros =
         if env::var_os("CARGO_FEATURE_TEST_FORMULAS").is_some() { &["TEST_FORMULAS"][..] } else { &[] };
     match shader_build::build(glsl, HOST_STRUCTS, macros) {
-        Ok(rust) => {
-            let out = Path::new(&env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs");
-            if let Err(e) = fs::write(&out, rust) {
-                println!("cargo::error=cannot write {}: {e}", out.display());
+        Ok(built) => {
+            let folder = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+            let write = |name: &str, content: &[u8]| {
+                let path = folder.join(name);
+                if let Err(e) = fs::write(&path, content) {
+                    println!("cargo::error=cannot write {}: {e}", path.display());
+                }
+            };
+            for (name, words) in &built.modules {
+                let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
+                write(&format!("{name}.spv"), &bytes);
             }
+            write("shaders.rs", built.rust.as_bytes());
         }
         // Cargo shows each such line as an error and then stops the build.
         Err(errors) => errors.iter().flat_map(|e| e.lines()).for_each(|line| println!("cargo::error={line}")),

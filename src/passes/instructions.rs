@@ -39,12 +39,12 @@ impl Counter {
 
     fn stage(&mut self, shader: &'static Shader, recipe: &PipelineRecipe) -> Result<Counts> {
         let fault = |problem: String| Error::option("counts", format!("{}: {problem}", shader.name));
-        let own = constant_numbers(shader.spirv).map_err(fault)?;
+        let own = constant_numbers(shader.spirv()).map_err(fault)?;
         let constants = recipe.constants().iter().copied().filter(|(number, _)| own.contains(number));
         match self.counted.entry((shader.name, constants.collect())) {
             Entry::Occupied(counted) => Ok(counted.get().clone()),
             Entry::Vacant(none) => {
-                let counts = count(shader.spirv, &none.key().1).map_err(fault)?;
+                let counts = count(shader.spirv(), &none.key().1).map_err(fault)?;
                 Ok(none.insert(counts).clone())
             }
         }

@@ -309,7 +309,7 @@ impl GraphicsKey {
 impl Shader {
     /// The stage of a pipeline with these specialization constants.
     fn stage<'a>(&'static self, constants: &'a Constants) -> Stage<'a> {
-        Stage { name: self.name, spirv: self.spirv, constants }
+        Stage { name: self.name, spirv: self.spirv(), constants }
     }
 }
 

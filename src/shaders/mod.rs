@@ -10,8 +10,19 @@
 pub struct Shader {
     /// Pass and stage, such as `visibility.frag`.
     pub name: &'static str,
+    bytes: &'static Aligned<[u8]>,
+}
+
+/// Bytes that begin where a `u32` may.
+#[derive(Debug)]
+#[repr(C, align(4))]
+struct Aligned<T: ?Sized>(T);
+
+impl Shader {
     /// SPIR-V 1.6 for Vulkan 1.3.
-    pub spirv: &'static [u32],
+    pub fn spirv(&self) -> &'static [u32] {
+        bytemuck::cast_slice(&self.bytes.0)
+    }
 }
 
 /// Names are unique.

@@ -77,7 +77,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let layout =
         PipelineLayout::new(&device, "graphics", &[&images], 32, vk::ShaderStageFlags::FRAGMENT).unwrap();
     let stage =
-        |shader: &'static shaders::Shader| Stage { name: shader.name, spirv: shader.spirv, constants: &[] };
+        |shader: &'static shaders::Shader| Stage { name: shader.name, spirv: shader.spirv(), constants: &[] };
     let desc = ComputePipelineDesc {
         name: "compute",
         stage: stage(&shaders::LARGE_SCAN_COMP),

@@ -110,5 +110,9 @@ impl Compiler {
 pub fn read_text(path: &Path) -> Result<String, String> {
     let text = fs::read_to_string(path).map_err(|e| format!("cannot read: {e}"))?;
     // shaderc panics on one.
-    if text.contains('\0') { Err("has a NUL character".into()) } else { Ok(text) }
+    if text.contains('\0') {
+        return Err("has a NUL character".into());
+    }
+    let [unroll, dont_unroll] = super::unroll::IN_SOURCE;
+    Ok(text.replace(unroll, dont_unroll))
 }

@@ -6,6 +6,7 @@ mod layout;
 mod permutations;
 mod spirv;
 mod table;
+mod unroll;
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -23,13 +24,23 @@ use layout::{StructLayout, struct_layouts};
 /// A struct that host and shaders share: its name in GLSL, and the path of its twin in Rust.
 pub type HostStruct<'a> = (&'a str, &'a str);
 
-/// Compiles every `<pass>.<stage>.glsl` of the folder `glsl`, once for each of its permutations. Answers with Rust source: one `static` a shader, the table
-/// `ALL` of all of them, and the checks of the host structs. `macros` are defined in every shader.
+/// Compiled shaders.
+#[derive(Debug)]
+pub struct Built {
+    /// Rust source: one `static` a shader, the table `ALL` of all of them, and the checks of the host structs. It takes in
+    /// `<name>.spv` from its own folder for each.
+    pub rust: String,
+    /// Name and SPIR-V of each, sorted by name.
+    pub modules: Vec<(String, Vec<u32>)>,
+}
+
+/// Compiles every `<pass>.<stage>.glsl` of the folder `glsl`, once for each of its permutations. `macros` are defined in every
+/// shader.
 ///
 /// # Errors
 ///
 /// All that is wrong with any shader, each as `path:line: error: …` where the compiler knows a line.
-pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Result<String, Vec<String>> {
+pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Result<Built, Vec<String>> {
     let sources = find_shaders(glsl)?;
     let compiler = Compiler::new(glsl, macros).map_err(|message| vec![message])?;
     let shared: Vec<&str> = host_structs.iter().map(|(glsl_name, _)| *glsl_name).collect();
@@ -44,7 +55,7 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
             Err(problem) => errors.push(format!("{}: error: {problem}", path.display())),
         }
     }
-    let mut shaders = Vec::new();
+    let mut shaders: Vec<(String, Vec<u32>)> = Vec::new();
     let mut layouts = BTreeMap::new();
     let mut failed = BTreeSet::new();
     // The permutations of a file mostly fail alike: the others wait for the first of each.
@@ -81,7 +92,9 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
     if !errors.is_empty() {
         return Err(errors);
     }
-    Ok(table::shaders(&shaders) + &table::checks(host_structs, &layouts))
+    let names: Vec<&str> = shaders.iter().map(|(name, _)| name.as_str()).collect();
+    let rust = table::shaders(&names) + &table::checks(host_structs, &layouts);
+    Ok(Built { rust, modules: shaders })
 }
 
 /// A permutation to compile.
@@ -105,6 +118,7 @@ impl Job<'_> {
     ) -> Result<(Vec<u32>, Vec<StructLayout>), String> {
         let of_file = |problem: String| format!("{}: error: {problem}", self.path.display());
         let mut spirv = compiler.spirv(self.path, &self.words, Optimize::Performance)?;
+        unroll::ask_the_driver(&mut spirv).map_err(of_file)?;
         // Both splat passes must place a splat alike, to the last bit. Fragments say `precise` where they need it.
         if !self.file.ends_with(".frag") {
             spirv = exact::exact(&spirv).map_err(of_file)?;

@@ -18,6 +18,7 @@ pub mod op {
     pub const CONSTANT: u32 = 43;
     pub const DECORATE: u32 = 71;
     pub const MEMBER_DECORATE: u32 = 72;
+    pub const LOOP_MERGE: u32 = 246;
 }
 
 /// Decorations (section 3.20).

@@ -7,18 +7,17 @@ use super::{HostStruct, StructLayout};
 /// The alignment that no buffer layout of GLSL exceeds without 64-bit vectors: that of `vec4`.
 const MAX_ALIGNMENT_BYTES: u32 = 16;
 
-/// One `static` a shader, and `ALL`. Words are written as `u32` literals: an included byte string has no alignment.
-pub fn shaders(shaders: &[(String, Vec<u32>)]) -> String {
+/// One `static` a shader, and `ALL`. Its SPIR-V is a file beside, taken in as bytes: the compiler would have to parse literals.
+pub fn shaders(names: &[&str]) -> String {
     let mut rust = String::new();
     let mut all = String::new();
-    for (name, spirv) in shaders {
+    for name in names {
         let identifier = name.replace('.', "_").to_uppercase();
-        let words: Vec<String> = spirv.iter().map(|word| format!("{word:#x}")).collect();
-        let words = words.join(",");
         // Writing to a `String` can't fail.
         let _ = writeln!(
             rust,
-            "/// The shader `{name}`.\npub static {identifier}: Shader = Shader {{ name: {name:?}, spirv: &[{words}] }};"
+            "/// The shader `{name}`.\npub static {identifier}: Shader = Shader {{ name: {name:?}, \
+             bytes: &Aligned(*include_bytes!(\"{name}.spv\")) }};"
         );
         let _ = write!(all, "&{identifier}, ");
     }
