@@ -3,7 +3,7 @@
 //
 // WITH_DEPTH: also the depth of the surface, the weighted mean of z, summed as z / z_visible, which is at most 1, so that 16
 // bits neither overflow nor lose it. z = near / w, so the ratio is w_visible / w, with w_visible the visibility pass's
-// (shifted) depth. EARLY: as in visibility.frag.glsl. TEXTURED: the kernel is read from a texture.
+// (shifted) depth. TEXTURED: the kernel is read from a texture.
 //
 // BESIDE: there are polygons; a splat counts where its depth, shifted by epsilon toward the viewer, is not behind theirs
 // (Guennebaud et al. 2006, section 5.1, step 3).
@@ -11,9 +11,9 @@
 // LAYER: a transparent layer; the weighted alpha is summed too. BLENDED: the last one, with all that is left, as
 // sum(w a C), sum(w a) and sum(w). PEELED: only what is behind the layer before; see peel.glsl. The rasterizer's own depth
 // may differ from what a shader sees in the last bit: so layers are compared by the shader's alone, also of triangles.
-// Permutations: plain full center rays | _ early | _ textured | _ with_depth | _ beside
+// Permutations: plain full center rays | _ textured | _ with_depth | _ beside
 // Permutations: triangles | _ textured | _ with_depth | _ beside
-// Permutations: plain full center rays | _ early | _ textured | layer blended | _ peeled
+// Permutations: plain full center rays | _ textured | layer blended | _ peeled
 // Permutations: triangles | _ textured | layer blended | _ peeled
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
@@ -28,10 +28,6 @@
 #endif
 #if defined(PEELED)
 #include "inc/peel.glsl"
-#endif
-
-#if defined(EARLY)
-layout(depth_less) out float gl_FragDepth;
 #endif
 
 layout(location = 5) flat in vec4 normal_weight; // view space, unit, toward the eye; the splat's own weight
@@ -86,12 +82,6 @@ void main()
     float z_ratio = FORMULA(FORMULA_DEPTH_SUM, w_visible / fragment.w);
 #elif !defined(LAYER) && !defined(BLENDED)
     const float z_ratio = 0.0;
-#endif
-#if defined(EARLY) && defined(TEST_FORMULAS)
-    // Not every device makes use of the bound, so a wrong one must be seen otherwise.
-    if (fragment.w > gl_FragCoord.z) {
-        weight *= 1000.0;
-    }
 #endif
 #if defined(BLENDED)
     color_sum = weight * alpha * vec4(extra(), 1.0);

@@ -2,19 +2,14 @@
 //
 // BESIDE: there are polygons, against which depth is shifted toward the viewer. LAYER: the splats are transparent. BLENDED: they
 // are in the last layer, where surfaces mix, so that each is lit by itself, at its center.
-// LIT: by lights of the scene's own. RECORDED_POINTS: set up before, once for all passes.
+// LIT: by lights of the scene's own.
 // Permutations: points small_points | plain center rays | _ beside layer blended blended_lit
-// Permutations: recorded_points | plain | _ beside layer blended blended_lit
 // Permutations: quads listed_quads | full center | _ beside layer blended blended_lit
 // Permutations: listed_quads | rays | _ beside layer blended blended_lit
 // Permutations: triangles small_triangles | _ beside layer blended blended_lit
 #version 460
 #include "inc/setup.glsl"
-#if defined(RECORDED_POINTS)
-#include "inc/emit_record.glsl"
-#else
 #include "inc/emit.glsl"
-#endif
 #if defined(BLENDED_LIT)
 #define BLENDED
 #define LIT
@@ -32,25 +27,6 @@ layout(location = 6) flat out float inverse_shift; // 1 / f
 layout(location = 6) flat out float alpha;
 #endif
 
-#if defined(RECORDED_POINTS)
-void main()
-{
-    uint index = gl_VertexIndex;
-    PointRecord record = load_record(index);
-    vec3 color = load_color(index);
-#if defined(BLENDED)
-    vec3 p = load_splat(index).p; // no filter moves it
-    color = shaded(color, dot(record.normal, p) > 0.0 ? -record.normal : record.normal, -safe_normalize(p));
-#endif
-    emit_record(record, color);
-    normal_weight = vec4(record.normal, record.share);
-#if defined(BESIDE)
-    inverse_shift = record.inverse_shift;
-#elif defined(LAYER) || defined(BLENDED)
-    alpha = load_alpha(index);
-#endif
-}
-#else
 void main()
 {
     uint index = splat_index();
@@ -81,4 +57,3 @@ void main()
         emit_nothing();
     }
 }
-#endif

@@ -5,12 +5,12 @@
 // BEHIND: opaque things hide what is behind them. SEVERAL: one of several dispatches, whose light, depth and weight go on in
 // images: loops have an end on llvmpipe (inc/tiles.glsl). PARTS: of the tiles with more splats than that leaves room for, a
 // step of one layer and a part of their splats in each dispatch, with all that is found kept in a buffer. LIT: the scene has
-// lights of its own. HALF, SINGLE: of the light in its image. DIRECT, PIXELS, SHORT: as in tile_splat.comp.glsl.
-// Permutations: half single | _ lit | _ behind | _ several parts | _ direct pixels short
+// lights of its own. HALF, SINGLE: of the light in its image. PIXELS, SHORT: as in tile_splat.comp.glsl.
+// Permutations: half single | _ lit | _ behind | _ several parts | _ pixels short
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
-#if !(defined(DIRECT) || defined(PIXELS))
+#if !defined(PIXELS)
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require

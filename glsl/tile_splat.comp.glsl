@@ -11,7 +11,7 @@
 // HALF, SINGLE: the precision of what is left in images. In registers it is f32.
 // UPON: the graphics pipeline has drawn visible splats before. WITH_DEPTH, BESIDE: as in accumulate.frag.glsl.
 // HIDDEN: what the tile's visible depth hides is not summed (inc/tile_hidden.glsl).
-// PIXELS: of 64 invocations, each a pixel: a GPU's vectors are longer than 8. DIRECT: each loads every record. Without it each
+// PIXELS: of 64 invocations, each a pixel: a GPU's vectors are longer than 8. Of a column each
 // loads one of BATCH, and they hand them to each other (inc/tile_batch.glsl). SHORT: columns have 4 pixels in place of 8.
 //
 // All rows are computed for every splat of the tile, without a branch: on a CPU driver, lanes of a vector are invocations,
@@ -19,16 +19,16 @@
 // multiplications more, and no error adds up.
 //
 // Own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
-// Permutations: shaded | half single | _ beside | _ lit | _ direct pixels short
+// Permutations: shaded | half single | _ beside | _ lit | _ pixels short
 // Permutations: shaded | half single | _ beside | _ lit | hidden | _ pixels short
-// Permutations: fused | half single | _ with_depth | _ upon | _ direct pixels short
+// Permutations: fused | half single | _ with_depth | _ upon | _ pixels short
 // Permutations: fused | half single | _ with_depth | _ upon | hidden | _ pixels short
-// Permutations: visible | _ upon | _ direct pixels short
-// Permutations: summed | half single | _ with_depth | _ beside | _ direct pixels short
+// Permutations: visible | _ upon | _ pixels short
+// Permutations: summed | half single | _ with_depth | _ beside | _ pixels short
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
-#if !(defined(DIRECT) || defined(PIXELS))
+#if !defined(PIXELS)
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #if defined(HIDDEN)

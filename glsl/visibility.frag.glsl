@@ -1,9 +1,8 @@
 // Visibility splatting: the depth of the splat, moved away from the eye by epsilon (Guennebaud et al. 2006, section 2;
 // Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is 1 / f.
 //
-// EARLY: the vertex stage's depth is a bound of this one, by which the device may test before this stage.
 // LAYER: of triangles in a transparent layer; PEELED: only what is behind the layer before this one; see peel.glsl.
-// Permutations: plain full center rays | _ early | _ peeled
+// Permutations: plain full center rays | _ peeled
 // Permutations: triangles | _ layer layer_peeled
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,10 +16,6 @@
 #include "inc/coverage.glsl"
 #if defined(PEELED)
 #include "inc/peel.glsl"
-#endif
-
-#if defined(EARLY)
-layout(depth_less) out float gl_FragDepth;
 #endif
 
 // What is seen here must be accumulated later, or a pixel would hide what is behind and stay empty. The passes are

@@ -1,23 +1,11 @@
 // Visibility splatting: sets splats up and hands 1 / f on, with which their depth is moved away from the eye. The
 // fragments of triangles have it from the rasterizer; but in a transparent LAYER the shader compares their own depth and moves it.
-//
-// RECORDED_POINTS: set up before, once for all passes.
 // Permutations: points small_points | plain center rays
-// Permutations: recorded_points | plain
 // Permutations: quads listed_quads | full center
 // Permutations: listed_quads | rays
 // Permutations: triangles small_triangles | _ layer
 #version 460
 #include "inc/setup.glsl"
-#if defined(RECORDED_POINTS)
-#include "inc/emit_record.glsl"
-
-void main()
-{
-    PointRecord record = load_record(gl_VertexIndex);
-    emit_record(record, vec3(record.inverse_shift, 0.0, 0.0));
-}
-#else
 #include "inc/emit.glsl"
 
 void main()
@@ -35,4 +23,3 @@ void main()
         emit_nothing();
     }
 }
-#endif

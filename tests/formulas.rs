@@ -16,7 +16,7 @@ use surfel::{
     passes::Formula,
     reference::{self, Picture},
     renderer::{Headless, Wanted},
-    scene::{Filter, Kernel, KernelEval, Rasterizer, Settings, TileInvocations, Transition},
+    scene::{Cull, Filter, Kernel, KernelEval, Rasterizer, Settings, TileInvocations, Transition},
     selftest::light::{LightErrors, compare_light},
 };
 
@@ -50,7 +50,7 @@ fn scenes() -> Vec<(Hard, Picture)> {
         }),
         ("ellipses, max", scenes::random_ellipses(Filter::None), |s| s.filter = Filter::Max),
         ("subpixel disks, max", scenes::subpixel_filtered(), |s| s.filter = Filter::Max),
-        ("sphere, early depth", scenes::sphere_of_disks(), |s| s.early_depth = true),
+        ("sphere, hidden splats left out", scenes::sphere_of_disks(), |s| s.cull = Cull::Hidden),
         ("sphere, kernel texture", scenes::sphere_of_disks(), |s| s.kernel_eval = KernelEval::Texture),
     ];
     all.extend(methods.map(|(name, mut hard, change)| {

@@ -18,7 +18,7 @@ use std::{
 use surfel::{
     count::{Counts, PassCounts, count},
     passes::{Counter, counts_of, papers_pipelines},
-    scene::{Filter, KernelEval, Rasterizer, SetUp, Settings, TileInvocations},
+    scene::{Filter, KernelEval, Rasterizer, Settings, TileInvocations},
 };
 
 fn arb(counts: &Option<Counts>) -> u32 {
@@ -64,10 +64,9 @@ fn pinned() -> Vec<Settings> {
         Filter::NAMES.iter().skip(1).map(|(_, filter)| Settings { filter: *filter, ..Settings::default() });
     let textured = Settings { kernel_eval: KernelEval::Texture, ..Settings::default() };
     let tile_invocations = TileInvocations::Pixel;
-    let once = Settings { rasterizer: Rasterizer::Perspective, set_up: SetUp::Once, ..Settings::default() };
     let pixels = Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() };
     rasterizers
-        .chain([pixels, once])
+        .chain([pixels])
         .chain(filters)
         .chain([textured])
         .filter(|settings| settings.validate().is_ok())
@@ -87,8 +86,7 @@ fn our_pipelines_have_the_pinned_counts() {
             TileInvocations::ShortColumn => ", tiles half as high",
             TileInvocations::Auto | TileInvocations::Column => "",
         };
-        let once = if settings.set_up == SetUp::Once { ", set up once" } else { "" };
-        writeln!(text, "{rasterizer}, {filter}, {kernel}{pixels}{once}").unwrap();
+        writeln!(text, "{rasterizer}, {filter}, {kernel}{pixels}").unwrap();
         for counts in counts_of(&settings, true).unwrap() {
             let scalar = counts.of_stages(|counts| Some(counts.scalar));
             writeln!(text, "  {}: {}; {scalar}", counts.pass, PassCounts::vertex_and_fragment(&counts))
@@ -133,11 +131,8 @@ fn accumulation_with(old: &str, new: &str) -> Counts {
     let lines = text.lines().filter(|line| !line.starts_with("// Permutations:"));
     let text = lines.collect::<Vec<_>>().join("\n").replace(old, new);
     fs::write(folder.path().join(name), format!("// Permutations: plain | textured\n{text}\n")).unwrap();
-    let rust = shader_build::build(folder.path(), &[], &[]).unwrap();
-    let (_, words) = rust.split_once("spirv: &[").unwrap();
-    let (words, _) = words.split_once(']').unwrap();
-    let word = |word: &str| u32::from_str_radix(word.trim_start_matches("0x"), 16).unwrap();
-    count(&words.split(',').map(word).collect::<Vec<_>>(), &[]).unwrap()
+    let built = shader_build::build(folder.path(), &[], &[]).unwrap();
+    count(&built.modules[0].1, &[]).unwrap()
 }
 
 #[test]

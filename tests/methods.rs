@@ -69,15 +69,14 @@ fn every_rasterizer_with_every_filter_agrees_with_its_oracle_on_every_hard_scene
 }
 
 #[test]
-fn unit_weights_and_early_depth_agree_with_the_oracle() {
+fn unit_weights_agree_with_the_oracle() {
     let mut headless = shared();
     let mut failures = Vec::new();
     for scene in [scenes::sphere_of_disks(), scenes::random_ellipses(Filter::Adjust), scenes::edge_on()] {
         for filter in [Filter::Adjust, Filter::AdjustPaper] {
             for (_, rasterizer) in Rasterizer::METHODS {
                 let method = |s: &mut Settings| {
-                    (s.rasterizer, s.filter) = (*rasterizer, filter);
-                    (s.filter_weight, s.early_depth) = (FilterWeight::Unit, true);
+                    (s.rasterizer, s.filter, s.filter_weight) = (*rasterizer, filter, FilterWeight::Unit);
                 };
                 let Some(hard) = with(&scene, method) else { continue };
                 let oracle =
@@ -92,23 +91,6 @@ fn unit_weights_and_early_depth_agree_with_the_oracle() {
     }
     assert_validation_is_silent(&headless);
     assert!(failures.is_empty(), "{failures:#?}");
-}
-
-#[test]
-fn early_depth_changes_no_bit() {
-    let mut headless = shared();
-    for (_, rasterizer) in Rasterizer::METHODS {
-        for scene in [scenes::sphere_of_disks(), scenes::cut_by_the_near_plane(), scenes::ground()] {
-            let frames = [false, true].map(|early_depth| {
-                let method = |s: &mut Settings| {
-                    (s.rasterizer, s.filter, s.early_depth) = (*rasterizer, Filter::None, early_depth);
-                };
-                render(&mut headless, &with(&scene, method).unwrap())
-            });
-            assert_same_bits(&frames[0], &frames[1], &format!("{} {}", rasterizer.name(), scene.name));
-        }
-    }
-    assert_validation_is_silent(&headless);
 }
 
 #[test]

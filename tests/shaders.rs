@@ -122,6 +122,22 @@ fn a_line_of_permutations_gives_a_shader_for_each_choice() {
 }
 
 #[test]
+fn shared_numbers_become_constants_and_what_is_none_is_an_error() {
+    let shader = format!("{COMPUTE}#include \"inc/config.glsl\"\nvoid main() {{}}\n");
+    let with = |config: &str| [("a.comp.glsl", shader.clone()), ("inc/config.glsl", config.to_owned())];
+    let files = with("#define SIDE 8 // Pixels.\n#define RADIUS 1.5 // Pixels, too.\n");
+    let folder = folder(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
+    let rust = build(folder.path(), &[], &[]).unwrap().rust;
+    assert!(rust.contains("/// Pixels.\n    pub const SIDE: u32 = 8;"), "{rust}");
+    assert!(rust.contains("pub const RADIUS: f32 = 1.5;"), "{rust}");
+    for wrong in ["#define SIDE 8\n", "#define SIDE EIGHT // Pixels.\n"] {
+        let files = with(wrong);
+        let said = errors(&files.each_ref().map(|(name, text)| (*name, text.as_str())), &[]);
+        assert!(said.contains("inc/config.glsl:1: error: expected"), "{said}");
+    }
+}
+
+#[test]
 fn a_warning_is_an_error() {
     // To enable what the compiler does not know is the warning that needs the least text; `require` is an error.
     let warned = format!("{COMPUTE}#extension GL_unheard_of : enable\nvoid main() {{}}\n");

@@ -12,7 +12,6 @@ use surfel::{
         Accumulate, Camera, Colors, Cull, Epsilon, Filter, FilterWeight, LastLayer, Layers, Light, LightKind,
         Object, Order, Rasterizer, Scene, Settings, Shading, TileInvocations, Transition,
     },
-    vk::Limits,
 };
 
 const PICTURE: Wanted = Wanted { picture: true, linear: true, surface: false, profile: None };
@@ -353,25 +352,6 @@ fn what_draws_columns_has_no_pipeline_of_pixels() {
         picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
         let names = headless.renderer.shaders.pipeline_names();
         assert_eq!(names.iter().any(|name| name.contains("pixels")), has_pixels, "{names:?}");
-    }
-}
-
-#[test]
-fn devices_whose_invocations_hand_nothing_over_or_that_have_few_texels_draw_the_same_bits() {
-    let without: [fn(&mut Limits); 2] =
-        [|limits| limits.shuffles = false, |limits| limits.max_texels = 1 << 16];
-    for without in without {
-        let mut headless = common::headless();
-        for hard in [scenes::sphere_of_disks(), scenes::ground()] {
-            let handed = picture(&mut headless, &hard, Rasterizer::Compute, common::ALL);
-            let direct = with_limits(&mut headless, without, |headless| {
-                picture(headless, &hard, Rasterizer::Compute, common::ALL)
-            });
-            assert_same_bits(&handed, &direct, hard.name);
-        }
-        let names = headless.renderer.shaders.pipeline_names();
-        assert!(names.iter().any(|name| name.contains("direct")), "{names:?}");
-        assert_validation_is_silent(&headless);
     }
 }
 

@@ -94,7 +94,6 @@ fn every_rasterizer_and_filter_peels_the_same_layers_as_its_oracle() {
                     (settings.rasterizer, settings.filter) = (*rasterizer, *filter);
                     settings.size_px = [128, 128];
                     // Each option of accumulation meets some of the methods.
-                    settings.early_depth = checked % 2 == 0;
                     settings.kernel_eval =
                         [KernelEval::Analytic, KernelEval::Texture][usize::from(checked % 3 == 0)];
                 });

@@ -11,7 +11,6 @@
 #include "inc/point.glsl"
 #include "inc/quad.glsl"
 #include "inc/triangle.glsl"
-#include "inc/depth_bound.glsl"
 
 #if defined(SMALL_POINTS) || defined(SMALL_TRIANGLES)
 #define LARGE_BITS_ACCESS readonly
@@ -44,14 +43,7 @@ bool is_drawn_elsewhere(uint index)
 #endif
 }
 
-// A bound of the splat's depth for fixed-function tests before the fragment stage.
-float nearest_depth(Mapping m)
-{
-    if (!EARLY_DEPTH) {
-        return 0.5; // only has to be inside the clip volume
-    }
-    return m.regular ? min(nearest_of_regular(m), 1.0) : 1.0;
-}
+const float WITHIN_CLIP = 0.5; // a depth: fragments have their own
 
 void emit_nothing()
 {
@@ -145,7 +137,7 @@ void emit(Mapping m, vec3 extra, float depth_factor)
         emit_nothing();
         return;
     }
-    gl_Position = vec4(clip_middle(square), nearest_depth(m) * depth_factor, 1.0);
+    gl_Position = vec4(clip_middle(square), WITHIN_CLIP * depth_factor, 1.0);
     gl_PointSize = point_size_px(square);
 #if !defined(RAYS)
     hand_over(m, regular_map(m), extra);
@@ -156,7 +148,7 @@ void emit(Mapping m, vec3 extra, float depth_factor)
         emit_nothing();
         return;
     }
-    gl_Position = vec4(quad.clip_corner, nearest_depth(m) * depth_factor, 1.0);
+    gl_Position = vec4(quad.clip_corner, WITHIN_CLIP * depth_factor, 1.0);
 #if !defined(RAYS)
     hand_over(m, quad_map(m, quad), extra);
 #endif

@@ -1,12 +1,9 @@
 // The splats of a tile, BATCH at a time, and how the tile's invocations come by them. Invocation i of a column loads record i of
 // a batch and hands it to the others by shuffles. With PIXELS it loads record i of eight batches, and hands it on in memory that
-// they share. With DIRECT each loads every record. Without either, records and lists are texel buffers (but a list that is to be
+// they share. Without it, records and lists are texel buffers (but a list that is to be
 // shortened), which CPU drivers read without a loop over lanes (src/passes/tiles/invocations.rs).
 
-#if defined(DIRECT)
-#define BATCH 1
-#define OWN_ENTRY 0
-#elif defined(PIXELS)
+#if defined(PIXELS)
 #define BATCH 8
 #define OWN_ENTRY gl_LocalInvocationIndex
 #else
@@ -14,7 +11,7 @@
 #define OWN_ENTRY gl_SubgroupInvocationID
 #endif
 
-#if defined(PIXELS) || defined(DIRECT)
+#if defined(PIXELS)
 layout(set = 0, binding = 0, std430) readonly buffer Records0 { vec4 records0[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Records1 { vec4 records1[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Records2 { vec4 records2[]; };
@@ -36,7 +33,7 @@ layout(set = 0, binding = 26) uniform utextureBuffer records3;
 #if defined(HIDDEN)
 layout(set = 0, binding = 7, std430) coherent buffer Entries { uint entries[]; }; // written by inc/tile_hidden.glsl
 #define ENTRY(number) entries[number]
-#elif defined(PIXELS) || defined(DIRECT)
+#elif defined(PIXELS)
 layout(set = 0, binding = 7, std430) readonly buffer Entries { uint entries[]; };
 #define ENTRY(number) entries[number]
 #else
@@ -68,12 +65,10 @@ Splat load_splat(uint base, uint end)
     uint record = ENTRY(min(entry, end - 1));
     vec4 r0 = RECORD0(record);
     Splat splat = Splat(record, r0.xy, r0.z, r0.w, RECORD1(record), RECORD2(record).xy);
-#if !defined(DIRECT)
     if (entry >= end) {
         // Behind the list's end: far off, with a map that covers nothing there.
         splat = Splat(record, vec2(1e9), 1.0, 1.0, vec4(1.0, 0.0, 0.0, 1.0), vec2(0.0));
     }
-#endif
     return splat;
 }
 
@@ -126,11 +121,7 @@ void hand_on(Look own) {}
 // What invocation k holds.
 float handed(float value, uint k)
 {
-#if defined(DIRECT)
-    return value;
-#else
     return subgroupShuffle(value, k);
-#endif
 }
 
 vec2 handed(vec2 value, uint k)

@@ -93,9 +93,7 @@ bool is_left(Peeled peeled)
     [[unroll]] for (int row = 0; row < ROWS; row++) {
         left = left || peeled.depth[row] > NOTHING_LEFT;
     }
-#if defined(DIRECT)
-    return left;
-#elif defined(PIXELS)
+#if defined(PIXELS)
     barrier(); // it was read
     if (gl_LocalInvocationIndex == 0) {
         left_of_tile = 0;

@@ -12,12 +12,12 @@ use super::{
     polygons,
     recipe::{Key, PipelineRecipe, compute, graphics},
     splat_pass::SplatPass,
-    splat_shaders::{Primitive, sets_up_once},
+    splat_shaders::Primitive,
     variant::{Constants, splat_constants},
 };
 use crate::{
     error::Result,
-    scene::{Rasterizer, SetUp, Settings, Transition},
+    scene::{Rasterizer, Settings, Transition},
     shaders,
 };
 
@@ -147,10 +147,6 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     Ok(all)
 }
 
-fn records_points(settings: &Settings) -> bool {
-    settings.set_up == SetUp::Once && sets_up_once(settings).is_ok()
-}
-
 /// The pipelines of a splat pass, each with what it draws.
 fn splat_keys(
     pass: &SplatPass,
@@ -164,11 +160,10 @@ fn splat_keys(
         Primitive::Quad => ("quads", "quads"),
         Primitive::Triangle => ("triangles", "small triangles"),
     };
-    let recorded = pass.shaders.recorded.filter(|_| records_points(settings));
     match has_list {
-        false => vec![(all, pass.key(recorded.unwrap_or(pass.shaders.all), own, variant))],
+        false => vec![(all, pass.key(pass.shaders.all, own, variant))],
         true => vec![
-            (small, pass.key(recorded.unwrap_or(pass.shaders.small), own, variant)),
+            (small, pass.key(pass.shaders.small, own, variant)),
             ("listed quads", pass.key(pass.shaders.listed, Primitive::Quad, variant)),
         ],
     }

@@ -1,14 +1,9 @@
 //! Which way splats are drawn where the settings leave it open (`--rasterizer auto`).
 
-use super::{
-    Draw, Part,
-    pipelines::RECORD_STORAGE_BUFFERS,
-    splat_shaders::{Primitive, sets_up_once},
-    tiles::STORAGE_BUFFERS,
-};
+use super::{Draw, Part, splat_shaders::Primitive, tiles::STORAGE_BUFFERS};
 use crate::{
     error::{Error, Result},
-    scene::{Cull, Filter, KernelEval, Rasterizer, SetUp, Settings},
+    scene::{Cull, Filter, KernelEval, Rasterizer, Settings},
     vk::Limits,
 };
 
@@ -71,19 +66,6 @@ pub(super) fn lists_kept(draws: &[Draw<'_>], by_tiles: bool, settings: &Settings
     }
 }
 
-/// Whether points are set up once, for all passes. On a CPU that gains nothing (`benches/README.md`), and on GPUs it was not measured.
-pub(super) fn records(settings: &Settings, limits: &Limits) -> bool {
-    settings.set_up == SetUp::Once && can_record(settings, limits).is_ok()
-}
-
-fn can_record(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static str> {
-    sets_up_once(settings)?;
-    if limits.storage_buffers_a_stage < RECORD_STORAGE_BUFFERS {
-        return Err("the device has too few storage buffers for a stage");
-    }
-    Ok(())
-}
-
 fn can(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static str> {
     if settings.filter == Filter::Max {
         return Err("the filter max has a second kernel, which records have no room for");
@@ -97,17 +79,13 @@ fn can(settings: &Settings, limits: &Limits) -> std::result::Result<(), &'static
     Ok(())
 }
 
-/// Refuses tiles, and records, that were asked for where there can be none.
+/// Refuses tiles that were asked for where there can be none.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] with the reason.
 pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
-    let refused = |option, name: &str, reason: &str| Err(Error::option(option, format!("{name}: {reason}")));
     if let (Rasterizer::Compute, Err(reason)) = (settings.rasterizer, can(settings, limits)) {
-        return refused("--rasterizer", "compute", reason);
-    }
-    if let (SetUp::Once, Err(reason)) = (settings.set_up, can_record(settings, limits)) {
-        return refused("--set-up", "once", reason);
+        return Err(Error::option("--rasterizer", format!("compute: {reason}")));
     }
     Ok(())
 }
@@ -123,7 +101,6 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         Primitive::Triangle => "triangles",
     };
     let hidden = if part.leaves_hidden_out(settings) { "; what is hidden, left out of sums" } else { "" };
-    let recorded = if part.recorded { "; set up once" } else { "" };
     let kept = if part.kept.is_some() { "; those that may be seen, by a list" } else { "" };
     let how = match (&part.tiles, by_tiles(&part.splats, !part.meshes.is_empty(), settings, limits)) {
         (Some(plan), Ok(why)) => {
@@ -147,7 +124,7 @@ pub(super) fn words(part: &Part<'_>, settings: &Settings, limits: &Limits) -> Op
         }
         (_, Err(why)) => format!("as {primitive}: {why}"),
     };
-    Some(format!("{how}{kept}{recorded}{hidden}"))
+    Some(format!("{how}{kept}{hidden}"))
 }
 
 #[cfg(test)]

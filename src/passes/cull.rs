@@ -9,7 +9,7 @@ use super::{
     Draw, Inputs,
     listed::Listed,
     pipelines::{ComputeKey, LARGE_BINDINGS, Layout},
-    splat_pass::{Groups, dispatch},
+    splat_pass::dispatch,
     tiles::rows_of,
     variant::{Constants, culls},
 };
@@ -235,7 +235,7 @@ pub(super) fn list_marked<'a>(
             // One for all chunks; the set of any will do.
             match inputs.draws.iter().zip(&scan).next() {
                 Some((draw, pipeline)) => {
-                    dispatch(context, inputs, draw, pipeline, &[(0, bits), (1, starts)], Groups::Rows([1, 1]))
+                    dispatch(context, inputs, draw, pipeline, &[(0, bits), (1, starts)], [1, 1])
                 }
                 None => Ok(()),
             }
@@ -262,8 +262,8 @@ pub(super) fn list_marked<'a>(
 }
 
 /// Workgroups of one invocation a word of bits.
-pub(super) fn groups_of(draw: &Draw<'_>) -> Groups<'static> {
-    Groups::Rows(rows_of((draw.constants.listed_blocks * (BLOCK_SPLATS / WORD)).div_ceil(GROUP)))
+pub(super) fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
+    rows_of((draw.constants.listed_blocks * (BLOCK_SPLATS / WORD)).div_ceil(GROUP))
 }
 
 /// The three passes, where there are splats of a variant to leave out.

@@ -7,12 +7,13 @@ use super::{
     constants::FrameConstants,
     seen::SeenBlock,
     splat_shaders::Primitive,
-    variant::{Constants, IN_LAYERS, OUTWARD, PACKED, culls, splat_constants},
+    variant::{Constants, culls, splat_constants},
 };
 use crate::{
     math::size::{SizeBound, box_px, largest_box_px},
     prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Settings},
+    shaders::config::*,
     vk::Limits,
 };
 
@@ -108,10 +109,10 @@ pub fn draws<'a>(
                 let cull_closed = chunk.closed && !chunk.transparent;
                 let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);
                 if chunk.transparent {
-                    constants.extend([(OUTWARD, u32::from(chunk.closed)), (IN_LAYERS, 1)]);
+                    constants.extend([(SPEC_OUTWARD, u32::from(chunk.closed)), (SPEC_IN_LAYERS, 1)]);
                 }
                 if chunk.packed {
-                    constants.push((PACKED, 1));
+                    constants.push((SPEC_PACKED, 1));
                 }
                 constants
             },

@@ -22,8 +22,6 @@ pub struct Inputs<'a> {
     pub bands: &'a [Band<'a>],
     /// Where the splats are looked for that are listed, where only those are set up.
     pub kept: Option<&'a Listed>,
-    /// Points are set up once, for all passes.
-    pub recorded: bool,
     /// What is hidden is left out before sums.
     pub leaves_hidden_out: bool,
     /// The scene's own lights.
@@ -55,7 +53,6 @@ impl<'a> Inputs<'a> {
             tiles: None,
             bands: &[],
             kept: None,
-            recorded: false,
             leaves_hidden_out: false,
             lights: 0,
             camera,
@@ -74,7 +71,6 @@ impl<'a> Inputs<'a> {
             tiles: part.tiles.as_ref(),
             bands: &part.bands,
             kept: part.kept.as_ref(),
-            recorded: part.recorded,
             leaves_hidden_out: part.leaves_hidden_out(self.settings),
             ..self
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::{
     Draw, Inputs,
     pipelines::{ComputeKey, Layout},
-    splat_pass::{Groups, dispatch},
+    splat_pass::dispatch,
     variant::Constants,
 };
 use crate::{
@@ -65,11 +65,6 @@ impl LargeList {
         pass.read(&self.bits, Access::StorageReadVertex)
             .read(&self.list, Access::StorageReadVertex)
             .read(&self.arguments, Access::IndirectRead)
-    }
-
-    /// Declares that a pass in compute looks which splats are large.
-    pub fn read_by_compute<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        pass.read(&self.bits, Access::StorageReadCompute)
     }
 
     pub fn ids(&self) -> LargeIds {
@@ -177,7 +172,7 @@ impl<'a> Dispatches<'a> {
         groups: impl Fn(&Draw<'_>) -> u32,
     ) -> Result<()> {
         for (draw, ids, pipeline) in &self.chunks {
-            dispatch(context, self.inputs, draw, pipeline, &bindings(ids), Groups::Rows([groups(draw), 1]))?;
+            dispatch(context, self.inputs, draw, pipeline, &bindings(ids), [groups(draw), 1])?;
         }
         Ok(())
     }

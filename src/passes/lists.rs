@@ -1,12 +1,10 @@
-//! What the draws of a part read beside its splats: lists of those that are large and of those that may be seen, and records of
-//! those that are set up once.
+//! What the draws of a part read beside its splats: lists of those that are large and of those that may be seen.
 
 use super::{
     Inputs,
     cull::{Kept, KeptIds, list_kept},
     cull_hidden::list_seen,
     list_large::{LargeIds, LargeList, list_large},
-    point_records::{RecordIds, Records, set_up_points},
 };
 use crate::{
     error::Result,
@@ -21,8 +19,6 @@ use crate::{
 pub(super) struct Lists {
     large: Vec<Option<LargeList>>,
     kept: Option<Kept>,
-    /// One a chunk; none where each pass sets up by itself.
-    records: Option<Vec<Records>>,
 }
 
 /// The same for passes that are recorded.
@@ -30,7 +26,6 @@ pub(super) struct Lists {
 pub(super) struct ListIds {
     large: Vec<Option<LargeIds>>,
     pub kept: Option<KeptIds>,
-    records: Option<Vec<RecordIds>>,
 }
 
 impl Lists {
@@ -38,9 +33,7 @@ impl Lists {
     pub fn make<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Self> {
         let large = list_large(graph, inputs, kind)?;
         let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
-        let set_up = || set_up_points(graph, inputs, kind, &large, kept.as_ref());
-        let records = inputs.recorded.then(set_up).transpose()?;
-        Ok(Self { large, kept, records })
+        Ok(Self { large, kept })
     }
 
     /// Declares the passes that leave out of the list what this depth hides, where that is wanted.
@@ -65,9 +58,6 @@ impl Lists {
         for list in self.large.iter().flatten() {
             pass = list.read_by_draws(pass);
         }
-        for records in self.records.iter().flatten() {
-            pass = records.read_by_points(pass);
-        }
         pass
     }
 
@@ -76,7 +66,6 @@ impl Lists {
         ListIds {
             large: self.large.iter().map(|list| list.as_ref().map(LargeList::ids)).collect(),
             kept: self.kept.as_ref().map(Kept::ids),
-            records: self.records.as_ref().map(|records| records.iter().map(Records::ids).collect()),
         }
     }
 }
@@ -93,11 +82,6 @@ impl ListIds {
         if let Some(large) = self.large(chunk) {
             given.push((0, Descriptor::Buffer(context.buffer(large.bits)?)));
             given.push((2, Descriptor::Buffer(context.buffer(large.list)?)));
-        }
-        if let Some(records) = &self.records {
-            for (number, id) in records[chunk].bound() {
-                given.push((number, Descriptor::Buffer(context.buffer(id)?)));
-            }
         }
         Ok(given)
     }

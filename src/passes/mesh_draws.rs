@@ -10,13 +10,14 @@ use super::{
     draws::frame_constants,
     gate::Gate,
     pipelines::{GraphicsKey, Layout},
-    variant::{Constants, OUTWARD},
+    variant::Constants,
 };
 use crate::{
     error::Result,
     graph::execute::PassContext,
     prepare::{MeshChunk, PreparedScene},
     scene::{Backfaces, Camera, Epsilon, Settings},
+    shaders::config::*,
     shaders::{self, Shader},
     vk::{Blend, GraphicsPipeline, Limits},
 };
@@ -75,7 +76,7 @@ impl MeshPass {
     pub fn key(&self, cull: bool, outward: bool) -> GraphicsKey {
         let topology = vk::PrimitiveTopology::TRIANGLE_LIST;
         let mut constants = self.constants.clone();
-        constants.push((OUTWARD, u32::from(outward)));
+        constants.push((SPEC_OUTWARD, u32::from(outward)));
         let stages = (&shaders::POLYGONS_VERT, self.fragment);
         GraphicsKey {
             color_formats: self.color_formats.clone(),

@@ -34,7 +34,6 @@ mod needs;
 mod paper;
 mod parts;
 mod pipelines;
-mod point_records;
 mod polygons;
 mod readback;
 mod recipe;

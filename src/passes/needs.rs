@@ -17,12 +17,11 @@ pub struct Needs {
 
 /// What a frame takes, at most. `counts_draws`: the device can take the number of draws from a buffer.
 pub fn needs(parts: &Parts<'_>, settings: &Settings, counts_draws: bool) -> Needs {
-    // With large splats or records.
-    let listed =
-        |part: &Part<'_>| part.splats.iter().filter(|draw| draw.may_be_large || part.recorded).count() as u32;
+    // With large splats.
+    let listed = |part: &Part<'_>| part.splats.iter().filter(|draw| draw.may_be_large).count() as u32;
     let layers = if parts.transparent.is_empty() { 0 } else { settings.layers.most() };
-    // For each such chunk: three passes that list large ones, one that makes records, two that draw them, in each layer.
-    let lists = 6 * listed(&parts.opaque) + (4 + 2 * layers) * listed(&parts.transparent);
+    // For each such chunk: three passes that list large ones, two that draw them, in each layer.
+    let lists = 5 * listed(&parts.opaque) + (3 + 2 * layers) * listed(&parts.transparent);
     // Of kept splats: three passes that list them, twice, and one that sets them up.
     let kept = |part: &Part<'_>| {
         let lists = if part.kept.is_some() { part.bands.len().max(1) as u32 } else { 0 };

@@ -26,8 +26,6 @@ pub struct Part<'a> {
     pub bands: Vec<Band<'a>>,
     /// Where those that may be seen are looked for, which are listed first, and only they are set up.
     pub kept: Option<Listed>,
-    /// As points, set up once for all passes.
-    pub recorded: bool,
 }
 
 /// A prepared scene as seen from a camera.
@@ -50,11 +48,8 @@ impl<'a> Parts<'a> {
         let (clear_meshes, meshes) = all.partition(|draw| draw.chunk.transparent);
         Self {
             opaque: Part::new(splats, meshes, settings, limits),
-            transparent: Part::new(clear_splats, clear_meshes, settings, limits).with_layers(
-                settings,
-                limits,
-                &scene.lights,
-            ),
+            transparent: Part::new(clear_splats, clear_meshes, settings, limits)
+                .with_layers(settings, &scene.lights),
             lights: lights::shader_lights(&scene.lights, camera),
         }
     }
@@ -77,10 +72,9 @@ impl<'a> Part<'a> {
         // Bands have lists, too.
         let most_bytes = tiles::most_bytes(&splats, settings.tile_memory);
         let is_long = tiles.as_ref().is_some_and(|plan| plan.bytes() > most_bytes);
-        let recorded = tiles.is_none() && !splats.is_empty() && choice::records(settings, limits);
         if !may_list || !(leaves_out || is_long) {
             cull::number_splats(&mut splats);
-            return Self { splats, meshes, tiles, recorded, ..Self::default() };
+            return Self { splats, meshes, tiles, ..Self::default() };
         }
         let rows = tiles::rows_of_image(settings);
         let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
@@ -91,11 +85,11 @@ impl<'a> Part<'a> {
             _ => Vec::new(),
         };
         let kept = Some(Listed::of(&mut splats, &seen.chunks, rows));
-        Self { splats, meshes, tiles, bands, kept, recorded }
+        Self { splats, meshes, tiles, bands, kept }
     }
 
     /// The same for layers, which the graphics pipeline draws where it draws some of a layer.
-    fn with_layers(mut self, settings: &Settings, limits: &Limits, lights: &[Light]) -> Self {
+    fn with_layers(mut self, settings: &Settings, lights: &[Light]) -> Self {
         let all = self.tiles.filter(|plan| self.meshes.is_empty() && !plan.may_be_large);
         let with_layers = |plan: TilePlan| plan.with_layers(settings.layers.most(), lights.len() as u32);
         self.tiles = all.map(with_layers);
@@ -110,7 +104,6 @@ impl<'a> Part<'a> {
         for band in &mut self.bands {
             band.plan = with_layers(band.plan.clone());
         }
-        self.recorded = self.tiles.is_none() && !self.splats.is_empty() && choice::records(settings, limits);
         self
     }
 

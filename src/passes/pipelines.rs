@@ -22,19 +22,13 @@ use crate::{
 /// Bindings of set 1 of the splat passes for lists of large splats.
 pub(super) const LARGE_BINDINGS: u32 = 4;
 
-/// The same for lists of kept splats: their blocks are where draws have the first of their records.
-const KEPT_BINDINGS: u32 = LARGE_BINDINGS + 1;
-
-/// The same with records of points, on a device that has room for them.
-const LIST_BINDINGS: u32 = LARGE_BINDINGS + 4;
+/// The same with the blocks of kept splats.
+const LIST_BINDINGS: u32 = LARGE_BINDINGS + 1;
 
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
 pub fn room_of_lists(sets: u32) -> PoolRoom {
     PoolRoom { sets, buffers: LIST_BINDINGS * sets, ..PoolRoom::default() }
 }
-
-/// Storage buffers that a stage has then: splats and their colors, lists.
-pub(super) const RECORD_STORAGE_BUFFERS: u32 = 2 + LIST_BINDINGS;
 
 /// The layouts of all passes and the pipelines made so far.
 pub struct Shaders {
@@ -44,7 +38,7 @@ pub struct Shaders {
     cache: PipelineCache,
     /// Set 0 of the splat passes.
     pub splat_set: SplatSetLayout,
-    /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats, then records of points.
+    /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats; blocks of kept ones.
     pub(super) list_set: SetLayout,
     /// Set 2 of the splat passes and of polygons: a depth to compare with (the visible one where depth is summed, that
     /// of the layer before where layers are peeled), the kernel where it is a texture, the depth of polygons, lights.
@@ -119,9 +113,7 @@ impl Shaders {
         let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
-        let has_records = device.facts().limits.storage_buffers_a_stage >= RECORD_STORAGE_BUFFERS;
-        let list_bindings = if has_records { LIST_BINDINGS } else { KEPT_BINDINGS };
-        let list_set = SetLayout::new(device, "lists", &vec![buffer; list_bindings as usize])?;
+        let list_set = SetLayout::new(device, "lists", &vec![buffer; LIST_BINDINGS as usize])?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
         let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image, lights])?;
         let sums_set = SetLayout::new(device, "sums", &[image, image, image, image, image, lights])?;

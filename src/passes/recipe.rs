@@ -5,9 +5,8 @@ use ash::vk;
 use super::{
     pipelines::{ComputeKey, GraphicsKey, Shaders},
     splat_shaders::Stages,
-    variant::RASTERIZER,
 };
-use crate::{error::Result, shaders::Shader};
+use crate::{error::Result, shaders::Shader, shaders::config::*};
 
 /// A pipeline of a pass.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -57,7 +56,7 @@ impl PipelineRecipe {
 
     /// Whether it sets splats up or draws them, and so depends on rasterizer and filter.
     pub fn sets_splats_up(&self) -> bool {
-        self.constants().iter().any(|(number, _)| *number == RASTERIZER)
+        self.constants().iter().any(|(number, _)| *number == SPEC_RASTERIZER)
     }
 
     /// What table 1 of Guennebaud et al. 2006 has for it: instructions of the vertex and the fragment program.

@@ -6,7 +6,6 @@ use ash::vk;
 
 use super::{
     Draw, Inputs,
-    cull::KeptIds,
     gate::Gate,
     lists::ListIds,
     pipelines::{GraphicsKey, Layout},
@@ -61,8 +60,7 @@ impl SplatPass {
         };
         let primitive = Primitive::of(inputs.settings.rasterizer);
         let both = |draw: &Draw<'_>| {
-            let itself = if draw.may_be_large { self.shaders.small } else { self.shaders.all };
-            let own = self.shaders.recorded.filter(|_| inputs.recorded).unwrap_or(itself);
+            let own = if draw.may_be_large { self.shaders.small } else { self.shaders.all };
             let quads = draw.may_be_large.then_some(self.shaders.listed);
             Ok(DrawPipelines {
                 primitive,
@@ -119,22 +117,14 @@ pub(super) fn draw_splats(
     Ok(())
 }
 
-/// Workgroups of a dispatch over the splats of a chunk.
-pub(super) enum Groups<'a> {
-    /// So many in a row, and rows.
-    Rows([u32; 2]),
-    /// As many as the kept splats of the chunk of this number need, 64 each.
-    Kept(&'a KeptIds, usize),
-}
-
-/// Records a dispatch over the splats of a chunk, with these buffers in set 1.
+/// Records a dispatch over the splats of a chunk, with these buffers in set 1: so many workgroups in a row, and rows.
 pub(super) fn dispatch(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     draw: &Draw<'_>,
     pipeline: &ComputePipeline,
     buffers: &[(u32, ResourceId)],
-    groups: Groups<'_>,
+    [x, y]: [u32; 2],
 ) -> Result<()> {
     let mut given = Vec::new();
     for (number, id) in buffers {
@@ -151,10 +141,7 @@ pub(super) fn dispatch(
         device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
         device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
         device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-        match groups {
-            Groups::Rows([x, y]) => device.cmd_dispatch(commands, x, y, 1),
-            Groups::Kept(kept, chunk) => kept.dispatch(context, chunk)?,
-        }
+        device.cmd_dispatch(commands, x, y, 1);
     }
     Ok(())
 }

@@ -59,8 +59,6 @@ pub(super) struct SplatShaders {
     pub small: Stages,
     /// And those that are drawn as quads, from the list.
     pub listed: Stages,
-    /// The first two in one where points are set up before; `None` where they can't be.
-    pub recorded: Option<Stages>,
 }
 
 /// The words that choose among the permutations of a splat pass, beside primitive and interface.
@@ -103,13 +101,13 @@ pub(super) enum Summed {
 
 impl Words {
     /// Of visibility: of the opaque part (`None`), or of a layer, perhaps behind one that was peeled off.
-    pub fn visibility(settings: &Settings, layer: Option<bool>) -> Self {
+    pub fn visibility(layer: Option<bool>) -> Self {
         let peeled = (layer == Some(true)).then_some("peeled");
         Self {
             pass: "visibility",
             vertex: None,
             triangle_vertex: layer.map(|_| "layer"),
-            fragment: [early_word(settings), peeled].into_iter().flatten().collect(),
+            fragment: peeled.into_iter().collect(),
             triangle_fragment: layer
                 .map(|peeled| if peeled { "layer_peeled" } else { "layer" })
                 .into_iter()
@@ -131,10 +129,8 @@ impl Words {
                 (Some(vertex), [Some("blended"), peeled.then_some("peeled")])
             }
         };
-        let fragment: Vec<_> =
-            [early_word(settings), textured, third, fourth].into_iter().flatten().collect();
-        // Their depth is the rasterizer's own, so that tests are early anyway.
-        let triangle_fragment = fragment.iter().copied().filter(|word| *word != "early").collect();
+        let fragment: Vec<_> = [textured, third, fourth].into_iter().flatten().collect();
+        let triangle_fragment = fragment.clone();
         Self { pass: "accumulate", vertex: kind, triangle_vertex: kind, fragment, triangle_fragment }
     }
 }
@@ -164,35 +160,7 @@ pub(super) fn splat_shaders(settings: &Settings, words: &Words) -> Result<SplatS
             (stages_of_triangles("triangles", words), stages_of_triangles("small_triangles", words))
         }
     };
-    let recorded = sets_up_once(settings).is_ok().then(|| stages("recorded_points_plain", "plain"));
-    Ok(SplatShaders {
-        all: all?,
-        small: small?,
-        listed: stages(&format!("listed_quads_{quads}"), quads)?,
-        recorded: recorded.transpose()?,
-    })
-}
-
-/// Whether points can be set up once for all passes.
-///
-/// # Errors
-/// The reason against, as a sentence.
-pub(super) fn sets_up_once(settings: &Settings) -> std::result::Result<(), &'static str> {
-    if Primitive::of(settings.rasterizer) != Primitive::Point {
-        return Err("records are of points");
-    }
-    if interfaces(settings)[0] != "plain" {
-        return Err("records have no room for rays, nor for a second place");
-    }
-    if settings.early_depth {
-        return Err("records have no room for the bound of --early-depth");
-    }
-    Ok(())
-}
-
-/// The word that both passes share.
-fn early_word(settings: &Settings) -> Option<&'static str> {
-    settings.early_depth.then_some("early")
+    Ok(SplatShaders { all: all?, small: small?, listed: stages(&format!("listed_quads_{quads}"), quads)? })
 }
 
 fn stages_of_triangles(vertex: &str, words: &Words) -> Result<Stages> {
@@ -229,31 +197,28 @@ mod tests {
         for (_, rasterizer) in Rasterizer::METHODS {
             for (_, filter) in Filter::NAMES {
                 for (_, kernel_eval) in KernelEval::NAMES {
-                    for early_depth in [false, true] {
-                        let settings = Settings {
-                            rasterizer: *rasterizer,
-                            filter: *filter,
-                            kernel_eval: *kernel_eval,
-                            early_depth,
-                            ..Settings::default()
-                        };
-                        if settings.validate().is_err() {
-                            continue;
-                        }
-                        for choice in [false, true] {
-                            let of = |layer| splat_shaders(&settings, &Words::visibility(&settings, layer));
-                            of(Some(choice)).and(of(None)).unwrap();
-                            for other in [false, true] {
-                                let opaque = Summed::Opaque { with_depth: choice, beside_polygons: other };
-                                let layer = Summed::Layer { peeled: choice };
-                                let rest = Summed::Rest { peeled: choice, lit: other };
-                                for summed in [opaque, layer, rest] {
-                                    splat_shaders(&settings, &Words::accumulate(&settings, summed)).unwrap();
-                                }
+                    let settings = Settings {
+                        rasterizer: *rasterizer,
+                        filter: *filter,
+                        kernel_eval: *kernel_eval,
+                        ..Settings::default()
+                    };
+                    if settings.validate().is_err() {
+                        continue;
+                    }
+                    for choice in [false, true] {
+                        let of = |layer| splat_shaders(&settings, &Words::visibility(layer));
+                        of(Some(choice)).and(of(None)).unwrap();
+                        for other in [false, true] {
+                            let opaque = Summed::Opaque { with_depth: choice, beside_polygons: other };
+                            let layer = Summed::Layer { peeled: choice };
+                            let rest = Summed::Rest { peeled: choice, lit: other };
+                            for summed in [opaque, layer, rest] {
+                                splat_shaders(&settings, &Words::accumulate(&settings, summed)).unwrap();
                             }
                         }
-                        checked += 1;
                     }
+                    checked += 1;
                 }
             }
         }

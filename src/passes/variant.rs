@@ -5,6 +5,7 @@ use std::f64::consts::LOG2_E;
 use crate::{
     math::kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
     scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, Transition},
+    shaders::config::*,
 };
 
 /// Specialization constants: number and 32-bit pattern.
@@ -13,24 +14,9 @@ pub type Constants = Vec<(u32, u32)>;
 /// Where a kernel is as steep as f32 lets it be: infinity times a radius of 0 would be NaN.
 const STEEPEST: f64 = 1e30;
 
-/// The number of the rasterizer's constant, which all that sets splats up or draws them has.
-pub const RASTERIZER: u32 = 7;
-
-/// The number of the constant that tells closed transparent things.
-pub const OUTWARD: u32 = 13;
-
-/// The number of the constant that tells transparent splats.
-pub const IN_LAYERS: u32 = 14;
-
-/// The number of the constant that tells packed splats.
-pub const PACKED: u32 = 15;
-
-/// The number of the constant that leaves splats out which face away.
-const CULL_BACKFACES: u32 = 1;
-
 /// Whether splats that face away are left out.
 pub fn culls(constants: &Constants) -> bool {
-    constants.contains(&(CULL_BACKFACES, 1))
+    constants.contains(&(SPEC_CULL_BACKFACES, 1))
 }
 
 /// The constants of the splat passes for one kind of chunk.
@@ -41,31 +27,35 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
         Backfaces::Cull => true,
     };
     let filter = match settings.filter {
-        Filter::None => 0,
-        Filter::Adjust => 1,
-        Filter::AdjustPaper => 2,
-        Filter::Max => 3,
-        Filter::Ewa => 4,
+        Filter::None => FILTER_NONE,
+        Filter::Adjust => FILTER_ADJUST,
+        Filter::AdjustPaper => FILTER_ADJUST_PAPER,
+        Filter::Max => FILTER_MAX,
+        Filter::Ewa => FILTER_EWA,
     };
     let rasterizer = match settings.rasterizer {
-        Rasterizer::Auto | Rasterizer::Perspective | Rasterizer::Quad | Rasterizer::Compute => 0,
-        Rasterizer::PerspectivePaper => 1,
-        Rasterizer::Raycast => 2,
-        Rasterizer::RaycastApproximate => 3,
-        Rasterizer::AffineCenter => 4,
-        Rasterizer::AffineContour => 5,
-        Rasterizer::Triangle => 6,
+        Rasterizer::Auto | Rasterizer::Perspective | Rasterizer::Quad | Rasterizer::Compute => {
+            RASTERIZER_PERSPECTIVE
+        }
+        Rasterizer::PerspectivePaper => RASTERIZER_PERSPECTIVE_PAPER,
+        Rasterizer::Raycast => RASTERIZER_RAYCAST,
+        Rasterizer::RaycastApproximate => RASTERIZER_RAYCAST_APPROXIMATE,
+        Rasterizer::AffineCenter => RASTERIZER_AFFINE_CENTER,
+        Rasterizer::AffineContour => RASTERIZER_AFFINE_CONTOUR,
+        Rasterizer::Triangle => RASTERIZER_TRIANGLE,
     };
     let mut constants = kernel_constants(settings.kernel);
     constants.extend([
-        (0, u32::from(ellipses)),
-        (CULL_BACKFACES, u32::from(cull)),
-        (2, filter),
-        (RASTERIZER, rasterizer),
-        (8, u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area)),
-        (9, u32::from(settings.early_depth)),
-        (11, u32::from(may_count_from_corner(settings))),
-        (10, (coverage_r2(settings.kernel) as f32).to_bits()),
+        (SPEC_ELLIPSES, u32::from(ellipses)),
+        (SPEC_CULL_BACKFACES, u32::from(cull)),
+        (SPEC_FILTER, filter),
+        (SPEC_RASTERIZER, rasterizer),
+        (
+            SPEC_WEIGHT_BY_AREA,
+            u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area),
+        ),
+        (SPEC_FROM_CORNER, u32::from(may_count_from_corner(settings))),
+        (SPEC_COVERAGE_R2, (coverage_r2(settings.kernel) as f32).to_bits()),
     ]);
     constants
 }
@@ -89,31 +79,35 @@ fn coverage_r2(kernel: Kernel) -> f64 {
 /// The constants of what evaluates the kernel.
 pub fn kernel_constants(kernel: Kernel) -> Constants {
     let (kernel, a, n) = match kernel {
-        Kernel::Gaussian { sigma } => (0, LOG2_E * 0.5 / f64::from(sigma).powi(2), 1.0),
-        Kernel::PsiE { a, n, .. } => (1, LOG2_E * f64::from(a), n),
+        Kernel::Gaussian { sigma } => (KERNEL_GAUSSIAN, LOG2_E * 0.5 / f64::from(sigma).powi(2), 1.0),
+        Kernel::PsiE { a, n, .. } => (KERNEL_PSI_E, LOG2_E * f64::from(a), n),
     };
-    vec![(3, kernel), (4, (a.min(STEEPEST) as f32).to_bits()), (5, n.to_bits())]
+    vec![
+        (SPEC_KERNEL, kernel),
+        (SPEC_KERNEL_A, (a.min(STEEPEST) as f32).to_bits()),
+        (SPEC_KERNEL_N, n.to_bits()),
+    ]
 }
 
 /// The constant of where splats and polygons meet.
 pub fn transition_constant(transition: Transition) -> (u32, u32) {
     let number = match transition {
-        Transition::Color | Transition::Paper => 0,
-        Transition::Attributes => 1,
-        Transition::None => 2,
+        Transition::Color | Transition::Paper => TRANSITION_COLOR,
+        Transition::Attributes => TRANSITION_ATTRIBUTES,
+        Transition::None => TRANSITION_NONE,
     };
-    (12, number)
+    (SPEC_TRANSITION, number)
 }
 
 /// The constants of what shades, under so many lights of the scene's own.
 pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
     let number = match shading {
-        Shading::Phong => 0,
-        Shading::Lambert => 1,
-        Shading::Normals => 2,
-        Shading::Albedo => 3,
+        Shading::Phong => SHADING_PHONG,
+        Shading::Lambert => SHADING_LAMBERT,
+        Shading::Normals => SHADING_NORMALS,
+        Shading::Albedo => SHADING_ALBEDO,
     };
-    let mut constants = vec![(6, number)];
+    let mut constants = vec![(SPEC_SHADING, number)];
     if lights > 0 {
         constants.push((21, lights));
     }

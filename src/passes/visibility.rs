@@ -17,7 +17,7 @@ use crate::{
 /// What the pass is made of: for the opaque part, or for a layer, perhaps behind one that was peeled off.
 pub(super) fn splat_pass(settings: &Settings, layer: Option<bool>) -> Result<SplatPass> {
     Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::visibility(settings, layer))?,
+        shaders: splat_shaders(settings, &Words::visibility(layer))?,
         color_formats: Vec::new(),
         depth: Some((vk::CompareOp::GREATER, true)),
         constants: Vec::new(),

@@ -22,8 +22,7 @@
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
 //! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it
-//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic), [`Settings::early_depth`] and
-//! [`crate::scene::TileInvocations`].
+//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
 
 mod affine;
 mod band;
@@ -75,8 +74,7 @@ use crate::scene::{Camera, Scene, Settings};
 /// that every thread stays busy.
 const BAND_ROWS: usize = 16;
 
-/// Renders `scene` seen by `camera`, with every setting but `accumulate`, `kernel_eval`, `tile_invocations` and
-/// `early_depth`.
+/// Renders `scene` seen by `camera`, with every setting but `accumulate`, `kernel_eval` and `tile_invocations`.
 ///
 /// Splats with a [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on
 /// how many. `progress(done, total)` is called from several threads, with rows.

@@ -28,8 +28,6 @@ pub struct PipelineNames {
     pub filter: String,
     /// `--kernel-eval`.
     pub kernel_eval: String,
-    /// `--early-depth`.
-    pub early_depth: String,
     /// `--accumulate`, where that is not the default.
     pub accumulate: String,
     /// `--shading`.
@@ -42,14 +40,13 @@ pub struct PipelineNames {
 
 impl PipelineNames {
     /// All of them, in the order of their columns.
-    pub fn parts(&self) -> [&str; 10] {
+    pub fn parts(&self) -> [&str; 9] {
         [
             &self.pass,
             &self.draws,
             &self.rasterizer,
             &self.filter,
             &self.kernel_eval,
-            &self.early_depth,
             &self.accumulate,
             &self.shading,
             &self.splats,
@@ -103,9 +100,7 @@ const STAGE_COLUMNS: [&str; 11] = [
 impl InstructionReport {
     /// One line a pipeline, or for each shader of each device where drivers were asked.
     pub fn csv(&self) -> String {
-        let mut csv =
-            "pass,draws,rasterizer,filter,kernel_eval,early_depth,accumulate,shading,splats,shaders"
-                .to_owned();
+        let mut csv = "pass,draws,rasterizer,filter,kernel_eval,accumulate,shading,splats,shaders".to_owned();
         for stage in ["vertex", "fragment", "compute"] {
             for column in STAGE_COLUMNS {
                 // Writing to a string can't fail, here and below.

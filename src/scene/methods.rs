@@ -78,20 +78,6 @@ named! {
 }
 
 named! {
-    /// Where points are set up. The picture is the same, but for what a driver rounds otherwise in another stage. By
-    /// [`Rasterizer::Compute`] splats are always set up once.
-    SetUp {
-        /// What was measured to be faster: `Stages`.
-        Auto = "auto",
-        /// In the vertex stage of each pass, as in the papers.
-        Stages = "stages",
-        /// Once a frame, in compute: vertex stages read records of 64 bytes. Not for ray casting, `--early-depth`, or expansion points
-        /// that the filter `max` needs beside the center.
-        Once = "once",
-    }
-}
-
-named! {
     /// What an invocation draws of a tile of 8×8 pixels, or 8×4 ([`Rasterizer::Compute`]). The picture is the same; bit by bit
     /// unless sums have another order: where a splat is too large for tiles of one height alone, so that the graphics pipeline
     /// draws it, in images above 4096×4096 pixels, and in bands that differ (`--tile-memory`).

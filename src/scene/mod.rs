@@ -26,7 +26,7 @@ pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::{Mesh, MeshColors};
 pub use methods::{
     Accumulate, Cull, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer, Rasterizer,
-    SetUp, TileInvocations, Transition,
+    TileInvocations, Transition,
 };
 pub use opacity::Opacity;
 pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};

@@ -3,7 +3,7 @@
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes, TileMemory,
     methods::{
-        Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, SetUp, TileInvocations,
+        Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, TileInvocations,
         Transition,
     },
 };
@@ -28,13 +28,8 @@ pub struct Settings {
     pub kernel: Kernel,
     /// How the kernel is evaluated.
     pub kernel_eval: KernelEval,
-    /// Whether the device is told a bound of each splat's depth, by which it may leave out hidden fragments before they
-    /// are shaded. The picture is the same.
-    pub early_depth: bool,
     /// Where splats are left out that are not seen.
     pub cull: Cull,
-    /// Where points are set up.
-    pub set_up: SetUp,
     /// The precision of the sums.
     pub accumulate: Accumulate,
     /// The depth within which splats are one surface.
@@ -64,9 +59,7 @@ impl Default for Settings {
             filter_weight: FilterWeight::default(),
             kernel: Kernel::default(),
             kernel_eval: KernelEval::default(),
-            early_depth: false,
             cull: Cull::default(),
-            set_up: SetUp::default(),
             accumulate: Accumulate::default(),
             epsilon: Epsilon::Radii(1.0),
             backfaces: Backfaces::Auto,

@@ -3,9 +3,7 @@
 use super::{check::Check, layers};
 use crate::{
     hard_scenes::{self, Hard, transparent},
-    scene::{
-        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, SetUp, Settings, TileInvocations,
-    },
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, TileInvocations},
 };
 
 /// Width and height of every picture. A quarter of the pixels of the tests' pictures: there are many methods.
@@ -72,15 +70,12 @@ impl Suite {
                 cases.extend(against_oracle(index, hard, method));
             }
         }
-        for (group, check) in [("early-depth", Check::EarlyDepth), ("repeat", Check::Repeat)] {
-            for (_, rasterizer) in Rasterizer::METHODS {
-                for (index, hard) in scenes.iter().enumerate() {
-                    cases.extend(of_scene(index, hard, group, check, *rasterizer));
-                }
+        for (_, rasterizer) in Rasterizer::METHODS {
+            for (index, hard) in scenes.iter().enumerate() {
+                cases.extend(of_scene(index, hard, "repeat", Check::Repeat, *rasterizer));
             }
         }
         cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| by_pixels(index, hard)));
-        cases.extend(scenes.iter().enumerate().filter_map(|(index, hard)| set_up_once(index, hard)));
         let in_layers = transparent::all();
         cases.extend(layers::cases(scenes.len(), &in_layers));
         scenes.extend(in_layers);
@@ -206,13 +201,6 @@ fn by_pixels(index: usize, hard: &Hard) -> Option<Case> {
     let tile_invocations = TileInvocations::Pixel;
     let hard = Hard { settings: Settings { tile_invocations, ..hard.settings.clone() }, ..hard.clone() };
     of_scene(index, &hard, "tile-invocations", Check::TileInvocations, Rasterizer::Compute)
-}
-
-/// Points from records against the oracle: another driver may round otherwise in compute than in its vertex stage.
-fn set_up_once(index: usize, hard: &Hard) -> Option<Case> {
-    let settings = Settings { set_up: SetUp::Once, ..hard.settings.clone() };
-    let hard = Hard { settings, ..hard.clone() };
-    of_scene(index, &hard, "set-up-once", Check::Oracle, Rasterizer::Perspective)
 }
 
 /// Whether the method can draw the scene.

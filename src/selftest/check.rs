@@ -14,7 +14,7 @@ use crate::{
     prepare::PreparedScene,
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, FilterWeight, KernelEval, Layers, Rasterizer, SetUp, Settings, TileInvocations},
+    scene::{Accumulate, FilterWeight, KernelEval, Layers, Rasterizer, Settings, TileInvocations},
 };
 
 /// What is checked of a drawing.
@@ -26,8 +26,6 @@ pub(super) enum Check {
     Light,
     /// As many layers as there are give the same bits as a fixed number of them.
     AutoLayers,
-    /// A bound of depth changes no bit.
-    EarlyDepth,
     /// Uploaded and drawn again it is the same.
     Repeat,
     /// Tiles drawn an invocation a column give the bits of those drawn an invocation a pixel.
@@ -83,7 +81,6 @@ impl<'a> Stage<'a> {
                 let layers = Layers::Fixed(settings.layers.most());
                 self.draw(*scene, &Settings { layers, ..settings.clone() })?
             }
-            Check::EarlyDepth => self.draw(*scene, &Settings { early_depth: true, ..settings.clone() })?,
             Check::TileInvocations => {
                 let mut by =
                     |tile_invocations| self.draw(*scene, &Settings { tile_invocations, ..settings.clone() });
@@ -156,9 +153,7 @@ impl<'a> Stage<'a> {
             rasterizer: hard.settings.rasterizer.family(),
             accumulate: Accumulate::default(),
             kernel_eval: KernelEval::default(),
-            early_depth: false,
             tile_invocations: TileInvocations::default(),
-            set_up: SetUp::default(),
             ..hard.settings.clone()
         };
         if !key.filter.adjusts() {

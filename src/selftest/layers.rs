@@ -6,9 +6,7 @@ use super::{
 };
 use crate::{
     hard_scenes::Hard,
-    scene::{
-        Accumulate, Filter, Layers, Opacity, Rasterizer, Scene, SetUp, Settings, TileInvocations, Transition,
-    },
+    scene::{Accumulate, Filter, Layers, Opacity, Rasterizer, Scene, Settings, TileInvocations, Transition},
 };
 
 /// The scene that the quick form has with every rasterizer and with every filter: splats and polygons in each layer.
@@ -32,7 +30,6 @@ pub(super) fn cases(first: usize, scenes: &[Hard]) -> Vec<Case> {
     cases.extend(scenes().map(|(i, hard)| sums_16(i, hard)));
     cases.extend(scenes().filter_map(|(i, hard)| auto(i, hard)));
     cases.extend(scenes().filter_map(|(i, hard)| by_pixels(i, hard)));
-    cases.extend(scenes().filter_map(|(i, hard)| set_up_once(i, hard)));
     cases
 }
 
@@ -80,14 +77,6 @@ fn by_pixels(scene: usize, hard: &Hard) -> Option<Case> {
     let settings = Settings { rasterizer, tile_invocations, ..by_default(hard) };
     let drawing = Drawing { scene, settings, check: Check::TileInvocations };
     (!hard.scene.objects.is_empty()).then(|| case("tile-invocations", hard, false, drawing))
-}
-
-/// As points from records. `None` where there are no splats, or the oracle takes long.
-fn set_up_once(scene: usize, hard: &Hard) -> Option<Case> {
-    let settings = Settings { set_up: SetUp::Once, ..by_default(hard) };
-    let drawing = Drawing { scene, settings, check: Check::Light };
-    let is_quick = hard.name != SLOWEST && !SLOW.contains(&hard.name);
-    (is_quick && !hard.scene.objects.is_empty()).then(|| case("set-up-once", hard, false, drawing))
 }
 
 fn by_default(hard: &Hard) -> Settings {

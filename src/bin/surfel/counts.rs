@@ -9,9 +9,7 @@ use surfel::{
     Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
     report::{InstructionReport, InstructionRow, PipelineNames},
-    scene::{
-        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, SetUp, Shading, TileInvocations,
-    },
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
 };
 
 use crate::{
@@ -24,7 +22,7 @@ use crate::{
 #[derive(Debug, Args)]
 #[command(next_help_heading = "counts")]
 pub struct CountsArguments {
-    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, early depth, 32-bit sums, shadings [default: small disks]
+    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, 32-bit sums, shadings [default: small disks]
     #[arg(long)]
     pub all: bool,
 
@@ -129,26 +127,21 @@ fn every_settings(all: bool) -> Vec<Settings> {
     let mut every = Vec::new();
     let weights: &[FilterWeight] =
         if all { &[FilterWeight::Area, FilterWeight::Unit] } else { &[FilterWeight::Area] };
-    let early: &[bool] = if all { &[false, true] } else { &[false] };
     for (_, rasterizer) in Rasterizer::METHODS {
         for (_, filter) in Filter::NAMES {
             for (_, kernel_eval) in KernelEval::NAMES {
                 for filter_weight in weights {
-                    for early_depth in early {
-                        every.push(Settings {
-                            rasterizer: *rasterizer,
-                            filter: *filter,
-                            kernel_eval: *kernel_eval,
-                            filter_weight: *filter_weight,
-                            early_depth: *early_depth,
-                            ..Settings::default()
-                        });
-                    }
+                    every.push(Settings {
+                        rasterizer: *rasterizer,
+                        filter: *filter,
+                        kernel_eval: *kernel_eval,
+                        filter_weight: *filter_weight,
+                        ..Settings::default()
+                    });
                 }
             }
         }
     }
-    every.push(Settings { rasterizer: Rasterizer::Perspective, set_up: SetUp::Once, ..Settings::default() });
     let tile_invocations = TileInvocations::Pixel;
     every.push(Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() });
     if all {
@@ -195,9 +188,9 @@ fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
 
 /// Layers and polygons are listed for each rasterizer and filter; the other options change them as they change opaque splats.
 fn is_listed(settings: &Settings, traits: Traits) -> bool {
-    let Settings { rasterizer, filter, tile_invocations, set_up, .. } = *settings;
+    let Settings { rasterizer, filter, tile_invocations, .. } = *settings;
     let beyond = traits.polygons || traits.transparent || traits.lit;
-    !beyond || *settings == Settings { rasterizer, filter, tile_invocations, set_up, ..Settings::default() }
+    !beyond || *settings == Settings { rasterizer, filter, tile_invocations, ..Settings::default() }
 }
 
 /// What tells a pipeline from others.
@@ -229,7 +222,6 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
             false => format!("{} {}", settings.filter.name(), settings.filter_weight.name()),
         };
         names.kernel_eval = kernel_eval;
-        names.early_depth = if settings.early_depth { "on" } else { "off" }.to_owned();
         names.splats = splats.to_owned();
     }
     if recipe.draws == "triangles" && !recipe.sets_splats_up() {

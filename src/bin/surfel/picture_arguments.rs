@@ -10,7 +10,7 @@ use surfel::{
     load::Representation,
     scene::{
         Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
-        Rasterizer, SetUp, Settings, Shading, TileInvocations, TileMemory, Transition,
+        Rasterizer, Settings, Shading, TileInvocations, TileMemory, Transition,
     },
 };
 
@@ -116,24 +116,12 @@ pub struct StyleArguments {
     #[arg(long, value_name = "HOW", default_value = "analytic", value_parser = choice(KernelEval::NAMES))]
     pub kernel_eval: KernelEval,
 
-    /// Tell the device a bound of each splat's depth, so that it may skip hidden fragments; the picture is the same, and
-    /// the reference's too
-    #[arg(long, value_name = "on|off", default_value = "off", value_parser = choice(ON_OFF))]
-    #[arg(action = clap::ArgAction::Set)]
-    pub early_depth: bool,
-
     /// Where splats are left out that face away or lie outside of the view: by whatever sets them up (with points, the vertex
     /// stage of each pass), or before, by a list made in compute; hidden: and again before they are summed, where visible ones
     /// hide them; auto: what is faster. Lists are for points and for compute. The picture is the same, by compute but for the
     /// rounding of sums
     #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(Cull::NAMES))]
     pub cull: Cull,
-
-    /// Where points are set up: in the vertex stage of each pass, or once a frame, in compute, which leaves a record of 64 bytes for
-    /// each splat to the vertex stages (not for ray casting, nor with --early-depth); auto: what is faster. By compute splats are
-    /// always set up once. The picture is the same
-    #[arg(long, value_name = "WHERE", default_value = "auto", value_parser = choice(SetUp::NAMES))]
-    pub set_up: SetUp,
 
     /// The precision of the sums; the reference sums in 64 bits whatever is given here
     #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
@@ -178,7 +166,6 @@ pub struct StyleArguments {
 pub const REPRESENTATIONS: &[(&str, Representation)] =
     &[("splats", Representation::Splats), ("mesh", Representation::Mesh)];
 /// The values of switches.
-pub const ON_OFF: &[(&str, bool)] = &[("off", false), ("on", true)];
 /// The values of `--backfaces`.
 pub const BACKFACES: &[(&str, Backfaces)] =
     &[("auto", Backfaces::Auto), ("flip", Backfaces::Flip), ("cull", Backfaces::Cull)];
@@ -213,9 +200,7 @@ impl PictureArguments {
             filter_weight: style.filter_weight,
             kernel: style.kernel,
             kernel_eval: style.kernel_eval,
-            early_depth: style.early_depth,
             cull: style.cull,
-            set_up: style.set_up,
             accumulate: style.accumulate,
             epsilon: style.epsilon,
             backfaces: style.backfaces,
@@ -258,9 +243,7 @@ mod tests {
             filter_weight: FilterWeight::Unit,
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
             kernel_eval: KernelEval::Texture,
-            early_depth: true,
             cull: Cull::List,
-            set_up: SetUp::Once,
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,

@@ -4,17 +4,17 @@ use super::{
     super::{
         layer_accumulate,
         layer_compose::{self, LayerKind},
-        layer_rest, layer_visibility, point_records,
+        layer_rest, layer_visibility,
         recipe::{PipelineRecipe, compute, graphics},
         splat_pass::SplatPass,
         splat_shaders::Primitive,
         tiles,
-        variant::{Constants, IN_LAYERS, OUTWARD, splat_constants},
+        variant::{Constants, splat_constants},
         visibility,
     },
-    Traits, records_points, splat_keys,
+    Traits, splat_keys,
 };
-use crate::{error::Result, scene::Settings};
+use crate::{error::Result, scene::Settings, shaders::config::*};
 
 /// By tiles.
 pub(super) fn by_tiles(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
@@ -26,7 +26,7 @@ pub(super) fn by_tiles(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
 /// What a transparent splat's shaders are made for.
 fn open(settings: &Settings, traits: Traits) -> Constants {
     let mut open = splat_constants(settings, traits.ellipses, false);
-    open.extend([(OUTWARD, u32::from(traits.closed)), (IN_LAYERS, 1)]);
+    open.extend([(SPEC_OUTWARD, u32::from(traits.closed)), (SPEC_IN_LAYERS, 1)]);
     open
 }
 
@@ -35,9 +35,6 @@ pub(super) fn drawn(settings: &Settings, traits: Traits) -> Result<Vec<PipelineR
     let mut all = Vec::new();
     let has_list = traits.may_be_large && Primitive::of(settings.rasterizer) != Primitive::Quad;
     let open = open(settings, traits);
-    if records_points(settings) {
-        all.push(compute("set up transparent points", point_records::key(&open, has_list, false)));
-    }
     let splats = |pass: &SplatPass| splat_keys(pass, settings, &open, has_list);
     for peeled in [false, true] {
         let names = if peeled {

@@ -2,14 +2,14 @@
 
 use super::{
     super::{
-        accumulate, cull, cull_hidden, kernel_texture, list_large, point_records,
+        accumulate, cull, cull_hidden, kernel_texture, list_large,
         recipe::{PipelineRecipe, compute, graphics},
         splat_shaders::{Primitive, Summed},
         tiles,
         variant::Constants,
         visibility,
     },
-    Traits, records_points, splat_keys,
+    Traits, splat_keys,
 };
 use crate::{
     error::Result,
@@ -38,9 +38,6 @@ pub(super) fn drawn(
     };
     let kept = !culled.is_empty();
     all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
-    if records_points(settings) {
-        all.push(compute("set up points", point_records::key(variant, has_list, kept)));
-    }
     if kept && settings.cull == Cull::Hidden {
         all.push(compute("cells of depth", cull_hidden::cells_key()));
         all.push(compute("mark seen splats", cull_hidden::hidden_key(variant)));

@@ -13,8 +13,6 @@ pub enum Invocations {
     Columns,
     /// The same of tiles half as high.
     ShortColumns,
-    /// A column of pixels; each loads every splat, where the device can't hand values on or has small texel buffers.
-    ColumnsAlone,
     /// A pixel; they load splats for each other.
     Pixels,
 }
@@ -41,7 +39,8 @@ impl Invocations {
     pub fn of(wanted: TileInvocations, limits: &Limits, small: bool) -> Self {
         let hands_on = limits.shuffles && limits.max_texels >= LEAST_TEXELS;
         let columns = |short| match (hands_on, short) {
-            (false, _) => Self::ColumnsAlone,
+            // A column alone would load every splat by itself.
+            (false, _) => Self::Pixels,
             (true, false) => Self::Columns,
             (true, true) => Self::ShortColumns,
         };
@@ -62,7 +61,7 @@ impl Invocations {
     pub fn tile_height(self) -> u32 {
         match self {
             Self::ShortColumns => 4,
-            Self::Columns | Self::ColumnsAlone | Self::Pixels => 8,
+            Self::Columns | Self::Pixels => 8,
         }
     }
 
@@ -72,20 +71,11 @@ impl Invocations {
         matches!(self, Self::Columns | Self::ShortColumns)
     }
 
-    /// Splats of one step of a shader's loops: `BATCH` of `glsl/inc/tile_batch.glsl`.
-    pub fn batch(self) -> u32 {
-        match self {
-            Self::Columns | Self::ShortColumns | Self::Pixels => 8,
-            Self::ColumnsAlone => 1,
-        }
-    }
-
     /// The word of the permutation.
     pub fn word(self) -> Option<&'static str> {
         match self {
             Self::Columns => None,
             Self::ShortColumns => Some("short"),
-            Self::ColumnsAlone => Some("direct"),
             Self::Pixels => Some("pixels"),
         }
     }
@@ -93,7 +83,7 @@ impl Invocations {
     /// In words, what an invocation draws.
     pub fn draws(self) -> &'static str {
         match self {
-            Self::Columns | Self::ShortColumns | Self::ColumnsAlone => "a column of pixels",
+            Self::Columns | Self::ShortColumns => "a column of pixels",
             Self::Pixels => "a pixel",
         }
     }
@@ -118,7 +108,7 @@ mod tests {
             assert_eq!(of(Pixel, &limits), Invocations::Pixels);
         }
         for limits in without {
-            assert_eq!([of(Auto, &limits), of(ShortColumn, &limits)], [Invocations::ColumnsAlone; 2]);
+            assert_eq!([of(Auto, &limits), of(ShortColumn, &limits)], [Invocations::Pixels; 2]);
         }
     }
 

@@ -25,6 +25,9 @@ fn most_tiles_a_side(place_bits: u32) -> u32 {
     3 << (14 - place_bits)
 }
 
+/// Splats of one step of a shader's loops: `BATCH` of `glsl/inc/tile_batch.glsl`.
+const BATCH: u32 = 8;
+
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
 const MOST_ITERATIONS: u32 = 60_000;
 
@@ -172,7 +175,7 @@ impl TilePlan {
         let longest = f64::from((most_a_side - 1) * invocations.tile_height().min(TILE_WIDTH));
         let fits = largest <= longest && tiles_of(largest, invocations) <= most_tiles;
         let most_tiles = most_tiles as u32;
-        let walk_length = invocations.batch() * MOST_ITERATIONS / 2;
+        let walk_length = BATCH * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
             rows,

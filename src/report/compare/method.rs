@@ -17,8 +17,6 @@ pub struct Method {
     pub accumulate: Accumulate,
     /// How the kernel is evaluated.
     pub kernel_eval: KernelEval,
-    /// Whether the device is told a bound of each splat's depth.
-    pub early_depth: bool,
 }
 
 /// A method by the names of its options, as reports write it.
@@ -34,8 +32,6 @@ pub struct MethodNames {
     pub accumulate: &'static str,
     /// `--kernel-eval`.
     pub kernel_eval: &'static str,
-    /// `--early-depth`.
-    pub early_depth: &'static str,
 }
 
 /// What decides the exact picture of a method: methods of one key share their reference.
@@ -58,7 +54,6 @@ impl Method {
             filter_weight: self.filter_weight,
             accumulate: self.accumulate,
             kernel_eval: self.kernel_eval,
-            early_depth: self.early_depth,
             ..base.clone()
         }
     }
@@ -78,7 +73,6 @@ impl Method {
             filter_weight: self.filter_weight.name(),
             accumulate: self.accumulate.name(),
             kernel_eval: self.kernel_eval.name(),
-            early_depth: if self.early_depth { "on" } else { "off" },
         }
     }
 }
@@ -94,9 +88,8 @@ impl MethodNames {
 
     /// All in one line, such as `perspective, adjust, f16, analytic`.
     pub fn line(&self) -> String {
-        let early_depth = if self.early_depth == "on" { ", early depth" } else { "" };
         let filter = self.filter_and_weight();
-        format!("{}, {filter}, {}, {}{early_depth}", self.rasterizer, self.accumulate, self.kernel_eval)
+        format!("{}, {filter}, {}, {}", self.rasterizer, self.accumulate, self.kernel_eval)
     }
 }
 
@@ -113,8 +106,6 @@ pub struct Selection {
     pub accumulates: Vec<Accumulate>,
     /// Of `--kernel-eval`.
     pub kernel_evals: Vec<KernelEval>,
-    /// Of `--early-depth`.
-    pub early_depths: Vec<bool>,
 }
 
 impl Selection {
@@ -129,16 +120,13 @@ impl Selection {
                 for &filter_weight in filter_weights {
                     for &accumulate in &self.accumulates {
                         for &kernel_eval in &self.kernel_evals {
-                            for &early_depth in &self.early_depths {
-                                methods.push(Method {
-                                    rasterizer,
-                                    filter,
-                                    filter_weight,
-                                    accumulate,
-                                    kernel_eval,
-                                    early_depth,
-                                });
-                            }
+                            methods.push(Method {
+                                rasterizer,
+                                filter,
+                                filter_weight,
+                                accumulate,
+                                kernel_eval,
+                            });
                         }
                     }
                 }
@@ -160,7 +148,6 @@ impl Selection {
                 method.filter_weight != first.filter_weight,
                 method.accumulate != first.accumulate,
                 method.kernel_eval != first.kernel_eval,
-                method.early_depth != first.early_depth,
             ]
             .into_iter()
             .filter(|differs| *differs)
@@ -184,7 +171,6 @@ mod tests {
             filter_weights: vec![FilterWeight::default()],
             accumulates: values(Accumulate::NAMES),
             kernel_evals: values(KernelEval::NAMES),
-            early_depths: vec![false],
         }
     }
 
@@ -222,9 +208,8 @@ mod tests {
             filter_weight: FilterWeight::Unit,
             accumulate: Accumulate::F32,
             kernel_eval: KernelEval::Texture,
-            early_depth: true,
         };
-        assert_eq!(method.names().line(), "raycast, adjust-paper unit, f32, texture, early depth");
+        assert_eq!(method.names().line(), "raycast, adjust-paper unit, f32, texture");
         let settings = method.settings(&Settings::default());
         let options = crate::report::settings_as_options(&settings);
         let names = method.names();
@@ -234,7 +219,6 @@ mod tests {
             ("filter-weight", names.filter_weight),
             ("accumulate", names.accumulate),
             ("kernel-eval", names.kernel_eval),
-            ("early-depth", names.early_depth),
         ];
         for (option, name) in expected {
             assert_eq!(options[option], name, "{option}");

@@ -167,8 +167,7 @@ fn names(row: &MethodRow) -> String {
     let method = &row.method;
     let front = if row.pareto { '*' } else { ' ' };
     // Early depth changes no picture: a mark behind the rasterizer is enough.
-    let early = if method.early_depth == "on" { "+e" } else { "" };
-    let rasterizer = format!("{}{early}", method.rasterizer);
+    let rasterizer = method.rasterizer.to_owned();
     let filter = method.filter_and_weight();
     format!("{front} {rasterizer:21} {filter:17} {:4} {:8}", method.accumulate, method.kernel_eval)
 }

@@ -9,7 +9,7 @@ use crate::{
 fn method(rasterizer: Rasterizer, filter: Filter) -> MethodNames {
     let (accumulate, kernel_eval) = (Accumulate::F32, KernelEval::Analytic);
     let filter_weight = FilterWeight::default();
-    Method { rasterizer, filter, filter_weight, accumulate, kernel_eval, early_depth: false }.names()
+    Method { rasterizer, filter, filter_weight, accumulate, kernel_eval }.names()
 }
 
 fn figures(rms: f64) -> ErrorFigures {
@@ -116,7 +116,7 @@ fn what_was_not_measured_is_a_dash() {
 fn json_has_names_units_and_null_for_what_is_not_counted() {
     let json = serde_json::to_value(report()).unwrap();
     let first = &json["methods"][0];
-    assert_eq!((&first["rasterizer"], &first["early_depth"]), (&"perspective".into(), &"off".into()));
+    assert_eq!(first["rasterizer"], "perspective");
     assert_eq!(first["frame_ms"]["min"], 30.75);
     assert!(first["passes"][2]["vertex_instructions"].is_null() && first["passes"][3]["fragments"].is_null());
     assert_eq!(first["passes"][1]["fragments"], 3000);

@@ -1,6 +1,7 @@
 //! From `glsl/` to SPIR-V in Rust's hands. Part of `build.rs` and of the test `tests/shaders.rs`; not of the library.
 
 mod compile;
+mod config;
 mod exact;
 mod layout;
 mod permutations;
@@ -27,7 +28,8 @@ pub type HostStruct<'a> = (&'a str, &'a str);
 /// Compiled shaders.
 #[derive(Debug)]
 pub struct Built {
-    /// Rust source: one `static` a shader, the table `ALL` of all of them, and the checks of the host structs. It takes in
+    /// Rust source: one `static` a shader, the table `ALL` of all of them, the numbers of `inc/config.glsl`, and the checks of the
+    /// host structs. It takes in
     /// `<name>.spv` from its own folder for each.
     pub rust: String,
     /// Name and SPIR-V of each, sorted by name.
@@ -93,7 +95,8 @@ pub fn build(glsl: &Path, host_structs: &[HostStruct], macros: &[&str]) -> Resul
         return Err(errors);
     }
     let names: Vec<&str> = shaders.iter().map(|(name, _)| name.as_str()).collect();
-    let rust = table::shaders(&names) + &table::checks(host_structs, &layouts);
+    let config = config::module(glsl).map_err(|error| vec![error])?;
+    let rust = table::shaders(&names) + &config + &table::checks(host_structs, &layouts);
     Ok(Built { rust, modules: shaders })
 }
 

@@ -17,11 +17,11 @@ use surfel::{
 
 use crate::{
     parse,
-    picture_arguments::{BACKFACES, CameraArguments, ON_OFF, REPRESENTATIONS, SHADINGS, choice},
+    picture_arguments::{BACKFACES, CameraArguments, REPRESENTATIONS, SHADINGS, choice},
 };
 
 /// What `--zoom` decides by itself.
-const ZOOM_HAS_ITS_OWN: [&str; 16] = [
+const ZOOM_HAS_ITS_OWN: [&str; 15] = [
     "inputs",
     "representation",
     "time_size",
@@ -33,7 +33,6 @@ const ZOOM_HAS_ITS_OWN: [&str; 16] = [
     "rasterizer",
     "accumulate",
     "kernel_eval",
-    "early_depth",
     "quick",
     "backfaces",
     "frames",
@@ -146,10 +145,6 @@ pub struct MethodArguments {
     #[arg(long, value_name = "LIST", default_value = "all", value_delimiter = ',', value_parser = listed(KernelEval::NAMES))]
     pub kernel_eval: Vec<Listed<KernelEval>>,
 
-    /// Whether the device is told a bound of each splat's depth
-    #[arg(long, value_name = "LIST", default_value = "off", value_delimiter = ',', value_parser = listed(ON_OFF))]
-    pub early_depth: Vec<Listed<bool>>,
-
     /// Only the combination of all first values, and those that differ from it in one option
     #[arg(long)]
     pub quick: bool,
@@ -212,9 +207,8 @@ fn values<T: Copy + PartialEq>(list: &[Listed<T>], names: &[(&str, T)], default:
 impl CompareArguments {
     /// The values to combine.
     pub fn selection(&self) -> Selection {
-        let MethodArguments {
-            rasterizer, filter, filter_weight, accumulate, kernel_eval, early_depth, ..
-        } = &self.methods;
+        let MethodArguments { rasterizer, filter, filter_weight, accumulate, kernel_eval, .. } =
+            &self.methods;
         let both_weights = [FilterWeight::Area, FilterWeight::Unit];
         let (weights, sums): (&[_], &[_]) = match self.zoom {
             false => (&both_weights[..1], &[Accumulate::F16, Accumulate::F32]),
@@ -227,7 +221,6 @@ impl CompareArguments {
                 filter_weights: values(filter_weight, FilterWeight::NAMES, weights),
                 accumulates: sums.to_vec(),
                 kernel_evals: vec![KernelEval::default()],
-                early_depths: vec![false],
             };
         }
         Selection {
@@ -236,7 +229,6 @@ impl CompareArguments {
             filter_weights: values(filter_weight, FilterWeight::NAMES, weights),
             accumulates: values(accumulate, Accumulate::NAMES, sums),
             kernel_evals: values(kernel_eval, KernelEval::NAMES, &[]),
-            early_depths: values(early_depth, ON_OFF, &[]),
         }
     }
 
@@ -283,12 +275,10 @@ mod tests {
 
     #[test]
     fn lists_keep_their_order_and_name_each_value_once() {
-        let words =
-            ["--rasterizer", "quad,perspective,quad", "--filter", "max,all", "--early-depth", "on,off"];
+        let words = ["--rasterizer", "quad,perspective,quad", "--filter", "max,all"];
         let selection = compare(&words).selection();
         assert_eq!(selection.rasterizers, [Rasterizer::Quad, Rasterizer::Perspective]);
         assert_eq!((selection.filters.len(), selection.filters[0]), (5, Filter::Max));
-        assert_eq!(selection.early_depths, [true, false]);
         assert_eq!(selection.filter_weights, [FilterWeight::Area]);
         let both = compare(&["--filter-weight", "all"]).selection().filter_weights;
         assert_eq!(both, [FilterWeight::Area, FilterWeight::Unit]);

@@ -75,9 +75,7 @@ impl TilePlan {
             Cull::Setup | Cull::List => false,
             Cull::Hidden => true,
         };
-        let hidden = hidden
-            && invocations != Invocations::ColumnsAlone
-            && !draws.iter().any(|draw| draw.chunk.transparent);
+        let hidden = hidden && !draws.iter().any(|draw| draw.chunk.transparent);
         let of = |invocations| Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
