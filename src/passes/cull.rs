@@ -21,7 +21,7 @@ use crate::{
     },
     prepare::BLOCK_SPLATS,
     shaders::{self, Shader},
-    vk::{ComputePipeline, Limits},
+    vk::ComputePipeline,
 };
 
 /// Splats of a word of bits, as in `glsl/inc/kept.glsl`.
@@ -33,33 +33,8 @@ const GROUP: u32 = 64;
 /// The binding of the blocks in the set of lists.
 pub(super) const BLOCKS: u32 = LARGE_BINDINGS;
 
-/// Points of an indexed draw; more would need `fullDrawIndexUint32`.
-const MOST_INDICES: u32 = 1 << 24;
-
 /// Where [`VkDispatchIndirectCommand`](vk::DispatchIndirectCommand) is in the arguments of a chunk, in bytes; before it is the draw.
 const DISPATCH: u64 = 20;
-
-/// Whether some splats face away and are not drawn, or may lie outside of the view.
-pub(super) fn may_leave_out(draws: &[Draw<'_>]) -> bool {
-    draws.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
-}
-
-/// Whether the device has room for a list.
-pub(super) fn has_room(draws: &[Draw<'_>], by_tiles: bool, limits: &Limits) -> bool {
-    let words: u64 = draws.iter().map(|draw| draw.chunk.blocks.len() as u64).sum();
-    words * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
-        && (by_tiles || draws.iter().all(|draw| draw.chunk.count <= MOST_INDICES))
-}
-
-/// Gives each chunk the number of its first splat among all.
-pub(super) fn number_splats(draws: &mut [Draw<'_>]) {
-    let mut next = 0_u32;
-    for draw in draws {
-        draw.constants.first_record = next;
-        // Where 32 bits are too few, nobody looks at it.
-        next = next.wrapping_add(draw.chunk.count);
-    }
-}
 
 fn words_of(draws: &[Draw<'_>]) -> u64 {
     let blocks: u64 = draws.iter().map(|draw| u64::from(draw.constants.listed_blocks)).sum();

@@ -2,7 +2,12 @@
 
 use ash::vk;
 
-use super::{Draw, MeshDraw, Part, Shaders, TilePlan, listed::Listed, tiles::Band};
+use super::{
+    Draw, MeshDraw, Shaders, TilePlan,
+    listed::Listed,
+    plan::{SplatMethod, SurfacePlan},
+    tiles::Band,
+};
 use crate::{
     graph::ImageDesc,
     scene::{Camera, Settings},
@@ -16,9 +21,7 @@ pub struct Inputs<'a> {
     pub draws: &'a [Draw<'a>],
     /// The polygons.
     pub meshes: &'a [MeshDraw<'a>],
-    /// How the splats are drawn by tiles, where they are.
-    pub tiles: Option<&'a TilePlan>,
-    /// Bands of the image, where that is drawn in more than one.
+    /// Bands of tiles, where splats are drawn so.
     pub bands: &'a [Band<'a>],
     /// Where the splats are looked for that are listed, where only those are set up.
     pub kept: Option<&'a Listed>,
@@ -50,7 +53,6 @@ impl<'a> Inputs<'a> {
         Self {
             draws,
             meshes,
-            tiles: None,
             bands: &[],
             kept: None,
             leaves_hidden_out: false,
@@ -63,27 +65,26 @@ impl<'a> Inputs<'a> {
         }
     }
 
-    /// The same for one part of the scene.
-    pub(super) fn of(self, part: &'a Part<'a>) -> Self {
+    /// Inputs for the opaque or the transparent things of a scene.
+    pub(super) fn of(self, plan: &'a SurfacePlan<'a>) -> Self {
+        let culls_hidden = matches!(plan.method, SplatMethod::Primitives { culls_hidden: true, .. });
         Self {
-            draws: &part.splats,
-            meshes: &part.meshes,
-            tiles: part.tiles.as_ref(),
-            bands: &part.bands,
-            kept: part.kept.as_ref(),
-            leaves_hidden_out: part.leaves_hidden_out(self.settings),
+            draws: &plan.splats,
+            meshes: &plan.meshes,
+            bands: plan.bands(),
+            kept: plan.visible(),
+            leaves_hidden_out: culls_hidden,
             ..self
         }
     }
 
-    /// The same for each band by tiles, with what goes in front of its tiles in the names of passes.
-    pub(super) fn of_bands(self) -> Vec<(String, Self)> {
-        if self.bands.is_empty() {
-            return vec![(String::new(), self)];
-        }
+    /// Inputs for each band of tiles, with what goes in front of its tiles in the names of passes (nothing where there
+    /// is one) and how it is drawn.
+    pub(super) fn of_bands(self) -> Vec<(String, Self, &'a TilePlan)> {
         let of = |(number, band): (usize, &'a Band<'a>)| {
-            let (draws, tiles, kept) = (band.splats.as_slice(), Some(&band.plan), Some(&band.listed));
-            (format!("band-{number} "), Self { draws, tiles, kept, bands: &[], ..self })
+            let name = if self.bands.len() > 1 { format!("band-{number} ") } else { String::new() };
+            let (draws, kept) = (band.splats.as_slice(), band.visible.as_ref());
+            (name, Self { draws, kept, ..self }, &band.plan)
         };
         (1..).zip(self.bands).map(of).collect()
     }

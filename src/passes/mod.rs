@@ -3,7 +3,6 @@
 mod accumulate;
 mod blocks;
 mod catalog;
-mod choice;
 mod constants;
 mod copy_depth;
 mod cull;
@@ -32,8 +31,8 @@ mod lists;
 mod mesh_draws;
 mod needs;
 mod paper;
-mod parts;
 mod pipelines;
+mod plan;
 mod polygons;
 mod readback;
 mod recipe;
@@ -47,7 +46,6 @@ mod visibility;
 use ash::vk;
 
 pub use catalog::{Traits, frame_pipelines, papers_pipelines};
-pub use choice::check as check_choice;
 pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
@@ -63,19 +61,19 @@ pub use instructions::{Counter, counts_of};
 pub use mesh_draws::{MeshDraw, mesh_draws};
 pub use needs::{Needs, needs};
 pub use paper::paper_frame;
-pub use parts::{Part, Parts};
 pub use pipelines::{Shaders, room_of_lists};
+pub use plan::{FramePlan, SplatMethod, SurfacePlan, check_method};
 pub use readback::{readback, readback_buffer};
 pub use recipe::{PipelineRecipe, PipelineStages};
 pub use tiles::{
-    Invocations, ListsInUse, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan, TilesInUse, told_by,
+    Band, Invocations, ListsInUse, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan, TilesInUse, told_by,
 };
 
-use self::{finalize::Opaque, lists::Lists, tiles::TileStart};
+use self::{finalize::Opaque, lists::Lists, plan::Outputs, tiles::TileStart};
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
-    scene::{Accumulate, Settings},
+    scene::Accumulate,
 };
 
 /// The format of the sums.
@@ -98,26 +96,36 @@ const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 pub fn frame<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    parts: &'a Parts<'a>,
+    plan: &'a FramePlan<'a>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
     export: bool,
 ) -> Result<Option<Exported>> {
-    let kernel = match parts.opaque.splats.is_empty() && parts.transparent.splats.is_empty() {
+    let kernel = match plan.opaque.splats.is_empty() && plan.transparent.splats.is_empty() {
         true => None,
         false => accumulate::kernel_of(graph, inputs)?,
     };
-    let lights = lights::lights(graph, &parts.lights);
-    let inputs = Inputs { lights: parts.lights.len() as u32, ..inputs };
-    let readers = Readers { export, layers: !parts.transparent.is_empty(), target_format };
-    let opaque = opaque(graph, inputs.of(&parts.opaque), (kernel.as_ref(), lights.as_ref()), readers)?;
-    let layers = match parts.transparent.is_empty() {
+    let lights = lights::lights(graph, &plan.lights);
+    let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
+    let outputs = Outputs { surface: export, layers: !plan.transparent.is_empty(), target_format };
+
+    let opaque_inputs = inputs.of(&plan.opaque);
+    let opaque = if plan.opaque.bands().is_empty() {
+        by_primitives(graph, opaque_inputs, kernel.as_ref(), outputs)?
+    } else if !outputs.reads_whole_images() && plan.opaque.tiles_can_shade(inputs.settings) {
+        let precision = outputs.shaded_precision(inputs.settings);
+        shaded_by_tiles(graph, opaque_inputs, lights.as_ref(), precision)?
+    } else {
+        summed_by_tiles(graph, opaque_inputs, outputs)?
+    };
+
+    let layers = match plan.transparent.is_empty() {
         true => None,
         false => {
-            let inputs = inputs.of(&parts.transparent);
-            match inputs.tiles {
-                Some(_) => Some(tiles::layers(graph, inputs, opaque.depth(), lights.as_ref())?),
-                None => layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?,
+            let inputs = inputs.of(&plan.transparent);
+            match inputs.bands.is_empty() {
+                false => Some(tiles::layers(graph, inputs, opaque.depth(), lights.as_ref())?),
+                true => layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?,
             }
         }
     };
@@ -129,45 +137,13 @@ pub fn frame<'a>(
     }
 }
 
-/// Who reads what the opaque part leaves.
-#[derive(Clone, Copy)]
-struct Readers {
-    /// Sums, of depth too, are exported.
-    export: bool,
-    /// Transparent layers lie before it.
-    layers: bool,
-    /// The picture's.
-    target_format: vk::Format,
-}
-
-impl Readers {
-    /// Sums and depth are read everywhere, not only where finalization shades.
-    fn whole_images(self) -> bool {
-        self.export || self.layers
-    }
-
-    /// The precision of what tiles show: a target of 32 bits loses nothing by it.
-    fn shown(self, settings: &Settings) -> Accumulate {
-        match self.target_format {
-            vk::Format::R32G32B32A32_SFLOAT => Accumulate::F32,
-            _ => settings.accumulate,
-        }
-    }
-}
-
-/// The opaque part: visibility of splats; polygons upon it; accumulation of the splats that neither hides.
-fn opaque<'a>(
+/// Opaque things by the graphics pipeline: visibility of splats; polygons upon it; accumulation of the splats that neither hides.
+fn by_primitives<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    (kernel, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
-    readers: Readers,
+    kernel: Option<&Handle<Image>>,
+    outputs: Outputs,
 ) -> Result<Opaque<'a>> {
-    if let Some(plan) = inputs.tiles {
-        return match !readers.whole_images() && tiles::can_shade(inputs) {
-            true => shaded_by_tiles(graph, inputs, lights, readers.shown(inputs.settings)),
-            false => opaque_by_tiles(graph, inputs, plan, readers),
-        };
-    }
     let mut opaque = Opaque::default();
     let lists = Lists::make(graph, inputs, "")?;
     if !inputs.draws.is_empty() {
@@ -181,12 +157,13 @@ fn opaque<'a>(
         let polygons = opaque.polygon_depth.as_ref();
         let lists = lists.without_hidden(graph, inputs, depth)?;
         opaque.splats =
-            Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, readers.export)?);
+            Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, outputs.surface)?);
     }
     Ok(opaque)
 }
 
-/// The same by tiles, which are shaded, too: for a frame of which nobody reads sums or depth.
+/// Opaque things by tiles that are shaded at once, for a frame of which nobody reads sums or depth: polygons; then, band by band,
+/// lists, and the tiles.
 fn shaded_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -201,11 +178,10 @@ fn shaded_by_tiles<'a>(
         let depth = polygons::shaded(graph, inputs, (&mut shown.image, precision), lights)?;
         (opaque.polygon_depth, start) = (Some(depth), TileStart::Polygons);
     }
-    for (kind, inputs) in inputs.of_bands() {
-        let Some(plan) = inputs.tiles else { continue };
-        let mut tiles = tiles::list(graph, inputs, &kind, plan)?;
+    for (band, inputs, plan) in inputs.of_bands() {
+        let mut tiles = tiles::list(graph, inputs, &band, plan)?;
         let polygons = opaque.polygon_depth.as_ref();
-        tiles::shaded(graph, inputs, &kind, &mut tiles, &mut shown, (polygons, lights), start)?;
+        tiles::shaded(graph, inputs, &band, &mut tiles, &mut shown, (polygons, lights), start)?;
         start = start.after_a_band();
         opaque.tiles.push(tiles);
     }
@@ -213,77 +189,48 @@ fn shaded_by_tiles<'a>(
     Ok(opaque)
 }
 
-/// The same by tiles. Where all of the images is read, tiles without splats need content too. It is, too, where the graphics
-/// pipeline draws into them: large splats before and after, polygons in between.
-fn opaque_by_tiles<'a>(
+/// Opaque things by tiles that leave sums and a depth. Where all of the images is read, tiles without splats need content, too; so
+/// they do where the graphics pipeline draws into them: large splats before and after, polygons (of an image in one band) in
+/// between.
+fn summed_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    plan: &'a TilePlan,
-    readers: Readers,
+    outputs: Outputs,
 ) -> Result<Opaque<'a>> {
-    if !inputs.bands.is_empty() {
-        return opaque_by_bands(graph, inputs, plan, readers);
-    }
-    let with_depth = readers.export;
-    let complete = readers.whole_images() || plan.may_be_large || !inputs.meshes.is_empty();
-    let mut tiles = tiles::list(graph, inputs, "", plan)?;
-    let mut images = tiles::TileImages::create(graph, inputs, plan, complete);
+    let (polygons, with_depth) = (!inputs.meshes.is_empty(), outputs.surface);
     let mut opaque = Opaque::default();
-    let large = plan.may_be_large.then(|| tiles::see_large(graph, inputs, "", &tiles, None)).transpose()?;
-    if inputs.meshes.is_empty() {
-        let start = if complete { TileStart::Cleared } else { TileStart::Empty };
-        tiles::fused(graph, inputs, "", &mut tiles, &mut images, large.as_ref(), (with_depth, start))?;
-    } else {
-        tiles::visibility(graph, inputs, &tiles, &mut images, large.as_ref())?;
-    }
-    if complete {
-        opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, "", &tiles, &images.depth, large)?);
-    }
-    if !inputs.meshes.is_empty() {
-        let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
-        tiles::accumulate(graph, inputs, &tiles, &mut images, Some(&depth), with_depth)?;
-        (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
-    }
-    if let (true, Some(depth)) = (plan.may_be_large, &opaque.splat_depth) {
-        let depths = (depth, opaque.polygon_depth.as_ref());
-        tiles::sum_large(graph, inputs, "", &tiles, &mut images, depths, with_depth)?;
-    }
-    opaque.splats = Some(images.sums);
-    opaque.tiles = if complete { Vec::new() } else { vec![tiles] };
-    Ok(opaque)
-}
-
-/// The same, a band of the image after the other: of splats alone.
-fn opaque_by_bands<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    whole: &TilePlan,
-    readers: Readers,
-) -> Result<Opaque<'a>> {
-    let with_depth = readers.export;
-    let plans = || inputs.bands.iter().map(|band| &band.plan);
-    let common = plans().next().unwrap_or(whole);
-    let complete = readers.whole_images() || common.may_be_large;
+    let Some(common) = inputs.bands.first().map(|band| &band.plan) else { return Ok(opaque) };
+    let complete = outputs.reads_whole_images() || common.may_be_large || polygons;
     let mut images = tiles::TileImages::create(graph, inputs, common, complete);
     let mut start = if complete { TileStart::Cleared } else { TileStart::Empty };
-    let mut opaque = Opaque::default();
-    for ((kind, inputs), plan) in inputs.of_bands().into_iter().zip(plans()) {
-        let mut tiles = tiles::list(graph, inputs, &kind, plan)?;
-        let mut large = None;
-        if plan.may_be_large {
-            large = Some(tiles::see_large(graph, inputs, &kind, &tiles, opaque.splat_depth.take())?);
+    for (band, inputs, plan) in inputs.of_bands() {
+        let mut tiles = tiles::list(graph, inputs, &band, plan)?;
+        let may_be_large = tiles.plan.may_be_large;
+        let mut depth = opaque.splat_depth.take();
+        if may_be_large {
+            depth = Some(tiles::see_large(graph, inputs, &band, &tiles, depth)?);
         }
-        tiles::fused(graph, inputs, &kind, &mut tiles, &mut images, large.as_ref(), (with_depth, start))?;
+        let large = depth.as_ref().filter(|_| may_be_large);
+        if polygons {
+            tiles::visibility(graph, inputs, &tiles, &mut images, large)?;
+        } else {
+            tiles::fused(graph, inputs, &band, &mut tiles, &mut images, large, (with_depth, start))?;
+        }
         start = start.after_a_band();
         if complete {
-            let before = large.or(opaque.splat_depth.take());
-            opaque.splat_depth =
-                Some(tiles::depth_buffer(graph, inputs, &kind, &tiles, &images.depth, before)?);
+            depth = Some(tiles::depth_buffer(graph, inputs, &band, &tiles, &images.depth, depth)?);
+        }
+        if polygons {
+            let (seen, depth) = polygons::polygons(graph, inputs, depth.as_ref())?;
+            tiles::accumulate(graph, inputs, &tiles, &mut images, Some(&depth), with_depth)?;
+            (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
         }
         // At once, for the lists of the next band lie where those of this one are.
-        if let (true, Some(depth)) = (plan.may_be_large, &opaque.splat_depth) {
-            tiles::sum_large(graph, inputs, &kind, &tiles, &mut images, (depth, None), with_depth)?;
+        if let (true, Some(depth)) = (may_be_large, &depth) {
+            let depths = (depth, opaque.polygon_depth.as_ref());
+            tiles::sum_large(graph, inputs, &band, &tiles, &mut images, depths, with_depth)?;
         }
+        opaque.splat_depth = depth;
         if !complete {
             opaque.tiles.push(tiles);
         }

@@ -109,7 +109,7 @@ impl Renderer {
         plan: &Plan,
     ) -> Explanation {
         let limits = &self.limits;
-        let parts = passes::Parts::of(scene, camera, settings, limits);
+        let frame = passes::FramePlan::new(scene, camera, settings, limits);
         let draws = passes::draws(scene, camera, settings, limits);
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
@@ -121,7 +121,9 @@ impl Renderer {
             bytes: draw.chunk.bytes(),
             largest_box_px: draw.largest_box_px,
             may_be_large: draw.may_be_large,
-            by_tiles: if draw.chunk.transparent { &parts.transparent } else { &parts.opaque }.tiles.is_some(),
+            by_tiles: !if draw.chunk.transparent { &frame.transparent } else { &frame.opaque }
+                .bands()
+                .is_empty(),
         });
         let meshes = passes::mesh_draws(scene, camera, settings, limits);
         let meshes = meshes.iter().map(|draw| ExplainedMesh {
@@ -132,7 +134,7 @@ impl Renderer {
             culled: draw.cull,
             bytes: draw.chunk.bytes(),
         });
-        let drawn = [&parts.opaque, &parts.transparent].map(|part| part.drawn(settings, limits));
+        let drawn = [&frame.opaque, &frame.transparent].map(|surface| surface.explained(settings));
         Explanation {
             drawn,
             chunks: chunks.collect(),

@@ -30,19 +30,19 @@ impl Headless {
         settings: &Settings,
     ) -> Result<ListsInUse> {
         let (device, renderer) = (self.device(), &self.renderer);
-        let parts = renderer.parts(scene, camera, settings)?;
+        let frame = renderer.frame_plan(scene, camera, settings)?;
         let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
         let mut slot = FrameSlot::new(device);
         let counts_draws = device.features().draw_indirect_count;
         // SAFETY: nothing was recorded in it.
-        unsafe { slot.begin(passes::needs(&parts, settings, counts_draws), None) }?;
+        unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
         let SlotParts { descriptors, occlusion, transients, .. } = slot.parts()?;
         let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &renderer.shaders, descriptors) };
-        let (mut graph, mut imports) = declare(inputs, &parts, &target.target(), Readbacks::default())?;
+        let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut buffers = Vec::new();
-        for name in passes::told_by(inputs, &parts) {
+        for name in passes::told_by(inputs, &frame) {
             let Some((content, GraphBufferDesc { size_bytes: size, .. })) = graph.content_of(&name) else {
                 continue;
             };
@@ -68,7 +68,7 @@ impl Headless {
         };
         let told: BTreeMap<_, _> =
             buffers.iter().map(|(name, buffer)| (name.clone(), words(buffer))).collect();
-        let mut in_use = ListsInUse::of(inputs, &parts, &told);
+        let mut in_use = ListsInUse::of(inputs, &frame, &told);
         // Lists of large splats, or of those that something hides.
         for name in names.into_iter().filter(|name| name.contains("list of ")) {
             in_use.bytes.entry(name).or_insert(0);

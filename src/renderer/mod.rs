@@ -24,7 +24,7 @@ use crate::{
         Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan,
         execute::{Body, Physical, Profile, Transients, execute, memory_need},
     },
-    passes::{self, Exported, Inputs, Parts, Shaders},
+    passes::{self, Exported, FramePlan, Inputs, Shaders},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Scene, Settings},
     vk::{Device, Limits, Staging},
@@ -114,16 +114,21 @@ impl Renderer {
             let problem = format!("f32: the device '{}' can't blend 32-bit floats; use f16", facts.name);
             return Err(Error::option("--accumulate", problem));
         }
-        passes::check_choice(settings, &self.limits)
+        passes::check_method(settings, &self.limits)
     }
 
-    /// The parts of a scene that can be drawn so.
-    fn parts<'a>(&self, scene: &'a PreparedScene, camera: &Camera, settings: &Settings) -> Result<Parts<'a>> {
+    /// The plan of a scene that can be drawn so.
+    fn frame_plan<'a>(
+        &self,
+        scene: &'a PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<FramePlan<'a>> {
         self.check(camera, settings)?;
         for chunk in &scene.chunks {
             settings.check_object("the scene", chunk.ellipses)?;
         }
-        Ok(Parts::of(scene, camera, settings, &self.limits))
+        Ok(FramePlan::new(scene, camera, settings, &self.limits))
     }
 
     /// Records one frame. Returns the plan that was recorded.
@@ -149,7 +154,7 @@ impl Renderer {
         readbacks: Readbacks,
         profile: Option<Profile>,
     ) -> Result<Plan> {
-        let parts = self.parts(scene, camera, settings)?;
+        let frame = self.frame_plan(scene, camera, settings)?;
         let [width, height] = settings.size_px;
         if target.extent != (vk::Extent2D { width, height }) {
             let vk::Extent2D { width: w, height: h } = target.extent;
@@ -158,12 +163,12 @@ impl Renderer {
         }
         let counts_draws = self.device.features().draw_indirect_count;
         // SAFETY: this function's contract.
-        unsafe { slot.begin(passes::needs(&parts, settings, counts_draws), profile) }?;
+        unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, transients, profiler } = slot.parts()?;
         let shaders = &self.shaders;
         let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, shaders, descriptors) };
-        let (graph, imports) = declare(inputs, &parts, target, readbacks)?;
+        let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
         let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
         let plan = compiled.plan.clone();
         let transients = Transients::for_plan(transients, &self.device, &plan)?;
@@ -178,7 +183,7 @@ type Imports = Vec<(crate::graph::ResourceId, Physical)>;
 /// The whole frame: its passes, and a copy for each thing that the host wants to read.
 fn declare<'a>(
     inputs: Inputs<'a>,
-    parts: &'a Parts<'a>,
+    plan: &'a FramePlan<'a>,
     target: &Target,
     readbacks: Readbacks,
 ) -> Result<(Graph<Body<'a>>, Imports)> {
@@ -189,7 +194,7 @@ fn declare<'a>(
     imports.push((image.id(), Physical::Image(target.image, target.view)));
 
     let exported =
-        passes::frame(&mut graph, inputs, parts, &mut image, target.format, readbacks.surface.is_some())?;
+        passes::frame(&mut graph, inputs, plan, &mut image, target.format, readbacks.surface.is_some())?;
 
     let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
         let mut destination = import_readback(graph, what, format, target.extent);

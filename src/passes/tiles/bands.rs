@@ -29,10 +29,19 @@ const ATTEMPTS: u32 = 8;
 pub struct Band<'a> {
     /// The chunks.
     pub splats: Vec<Draw<'a>>,
-    /// The blocks that may touch the rows.
-    pub listed: Listed,
+    /// Where splats that may be seen are looked for, if only those are set up.
+    pub visible: Option<Listed>,
     /// How they are drawn.
     pub plan: TilePlan,
+}
+
+impl<'a> Band<'a> {
+    /// A band of splats that are listed first: of the blocks that may touch its rows.
+    pub fn new(splats: &[Draw<'a>], seen: &SeenSplats, plan: TilePlan) -> Self {
+        let mut splats = splats.to_vec();
+        let visible = Some(Listed::of(&mut splats, &seen.chunks, plan.rows.clone()));
+        Self { splats, visible, plan }
+    }
 }
 
 /// Bytes that records and lists of a frame may take at once: what splats with them are one and a half times what the splats take in a
@@ -48,32 +57,28 @@ pub(in super::super) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u6
     }
 }
 
-/// The bands of what `whole` would draw at once; none where memory is enough for that, or where bands would not help: so many splats in so few rows, or in no order.
-pub(in super::super) fn bands<'a>(
-    draws: &[Draw<'a>],
+/// The plans of bands of what `whole` would draw at once; none where memory is enough for that, or where bands would not help: so many
+/// splats in so few rows, or in no order.
+pub(in super::super) fn cut_into_bands(
+    draws: &[Draw<'_>],
     seen: &SeenSplats,
     whole: &TilePlan,
     settings: &Settings,
     limits: &Limits,
-) -> Vec<Band<'a>> {
+) -> Vec<TilePlan> {
     let most_bytes = most_bytes(draws, settings.tile_memory);
     if whole.bytes() <= most_bytes {
         return Vec::new();
     }
-    let cut = Cut { draws, seen, settings, limits };
-    let Some(plans) = cut.within(most_bytes, whole) else { return Vec::new() };
-    let of_plan = |plan: TilePlan| {
-        let mut splats = draws.to_vec();
-        let listed = Listed::of(&mut splats, &seen.chunks, plan.rows.clone());
-        Band { splats, listed, plan }
-    };
-    plans.into_iter().map(of_plan).collect()
+    let cut = Cut { draws, seen, culls_hidden: whole.hidden, settings, limits };
+    cut.within(most_bytes, whole).unwrap_or_default()
 }
 
 /// What is cut into bands.
 struct Cut<'c, 'a> {
     draws: &'c [Draw<'a>],
     seen: &'c SeenSplats,
+    culls_hidden: bool,
     settings: &'c Settings,
     limits: &'c Limits,
 }
@@ -109,7 +114,7 @@ impl Cut<'_, '_> {
     }
 
     fn plan(&self, rows: Range<u32>) -> Option<TilePlan> {
-        TilePlan::of_blocks(self.draws, self.seen, rows, self.settings, self.limits)
+        TilePlan::of_blocks(self.draws, self.seen, rows, self.culls_hidden, self.settings, self.limits)
     }
 
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
@@ -133,6 +138,6 @@ impl Cut<'_, '_> {
                 return None;
             }
         }
-        Some(plans.iter().map(|plan| plan.among(&plans)).collect())
+        Some(plans.iter().map(|plan| plan.with_common_capacity(&plans)).collect())
     }
 }

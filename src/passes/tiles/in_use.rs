@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{
-    super::{Inputs, Parts},
+    super::{FramePlan, Inputs},
     QUAD_ARGUMENTS, RECORD_QUARTERS, TilePlan,
     plan::{RECORD_BYTES, ROW_PX, SPAN_CHUNK},
 };
@@ -59,28 +59,39 @@ impl Names {
 }
 
 /// All lists of a frame, each with what is in front of its names.
-fn lists<'a>(inputs: Inputs<'a>, parts: &'a Parts<'a>) -> impl Iterator<Item = (String, Inputs<'a>)> {
-    let parts = [("", &parts.opaque), ("transparent ", &parts.transparent)];
-    parts.into_iter().flat_map(move |(part, splats)| {
-        let of_part = move |(band, inputs): (String, _)| (format!("{part}{band}"), inputs);
-        inputs.of(splats).of_bands().into_iter().map(of_part)
+fn lists<'a>(
+    inputs: Inputs<'a>,
+    plan: &'a FramePlan<'a>,
+) -> impl Iterator<Item = (String, Inputs<'a>, Option<&'a TilePlan>)> {
+    let surfaces = [("", &plan.opaque), ("transparent ", &plan.transparent)];
+    surfaces.into_iter().flat_map(move |(surface, plan)| {
+        let inputs = inputs.of(plan);
+        let name = move |band: &str| format!("{surface}{band}");
+        match inputs.bands.is_empty() {
+            true => vec![(name(""), inputs, None)],
+            false => inputs
+                .of_bands()
+                .into_iter()
+                .map(|(band, inputs, plan)| (name(&band), inputs, Some(plan)))
+                .collect(),
+        }
     })
 }
 
 /// The buffers that tell it, of those that a frame has.
-pub fn told_by<'a>(inputs: Inputs<'a>, parts: &'a Parts<'a>) -> Vec<String> {
-    let names = |(kind, _): (String, Inputs<'_>)| {
+pub fn told_by<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>) -> Vec<String> {
+    let names = |(kind, ..): (String, Inputs<'_>, Option<&TilePlan>)| {
         let Names { kept_starts, spans, starts, arguments } = Names::of(&kind);
         [kept_starts, spans, starts, arguments]
     };
-    lists(inputs, parts).flat_map(names).collect()
+    lists(inputs, plan).flat_map(names).collect()
 }
 
 impl ListsInUse {
     /// What the words of these buffers tell.
-    pub fn of<'a>(inputs: Inputs<'a>, parts: &'a Parts<'a>, told: &BTreeMap<String, Vec<u32>>) -> Self {
+    pub fn of<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>, told: &BTreeMap<String, Vec<u32>>) -> Self {
         let mut all = Self::default();
-        for (kind, inputs) in lists(inputs, parts) {
+        for (kind, inputs, plan) in lists(inputs, plan) {
             let names = Names::of(&kind);
             let words = |name: &String| told.get(name).map_or(&[][..], Vec::as_slice);
             let kept = words(&names.kept_starts).last().map(|count| u64::from(*count));
@@ -89,7 +100,7 @@ impl ListsInUse {
                 // Of starts, how many there are.
                 all.bytes.extend([(of_kept("list"), 4 * kept), (of_kept("starts"), 4)]);
             }
-            if let Some(plan) = inputs.tiles {
+            if let Some(plan) = plan {
                 let set_up = kept.unwrap_or(plan.record_count.into());
                 let told = [&names.spans, &names.starts, &names.arguments].map(words);
                 all.add_tiles(kind, (plan, inputs.settings.size_px), set_up, told);

@@ -80,8 +80,7 @@ pub(in super::super) fn layers<'a>(
     let mut layers = graph.create_image("layers", inputs.image(sum_format(inputs.settings.accumulate)));
     super::clear(graph, "clear layers", &mut [&mut layers]);
     let around = (opaque, lights);
-    for (band, inputs) in inputs.of_bands() {
-        let Some(plan) = inputs.tiles else { continue };
+    for (band, inputs, plan) in inputs.of_bands() {
         let tiles = list(graph, inputs, &format!("transparent {band}"), plan)?;
         let work = Work::of_whole_tiles(inputs.settings, plan);
         declare(graph, inputs, (&band, &tiles), around, &mut layers, work)?;

@@ -31,7 +31,7 @@ pub use self::{
     plan::TilePlan,
 };
 pub(super) use self::{
-    bands::{bands, most_bytes},
+    bands::{cut_into_bands, most_bytes},
     bins::list,
     depth::depth_buffer,
     large::{see_large, sum_large},
@@ -41,7 +41,7 @@ pub(super) use self::{
     plan::{ROW_PX, rows_of_image},
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
-    shaded::{Shown, can_shade, shaded},
+    shaded::{Shown, shaded},
     splat::{TileImages, TileStart, accumulate, fused, visibility},
 };
 use pass::{TilePass, after_dispatches_before};

@@ -3,24 +3,15 @@
 
 use super::{
     super::Inputs,
-    COLOR_SUMS, LIGHTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass, TilePlan, Tiles,
+    COLOR_SUMS, LIGHTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass, Tiles,
     shade::shade_overfull,
     splat::{Step, TileStart, shader},
 };
 use crate::{
     error::Result,
     graph::{Access, Buffer, Graph, Handle, Image, execute::Body},
-    scene::{Accumulate, Transition},
+    scene::Accumulate,
 };
-
-/// Whether tiles can be shaded in the dispatch that sums their splats: the graphics pipeline draws none of these; and polygons, which
-/// are shaded already, blend with them as colors, beside tiles that one dispatch takes.
-pub(in super::super) fn can_shade(inputs: Inputs<'_>) -> bool {
-    let polygons = !inputs.meshes.is_empty();
-    let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_be_overfull();
-    let as_colors = !polygons || inputs.settings.transition != Transition::Attributes;
-    as_colors && inputs.of_bands().iter().all(|(_, inputs)| inputs.tiles.is_some_and(|plan| !by_sums(plan)))
-}
 
 /// What tiles show, in place of sums.
 pub(in super::super) struct Shown {

@@ -11,7 +11,7 @@ use crate::{
         seen::SeenSplats,
         tiles::{Invocations, invocations::are_small},
     },
-    scene::{Cull, Settings},
+    scene::Settings,
     vk::Limits,
 };
 
@@ -27,20 +27,20 @@ pub(super) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
 
 impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
-    pub fn of(draws: &[Draw<'_>], settings: &Settings, limits: &Limits) -> Option<Self> {
+    pub fn of(draws: &[Draw<'_>], culls_hidden: bool, settings: &Settings, limits: &Limits) -> Option<Self> {
         let boxes: Vec<_> = draws.iter().flat_map(|draw| &draw.boxes).copied().collect();
-        Self::of_rows(draws, &boxes, rows_of_image(settings), settings, limits)
+        Self::of_rows(draws, &boxes, rows_of_image(settings), culls_hidden, settings, limits)
     }
 
     /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
-    pub fn or_of_blocks(
+    pub fn tightened_to_blocks(
         self,
         draws: &[Draw<'_>],
         seen: &SeenSplats,
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let of_blocks = Self::of_blocks(draws, seen, self.rows.clone(), settings, limits);
+        let of_blocks = Self::of_blocks(draws, seen, self.rows.clone(), self.hidden, settings, limits);
         let draws_as_much = |of_blocks: &Self| self.may_be_large || !of_blocks.may_be_large;
         let better = |of_blocks: &Self| draws_as_much(of_blocks) && of_blocks.bytes() < self.bytes();
         of_blocks.filter(better).unwrap_or(self)
@@ -51,10 +51,11 @@ impl TilePlan {
         draws: &[Draw<'_>],
         seen: &SeenSplats,
         rows: Range<u32>,
+        culls_hidden: bool,
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
-        Self::of_rows(draws, &seen.boxes(&rows), rows, settings, limits)
+        Self::of_rows(draws, &seen.boxes(&rows), rows, culls_hidden, settings, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
@@ -62,24 +63,17 @@ impl TilePlan {
         draws: &[Draw<'_>],
         boxes: &[(u32, f64)],
         rows: Range<u32>,
+        culls_hidden: bool,
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
         // By all that is drawn, so that all bands have the same.
         let all = || draws.iter().flat_map(|draw| &draw.boxes);
         let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
-        let hidden = match settings.cull {
-            // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
-            // taken for several: 3% of a frame.)
-            Cull::Auto => draws.len() > 1,
-            Cull::Setup | Cull::List => false,
-            Cull::Hidden => true,
-        };
-        let hidden = hidden && !draws.iter().any(|draw| draw.chunk.transparent);
         let of = |invocations| Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
-        Some(if hidden { plan.without_hidden() } else { plan })
+        Some(if culls_hidden { plan.without_hidden() } else { plan })
     }
 
     /// The same for some rows of the image alone.
@@ -90,7 +84,7 @@ impl TilePlan {
 
     /// The same as one of several bands, which have their pipelines and images in common, and buffers of the same sizes, so that
     /// each lies where that of the band before was.
-    pub(in super::super) fn among(&self, bands: &[Self]) -> Self {
+    pub(in super::super) fn with_common_capacity(&self, bands: &[Self]) -> Self {
         let largest = |of: fn(&Self) -> u64| bands.iter().map(of).max().unwrap_or(0);
         // A band that leaves splats to the graphics pipeline has no room for more tiles of each.
         let with_room = bands.iter().filter(|band| band.may_be_large).map(|band| band.most_tiles).min();

@@ -129,7 +129,7 @@ fn bands_agree_on_what_they_have_in_common() {
     let bands =
         [(9000, 3.0), (1_000_000, 3.0), (20_000, f64::INFINITY)].map(|of| plan(&[of], [1024, 1024]).unwrap());
     assert!(!bands[0].may_be_overfull() && bands[1].may_be_overfull() && bands[2].may_be_large);
-    let among = bands.each_ref().map(|band| band.among(&bands));
+    let among = bands.each_ref().map(|band| band.with_common_capacity(&bands));
     for (band, alone) in among.iter().zip(&bands) {
         assert!(band.may_be_overfull() && band.may_be_large, "{band:?}");
         assert_eq!([band.record_room, band.entry_room], [among[0].record_room, among[0].entry_room]);
@@ -142,7 +142,7 @@ fn bands_agree_on_what_they_have_in_common() {
         [vec![(150_000, 20.0)], vec![(4000, 57.0)]],
     ] {
         let bands = boxes.each_ref().map(|boxes| plan(boxes, [1024, 1024]).unwrap());
-        for (of, boxes) in bands.each_ref().map(|band| band.among(&bands)).iter().zip(&boxes) {
+        for (of, boxes) in bands.each_ref().map(|band| band.with_common_capacity(&bands)).iter().zip(&boxes) {
             assert!(of.round_length * of.most_tiles <= MOST_ITERATIONS && of.round_length > 0, "{of:?}");
             assert!(of.segments * of.segment_length >= of.record_count, "{of:?}");
             let entries = |(count, px): &(u32, f64)| {

@@ -1,0 +1,74 @@
+//! Which splats are left out before they are set up, and before they are summed (`--cull`).
+
+use super::{
+    super::{Draw, splat_shaders::Primitive, variant::culls},
+    method::are_few,
+};
+use crate::{
+    prepare::BLOCK_SPLATS,
+    scene::{Cull, Rasterizer, Settings, Transition},
+    vk::Limits,
+};
+
+/// Points of an indexed draw; more would need `fullDrawIndexUint32`.
+const MOST_INDICES: u32 = 1 << 24;
+
+/// Whether some splats face away and are not drawn, or may lie outside of the view.
+pub(super) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
+    splats.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
+}
+
+/// Whether tiles are made of listed splats where a list gains something.
+pub(super) fn lists_tiles(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
+    settings.cull != Cull::Setup && list_has_room(splats, limits)
+}
+
+/// Whether the graphics pipeline draws listed splats alone. Layers draw all.
+pub(super) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
+    let wanted = match settings.cull {
+        // Where points were named, they are set up as the papers do it.
+        Cull::Auto => settings.rasterizer == Rasterizer::Auto && limits.is_cpu && !are_few(splats, settings),
+        Cull::Setup => false,
+        Cull::List | Cull::Hidden => Primitive::of(settings.rasterizer) == Primitive::Point,
+    };
+    wanted
+        && !splats.iter().any(|draw| draw.chunk.transparent)
+        && (may_leave_out(splats) || settings.cull == Cull::Hidden)
+        && list_has_room(splats, limits)
+        && splats.iter().all(|draw| draw.chunk.count <= MOST_INDICES)
+}
+
+fn list_has_room(splats: &[Draw<'_>], limits: &Limits) -> bool {
+    let blocks: u64 = splats.iter().map(|draw| draw.chunk.blocks.len() as u64).sum();
+    blocks * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
+}
+
+/// Whether a tile sums only what its visible depth does not hide. Beside polygons more than what visibility lets through may
+/// count, and layers are behind each other.
+pub(super) fn tiles_cull_hidden(splats: &[Draw<'_>], polygons: bool, settings: &Settings) -> bool {
+    let wanted = match settings.cull {
+        // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
+        // taken for several: 3% of a frame.)
+        Cull::Auto => splats.len() > 1,
+        Cull::Setup | Cull::List => false,
+        Cull::Hidden => true,
+    };
+    wanted && !polygons && !splats.iter().any(|draw| draw.chunk.transparent)
+}
+
+/// Whether the graphics pipeline sums only what the visible depth does not hide: not where fragments farther behind count, too, because
+/// the paper's transition shifts toward the viewer what visibility has shifted away.
+pub(super) fn primitives_cull_hidden(polygons: bool, settings: &Settings) -> bool {
+    let shifted_twice = polygons && settings.transition == Transition::Paper;
+    settings.cull == Cull::Hidden && !shifted_twice
+}
+
+/// Gives each chunk the number of its first splat among all.
+pub(super) fn number_splats(splats: &mut [Draw<'_>]) {
+    let mut next = 0_u32;
+    for draw in splats {
+        draw.constants.first_record = next;
+        // Where 32 bits are too few, nobody looks at it.
+        next = next.wrapping_add(draw.chunk.count);
+    }
+}

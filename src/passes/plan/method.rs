@@ -1,0 +1,174 @@
+//! How splats are drawn: by tiles or by the graphics pipeline, and why.
+
+use super::{
+    super::{
+        Draw,
+        listed::Listed,
+        seen::SeenSplats,
+        tiles::{self, Band, STORAGE_BUFFERS, TilePlan},
+    },
+    SplatMethod, culling,
+};
+use crate::{
+    error::{Error, Result},
+    scene::{Filter, KernelEval, Rasterizer, Settings},
+    vk::Limits,
+};
+
+/// The reason for a choice, or against one, as a part of a sentence.
+type Reason = &'static str;
+
+/// Bands of tiles for these splats, and why they are drawn so. `polygons`: there are some beside them.
+///
+/// On CPU drivers tiles take a quarter to a fifth of the time of points, from 154 thousand splats to 5 million, and two fifths with
+/// ten thousand; with some hundred opaque ones, which are large, points are as fast, so that few keep their few passes and no lists
+/// (`benches/README.md`). On GPUs that was not measured yet, so that they keep to points.
+///
+/// # Errors
+/// The reason against tiles.
+pub(super) fn tiles<'a>(
+    splats: &[Draw<'a>],
+    polygons: bool,
+    settings: &Settings,
+    limits: &Limits,
+) -> std::result::Result<(Vec<Band<'a>>, Reason), Reason> {
+    let transparent = splats.iter().any(|draw| draw.chunk.transparent);
+    let few = !polygons && !transparent && are_few(splats, settings);
+    let reason = wants_tiles(few, settings, limits)?;
+    if polygons && transparent {
+        return Err("there are polygons in the same layers");
+    }
+    let bands = bands(splats, polygons, transparent, settings, limits);
+    bands.map(|bands| (bands, reason)).ok_or("tiles have no room for so many, or for ones so large in layers")
+}
+
+/// How the graphics pipeline draws these splats, which it numbers.
+pub(super) fn primitives<'a>(
+    splats: &mut [Draw<'a>],
+    polygons: bool,
+    settings: &Settings,
+    limits: &Limits,
+) -> SplatMethod<'a> {
+    if !culling::lists_primitives(splats, settings, limits) {
+        culling::number_splats(splats);
+        return SplatMethod::default();
+    }
+    let rows = tiles::rows_of_image(settings);
+    let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
+    SplatMethod::Primitives {
+        visible: Some(Listed::of(splats, &seen.chunks, rows)),
+        culls_hidden: culling::primitives_cull_hidden(polygons, settings),
+    }
+}
+
+/// Bands of all these splats; `None` where they have no room.
+fn bands<'a>(
+    splats: &[Draw<'a>],
+    polygons: bool,
+    transparent: bool,
+    settings: &Settings,
+    limits: &Limits,
+) -> Option<Vec<Band<'a>>> {
+    let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
+    let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
+    let most_bytes = tiles::most_bytes(splats, settings.tile_memory);
+    // Bands are made of listed splats, too.
+    let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
+    let gains = culling::may_leave_out(splats) || whole.bytes() > most_bytes;
+    if !gains || !culling::lists_tiles(splats, settings, limits) {
+        let mut splats = splats.to_vec();
+        culling::number_splats(&mut splats);
+        return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
+    }
+    let rows = tiles::rows_of_image(settings);
+    let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
+    let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
+    if left_to_others(&whole) {
+        return None;
+    }
+    // Polygons may be drawn between two passes over the whole image.
+    let cut = match polygons {
+        true => Vec::new(),
+        false => tiles::cut_into_bands(splats, &seen, &whole, settings, limits),
+    };
+    // A splat that is large for a band alone would be the graphics pipeline's, too.
+    match cut.is_empty() || cut.iter().any(left_to_others) {
+        true => Some(vec![Band::new(splats, &seen, whole)]),
+        false => Some(cut.into_iter().map(|plan| Band::new(splats, &seen, plan)).collect()),
+    }
+}
+
+fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::Result<Reason, Reason> {
+    match settings.rasterizer {
+        Rasterizer::Compute => can_do_tiles(settings, limits).map(|()| "asked for"),
+        Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
+        Rasterizer::Auto if few => Err("auto: so few that tiles gain little"),
+        Rasterizer::Auto => can_do_tiles(settings, limits).map(|()| "auto: on a CPU faster than points"),
+        _ => Err("another rasterizer was asked for"),
+    }
+}
+
+/// Pixels of the image for each splat above which tiles are not taken. Where they begin to lose was measured to lie between 870 and 2600
+/// at 512x512, 1050 and 3500 at 1024x1024, 4200 and 14 000 at 2048x2048 (`benches/README.md`).
+const MOST_PIXELS_A_SPLAT: u64 = 1000;
+
+/// Whether splats are so few that tiles gain little.
+pub(super) fn are_few(splats: &[Draw<'_>], settings: &Settings) -> bool {
+    is_few(splats.iter().map(|draw| u64::from(draw.chunk.count)).sum(), settings)
+}
+
+fn is_few(splats: u64, settings: &Settings) -> bool {
+    let [width, height] = settings.size_px.map(u64::from);
+    splats * MOST_PIXELS_A_SPLAT < width * height
+}
+
+fn can_do_tiles(settings: &Settings, limits: &Limits) -> std::result::Result<(), Reason> {
+    if settings.filter == Filter::Max {
+        return Err("the filter max has a second kernel, which records have no room for");
+    }
+    if settings.kernel_eval == KernelEval::Texture {
+        return Err("tiles find kernels by arithmetic");
+    }
+    if !limits.first_instance || limits.storage_buffers_a_stage < STORAGE_BUFFERS {
+        return Err("the device lacks drawIndirectFirstInstance, or storage buffers");
+    }
+    Ok(())
+}
+
+/// Refuses tiles that were asked for where there can be none.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Option`] with the reason.
+pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
+    match (settings.rasterizer, can_do_tiles(settings, limits)) {
+        (Rasterizer::Compute, Err(reason)) => {
+            Err(Error::option("--rasterizer", format!("compute: {reason}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
+        let cpu = Limits { is_cpu: true, ..Limits::for_tests() };
+        let auto = Settings::default();
+        assert!(wants_tiles(false, &auto, &cpu).is_ok());
+        assert!(wants_tiles(false, &auto, &Limits::for_tests()).is_err());
+        assert!(wants_tiles(false, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
+        let textured = Settings { kernel_eval: KernelEval::Texture, ..auto.clone() };
+        assert!(wants_tiles(false, &textured, &cpu).is_err());
+        assert!(wants_tiles(false, &auto, &Limits { first_instance: false, ..cpu }).is_err());
+        assert!(wants_tiles(true, &auto, &cpu).is_err());
+        // An image of this size has a pixel more than a thousand for each of 1048 splats.
+        assert!(is_few(1048, &auto) && !is_few(1049, &auto));
+        let named = |rasterizer| Settings { rasterizer, ..Settings::default() };
+        assert!(wants_tiles(true, &named(Rasterizer::Compute), &Limits::for_tests()).is_ok());
+        assert!(wants_tiles(false, &named(Rasterizer::Perspective), &cpu).is_err());
+        assert!(check(&named(Rasterizer::Compute), &Limits { storage_buffers_a_stage: 4, ..cpu }).is_err());
+        assert!(check(&auto, &Limits { storage_buffers_a_stage: 4, ..cpu }).is_ok());
+    }
+}

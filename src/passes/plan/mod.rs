@@ -1,0 +1,166 @@
+//! The plan of a frame: what scene, camera, settings and device decide about it, decided here, once. Whatever records a frame,
+//! sizes its pools or explains it reads the plan.
+
+mod culling;
+mod method;
+mod words;
+
+pub use self::method::check as check_method;
+
+use super::{
+    Draw, MeshDraw, draws, lights,
+    listed::Listed,
+    mesh_draws, sum_format,
+    tiles::{Band, TilePlan},
+};
+use crate::{
+    prepare::PreparedScene,
+    scene::{Accumulate, Camera, Settings, Transition},
+    vk::Limits,
+};
+
+/// How a scene is drawn as seen from a camera.
+#[derive(Default)]
+pub struct FramePlan<'a> {
+    /// What hides all that is behind it.
+    pub opaque: SurfacePlan<'a>,
+    /// What is drawn in layers.
+    pub transparent: SurfacePlan<'a>,
+    /// What shines on both, where the scene has lights of its own.
+    pub lights: Vec<lights::ShaderLight>,
+}
+
+/// How things are drawn that are drawn alike: all that is opaque, or all that is transparent.
+#[derive(Default)]
+pub struct SurfacePlan<'a> {
+    /// Splats, as the graphics pipeline draws them; each band of tiles has its own copies.
+    pub splats: Vec<Draw<'a>>,
+    /// Polygons.
+    pub meshes: Vec<MeshDraw<'a>>,
+    /// How splats are drawn.
+    pub method: SplatMethod<'a>,
+    /// Why they are drawn so; empty where there are none.
+    pub reason: &'static str,
+}
+
+/// How splats are drawn.
+pub enum SplatMethod<'a> {
+    /// By the graphics pipeline, as points, quads or triangles.
+    Primitives {
+        /// Where splats that may be seen are looked for, if only those are drawn.
+        visible: Option<Listed>,
+        /// Splats that visible ones hide are left out of the sums.
+        culls_hidden: bool,
+    },
+    /// By tiles, in compute: the bands of the image from top to bottom. The whole image is one band where lists of all of it have
+    /// room.
+    Tiles(Vec<Band<'a>>),
+}
+
+impl Default for SplatMethod<'_> {
+    fn default() -> Self {
+        Self::Primitives { visible: None, culls_hidden: false }
+    }
+}
+
+impl<'a> FramePlan<'a> {
+    /// Plans the frame of a scene.
+    pub fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
+        let splats = draws(scene, camera, settings, limits).into_iter();
+        let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
+        let meshes = mesh_draws(scene, camera, settings, limits).into_iter();
+        let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
+        let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
+        for band in transparent.bands_mut() {
+            let (most, lights) = (settings.layers.most(), scene.lights.len() as u32);
+            band.plan = band.plan.clone().with_layers(most, lights);
+        }
+        Self {
+            opaque: SurfacePlan::new(splats, meshes, settings, limits),
+            transparent,
+            lights: lights::shader_lights(&scene.lights, camera),
+        }
+    }
+}
+
+impl<'a> SurfacePlan<'a> {
+    fn new(
+        mut splats: Vec<Draw<'a>>,
+        meshes: Vec<MeshDraw<'a>>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        if splats.is_empty() {
+            return Self { meshes, ..Self::default() };
+        }
+        let polygons = !meshes.is_empty();
+        let (method, reason) = match method::tiles(&splats, polygons, settings, limits) {
+            Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
+            Err(reason) => (method::primitives(&mut splats, polygons, settings, limits), reason),
+        };
+        Self { splats, meshes, method, reason }
+    }
+
+    /// Bands of tiles; none where the graphics pipeline draws the splats.
+    pub fn bands(&self) -> &[Band<'a>] {
+        match &self.method {
+            SplatMethod::Tiles(bands) => bands,
+            SplatMethod::Primitives { .. } => &[],
+        }
+    }
+
+    fn bands_mut(&mut self) -> &mut [Band<'a>] {
+        match &mut self.method {
+            SplatMethod::Tiles(bands) => bands,
+            SplatMethod::Primitives { .. } => &mut [],
+        }
+    }
+
+    /// Where the graphics pipeline's splats are looked for, if only those that may be seen are drawn.
+    pub(super) fn visible(&self) -> Option<&Listed> {
+        match &self.method {
+            SplatMethod::Primitives { visible, .. } => visible.as_ref(),
+            SplatMethod::Tiles(_) => None,
+        }
+    }
+
+    /// Whether tiles can be shaded in the dispatch that sums their splats: the graphics pipeline draws none of these, and polygons,
+    /// which are shaded before, blend with them as colors, beside tiles that one dispatch takes.
+    pub(super) fn tiles_can_shade(&self, settings: &Settings) -> bool {
+        let polygons = !self.meshes.is_empty();
+        let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_be_overfull();
+        let as_colors = !polygons || settings.transition != Transition::Attributes;
+        as_colors && !self.bands().iter().any(|band| by_sums(&band.plan))
+    }
+
+    /// Nothing at all.
+    pub fn is_empty(&self) -> bool {
+        self.splats.is_empty() && self.meshes.is_empty()
+    }
+}
+
+/// What is wanted of a frame beside its picture, and in which format that is.
+#[derive(Clone, Copy)]
+pub(super) struct Outputs {
+    /// The opaque surface as data: sums, of depth too, are exported.
+    pub surface: bool,
+    /// Transparent layers lie before the opaque surface.
+    pub layers: bool,
+    /// The picture's format.
+    pub target_format: ash::vk::Format,
+}
+
+impl Outputs {
+    /// Sums and depth are read everywhere, not only where finalization shades.
+    pub fn reads_whole_images(self) -> bool {
+        self.surface || self.layers
+    }
+
+    /// The format of tiles that are shaded at once: a target of 32 bits loses nothing by them.
+    pub fn shaded_precision(self, settings: &Settings) -> Accumulate {
+        match self.target_format == sum_format(Accumulate::F32) {
+            true => Accumulate::F32,
+            false => settings.accumulate,
+        }
+    }
+}
