@@ -1,54 +1,85 @@
-//! Compiles `glsl/` and writes `$OUT_DIR/shaders.rs`, which `src/shaders/mod.rs` takes in.
+//! Makes the shaders that `src/shaders/mod.rs` takes in: `$OUT_DIR/shaders.rs` and a file of SPIR-V for each. They are compiled from
+//! `glsl/`, or, with the feature `prebuilt-spirv`, taken from `spirv/`, which packages ship, so that neither shaderc nor C++ is needed.
 
+#[cfg(all(feature = "compile-shaders", not(feature = "prebuilt-spirv")))]
 #[path = "src/shaders/build/mod.rs"]
 mod shader_build;
 
 use std::{
-    env, fs,
+    env, fs, io,
     path::{Path, PathBuf},
     process::Command,
 };
 
-/// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
-/// offset, and the size; a listed struct that no shader has is an error.
-const HOST_STRUCTS: &[shader_build::HostStruct] = &[
-    ("FrameConstants", "crate::passes::FrameConstants"),
-    ("PaperConstants", "crate::passes::PaperConstants"),
-    ("FinalizeConstants", "crate::passes::FinalizeConstants"),
-    ("TileConstants", "crate::passes::TileConstants"),
-    ("ExportConstants", "crate::passes::ExportConstants"),
-];
+/// Where compiled shaders are written, too, if this variable names a folder: `spirv` makes what packages ship.
+const WRITE_TO: &str = "SURFEL_WRITE_SPIRV";
 
 fn main() {
-    let glsl = Path::new("glsl");
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=src/shaders/build");
+    println!("cargo::rerun-if-env-changed={WRITE_TO}");
     tell_the_commit();
-    match shader_build::files_and_folders(glsl) {
-        Ok(paths) => paths.iter().for_each(|p| println!("cargo::rerun-if-changed={}", p.display())),
-        Err(e) => return println!("cargo::error=cannot list {}: {e}", glsl.display()),
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    // Cargo shows each such line as an error and then stops the build.
+    if let Err(errors) = make_shaders(&out) {
+        errors.iter().flat_map(|error| error.lines()).for_each(|line| println!("cargo::error={line}"));
     }
-    // Cargo tells a build script its package's features through the environment.
-    let macros =
-        if env::var_os("CARGO_FEATURE_TEST_FORMULAS").is_some() { &["TEST_FORMULAS"][..] } else { &[] };
-    match shader_build::build(glsl, HOST_STRUCTS, macros) {
-        Ok(built) => {
-            let folder = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-            let write = |name: &str, content: &[u8]| {
-                let path = folder.join(name);
-                if let Err(e) = fs::write(&path, content) {
-                    println!("cargo::error=cannot write {}: {e}", path.display());
-                }
-            };
-            for (name, words) in &built.modules {
-                let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
-                write(&format!("{name}.spv"), &bytes);
-            }
-            write("shaders.rs", built.rust.as_bytes());
+}
+
+/// Takes the shaders that came with the package.
+#[cfg(feature = "prebuilt-spirv")]
+fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
+    let shipped = Path::new("spirv");
+    println!("cargo::rerun-if-changed={}", shipped.display());
+    if cfg!(feature = "test-formulas") {
+        return Err(vec!["test-formulas needs shaders of its own: build without prebuilt-spirv".to_owned()]);
+    }
+    let copy = || -> io::Result<()> {
+        for file in fs::read_dir(shipped)? {
+            let file = file?;
+            fs::copy(file.path(), out.join(file.file_name()))?;
         }
-        // Cargo shows each such line as an error and then stops the build.
-        Err(errors) => errors.iter().flat_map(|e| e.lines()).for_each(|line| println!("cargo::error={line}")),
+        Ok(())
+    };
+    let advice = "only packages have this folder; in a checkout, SURFEL_WRITE_SPIRV=spirv cargo build makes it";
+    copy().map_err(|e| vec![format!("cannot copy {} (prebuilt-spirv): {e}; {advice}", shipped.display())])
+}
+
+/// Compiles `glsl/`.
+#[cfg(all(feature = "compile-shaders", not(feature = "prebuilt-spirv")))]
+fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
+    /// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
+    /// offset, and the size; a listed struct that no shader has is an error.
+    const HOST_STRUCTS: &[shader_build::HostStruct] = &[
+        ("FrameConstants", "crate::passes::FrameConstants"),
+        ("PaperConstants", "crate::passes::PaperConstants"),
+        ("FinalizeConstants", "crate::passes::FinalizeConstants"),
+        ("TileConstants", "crate::passes::TileConstants"),
+        ("ExportConstants", "crate::passes::ExportConstants"),
+    ];
+    let one = |problem: String| vec![problem];
+    let glsl = Path::new("glsl");
+    println!("cargo::rerun-if-changed=src/shaders/build");
+    let watched = shader_build::files_and_folders(glsl)
+        .map_err(|e| one(format!("cannot list {}: {e}", glsl.display())))?;
+    watched.iter().for_each(|path| println!("cargo::rerun-if-changed={}", path.display()));
+    let macros = if cfg!(feature = "test-formulas") { &["TEST_FORMULAS"][..] } else { &[] };
+    let built = shader_build::build(glsl, HOST_STRUCTS, macros)?;
+    let folders = [Some(out.to_owned()), env::var_os(WRITE_TO).map(PathBuf::from)];
+    for folder in folders.into_iter().flatten() {
+        let failed = |e: io::Error| one(format!("cannot write to {}: {e}", folder.display()));
+        fs::create_dir_all(&folder).map_err(failed)?;
+        for (name, words) in &built.modules {
+            let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            fs::write(folder.join(format!("{name}.spv")), bytes).map_err(failed)?;
+        }
+        fs::write(folder.join("shaders.rs"), &built.rust).map_err(failed)?;
     }
+    Ok(())
+}
+
+#[cfg(not(any(feature = "compile-shaders", feature = "prebuilt-spirv")))]
+fn make_shaders(_: &Path) -> Result<(), Vec<String>> {
+    Err(vec!["expected one of the features compile-shaders (needs shaderc) and prebuilt-spirv".to_owned()])
 }
 
 /// Reports name the commit they were made from, as `SURFEL_COMMIT`: in a checkout, not in a package.
