@@ -15,7 +15,7 @@ use crate::{
     shaders::{self, Shader},
     vk::{
         Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
-        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage,
+        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, StandIns,
     },
 };
 
@@ -36,6 +36,7 @@ pub struct Shaders {
     graphics: Mutex<HashMap<GraphicsKey, Arc<GraphicsPipeline>>>,
     compute: Mutex<HashMap<ComputeKey, Arc<ComputePipeline>>>,
     cache: PipelineCache,
+    stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
     pub splat_set: SplatSetLayout,
     /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats; blocks of kept ones.
@@ -113,11 +114,15 @@ impl Shaders {
         let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
-        let list_set = SetLayout::new(device, "lists", &vec![buffer; LIST_BINDINGS as usize])?;
+        let stand_ins = Arc::new(StandIns::new(device)?);
+        let set = |name, bindings: &[Binding]| -> Result<SetLayout> {
+            Ok(SetLayout::new(device, name, bindings)?.with_stand_ins(&stand_ins, &[]))
+        };
+        let list_set = set("lists", &vec![buffer; LIST_BINDINGS as usize])?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
-        let read_set = SetLayout::new(device, "read by fragments", &[image, filtered, image, lights])?;
-        let sums_set = SetLayout::new(device, "sums", &[image, image, image, image, image, lights])?;
-        let surface_set = SetLayout::new(device, "surface", &[image; 3])?;
+        let read_set = set("read by fragments", &[image, filtered, image, lights])?;
+        let sums_set = set("sums", &[image, image, image, image, image, lights])?;
+        let surface_set = set("surface", &[image; 3])?;
         let splat_layout = PipelineLayout::new(
             device,
             "splat passes",
@@ -147,16 +152,18 @@ impl Shaders {
             fragment,
         )?;
         let fetched = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: compute };
-        let cells_set = SetLayout::new(device, "cells of depth", &[fetched, buffer])?;
+        let cells_set = set("cells of depth", &[fetched, buffer])?;
         let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
         let has_tiles = device.facts().limits.storage_buffers_a_stage >= tiles::STORAGE_BUFFERS;
-        let tiles =
-            has_tiles.then(|| tiles::TileLayouts::new(device, splat_set.set(), &sums_set)).transpose()?;
+        let tiles = has_tiles
+            .then(|| tiles::TileLayouts::new(device, splat_set.set(), &sums_set, &stand_ins))
+            .transpose()?;
         Ok(Self {
             device: device.clone(),
             graphics: Mutex::default(),
             compute: Mutex::default(),
             cache: PipelineCache::open(device, cache_folder)?,
+            stand_ins,
             splat_set,
             list_set,
             read_set,
@@ -172,6 +179,15 @@ impl Shaders {
             #[cfg(feature = "test-formulas")]
             perturbed: None,
         })
+    }
+
+    /// Records what a frame's sets need before its passes.
+    ///
+    /// # Safety
+    /// As [`StandIns::make_ready`].
+    pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) {
+        // SAFETY: this function's contract.
+        unsafe { self.stand_ins.make_ready(commands) };
     }
 
     /// Writes compiled pipelines to the cache's file.

@@ -61,7 +61,10 @@ impl Headless {
         let transients = Transients::for_plan(transients, device, &compiled.plan)?;
         submit_and_wait(self, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
-            unsafe { execute(device, commands, compiled, transients, &imports, None) }
+            unsafe {
+                renderer.shaders.begin_frame(commands);
+                execute(device, commands, compiled, transients, &imports, None)
+            }
         })?;
         let words = |buffer: &Buffer| {
             buffer.bytes().chunks_exact(4).map(bytemuck::pod_read_unaligned).collect::<Vec<u32>>()

@@ -173,7 +173,10 @@ impl Renderer {
         let plan = compiled.plan.clone();
         let transients = Transients::for_plan(transients, &self.device, &plan)?;
         // SAFETY: this function's contract.
-        unsafe { execute(&self.device, commands, compiled, transients, &imports, profiler) }?;
+        unsafe {
+            self.shaders.begin_frame(commands);
+            execute(&self.device, commands, compiled, transients, &imports, profiler)?;
+        }
         Ok(plan)
     }
 }

@@ -70,7 +70,10 @@ pub fn draw_as_published(
     let transients = Transients::new(device, &compiled.plan)?;
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
-        unsafe { execute(device, commands, compiled, &transients, &imports, profiler) }
+        unsafe {
+            shaders.begin_frame(commands);
+            execute(device, commands, compiled, &transients, &imports, profiler)
+        }
     })?;
     Ok(pixels.bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
 }

@@ -1,8 +1,10 @@
 //! Descriptor sets: layouts, and pools that are reset as a whole.
 
+use std::sync::Arc;
+
 use ash::vk;
 
-use super::{device::Device, garbage::Retired, result::VkResultExt, sampler::Sampler};
+use super::{device::Device, garbage::Retired, result::VkResultExt, sampler::Sampler, stand_ins::StandIns};
 use crate::error::Result;
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
@@ -34,6 +36,10 @@ pub struct SetLayout {
     kinds: Vec<vk::DescriptorType>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
+    /// What its sets have in place of what they are not given, by the bindings' numbers.
+    stand_ins: Vec<Descriptor>,
+    // Keeps them alive.
+    _stand_ins: Option<Arc<StandIns>>,
 }
 
 impl SetLayout {
@@ -62,7 +68,18 @@ impl SetLayout {
             .of_call("vkCreateDescriptorSetLayout", name)?;
         device.set_name(raw, name);
         let kinds = bindings.iter().map(|binding| binding.kind).collect();
-        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler })
+        let (stand_ins, _stand_ins) = (Vec::new(), None);
+        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler, stand_ins, _stand_ins })
+    }
+
+    /// The same with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
+    /// unsigned integers.
+    pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
+        let stand_in =
+            |(number, kind): (u32, &vk::DescriptorType)| stand_ins.of(*kind, integers.contains(&number));
+        self.stand_ins = (0..).zip(&self.kinds).map(stand_in).collect();
+        self._stand_ins = Some(Arc::clone(stand_ins));
+        self
     }
 
     /// The raw layout.
@@ -164,7 +181,7 @@ impl DescriptorPool {
         Ok(Self { device: device.clone(), raw, name: name.to_owned(), _not_sync: std::marker::PhantomData })
     }
 
-    /// A set with some of its bindings given, by number: those that the pipelines use which it is bound for.
+    /// A set with some of its bindings given, by number; the others have the layout's stand-ins, if it has any.
     ///
     /// # Errors
     /// Whatever the driver answers, such as an exhausted pool.
@@ -175,13 +192,15 @@ impl DescriptorPool {
         let set = unsafe { self.device.raw().allocate_descriptor_sets(&info) }
             .of_call("vkAllocateDescriptorSets", &self.name)?[0];
         self.device.set_name(set, &self.name);
-        for (number, descriptor) in given {
+        let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
+        let stand_ins = (0..).zip(layout.stand_ins.iter().copied()).filter(|(number, _)| !is_given(*number));
+        for (number, descriptor) in given.iter().copied().chain(stand_ins) {
             let write = vk::WriteDescriptorSet::default()
                 .dst_set(set)
-                .dst_binding(*number)
-                .descriptor_type(layout.kinds[*number as usize]);
+                .dst_binding(number)
+                .descriptor_type(layout.kinds[number as usize]);
             let (buffer, texels, image);
-            let write = match *descriptor {
+            let write = match descriptor {
                 Descriptor::Buffer(raw) => {
                     buffer = [vk::DescriptorBufferInfo::default().buffer(raw).range(vk::WHOLE_SIZE)];
                     write.buffer_info(&buffer)

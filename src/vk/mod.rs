@@ -30,6 +30,7 @@ mod queue;
 mod result;
 mod sampler;
 mod staging;
+mod stand_ins;
 
 pub use allow_list::{ALLOWED, Allowed};
 pub use borrowed::{BorrowedDevice, EnabledFeatures};
@@ -54,6 +55,7 @@ pub use queue::Queue;
 pub use result::VkResultExt;
 pub use sampler::Sampler;
 pub use staging::Staging;
+pub use stand_ins::StandIns;
 
 /// One shader stage of a pipeline: its name for messages, its SPIR-V, its specialization constants.
 #[derive(Clone, Copy)]

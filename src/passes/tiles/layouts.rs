@@ -1,14 +1,16 @@
 //! The layouts of drawing by tiles.
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use super::{
     super::constants::{FinalizeConstants, FrameConstants, TileConstants},
-    SPAN_TEXELS,
+    ENTRY_TEXELS, RECORD_TEXELS, SPAN_TEXELS,
 };
 use crate::{
     error::Result,
-    vk::{Binding, Device, PipelineLayout, SetLayout},
+    vk::{Binding, Device, PipelineLayout, SetLayout, StandIns},
 };
 
 /// A set, and the layouts that have it.
@@ -21,7 +23,12 @@ pub(in super::super) struct TileLayouts {
 }
 
 impl TileLayouts {
-    pub fn new(device: &Device, splat_set: &SetLayout, sums_set: &SetLayout) -> Result<Self> {
+    pub fn new(
+        device: &Device,
+        splat_set: &SetLayout,
+        sums_set: &SetLayout,
+        stand_ins: &Arc<StandIns>,
+    ) -> Result<Self> {
         let (vertex, fragment, compute) =
             (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
         let of = |kind, stages| Binding { kind, stages };
@@ -35,7 +42,8 @@ impl TileLayouts {
         in_tiles.extend([words, words, words]);
         in_tiles.extend([of(vk::DescriptorType::UNIFORM_TEXEL_BUFFER, compute); 6]);
         debug_assert_eq!(in_tiles.len() - 1, SPAN_TEXELS as usize);
-        let set = SetLayout::new(device, "tiles", &in_tiles)?;
+        let integers = [RECORD_TEXELS + 3, ENTRY_TEXELS, SPAN_TEXELS];
+        let set = SetLayout::new(device, "tiles", &in_tiles)?.with_stand_ins(stand_ins, &integers);
         let record = PipelineLayout::new(
             device,
             "records",
