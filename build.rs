@@ -40,7 +40,8 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
         }
         Ok(())
     };
-    let advice = "only packages have this folder; in a checkout, SURFEL_WRITE_SPIRV=spirv cargo build makes it";
+    let advice =
+        "only packages have this folder; in a checkout, SURFEL_WRITE_SPIRV=spirv cargo build makes it";
     copy().map_err(|e| vec![format!("cannot copy {} (prebuilt-spirv): {e}; {advice}", shipped.display())])
 }
 

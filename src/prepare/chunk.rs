@@ -5,16 +5,14 @@ use glam::DVec3;
 
 use super::{
     blocks::Block,
+    memory::{ChunkMemory, Uploader},
     pack::{Packed, Survey, shape_bytes},
     radii::RadiusStep,
     rebase::Rebase,
 };
 use crate::{
     error::Result,
-    vk::{
-        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool,
-        SetLayout, Staging,
-    },
+    vk::{Binding, Device, SetLayout, Staging},
 };
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
@@ -72,41 +70,33 @@ pub struct Chunk {
     pub scene_bytes: u64,
     /// Its splats in runs of [`super::BLOCK_SPLATS`].
     pub blocks: Vec<Block>,
-    set: vk::DescriptorSet,
-    _pool: SealedPool,
-    /// Shapes and colors. Not read by the host, but the set names them.
-    buffers: [Buffer; 2],
-    /// Bytes of a splat in each.
+    /// Bytes of a shape and of a color.
     bytes_each: [u64; 2],
+    /// Shapes and colors, but where a frame is only listed.
+    memory: Option<ChunkMemory<2>>,
 }
 
 impl Chunk {
-    /// Room for the splats of a survey, with nothing in it yet.
+    /// Room for the splats of a survey, with nothing in it yet; no memory without an uploader.
     pub(super) fn new(
-        device: &Device,
-        layout: &SplatSetLayout,
+        uploader: Option<&Uploader<'_>>,
         number: usize,
         (closed, transparent): (bool, bool),
         survey: &Survey,
     ) -> Result<Self> {
         let colors = if survey.uniform_color { 1 } else { survey.count };
         let bytes_each = [survey.shape_bytes(), survey.color_bytes()].map(|bytes| bytes as u64);
-        let buffer = |what: &str, count: u32, bytes_each: u64| {
-            let name = format!("{what} of chunk {number}");
-            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-            // Shaders read 8 bytes of colors at once.
-            let size = (u64::from(count) * bytes_each).next_multiple_of(8);
-            Buffer::new(device, BufferDesc { name: &name, size, usage }, MemoryUse::Device)
+        let memory = |uploader: &Uploader<'_>| {
+            let buffer = |what: &str, count: u32, bytes_each: u64| {
+                // Shaders read 8 bytes of colors at once.
+                let size = (u64::from(count) * bytes_each).next_multiple_of(8);
+                let name = format!("{what} of chunk {number}");
+                uploader.buffer(&name, size, vk::BufferUsageFlags::STORAGE_BUFFER)
+            };
+            let buffers =
+                [buffer("shapes", survey.count, bytes_each[0])?, buffer("colors", colors, bytes_each[1])?];
+            ChunkMemory::new(uploader, &format!("chunk {number}"), buffers)
         };
-        let buffers =
-            [buffer("shapes", survey.count, bytes_each[0])?, buffer("colors", colors, bytes_each[1])?];
-        let pool = DescriptorPool::new(
-            device,
-            &format!("set of chunk {number}"),
-            PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() },
-        )?;
-        let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
-        let set = pool.set(layout.set(), &given)?;
         Ok(Self {
             rebase: survey.rebase,
             count: survey.count,
@@ -120,37 +110,36 @@ impl Chunk {
             radii: survey.radii.clone(),
             scene_bytes: 0,
             blocks: Vec::new(),
-            set,
-            _pool: pool.seal(),
-            buffers,
             bytes_each,
+            memory: uploader.map(memory).transpose()?,
         })
     }
 
-    /// A batch that fills in the splats from number `first` of the chunk on.
-    pub(super) fn upload(&self, device: &Device, first: u32, packed: &Packed) -> Result<Staging> {
+    /// Uploads the splats from number `first` of the chunk on.
+    pub(super) fn upload(&self, uploader: &mut Uploader<'_>, first: u32, packed: &Packed) -> Result<()> {
+        let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
         let shapes: &[u8] = bytemuck::cast_slice(&packed.shapes);
         let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
         // The one color comes with the first splats.
         let colors = if self.uniform_color && first > 0 { &[] } else { colors };
         let bytes = (shapes.len() + colors.len()) as u64;
-        let mut staging = Staging::new(device, "upload of splats", bytes)?;
+        let mut staging = Staging::new(uploader.device, "upload of splats", bytes)?;
         let first = u64::from(first);
-        staging.push(&self.buffers[0], first * self.bytes_each[0], shapes)?;
+        staging.push(&buffers[0], first * self.bytes_each[0], shapes)?;
         if !colors.is_empty() {
-            staging.push(&self.buffers[1], first * self.bytes_each[1], colors)?;
+            staging.push(&buffers[1], first * self.bytes_each[1], colors)?;
         }
-        Ok(staging)
+        (uploader.submit)(staging)
     }
 
-    /// The descriptor set.
+    /// The descriptor set; null without memory.
     pub fn set(&self) -> vk::DescriptorSet {
-        self.set
+        self.memory.as_ref().map_or(vk::DescriptorSet::null(), |memory| memory.set)
     }
 
     /// Bytes of device memory.
     pub fn bytes(&self) -> u64 {
-        self.buffers.iter().map(Buffer::size).sum()
+        self.memory.as_ref().map_or(0, ChunkMemory::bytes)
     }
 }
 

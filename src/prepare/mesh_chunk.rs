@@ -8,18 +8,15 @@ use std::ops::Range;
 use ash::vk;
 
 use super::{
-    chunk::SplatSetLayout,
-    pack::{COLOR_BYTES, packed_color},
+    memory::{ChunkMemory, Uploader},
+    pack::packed_color,
     rebase::Rebase,
 };
 use crate::{
     error::Result,
     scene::{Colors, Mesh, MeshColors},
-    vk::{Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool, Staging},
+    vk::Staging,
 };
-
-/// Bytes of a vertex.
-const VERTEX_BYTES: u64 = 32;
 
 /// What is uploaded at once.
 const BATCH_BYTES: usize = 1 << 22;
@@ -38,10 +35,8 @@ pub struct MeshChunk {
     pub(crate) transparent: bool,
     /// One color for all.
     pub(crate) uniform_color: bool,
-    set: vk::DescriptorSet,
-    _pool: SealedPool,
-    /// Vertices, colors, indices. Not read by the host, but the set names the first two.
-    buffers: [Buffer; 3],
+    /// Vertices, colors, indices, but where a frame is only listed.
+    memory: Option<ChunkMemory<3>>,
 }
 
 /// A piece of a mesh as bytes for the device.
@@ -129,72 +124,66 @@ impl PackedMesh {
     pub fn is_empty(&self) -> bool {
         self.indices.is_empty()
     }
-}
 
-impl MeshChunk {
-    /// Puts a piece of an object on the device; it has one triangle at least.
-    pub(super) fn new(
-        device: &Device,
-        layout: &SplatSetLayout,
-        number: usize,
-        (closed, transparent): (bool, bool),
-        packed: &PackedMesh,
-        submit: &mut dyn FnMut(Staging) -> Result<()>,
-    ) -> Result<Self> {
-        let vertices = (packed.vertices.len() / 2) as u64;
-        let buffer = |what: &str, size: u64, usage: vk::BufferUsageFlags| {
-            let name = format!("{what} of mesh {number}");
-            let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
-            Buffer::new(device, BufferDesc { name: &name, size, usage }, MemoryUse::Device)
+    /// Buffers of device memory with all of it.
+    fn upload(&self, uploader: &mut Uploader<'_>, number: usize) -> Result<ChunkMemory<3>> {
+        let buffer = |what: &str, size: usize, usage: vk::BufferUsageFlags| {
+            uploader.buffer(&format!("{what} of mesh {number}"), size as u64, usage)
         };
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let buffers = [
-            buffer("vertices", vertices * VERTEX_BYTES, storage)?,
-            buffer("colors", (packed.colors.len() * COLOR_BYTES) as u64, storage)?,
-            buffer("indices", packed.indices.len() as u64 * 12, vk::BufferUsageFlags::INDEX_BUFFER)?,
-        ];
         let contents: [&[u8]; 3] = [
-            bytemuck::cast_slice(&packed.vertices),
-            bytemuck::cast_slice(&packed.colors),
-            bytemuck::cast_slice(&packed.indices),
+            bytemuck::cast_slice(&self.vertices),
+            bytemuck::cast_slice(&self.colors),
+            bytemuck::cast_slice(&self.indices),
+        ];
+        let buffers = [
+            buffer("vertices", contents[0].len(), storage)?,
+            buffer("colors", contents[1].len(), storage)?,
+            buffer("indices", contents[2].len(), vk::BufferUsageFlags::INDEX_BUFFER)?,
         ];
         for (buffer, content) in buffers.iter().zip(contents) {
             for (i, batch) in content.chunks(BATCH_BYTES).enumerate() {
-                let mut staging = Staging::new(device, "upload of a mesh", batch.len() as u64)?;
+                let mut staging = Staging::new(uploader.device, "upload of a mesh", batch.len() as u64)?;
                 staging.push(buffer, (i * BATCH_BYTES) as u64, batch)?;
-                submit(staging)?;
+                (uploader.submit)(staging)?;
             }
         }
-        let room = PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() };
-        let pool = DescriptorPool::new(device, &format!("set of mesh {number}"), room)?;
-        let given = [(0, Descriptor::Buffer(buffers[0].raw())), (1, Descriptor::Buffer(buffers[1].raw()))];
-        let set = pool.set(layout.set(), &given)?;
+        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers)
+    }
+}
+
+impl MeshChunk {
+    /// Puts a piece of an object on the device, if there is one; it has one triangle at least.
+    pub(super) fn new(
+        uploader: Option<&mut Uploader<'_>>,
+        number: usize,
+        (closed, transparent): (bool, bool),
+        packed: &PackedMesh,
+    ) -> Result<Self> {
         Ok(Self {
             rebase: packed.rebase,
             triangles: packed.indices.len() as u32,
-            vertices: vertices as u32,
+            vertices: (packed.vertices.len() / 2) as u32,
             closed,
             transparent,
             uniform_color: packed.colors.len() == 1,
-            set,
-            _pool: pool.seal(),
-            buffers,
+            memory: uploader.map(|uploader| packed.upload(uploader, number)).transpose()?,
         })
     }
 
-    /// The descriptor set.
+    /// The descriptor set; null without memory.
     pub fn set(&self) -> vk::DescriptorSet {
-        self.set
+        self.memory.as_ref().map_or(vk::DescriptorSet::null(), |memory| memory.set)
     }
 
-    /// Three 32-bit indices a triangle.
+    /// Three 32-bit indices a triangle; null without memory.
     pub fn indices(&self) -> vk::Buffer {
-        self.buffers[2].raw()
+        self.memory.as_ref().map_or(vk::Buffer::null(), |memory| memory.buffers[2].raw())
     }
 
     /// Bytes of device memory.
     pub fn bytes(&self) -> u64 {
-        self.buffers.iter().map(Buffer::size).sum()
+        self.memory.as_ref().map_or(0, ChunkMemory::bytes)
     }
 }
 

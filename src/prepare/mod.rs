@@ -6,6 +6,7 @@
 
 mod blocks;
 mod chunk;
+mod memory;
 mod mesh_chunk;
 mod pack;
 mod packed;
@@ -23,6 +24,7 @@ pub use rebase::{Rebase, ViewFromLocal};
 use std::ops::Range;
 
 use blocks::BlockMaker;
+use memory::Uploader;
 use mesh_chunk::PackedMesh;
 use sequence::Sequence;
 
@@ -85,6 +87,23 @@ pub fn prepare(
     submit: &mut dyn FnMut(Staging) -> Result<()>,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
+    cut(Some(Uploader { device, layout, submit }), limits, scene, progress)
+}
+
+/// A scene as it would be prepared on a device with these limits, without its memory: for a frame that is listed, never drawn.
+///
+/// # Errors
+/// None today.
+pub fn prepare_without_device(limits: &Limits, scene: &Scene) -> Result<PreparedScene> {
+    cut(None, limits, scene, &|_, _| {})
+}
+
+fn cut(
+    mut uploader: Option<Uploader<'_>>,
+    limits: &Limits,
+    scene: &Scene,
+    progress: &dyn Fn(u64, u64),
+) -> Result<PreparedScene> {
     let total = scene.splat_count() as u64;
     let capacity = chunk::capacity(limits.max_storage_buffer_range);
     let mut prepared = PreparedScene {
@@ -126,14 +145,16 @@ pub fn prepare(
                 transparent_radii += survey.sum_of_radii;
             }
             let number = prepared.chunks.len();
-            let mut chunk = Chunk::new(device, layout, number, (object.closed, transparent), &survey)?;
+            let mut chunk = Chunk::new(uploader.as_ref(), number, (object.closed, transparent), &survey)?;
             let (mut first, mut blocks) = (0, BlockMaker::default());
             for batch in pieces(range.clone(), BATCH_SPLATS) {
                 done += batch.len() as u64;
                 let packed = pack::pack(splats, sequence.at(batch), &survey);
                 if packed.count > 0 {
                     blocks.add(&packed, &survey);
-                    submit(chunk.upload(device, first, &packed)?)?;
+                    if let Some(uploader) = &mut uploader {
+                        chunk.upload(uploader, first, &packed)?;
+                    }
                     first += packed.count;
                 }
                 progress(done, total);
@@ -152,7 +173,7 @@ pub fn prepare(
         for packed in PackedMesh::pieces(&object.mesh, capacity).filter(|packed| !packed.is_empty()) {
             let number = prepared.meshes.len();
             let traits = (object.closed, opacity == Opacity::Transparent);
-            prepared.meshes.push(MeshChunk::new(device, layout, number, traits, &packed, submit)?);
+            prepared.meshes.push(MeshChunk::new(uploader.as_mut(), number, traits, &packed)?);
         }
     }
     Ok(prepared)

@@ -1,0 +1,50 @@
+//! What a chunk has on the device: its buffers, and the descriptor set that shaders find the first two by.
+
+use ash::vk;
+
+use super::chunk::SplatSetLayout;
+use crate::{
+    error::Result,
+    vk::{Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool, Staging},
+};
+
+/// Where chunks are made: the device, the layout of their sets, and whoever runs batches of uploads.
+pub(super) struct Uploader<'u> {
+    pub device: &'u Device,
+    pub layout: &'u SplatSetLayout,
+    pub submit: &'u mut dyn FnMut(Staging) -> Result<()>,
+}
+
+/// Buffers of a chunk, and their set.
+pub(super) struct ChunkMemory<const BUFFERS: usize> {
+    pub set: vk::DescriptorSet,
+    _pool: SealedPool,
+    // Not read by the host, but the set names them.
+    pub buffers: [Buffer; BUFFERS],
+}
+
+impl Uploader<'_> {
+    /// A buffer of device memory that is filled by uploads.
+    pub fn buffer(&self, name: &str, size: u64, usage: vk::BufferUsageFlags) -> Result<Buffer> {
+        let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
+        Buffer::new(self.device, BufferDesc { name, size, usage }, MemoryUse::Device)
+    }
+}
+
+impl<const BUFFERS: usize> ChunkMemory<BUFFERS> {
+    /// The set of two buffers or more. `name`: the chunk's.
+    pub fn new(uploader: &Uploader<'_>, name: &str, buffers: [Buffer; BUFFERS]) -> Result<Self> {
+        let room = PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() };
+        let pool = DescriptorPool::new(uploader.device, &format!("set of {name}"), room)?;
+        let named = (0..).zip(&buffers).take(2);
+        let given: Vec<_> =
+            named.map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw()))).collect();
+        let set = pool.set(uploader.layout.set(), &given)?;
+        Ok(Self { set, _pool: pool.seal(), buffers })
+    }
+
+    /// Bytes of device memory.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(Buffer::size).sum()
+    }
+}
