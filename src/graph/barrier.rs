@@ -1,11 +1,13 @@
-//! Compile stage 6: what each pass has to wait for, in one batch before it.
+//! Compile stage 5: what each pass has to wait for, in one batch before it.
+
+use std::collections::BTreeMap;
 
 use ash::vk;
 
 use super::{
     access::writes_of,
     alias::Slot,
-    declare::{Declared, Start, Use},
+    declare::{Declared, Resource, Start, Use},
     lifetime::{Lifetime, Usage},
     resource::{Origin, ResourceDesc, ResourceId, State},
     track::{Need, Track, Wait},
@@ -104,22 +106,22 @@ pub(super) fn barriers(
     lifetimes: &[(Usage, Option<Lifetime>)],
     slots: &[Option<Slot>],
 ) -> Barriers {
-    let tenants: Vec<Vec<ResourceId>> =
-        (0..slots.len()).map(|i| former_tenants(ResourceId(i as u32), slots, lifetimes)).collect();
-    let mut tracks = starts(graph, order, &tenants);
+    let needs = needs(graph, order);
+    let tenants = former_tenants(slots, lifetimes);
+    let mut tracks = starts(graph, &needs, &tenants);
     let mut passes = Vec::with_capacity(order.len());
-    for (position, &pass) in order.iter().enumerate() {
+    for (position, needs) in needs.iter().enumerate() {
         let mut batch = Batch::default();
-        for (resource, need) in needs_of(graph, &graph.passes[pass].uses) {
-            let Some(wait) = tracks[resource.index()].step(&need) else { continue };
-            let mut barrier = barrier_of(graph, resource, &need, wait);
+        for (resource, need) in needs {
+            let Some(wait) = tracks[resource.index()].step(need) else { continue };
+            let mut barrier = barrier_of(graph, *resource, need, wait);
             let tenants = &tenants[resource.index()];
             let is_first = lifetimes[resource.index()].1.is_some_and(|lifetime| lifetime.first == position);
             if is_first && !tenants.is_empty() {
                 barrier.cause = Cause::FirstUse;
                 barrier.tenants.clone_from(tenants);
                 // A tenant's own barrier covers what it has written itself.
-                if tenants.iter().any(|&tenant| tenant != resource) {
+                if tenants.iter().any(|tenant| tenant != resource) {
                     let (src, dst) = batch.memory.get_or_insert_default();
                     *src |= barrier.src;
                     *dst |= barrier.dst;
@@ -131,13 +133,12 @@ pub(super) fn barriers(
     }
     let mut final_ = Vec::new();
     let mut end = Vec::with_capacity(tracks.len());
-    for (i, (resource, track)) in graph.resources.iter().zip(&mut tracks).enumerate() {
+    for ((id, resource), track) in (0..).map(ResourceId).zip(&graph.resources).zip(&mut tracks) {
         let mut left = track.state();
         if let Origin::Imported { final_: Some(state), .. } = resource.origin {
             let State { stages, access, layout } = state;
             let scope = Scope { stages, access };
             let need = Need { scope, writes: writes_of(access), layout, discards: false };
-            let id = ResourceId(i as u32);
             final_.extend(track.step(&need).map(|wait| barrier_of(graph, id, &need, wait)));
             left = state;
         }
@@ -146,17 +147,43 @@ pub(super) fn barriers(
     Barriers { passes, final_, end }
 }
 
+/// The accesses of each pass, taken together by resource.
+fn needs(graph: &Declared, order: &[usize]) -> Vec<Vec<(ResourceId, Need)>> {
+    // Where a pass's need of a resource is, if it has one: some earlier pass may have left the place.
+    let mut places = vec![0; graph.resources.len()];
+    let mut needs_of = |uses: &[Use]| {
+        let mut needs: Vec<(ResourceId, Need)> = Vec::with_capacity(uses.len());
+        for usage in uses {
+            let info = usage.access.info();
+            let scope = Scope { stages: info.stages, access: info.reads | info.writes };
+            let place = &mut places[usage.resource.index()];
+            if let Some((_, need)) = needs.get_mut(*place).filter(|(id, _)| *id == usage.resource) {
+                // Several reads, which `validate` has seen to agree on the layout.
+                need.scope |= scope;
+                continue;
+            }
+            let layout = match (graph.resource(usage.resource).desc, info.image) {
+                (ResourceDesc::Image(_), Some((layout, _))) => layout,
+                _ => vk::ImageLayout::UNDEFINED,
+            };
+            let discards = matches!(usage.start, Some(Start::Clear(_) | Start::Discard));
+            *place = needs.len();
+            needs.push((usage.resource, Need { scope, writes: info.writes, layout, discards }));
+        }
+        needs
+    };
+    order.iter().map(|&pass| needs_of(&graph.passes[pass].uses)).collect()
+}
+
 /// What may be under way on each resource before the first pass.
-fn starts(graph: &Declared, order: &[usize], tenants: &[Vec<ResourceId>]) -> Vec<Track> {
+fn starts(graph: &Declared, needs: &[Vec<(ResourceId, Need)>], tenants: &[Vec<ResourceId>]) -> Vec<Track> {
     // How each transient is left doesn't depend on what its first access waits for, so it can be known beforehand:
     // what follows a plan is the plan again.
     let mut left = vec![Track::from_tenants(Scope::default()); graph.resources.len()];
-    for &pass in order {
-        for (resource, need) in needs_of(graph, &graph.passes[pass].uses) {
-            left[resource.index()].step(&need);
-        }
+    for (resource, need) in needs.iter().flatten() {
+        left[resource.index()].step(need);
     }
-    let start = |(resource, tenants): (&super::declare::Resource, &Vec<ResourceId>)| match resource.origin {
+    let start = |(resource, tenants): (&Resource, &Vec<ResourceId>)| match resource.origin {
         Origin::Imported { initial, .. } => Track::from_state(initial),
         Origin::Transient => {
             let mut last = Scope::default();
@@ -167,59 +194,61 @@ fn starts(graph: &Declared, order: &[usize], tenants: &[Vec<ResourceId>]) -> Vec
     graph.resources.iter().zip(tenants).map(start).collect()
 }
 
-/// The transients that were the last ones to use the bytes of a transient before its life begins, the latest first,
+/// The transients that were the last ones to use the bytes of each transient before its life begins, the latest first,
 /// where the execution before comes before this one. Often it is among them itself.
-fn former_tenants(
-    id: ResourceId,
-    slots: &[Option<Slot>],
-    lifetimes: &[(Usage, Option<Lifetime>)],
-) -> Vec<ResourceId> {
-    let (Some(slot), Some(life)) = (slots[id.index()], lifetimes[id.index()].1) else { return Vec::new() };
-    let mut others: Vec<(usize, ResourceId, Slot)> = Vec::new();
-    for (i, (&other, (_, lifetime))) in slots.iter().zip(lifetimes).enumerate() {
-        if let (Some(other), Some(lifetime)) = (other, lifetime)
-            && other.overlaps(&slot)
-        {
-            others.push((lifetime.last, ResourceId(i as u32), other));
+fn former_tenants(slots: &[Option<Slot>], lifetimes: &[(Usage, Option<Lifetime>)]) -> Vec<Vec<ResourceId>> {
+    let placed = (0..).map(ResourceId).zip(slots).zip(lifetimes);
+    let placed = placed.filter_map(|((id, slot), (_, life))| Some((id, (*slot)?, (*life)?)));
+    let mut placed: Vec<_> = placed.collect();
+    placed.sort_by_key(|(id, _, life)| (life.first, *id));
+    let mut former = vec![Vec::new(); slots.len()];
+    let mut owners = Owners::default();
+    // The first round leaves what the execution before leaves.
+    for round in 0..2 {
+        for &(id, slot, life) in &placed {
+            let mut found = owners.replace(slot, (life.last, id));
+            if round == 1 {
+                found.sort_by_key(|&(last, id)| std::cmp::Reverse((last < life.first, last, id)));
+                found.dedup();
+                former[id.index()] = found.into_iter().map(|(_, id)| id).collect();
+            }
         }
     }
-    others.sort_by_key(|&(last, id, _)| (last < life.first, last, id));
-    let mut unseen = vec![(slot.offset_bytes, slot.end_bytes())];
-    let mut found = Vec::new();
-    for (_, tenant, other) in others.into_iter().rev() {
-        let mut rest = Vec::new();
-        for &(begin, end) in &unseen {
-            rest.push((begin, end.min(other.offset_bytes)));
-            rest.push((begin.max(other.end_bytes()), end));
-        }
-        rest.retain(|(begin, end)| begin < end);
-        if rest != unseen {
-            found.push(tenant);
-            unseen = rest;
-        }
-    }
-    found
+    former
 }
 
-/// The accesses of one pass, taken together by resource.
-fn needs_of(graph: &Declared, uses: &[Use]) -> Vec<(ResourceId, Need)> {
-    let mut needs: Vec<(ResourceId, Need)> = Vec::with_capacity(uses.len());
-    for usage in uses {
-        let info = usage.access.info();
-        let scope = Scope { stages: info.stages, access: info.reads | info.writes };
-        if let Some((_, need)) = needs.iter_mut().find(|(resource, _)| *resource == usage.resource) {
-            // Several reads, which `validate` has seen to agree on the layout.
-            need.scope |= scope;
-            continue;
-        }
-        let layout = match (graph.resource(usage.resource).desc, info.image) {
-            (ResourceDesc::Image(_), Some((layout, _))) => layout,
-            _ => vk::ImageLayout::UNDEFINED,
-        };
-        let discards = matches!(usage.start, Some(Start::Clear(_) | Start::Discard));
-        needs.push((usage.resource, Need { scope, writes: info.writes, layout, discards }));
+/// The last pass of a transient, and the transient.
+type Owner = (usize, ResourceId);
+
+/// Who has had the bytes of each block last: by the block and the first byte of a stretch, its end and its owner.
+#[derive(Default)]
+struct Owners(BTreeMap<(usize, u64), (u64, Owner)>);
+
+impl Owners {
+    /// Gives bytes to a new owner; the former ones.
+    fn replace(&mut self, slot: Slot, owner: Owner) -> Vec<Owner> {
+        let [begin, end] = [slot.offset_bytes, slot.end_bytes()].map(|byte| (slot.block, byte));
+        self.cut_at(begin);
+        self.cut_at(end);
+        let stretches: Vec<_> =
+            self.0.range(begin..end).map(|(place, (_, owner))| (*place, *owner)).collect();
+        let former = stretches.into_iter().map(|(place, owner)| {
+            self.0.remove(&place);
+            owner
+        });
+        let former = former.collect();
+        self.0.insert(begin, (slot.end_bytes(), owner));
+        former
     }
-    needs
+
+    /// Makes two stretches of one that goes on over a byte.
+    fn cut_at(&mut self, (block, byte): (usize, u64)) {
+        let before = self.0.range_mut((block, 0)..(block, byte)).next_back();
+        if let Some((_, (end, owner))) = before.filter(|(_, (end, _))| *end > byte) {
+            let rest = (std::mem::replace(end, byte), *owner);
+            self.0.insert((block, byte), rest);
+        }
+    }
 }
 
 fn barrier_of(graph: &Declared, resource: ResourceId, need: &Need, wait: Wait) -> Barrier {

@@ -4,13 +4,12 @@ use super::{
     alias::{MemoryNeed, alias},
     barrier::barriers,
     cull::cull,
-    declare::Graph,
+    declare::{Graph, Pass, Resource},
     lifetime::{Usage, lifetimes},
     load_store::rendering,
-    order::order,
     plan::{CulledPass, Plan, PlannedPass, PlannedResource},
     resource::{ResourceDesc, ResourceId},
-    validate::{kind_of, validate},
+    validate::validate,
 };
 use crate::error::Result;
 
@@ -33,53 +32,43 @@ impl<Body> Graph<Body> {
         self,
         needs: impl FnMut(ResourceId, &ResourceDesc, Usage) -> Result<MemoryNeed>,
     ) -> Result<Compiled<Body>> {
-        let graph = &self.declared;
+        let Self { declared: graph, bodies } = self;
         // First of all, so that no later stage meets what it can't handle.
-        validate(graph)?;
-        // Before lifetimes, so that what isn't executed holds no memory.
-        let live = cull(graph);
-        // Lifetimes are counted in places in this order.
-        let order = order(&live);
+        let kinds = validate(&graph)?;
+        // Before lifetimes, so that what isn't executed holds no memory; they are counted in places in its order.
+        let live = cull(&graph);
         // Transients are created for these usages, before a device can say what memory they need.
-        let lifetimes = lifetimes(graph, &order);
+        let lifetimes = lifetimes(&graph, &live.order);
         // Before barriers: a new tenant waits on the former ones.
-        let (blocks, slots) = alias(graph, &lifetimes, needs)?;
+        let (blocks, slots) = alias(&graph, &lifetimes, needs)?;
         // The only synchronization there is.
-        let mut barriers = barriers(graph, &order, &lifetimes, &slots);
-        // Load and store operations need to know whose results are read: they come with each pass.
-        let mut passes = Vec::with_capacity(order.len());
-        for (&i, batch) in order.iter().zip(&mut barriers.passes) {
-            let pass = &graph.passes[i];
-            passes.push(PlannedPass {
-                name: pass.name.clone(),
-                kind: kind_of(pass)?,
-                barriers: std::mem::take(batch),
-                rendering: rendering(graph, &live, pass),
-                uses: pass.uses.clone(),
-                side_effect: pass.side_effect,
-            });
+        let barriers = barriers(&graph, &live.order, &lifetimes, &slots);
+        // Load and store operations need to know whose results are read.
+        let rendering: Vec<_> =
+            live.order.iter().map(|&pass| rendering(&graph, &live, &graph.passes[pass])).collect();
+
+        let resources = graph.resources.into_iter().zip(lifetimes).zip(slots).zip(barriers.end);
+        let resources = resources.map(|(((resource, (usage, lifetime)), slot), end)| {
+            let Resource { name, desc, origin, .. } = resource;
+            PlannedResource { name: name.to_string(), desc, origin, usage, lifetime, slot, end }
+        });
+        let mut executed = live.order.iter().zip(barriers.passes).zip(rendering).peekable();
+        let (mut passes, mut culled) = (Vec::with_capacity(live.order.len()), Vec::new());
+        let mut live_bodies = Vec::with_capacity(live.order.len());
+        for ((i, pass), (kind, body)) in
+            graph.passes.into_iter().enumerate().zip(kinds.into_iter().zip(bodies))
+        {
+            let Pass { name, uses, side_effect, .. } = pass;
+            match executed.next_if(|((next, _), _)| **next == i) {
+                Some(((_, barriers), rendering)) => {
+                    passes.push(PlannedPass { name, kind, barriers, rendering, uses, side_effect });
+                    live_bodies.push(body);
+                }
+                None => culled.push(CulledPass { name, uses }),
+            }
         }
-        let culled = graph.passes.iter().zip(&live.passes).filter(|(_, live)| !**live);
-        let plan = Plan {
-            resources: (graph.resources.iter().zip(&lifetimes).zip(&slots).zip(&barriers.end))
-                .map(|(((resource, &(usage, lifetime)), &slot), &end)| PlannedResource {
-                    name: resource.name.to_string(),
-                    desc: resource.desc,
-                    origin: resource.origin,
-                    usage,
-                    lifetime,
-                    slot,
-                    end,
-                })
-                .collect(),
-            passes,
-            final_barriers: barriers.final_,
-            blocks,
-            culled: culled
-                .map(|(pass, _)| CulledPass { name: pass.name.clone(), uses: pass.uses.clone() })
-                .collect(),
-        };
-        let bodies = self.bodies.into_iter().zip(live.passes).filter_map(|(body, live)| live.then_some(body));
-        Ok(Compiled { plan, bodies: bodies.collect() })
+        let plan =
+            Plan { resources: resources.collect(), passes, final_barriers: barriers.final_, blocks, culled };
+        Ok(Compiled { plan, bodies: live_bodies })
     }
 }

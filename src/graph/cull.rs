@@ -1,23 +1,28 @@
-//! Compile stage 2: leaves out the passes whose results nobody reads.
+//! Compile stage 2: leaves out the passes whose results nobody reads, and orders the others.
+
+use std::collections::HashSet;
 
 use super::{
     declare::{Declared, Use},
     resource::{Origin, ResourceId},
 };
 
-/// What is left after culling.
+/// The passes that are left.
 #[derive(Debug)]
 pub(super) struct Live {
-    /// One a declared pass.
-    pub(super) passes: Vec<bool>,
-    /// One a resource: the versions that a live pass, or after the execution the caller, reads.
-    read_versions: Vec<Vec<u32>>,
+    /// The declared passes that are executed, by index, in the order of execution.
+    ///
+    /// That is declaration order: a pass can only name contents that earlier passes made (see `validate`), so that it
+    /// is a topological order already, and the stable one, where ties are broken by declaration.
+    pub(super) order: Vec<usize>,
+    /// The contents that a live pass reads, or the caller after the execution: resource and version.
+    read: HashSet<(ResourceId, u32)>,
 }
 
 impl Live {
-    /// Whether somebody reads this content of the resource.
-    pub(super) fn is_read(&self, resource: ResourceId, version: u32) -> bool {
-        self.read_versions[resource.index()].contains(&version)
+    /// Whether somebody reads the content that a write leaves.
+    pub(super) fn is_read(&self, write: &Use) -> bool {
+        self.read.contains(&(write.resource, write.version + 1))
     }
 }
 
@@ -25,23 +30,18 @@ impl Live {
 /// that is read; what a live pass needs is read in turn. One walk backwards suffices: contents are read only after
 /// they are written.
 pub(super) fn cull(graph: &Declared) -> Live {
-    let imported_version = |resource: &super::declare::Resource| match resource.origin {
-        Origin::Imported { .. } => vec![resource.version],
-        Origin::Transient => Vec::new(),
-    };
-    let mut live = Live {
-        passes: vec![false; graph.passes.len()],
-        read_versions: graph.resources.iter().map(imported_version).collect(),
-    };
+    let resources = (0..).map(ResourceId).zip(&graph.resources);
+    let imports = resources.filter(|(_, resource)| resource.origin != Origin::Transient);
+    let read = imports.map(|(id, resource)| (id, resource.version)).collect();
+    let mut live = Live { order: Vec::new(), read };
     for (i, pass) in graph.passes.iter().enumerate().rev() {
-        let is_result =
-            |usage: &Use| usage.start.is_some() && live.is_read(usage.resource, usage.version + 1);
+        let is_result = |usage: &Use| usage.start.is_some() && live.is_read(usage);
         if pass.side_effect || pass.uses.iter().any(is_result) {
-            live.passes[i] = true;
-            for usage in pass.uses.iter().filter(|usage| usage.needs_content()) {
-                live.read_versions[usage.resource.index()].push(usage.version);
-            }
+            live.order.push(i);
+            let needed = pass.uses.iter().filter(|usage| usage.needs_content());
+            live.read.extend(needed.map(|usage| (usage.resource, usage.version)));
         }
     }
+    live.order.reverse();
     live
 }

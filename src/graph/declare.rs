@@ -37,7 +37,7 @@ pub(super) struct Resource {
     pub(super) name: Arc<str>,
     pub(super) desc: ResourceDesc,
     pub(super) origin: Origin,
-    /// How many writes finished passes have declared.
+    /// The writes that finished passes have declared.
     pub(super) version: u32,
 }
 
@@ -46,8 +46,8 @@ pub(super) struct Pass {
     pub(super) name: String,
     pub(super) uses: Vec<Use>,
     pub(super) side_effect: bool,
-    /// The first handle that doesn't belong here: the resource's name and the reason.
-    pub(super) fault: Option<(Arc<str>, String)>,
+    /// The name of the first handle that is another graph's.
+    pub(super) foreign: Option<Arc<str>>,
 }
 
 /// One resource in one pass.
@@ -141,7 +141,7 @@ impl<Body> Graph<Body> {
 
     /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
     pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
-        let pass = Pass { name: name.to_owned(), uses: Vec::new(), side_effect: false, fault: None };
+        let pass = Pass { name: name.to_owned(), uses: Vec::new(), side_effect: false, foreign: None };
         PassBuilder { graph: self, pass }
     }
 }
@@ -201,26 +201,10 @@ impl<Body> PassBuilder<'_, Body> {
     }
 
     fn declare<Kind>(&mut self, handle: &Handle<Kind>, access: Access, start: Option<Start>) {
-        let declared = &self.graph.declared;
-        let reason = if handle.graph != declared.id {
-            Some("the handle belongs to another graph".to_owned())
+        if handle.graph == self.graph.declared.id {
+            self.pass.uses.push(Use { resource: handle.id, version: handle.version, access, start });
         } else {
-            let earlier =
-                self.pass.uses.iter().filter(|u| u.resource == handle.id && u.start.is_some()).count();
-            let written = declared.resource(handle.id).version as usize + earlier;
-            (handle.version as usize != written).then(|| {
-                format!(
-                    "the handle is stale: it took part in {} write(s), of which {written} are in the graph; the \
-                     pass of the other was not finished",
-                    handle.version
-                )
-            })
-        };
-        match reason {
-            Some(reason) => {
-                self.pass.fault.get_or_insert((handle.name.clone(), reason));
-            }
-            None => self.pass.uses.push(Use { resource: handle.id, version: handle.version, access, start }),
+            self.pass.foreign.get_or_insert(handle.name.clone());
         }
     }
 }

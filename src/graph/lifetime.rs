@@ -1,4 +1,4 @@
-//! Compile stage 4: from when to when each resource is used, and for what.
+//! Compile stage 3: from when to when each resource is used, and for what.
 
 use ash::vk;
 
@@ -8,7 +8,7 @@ use super::{
 };
 
 /// The first and the last pass that access a resource: indices into [`super::Plan::passes`], both included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Lifetime {
     /// The first pass.
     pub first: usize,
@@ -23,16 +23,16 @@ impl Lifetime {
     }
 }
 
-/// What a resource has to be created for: the usages of all its accesses, taken together.
+/// The usage that a resource has to be created for: those of all its accesses, taken together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Usage {
-    /// Of an image.
+    /// The usage of an image.
     Image(vk::ImageUsageFlags),
-    /// Of a buffer.
+    /// The usage of a buffer.
     Buffer(vk::BufferUsageFlags),
 }
 
-/// Of every resource its usage, and its lifetime where a pass that is left accesses it.
+/// The usage of every resource, and its lifetime where a pass that is left accesses it.
 pub(super) fn lifetimes(graph: &Declared, order: &[usize]) -> Vec<(Usage, Option<Lifetime>)> {
     let unused = |desc| match desc {
         ResourceDesc::Image(_) => (Usage::Image(vk::ImageUsageFlags::empty()), None),

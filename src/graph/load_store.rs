@@ -1,4 +1,4 @@
-//! Compile stage 7: what happens to attachments when rendering begins and when it ends.
+//! Compile stage 6: what happens to attachments when rendering begins and when it ends.
 
 use ash::vk;
 
@@ -51,7 +51,7 @@ pub(super) fn rendering(graph: &Declared, live: &Live, pass: &Pass) -> Option<Re
         let store = if usage.start.is_none() {
             // Not written, so that even a `STORE` would be a write too much.
             vk::AttachmentStoreOp::NONE
-        } else if live.is_read(usage.resource, usage.version + 1) {
+        } else if live.is_read(usage) {
             vk::AttachmentStoreOp::STORE
         } else {
             vk::AttachmentStoreOp::DONT_CARE

@@ -3,8 +3,8 @@
 //!
 //! 1. [`Graph`]: resources are created (transients, which live inside one execution) or imported (the caller's, in a
 //!    declared state), and passes say how they [`Access`] them.
-//! 2. [`Graph::compile`] turns that into a [`Plan`], stage by stage: validate, cull, order, lifetimes, alias, barriers,
-//!    load and store operations.
+//! 2. [`Graph::compile`] turns that into a [`Plan`], stage by stage: validate, cull and order, lifetimes, alias,
+//!    barriers, load and store operations.
 //! 3. A plan is recorded into a command buffer; again and again, if wanted. It never submits and never waits.
 //!
 //! **A plan's contract.** It is executed on one queue. Its transients' memory belongs to it alone and is the same in
@@ -21,7 +21,6 @@ mod dump;
 pub mod execute;
 mod lifetime;
 mod load_store;
-mod order;
 mod plan;
 mod resource;
 #[cfg(test)]

@@ -141,6 +141,10 @@ impl Track {
 }
 
 /// The single bits of a mask.
-pub(super) fn bits(mask: u64) -> impl Iterator<Item = u64> {
-    (0..u64::BITS).map(|shift| 1 << shift).filter(move |bit| mask & bit != 0)
+pub(super) fn bits(mut mask: u64) -> impl Iterator<Item = u64> {
+    std::iter::from_fn(move || {
+        let lowest = mask & mask.wrapping_neg();
+        mask ^= lowest;
+        (lowest != 0).then_some(lowest)
+    })
 }

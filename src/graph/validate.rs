@@ -14,8 +14,9 @@ use super::{
 };
 use crate::error::{ErrorKind, Result};
 
-/// Refuses the first mistake, in the order in which resources and passes were declared.
-pub(super) fn validate(graph: &Declared) -> Result<()> {
+/// Refuses the first resource at fault, else the first pass, in the order in which they were declared. The kinds of
+/// all passes.
+pub(super) fn validate(graph: &Declared) -> Result<Vec<PassKind>> {
     let mut names = HashSet::new();
     for resource in &graph.resources {
         if !names.insert(&*resource.name) {
@@ -24,29 +25,44 @@ pub(super) fn validate(graph: &Declared) -> Result<()> {
         check_resource(resource)?;
     }
     let mut names = HashSet::new();
-    for pass in &graph.passes {
-        if pass.name.is_empty() {
-            return refuse("", "", "a pass has no name");
-        }
-        if !names.insert(&pass.name) {
-            return refuse(&pass.name, "", "another pass has this name");
-        }
-        if let Some((resource, reason)) = &pass.fault {
-            return refuse(&pass.name, resource, reason.as_str());
-        }
-        for (i, usage) in pass.uses.iter().enumerate() {
-            check_use(graph, pass, usage)?;
-            for earlier in &pass.uses[..i] {
-                check_pair(graph, pass, earlier, usage)?;
+    let mut written = vec![0; graph.resources.len()];
+    let check = |pass| {
+        check_name(pass, &mut names)?;
+        for usage in &pass.uses {
+            let written = &mut written[usage.resource.index()];
+            if usage.version != *written {
+                let reason = format!(
+                    "the handle is stale: it took part in {} write(s), of which {written} are in the graph; the \
+                     pass of the other was not finished",
+                    usage.version
+                );
+                return refuse(&pass.name, &graph.resource(usage.resource).name, reason);
             }
+            *written += u32::from(usage.start.is_some());
+            check_use(graph, pass, usage)?;
         }
-        kind_of(pass)?;
+        check_same(graph, pass)?;
+        check_attachments(graph, pass)?;
+        kind_of(pass)
+    };
+    graph.passes.iter().map(check).collect()
+}
+
+fn check_name<'a>(pass: &'a Pass, names: &mut HashSet<&'a str>) -> Result<()> {
+    if pass.name.is_empty() {
+        return refuse("", "", "a pass has no name");
     }
-    Ok(())
+    if !names.insert(&pass.name) {
+        return refuse(&pass.name, "", "another pass has this name");
+    }
+    match &pass.foreign {
+        Some(resource) => refuse(&pass.name, resource, "the handle belongs to another graph"),
+        None => Ok(()),
+    }
 }
 
 /// The kind of a pass, from its accesses.
-pub(super) fn kind_of(pass: &Pass) -> Result<PassKind> {
+fn kind_of(pass: &Pass) -> Result<PassKind> {
     let mut found = pass.uses.iter().filter_map(|usage| Some((usage.access, usage.access.info().kind?)));
     let Some((access, kind)) = found.next() else {
         return refuse(&pass.name, "", "no access says whether it draws, dispatches or copies");
@@ -155,40 +171,51 @@ fn check_use(graph: &Declared, pass: &Pass, usage: &Use) -> Result<()> {
     Ok(())
 }
 
-/// Two accesses of one pass, each legal alone.
+/// Several accesses of one pass to the same resource, each legal alone.
+fn check_same(graph: &Declared, pass: &Pass) -> Result<()> {
+    let mut uses: Vec<&Use> = pass.uses.iter().collect();
+    uses.sort_by_key(|usage| usage.resource);
+    for same in uses.chunk_by(|a, b| a.resource == b.resource) {
+        for (i, b) in same.iter().enumerate() {
+            same[..i].iter().try_for_each(|a| check_pair(graph, pass, a, b))?;
+        }
+    }
+    Ok(())
+}
+
 fn check_pair(graph: &Declared, pass: &Pass, a: &Use, b: &Use) -> Result<()> {
-    let name = &graph.resource(b.resource).name;
-    let both = format!("{:?} and {:?}", a.access, b.access);
-    if a.resource == b.resource {
-        if a.start.is_some() || b.start.is_some() {
-            return refuse(&pass.name, name, format!("{both} conflict: one of them writes"));
+    let Resource { name, desc, .. } = graph.resource(b.resource);
+    let layout = |usage: &Use| usage.access.info().image.map(|(layout, _)| layout);
+    let reason = if a.start.is_some() || b.start.is_some() {
+        format!("{:?} and {:?} conflict: one of them writes", a.access, b.access)
+    } else if a.access == b.access {
+        format!("{:?} is declared twice", a.access)
+    } else if matches!(desc, ResourceDesc::Image(_)) && layout(a) != layout(b) {
+        format!("{:?} and {:?} need different layouts", a.access, b.access)
+    } else {
+        return Ok(());
+    };
+    refuse(&pass.name, name, reason)
+}
+
+/// The attachments of one pass, each legal alone.
+fn check_attachments(graph: &Declared, pass: &Pass) -> Result<()> {
+    let mut first = None;
+    let mut has_depth = false;
+    for usage in pass.uses.iter().filter(|usage| usage.access.is_attachment()) {
+        let Resource { name, desc: ResourceDesc::Image(desc), .. } = graph.resource(usage.resource) else {
+            continue;
+        };
+        if usage.access.is_depth_attachment() && std::mem::replace(&mut has_depth, true) {
+            return refuse(&pass.name, name, "it is the second depth attachment of the pass");
         }
-        if a.access == b.access {
-            return refuse(&pass.name, name, format!("{:?} is declared twice", a.access));
+        let (first_name, of_first) = *first.get_or_insert((name, desc.extent));
+        if desc.extent != of_first {
+            let size = |extent: vk::Extent2D| format!("{}x{}", extent.width, extent.height);
+            let (own, other) = (size(desc.extent), size(of_first));
+            let reason = format!("its size {own} differs from that of attachment '{first_name}', {other}");
+            return refuse(&pass.name, name, reason);
         }
-        let layout = |usage: &Use| usage.access.info().image.map(|(layout, _)| layout);
-        if matches!(graph.resource(a.resource).desc, ResourceDesc::Image(_)) && layout(a) != layout(b) {
-            return refuse(&pass.name, name, format!("{both} need different layouts"));
-        }
-    }
-    if a.access.is_depth_attachment() && b.access.is_depth_attachment() {
-        return refuse(&pass.name, name, "it is the second depth attachment of the pass");
-    }
-    if a.access.is_attachment()
-        && b.access.is_attachment()
-        && let (ResourceDesc::Image(x), ResourceDesc::Image(y)) =
-            (graph.resource(a.resource).desc, graph.resource(b.resource).desc)
-        && x.extent != y.extent
-    {
-        let reason = format!(
-            "its size {}x{} differs from that of attachment '{}', {}x{}",
-            y.extent.width,
-            y.extent.height,
-            graph.resource(a.resource).name,
-            x.extent.width,
-            x.extent.height
-        );
-        return refuse(&pass.name, name, reason);
     }
     Ok(())
 }
