@@ -7,7 +7,7 @@ mod aliasing;
 mod chain;
 mod common;
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use common::{assert_validation_is_silent, builder, headless, scenes};
 use glam::DVec3;
@@ -32,7 +32,7 @@ fn camera() -> surfel::scene::Camera {
     builder::camera([0.0, 0.0, 3.2], [0.0; 3])
 }
 
-fn plan(headless: &mut Headless, scene: &Scene, wanted: Wanted) -> Plan {
+fn plan(headless: &mut Headless, scene: &Scene, wanted: Wanted) -> Arc<Plan> {
     let prepared = headless.prepare(scene, &|_, _| {}).unwrap();
     headless.render(&prepared, &camera(), &builder::settings(), wanted).unwrap().plan
 }

@@ -1,33 +1,47 @@
 //! What a frame needs until the device has finished it. One slot for each frame in flight.
 
+use std::sync::Arc;
+
+use ash::vk;
+
 use crate::{
     error::{ErrorKind, Result},
-    graph::execute::{Profile, Profiler, Transients},
+    graph::{
+        Graph, Plan, ResourceId,
+        execute::{Body, Kept, Physical, Profile, Profiler},
+    },
     passes::Needs,
     vk::{DescriptorPool, Device, Occlusion, PoolRoom},
 };
 
-/// Descriptor sets, queries and transients of one frame at a time.
+/// Descriptor sets, queries, plan and transients of one frame at a time.
 pub struct FrameSlot {
     device: Device,
     descriptors: Option<(DescriptorPool, PoolRoom)>,
     profiler: Option<(Profiler, Profile)>,
     occlusion: Option<Occlusion>,
-    transients: Option<Transients>,
+    kept: Kept,
 }
 
-/// The parts of a slot, each to be borrowed by itself.
+/// The parts of a slot, each to be borrowed by itself: bodies of passes borrow the first two.
 pub(crate) struct SlotParts<'a> {
     pub descriptors: &'a DescriptorPool,
     pub occlusion: Option<&'a Occlusion>,
-    pub transients: &'a mut Option<Transients>,
-    pub profiler: Option<&'a mut Profiler>,
+    pub execution: Execution<'a>,
+}
+
+/// Records the slot's frame.
+pub(crate) struct Execution<'a> {
+    device: &'a Device,
+    kept: &'a mut Kept,
+    profiler: Option<&'a mut Profiler>,
 }
 
 impl FrameSlot {
     /// An empty slot.
     pub fn new(device: &Device) -> Self {
-        Self { device: device.clone(), descriptors: None, profiler: None, occlusion: None, transients: None }
+        let device = device.clone();
+        Self { device, descriptors: None, profiler: None, occlusion: None, kept: Kept::default() }
     }
 
     /// The profiler of the frame recorded last, if it was measured.
@@ -37,7 +51,7 @@ impl FrameSlot {
 
     /// Bytes of device memory in transients.
     pub fn transient_bytes(&self) -> u64 {
-        self.transients.as_ref().map_or(0, Transients::bytes)
+        self.kept.bytes()
     }
 
     /// Makes the slot ready for a frame that takes so much from it.
@@ -48,12 +62,12 @@ impl FrameSlot {
     /// # Errors
     /// Whatever the driver answers.
     pub(crate) unsafe fn begin(&mut self, needs: Needs, profile: Option<Profile>) -> Result<()> {
-        let wanted = needs.room;
-        if needs.occlusion_queries == 0 {
-            self.occlusion = None;
-        } else if self.occlusion.as_ref().is_none_or(|pool| pool.count() < needs.occlusion_queries) {
-            self.occlusion = Some(Occlusion::new(&self.device, "layers", needs.occlusion_queries)?);
-        }
+        let Needs { room: wanted, occlusion_queries: queries } = needs;
+        let serves = |pool: &mut Occlusion| (1..=pool.count()).contains(&queries);
+        self.occlusion = match self.occlusion.take_if(serves) {
+            None if queries > 0 => Some(Occlusion::new(&self.device, "layers", queries)?),
+            pool => pool,
+        };
         match &self.descriptors {
             // SAFETY: this function's contract.
             Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
@@ -62,13 +76,9 @@ impl FrameSlot {
                 self.descriptors = Some((pool, wanted));
             }
         }
-        match profile {
-            None => self.profiler = None,
-            Some(profile) => {
-                if self.profiler.as_ref().is_none_or(|(_, kept)| *kept != profile) {
-                    self.profiler = Some((Profiler::new(&self.device, profile)?, profile));
-                }
-            }
+        if self.profiler.as_ref().map(|(_, kept)| *kept) != profile {
+            let profiler = |profile| Profiler::new(&self.device, profile).map(|made| (made, profile));
+            self.profiler = profile.map(profiler).transpose()?;
         }
         Ok(())
     }
@@ -82,11 +92,27 @@ impl FrameSlot {
             let reason = "the frame slot was not begun".to_owned();
             return Err(ErrorKind::Graph { pass: String::new(), resource: String::new(), reason }.into());
         };
-        Ok(SlotParts {
-            descriptors,
-            occlusion: self.occlusion.as_ref(),
-            transients: &mut self.transients,
-            profiler: self.profiler.as_mut().map(|(profiler, _)| profiler),
-        })
+        let profiler = self.profiler.as_mut().map(|(profiler, _)| profiler);
+        let execution = Execution { device: &self.device, kept: &mut self.kept, profiler };
+        Ok(SlotParts { descriptors, occlusion: self.occlusion.as_ref(), execution })
+    }
+}
+
+impl Execution<'_> {
+    /// Compiles a graph, where it is not that of the frame before, and records it. The plan that was recorded.
+    ///
+    /// # Safety
+    /// As [`Kept::execute`].
+    ///
+    /// # Errors
+    /// As [`Kept::execute`].
+    pub unsafe fn record(
+        self,
+        commands: vk::CommandBuffer,
+        graph: Graph<Body<'_>>,
+        imports: &[(ResourceId, Physical)],
+    ) -> Result<Arc<Plan>> {
+        // SAFETY: this function's contract.
+        unsafe { self.kept.execute(self.device, commands, graph, imports, self.profiler) }
     }
 }

@@ -75,13 +75,6 @@ pub struct Batch {
     pub resources: Vec<Barrier>,
 }
 
-impl Batch {
-    /// Whether there is nothing to wait for.
-    pub fn is_empty(&self) -> bool {
-        self.memory.is_none() && self.resources.is_empty()
-    }
-}
-
 /// All barriers of a plan.
 pub(super) struct Barriers {
     /// One a pass, in the order of execution.

@@ -54,21 +54,25 @@ impl<Body> Graph<Body> {
         });
         let mut executed = live.order.iter().zip(barriers.passes).zip(rendering).peekable();
         let (mut passes, mut culled) = (Vec::with_capacity(live.order.len()), Vec::new());
-        let mut live_bodies = Vec::with_capacity(live.order.len());
-        for ((i, pass), (kind, body)) in
-            graph.passes.into_iter().enumerate().zip(kinds.into_iter().zip(bodies))
-        {
+        for ((declared, pass), kind) in graph.passes.into_iter().enumerate().zip(kinds) {
             let Pass { name, uses, side_effect, .. } = pass;
-            match executed.next_if(|((next, _), _)| **next == i) {
+            match executed.next_if(|((next, _), _)| **next == declared) {
                 Some(((_, barriers), rendering)) => {
-                    passes.push(PlannedPass { name, kind, barriers, rendering, uses, side_effect });
-                    live_bodies.push(body);
+                    passes.push(PlannedPass { name, declared, kind, barriers, rendering, uses, side_effect });
                 }
-                None => culled.push(CulledPass { name, uses }),
+                None => culled.push(CulledPass { name, declared, uses }),
             }
         }
-        let plan =
-            Plan { resources: resources.collect(), passes, final_barriers: barriers.final_, blocks, culled };
-        Ok(Compiled { plan, bodies: live_bodies })
+        let resources = resources.collect();
+        let plan = Plan { resources, passes, final_barriers: barriers.final_, blocks, culled };
+        let bodies = executed_bodies(&plan, bodies);
+        Ok(Compiled { plan, bodies })
     }
+}
+
+/// The bodies of the passes that are left.
+pub(super) fn executed_bodies<Body>(plan: &Plan, bodies: Vec<Body>) -> Vec<Body> {
+    let mut left = plan.passes.iter().map(|pass| pass.declared).peekable();
+    let executed = bodies.into_iter().enumerate().filter(|(place, _)| left.next_if_eq(place).is_some());
+    executed.map(|(_, body)| body).collect()
 }

@@ -23,6 +23,7 @@ mod lifetime;
 mod load_store;
 mod plan;
 mod resource;
+mod shape;
 #[cfg(test)]
 mod tests;
 mod track;

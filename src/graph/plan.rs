@@ -50,6 +50,8 @@ pub struct PlannedResource {
 pub struct PlannedPass {
     /// Its name: debug label and key of its time.
     pub name: String,
+    /// Its place among the declared passes.
+    pub declared: usize,
     /// What it records.
     pub kind: PassKind,
     /// What has to happen before it.
@@ -67,6 +69,8 @@ pub struct PlannedPass {
 pub struct CulledPass {
     /// Its name.
     pub name: String,
+    /// Its place among the declared passes.
+    pub declared: usize,
     /// All its accesses, as declared.
     pub uses: Vec<Use>,
 }

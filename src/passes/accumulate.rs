@@ -18,7 +18,6 @@ use crate::{
     },
     scene::{KernelEval, Settings, Transition},
     shaders,
-    vk::Descriptor,
 };
 
 /// What accumulation leaves.
@@ -114,11 +113,11 @@ pub(super) fn bind_read(
 ) -> Result<()> {
     let mut given = Vec::new();
     if let Some(lights) = lights {
-        given.push((3, Descriptor::Buffer(context.buffer(lights)?)));
+        given.push((3, context.descriptor(lights)?));
     }
     for (number, id) in (0..).zip(images) {
         if let Some(id) = id {
-            given.push((number, Descriptor::Sampled(context.image(id)?.1, context.layout(id))));
+            given.push((number, context.descriptor(id)?));
         }
     }
     if !given.is_empty() {

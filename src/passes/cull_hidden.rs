@@ -13,7 +13,6 @@ use crate::{
     error::Result,
     graph::{Access, BufferDesc, Graph, Handle, Image, Start, execute::Body},
     shaders,
-    vk::Descriptor,
 };
 
 /// Pixels along a side of a block, as in `glsl/inc/depth_cells.glsl`.
@@ -46,8 +45,7 @@ pub(super) fn list_seen<'a>(
         .read(depth, Access::SampledCompute)
         .write(&mut cells, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
-            let image = Descriptor::Sampled(context.image(depth_id)?.1, context.layout(depth_id));
-            let given = [(0, image), (1, Descriptor::Buffer(context.buffer(cells_id)?))];
+            let given = [(0, context.descriptor(depth_id)?), (1, context.descriptor(cells_id)?)];
             let shaders = inputs.shaders;
             let set = inputs.descriptors.set(&shaders.cells_set, &given)?;
             let layout = shaders.cells_layout.raw();

@@ -21,7 +21,7 @@ use crate::{
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::Settings,
     shaders,
-    vk::{Blend, Descriptor},
+    vk::Blend,
 };
 
 /// Bytes of a point: its place in clip space, its reversed depth, its size in pixels; four floats.
@@ -83,7 +83,7 @@ pub fn floor_points<'a>(
         .pass(&format!("floor points {number}"))
         .write(points, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
-            let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
+            let given = [(0, context.descriptor(id)?)];
             let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.list_set, &given)?];
             let (device, commands) = (context.device(), context.commands());
             let bind_point = vk::PipelineBindPoint::COMPUTE;
@@ -164,7 +164,7 @@ fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, points: &[FloorPoints<'
         // SAFETY: inside of rendering.
         unsafe { device.cmd_bind_pipeline(commands, bind_point, pipeline.raw()) };
         for &(id, count) in &chunks {
-            let given = [(0, Descriptor::Buffer(context.buffer(id)?))];
+            let given = [(0, context.descriptor(id)?)];
             let set = inputs.descriptors.set(&inputs.shaders.list_set, &given)?;
             // SAFETY: inside of rendering; pipeline and set have one layout.
             unsafe {

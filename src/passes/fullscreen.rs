@@ -6,7 +6,7 @@ use super::Inputs;
 use crate::{
     error::Result,
     graph::{ResourceId, execute::PassContext},
-    vk::{Descriptor, GraphicsPipeline, PipelineLayout, SetLayout},
+    vk::{GraphicsPipeline, PipelineLayout, SetLayout},
 };
 
 /// Records the draw. The pipeline's vertex stage is `glsl/fullscreen.vert.glsl`; what it reads and its push constants are
@@ -54,10 +54,10 @@ pub(super) fn read_set(
 ) -> Result<vk::DescriptorSet> {
     let mut given = Vec::new();
     if let Some(lights) = lights {
-        given.push((LIGHTS, Descriptor::Buffer(context.buffer(lights)?)));
+        given.push((LIGHTS, context.descriptor(lights)?));
     }
     for (number, id) in images {
-        given.push((*number, Descriptor::Sampled(context.image(*id)?.1, context.layout(*id))));
+        given.push((*number, context.descriptor(*id)?));
     }
     inputs.descriptors.set(layout, &given)
 }

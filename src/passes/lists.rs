@@ -80,8 +80,8 @@ impl ListIds {
     pub fn descriptors(&self, context: &PassContext<'_>, chunk: usize) -> Result<Vec<(u32, Descriptor)>> {
         let mut given = Vec::new();
         if let Some(large) = self.large(chunk) {
-            given.push((0, Descriptor::Buffer(context.buffer(large.bits)?)));
-            given.push((2, Descriptor::Buffer(context.buffer(large.list)?)));
+            given.push((0, context.descriptor(large.bits)?));
+            given.push((2, context.descriptor(large.list)?));
         }
         Ok(given)
     }

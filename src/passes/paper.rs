@@ -16,7 +16,7 @@ use crate::{
     graph::{Access, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
     scene::Settings,
     shaders,
-    vk::{Blend, Descriptor},
+    vk::Blend,
 };
 
 /// What the pipelines of visibility and accumulation are. `filtered`: visibility too.
@@ -83,7 +83,7 @@ fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, kernel: ResourceId) -> 
     let layout = &inputs.shaders.splat_layout;
     let pipeline = inputs.shaders.graphics(key)?;
     Ok(Box::new(move |context| {
-        let texture = Descriptor::Sampled(context.image(kernel)?.1, context.layout(kernel));
+        let texture = context.descriptor(kernel)?;
         let texture = inputs.descriptors.set(&inputs.shaders.read_set, &[(1, texture)])?;
         let (device, commands) = (context.device(), context.commands());
         let bind_point = vk::PipelineBindPoint::GRAPHICS;

@@ -15,7 +15,7 @@ use super::{
 use crate::{
     error::Result,
     graph::{ResourceId, execute::PassContext},
-    vk::{Blend, ComputePipeline, Descriptor, GraphicsPipeline},
+    vk::{Blend, ComputePipeline, GraphicsPipeline},
 };
 
 /// What a splat pass is made of: its shaders, and what it writes.
@@ -128,7 +128,7 @@ pub(super) fn dispatch(
 ) -> Result<()> {
     let mut given = Vec::new();
     for (number, id) in buffers {
-        given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
+        given.push((*number, context.descriptor(*id)?));
     }
     let shaders = inputs.shaders;
     let sets = [draw.chunk.set(), inputs.descriptors.set(&shaders.list_set, &given)?];

@@ -38,7 +38,7 @@ impl<const BUFFERS: usize> ChunkMemory<BUFFERS> {
         let pool = DescriptorPool::new(uploader.device, &format!("set of {name}"), room)?;
         let named = (0..).zip(&buffers).take(2);
         let given: Vec<_> =
-            named.map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw()))).collect();
+            named.map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw(), buffer.size()))).collect();
         let set = pool.set(uploader.layout.set(), &given)?;
         Ok(Self { set, _pool: pool.seal(), buffers })
     }

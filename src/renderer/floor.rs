@@ -8,7 +8,7 @@ use crate::{
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
-        execute::{FrameProfile, Physical, Profile, Transients, execute, memory_need},
+        execute::{FrameProfile, Physical, Profile},
     },
     passes::{self, FLOOR_POINT_BYTES, FloorPoints, Inputs, Needs},
     prepare::PreparedScene,
@@ -113,7 +113,6 @@ impl<'a> Floor<'a> {
     }
 
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {
-        let device = headless.device();
         let draws = passes::draws(self.scene, &self.camera, &self.settings, &headless.renderer.limits);
         // Each chunk's points are a set in both passes that draw them.
         let room = passes::room_of_lists(2 * self.chunks.len() as u32);
@@ -121,7 +120,7 @@ impl<'a> Floor<'a> {
         headless.queue().wait_submitted()?;
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, profile) }?;
-        let SlotParts { descriptors, transients, profiler, .. } = self.slot.parts()?;
+        let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
         let shaders = &headless.renderer.shaders;
         let inputs =
             Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, shaders, descriptors) };
@@ -153,11 +152,9 @@ impl<'a> Floor<'a> {
                 .collect();
             passes::floor_frame(&mut graph, inputs, &points, &mut image, target.format)?;
         }
-        let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-        let transients = Transients::for_plan(transients, device, &compiled.plan)?;
         submit_and_wait(headless, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
-            unsafe { execute(device, commands, compiled, transients, &imports, profiler) }
+            unsafe { execution.record(commands, graph, &imports) }.map(drop)
         })
     }
 }

@@ -1,6 +1,6 @@
 //! A host of our own: a device, a queue, one frame at a time, pictures instead of a window.
 
-use std::{path::PathBuf, time::Instant};
+use std::{path::PathBuf, sync::Arc, time::Instant};
 
 use ash::vk;
 
@@ -86,7 +86,7 @@ pub struct Frame {
     /// Seconds in which the host recorded it.
     pub record_secs: f64,
     /// What was recorded.
-    pub plan: Plan,
+    pub plan: Arc<Plan>,
 }
 
 impl Headless {
@@ -227,7 +227,13 @@ impl Targets {
     }
 
     /// Copies what was wanted out of the buffers.
-    fn frame(&self, plan: Plan, profile: Option<FrameProfile>, wall_secs: f64, record_secs: f64) -> Frame {
+    fn frame(
+        &self,
+        plan: Arc<Plan>,
+        profile: Option<FrameProfile>,
+        wall_secs: f64,
+        record_secs: f64,
+    ) -> Frame {
         let picture = self.picture.as_ref().map(Buffer::bytes).unwrap_or_default();
         let (srgb, linear) = match self.wanted.linear {
             false => (copied(picture), Vec::new()),

@@ -8,10 +8,7 @@ use super::{Headless, Readbacks, declare, headless::submit_and_wait};
 use crate::{
     error::Result,
     frame::{FrameSlot, HeadlessTarget, SlotParts},
-    graph::{
-        BufferDesc as GraphBufferDesc, BufferState,
-        execute::{Physical, Transients, execute, memory_need},
-    },
+    graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
     passes::{self, Inputs, ListsInUse},
     prepare::PreparedScene,
     scene::{Camera, Settings},
@@ -36,7 +33,7 @@ impl Headless {
         let counts_draws = device.features().draw_indirect_count;
         // SAFETY: nothing was recorded in it.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
-        let SlotParts { descriptors, occlusion, transients, .. } = slot.parts()?;
+        let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
         let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &renderer.shaders, descriptors) };
         let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
 
@@ -55,16 +52,15 @@ impl Headless {
             passes::readback_buffer(&mut graph, &format!("read back {name}"), &content, &mut to, size);
             buffers.push((name, buffer));
         }
-        let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-        let names: Vec<String> =
-            compiled.plan.resources.iter().map(|resource| resource.name.clone()).collect();
-        let transients = Transients::for_plan(transients, device, &compiled.plan)?;
+        let mut names = Vec::new();
         submit_and_wait(self, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
-            unsafe {
+            let plan = unsafe {
                 renderer.shaders.begin_frame(commands);
-                execute(device, commands, compiled, transients, &imports, None)
-            }
+                execution.record(commands, graph, &imports)
+            }?;
+            names.extend(plan.resources.iter().map(|resource| resource.name.clone()));
+            Ok(())
         })?;
         let words = |buffer: &Buffer| {
             buffer.bytes().chunks_exact(4).map(bytemuck::pod_read_unaligned).collect::<Vec<u32>>()

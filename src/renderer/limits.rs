@@ -13,7 +13,7 @@ use crate::{
     frame::{FrameSlot, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
-        execute::{Body, FrameProfile, PassProfile, Physical, Profile, Transients, execute, memory_need},
+        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
     },
     passes::{self, LimitDispatch, LimitInputs, Needs},
     report::Limit,
@@ -181,13 +181,12 @@ impl Probe {
     }
 
     fn run(&mut self, headless: &Headless, settings: &Settings, profile: Profile) -> Result<FrameProfile> {
-        let device = headless.device();
         // Once more, in case that the wait for the measurement before failed.
         headless.queue().wait_submitted()?;
         let room = passes::room_of_lists(1);
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, Some(profile)) }?;
-        let SlotParts { descriptors, transients, profiler, .. } = self.slot.parts()?;
+        let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
         let shaders = &headless.renderer.shaders;
         let inputs = LimitInputs { settings, shaders, descriptors, repeats: self.repeats };
         let mut graph = Graph::new();
@@ -208,11 +207,9 @@ impl Probe {
             // No probe is made without a buffer.
             (_, []) => return Ok(FrameProfile::default()),
         }
-        let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-        let transients = Transients::for_plan(transients, device, &compiled.plan)?;
         submit_and_wait(headless, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
-            unsafe { execute(device, commands, compiled, transients, &imports, profiler) }
+            unsafe { execution.record(commands, graph, &imports) }.map(drop)
         })?;
         self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), |profiler| profiler.read())
     }
@@ -229,11 +226,9 @@ fn copy_buffers(headless: &Headless) -> Result<[Buffer; 2]> {
     let mut from = import(&mut graph, 0, &buffers[0]);
     let imports = [(from.id(), Physical::Buffer(buffers[0].raw()))];
     passes::limit_fill(&mut graph, &mut from);
-    let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-    let transients = Transients::new(device, &compiled.plan)?;
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
-        unsafe { execute(device, commands, compiled, &transients, &imports, None) }
+        unsafe { Kept::default().execute(device, commands, graph, &imports, None) }.map(drop)
     })?;
     Ok(buffers)
 }

@@ -9,6 +9,8 @@ mod limit_points;
 mod limits;
 mod paper;
 
+use std::sync::Arc;
+
 use ash::vk;
 
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
@@ -21,8 +23,8 @@ use crate::{
     error::{Error, Result},
     frame::{FrameSlot, SlotParts, Target},
     graph::{
-        Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan,
-        execute::{Body, Physical, Profile, Transients, execute, memory_need},
+        Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan, ResourceId,
+        execute::{Body, Physical, Profile},
     },
     passes::{self, Exported, FramePlan, Inputs, Shaders},
     prepare::{PreparedScene, prepare},
@@ -153,7 +155,7 @@ impl Renderer {
         target: &Target,
         readbacks: Readbacks,
         profile: Option<Profile>,
-    ) -> Result<Plan> {
+    ) -> Result<Arc<Plan>> {
         let frame = self.frame_plan(scene, camera, settings)?;
         let [width, height] = settings.size_px;
         if target.extent != (vk::Extent2D { width, height }) {
@@ -165,23 +167,18 @@ impl Renderer {
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
-        let SlotParts { descriptors, occlusion, transients, profiler } = slot.parts()?;
-        let shaders = &self.shaders;
-        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, shaders, descriptors) };
+        let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
+        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &self.shaders, descriptors) };
         let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
-        let compiled = graph.compile(|_, desc, usage| Ok(memory_need(&self.device, desc, usage)))?;
-        let plan = compiled.plan.clone();
-        let transients = Transients::for_plan(transients, &self.device, &plan)?;
         // SAFETY: this function's contract.
         unsafe {
             self.shaders.begin_frame(commands);
-            execute(&self.device, commands, compiled, transients, &imports, profiler)?;
+            execution.record(commands, graph, &imports)
         }
-        Ok(plan)
     }
 }
 
-type Imports = Vec<(crate::graph::ResourceId, Physical)>;
+type Imports = Vec<(ResourceId, Physical)>;
 
 /// The whole frame: its passes, and a copy for each thing that the host wants to read.
 fn declare<'a>(

@@ -6,10 +6,7 @@ use super::{Headless, headless::submit_and_wait, import_readback};
 use crate::{
     error::{Error, Result},
     frame::{FrameSlot, HeadlessTarget, SlotParts},
-    graph::{
-        Graph, ImageDesc,
-        execute::{Physical, Transients, execute, memory_need},
-    },
+    graph::{Graph, ImageDesc, execute::Physical},
     passes::{self, Inputs, Needs},
     prepare::PreparedScene,
     scene::{Camera, Settings},
@@ -52,7 +49,7 @@ pub fn draw_as_published(
     let room = PoolRoom { sets: 3, images: 4, filtered_images: 2, ..PoolRoom::default() };
     // SAFETY: the slot is new.
     unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
-    let SlotParts { descriptors, profiler, .. } = slot.parts()?;
+    let SlotParts { descriptors, execution, .. } = slot.parts()?;
     let shaders = &headless.renderer.shaders;
     let inputs = Inputs { draws: &draws, ..Inputs::new(camera, settings, shaders, descriptors) };
     let mut graph = Graph::new();
@@ -66,13 +63,11 @@ pub fn draw_as_published(
         (buffer.id(), Physical::Buffer(pixels.raw())),
     ];
     passes::readback(&mut graph, "read back target", &image, format, target.extent, &mut buffer);
-    let compiled = graph.compile(|_, desc, usage| Ok(memory_need(device, desc, usage)))?;
-    let transients = Transients::new(device, &compiled.plan)?;
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
         unsafe {
             shaders.begin_frame(commands);
-            execute(device, commands, compiled, &transients, &imports, profiler)
+            execution.record(commands, graph, &imports).map(drop)
         }
     })?;
     Ok(pixels.bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())

@@ -84,11 +84,8 @@ impl Buffer {
     /// whatever the driver answers.
     pub(crate) fn with_texels(mut self, name: &str, format: vk::Format) -> Result<Self> {
         debug_assert!(self.texels().is_none(), "{name} has texels already");
-        // Of those that Vulkan demands of every device.
-        let texel_bytes = match format {
-            vk::Format::R32_UINT => 4,
-            vk::Format::R32G32B32A32_UINT | vk::Format::R32G32B32A32_SFLOAT => 16,
-            _ => return Err(Error::option(name, format!("texels of {format:?}: not one of those in use"))),
+        let Some(texel_bytes) = texel_bytes(format) else {
+            return Err(Error::option(name, format!("texels of {format:?}: not one of those in use")));
         };
         let (texels, most) = (self.size / texel_bytes, self.device.facts().limits.max_texels);
         if texels > u64::from(most) {
@@ -147,6 +144,15 @@ impl Buffer {
         device.set_name(raw, desc.name);
         let (size, texels) = (desc.size, vk::BufferView::null());
         Ok(Self { device: device.clone(), raw, texels, size, allocation: None })
+    }
+}
+
+/// Bytes of a texel of the formats that buffers are read in: some of those that Vulkan demands of every device.
+pub(crate) fn texel_bytes(format: vk::Format) -> Option<u64> {
+    match format {
+        vk::Format::R32_UINT => Some(4),
+        vk::Format::R32G32B32A32_UINT | vk::Format::R32G32B32A32_SFLOAT => Some(16),
+        _ => None,
     }
 }
 

@@ -19,14 +19,35 @@ pub struct Binding {
 /// What a binding is given.
 #[derive(Clone, Copy, Debug)]
 pub enum Descriptor {
-    /// A whole buffer, storage or uniform as its binding is.
-    Buffer(vk::Buffer),
+    /// The first bytes of a buffer, so many, storage or uniform as its binding is.
+    Buffer(vk::Buffer, u64),
     /// The texels of a buffer.
     Texels(vk::BufferView),
     /// A sampled image in this layout, read by `texelFetch`, or through the sampler of its binding.
     Sampled(vk::ImageView, vk::ImageLayout),
     /// A storage image, in the layout `GENERAL`.
     Storage(vk::ImageView),
+}
+
+/// A [`Descriptor`] as Vulkan wants it.
+enum Info {
+    Buffer([vk::DescriptorBufferInfo; 1]),
+    Texels([vk::BufferView; 1]),
+    Image([vk::DescriptorImageInfo; 1]),
+}
+
+impl Info {
+    fn of(descriptor: Descriptor) -> Self {
+        let image = |view, layout| vk::DescriptorImageInfo::default().image_view(view).image_layout(layout);
+        match descriptor {
+            Descriptor::Buffer(raw, bytes) => {
+                Self::Buffer([vk::DescriptorBufferInfo::default().buffer(raw).range(bytes)])
+            }
+            Descriptor::Texels(view) => Self::Texels([view]),
+            Descriptor::Sampled(view, layout) => Self::Image([image(view, layout)]),
+            Descriptor::Storage(view) => Self::Image([image(view, vk::ImageLayout::GENERAL)]),
+        }
+    }
 }
 
 /// The bindings of a set.
@@ -194,34 +215,20 @@ impl DescriptorPool {
         self.device.set_name(set, &self.name);
         let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
         let stand_ins = (0..).zip(layout.stand_ins.iter().copied()).filter(|(number, _)| !is_given(*number));
-        for (number, descriptor) in given.iter().copied().chain(stand_ins) {
-            let write = vk::WriteDescriptorSet::default()
-                .dst_set(set)
-                .dst_binding(number)
-                .descriptor_type(layout.kinds[number as usize]);
-            let (buffer, texels, image);
-            let write = match descriptor {
-                Descriptor::Buffer(raw) => {
-                    buffer = [vk::DescriptorBufferInfo::default().buffer(raw).range(vk::WHOLE_SIZE)];
-                    write.buffer_info(&buffer)
-                }
-                Descriptor::Texels(view) => {
-                    texels = [view];
-                    write.texel_buffer_view(&texels)
-                }
-                Descriptor::Sampled(view, layout) => {
-                    image = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];
-                    write.image_info(&image)
-                }
-                Descriptor::Storage(view) => {
-                    let layout = vk::ImageLayout::GENERAL;
-                    image = [vk::DescriptorImageInfo::default().image_view(view).image_layout(layout)];
-                    write.image_info(&image)
-                }
-            };
-            // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
-            unsafe { self.device.raw().update_descriptor_sets(&[write], &[]) };
-        }
+        let all = given.iter().copied().chain(stand_ins);
+        let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
+        let writes = infos.iter().map(|(number, info)| {
+            let kind = layout.kinds[*number as usize];
+            let write =
+                vk::WriteDescriptorSet::default().dst_set(set).dst_binding(*number).descriptor_type(kind);
+            match info {
+                Info::Buffer(info) => write.buffer_info(info),
+                Info::Texels(view) => write.texel_buffer_view(view),
+                Info::Image(info) => write.image_info(info),
+            }
+        });
+        // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
+        unsafe { self.device.raw().update_descriptor_sets(&writes.collect::<Vec<_>>(), &[]) };
         Ok(set)
     }
 

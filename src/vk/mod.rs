@@ -34,6 +34,7 @@ mod stand_ins;
 
 pub use allow_list::{ALLOWED, Allowed};
 pub use borrowed::{BorrowedDevice, EnabledFeatures};
+pub(crate) use buffer::texel_bytes;
 pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
 pub use commands::CommandPool;

@@ -88,7 +88,7 @@ impl StandIns {
             vk::DescriptorType::SAMPLED_IMAGE | vk::DescriptorType::COMBINED_IMAGE_SAMPLER => {
                 Descriptor::Sampled(self.image.view(), vk::ImageLayout::GENERAL)
             }
-            _ => Descriptor::Buffer(buffer.raw()),
+            _ => Descriptor::Buffer(buffer.raw(), buffer.size()),
         }
     }
 }

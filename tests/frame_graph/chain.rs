@@ -112,10 +112,11 @@ pub fn submit(
     imports: &Imports,
 ) -> (CommandPool, u64) {
     let pool = CommandPool::new(&watched.device, "chain").unwrap();
+    let Compiled { plan, bodies } = compiled;
     // SAFETY: the pool is new and the queue one; all that is used is alive until the callers' wait.
     unsafe {
         let commands = pool.begin().unwrap();
-        execute(&watched.device, commands, compiled, transients, imports, None).unwrap();
+        execute(&watched.device, commands, &plan, bodies, transients, imports, None).unwrap();
         let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
         (pool, epoch)
     }

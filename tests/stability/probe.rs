@@ -101,7 +101,8 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<Formula>) -> 
     let answers = buffer("answers", (asked.len() * size_of::<Answer>()) as u64, MemoryUse::Readback);
     let pool = DescriptorPool::new(device, "probe", PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() })
         .unwrap();
-    let bound = [(0, Descriptor::Buffer(given.raw())), (1, Descriptor::Buffer(answers.raw()))];
+    let whole = |buffer: &Buffer| Descriptor::Buffer(buffer.raw(), buffer.size());
+    let bound = [(0, whole(&given)), (1, whole(&answers))];
     let set = pool.set(&set_layout, &bound).unwrap();
 
     let limits = device.facts().limits;

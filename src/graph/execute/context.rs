@@ -3,12 +3,13 @@
 use ash::vk;
 
 use super::{
-    super::{Access, PlannedPass, ResourceId},
+    super::{Access, PlannedPass, ResourceDesc, ResourceId},
     Physical,
+    recorder::Recorder,
 };
 use crate::{
-    error::{ErrorKind, Result},
-    vk::Device,
+    error::{Error, ErrorKind, Result},
+    vk::Descriptor,
 };
 
 /// What a pass records: it is called between the pass's barriers and the next pass, inside of dynamic rendering for
@@ -17,21 +18,65 @@ pub type Body<'a> = Box<dyn FnOnce(&PassContext<'_>) -> Result<()> + 'a>;
 
 /// What a body records with.
 pub struct PassContext<'a> {
-    pub(super) device: &'a Device,
-    pub(super) commands: vk::CommandBuffer,
-    pub(super) physical: &'a [Option<Physical>],
+    pub(super) recorder: &'a Recorder<'a>,
+    /// One a resource.
+    pub(super) bindings: &'a [Binding],
+    /// The pass's place in the plan.
+    pub(super) index: u32,
     pub(super) pass: &'a PlannedPass,
+}
+
+/// How the last pass that declared a resource accesses it.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Binding {
+    /// The pass's place in the plan; `None` where none has declared it yet.
+    pass: Option<u32>,
+    /// The layout of an image.
+    layout: vk::ImageLayout,
+    /// It is read by texels.
+    texels: bool,
+}
+
+impl Binding {
+    /// Takes over all that a pass has declared.
+    pub fn declare(bindings: &mut [Self], index: u32, pass: &PlannedPass) {
+        for usage in &pass.uses {
+            let binding = &mut bindings[usage.resource.index()];
+            let texels = usage.access == Access::TexelReadCompute;
+            let is_first = binding.pass.replace(index) != Some(index);
+            binding.texels = texels || !is_first && binding.texels;
+            binding.layout = usage.access.info().image.map(|(layout, _)| layout).unwrap_or_default();
+        }
+    }
 }
 
 impl PassContext<'_> {
     /// The device.
     pub fn device(&self) -> &ash::Device {
-        self.device.raw()
+        self.recorder.device.raw()
     }
 
     /// The command buffer, recording.
     pub fn commands(&self) -> vk::CommandBuffer {
-        self.commands
+        self.recorder.commands
+    }
+
+    /// A resource that the pass declared, as it declared it, for a set of descriptors: of a buffer as much as was asked for,
+    /// whatever room it has.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Graph`] for one that it did not declare.
+    pub fn descriptor(&self, id: ResourceId) -> Result<Descriptor> {
+        let (Binding { layout, texels, .. }, object) = self.declared(id)?;
+        Ok(match (object, self.recorder.plan.resource(id).desc) {
+            (Physical::Image(_, view), _) if layout == vk::ImageLayout::GENERAL => Descriptor::Storage(view),
+            (Physical::Image(_, view), _) => Descriptor::Sampled(view, layout),
+            (Physical::TexelBuffer(_, view), _) if texels => Descriptor::Texels(view),
+            (Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _), ResourceDesc::Buffer(desc)) => {
+                Descriptor::Buffer(buffer, desc.size_bytes)
+            }
+            (_, ResourceDesc::Image(_)) => return Err(self.refuse(id, "is an image, not a buffer")),
+        })
     }
 
     /// The image behind a resource that the pass declared.
@@ -39,7 +84,7 @@ impl PassContext<'_> {
     /// # Errors
     /// [`ErrorKind::Graph`] for one that it did not declare.
     pub fn image(&self, id: ResourceId) -> Result<(vk::Image, vk::ImageView)> {
-        match self.declared(id)? {
+        match self.declared(id)?.1 {
             Physical::Image(image, view) => Ok((image, view)),
             Physical::Buffer(_) | Physical::TexelBuffer(..) => {
                 Err(self.refuse(id, "is a buffer, not an image"))
@@ -47,52 +92,31 @@ impl PassContext<'_> {
         }
     }
 
-    /// The buffer behind a resource that the pass declared.
+    /// The buffer behind a resource that the pass declared. It may have room for more than was asked for.
     ///
     /// # Errors
     /// [`ErrorKind::Graph`] for one that it did not declare.
     pub fn buffer(&self, id: ResourceId) -> Result<vk::Buffer> {
-        match self.declared(id)? {
-            Physical::TexelBuffer(..) if self.reads_texels(id) => {
-                Err(self.refuse(id, "was declared to be read by texels"))
-            }
+        match self.declared(id)?.1 {
             Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => Ok(buffer),
             Physical::Image(..) => Err(self.refuse(id, "is an image, not a buffer")),
         }
     }
 
-    /// The texels of a buffer that the pass declared to read by them.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Graph`] for one that it did not declare, or that has none.
-    pub fn texels(&self, id: ResourceId) -> Result<vk::BufferView> {
-        match self.declared(id)? {
-            Physical::TexelBuffer(_, texels) if self.reads_texels(id) => Ok(texels),
-            Physical::TexelBuffer(..) => Err(self.refuse(id, "was not declared to be read by texels")),
-            _ => Err(self.refuse(id, "has no texels")),
-        }
-    }
-
-    fn reads_texels(&self, id: ResourceId) -> bool {
-        self.pass.uses.iter().any(|usage| usage.resource == id && usage.access == Access::TexelReadCompute)
-    }
-
     /// The layout in which the pass finds an image that it declared.
     pub fn layout(&self, id: ResourceId) -> vk::ImageLayout {
-        let uses = self.pass.uses.iter().filter(|usage| usage.resource == id);
-        uses.filter_map(|usage| usage.access.info().image).next().map_or(vk::ImageLayout::UNDEFINED, |i| i.0)
+        self.declared(id).map_or(vk::ImageLayout::UNDEFINED, |(binding, _)| binding.layout)
     }
 
-    fn declared(&self, id: ResourceId) -> Result<Physical> {
+    fn declared(&self, id: ResourceId) -> Result<(Binding, Physical)> {
         // A body that reaches for what it did not declare would race: no barrier knows of it.
-        if !self.pass.uses.iter().any(|usage| usage.resource == id) {
-            return Err(self.refuse(id, "is used by the pass but not declared"));
+        match self.bindings.get(id.index()) {
+            Some(binding) if binding.pass == Some(self.index) => Ok((*binding, self.recorder.object(id)?)),
+            _ => Err(self.refuse(id, "is used by the pass but not declared")),
         }
-        self.physical[id.index()]
-            .ok_or_else(|| self.refuse(id, "has no Vulkan object: an import was not given"))
     }
 
-    fn refuse(&self, id: ResourceId, reason: &str) -> crate::error::Error {
+    fn refuse(&self, id: ResourceId, reason: &str) -> Error {
         let resource = format!("#{}", id.index());
         ErrorKind::Graph { pass: self.pass.name.clone(), resource, reason: reason.to_owned() }.into()
     }

@@ -2,19 +2,22 @@
 //! submits and never waits.
 
 mod context;
+mod kept;
 mod profiler;
 mod recorder;
+mod rooms;
 mod transients;
 
 use ash::vk;
 
-use self::recorder::Recorder;
+use self::{context::Binding, recorder::Recorder};
 pub use self::{
     context::{Body, PassContext},
+    kept::Kept,
     profiler::{FrameProfile, PassCounts, PassProfile, Profile, Profiler},
     transients::{Transients, memory_need},
 };
-use super::{Batch, Compiled, PassKind, Plan, ResourceDesc, ResourceId};
+use super::{PassKind, Plan, ResourceDesc, ResourceId};
 use crate::{
     error::{ErrorKind, Result},
     vk::Device,
@@ -31,7 +34,7 @@ pub enum Physical {
     TexelBuffer(vk::Buffer, vk::BufferView),
 }
 
-/// Records every pass of a compiled graph: its barriers, its debug label, its queries, its rendering, its body.
+/// Records every pass of a plan: its barriers, its debug label, its queries, its rendering, its body.
 ///
 /// # Errors
 /// [`ErrorKind::Graph`] if an import is missing or of the wrong kind, before anything is recorded; whatever a body
@@ -39,17 +42,18 @@ pub enum Physical {
 ///
 /// # Safety
 /// `commands` must be recording, outside of rendering, and be submitted to the queue of the device's family, after
-/// earlier executions with the same `transients`. `imports` must be alive until it has run, of the declared
-/// description, and in their declared initial states. `profiler`'s earlier frame must have finished.
+/// earlier executions with the same `transients`, which are those of this plan or of one that differs in sizes of buffers alone.
+/// `imports` must be alive until it has run, of the declared description, and in their declared initial states.
+/// `profiler`'s earlier frame must have finished.
 pub unsafe fn execute(
     device: &Device,
     commands: vk::CommandBuffer,
-    compiled: Compiled<Body<'_>>,
+    plan: &Plan,
+    bodies: Vec<Body<'_>>,
     transients: &Transients,
     imports: &[(ResourceId, Physical)],
     mut profiler: Option<&mut Profiler>,
 ) -> Result<()> {
-    let Compiled { plan, bodies } = compiled;
     let mut physical = transients.physical(plan.resources.len());
     for (id, object) in imports {
         if let Some(place) = physical.get_mut(id.index()) {
@@ -57,29 +61,31 @@ pub unsafe fn execute(
         }
     }
     // Before the first command: what fails later would leave labels and queries open.
-    check_objects(&plan, &physical)?;
-    let recorder = Recorder { device, commands, plan: &plan, physical: &physical };
+    check_objects(plan, &physical)?;
+    let recorder = Recorder { device, commands, plan, physical: &physical };
     if let Some(profiler) = &mut profiler {
         // SAFETY: this function's contract.
-        unsafe { profiler.begin_frame(commands, plan.passes.iter()) };
+        unsafe { profiler.begin_frame(commands, &plan.passes) };
     }
     let profiler = profiler.as_deref();
+    let mut bindings = vec![Binding::default(); plan.resources.len()];
     for ((index, pass), body) in (0..).zip(&plan.passes).zip(bodies) {
         let draws = pass.rendering.is_some();
         // Copies have nothing to count.
-        let counts = draws || pass.kind == PassKind::Compute;
+        let counting = profiler.filter(|_| draws || pass.kind == PassKind::Compute);
         device.begin_label(commands, &pass.name);
         // SAFETY: this function's contract, here and below.
         unsafe {
-            recorder.barriers(&pass.barriers)?;
+            recorder.barriers(pass.barriers.memory, &pass.barriers.resources)?;
             recorder.begin_rendering(pass)?;
-            profiler.filter(|_| counts).inspect(|profiler| profiler.begin_counts(commands, index));
+            counting.inspect(|profiler| profiler.begin_counts(commands, index));
         }
-        let done = body(&PassContext { device, commands, physical: &physical, pass });
+        Binding::declare(&mut bindings, index, pass);
+        let done = body(&PassContext { recorder: &recorder, bindings: &bindings, index, pass });
         // Also after a body that failed, so that the command buffer stays well-formed.
         // SAFETY: as above.
         unsafe {
-            profiler.filter(|_| counts).inspect(|profiler| profiler.end_counts(commands, index));
+            counting.inspect(|profiler| profiler.end_counts(commands, index));
             if draws {
                 device.raw().cmd_end_rendering(commands);
             }
@@ -88,9 +94,8 @@ pub unsafe fn execute(
         device.end_label(commands);
         done?;
     }
-    let last = Batch { memory: None, resources: plan.final_barriers.clone() };
     // SAFETY: this function's contract.
-    unsafe { recorder.barriers(&last) }
+    unsafe { recorder.barriers(None, &plan.final_barriers) }
 }
 
 /// Refuses a plan of which a resource in use has no object, or one of another kind.

@@ -131,12 +131,8 @@ impl Profiler {
 
     /// # Safety
     /// `commands` must be recording outside of rendering; the frame measured before has finished.
-    pub(super) unsafe fn begin_frame<'a>(
-        &mut self,
-        commands: vk::CommandBuffer,
-        passes: impl Iterator<Item = &'a PlannedPass>,
-    ) {
-        self.passes = passes.map(|pass| (pass.name.clone(), pass.kind)).collect();
+    pub(super) unsafe fn begin_frame(&mut self, commands: vk::CommandBuffer, passes: &[PlannedPass]) {
+        self.passes = passes.iter().map(|pass| (pass.name.clone(), pass.kind)).collect();
         // SAFETY: this function's contract.
         unsafe {
             match &self.queries {

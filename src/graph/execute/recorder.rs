@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{
-    super::{Attachment, Barrier, Batch, Plan, PlannedPass, ResourceDesc, ResourceId, Scope, aspect_of},
+    super::{Attachment, Barrier, Plan, PlannedPass, ResourceDesc, ResourceId, Scope, aspect_of},
     Physical,
 };
 use crate::{
@@ -20,27 +20,27 @@ pub(super) struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    /// One `vkCmdPipelineBarrier2` for all of a batch.
+    /// One `vkCmdPipelineBarrier2` for all of a batch: memory, source and destination, and resources.
     ///
     /// # Safety
     /// As [`super::execute`].
-    pub(super) unsafe fn barriers(&self, batch: &Batch) -> Result<()> {
-        if batch.is_empty() {
+    pub(super) unsafe fn barriers(
+        &self,
+        memory: Option<(Scope, Scope)>,
+        resources: &[Barrier],
+    ) -> Result<()> {
+        if memory.is_none() && resources.is_empty() {
             return Ok(());
         }
-        let memory: Vec<_> = batch
-            .memory
-            .iter()
-            .map(|(src, dst)| {
-                vk::MemoryBarrier2::default()
-                    .src_stage_mask(src.stages)
-                    .src_access_mask(src.access)
-                    .dst_stage_mask(dst.stages)
-                    .dst_access_mask(dst.access)
-            })
-            .collect();
+        let memory = memory.map(|(src, dst)| {
+            vk::MemoryBarrier2::default()
+                .src_stage_mask(src.stages)
+                .src_access_mask(src.access)
+                .dst_stage_mask(dst.stages)
+                .dst_access_mask(dst.access)
+        });
         let (mut images, mut buffers) = (Vec::new(), Vec::new());
-        for barrier in &batch.resources {
+        for barrier in resources {
             match self.object(barrier.resource)? {
                 Physical::Image(image, _) => images.push(self.image_barrier(barrier, image)),
                 Physical::Buffer(buffer) | Physical::TexelBuffer(buffer, _) => {
@@ -49,7 +49,7 @@ impl Recorder<'_> {
             }
         }
         let info = vk::DependencyInfo::default()
-            .memory_barriers(&memory)
+            .memory_barriers(memory.as_slice())
             .image_memory_barriers(&images)
             .buffer_memory_barriers(&buffers);
         // SAFETY: this function's contract.
@@ -118,7 +118,7 @@ impl Recorder<'_> {
             .subresource_range(range)
     }
 
-    fn object(&self, id: ResourceId) -> Result<Physical> {
+    pub(super) fn object(&self, id: ResourceId) -> Result<Physical> {
         self.physical[id.index()]
             .ok_or_else(|| self.refuse(id, "has no Vulkan object: an import was not given"))
     }

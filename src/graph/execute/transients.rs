@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{
-    super::{Block, ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Slot, Usage, Use},
+    super::{ImageDesc, MemoryClass, MemoryNeed, Plan, ResourceDesc, Usage},
     Physical,
 };
 use crate::{
@@ -38,12 +38,11 @@ pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Memory
     }
 }
 
-/// The transients of one plan; reusable for every plan that has the same ones and accesses them alike.
+/// The transients of one plan.
 pub struct Transients {
     // Dropped, and so destroyed, before the memory that they are bound to.
     objects: Vec<Option<Object>>,
     memory: Vec<Memory>,
-    key: Key,
 }
 
 enum Object {
@@ -51,30 +50,13 @@ enum Object {
     Buffer(Buffer),
 }
 
-/// All that the objects depend on.
-#[derive(PartialEq)]
-struct Key {
-    resources: Vec<Option<(ResourceDesc, Usage, Slot)>>,
-    blocks: Vec<Block>,
-    /// The first accesses wait for the last ones of the execution before, taken to be the same.
-    uses: Vec<Vec<Use>>,
-}
-
-impl Key {
-    fn of(plan: &Plan) -> Self {
-        let resources = plan.resources.iter();
-        let resources = resources.map(|r| r.slot.map(|slot| (r.desc, r.usage, slot))).collect();
-        let uses = plan.passes.iter().map(|pass| pass.uses.clone()).collect();
-        Self { resources, blocks: plan.blocks.clone(), uses }
-    }
-}
-
 impl Transients {
-    /// Allocates and creates all transients of a plan.
+    /// Allocates and creates all transients of a plan. `room`: how many bytes the buffer has room for that is in this place among the
+    /// resources; as many as it needs, or more where the plan's memory was asked for so.
     ///
     /// # Errors
     /// Whatever the allocator or the driver answers.
-    pub fn new(device: &Device, plan: &Plan) -> Result<Self> {
+    pub fn new(device: &Device, plan: &Plan, room: impl Fn(usize) -> u64) -> Result<Self> {
         let memory = plan.blocks.iter().map(|block| {
             let requirements = vk::MemoryRequirements {
                 size: block.size_bytes,
@@ -88,7 +70,7 @@ impl Transients {
             Memory::new(device, name, requirements, linear)
         });
         let memory = memory.collect::<Result<Vec<_>>>()?;
-        let objects = plan.resources.iter().map(|resource| {
+        let objects = plan.resources.iter().enumerate().map(|(place, resource)| {
             let Some(slot) = resource.slot else { return Ok(None) };
             let (block, offset) = (&memory[slot.block], slot.offset_bytes);
             Ok(match (resource.desc, resource.usage) {
@@ -99,7 +81,7 @@ impl Transients {
                 (ResourceDesc::Buffer(desc), Usage::Buffer(usage)) => {
                     let texels =
                         usage.contains(vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER).then_some(desc.texels);
-                    let desc = BufferDesc { name: &resource.name, size: desc.size_bytes, usage };
+                    let desc = BufferDesc { name: &resource.name, size: room(place), usage };
                     let buffer = Buffer::placed(device, desc, block, offset)?;
                     Some(Object::Buffer(match texels {
                         Some(format) => buffer.with_texels(&resource.name, format)?,
@@ -110,24 +92,7 @@ impl Transients {
             })
         });
         let objects = objects.collect::<Result<Vec<_>>>()?;
-        Ok(Self { objects, memory, key: Key::of(plan) })
-    }
-
-    /// Whether they serve this plan too.
-    pub fn fit(&self, plan: &Plan) -> bool {
-        self.key == Key::of(plan)
-    }
-
-    /// Those of the frame before where they serve this plan too; else new ones. The old ones are destroyed once the frames that
-    /// use them are done.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn for_plan<'k>(kept: &'k mut Option<Self>, device: &Device, plan: &Plan) -> Result<&'k mut Self> {
-        match kept.take_if(|transients| transients.fit(plan)) {
-            Some(transients) => Ok(kept.insert(transients)),
-            None => Ok(kept.insert(Self::new(device, plan)?)),
-        }
+        Ok(Self { objects, memory })
     }
 
     /// Bytes of device memory.

@@ -35,7 +35,7 @@ fn a_reader_waits_for_the_writer_and_sees_its_work() {
     write(&mut graph, "write", &mut b);
     read(&mut graph, "read", &b, Access::TransferRead);
     let plan = plan_of(graph);
-    assert!(plan.passes[0].barriers.is_empty(), "nobody was at work on it");
+    assert_eq!(plan.passes[0].barriers, Batch::default(), "nobody was at work on it");
     assert_eq!(barriers(&plan, 1), [(Cause::ReadAfterWrite, WRITTEN, COPIED)]);
 }
 
@@ -47,7 +47,7 @@ fn a_writer_waits_for_all_readers_and_flushes_nothing() {
     read(&mut graph, "compute", &b, Access::StorageReadCompute);
     write(&mut graph, "write", &mut b);
     let plan = plan_of(graph);
-    assert!(plan.passes[1].barriers.is_empty());
+    assert_eq!(plan.passes[1].barriers, Batch::default());
     let src = scope(S::ALL_TRANSFER | S::COMPUTE_SHADER, A::NONE);
     assert_eq!(barriers(&plan, 2), [(Cause::WriteAfterRead, src, WRITTEN)]);
 }
@@ -70,7 +70,7 @@ fn a_second_reader_waits_only_where_it_can_not_see_the_write_yet() {
     read(&mut graph, "copy again", &b, Access::TransferRead);
     read(&mut graph, "compute", &b, Access::StorageReadCompute);
     let plan = plan_of(graph);
-    assert!(plan.passes[2].barriers.is_empty());
+    assert_eq!(plan.passes[2].barriers, Batch::default());
     // The write itself, not the first reader: the two readers may run at the same time.
     let reader = scope(S::COMPUTE_SHADER, A::SHADER_STORAGE_READ);
     assert_eq!(barriers(&plan, 3), [(Cause::ReadAfterWrite, WRITTEN, reader)]);

@@ -7,6 +7,7 @@ mod illegal;
 mod memory;
 mod operations;
 mod random;
+mod shapes;
 mod simulator;
 
 use ash::vk;

@@ -22,7 +22,7 @@ use crate::{
     report::Limit,
     scene::{Settings, TileInvocations},
     shaders::{self, Shader},
-    vk::{Blend, Descriptor, DescriptorPool, Limits},
+    vk::{Blend, DescriptorPool, Limits},
 };
 
 /// Splats of each invocation of the kernels' limit.
@@ -238,6 +238,6 @@ fn set_of(
     inputs: LimitInputs<'_>,
     buffer: ResourceId,
 ) -> Result<vk::DescriptorSet> {
-    let given = [(0, Descriptor::Buffer(context.buffer(buffer)?))];
+    let given = [(0, context.descriptor(buffer)?)];
     inputs.descriptors.set(&inputs.shaders.list_set, &given)
 }

@@ -19,7 +19,6 @@ use crate::{
         Access, ClearValue, Graph, Handle, Image, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    vk::Descriptor,
 };
 
 /// Declares their visibility; returns the depth, as that of all splats is. `kind`, in front of the splats, tells those of several bands
@@ -101,7 +100,7 @@ impl<'a> LargeDraws<'a> {
 
     fn record(&self, context: &PassContext<'_>) -> Result<()> {
         let shaders = self.inputs.shaders;
-        let list = [(2, Descriptor::Buffer(context.buffer(self.entries)?))];
+        let list = [(2, context.descriptor(self.entries)?)];
         let list = self.inputs.descriptors.set(&shaders.list_set, &list)?;
         let arguments = context.buffer(self.arguments)?;
         let layout = &shaders.splat_layout;

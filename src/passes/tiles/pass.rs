@@ -17,7 +17,7 @@ use crate::{
     error::Result,
     graph::{ResourceId, execute::PassContext},
     shaders::Shader,
-    vk::{ComputePipeline, Descriptor},
+    vk::ComputePipeline,
 };
 
 /// One compute pass over tiles.
@@ -52,17 +52,9 @@ impl<'a> TilePass<'a> {
 
     pub fn bind(&self, context: &PassContext<'_>) -> Result<()> {
         let mut given = Vec::new();
-        for (number, id) in &self.buffers {
-            given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
-        }
-        for (number, id) in &self.texel_buffers {
-            given.push((*number, Descriptor::Texels(context.texels(*id)?)));
-        }
-        for (number, id) in &self.storage_images {
-            given.push((*number, Descriptor::Storage(context.image(*id)?.1)));
-        }
-        for (number, id) in &self.sampled_images {
-            given.push((*number, Descriptor::Sampled(context.image(*id)?.1, context.layout(*id))));
+        let of_buffers = self.buffers.iter().chain(&self.texel_buffers);
+        for (number, id) in of_buffers.chain(&self.storage_images).chain(&self.sampled_images) {
+            given.push((*number, context.descriptor(*id)?));
         }
         let set = self.inputs.descriptors.set(&self.inputs.shaders.tiles()?.set, &given)?;
         let layout = self.inputs.shaders.tiles()?.tile.raw();

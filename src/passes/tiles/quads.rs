@@ -15,7 +15,7 @@ use crate::{
     error::Result,
     graph::{Access, PassBuilder, ResourceId, execute::PassContext},
     shaders::{self, Shader},
-    vk::{Descriptor, GraphicsPipeline},
+    vk::GraphicsPipeline,
 };
 
 /// Which tiles have splats, for the passes that draw over them.
@@ -66,7 +66,7 @@ pub(in super::super) fn draw_quads_of_tiles(
     let (device, commands) = (context.device(), context.commands());
     let constants = FinalizeConstants { tile_height: seen.tile_height, ..constants };
     for (runs, arguments) in &seen.bands {
-        let list = [(RUNS, Descriptor::Buffer(context.buffer(*runs)?))];
+        let list = [(RUNS, context.descriptor(*runs)?)];
         let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
         let arguments = context.buffer(*arguments)?;
         // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is

@@ -16,7 +16,6 @@ use crate::{
     error::Result,
     graph::{Access, Graph, Start, execute::Body},
     shaders,
-    vk::Descriptor,
 };
 
 /// Invocations of a workgroup, as in `glsl/tile_record.comp.glsl`.
@@ -61,7 +60,7 @@ pub(super) fn record<'a>(
     pass.finish(Box::new(move |context| {
         let mut given = Vec::new();
         for (number, id) in &ids {
-            given.push((*number, Descriptor::Buffer(context.buffer(*id)?)));
+            given.push((*number, context.descriptor(*id)?));
         }
         let set = inputs.descriptors.set(&inputs.shaders.tiles()?.set, &given)?;
         let layout = &inputs.shaders.tiles()?.record;
