@@ -51,8 +51,6 @@ layout(location = 0) out vec4 color_sum;  // weight * linear albedo, weight
 layout(location = 1) out vec4 normal_sum; // weight * normal, weight * z / z_visible or 0; of a layer: weight * alpha
 #endif
 
-const float LEAST_WEIGHT = 5.9604645e-8; // 2^-24
-
 void main()
 {
     Covered fragment = covered(COVERAGE_R2);

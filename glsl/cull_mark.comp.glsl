@@ -12,7 +12,7 @@
 #include "inc/kept.glsl"
 #define KEPT_BLOCKS 4
 #include "inc/kept_blocks.glsl"
-#include "inc/tiles.glsl"
+#include "inc/groups.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, std430) writeonly buffer KeptBits { uint kept_bits[]; };

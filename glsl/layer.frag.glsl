@@ -28,9 +28,6 @@ layout(set = 0, binding = 2) uniform texture2D splats_before; // fourth componen
 #if defined(BEFORE_POLYGONS) || defined(BEFORE_HYBRID)
 layout(set = 0, binding = 3) uniform texture2D polygons_before;
 #endif
-
-// More surfaces than this are not told apart: a rim before them would count them as a thousand.
-const float MOST_SURFACES = 8.0;
 #endif
 layout(set = 0, binding = 0) uniform texture2D color_sums;  // sum of weight * alpha * color, sum of weight * alpha
 layout(set = 0, binding = 1) uniform texture2D weight_sums; // sum of weight
@@ -62,7 +59,7 @@ void main()
 #if defined(BEFORE_POLYGONS) || defined(BEFORE_HYBRID)
     before += texelFetch(polygons_before, pixel, 0).a;
 #endif
-    float surfaces = FORMULA(FORMULA_STACKED, clamp(weight / max(before, 1.0), 1.0, MOST_SURFACES));
+    float surfaces = FORMULA(FORMULA_STACKED, clamp(weight / max(before, 1.0), 1.0, MOST_STACKED_SURFACES));
     alpha = 1.0 - pow(1.0 - alpha, surfaces);
 #endif
     layer = vec4(alpha * (sum.rgb / sum.a), alpha);

@@ -1,5 +1,5 @@
 // For the limits beside the floor benchmark: splats seen at pixels and then added to them, by what tiles do it with
-// (inc/tile_pixel.glsl), and nothing else: no list, no record, no image. Each splat is the one before, moved a little, so that only
+// (tile/pixel.glsl), and nothing else: no list, no record, no image. Each splat is the one before, moved a little, so that only
 // its place is new. An invocation has a column of 8 pixels, or, PIXELS, one, as in tile_splat.comp.glsl.
 // Permutations: _ pixels
 #version 460
@@ -11,15 +11,15 @@
 #if defined(PIXELS)
 #define ROWS 1
 #else
-#define ROWS 8
+#define ROWS MOST_TILE_HEIGHT
 #endif
-#define FIRST_ROW 0
-#define BATCH 8
-#include "inc/tile_record.glsl"
-#include "inc/tile_column.glsl"
-#include "inc/tile_pixel.glsl"
+const int first_row = 0;
+vec2 top_px;
+#define PEELS false
+#include "tile/splat.glsl"
+#include "tile/pixel.glsl"
 
-layout(constant_id = 27) const uint SPLATS = 64; // a multiple of BATCH
+layout(constant_id = 27) const uint SPLATS = 64; // a multiple of TILE_BATCH
 
 layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, std430) writeonly buffer Words { uint words[]; };
@@ -32,39 +32,37 @@ Splat moved(Splat splat, uint by)
 
 void main()
 {
-    vec2 at_px = vec2(gl_LocalInvocationIndex % 8, gl_LocalInvocationIndex / 8 * ROWS);
+    top_px = vec2(gl_LocalInvocationIndex % 8, gl_LocalInvocationIndex / 8 * ROWS);
     // Not known before the dispatch, so that nothing is computed before it.
     float unknown = 1.0 + 0.001 * float(gl_WorkGroupID.x);
     Splat first = Splat(0, vec2(-unknown), unknown, 0.99 * unknown, unknown * vec4(0.1, 0.01, -0.01, 0.1), unknown * vec2(0.001, 0.002));
-    Look look = Look(vec3(unknown, 0.5 * unknown, 0.2 * unknown), 1.0, unknown * vec3(0.6, 0.0, -0.8), 0.9 * unknown);
+    vec3 color = vec3(unknown, 0.5 * unknown, 0.2 * unknown);
+    SplatAttributes attributes = SplatAttributes(color, 1.0, unknown * vec3(0.6, 0.0, -0.8), 0.9 * unknown);
 
-    float visible[ROWS];
-    vec4 colors[ROWS];
-    vec4 normals[ROWS];
     [[unroll]] for (int row = 0; row < ROWS; row++) {
         visible[row] = 0.0;
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
     }
-    for (uint base = 0; base < SPLATS; base += BATCH) {
-        [[unroll]] for (uint k = 0; k < BATCH; k++) {
+    for (uint base = 0; base < SPLATS; base += TILE_BATCH) {
+        [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
             Splat splat = moved(first, base + k);
-            Column column = column_of(splat, at_px);
+            Column column = column_of(splat);
             [[unroll]] for (int row = 0; row < ROWS; row++) {
-                see(splat, column, row, visible[row]);
+                see(splat, column, row);
             }
         }
     }
-    for (uint base = 0; base < SPLATS; base += BATCH) {
-        Splat splats[BATCH];
-        Column columns[BATCH];
-        [[unroll]] for (uint k = 0; k < BATCH; k++) {
+    for (uint base = 0; base < SPLATS; base += TILE_BATCH) {
+        Splat splats[TILE_BATCH];
+        Column columns[TILE_BATCH];
+        [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
             splats[k] = moved(first, base + k);
-            columns[k] = column_of(splats[k], at_px);
+            columns[k] = column_of(splats[k]);
         }
         [[unroll]] for (int row = 0; row < ROWS; row++) {
-            [[unroll]] for (uint k = 0; k < BATCH; k++) {
-                add(splats[k], look, columns[k], row, visible[row], 0.0, colors[row], normals[row]);
+            [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
+                add(splats[k], attributes, columns[k], row);
             }
         }
     }

@@ -1,9 +1,9 @@
 // A quad for each run of tiles that have splats, along a row.
 #version 460
+#include "inc/config.glsl"
 #include "inc/finalize.glsl"
-#include "inc/tiles.glsl"
 
-layout(set = 1, binding = 19, std430) readonly buffer TileRuns { uvec2 tile_runs[]; };
+layout(set = 1, binding = BIND_RUNS, std430) readonly buffer TileRuns { uvec2 tile_runs[]; };
 
 void main()
 {

@@ -1,43 +1,61 @@
-// What a tile shows whose splats were seen and summed in parts (tile_splat.comp.glsl with IN_SLOTS), as SHADED there does it of all
-// others in registers. One workgroup an overfull tile, one invocation a pixel.
+// Visibility, accumulation and shading (finalize.frag.glsl) of a tile's splats: what a pixel shows, in place of sums, which never
+// leave the registers; where nobody else reads them. Overflow tiles are left to tile_shade_overflow.comp.glsl.
 //
-// HALF, SINGLE: the precision of what is shown; sums in parts have 32 bits. LIT: the scene has lights of its own. SHORT: tiles are
-// half as high.
-// Permutations: half single | _ lit | _ short
+// HIDDEN: what the tile's visible depth hides is not summed (tile/hidden.glsl).
+// Permutations: column pixel | _ hidden
 #version 460
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "inc/perturb.glsl"
 #include "inc/variant.glsl"
-#include "inc/tiles.glsl"
-layout(push_constant, std430) uniform Push { TileConstants push; };
-#define IS_WHOLE false
-#define PIXELS // one an invocation
-#include "inc/tile_work.glsl"
-#define LIGHTS_SET 0
-#define LIGHTS_BINDING 16
-#include "inc/shading.glsl"
+#include "inc/kernel.glsl"
 #include "inc/normalized.glsl"
+#include "tile/constants.glsl"
+#include "tile/lanes.glsl"
+#include "tile/work.glsl"
+#define PEELS false
+#include "tile/surface.glsl"
+#include "tile/hidden.glsl"
 
-layout(set = 0, binding = 11, rgba32f) readonly uniform image2D color_sums;
-layout(set = 0, binding = 12, rgba32f) readonly uniform image2D normal_sums;
-#if defined(HALF)
-layout(set = 0, binding = 13, rgba16f)
-#else
-layout(set = 0, binding = 13, rgba32f)
-#endif
-writeonly uniform image2D shown_colors; // linear light; 1: something is there
+layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light; 1: something is there
+
+// WITH_POLYGONS: these were drawn and shaded as if there were no splats.
+layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D shown_before;
+layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform texture2D polygon_depth;
 
 void main()
 {
-    if (GROUP_NUMBER >= starts[STARTS_OVERFULL]) {
+    Range range;
+    if (!find_work(true, range)) {
         return;
     }
-    ivec2 top = top_pixel(overfull_tiles[GROUP_NUMBER]);
-    ivec2 pixel = pixel_of(top, 0);
-    ivec2 in_slot = pixel_in_slot(0);
-    Surface surface = normalized(imageLoad(color_sums, in_slot), imageLoad(normal_sums, in_slot).xyz);
-    vec3 light = shaded(surface.albedo, surface.normal, to_eye(from_middle_px(pixel)));
-#if defined(HALF)
-    light = min(light, 65504.0); // where half floats end
-#endif
-    imageStore(shown_colors, pixel, surface.weight > 0.0 ? vec4(light, 1.0) : vec4(0.0));
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        visible[row] = 0.0;
+        colors[row] = vec4(0.0);
+        normals[row] = vec4(0.0);
+    }
+    see(range);
+    if (WITH_POLYGONS) {
+        [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            polygon[row] = max(texelFetch(polygon_depth, pixel_within_image(row), 0).r, visible[row]);
+        }
+    }
+    sum(unhidden(range), false);
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        Surface surface = normalized(colors[row], normals[row].xyz);
+        vec3 light = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row + row))));
+        bool covered = surface.weight > 0.0;
+        if (WITH_POLYGONS) {
+            // Of polygons, the nearest is shown already. Where splats do not hide it, both blend (inc/shown.glsl).
+            vec3 of_polygon = texelFetch(shown_before, pixel_within_image(row), 0).rgb;
+            bool is_seen = polygon[row] > visible[row];
+            float share = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
+            light = is_seen ? mix(of_polygon, light, share) : light;
+            covered = covered || is_seen;
+        }
+        light = HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light;
+        imageStore(shown, pixel_of(row), covered ? vec4(light, 1.0) : vec4(0.0));
+    }
 }

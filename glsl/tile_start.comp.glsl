@@ -1,19 +1,19 @@
 // Where the list of each bin starts: the exclusive prefix sums of the totals, in place; the tiles that have splats, in
-// order, and runs of them along rows; and the arguments of all that is dispatched and drawn by them. One workgroup, each invocation a range of bins.
+// order, and runs of them along rows; and the arguments of all that is dispatched and drawn by them. One workgroup, each
+// invocation a range of bins.
 #version 460
-#include "inc/tiles.glsl"
+#include "tile/constants.glsl"
 
 #define LANES 256
 
-layout(constant_id = 19) const uint PART = 200000; // entries of a tile that one dispatch takes (inc/tiles.glsl)
+layout(constant_id = SPEC_PART_LENGTH) const uint PART_LENGTH = 200000;
 
 layout(local_size_x = LANES) in;
-layout(push_constant, std430) uniform Push { TileConstants push; };
-layout(set = 0, binding = 6, std430) buffer Starts { uint starts[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer SeenTiles { uint seen_tiles[]; };
-layout(set = 0, binding = 9, std430) writeonly buffer TileArguments { uint arguments[]; };
-layout(set = 0, binding = 19, std430) writeonly buffer TileRuns { uvec2 tile_runs[]; };
-layout(set = 0, binding = 10, std430) writeonly buffer OverfullTiles { uint overfull_tiles[]; };
+layout(set = 0, binding = BIND_STARTS, std430) buffer Starts { uint starts[]; };
+layout(set = 0, binding = BIND_NON_EMPTY_TILES, std430) writeonly buffer NonEmptyTiles { uint non_empty_tiles[]; };
+layout(set = 0, binding = BIND_ARGUMENTS, std430) writeonly buffer TileArguments { uint arguments[]; };
+layout(set = 0, binding = BIND_RUNS, std430) writeonly buffer TileRuns { uvec2 tile_runs[]; };
+layout(set = 0, binding = BIND_OVERFLOW_TILES, std430) writeonly buffer OverflowTiles { uint overflow_tiles[]; };
 
 shared uvec4 sums[LANES];
 
@@ -21,7 +21,7 @@ shared uvec4 sums[LANES];
 uvec4 counted(uint bin, uint entries, bool inside)
 {
     bool tile = bin < push.tile_count && entries > 0;
-    return uvec4(entries, tile ? 1 : 0, tile && entries > PART ? 1 : 0, tile && !inside ? 1 : 0);
+    return uvec4(entries, tile ? 1 : 0, tile && entries > PART_LENGTH ? 1 : 0, tile && !inside ? 1 : 0);
 }
 
 void dispatch(uint first, uint groups)
@@ -68,10 +68,10 @@ void main()
         uvec4 more = counted(bin, entries, inside);
         starts[bin] = before.x;
         if (more.y > 0) {
-            seen_tiles[before.y] = bin;
+            non_empty_tiles[before.y] = bin;
         }
         if (more.z > 0) {
-            overfull_tiles[before.z] = bin;
+            overflow_tiles[before.z] = bin;
         }
         before += more;
         inside = more.y > 0;
@@ -85,10 +85,10 @@ void main()
     }
     if (lane == LANES - 1) {
         starts[push.bin_count] = before.x;
-        starts[STARTS_SEEN] = before.y;
-        starts[STARTS_OVERFULL] = before.z;
-        dispatch(ARGUMENTS_SEEN, before.y);
-        dispatch(ARGUMENTS_OVERFULL, before.z);
+        starts[STARTS_TILES] = before.y;
+        starts[STARTS_OVERFLOW] = before.z;
+        dispatch(ARGUMENTS_TILES, before.y);
+        dispatch(ARGUMENTS_OVERFLOW, before.z);
         draw_quads(ARGUMENTS_QUADS, before.w, 0);
     }
 }

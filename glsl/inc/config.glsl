@@ -48,3 +48,85 @@
 #define RASTERIZER_AFFINE_CENTER 4       // An affine map, exact at the center.
 #define RASTERIZER_AFFINE_CONTOUR 5      // An affine map, exact at the contour.
 #define RASTERIZER_TRIANGLE 6            // Triangles in the splat's plane (Pajarola et al. 2003, section 5.2).
+
+// Workgroups.
+#define MOST_GROUPS_IN_ROW 32768 // Workgroups along a row of a dispatch: a device need not take more than 65535 in one dimension.
+
+// Specialization constants of tiles.
+#define SPEC_MAY_BE_LARGE 16    // Constant: some splats are left to the graphics pipeline.
+#define SPEC_CHUNK 17           // Constant: the number of the chunk that is projected, where some are.
+#define SPEC_SHIFTED_FOR_ALL 18 // Constant: beside polygons, all splats pass that the polygons' own test lets pass.
+#define SPEC_PART_LENGTH 19     // Constant: entries of a tile that one dispatch takes; tiles with more are overflow tiles.
+#define SPEC_STACKED 20         // Constant: the last layer counts as several surfaces.
+#define SPEC_LIGHTS 21          // Constant: how many lights of its own a scene has.
+#define SPEC_MOST_TILES 22      // Constant: tiles that a projected splat touches at most.
+#define SPEC_KEEPS_DEPTH 23     // Constant: someone reads the visible depth.
+#define SPEC_PLACE_BITS 24      // Constant: bits of a tile's column or row in a tile rect.
+#define SPEC_TILE_HEIGHT 25     // Constant: pixels of a tile's columns, `MOST_TILE_HEIGHT` or half as many.
+#define SPEC_IN_SLOTS 26        // Constant: images hold overflow tiles alone, side by side.
+#define SPEC_HALF_FLOATS 28     // Constant: what is left in images has 16 bits.
+#define SPEC_WITH_POLYGONS 29   // Constant: polygons lie beside the splats.
+#define SPEC_DEPTH_PRELOADED 30 // Constant: visibility begins from a depth.
+#define SPEC_WITH_DEPTH 32      // Constant: depth is summed, too.
+#define SPEC_SEES 33            // Constant: visibility is found.
+#define SPEC_SUMS 34            // Constant: what is visible is summed.
+#define SPEC_SEVERAL 35         // Constant: layers take several dispatches, which go on from each other.
+#define SPEC_KEPT 36            // Constant: only the splats of a list are projected.
+#define SPEC_TEXELS 37          // Constant: tile rects are read as texels.
+
+// Bindings of the set of tiles.
+#define BIND_RECORDS 0         // Binding: the first quarter of projected splats, and the other three behind it.
+#define BIND_RECTS 4           // Binding: their tile rects.
+#define BIND_COUNTS 5          // Binding: of each segment, how many of its splats fall into each bin.
+#define BIND_STARTS 6          // Binding: where the list of each bin starts.
+#define BIND_ENTRIES 7         // Binding: the lists.
+#define BIND_NON_EMPTY_TILES 8 // Binding: the tiles that have splats.
+#define BIND_ARGUMENTS 9       // Binding: arguments of dispatches and draws.
+#define BIND_OVERFLOW_TILES 10 // Binding: the tiles with more splats than one dispatch takes.
+#define BIND_COLORS 11         // Binding: where sums of colors, layers, or what tiles show are stored.
+#define BIND_NORMALS 12        // Binding: where sums of normals are stored; of layers, depth and weight of the last one.
+#define BIND_VISIBLE_DEPTH 13  // Binding: the depth that tiles find.
+#define BIND_DEPTH_BEFORE 14   // Binding: a depth that is there before.
+#define BIND_POLYGON_DEPTH 15  // Binding: the depth of polygons.
+#define BIND_LIGHTS 16         // Binding: the scene's own lights.
+#define BIND_COLORS_BEFORE 17  // Binding: `BIND_COLORS` as it was before.
+#define BIND_NORMALS_BEFORE 18 // Binding: `BIND_NORMALS` as it was before.
+#define BIND_RUNS 19           // Binding: runs of tiles with splats.
+#define BIND_KEPT_STARTS 20    // Binding: how many splats are kept before each word of their bits.
+#define BIND_KEPT_LIST 21      // Binding: the list of kept splats.
+#define BIND_KEPT_BLOCKS 22    // Binding: the blocks in which they are looked for.
+#define BIND_RECORD_TEXELS 23  // Binding: the quarters of projected splats, as texels.
+#define BIND_ENTRY_TEXELS 27   // Binding: the lists, as texels.
+#define BIND_RECT_TEXELS 28    // Binding: tile rects, as texels.
+#define BIND_LAYER_STATE 29    // Binding: what is known of overflow tiles' layers between dispatches.
+#define BIND_VISIBLE_BEFORE 30 // Binding: `BIND_VISIBLE_DEPTH` as it was before.
+
+// Sizes of tiles and of the work on them.
+#define TILE_WIDTH 8          // Pixels along a row of a tile.
+#define MOST_TILE_HEIGHT 8    // Pixels of a tile's columns at most; where splats are small, half as many.
+#define BAND_ROW 8            // Pixels of the rows that bands have, each a row of tiles or two.
+#define TILE_BATCH 8          // Splats of one step of a shader's loops.
+#define SEGMENT_BLOCK 32      // Records that are dealt out to a segment at a time.
+#define BIN_GROUP_SIZE 8      // Invocations of a workgroup that walks over segments.
+#define PROJECT_GROUP_SIZE 64 // Invocations of a workgroup that projects splats.
+#define MOST_CHUNKS 8191      // Chunks that tile rects can tell apart.
+#define SLOTS_IN_ROW 256      // Tiles in a row of an image that holds overflow tiles alone.
+#define STATE_VECTORS 4       // Vectors of four floats that are kept of a pixel of an overflow tile's layers.
+#define WHOLE_TILES 2147483647 // The part of a dispatch that does whole tiles and leaves the overflow tiles out.
+
+// Steps of a layer of overflow tiles.
+#define STEP_SEE 0  // Visibility.
+#define STEP_SUM 1  // Accumulation, and composition behind the last part.
+#define STEP_REST 2 // All that is left.
+
+// Where the arguments are, in words.
+#define ARGUMENTS_TILES 0    // VkDispatchIndirectCommand: tiles with splats; overflow tiles end at once.
+#define ARGUMENTS_OVERFLOW 4 // VkDispatchIndirectCommand: overflow tiles.
+#define ARGUMENTS_QUADS 8    // VkDrawIndirectCommand: a quad for each run of tiles with splats.
+#define ARGUMENTS_CHUNKS 12  // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline.
+
+// Limits of numbers.
+#define MOST_LIGHTS 16              // Lights of a scene.
+#define HALF_FLOAT_MAX 65504.0      // The largest finite 16-bit float.
+#define LEAST_WEIGHT 5.9604645e-8   // 2^-24, the smallest 16-bit float: what covers must not vanish in sums.
+#define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

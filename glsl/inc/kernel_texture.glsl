@@ -11,5 +11,5 @@ float kernel_from_texture(vec2 uv)
     const float scale = 0.5 * float(KERNEL_TEXTURE_SIDE - 1) / float(KERNEL_TEXTURE_SIDE);
     float weight = textureLod(kernel_texture, 0.5 + scale * uv, 0.0).r;
     // What covers weighs 2^-24 at least, which half floats hold only just.
-    return FORMULA(FORMULA_KERNEL_TEXTURE, max(weight, 5.9604645e-8));
+    return FORMULA(FORMULA_KERNEL_TEXTURE, max(weight, LEAST_WEIGHT));
 }

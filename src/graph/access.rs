@@ -32,6 +32,8 @@ pub enum Access {
     StorageWriteCompute,
     /// A storage buffer or image read and written in a compute shader.
     StorageReadWriteCompute,
+    /// An image that a compute shader samples where it writes, as a storage image, afterwards.
+    SampledAndStoredCompute,
     /// A storage buffer or image of which a compute shader reads and writes some places, which only the device knows.
     StorageUpdateCompute,
     /// A uniform buffer read in the vertex stage.
@@ -80,7 +82,7 @@ pub struct AccessInfo {
 
 impl Access {
     /// Every access, in the order of the table.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::ColorAttachment,
         Self::DepthAttachment,
         Self::DepthTest,
@@ -92,6 +94,7 @@ impl Access {
         Self::StorageReadCompute,
         Self::StorageWriteCompute,
         Self::StorageReadWriteCompute,
+        Self::SampledAndStoredCompute,
         Self::StorageUpdateCompute,
         Self::UniformReadVertex,
         Self::UniformReadFragment,
@@ -143,6 +146,7 @@ impl Access {
             Self::StorageReadCompute      => row(compute, storage_reads, none, storage, Some(Compute)),
             Self::StorageWriteCompute     => row(compute, none, storage_writes, storage, Some(Compute)),
             Self::StorageReadWriteCompute => row(compute, storage_reads, storage_writes, storage, Some(Compute)),
+            Self::SampledAndStoredCompute => row(compute, sampled_reads, storage_writes, (Some((L::GENERAL, I::SAMPLED | I::STORAGE)), None), Some(Compute)),
             Self::StorageUpdateCompute    => row(compute, storage_reads, storage_writes, storage, Some(Compute)),
             Self::UniformReadVertex       => row(S::VERTEX_SHADER, A::UNIFORM_READ, none, uniform, Some(Graphics)),
             Self::UniformReadFragment     => row(fragment, A::UNIFORM_READ, none, uniform, Some(Graphics)),

@@ -63,7 +63,7 @@ impl Plan {
 fn times(usage: &Use) -> u64 {
     match usage.access {
         Access::StorageUpdateCompute => 0,
-        Access::StorageReadWriteCompute => 2,
+        Access::StorageReadWriteCompute | Access::SampledAndStoredCompute => 2,
         _ => 1,
     }
 }

@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::{seen::SeenBlock, tiles::ROW_PX};
+use super::seen::SeenBlock;
 use crate::{
     math::size::{SizeBound, box_within_px},
     prepare::{Block, Chunk, ViewFromLocal},
+    shaders::config::BAND_ROW,
 };
 
 /// How blocks are looked at.
@@ -104,7 +105,7 @@ impl Ball {
     /// `None` where nothing of it may be seen.
     fn image(&self, look: &Look<'_>) -> Option<Image> {
         let [width, height] = look.bound.size_px;
-        let all = 0..(height as u32).div_ceil(ROW_PX);
+        let all = 0..(height as u32).div_ceil(BAND_ROW);
         if self.z + self.reach < look.bound.near {
             return None;
         }
@@ -124,7 +125,7 @@ impl Ball {
         if x_px[1] < 0.0 || x_px[0] > width || y_px[1] < 0.0 || y_px[0] > height {
             return None;
         }
-        let row = |y: f64| (y.clamp(0.0, height) as u32) / ROW_PX;
+        let row = |y: f64| (y.clamp(0.0, height) as u32) / BAND_ROW;
         let first = row(y_px[0]).min(all.end - 1);
         let rows = first..(row(y_px[1]) + 1).min(all.end);
         let within = |px: [f64; 2], side: f64| px[0] >= 0.0 && px[1] <= side;

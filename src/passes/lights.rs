@@ -32,11 +32,13 @@ pub(super) fn lights<'a>(graph: &mut Graph<Body<'a>>, lights: &'a [ShaderLight])
         return None;
     }
     let bytes: &[u8] = bytemuck::cast_slice(lights);
-    let mut buffer = graph.create_buffer("lights", BufferDesc::of_bytes(bytes.len() as u64));
+    // Shaders declare room for the most.
+    let room = BufferDesc::of_bytes((MOST_LIGHTS * size_of::<ShaderLight>()) as u64);
+    let mut buffer = graph.create_buffer("lights", room);
     let id = buffer.id();
     graph.pass("lights").write(&mut buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
         move |context| {
-            // SAFETY: outside of rendering; the buffer has exactly this size, below 65 536 bytes and a multiple of 4.
+            // SAFETY: outside of rendering; the buffer has room; below 65 536 bytes and a multiple of 4.
             unsafe { context.device().cmd_update_buffer(context.commands(), context.buffer(id)?, 0, bytes) };
             Ok(())
         },

@@ -212,7 +212,7 @@ fn summed_by_tiles<'a>(
         }
         let large = depth.as_ref().filter(|_| may_be_large);
         if polygons {
-            tiles::visibility(graph, inputs, &tiles, &mut images, large)?;
+            tiles::see(graph, inputs, &band, &tiles, &mut images, large, true)?;
         } else {
             tiles::fused(graph, inputs, &band, &mut tiles, &mut images, large, (with_depth, start))?;
         }
@@ -222,7 +222,7 @@ fn summed_by_tiles<'a>(
         }
         if polygons {
             let (seen, depth) = polygons::polygons(graph, inputs, depth.as_ref())?;
-            tiles::accumulate(graph, inputs, &tiles, &mut images, Some(&depth), with_depth)?;
+            tiles::sum(graph, inputs, &band, &tiles, &mut images, (Some(&depth), with_depth), true)?;
             (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
         }
         // At once, for the lists of the next band lie where those of this one are.

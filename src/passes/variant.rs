@@ -109,7 +109,7 @@ pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
     };
     let mut constants = vec![(SPEC_SHADING, number)];
     if lights > 0 {
-        constants.push((21, lights));
+        constants.push((SPEC_LIGHTS, lights));
     }
     constants
 }

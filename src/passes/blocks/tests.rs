@@ -94,7 +94,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
                 if p.z < camera.near() || !inside {
                     continue;
                 }
-                let row = px[1] as u32 / ROW_PX;
+                let row = px[1] as u32 / BAND_ROW;
                 let seen = seen.as_ref().unwrap_or_else(|| panic!("{round}: a seen block was left out"));
                 assert!(seen.rows.contains(&row), "{round}: row {row} of {:?}", seen.rows);
             }

@@ -19,7 +19,7 @@ use crate::{error::Result, scene::Settings, shaders::config::*};
 /// By tiles.
 pub(super) fn by_tiles(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
     let (_, set_up) = tiles::list_recipes(settings, &open(settings, traits), false, false).swap_remove(0);
-    let (pass, layers) = tiles::layers_recipe(settings, traits.lights())?;
+    let (pass, layers) = tiles::layers_recipe(settings, traits.lights());
     Ok(vec![compute("set up transparent splats", set_up), compute(pass, layers)])
 }
 

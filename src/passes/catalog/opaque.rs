@@ -76,7 +76,7 @@ pub(super) fn by_tiles(
     let set_up = culled.len();
     let passes = [
         tiles::list_recipes(settings, variant, may_be_large, set_up > 0),
-        tiles::opaque_recipes(settings, of_tiles)?,
+        tiles::opaque_recipes(settings, of_tiles),
     ];
     all.extend(culled.into_iter().chain(passes.into_iter().flatten()).map(|(pass, key)| compute(pass, key)));
     // The same shaders do all splats, or leave the large ones out.

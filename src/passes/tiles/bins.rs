@@ -8,61 +8,38 @@ use super::{
         Inputs,
         constants::TileConstants,
         cull::{Kept, list_kept},
-        variant::Constants,
+        pipelines::ComputeKey,
     },
-    ARGUMENTS, COUNTS, ENTRIES, KEPT_LIST, KEPT_STARTS, OVERFULL, RUNS, SEEN, SPAN_TEXELS, SPANS, STARTS,
-    TilePass, TilePlan, Tiles, after_dispatches_before,
-    plan::WALKERS,
+    TilePass, TilePlan, Tiles,
+    pass::{TileDispatch, key},
     record::record,
 };
 use crate::{
     error::Result,
-    graph::{
-        Access, Graph, PassBuilder, Start,
-        execute::{Body, PassContext},
-    },
-    shaders::{self, Shader},
+    graph::{Access, Graph, Start, execute::Body},
+    shaders::{self, Shader, config::*},
 };
-
-/// The constant of how many entries a dispatch takes of a tile.
-pub(super) fn part_length(plan: &TilePlan) -> Constants {
-    vec![(19, plan.part_length)]
-}
 
 /// The constant of how spans are cut.
 pub(super) fn place_bits(plan: &TilePlan) -> (u32, u32) {
-    (24, plan.place_bits)
+    (SPEC_PLACE_BITS, plan.place_bits)
 }
 
-/// What counts. `kept`: records are those of a list.
-pub(super) fn count_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
-    let shader = match (kept, plan.invocations.fetch_texels()) {
-        (false, false) => &shaders::TILE_COUNT_COMP,
-        (false, true) => &shaders::TILE_COUNT_TEXELS_COMP,
-        (true, false) => &shaders::TILE_COUNT_KEPT_COMP,
-        (true, true) => &shaders::TILE_COUNT_KEPT_TEXELS_COMP,
+/// The pipelines of what counts, adds up, finds where lists start, and fills. `kept`: records are those of a list.
+pub(super) fn keys(plan: &TilePlan, kept: bool) -> [ComputeKey; 4] {
+    let walk = |shader: &'static Shader| {
+        let texels = u32::from(plan.invocations.fetch_texels());
+        let large = u32::from(plan.may_be_large);
+        let constants =
+            [place_bits(plan), (SPEC_KEPT, u32::from(kept)), (SPEC_TEXELS, texels), (SPEC_MAY_BE_LARGE, large)];
+        key(shader, constants.to_vec())
     };
-    (shader, vec![place_bits(plan)])
-}
-
-/// What fills.
-pub(super) fn fill_shader(plan: &TilePlan, kept: bool) -> (&'static Shader, Constants) {
-    let shader = match (kept, plan.invocations.fetch_texels()) {
-        (false, false) => &shaders::TILE_FILL_COMP,
-        (false, true) => &shaders::TILE_FILL_TEXELS_COMP,
-        (true, false) => &shaders::TILE_FILL_KEPT_COMP,
-        (true, true) => &shaders::TILE_FILL_KEPT_TEXELS_COMP,
-    };
-    let mut constants = vec![place_bits(plan)];
-    constants.extend(kept.then_some((16, u32::from(plan.may_be_large))));
-    (shader, constants)
-}
-
-/// Declares that a walk reads how many records a list has; and, where the graphics pipeline draws some, the splats' own numbers.
-fn read_kept<'g, B>(pass: PassBuilder<'g, B>, kept: Option<&Kept>, numbers: bool) -> PassBuilder<'g, B> {
-    let Some(kept) = kept else { return pass };
-    let pass = pass.read(kept.starts(), Access::StorageReadCompute);
-    if numbers { pass.read(kept.list(), Access::StorageReadCompute) } else { pass }
+    [
+        walk(&shaders::TILE_COUNT_COMP),
+        key(&shaders::TILE_TOTAL_COMP, Vec::new()),
+        key(&shaders::TILE_START_COMP, vec![(SPEC_PART_LENGTH, plan.part_length)]),
+        walk(&shaders::TILE_FILL_COMP),
+    ]
 }
 
 /// Declares the passes that set splats up and list them by tile. `kind`, in front of the names, tells several such lists of a
@@ -74,12 +51,9 @@ pub(in super::super) fn list<'a>(
     plan: &'a TilePlan,
 ) -> Result<Tiles<'a>> {
     let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
+    let kept_starts = kept.as_ref().map(Kept::starts);
     let mut tiles = Tiles::create(graph, kind, plan);
     record(graph, inputs, kind, &mut tiles, kept.as_ref())?;
-    let kept = kept.as_ref();
-    let kept_starts = kept.map(|kept| (KEPT_STARTS, kept.starts().id()));
-    let (counts, starts) = ((COUNTS, tiles.counts.id()), (STARTS, tiles.starts.id()));
-    let read = tiles.access_of_lists();
 
     let cleared = tiles.counts.id();
     graph
@@ -92,66 +66,53 @@ pub(in super::super) fn list<'a>(
             Ok(())
         }));
 
-    let counted = [counts].into_iter().chain(kept_starts).collect();
-    let mut count = TilePass::new(inputs, plan, count_shader(plan, inputs.kept.is_some()), counted)?;
-    tiles.bind_read(&mut count, [SPANS, SPAN_TEXELS], &tiles.spans);
-    read_kept(graph.pass(&format!("count {kind}tiles")), kept, false)
-        .read(&tiles.spans, read)
-        .write(&mut tiles.counts, Access::StorageUpdateCompute, Start::Load)
-        .finish(Box::new(move |context| walk(context, &count)));
+    let (read, write, update) =
+        (Access::StorageReadCompute, Access::StorageWriteCompute, Access::StorageUpdateCompute);
+    let [count, total, start, fill] = keys(plan, kept.is_some());
+    let rects = [BIND_RECTS, BIND_RECT_TEXELS];
+    let pass = TilePass::new(graph, &format!("count {kind}tiles"));
+    tiles
+        .read_as_texels(pass, rects, &tiles.spans)
+        .read_if(BIND_KEPT_STARTS, kept_starts, read)
+        .write(BIND_COUNTS, &mut tiles.counts, update, Start::Load)
+        .finish(inputs, plan, count, walk)?;
 
-    let total = TilePass::new(inputs, plan, (&shaders::TILE_TOTAL_COMP, Vec::new()), vec![counts, starts])?;
-    let groups = plan.bin_count().div_ceil(WALKERS);
-    graph
-        .pass(&format!("total {kind}tiles"))
-        .write(&mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
-        .write(&mut tiles.starts, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| total.dispatch(context, groups)));
+    let groups = plan.bin_count().div_ceil(BIN_GROUP_SIZE);
+    TilePass::new(graph, &format!("total {kind}tiles"))
+        .write(BIND_COUNTS, &mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
+        .write(BIND_STARTS, &mut tiles.starts, write, Start::Discard)
+        .finish(inputs, plan, total, move |pass| pass.groups(pass.constants, groups))?;
 
-    let written = vec![
-        starts,
-        (SEEN, tiles.seen.id()),
-        (RUNS, tiles.runs.id()),
-        (ARGUMENTS, tiles.arguments.id()),
-        (OVERFULL, tiles.overfull.id()),
-    ];
-    let start = TilePass::new(inputs, plan, (&shaders::TILE_START_COMP, part_length(plan)), written)?;
-    graph
-        .pass(&format!("start {kind}tiles"))
-        .write(&mut tiles.starts, Access::StorageReadWriteCompute, Start::Load)
-        .write(&mut tiles.seen, Access::StorageWriteCompute, Start::Discard)
-        .write(&mut tiles.runs, Access::StorageWriteCompute, Start::Discard)
-        .write(&mut tiles.arguments, Access::StorageWriteCompute, Start::Discard)
-        .write(&mut tiles.overfull, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| start.dispatch(context, 1)));
+    TilePass::new(graph, &format!("start {kind}tiles"))
+        .write(BIND_STARTS, &mut tiles.starts, Access::StorageReadWriteCompute, Start::Load)
+        .write(BIND_NON_EMPTY_TILES, &mut tiles.seen, write, Start::Discard)
+        .write(BIND_RUNS, &mut tiles.runs, write, Start::Discard)
+        .write(BIND_ARGUMENTS, &mut tiles.arguments, write, Start::Discard)
+        .write(BIND_OVERFLOW_TILES, &mut tiles.overfull, write, Start::Discard)
+        .finish(inputs, plan, start, |pass| pass.groups(pass.constants, 1))?;
 
-    // A binding needs a buffer, also where nobody reads it.
-    let numbers = kept.map(|kept| if plan.may_be_large { kept.list() } else { kept.starts() });
-    let numbers = numbers.map(|list| (KEPT_LIST, list.id()));
-    let filled = [counts, starts, (ENTRIES, tiles.entries.id())];
-    let filled = filled.into_iter().chain(kept_starts).chain(numbers).collect();
-    let mut fill = TilePass::new(inputs, plan, fill_shader(plan, inputs.kept.is_some()), filled)?;
-    tiles.bind_read(&mut fill, [SPANS, SPAN_TEXELS], &tiles.spans);
-    read_kept(graph.pass(&format!("fill {kind}tiles")), kept, plan.may_be_large)
-        .read(&tiles.spans, read)
-        .read(&tiles.starts, Access::StorageReadCompute)
-        .write(&mut tiles.counts, Access::StorageUpdateCompute, Start::Load)
-        .write(&mut tiles.entries, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| walk(context, &fill)));
+    // Where the graphics pipeline draws some, it wants the splats' own numbers.
+    let numbers = kept.as_ref().filter(|_| plan.may_be_large).map(Kept::list);
+    let pass = TilePass::new(graph, &format!("fill {kind}tiles"));
+    tiles
+        .read_as_texels(pass, rects, &tiles.spans)
+        .read_if(BIND_KEPT_STARTS, kept_starts, read)
+        .read_if(BIND_KEPT_LIST, numbers, read)
+        .read(BIND_STARTS, &tiles.starts, read)
+        .write(BIND_COUNTS, &mut tiles.counts, update, Start::Load)
+        .write(BIND_ENTRIES, &mut tiles.entries, write, Start::Discard)
+        .finish(inputs, plan, fill, walk)?;
     Ok(tiles)
 }
 
 /// Records the dispatches of a walk: each takes no more records of a segment than a shader's loops have iterations for.
-fn walk(context: &PassContext<'_>, pass: &TilePass<'_>) -> Result<()> {
+fn walk(pass: &TileDispatch<'_, '_>) -> Result<()> {
     let TileConstants { segments, segment_length, round_length, .. } = pass.constants;
-    pass.bind(context)?;
     for round_first in (0..segment_length).step_by(round_length as usize) {
         if round_first > 0 {
-            after_dispatches_before(context);
+            pass.wait();
         }
-        pass.push(context, &TileConstants { round_first, ..pass.constants })?;
-        // SAFETY: all is bound that the pipeline needs.
-        unsafe { context.device().cmd_dispatch(context.commands(), segments.div_ceil(WALKERS), 1, 1) };
+        pass.groups(TileConstants { round_first, ..pass.constants }, segments.div_ceil(BIN_GROUP_SIZE))?;
     }
     Ok(())
 }

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use super::{
     super::{FramePlan, Inputs},
-    QUAD_ARGUMENTS, RECORD_QUARTERS, TilePlan,
-    plan::{RECORD_BYTES, ROW_PX, SPAN_CHUNK},
+    RECORD_QUARTERS, TilePlan,
+    plan::{RECORD_BYTES, SPAN_CHUNK},
 };
+use crate::shaders::config::*;
 
 /// What the lists of one frame held.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -123,7 +124,7 @@ impl ListsInUse {
         // Behind those of tiles are those of chunks, which other passes read.
         let entries = word(starts, tile_count);
         let [tiles, overfull] = [bins + 1, bins + 2].map(|place| word(starts, place));
-        let runs: u64 = word(arguments, QUAD_ARGUMENTS / 4 + 1);
+        let runs: u64 = word(arguments, u64::from(ARGUMENTS_QUADS) + 1);
         let lists = [
             ("spans", 4 * set_up),
             ("entries", 4 * entries),
@@ -138,7 +139,7 @@ impl ListsInUse {
 
         let [width_px, height_px] = plan.tile_px();
         let tile_pixels = u64::from(width_px * height_px);
-        let rows_px = (plan.rows.end * ROW_PX).min(size_px[1]) - plan.rows.start * ROW_PX;
+        let rows_px = (plan.rows.end * BAND_ROW).min(size_px[1]) - plan.rows.start * BAND_ROW;
         // Tiles at the image's border reach beyond it: as if all of them had splats.
         let beyond = tile_count * tile_pixels - u64::from(size_px[0]) * u64::from(rows_px);
         let splat_pixels = entries * tile_pixels;

@@ -1,12 +1,12 @@
 //! What an invocation draws of a tile, and how it comes by the tile's splats.
 
-use crate::{scene::TileInvocations, vk::Limits};
+use crate::{scene::TileInvocations, shaders::Shader, vk::Limits};
 
 /// Texels of a buffer below which lists are rather read as words: Vulkan promises 65536. Where there are more entries than texels,
 /// large splats are left to the graphics pipeline.
 const LEAST_TEXELS: u32 = 1 << 24;
 
-/// The two together, as the permutations of `glsl/tile_splat.comp.glsl` and `tile_layers.comp.glsl` have them.
+/// The two together, as `glsl/tile/lanes.glsl` has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Invocations {
     /// A column of pixels; they load splats for each other.
@@ -71,13 +71,9 @@ impl Invocations {
         matches!(self, Self::Columns | Self::ShortColumns)
     }
 
-    /// The word of the permutation.
-    pub fn word(self) -> Option<&'static str> {
-        match self {
-            Self::Columns => None,
-            Self::ShortColumns => Some("short"),
-            Self::Pixels => Some("pixels"),
-        }
+    /// The shader of a pass: by columns, or by pixels.
+    pub(super) fn shader(self, [column, pixel]: [&'static Shader; 2]) -> &'static Shader {
+        if self == Self::Pixels { pixel } else { column }
     }
 
     /// In words, what an invocation draws.

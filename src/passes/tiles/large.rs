@@ -11,7 +11,7 @@ use super::{
         splat_shaders::Summed,
         visibility,
     },
-    CHUNK_ARGUMENTS, TileImages, Tiles,
+    TileImages, Tiles,
 };
 use crate::{
     error::Result,
@@ -19,6 +19,7 @@ use crate::{
         Access, ClearValue, Graph, Handle, Image, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
+    shaders::config::*,
 };
 
 /// Declares their visibility; returns the depth, as that of all splats is. `kind`, in front of the splats, tells those of several bands
@@ -122,7 +123,7 @@ impl<'a> LargeDraws<'a> {
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
                 device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
                 device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_draw_indirect(commands, arguments, CHUNK_ARGUMENTS + 16 * number, 1, 16);
+                device.cmd_draw_indirect(commands, arguments, 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * number, 1, 16);
             }
         }
         Ok(())

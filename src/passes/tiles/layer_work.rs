@@ -2,7 +2,10 @@
 //! step of one with a part of the splats.
 
 use super::{super::constants::TileConstants, TilePlan};
-use crate::scene::{LastLayer, Settings};
+use crate::{
+    scene::{LastLayer, Settings},
+    shaders::config::*,
+};
 
 /// Layers of one surface each; and whether there is one more, of all that is left.
 fn layers_of(settings: &Settings) -> (u32, bool) {
@@ -34,14 +37,6 @@ fn shares(settings: &Settings, plan: &TilePlan) -> Vec<Share> {
         _ => {}
     }
     shares
-}
-
-/// The steps of a layer in parts, as in `glsl/tile_layers.comp.glsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Step {
-    See,
-    Sum,
-    Rest,
 }
 
 /// How a dispatch works on a tile.
@@ -84,7 +79,7 @@ pub(super) fn dispatches(
         (0..parts).map(move |part| TileConstants {
             part,
             surfaces,
-            step: step as u32,
+            step,
             ends: u32::from(part + 1 == parts),
             ..constants
         })
@@ -92,11 +87,11 @@ pub(super) fn dispatches(
     steps(settings).into_iter().flat_map(of_step).collect()
 }
 
-/// The steps of all layers, each with the number of surfaces before it.
-fn steps(settings: &Settings) -> Vec<(u32, Step)> {
+/// The steps of all layers (`STEP_*`), each with the number of surfaces before it.
+fn steps(settings: &Settings) -> Vec<(u32, u32)> {
     let (surfaces, rest) = layers_of(settings);
-    let mut steps: Vec<_> = (0..surfaces).flat_map(|n| [(n, Step::See), (n, Step::Sum)]).collect();
-    steps.extend(rest.then_some((surfaces, Step::Rest)));
+    let mut steps: Vec<_> = (0..surfaces).flat_map(|n| [(n, STEP_SEE), (n, STEP_SUM)]).collect();
+    steps.extend(rest.then_some((surfaces, STEP_REST)));
     steps
 }
 

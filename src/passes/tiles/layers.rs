@@ -1,31 +1,26 @@
 //! Transparent layers of splats alone, by tiles: all of them in one dispatch, or in as few as a shader's loops allow.
 
+use ash::vk;
+
 use super::{
-    super::{
-        Inputs,
-        constants::TileConstants,
-        splat_shaders::find,
-        sum_format,
-        variant::{Constants, shading_constants, splat_constants},
-    },
-    COLOR_SUMS, DEPTH_BEFORE, LIGHTS, OVERFULL_ARGUMENTS, PEELED_STATE, PEELED_WEIGHT, SEEN_ARGUMENTS,
-    TilePass, TilePlan, Tiles, VISIBLE_DEPTH, after_dispatches_before,
+    super::{Inputs, pipelines::ComputeKey, sum_format, variant::shading_constants},
+    TilePass, TilePlan, Tiles,
     bins::list,
     layer_work::{Work, dispatches},
-    splat::VISIBLE_FORMAT,
+    pass, splat,
 };
 use crate::{
     error::Result,
-    graph::{
-        Access, Buffer, BufferDesc, Graph, Handle, Image, ResourceId, Start,
-        execute::{Body, PassContext},
-    },
-    scene::{Accumulate, LastLayer, Settings},
-    shaders::Shader,
+    graph::{Access, Buffer, BufferDesc, Graph, Handle, Image, Start, execute::Body},
+    scene::{LastLayer, Settings},
+    shaders::{self, config::*},
 };
 
-/// Bytes of what is known of an overfull tile between dispatches: four vectors a pixel.
-const STATE_BYTES: u64 = 64 * 64;
+/// Bytes of what is known of an overfull tile between dispatches.
+const STATE_BYTES: u64 = (TILE_WIDTH * MOST_TILE_HEIGHT * STATE_VECTORS * 16) as u64;
+
+/// Depth and weight of the layer before, between dispatches.
+const PEELED_FORMAT: vk::Format = vk::Format::R32G32_SFLOAT;
 
 /// What depends on the scene beside the splats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,33 +31,24 @@ pub(in super::super) struct Beside {
     pub lights: u32,
 }
 
-/// The shader, and its constants.
-pub(in super::super) fn shader(
-    settings: &Settings,
-    plan: &TilePlan,
-    beside: Beside,
-    work: Work,
-) -> Result<(&'static Shader, Constants)> {
-    let words = [
-        Some(match settings.accumulate {
-            Accumulate::F16 => "half",
-            Accumulate::F32 => "single",
-        }),
-        (beside.lights > 0).then_some("lit"),
-        beside.opaque.then_some("behind"),
-        match work {
-            Work::Whole => None,
-            Work::Several => Some("several"),
-            Work::Parts => Some("parts"),
-        },
-        plan.invocations.word(),
-    ];
-    let name: String = words.into_iter().flatten().map(|word| format!("_{word}")).collect();
-    let mut constants = splat_constants(settings, false, false);
+/// The pipeline.
+pub(in super::super) fn key(settings: &Settings, plan: &TilePlan, beside: Beside, work: Work) -> ComputeKey {
+    let shader = plan.invocations.shader(match work {
+        Work::Whole | Work::Several => [&shaders::TILE_LAYERS_COLUMN_COMP, &shaders::TILE_LAYERS_PIXEL_COMP],
+        Work::Parts => {
+            [&shaders::TILE_LAYERS_OVERFLOW_COLUMN_COMP, &shaders::TILE_LAYERS_OVERFLOW_PIXEL_COMP]
+        }
+    });
+    let part_length = if work == Work::Parts { plan.walk_length } else { plan.part_length };
+    let plan = &TilePlan { part_length, ..plan.clone() };
+    let mut constants = splat::constants(settings, plan, settings.accumulate);
     constants.extend(shading_constants(settings.shading, beside.lights));
-    let part = if work == Work::Parts { plan.walk_length } else { plan.part_length };
-    constants.extend([(19, part), (20, u32::from(stacked(settings)))]);
-    Ok((find(&format!("tile_layers{name}.comp"))?, constants))
+    constants.extend([
+        (SPEC_STACKED, u32::from(stacked(settings))),
+        (SPEC_DEPTH_PRELOADED, u32::from(beside.opaque)),
+        (SPEC_SEVERAL, u32::from(work == Work::Several)),
+    ]);
+    pass::key(shader, constants)
 }
 
 /// Whether the last layer counts as several surfaces: it does where there is a layer before it.
@@ -103,69 +89,38 @@ fn declare<'a>(
     layers: &mut Handle<Image>,
     work: Work,
 ) -> Result<()> {
-    let beside = Beside { opaque: opaque.is_some(), lights: inputs.lights };
-    let shader = shader(inputs.settings, tiles.plan, beside, work)?;
-    let mut pass = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
-    tiles.bind_lists(&mut pass, false);
-    pass.storage_images = vec![(COLOR_SUMS, layers.id())];
-    pass.sampled_images = opaque.map(|opaque| (DEPTH_BEFORE, opaque.id())).into_iter().collect();
-    pass.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
-
-    let mut kept_images = Vec::new();
-    if work == Work::Several {
-        for (binding, name) in [(VISIBLE_DEPTH, "peeled depth"), (PEELED_WEIGHT, "peeled weight")] {
-            let image = graph.create_image(&format!("{band}{name}"), inputs.image(VISIBLE_FORMAT));
-            pass.storage_images.push((binding, image.id()));
-            kept_images.push(image);
-        }
-    }
-    let size_bytes = tiles.plan.most_overfull() * STATE_BYTES;
-    let mut kept = (work == Work::Parts).then(|| {
-        graph.create_buffer(&format!("state of {band}overfull tiles"), BufferDesc::of_bytes(size_bytes))
-    });
-    pass.buffers.extend(kept.iter().map(|kept| (PEELED_STATE, kept.id())));
-
-    let (name, offset) = match work {
-        Work::Whole | Work::Several => (format!("layers of {band}tiles"), SEEN_ARGUMENTS),
-        Work::Parts => (format!("layers of {band}overfull tiles"), OVERFULL_ARGUMENTS),
+    let (settings, plan) = (inputs.settings, tiles.plan);
+    let (name, first_word) = match work {
+        Work::Whole | Work::Several => (format!("layers of {band}tiles"), ARGUMENTS_TILES),
+        Work::Parts => (format!("layers of {band}overfull tiles"), ARGUMENTS_OVERFLOW),
     };
-    let mut declared =
-        tiles.read_lists(graph.pass(&name)).write(layers, Access::StorageReadWriteCompute, Start::Load);
-    if let Some(opaque) = opaque {
-        declared = declared.read(opaque, Access::SampledCompute);
-    }
-    if let Some(lights) = lights {
-        declared = declared.read(lights, Access::UniformReadCompute);
-    }
-    for image in &mut kept_images {
-        declared = declared.write(image, Access::StorageReadWriteCompute, Start::Discard);
-    }
-    if let Some(kept) = &mut kept {
-        declared = declared.write(kept, Access::StorageReadWriteCompute, Start::Discard);
-    }
-    let arguments = tiles.arguments.id();
-    let dispatches = dispatches(inputs.settings, tiles.plan, work, pass.constants);
-    declared.finish(Box::new(move |context| record(context, &pass, arguments, offset, &dispatches)));
-    Ok(())
-}
+    let mut peeled = (work == Work::Several)
+        .then(|| graph.create_image(&format!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT)));
+    let state_bytes = BufferDesc::of_bytes(plan.most_overfull() * STATE_BYTES);
+    let mut state = (work == Work::Parts)
+        .then(|| graph.create_buffer(&format!("state of {band}overfull tiles"), state_bytes));
 
-/// Records dispatches, each after the one before.
-fn record(
-    context: &PassContext<'_>,
-    pass: &TilePass<'_>,
-    arguments: ResourceId,
-    offset: u64,
-    dispatches: &[TileConstants],
-) -> Result<()> {
-    pass.bind(context)?;
-    let arguments = context.buffer(arguments)?;
-    for (number, constants) in dispatches.iter().enumerate() {
-        if number > 0 {
-            after_dispatches_before(context);
-        }
-        pass.push(context, constants)?;
-        // SAFETY: all is bound that the pipeline needs; the arguments are within the buffer and declared to be read.
-        unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
+    let update = if peeled.is_some() { Access::SampledAndStoredCompute } else { Access::StorageReadWriteCompute };
+    let mut pass = tiles
+        .read_lists(TilePass::new(graph, &name))
+        .write(BIND_COLORS, layers, update, Start::Load)
+        .read_if(BIND_DEPTH_BEFORE, opaque, Access::SampledCompute)
+        .read_if(BIND_LIGHTS, lights, Access::UniformReadCompute);
+    pass = match &mut peeled {
+        Some(peeled) => pass
+            .bind(BIND_COLORS_BEFORE, layers)
+            .write(BIND_NORMALS, peeled, update, Start::Discard)
+            .bind(BIND_NORMALS_BEFORE, peeled),
+        // An image that is not written has to be there.
+        None => pass.bind(BIND_NORMALS, layers),
+    };
+    if let Some(state) = &mut state {
+        pass = pass.write(BIND_LAYER_STATE, state, Access::StorageReadWriteCompute, Start::Discard);
     }
-    Ok(())
+    let key = key(settings, plan, Beside { opaque: opaque.is_some(), lights: inputs.lights }, work);
+    let arguments = tiles.arguments.id();
+    pass.finish(inputs, plan, key, move |pass| {
+        let dispatches = dispatches(settings, plan, work, pass.constants);
+        pass.indirect_in_turn(dispatches, arguments, first_word)
+    })
 }

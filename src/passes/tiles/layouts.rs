@@ -4,22 +4,36 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::{
-    super::constants::{FinalizeConstants, FrameConstants, TileConstants},
-    ENTRY_TEXELS, RECORD_TEXELS, SPAN_TEXELS,
-};
+use super::super::constants::{FinalizeConstants, FrameConstants, TileConstants};
 use crate::{
     error::Result,
+    shaders::config::*,
     vk::{Binding, Device, PipelineLayout, SetLayout, StandIns},
 };
 
 /// A set, and the layouts that have it.
 pub(in super::super) struct TileLayouts {
-    /// Set 1 of the pass that makes records and of quads of tiles, set 0 of all else with tiles: see `passes/tiles/mod.rs`.
+    /// Set 1 of the pass that makes records and of quads of tiles, set 0 of all else with tiles: `BIND_*` of
+    /// `glsl/inc/config.glsl`.
     pub set: SetLayout,
     pub record: PipelineLayout,
     pub tile: PipelineLayout,
     pub quads: PipelineLayout,
+}
+
+/// The last binding of the set.
+const LAST_BINDING: u32 = BIND_VISIBLE_BEFORE;
+
+/// The type of a binding.
+fn kind_of(binding: u32) -> vk::DescriptorType {
+    match binding {
+        BIND_COLORS | BIND_NORMALS | BIND_VISIBLE_DEPTH => vk::DescriptorType::STORAGE_IMAGE,
+        BIND_DEPTH_BEFORE | BIND_POLYGON_DEPTH | BIND_COLORS_BEFORE | BIND_NORMALS_BEFORE
+        | BIND_VISIBLE_BEFORE => vk::DescriptorType::SAMPLED_IMAGE,
+        BIND_LIGHTS => vk::DescriptorType::UNIFORM_BUFFER,
+        BIND_RECORD_TEXELS..=BIND_RECT_TEXELS => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
+        _ => vk::DescriptorType::STORAGE_BUFFER,
+    }
 }
 
 impl TileLayouts {
@@ -31,19 +45,13 @@ impl TileLayouts {
     ) -> Result<Self> {
         let (vertex, fragment, compute) =
             (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
-        let of = |kind, stages| Binding { kind, stages };
-        let words = of(vk::DescriptorType::STORAGE_BUFFER, compute);
-        let sums = of(vk::DescriptorType::STORAGE_IMAGE, compute);
-        let fetched = of(vk::DescriptorType::SAMPLED_IMAGE, compute);
-        let lights = of(vk::DescriptorType::UNIFORM_BUFFER, compute);
-        let mut in_tiles = vec![words; 11];
-        in_tiles.extend([sums, sums, sums, fetched, fetched, lights, sums, words]);
-        in_tiles.push(of(vk::DescriptorType::STORAGE_BUFFER, vertex | compute));
-        in_tiles.extend([words, words, words]);
-        in_tiles.extend([of(vk::DescriptorType::UNIFORM_TEXEL_BUFFER, compute); 6]);
-        debug_assert_eq!(in_tiles.len() - 1, SPAN_TEXELS as usize);
-        let integers = [RECORD_TEXELS + 3, ENTRY_TEXELS, SPAN_TEXELS];
-        let set = SetLayout::new(device, "tiles", &in_tiles)?.with_stand_ins(stand_ins, &integers);
+        let binding = |number| Binding {
+            kind: kind_of(number),
+            stages: if number == BIND_RUNS { vertex | compute } else { compute },
+        };
+        let bindings: Vec<_> = (0..=LAST_BINDING).map(binding).collect();
+        let integers = [BIND_RECORD_TEXELS + 3, BIND_ENTRY_TEXELS, BIND_RECT_TEXELS];
+        let set = SetLayout::new(device, "tiles", &bindings)?.with_stand_ins(stand_ins, &integers);
         let record = PipelineLayout::new(
             device,
             "records",

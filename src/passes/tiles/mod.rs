@@ -18,7 +18,6 @@ mod plan;
 mod quads;
 mod recipes;
 mod record;
-mod shade;
 mod shaded;
 mod splat;
 
@@ -38,52 +37,20 @@ pub(super) use self::{
     layers::layers,
     layouts::TileLayouts,
     pass::rows_of,
-    plan::{ROW_PX, rows_of_image},
+    plan::rows_of_image,
     quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
     recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
     shaded::{Shown, shaded},
-    splat::{TileImages, TileStart, accumulate, fused, visibility},
+    splat::{TileImages, TileStart, fused, see, sum},
 };
-use pass::{TilePass, after_dispatches_before};
+use pass::TilePass;
 
 use super::{Inputs, constants::TileConstants};
 use crate::{
-    graph::{
-        Access, Buffer, BufferDesc, Graph, Handle, Image, PassBuilder, ResourceId, Start, execute::Body,
-    },
+    graph::{Access, Buffer, BufferDesc, Graph, Handle, Image, Start, execute::Body},
+    shaders::config::*,
     vk::PoolRoom,
 };
-
-// The bindings of the set of tiles.
-const RECORDS: u32 = 0; // and the three after it
-const SPANS: u32 = 4;
-const COUNTS: u32 = 5;
-const STARTS: u32 = 6;
-const ENTRIES: u32 = 7;
-const SEEN: u32 = 8;
-const ARGUMENTS: u32 = 9;
-const OVERFULL: u32 = 10;
-const COLOR_SUMS: u32 = 11;
-const NORMAL_SUMS: u32 = 12;
-const VISIBLE_DEPTH: u32 = 13;
-const DEPTH_BEFORE: u32 = 14;
-const POLYGON_DEPTH: u32 = 15;
-const LIGHTS: u32 = 16;
-const PEELED_WEIGHT: u32 = 17;
-const PEELED_STATE: u32 = 18;
-pub(super) const RUNS: u32 = 19;
-const KEPT_STARTS: u32 = 20;
-pub(super) const KEPT_LIST: u32 = 21;
-const KEPT_BLOCKS: u32 = 22;
-const RECORD_TEXELS: u32 = 23; // and the three after it
-const ENTRY_TEXELS: u32 = 27;
-const SPAN_TEXELS: u32 = 28;
-
-// Where the arguments are, in bytes; `glsl/inc/tiles.glsl` has the same in words.
-const SEEN_ARGUMENTS: u64 = 0;
-const OVERFULL_ARGUMENTS: u64 = 16;
-const QUAD_ARGUMENTS: u64 = 32;
-const CHUNK_ARGUMENTS: u64 = 48;
 
 /// Storage buffers in the layout of the pass that makes records.
 pub const STORAGE_BUFFERS: u32 = 18;
@@ -95,9 +62,6 @@ const RECORD_QUARTERS: [&str; 4] = [
     "third quarter of records",
     "fourth quarter of records",
 ];
-
-/// The part that is all of a tile, as in `glsl/tile_splat.comp.glsl`.
-const WHOLE: u32 = u32::MAX;
 
 /// What a frame has to list splats by tile.
 pub(super) struct Tiles<'a> {
@@ -146,69 +110,45 @@ impl<'a> Tiles<'a> {
             starts: buffer("starts", (bins + 3) * 4),
             seen: buffer("seen", tiles * 4),
             runs: buffer("runs", tiles * 8),
-            arguments: buffer("arguments", CHUNK_ARGUMENTS + 16 * u64::from(plan.chunk_count)),
+            arguments: buffer("arguments", 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * u64::from(plan.chunk_count)),
             overfull: buffer("overfull", tiles * 4),
         }
     }
 
-    fn records(&self) -> [(u32, ResourceId); 4] {
-        std::array::from_fn(|i| (RECORDS + i as u32, self.records[i].id()))
-    }
-
-    /// What the passes bind that draw from the lists. `shortens`: entries are left out that nobody reads after the pass.
-    fn bind_lists(&self, pass: &mut TilePass<'_>, shortens: bool) {
-        pass.buffers
-            .extend([(STARTS, &self.starts), (SEEN, &self.seen), (OVERFULL, &self.overfull)].map(with_id));
-        for (number, quarter) in (0..).zip(&self.records) {
-            self.bind_read(pass, [RECORDS + number, RECORD_TEXELS + number], quarter);
-        }
-        match shortens {
-            true => pass.buffers.push((ENTRIES, self.entries.id())),
-            false => self.bind_read(pass, [ENTRIES, ENTRY_TEXELS], &self.entries),
-        }
-    }
-
-    /// Binds what a pass only reads, as words or as texels.
-    fn bind_read(&self, pass: &mut TilePass<'_>, [as_words, as_texels]: [u32; 2], buffer: &Handle<Buffer>) {
-        match self.plan.invocations.fetch_texels() {
-            true => pass.texel_buffers.push((as_texels, buffer.id())),
-            false => pass.buffers.push((as_words, buffer.id())),
-        }
-    }
-
-    /// Declares that a pass reads them and is dispatched by their arguments.
-    fn read_lists<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        self.read_all_but_entries(pass).read(&self.entries, self.access_of_lists())
-    }
-
-    /// The same of a pass that shortens them.
-    fn shorten_lists<'g, B>(&mut self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+    /// Adds to a pass what it reads that draws from the lists: it is dispatched by their arguments.
+    fn read_lists<'g, 'b>(&self, pass: TilePass<'g, 'b>) -> TilePass<'g, 'b> {
         let pass = self.read_all_but_entries(pass);
-        pass.write(&mut self.entries, Access::StorageUpdateCompute, Start::Load)
+        self.read_as_texels(pass, [BIND_ENTRIES, BIND_ENTRY_TEXELS], &self.entries)
     }
 
-    fn read_all_but_entries<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        for quarter in &self.records {
-            pass = pass.read(quarter, self.access_of_lists());
-        }
-        for buffer in [&self.starts, &self.seen, &self.overfull] {
-            pass = pass.read(buffer, Access::StorageReadCompute);
-        }
-        pass.read(&self.arguments, Access::IndirectRead)
+    /// The same of a pass that leaves entries out, which nobody reads after it.
+    fn shorten_lists<'g, 'b>(&mut self, pass: TilePass<'g, 'b>) -> TilePass<'g, 'b> {
+        let pass = self.read_all_but_entries(pass);
+        pass.write(BIND_ENTRIES, &mut self.entries, Access::StorageUpdateCompute, Start::Load)
     }
 
-    /// How that is read.
-    fn access_of_lists(&self) -> Access {
-        if self.plan.invocations.fetch_texels() {
-            Access::TexelReadCompute
-        } else {
-            Access::StorageReadCompute
+    fn read_all_but_entries<'g, 'b>(&self, mut pass: TilePass<'g, 'b>) -> TilePass<'g, 'b> {
+        for (number, quarter) in (0..).zip(&self.records) {
+            pass = self.read_as_texels(pass, [BIND_RECORDS, BIND_RECORD_TEXELS].map(|first| first + number), quarter);
+        }
+        pass.read(BIND_STARTS, &self.starts, Access::StorageReadCompute)
+            .read(BIND_NON_EMPTY_TILES, &self.seen, Access::StorageReadCompute)
+            .read(BIND_OVERFLOW_TILES, &self.overfull, Access::StorageReadCompute)
+            .declare(|pass| pass.read(&self.arguments, Access::IndirectRead))
+    }
+
+    /// Adds what is read as words, or as texels where the plan has it so.
+    fn read_as_texels<'g, 'b>(
+        &self,
+        pass: TilePass<'g, 'b>,
+        [as_words, as_texels]: [u32; 2],
+        buffer: &Handle<Buffer>,
+    ) -> TilePass<'g, 'b> {
+        match self.plan.invocations.fetch_texels() {
+            true => pass.read(as_texels, buffer, Access::TexelReadCompute),
+            false => pass.read(as_words, buffer, Access::StorageReadCompute),
         }
     }
-}
-
-fn with_id((binding, buffer): (u32, &Handle<Buffer>)) -> (u32, ResourceId) {
-    (binding, buffer.id())
 }
 
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
@@ -219,8 +159,8 @@ pub(super) fn room(plan: &TilePlan) -> PoolRoom {
         buffers: STORAGE_BUFFERS * sets,
         uniform_buffers: sets,
         texel_buffers: 6 * sets,
-        images: 4 * sets,
-        storage_images: 4 * sets,
+        images: 6 * sets,
+        storage_images: 6 * sets,
         ..PoolRoom::default()
     }
 }
@@ -238,7 +178,7 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         segment_length: plan.segment_length,
         round_first: 0,
         round_length: plan.round_length,
-        part: WHOLE,
+        part: WHOLE_TILES,
         focal_px: inputs.camera.focal_px(height) as f32,
         surfaces: 0,
         blends_rest: 0,

@@ -6,62 +6,29 @@
 
 use ash::vk;
 
-use super::{TilePass, TilePlan, WHOLE, after_dispatches_before};
-use crate::{
-    error::Result,
-    graph::{ResourceId, execute::PassContext},
-};
+use super::{super::constants::TileConstants, pass::TileDispatch};
+use crate::{error::Result, graph::ResourceId, shaders::config::*};
 
-/// The dispatches of one pass.
-pub(super) struct Parts {
-    /// Where the numbers of workgroups are.
-    pub arguments: ResourceId,
-    /// The place of those of all tiles but the overfull; none where those are done elsewhere.
-    pub whole: Option<u64>,
-    /// The place of those of the overfull tiles.
-    pub overfull: u64,
-    /// How many parts there may be.
-    pub parts: u32,
-}
-
-/// How many parts a tile may have; none where it can't be overfull.
-pub(super) fn of_parts(plan: &TilePlan) -> u32 {
-    if plan.may_be_overfull() { plan.parts() } else { 0 }
-}
-
-/// Pixels of an image that has room for so many tiles: `SLOTS_IN_ROW` of `glsl/inc/tiles.glsl` in a row.
+/// Pixels of an image that has room for so many tiles.
 pub(super) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -> vk::Extent2D {
-    const SLOTS_IN_ROW: u32 = 256;
     vk::Extent2D {
         width: tiles.min(SLOTS_IN_ROW) * tile_width,
         height: tiles.div_ceil(SLOTS_IN_ROW) * tile_height,
     }
 }
 
-impl Parts {
-    /// Records them.
-    pub fn record(&self, context: &PassContext<'_>, pass: &TilePass<'_>) -> Result<()> {
-        pass.bind(context)?;
-        let arguments = context.buffer(self.arguments)?;
-        let dispatch = |part, offset| {
-            let mut constants = pass.constants;
-            constants.part = part;
-            pass.push(context, &constants)?;
-            // SAFETY: all is bound that the pipeline needs; the arguments are within the buffer and declared to be read.
-            unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
-            Ok::<_, crate::error::Error>(())
-        };
-        if let Some(whole) = self.whole {
-            dispatch(WHOLE, whole)?;
-        }
-        for part in 0..self.parts {
-            if part > 0 {
-                after_dispatches_before(context);
-            }
-            dispatch(part, self.overfull)?;
-        }
-        Ok(())
+/// Records the dispatches of a pass: perhaps of whole tiles, then of all parts of overfull ones.
+pub(super) fn in_parts(
+    pass: &TileDispatch<'_, '_>,
+    arguments: ResourceId,
+    whole: bool,
+    parts: u32,
+) -> Result<()> {
+    if whole {
+        pass.indirect(pass.constants, arguments, ARGUMENTS_TILES)?;
     }
+    let part = |part| TileConstants { part, ..pass.constants };
+    pass.indirect_in_turn((0..parts).map(part), arguments, ARGUMENTS_OVERFLOW)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! One compute pass over tiles: its pipeline, what is bound, and how it is dispatched.
+//! One compute pass over tiles: what is bound, its pipeline, and how it is dispatched.
 
 use std::sync::Arc;
 
@@ -15,113 +15,207 @@ use super::{
 };
 use crate::{
     error::Result,
-    graph::{ResourceId, execute::PassContext},
-    shaders::Shader,
+    graph::{
+        Access, Buffer, Graph, Handle, PassBuilder, ResourceId, Start,
+        execute::{Body, PassContext},
+    },
+    shaders::{Shader, config::*},
     vk::ComputePipeline,
 };
 
-/// One compute pass over tiles.
-pub(super) struct TilePass<'a> {
+/// A pass in the making. Each resource is named once, with its binding in the set of tiles and its access.
+pub(super) struct TilePass<'g, 'a> {
+    declared: PassBuilder<'g, Body<'a>>,
+    bound: Vec<(u32, ResourceId)>,
+}
+
+impl<'g, 'a> TilePass<'g, 'a> {
+    pub fn new(graph: &'g mut Graph<Body<'a>>, name: &str) -> Self {
+        Self { declared: graph.pass(name), bound: Vec::new() }
+    }
+
+    pub fn read<K>(mut self, binding: u32, handle: &Handle<K>, access: Access) -> Self {
+        self.bound.push((binding, handle.id()));
+        Self { declared: self.declared.read(handle, access), ..self }
+    }
+
+    pub fn write<K>(
+        mut self,
+        binding: u32,
+        handle: &mut Handle<K>,
+        access: Access,
+        start: Start,
+    ) -> Self {
+        self.bound.push((binding, handle.id()));
+        Self { declared: self.declared.write(handle, access, start), ..self }
+    }
+
+    /// Reads what there may be.
+    pub fn read_if<K>(self, binding: u32, handle: Option<&Handle<K>>, access: Access) -> Self {
+        match handle {
+            Some(handle) => self.read(binding, handle, access),
+            None => self,
+        }
+    }
+
+    /// Binds once more what the pass declares elsewhere.
+    pub fn bind<K>(mut self, binding: u32, handle: &Handle<K>) -> Self {
+        self.bound.push((binding, handle.id()));
+        self
+    }
+
+    /// Declares what has no binding.
+    pub fn declare(
+        self,
+        declare: impl FnOnce(PassBuilder<'g, Body<'a>>) -> PassBuilder<'g, Body<'a>>,
+    ) -> Self {
+        Self { declared: declare(self.declared), ..self }
+    }
+
+    /// Declares the pass; `body` records it with what is bound.
+    pub fn finish_with(
+        self,
+        body: impl FnOnce(&PassContext<'_>, &[(u32, ResourceId)]) -> Result<()> + 'a,
+    ) {
+        let bound = self.bound;
+        self.declared.finish(Box::new(move |context| body(context, &bound)));
+    }
+
+    /// Declares the pass of one pipeline; `body` records its dispatches.
+    pub fn finish(
+        self,
+        inputs: Inputs<'a>,
+        plan: &TilePlan,
+        key: ComputeKey,
+        body: impl FnOnce(&TileDispatch<'_, '_>) -> Result<()> + 'a,
+    ) -> Result<()> {
+        let pipeline = inputs.shaders.compute(key)?;
+        let constants = super::constants(inputs, plan);
+        self.finish_with(move |context, bound| {
+            let dispatch = TileDispatch { context, inputs, pipeline, constants };
+            dispatch.bind(bound)?;
+            body(&dispatch)
+        });
+        Ok(())
+    }
+
+    /// The same of a pass with one dispatch, of as many workgroups as the word at `arguments` and those after it say.
+    pub fn finish_indirect(
+        self,
+        inputs: Inputs<'a>,
+        plan: &TilePlan,
+        key: ComputeKey,
+        (arguments, first_word): (&Handle<Buffer>, u32),
+    ) -> Result<()> {
+        let arguments = arguments.id();
+        self.finish(inputs, plan, key, move |pass| pass.indirect(pass.constants, arguments, first_word))
+    }
+}
+
+/// The pipeline of a shader in the layout of tiles.
+pub(super) fn key(shader: &'static Shader, constants: Constants) -> ComputeKey {
+    ComputeKey { shader, layout: Layout::Tile, constants }
+}
+
+/// A set of tiles with these bindings.
+pub(super) fn set_of(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    bound: &[(u32, ResourceId)],
+) -> Result<vk::DescriptorSet> {
+    let descriptor = |(binding, id): &(u32, ResourceId)| Ok((*binding, context.descriptor(*id)?));
+    let given = bound.iter().map(descriptor).collect::<Result<Vec<_>>>()?;
+    inputs.descriptors.set(&inputs.shaders.tiles()?.set, &given)
+}
+
+/// A pass over tiles while it is recorded, with all bound.
+pub(super) struct TileDispatch<'c, 'a> {
+    pub context: &'c PassContext<'c>,
     inputs: Inputs<'a>,
     pipeline: Arc<ComputePipeline>,
     pub constants: TileConstants,
-    pub buffers: Vec<(u32, ResourceId)>,
-    pub texel_buffers: Vec<(u32, ResourceId)>,
-    pub storage_images: Vec<(u32, ResourceId)>,
-    pub sampled_images: Vec<(u32, ResourceId)>,
 }
 
-impl<'a> TilePass<'a> {
-    pub fn new(
-        inputs: Inputs<'a>,
-        plan: &TilePlan,
-        (shader, constants_of_shader): (&'static Shader, Constants),
-        buffers: Vec<(u32, ResourceId)>,
-    ) -> Result<Self> {
-        let key = ComputeKey { shader, layout: Layout::Tile, constants: constants_of_shader };
-        Ok(Self {
-            inputs,
-            pipeline: inputs.shaders.compute(key)?,
-            constants: super::constants(inputs, plan),
-            buffers,
-            texel_buffers: Vec::new(),
-            storage_images: Vec::new(),
-            sampled_images: Vec::new(),
-        })
-    }
-
-    pub fn bind(&self, context: &PassContext<'_>) -> Result<()> {
-        let mut given = Vec::new();
-        let of_buffers = self.buffers.iter().chain(&self.texel_buffers);
-        for (number, id) in of_buffers.chain(&self.storage_images).chain(&self.sampled_images) {
-            given.push((*number, context.descriptor(*id)?));
-        }
-        let set = self.inputs.descriptors.set(&self.inputs.shaders.tiles()?.set, &given)?;
+impl TileDispatch<'_, '_> {
+    fn bind(&self, bound: &[(u32, ResourceId)]) -> Result<()> {
+        let set = set_of(self.context, self.inputs, bound)?;
         let layout = self.inputs.shaders.tiles()?.tile.raw();
         let bind_point = vk::PipelineBindPoint::COMPUTE;
-        let (device, commands) = (context.device(), context.commands());
+        let (device, commands) = (self.context.device(), self.context.commands());
         // SAFETY: pipeline and set have one layout; the graph's barriers order what is read and written.
         unsafe {
             device.cmd_bind_pipeline(commands, bind_point, self.pipeline.raw());
             device.cmd_bind_descriptor_sets(commands, bind_point, layout, 0, &[set], &[]);
         }
-        self.push(context, &self.constants)
+        Ok(())
     }
 
-    pub fn push(&self, context: &PassContext<'_>, constants: &TileConstants) -> Result<()> {
+    fn push(&self, constants: TileConstants) -> Result<()> {
         let layout = &self.inputs.shaders.tiles()?.tile;
-        let bytes = bytemuck::bytes_of(constants);
+        let (commands, bytes) = (self.context.commands(), bytemuck::bytes_of(&constants));
         // SAFETY: the layout's constants are these.
         unsafe {
-            let commands = context.commands();
-            context.device().cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, bytes);
+            self.context.device().cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, bytes);
         }
         Ok(())
     }
 
-    /// Records one dispatch of so many workgroups.
-    pub fn dispatch(&self, context: &PassContext<'_>, groups: u32) -> Result<()> {
-        self.bind(context)?;
+    /// Records a dispatch of so many workgroups.
+    pub fn groups(&self, constants: TileConstants, groups: u32) -> Result<()> {
+        self.push(constants)?;
         let [x, y] = rows_of(groups);
         // SAFETY: all is bound that the pipeline needs.
-        unsafe { context.device().cmd_dispatch(context.commands(), x, y, 1) };
+        unsafe { self.context.device().cmd_dispatch(self.context.commands(), x, y, 1) };
         Ok(())
     }
 
-    /// Records a dispatch of as many as a buffer says.
-    pub fn dispatch_indirect(
-        &self,
-        context: &PassContext<'_>,
-        arguments: ResourceId,
-        offset: u64,
-    ) -> Result<()> {
-        self.bind(context)?;
-        let arguments = context.buffer(arguments)?;
-        // SAFETY: as in `dispatch`; the arguments were declared to be read, and are within the buffer.
-        unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, offset) };
+    /// Records a dispatch of as many as a buffer says from a word on.
+    pub fn indirect(&self, constants: TileConstants, arguments: ResourceId, first_word: u32) -> Result<()> {
+        self.push(constants)?;
+        let (commands, arguments) = (self.context.commands(), self.context.buffer(arguments)?);
+        // SAFETY: as in `groups`; the arguments were declared to be read, and are within the buffer.
+        unsafe {
+            self.context.device().cmd_dispatch_indirect(commands, arguments, 4 * u64::from(first_word));
+        }
         Ok(())
+    }
+
+    /// Records such dispatches, each behind the one before, which works on the same memory.
+    pub fn indirect_in_turn(
+        &self,
+        dispatches: impl IntoIterator<Item = TileConstants>,
+        arguments: ResourceId,
+        first_word: u32,
+    ) -> Result<()> {
+        for (number, constants) in dispatches.into_iter().enumerate() {
+            if number > 0 {
+                self.wait();
+            }
+            self.indirect(constants, arguments, first_word)?;
+        }
+        Ok(())
+    }
+
+    /// Orders dispatches behind those before them in the pass, which work on the same memory.
+    pub fn wait(&self) {
+        let reads = vk::AccessFlags2::SHADER_STORAGE_READ | vk::AccessFlags2::SHADER_SAMPLED_READ;
+        let writes = vk::AccessFlags2::SHADER_STORAGE_WRITE;
+        let compute = vk::PipelineStageFlags2::COMPUTE_SHADER;
+        let barriers = [vk::MemoryBarrier2::default()
+            .src_stage_mask(compute)
+            .src_access_mask(writes)
+            .dst_stage_mask(compute)
+            .dst_access_mask(reads | writes)];
+        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+        // SAFETY: outside of rendering, in a compute pass.
+        unsafe { self.context.device().cmd_pipeline_barrier2(self.context.commands(), &info) };
     }
 }
 
-/// Workgroups along a row, and rows: a device need not take more than 65535 in one dimension. As in `glsl/inc/groups.glsl`.
+/// Workgroups along a row, and rows, as in `glsl/inc/groups.glsl`.
 pub(in super::super) fn rows_of(groups: u32) -> [u32; 2] {
-    const MOST_GROUPS_IN_ROW: u32 = 32_768;
     let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);
     [groups.div_ceil(rows.max(1)), rows]
-}
-
-/// Orders a dispatch behind those before it in the same pass, which work on the same memory.
-pub(super) fn after_dispatches_before(context: &PassContext<'_>) {
-    let storage = vk::AccessFlags2::SHADER_STORAGE_READ | vk::AccessFlags2::SHADER_STORAGE_WRITE;
-    let compute = vk::PipelineStageFlags2::COMPUTE_SHADER;
-    let barriers = [vk::MemoryBarrier2::default()
-        .src_stage_mask(compute)
-        .src_access_mask(vk::AccessFlags2::SHADER_STORAGE_WRITE)
-        .dst_stage_mask(compute)
-        .dst_access_mask(storage)];
-    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: outside of rendering, in a compute pass.
-    unsafe { context.device().cmd_pipeline_barrier2(context.commands(), &info) };
 }
 
 #[cfg(test)]

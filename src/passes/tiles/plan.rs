@@ -8,15 +8,9 @@ pub(in super::super) use self::rows::rows_of_image;
 
 use self::rows::tile_rows;
 use super::Invocations;
-use crate::{math::size::pixels_along, vk::Limits};
+use crate::{math::size::pixels_along, shaders::config::*, vk::Limits};
 
-/// Pixels along a row of a tile, as in `glsl/inc/tiles.glsl`.
-const TILE_WIDTH: u32 = 8;
-
-/// Pixels of the rows that bands have, each a row of tiles or two: `BAND_ROW` there.
-pub(in super::super) const ROW_PX: u32 = 8;
-
-/// Bits of a tile's column or row in a span, as in `glsl/inc/tiles.glsl`; what is left of 16 is for how many tiles a splat touches
+/// Bits of a tile's column or row in a span, as in `glsl/tile/rect.glsl`; what is left of 16 is for how many tiles a splat touches
 /// along a side. The first that has room for the image is taken.
 const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
 
@@ -24,9 +18,6 @@ const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
 fn most_tiles_a_side(place_bits: u32) -> u32 {
     3 << (14 - place_bits)
 }
-
-/// Splats of one step of a shader's loops: `BATCH` of `glsl/inc/tile_batch.glsl`.
-const BATCH: u32 = 8;
 
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
 const MOST_ITERATIONS: u32 = 60_000;
@@ -36,12 +27,6 @@ const SEGMENTS: u32 = 32;
 
 /// Blocks of a segment at least: of few splats, most of the work is to add up counts that are 0.
 const LEAST_BLOCKS: u32 = 4;
-
-/// Records that are dealt out to a segment at a time, as in `glsl/inc/tiles.glsl`.
-const BLOCK: u32 = 32;
-
-/// Invocations of a workgroup that walks over segments.
-pub(in super::super) const WALKERS: u32 = 8;
 
 /// Entries of lists that there is room for at least, where the device allows it; for each splat; and for each pixel: as much as
 /// sums of 16 bits take.
@@ -53,11 +38,8 @@ const ENTRIES_A_PIXEL: u64 = 4;
 const MOST_ROUNDS: u32 = 16;
 const MOST_OF_MANY: u64 = 64;
 
-/// Chunks that spans can tell apart.
-const MOST_CHUNKS: usize = 8191;
-
-/// Where spans begin that stand for no tiles, as in `glsl/inc/tiles.glsl`.
-pub(super) const SPAN_CHUNK: u32 = u32::MAX - MOST_CHUNKS as u32;
+/// Where spans begin that stand for no tiles, as in `glsl/tile/rect.glsl`.
+pub(super) const SPAN_CHUNK: u32 = u32::MAX - MOST_CHUNKS;
 
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(in super::super) const RECORD_BYTES: u64 = 16;
@@ -137,14 +119,14 @@ impl TilePlan {
         // A record, or an entry, is a texel of each buffer that it is in.
         let most_texels = if invocations.fetch_texels() { u64::from(limits.max_texels) } else { u64::MAX };
         let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
-        let rows = 0..height.div_ceil(ROW_PX);
+        let rows = 0..height.div_ceil(BAND_ROW);
         let (tiles_x, tiles_y) = (width.div_ceil(TILE_WIDTH), tile_rows(rows.end, invocations));
         let tile_count = tiles_x * tiles_y;
         let bins = u64::from(tile_count) + chunks as u64;
-        let segments_with_room = range / 4 / bins / u64::from(WALKERS) * u64::from(WALKERS);
+        let segments_with_room = range / 4 / bins / u64::from(BIN_GROUP_SIZE) * u64::from(BIN_GROUP_SIZE);
         let most_records = (range / RECORD_BYTES).min(most_texels);
         let refused =
-            records == 0 || records > most_records || chunks > MOST_CHUNKS || segments_with_room == 0;
+            records == 0 || records > most_records || chunks > MOST_CHUNKS as usize || segments_with_room == 0;
         if refused {
             return None;
         }
@@ -152,10 +134,10 @@ impl TilePlan {
         let place_bits = PLACE_BITS.into_iter().find(has_places)?;
         let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
-        let blocks = record_count.div_ceil(BLOCK);
-        let segments_with_work = blocks.div_ceil(LEAST_BLOCKS).next_multiple_of(WALKERS).min(SEGMENTS);
+        let blocks = record_count.div_ceil(SEGMENT_BLOCK);
+        let segments_with_work = blocks.div_ceil(LEAST_BLOCKS).next_multiple_of(BIN_GROUP_SIZE).min(SEGMENTS);
         let segments = segments_with_room.min(u64::from(segments_with_work)) as u32;
-        let segment_length = blocks.div_ceil(segments) * BLOCK;
+        let segment_length = blocks.div_ceil(segments) * SEGMENT_BLOCK;
         let of_pixels = u64::from(width) * u64::from(height) * ENTRIES_A_PIXEL;
         let room =
             (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4).min(most_texels);
@@ -175,7 +157,7 @@ impl TilePlan {
         let longest = f64::from((most_a_side - 1) * invocations.tile_height().min(TILE_WIDTH));
         let fits = largest <= longest && tiles_of(largest, invocations) <= most_tiles;
         let most_tiles = most_tiles as u32;
-        let walk_length = BATCH * MOST_ITERATIONS / 2;
+        let walk_length = TILE_BATCH * MOST_ITERATIONS / 2;
         Some(Self {
             tiles_x,
             rows,
@@ -257,6 +239,11 @@ impl TilePlan {
     /// Parts of a tile that has all splats.
     pub fn parts(&self) -> u32 {
         self.record_count.div_ceil(self.walk_length)
+    }
+
+    /// The same; none where a tile can't be overfull.
+    pub fn parts_of_overfull(&self) -> u32 {
+        if self.may_be_overfull() { self.parts() } else { 0 }
     }
 
     /// Tiles that may be overfull at once.

@@ -9,12 +9,12 @@ use super::{
         pipelines::{GraphicsKey, Layout},
         variant::Constants,
     },
-    QUAD_ARGUMENTS, RUNS, Tiles,
+    Tiles, pass::set_of,
 };
 use crate::{
     error::Result,
     graph::{Access, PassBuilder, ResourceId, execute::PassContext},
-    shaders::{self, Shader},
+    shaders::{self, Shader, config::*},
     vk::GraphicsPipeline,
 };
 
@@ -66,8 +66,7 @@ pub(in super::super) fn draw_quads_of_tiles(
     let (device, commands) = (context.device(), context.commands());
     let constants = FinalizeConstants { tile_height: seen.tile_height, ..constants };
     for (runs, arguments) in &seen.bands {
-        let list = [(RUNS, context.descriptor(*runs)?)];
-        let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
+        let sets = [set, set_of(context, inputs, &[(BIND_RUNS, *runs)])?];
         let arguments = context.buffer(*arguments)?;
         // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is
         // read; the arguments are within the buffer.
@@ -81,7 +80,7 @@ pub(in super::super) fn draw_quads_of_tiles(
                 0,
                 bytemuck::bytes_of(&constants),
             );
-            device.cmd_draw_indirect(commands, arguments, QUAD_ARGUMENTS, 1, 16);
+            device.cmd_draw_indirect(commands, arguments, 4 * u64::from(ARGUMENTS_QUADS), 1, 16);
         }
     }
     Ok(())

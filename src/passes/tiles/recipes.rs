@@ -2,21 +2,15 @@
 
 use super::{
     super::{
-        pipelines::{ComputeKey, GraphicsKey, Layout},
+        pipelines::{ComputeKey, GraphicsKey},
         variant::Constants,
     },
-    Invocations, TilePlan,
-    bins::{count_shader, fill_shader, part_length},
-    depth,
+    Invocations, TilePlan, bins, depth,
     layer_work::Work,
-    layers, record,
-    splat::{Step, shader},
+    layers, record, shaded,
+    splat::{self, Step},
 };
-use crate::{
-    error::Result,
-    scene::{Cull, Settings, TileInvocations},
-    shaders::{self, Shader},
-};
+use crate::scene::{Cull, Settings, TileInvocations};
 
 /// What decides about them.
 #[derive(Clone, Copy, Debug)]
@@ -31,10 +25,6 @@ pub(in super::super) struct TileTraits {
     pub leaves_sums: bool,
     /// The scene's own lights.
     pub lights: u32,
-}
-
-fn compute((shader, constants): (&'static Shader, Constants)) -> ComputeKey {
-    ComputeKey { shader, layout: Layout::Tile, constants }
 }
 
 /// Those of a CPU, unless asked otherwise.
@@ -54,35 +44,33 @@ pub(in super::super) fn list_recipes(
     kept: bool,
 ) -> Vec<(&'static str, ComputeKey)> {
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(may_be_large) };
-    vec![
-        ("set up splats", record::key(variant, &plan, 0, kept)),
-        ("count tiles", compute(count_shader(&plan, kept))),
-        ("total tiles", compute((&shaders::TILE_TOTAL_COMP, Vec::new()))),
-        ("start tiles", compute((&shaders::TILE_START_COMP, part_length(&plan)))),
-        ("fill tiles", compute(fill_shader(&plan, kept))),
-    ]
+    let set_up = ("set up splats", record::key(variant, &plan, 0, kept));
+    let lists = ["count tiles", "total tiles", "start tiles", "fill tiles"];
+    [set_up].into_iter().chain(lists.into_iter().zip(bins::keys(&plan, kept))).collect()
 }
 
 /// The passes of the opaque part.
 pub(in super::super) fn opaque_recipes(
     settings: &Settings,
     traits: TileTraits,
-) -> Result<Vec<(&'static str, ComputeKey)>> {
-    let TileTraits { may_be_large: upon, polygons, export: with_depth, leaves_sums, lights } = traits;
+) -> Vec<(&'static str, ComputeKey)> {
+    let TileTraits { may_be_large, polygons, export: with_depth, leaves_sums, lights } = traits;
     let hidden = settings.cull == Cull::Hidden;
-    let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(upon) };
-    let steps = match polygons {
-        beside if !leaves_sums => {
-            let (precision, hidden) = (settings.accumulate, hidden && !beside);
-            vec![("see, sum and shade tiles", Step::Shaded { precision, beside, lights, hidden })]
+    let plan =
+        TilePlan { invocations: invocations(settings), hidden, ..TilePlan::for_recipes(may_be_large) };
+    let step = |pass, step: Step| (pass, splat::key(settings, &plan, Step { with_depth, ..step }));
+    let preloaded = may_be_large;
+    match polygons {
+        polygons if !leaves_sums => {
+            let key = shaded::key(settings, &plan, settings.accumulate, shaded::Beside { polygons, lights });
+            vec![("see, sum and shade tiles", key)]
         }
-        false => vec![("see and sum tiles", Step::Fused { upon, with_depth, hidden })],
+        false => vec![step("see and sum tiles", Step { preloaded, hidden, ..Step::FUSED })],
         true => vec![
-            ("see tiles", Step::Visible { upon }),
-            ("sum tiles", Step::Summed { beside: true, with_depth }),
+            step("see tiles", Step { preloaded, ..Step::VISIBLE }),
+            step("sum tiles", Step { polygons, ..Step::SUMMED }),
         ],
-    };
-    steps.into_iter().map(|(pass, step)| Ok((pass, compute(shader(settings, &plan, step)?)))).collect()
+    }
 }
 
 /// The pass that hands the depth to the graphics pipeline.
@@ -91,13 +79,9 @@ pub(in super::super) fn depth_recipe() -> (&'static str, GraphicsKey) {
 }
 
 /// The pass of all transparent layers, before opaque things.
-pub(in super::super) fn layers_recipe(
-    settings: &Settings,
-    lights: u32,
-) -> Result<(&'static str, ComputeKey)> {
+pub(in super::super) fn layers_recipe(settings: &Settings, lights: u32) -> (&'static str, ComputeKey) {
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(false) };
     let plan = plan.with_layers(settings.layers.most(), 0);
-    let beside = layers::Beside { opaque: true, lights };
     let work = Work::of_whole_tiles(settings, &plan);
-    Ok(("layers of tiles", compute(layers::shader(settings, &plan, beside, work)?)))
+    ("layers of tiles", layers::key(settings, &plan, layers::Beside { opaque: true, lights }, work))
 }

@@ -5,31 +5,33 @@ use ash::vk;
 use super::{
     super::{
         Inputs,
-        cull::{Kept, KeptIds},
+        cull::Kept,
         pipelines::{ComputeKey, Layout},
         variant::Constants,
     },
-    KEPT_BLOCKS, KEPT_LIST, KEPT_STARTS, SPANS, TilePlan, Tiles,
+    TilePass, TilePlan, Tiles,
     bins::place_bits,
+    pass::set_of,
 };
 use crate::{
     error::Result,
     graph::{Access, Graph, Start, execute::Body},
-    shaders,
+    shaders::{self, config::*},
 };
-
-/// Invocations of a workgroup, as in `glsl/tile_record.comp.glsl`.
-const GROUP: u32 = 64;
 
 /// What the pipeline is, for one chunk, of which perhaps a list is set up.
 pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, kept: bool) -> ComputeKey {
     let mut constants = variant.clone();
-    constants.extend([(22, plan.most_tiles), place_bits(plan), (25, plan.invocations.tile_height())]);
+    constants.extend([
+        place_bits(plan),
+        (SPEC_MOST_TILES, plan.most_tiles),
+        (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
+        (SPEC_KEPT, u32::from(kept)),
+    ]);
     if plan.may_be_large {
-        constants.extend([(16, 1), (17, chunk)]);
+        constants.extend([(SPEC_MAY_BE_LARGE, 1), (SPEC_CHUNK, chunk)]);
     }
-    let shader = if kept { &shaders::TILE_RECORD_KEPT_COMP } else { &shaders::TILE_RECORD_COMP };
-    ComputeKey { shader, layout: Layout::Record, constants }
+    ComputeKey { shader: &shaders::TILE_PROJECT_COMP, layout: Layout::Record, constants }
 }
 
 /// Declares the pass.
@@ -44,25 +46,21 @@ pub(super) fn record<'a>(
     for (number, draw) in (0..).zip(inputs.draws) {
         chunks.push((draw, inputs.shaders.compute(key(&draw.variant, tiles.plan, number, kept.is_some()))?));
     }
-    let mut ids = tiles.records().to_vec();
-    ids.push((SPANS, tiles.spans.id()));
-    let mut pass = graph.pass(&format!("set up {kind}splats"));
+    let mut pass = TilePass::new(graph, &format!("set up {kind}splats"));
     if let Some(kept) = kept {
-        pass = kept.read_by_compute(pass);
+        pass = pass
+            .declare(|pass| kept.read_by_compute(pass))
+            .bind(BIND_KEPT_STARTS, kept.starts())
+            .bind(BIND_KEPT_LIST, kept.list())
+            .bind(BIND_KEPT_BLOCKS, &kept.blocks);
+    }
+    let quarters = (BIND_RECORDS..).zip(&mut tiles.records);
+    for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.spans)]) {
+        pass = pass.write(binding, buffer, Access::StorageWriteCompute, Start::Discard);
     }
     let kept = kept.map(Kept::ids);
-    if let Some(KeptIds { starts, list, blocks, .. }) = &kept {
-        ids.extend([(KEPT_STARTS, *starts), (KEPT_LIST, *list), (KEPT_BLOCKS, *blocks)]);
-    }
-    for buffer in tiles.records.iter_mut().chain([&mut tiles.spans]) {
-        pass = pass.write(buffer, Access::StorageWriteCompute, Start::Discard);
-    }
-    pass.finish(Box::new(move |context| {
-        let mut given = Vec::new();
-        for (number, id) in &ids {
-            given.push((*number, context.descriptor(*id)?));
-        }
-        let set = inputs.descriptors.set(&inputs.shaders.tiles()?.set, &given)?;
+    pass.finish_with(move |context, bound| {
+        let set = set_of(context, inputs, bound)?;
         let layout = &inputs.shaders.tiles()?.record;
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         let (device, commands) = (context.device(), context.commands());
@@ -78,13 +76,13 @@ pub(super) fn record<'a>(
             match &kept {
                 Some(kept) => kept.dispatch(context, number)?,
                 None => {
-                    let [x, y] = super::rows_of(draw.chunk.count.div_ceil(GROUP));
+                    let [x, y] = super::rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE));
                     // SAFETY: all is bound that the pipeline needs.
                     unsafe { device.cmd_dispatch(commands, x, y, 1) };
                 }
             }
         }
         Ok(())
-    }));
+    });
     Ok(())
 }

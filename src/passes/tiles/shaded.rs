@@ -1,16 +1,22 @@
 //! Visibility, accumulation and shading of the listed splats in one dispatch, a tile at a time: tiles leave what they show. Those with
-//! more splats than one dispatch takes do so after it.
+//! more splats than one dispatch takes, of which there are few, if any, are seen and summed in parts after it, in images of such tiles
+//! alone, then shaded from these.
 
 use super::{
-    super::Inputs,
-    COLOR_SUMS, LIGHTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass, Tiles,
-    shade::shade_overfull,
-    splat::{Step, TileStart, shader},
+    super::{
+        Inputs,
+        finalize::shown_constants,
+        pipelines::ComputeKey,
+        variant::shading_constants,
+    },
+    TileImages, TilePass, TilePlan, Tiles, pass,
+    splat::{self, TileStart, beside_polygons},
 };
 use crate::{
     error::Result,
     graph::{Access, Buffer, Graph, Handle, Image, execute::Body},
-    scene::Accumulate,
+    scene::{Accumulate, Settings},
+    shaders::{self, config::*},
 };
 
 /// What tiles show, in place of sums.
@@ -18,6 +24,38 @@ pub(in super::super) struct Shown {
     pub image: Handle<Image>,
     /// The image's.
     pub precision: Accumulate,
+}
+
+/// Beside what tiles are shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in super::super) struct Beside {
+    pub polygons: bool,
+    /// The scene's own lights.
+    pub lights: u32,
+}
+
+/// The pipeline. `precision`: of what is shown.
+pub(in super::super) fn key(
+    settings: &Settings,
+    plan: &TilePlan,
+    precision: Accumulate,
+    Beside { polygons, lights }: Beside,
+) -> ComputeKey {
+    let shader = plan.invocations.shader(match leaves_hidden_out(plan, polygons) {
+        false => [&shaders::TILE_SHADE_COLUMN_COMP, &shaders::TILE_SHADE_PIXEL_COMP],
+        true => [&shaders::TILE_SHADE_COLUMN_HIDDEN_COMP, &shaders::TILE_SHADE_PIXEL_HIDDEN_COMP],
+    });
+    let mut constants = splat::constants(settings, plan, precision);
+    constants.extend(shown_constants(settings, polygons, lights));
+    if polygons {
+        constants.extend(beside_polygons(settings));
+    }
+    pass::key(shader, constants)
+}
+
+/// Beside polygons more than what visibility lets through may count (`--transition paper`).
+fn leaves_hidden_out(plan: &TilePlan, polygons: bool) -> bool {
+    plan.hidden && !polygons
 }
 
 /// Declares all of it, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
@@ -31,26 +69,55 @@ pub(in super::super) fn shaded<'a>(
     (polygons, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
     start: TileStart,
 ) -> Result<()> {
-    // Beside polygons more than what visibility lets through may count (`--transition paper`).
-    let (precision, hidden) = (shown.precision, tiles.plan.hidden && polygons.is_none());
-    let step = Step::Shaded { precision, beside: polygons.is_some(), lights: inputs.lights, hidden };
-    let shader = shader(inputs.settings, tiles.plan, step)?;
-    let mut shaded = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
-    tiles.bind_lists(&mut shaded, hidden);
-    shaded.storage_images = vec![(COLOR_SUMS, shown.image.id())];
-    shaded.buffers.extend(lights.map(|lights| (LIGHTS, lights.id())));
-    let arguments = tiles.arguments.id();
+    let plan = tiles.plan;
+    let beside = Beside { polygons: polygons.is_some(), lights: inputs.lights };
     let (access, content) = start.access();
-    let pass = graph.pass(&format!("see, sum and shade {kind}tiles"));
-    let mut pass = if hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadCompute);
+    let pass = TilePass::new(graph, &format!("see, sum and shade {kind}tiles"));
+    let mut pass = match leaves_hidden_out(plan, beside.polygons) {
+        true => tiles.shorten_lists(pass),
+        false => tiles.read_lists(pass),
     }
-    if let Some(polygons) = polygons {
-        shaded.sampled_images = vec![(POLYGON_DEPTH, polygons.id())];
-        pass = pass.read(polygons, Access::SampledCompute);
+    .read_if(BIND_LIGHTS, lights, Access::UniformReadCompute)
+    .read_if(BIND_POLYGON_DEPTH, polygons, Access::SampledCompute)
+    .write(BIND_COLORS, &mut shown.image, access, content);
+    if beside.polygons {
+        pass = pass.bind(BIND_COLORS_BEFORE, &shown.image);
     }
-    pass.write(&mut shown.image, access, content)
-        .finish(Box::new(move |context| shaded.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
-    shade_overfull(graph, inputs, kind, tiles, shown, lights)
+    let key = key(inputs.settings, plan, shown.precision, beside);
+    pass.finish_indirect(inputs, plan, key, (&tiles.arguments, ARGUMENTS_TILES))?;
+    match plan.may_be_overfull() {
+        true => shade_overfull(graph, inputs, kind, tiles, shown, lights),
+        false => Ok(()),
+    }
+}
+
+/// Declares the passes of overfull tiles.
+fn shade_overfull<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    kind: &str,
+    tiles: &Tiles<'a>,
+    shown: &mut Shown,
+    lights: Option<&Handle<Buffer>>,
+) -> Result<()> {
+    let plan = tiles.plan;
+    let mut images = TileImages::of_overfull(graph, kind, plan);
+    splat::see(graph, inputs, kind, tiles, &mut images, None, false)?;
+    splat::sum(graph, inputs, kind, tiles, &mut images, (None, false), false)?;
+
+    let mut constants = shading_constants(inputs.settings.shading, inputs.lights);
+    constants.extend(splat::constants(inputs.settings, plan, shown.precision));
+    let (access, content) = TileStart::Bands.access(); // the other tiles
+    tiles
+        .read_lists(TilePass::new(graph, &format!("shade {kind}overfull tiles")))
+        .read(BIND_COLORS_BEFORE, &images.sums.color, Access::SampledCompute)
+        .read(BIND_NORMALS_BEFORE, &images.sums.normal, Access::SampledCompute)
+        .read_if(BIND_LIGHTS, lights, Access::UniformReadCompute)
+        .write(BIND_COLORS, &mut shown.image, access, content)
+        .finish_indirect(
+            inputs,
+            plan,
+            pass::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants),
+            (&tiles.arguments, ARGUMENTS_OVERFLOW),
+        )
 }

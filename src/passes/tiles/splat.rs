@@ -7,31 +7,23 @@ use super::{
     super::{
         Inputs,
         accumulate::Sums,
-        finalize::shown_constants,
-        splat_shaders::find,
+        pipelines::ComputeKey,
         sum_format,
         variant::{Constants, splat_constants},
     },
-    COLOR_SUMS, DEPTH_BEFORE, NORMAL_SUMS, OVERFULL_ARGUMENTS, POLYGON_DEPTH, SEEN_ARGUMENTS, TilePass,
-    TilePlan, Tiles, VISIBLE_DEPTH,
-    bins::part_length,
-    overfull::{Parts, extent_of_slots, of_parts},
+    TilePass, TilePlan, Tiles,
+    overfull::{extent_of_slots, in_parts},
+    pass,
 };
 use crate::{
     error::Result,
     graph::{Access, Graph, Handle, Image, ImageDesc, Start, execute::Body},
     scene::{Accumulate, Settings, Transition},
-    shaders::Shader,
+    shaders::{self, config::*},
 };
 
 /// The depth that tiles find, for other compute passes and for fragments.
 pub(in super::super) const VISIBLE_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
-
-/// The constant of whether anyone reads the depth that tiles find.
-const KEEPS_DEPTH: u32 = 23;
-
-/// The constant of whether images hold overfull tiles alone.
-const IN_SLOTS: u32 = 26;
 
 /// What tiles leave. Outside of tiles with splats, the images hold nothing unless they were cleared.
 pub(in super::super) struct TileImages {
@@ -76,13 +68,10 @@ impl TileImages {
             in_slots: true,
         }
     }
-}
 
-/// The word of a precision in the names of permutations.
-pub(super) fn bits(precision: Accumulate) -> &'static str {
-    match precision {
-        Accumulate::F16 => "half",
-        Accumulate::F32 => "single",
+    /// How a pass over parts begins.
+    fn start(&self) -> Start {
+        if self.in_slots { Start::Discard } else { Start::Load }
     }
 }
 
@@ -118,58 +107,79 @@ impl TileStart {
     pub fn access(self) -> (Access, Start) {
         match self {
             Self::Empty => (Access::StorageWriteCompute, Start::Discard),
-            Self::Polygons | Self::Bands | Self::Cleared => (Access::StorageReadWriteCompute, Start::Load),
+            Self::Polygons => (Access::SampledAndStoredCompute, Start::Load),
+            Self::Bands | Self::Cleared => (Access::StorageReadWriteCompute, Start::Load),
         }
     }
 }
 
-/// What the shader does.
+/// What one pass does, and beside what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) enum Step {
-    Shaded { precision: Accumulate, beside: bool, lights: u32, hidden: bool },
-    Fused { upon: bool, with_depth: bool, hidden: bool },
-    Visible { upon: bool },
-    Summed { beside: bool, with_depth: bool },
+pub(in super::super) struct Step {
+    pub sees: bool,
+    pub sums: bool,
+    /// What is hidden is left out of sums.
+    pub hidden: bool,
+    /// Depth is summed, too.
+    pub with_depth: bool,
+    /// The graphics pipeline has drawn visible splats before.
+    pub preloaded: bool,
+    pub polygons: bool,
 }
 
-/// The shader of a step, and its constants.
-pub(in super::super) fn shader(
-    settings: &Settings,
-    plan: &TilePlan,
-    step: Step,
-) -> Result<(&'static Shader, Constants)> {
-    let sums = bits(accumulate_of(settings, plan));
-    let word = |choice: bool, word: &'static str| choice.then_some(word);
-    let words = match step {
-        Step::Shaded { precision, beside, lights, hidden } => {
-            let traits = [word(beside, "beside"), word(lights > 0, "lit"), word(hidden, "hidden")];
-            [&[Some("shaded"), Some(bits(precision))], traits.as_slice()].concat()
-        }
-        Step::Fused { upon, with_depth, hidden } => {
-            let traits = [word(with_depth, "with_depth"), word(upon, "upon"), word(hidden, "hidden")];
-            [&[Some("fused"), Some(sums)], traits.as_slice()].concat()
-        }
-        Step::Visible { upon } => vec![Some("visible"), word(upon, "upon")],
-        Step::Summed { beside, with_depth } => {
-            vec![Some("summed"), Some(sums), word(with_depth, "with_depth"), word(beside, "beside")]
-        }
+impl Step {
+    /// Visibility and accumulation of splats alone.
+    pub const FUSED: Self = Self {
+        sees: true,
+        sums: true,
+        hidden: false,
+        with_depth: false,
+        preloaded: false,
+        polygons: false,
     };
-    let words = words.into_iter().chain([plan.invocations.word()]).flatten();
-    let name: String = words.map(|word| format!("_{word}")).collect();
-    // What differs between chunks is in their records.
+    pub const VISIBLE: Self = Self { sums: false, ..Self::FUSED };
+    pub const SUMMED: Self = Self { sees: false, ..Self::FUSED };
+}
+
+/// The constants of what draws from the lists. What differs between chunks is in their records.
+pub(super) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate) -> Constants {
     let mut constants = splat_constants(settings, false, false);
-    constants.extend(part_length(plan));
-    if let Step::Shaded { beside, lights, .. } = step {
-        constants.extend(shown_constants(settings, beside, lights));
+    constants.extend([
+        (SPEC_PART_LENGTH, plan.part_length),
+        (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
+        (SPEC_HALF_FLOATS, u32::from(images == Accumulate::F16)),
+    ]);
+    constants
+}
+
+/// The constants of what draws beside polygons.
+pub(super) fn beside_polygons(settings: &Settings) -> Constants {
+    let shifted_for_all = u32::from(settings.transition == Transition::Paper);
+    vec![(SPEC_WITH_POLYGONS, 1), (SPEC_SHIFTED_FOR_ALL, shifted_for_all)]
+}
+
+/// The pipeline of a step.
+pub(in super::super) fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
+    let shader = plan.invocations.shader(match step.hidden {
+        false => [&shaders::TILE_ACCUMULATE_COLUMN_COMP, &shaders::TILE_ACCUMULATE_PIXEL_COMP],
+        true => [&shaders::TILE_ACCUMULATE_COLUMN_HIDDEN_COMP, &shaders::TILE_ACCUMULATE_PIXEL_HIDDEN_COMP],
+    });
+    let mut constants = constants(settings, plan, accumulate_of(settings, plan));
+    constants.extend([
+        (SPEC_SEES, u32::from(step.sees)),
+        (SPEC_SUMS, u32::from(step.sums)),
+        (SPEC_WITH_DEPTH, u32::from(step.with_depth)),
+        (SPEC_DEPTH_PRELOADED, u32::from(step.preloaded)),
+    ]);
+    if step.polygons {
+        constants.extend(beside_polygons(settings));
     }
-    if let Step::Shaded { beside: true, .. } | Step::Summed { beside: true, .. } = step {
-        constants.push((18, u32::from(settings.transition == Transition::Paper)));
-    }
-    Ok((find(&format!("tile_splat{name}.comp"))?, constants))
+    pass::key(shader, constants)
 }
 
 /// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
-/// drawn; `kind`, in front of the tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the images hold.
+/// drawn; `kind`, in front of the tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the
+/// images hold.
 pub(in super::super) fn fused<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -179,109 +189,85 @@ pub(in super::super) fn fused<'a>(
     before: Option<&Handle<Image>>,
     (with_depth, start): (bool, TileStart),
 ) -> Result<()> {
-    let step = Step::Fused { upon: before.is_some(), with_depth, hidden: tiles.plan.hidden };
-    let mut shader_of_step = shader(inputs.settings, tiles.plan, step)?;
-    if start != TileStart::Cleared {
-        shader_of_step.1.push((KEEPS_DEPTH, 0));
-    }
-    let mut fused = TilePass::new(inputs, tiles.plan, shader_of_step, Vec::new())?;
-    tiles.bind_lists(&mut fused, tiles.plan.hidden);
-    fused.storage_images = vec![
-        (COLOR_SUMS, images.sums.color.id()),
-        (NORMAL_SUMS, images.sums.normal.id()),
-        (VISIBLE_DEPTH, images.depth.id()),
-    ];
-    fused.sampled_images = before.map(|before| (DEPTH_BEFORE, before.id())).into_iter().collect();
-    let arguments = tiles.arguments.id();
+    let plan = tiles.plan;
+    let step = Step { hidden: plan.hidden, with_depth, preloaded: before.is_some(), ..Step::FUSED };
+    let mut key = key(inputs.settings, plan, step);
+    key.constants.push((SPEC_KEEPS_DEPTH, u32::from(start == TileStart::Cleared)));
+    let pass = TilePass::new(graph, &format!("see and sum {kind}tiles"));
+    let pass = if plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     let (access, content) = start.access();
-    let pass = graph.pass(&format!("see and sum {kind}tiles"));
-    let mut pass = if tiles.plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
-    for image in [&mut images.sums.color, &mut images.sums.normal, &mut images.depth] {
-        pass = pass.write(image, access, content);
-    }
-    if let Some(before) = before {
-        pass = pass.read(before, Access::SampledCompute);
-    }
-    pass.finish(Box::new(move |context| fused.dispatch_indirect(context, arguments, SEEN_ARGUMENTS)));
-    if tiles.plan.may_be_overfull() {
-        let seen = Step::Visible { upon: before.is_some() };
-        let summed = Step::Summed { beside: false, with_depth };
-        in_parts(graph, inputs, kind, tiles, images, before, (seen, None))?;
-        in_parts(graph, inputs, kind, tiles, images, None, (summed, None))?;
+    pass.write(BIND_COLORS, &mut images.sums.color, access, content)
+        .write(BIND_NORMALS, &mut images.sums.normal, access, content)
+        .write(BIND_VISIBLE_DEPTH, &mut images.depth, access, content)
+        .read_if(BIND_DEPTH_BEFORE, before, Access::SampledCompute)
+        .finish_indirect(inputs, plan, key, (&tiles.arguments, ARGUMENTS_TILES))?;
+    if plan.may_be_overfull() {
+        see(graph, inputs, kind, tiles, images, before, false)?;
+        sum(graph, inputs, kind, tiles, images, (None, with_depth), false)?;
     }
     Ok(())
 }
 
-/// Declares visibility alone.
-pub(in super::super) fn visibility<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
-    images: &mut TileImages,
-    before: Option<&Handle<Image>>,
-) -> Result<()> {
-    let step = Step::Visible { upon: before.is_some() };
-    in_parts(graph, inputs, "", tiles, images, before, (step, Some(SEEN_ARGUMENTS)))
-}
-
-/// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any.
-pub(in super::super) fn accumulate<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    tiles: &Tiles<'a>,
-    images: &mut TileImages,
-    polygons: Option<&Handle<Image>>,
-    with_depth: bool,
-) -> Result<()> {
-    let step = Step::Summed { beside: polygons.is_some(), with_depth };
-    in_parts(graph, inputs, "", tiles, images, polygons, (step, Some(SEEN_ARGUMENTS)))
-}
-
-/// Visibility or accumulation: of whole tiles, where there are arguments for them, then of the parts of overfull ones. `depth`: what
-/// it reads beside the tiles' own.
-pub(super) fn in_parts<'a>(
+/// Declares visibility alone: of parts of overfull tiles, or of `all` tiles. `before`: as in [`fused`].
+pub(in super::super) fn see<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
     images: &mut TileImages,
-    depth: Option<&Handle<Image>>,
-    (step, whole): (Step, Option<u64>),
+    before: Option<&Handle<Image>>,
+    all: bool,
 ) -> Result<()> {
-    let mut shader = shader(inputs.settings, tiles.plan, step)?;
-    let start = if images.in_slots { Start::Discard } else { Start::Load };
-    if images.in_slots {
-        shader.1.push((IN_SLOTS, 1));
-    }
-    let mut of_tiles = TilePass::new(inputs, tiles.plan, shader, Vec::new())?;
-    tiles.bind_lists(&mut of_tiles, false);
-    let TileImages { sums: Sums { color, normal }, depth: own_depth, .. } = images;
-    of_tiles.storage_images = vec![(VISIBLE_DEPTH, own_depth.id())];
-    let which = if whole.is_some() { "tiles" } else { "overfull tiles" };
-    let sums = matches!(step, Step::Summed { .. });
-    let name = format!("{} {kind}{which}", if sums { "sum" } else { "see" });
-    let mut pass = tiles.read_lists(graph.pass(&name));
-    let sampled = if sums {
-        of_tiles.storage_images.extend([(COLOR_SUMS, color.id()), (NORMAL_SUMS, normal.id())]);
-        pass = pass
-            .read(own_depth, Access::StorageReadCompute)
-            .write(color, Access::StorageReadWriteCompute, start)
-            .write(normal, Access::StorageReadWriteCompute, start);
-        POLYGON_DEPTH
-    } else {
-        pass = pass.write(own_depth, Access::StorageReadWriteCompute, start);
-        DEPTH_BEFORE
-    };
-    if let Some(depth) = depth {
-        of_tiles.sampled_images = vec![(sampled, depth.id())];
-        pass = pass.read(depth, Access::SampledCompute);
-    }
-    let parts = Parts {
-        arguments: tiles.arguments.id(),
-        whole,
-        overfull: OVERFULL_ARGUMENTS,
-        parts: of_parts(tiles.plan),
-    };
-    pass.finish(Box::new(move |context| parts.record(context, &of_tiles)));
-    Ok(())
+    let step = Step { preloaded: before.is_some(), ..Step::VISIBLE };
+    let start = images.start();
+    let pass = TilePass::new(graph, &format!("see {kind}{}", if all { "tiles" } else { "overfull tiles" }));
+    let pass = tiles
+        .read_lists(pass)
+        .write(BIND_VISIBLE_DEPTH, &mut images.depth, Access::SampledAndStoredCompute, start)
+        .bind(BIND_VISIBLE_BEFORE, &images.depth)
+        // An image that the step does not write has to be there.
+        .bind(BIND_COLORS, &images.depth)
+        .bind(BIND_NORMALS, &images.depth)
+        .read_if(BIND_DEPTH_BEFORE, before, Access::SampledCompute);
+    finish(pass, inputs, tiles, images, step, all)
+}
+
+/// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any;
+/// `with_depth`: as in [`fused`].
+pub(in super::super) fn sum<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    kind: &str,
+    tiles: &Tiles<'a>,
+    images: &mut TileImages,
+    (polygons, with_depth): (Option<&Handle<Image>>, bool),
+    all: bool,
+) -> Result<()> {
+    let step = Step { polygons: polygons.is_some(), with_depth, ..Step::SUMMED };
+    let (update, start) = (Access::SampledAndStoredCompute, images.start());
+    let pass = TilePass::new(graph, &format!("sum {kind}{}", if all { "tiles" } else { "overfull tiles" }));
+    let pass = tiles
+        .read_lists(pass)
+        .read(BIND_VISIBLE_BEFORE, &images.depth, Access::SampledCompute)
+        .write(BIND_COLORS, &mut images.sums.color, update, start)
+        .write(BIND_NORMALS, &mut images.sums.normal, update, start)
+        .bind(BIND_COLORS_BEFORE, &images.sums.color)
+        .bind(BIND_NORMALS_BEFORE, &images.sums.normal)
+        .bind(BIND_VISIBLE_DEPTH, &images.sums.normal) // as above
+        .read_if(BIND_POLYGON_DEPTH, polygons, Access::SampledCompute);
+    finish(pass, inputs, tiles, images, step, all)
+}
+
+fn finish<'a>(
+    pass: TilePass<'_, 'a>,
+    inputs: Inputs<'a>,
+    tiles: &Tiles<'a>,
+    images: &TileImages,
+    step: Step,
+    all: bool,
+) -> Result<()> {
+    let mut key = key(inputs.settings, tiles.plan, step);
+    key.constants.push((SPEC_IN_SLOTS, u32::from(images.in_slots)));
+    let (arguments, parts) = (tiles.arguments.id(), tiles.plan.parts_of_overfull());
+    pass.finish(inputs, tiles.plan, key, move |pass| in_parts(pass, arguments, all, parts))
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ash::vk;
 
-use super::{MOST_ITERATIONS, ROW_PX, TilePlan};
+use super::{MOST_ITERATIONS, TilePlan};
 use crate::{
     passes::{
         draws::Draw,
@@ -12,17 +12,18 @@ use crate::{
         tiles::{Invocations, invocations::are_small},
     },
     scene::Settings,
+    shaders::config::*,
     vk::Limits,
 };
 
 /// All rows that bands can have.
 pub(in super::super::super) fn rows_of_image(settings: &Settings) -> Range<u32> {
-    0..settings.size_px[1].div_ceil(ROW_PX)
+    0..settings.size_px[1].div_ceil(BAND_ROW)
 }
 
 /// Rows of tiles in so many rows of a band.
 pub(super) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
-    rows * (ROW_PX / invocations.tile_height())
+    rows * (BAND_ROW / invocations.tile_height())
 }
 
 impl TilePlan {
@@ -103,7 +104,7 @@ impl TilePlan {
 
     /// Its rows as pixels of an image.
     pub(in super::super) fn area(&self, image: vk::Extent2D) -> vk::Rect2D {
-        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * ROW_PX).min(image.height));
+        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * BAND_ROW).min(image.height));
         vk::Rect2D {
             offset: vk::Offset2D { x: 0, y: first as i32 },
             extent: vk::Extent2D { width: image.width, height: end - first },

@@ -28,7 +28,7 @@ fn no_walk_exceeds_the_iterations_and_no_buffer_the_range() {
                 assert!(plan.round_length * plan.most_tiles <= MOST_ITERATIONS, "{plan:?}");
                 assert!(plan.round_length > 0 && plan.most_tiles > 0, "{plan:?}");
                 assert!(plan.segments * plan.segment_length >= plan.record_count, "{plan:?}");
-                assert_eq!(plan.segment_length % BLOCK, 0);
+                assert_eq!(plan.segment_length % SEGMENT_BLOCK, 0);
                 assert!(plan.entry_room * 4 <= 1 << 27 && plan.entry_room >= u64::from(count), "{plan:?}");
                 let counts = u64::from(plan.segments) * u64::from(plan.bin_count()) * 4;
                 assert!(counts <= 1 << 27, "{plan:?}");

@@ -1,4 +1,4 @@
-// A record is a splat, ready to be drawn: all in pixels, so that nothing of its chunk is needed any more.
+// A projected splat, all in pixels, so that nothing of its chunk is needed any more, as its record has it:
 // records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; 1 / f.
 // records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
 // that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each.
@@ -16,8 +16,8 @@ struct Splat {
     vec2 w;
 };
 
-// What it looks like.
-struct Look {
+// What is summed of it.
+struct SplatAttributes {
     vec3 color;  // linear
     float alpha;
     vec3 normal;

@@ -1,37 +1,30 @@
 // A walk over the records of a segment, in order: `visit(record, bin)` for each bin that a record falls into. One loop, whose
 // steps are a record or a further tile, so that invocations with large splats don't hold up the others.
 
-//
-// TEXELS: what is only read is texel buffers, as in tile_batch.glsl.
+#include "tile/rect.glsl"
 
-#if defined(TEXELS)
-layout(set = 0, binding = 28) uniform utextureBuffer spans;
-#define SPAN(record) texelFetch(spans, int(record)).x
-#else
-layout(set = 0, binding = 4, std430) readonly buffer Spans { uint spans[]; };
-#define SPAN(record) spans[record]
-#endif
+void visit(uint record, uint bin);
 
-// KEPT: records are those of a list, whose length only the device knows.
-#if defined(KEPT)
-layout(set = 0, binding = 20, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+layout(local_size_x = BIN_GROUP_SIZE) in;
+layout(set = 0, binding = BIND_COUNTS, std430) buffer Counts { uint counts[]; };
 
-uint count_of_records()
+layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read these without a loop over lanes
+layout(set = 0, binding = BIND_RECTS, std430) readonly buffer Rects { uint rects[]; };
+layout(set = 0, binding = BIND_RECT_TEXELS) uniform utextureBuffer rect_texels;
+
+layout(constant_id = SPEC_KEPT) const bool KEPT = false; // records are those of a list, whose length only the device knows
+layout(set = 0, binding = BIND_KEPT_STARTS, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+
+uint rect_of(uint record)
 {
-    return kept_starts[kept_starts.length() - 1];
+    return TEXELS ? texelFetch(rect_texels, int(record)).x : rects[record];
 }
-#else
-uint count_of_records()
-{
-    return push.record_count;
-}
-#endif
 
 // Records of the segment.
 uint own_records(uint segment, uint record_count)
 {
-    uint blocks = (record_count + BLOCK - 1) / BLOCK;
-    return segment < blocks ? ((blocks - segment - 1) / push.segments + 1) * BLOCK : 0;
+    uint blocks = (record_count + SEGMENT_BLOCK - 1) / SEGMENT_BLOCK;
+    return segment < blocks ? ((blocks - segment - 1) / push.segments + 1) * SEGMENT_BLOCK : 0;
 }
 
 void walk()
@@ -41,7 +34,7 @@ void walk()
         return;
     }
     uint next = push.round_first;
-    uint record_count = count_of_records();
+    uint record_count = KEPT ? kept_starts[kept_starts.length() - 1] : push.record_count;
     uint end = min(next + push.round_length, own_records(segment, record_count));
     uint record = 0;
     // Of the record, what is not visited yet: tiles of a row, and rows behind it.
@@ -53,17 +46,17 @@ void walk()
     uint outside = 0;
     while (next < end || in_row > 0) {
         if (in_row == 0) {
-            record = (next / BLOCK * push.segments + segment) * BLOCK + next % BLOCK;
+            record = (next / SEGMENT_BLOCK * push.segments + segment) * SEGMENT_BLOCK + next % SEGMENT_BLOCK;
             next++;
-            uint span = record < record_count ? SPAN(record) : SPAN_NONE;
-            if (span >= SPAN_CHUNK) {
-                if (span != SPAN_NONE) {
-                    visit(record, push.tile_count + chunk_of(span));
+            uint rect = record < record_count ? rect_of(record) : RECT_NONE;
+            if (rect >= RECT_CHUNK) {
+                if (rect != RECT_NONE) {
+                    visit(record, push.tile_count + chunk_of(rect));
                 }
             } else {
-                uvec2 first = first_of(span);
-                uvec2 more = more_of(span);
-                outside = outside_of(span);
+                uvec2 first = first_of(rect);
+                uvec2 more = more_of(rect);
+                outside = outside_of(rect);
                 width = more.x + 1;
                 rows = more.y;
                 row_tile = first.x + first.y * push.tiles_x - push.first_tile;

@@ -1,0 +1,43 @@
+// Splats by tiles of the image, in compute: what the passes share. The host's mirror is `TileConstants` in
+// src/passes/constants.rs; the build compares the offsets.
+//
+// Each splat is projected once (tile_project.comp.glsl), to a record (tile/splat.glsl) and the rect of tiles that its box touches
+// (tile/rect.glsl). Records are dealt out to segments, SEGMENT_BLOCK at a time, so that all segments have as much to do wherever in
+// space the records are; one invocation walks over one segment, in order (tile/walk.glsl), first to count what falls into each bin,
+// then to list it. So lists need no atomics and are the same in every run: by segment, and in each in the order of the records.
+//
+// Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular).
+
+#include "inc/config.glsl"
+#include "inc/groups.glsl"
+
+struct TileConstants {
+    vec2 half_size_px;
+    uint tiles_x;        // tiles in a row
+    uint first_tile;     // of the band of rows that lists are of: all of the image, or as much as memory is meant for
+    uint tile_count;     // of the band; all tiles are numbered from its first one
+    uint bin_count;      // tiles, then chunks
+    uint record_count;   // at most; of culled splats, as many as are kept
+    uint segments;
+    uint segment_length; // records, a multiple of SEGMENT_BLOCK
+    uint round_first;    // where in its segment a walk begins
+    uint round_length;   // records of one walk
+    uint part;           // of an overflow tile, or WHOLE_TILES; of layers
+    float focal_px;
+    uint surfaces;       // layers of one surface each, in this dispatch; in parts: before it
+    uint blends_rest;    // 1: and all that is left
+    uint step;           // of a layer in parts
+    uint ends;           // 1: the last part
+};
+layout(push_constant, std430) uniform Push { TileConstants push; };
+
+// Words behind the starts of bins: how many entries there are in all, how many tiles have some, how many overflow.
+#define STARTS_TILES (push.bin_count + 1)
+#define STARTS_OVERFLOW (push.bin_count + 2)
+
+// Counts of the segments of one workgroup lie beside each other: they walk over the same region at a time, and bins of theirs
+// in columns apart would fall on the same lines of a cache.
+uint place_of_count(uint segment, uint bin)
+{
+    return (segment / BIN_GROUP_SIZE * push.bin_count + bin) * BIN_GROUP_SIZE + segment % BIN_GROUP_SIZE;
+}

@@ -1,0 +1,88 @@
+// Transparent layers of a tile's splats, from front to back: each is seen, summed, shaded, and put under the light so far; all that is
+// left behind them is the last one. Depths, sums and light stay in registers.
+
+#include "tile/lanes.glsl"
+#include "tile/work.glsl"
+#define PEELS true
+#include "tile/surface.glsl"
+#include "inc/normalized.glsl"
+
+layout(constant_id = SPEC_DEPTH_PRELOADED) const bool DEPTH_PRELOADED = false; // opaque things hide what is behind them
+layout(set = 0, binding = BIND_DEPTH_BEFORE) uniform texture2D opaque_depth;
+layout(constant_id = SPEC_STACKED) const bool STACKED = false; // as in layer.frag.glsl
+
+const float INFINITELY_NEAR = 2.0; // nearer than any depth, which is 1 at most
+const float NOTHING_LEFT = 0.0;    // no depth is below
+
+// Of the invocation's pixels.
+vec4 light[ROWS];          // alpha * linear color, alpha
+float weight_before[ROWS]; // of the layer before
+float opaque[ROWS];        // the depth of opaque things
+
+void begin_layers()
+{
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        light[row] = vec4(0.0);
+        before[row] = INFINITELY_NEAR;
+        weight_before[row] = 0.0;
+        opaque[row] = DEPTH_PRELOADED ? texelFetch(opaque_depth, pixel_within_image(row), 0).r : 0.0;
+    }
+}
+
+void begin_surface()
+{
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        visible[row] = opaque[row];
+        colors[row] = vec4(0.0);
+        normals[row] = vec4(0.0);
+    }
+}
+
+vec4 under(vec4 light, vec4 layer)
+{
+    return light + (1.0 - light.a) * layer;
+}
+
+// Shades the surface that was summed, and puts it under the light so far.
+void compose()
+{
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        float weight = colors[row].w;
+        bool covered = weight > 0.0;
+        vec3 v = to_eye(top_px + vec2(0.0, float(first_row + row)));
+        vec3 normal = normal_of_sum(normals[row].xyz);
+        vec3 albedo = FORMULA(FORMULA_NORMALIZED_COLOR, colors[row].rgb / weight);
+        float alpha = normals[row].w / weight;
+        vec3 shown = shaded(albedo, turned(normal, v), v);
+        light[row] = covered ? under(light[row], vec4(alpha * shown, alpha)) : light[row];
+        before[row] = covered ? visible[row] : NOTHING_LEFT;
+        weight_before[row] = weight;
+    }
+}
+
+// The same of all that is left, whose splats were lit by themselves, as one layer.
+void compose_rest()
+{
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        float weight = colors[row].w;
+        float weighted_alpha = normals[row].w;
+        bool covered = weighted_alpha > 0.0 && weight > 0.0;
+        float alpha = min(weighted_alpha / weight, 1.0);
+        if (STACKED) {
+            float surfaces = clamp(weight / max(weight_before[row], 1.0), 1.0, MOST_STACKED_SURFACES);
+            alpha = 1.0 - pow(1.0 - alpha, FORMULA(FORMULA_STACKED, surfaces));
+        }
+        vec4 layer = vec4(alpha * (colors[row].rgb / weighted_alpha), alpha);
+        light[row] = covered ? under(light[row], layer) : light[row];
+    }
+}
+
+// Whether anything may be behind what was peeled off the tile. All of its invocations load records for each other.
+bool is_left()
+{
+    bool left = false;
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        left = left || before[row] > NOTHING_LEFT;
+    }
+    return votes_of_tile(left).y > 0;
+}

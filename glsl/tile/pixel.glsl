@@ -1,0 +1,94 @@
+// What a splat does to a pixel of a tile: it is seen there, and then added to what is. Of opaque splats the nearest surface is seen;
+// PEELS: of transparent ones the nearest that is behind the layer before (inc/peel.glsl proves that none is lost or taken twice).
+//
+// A splat's own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
+
+layout(constant_id = SPEC_WITH_DEPTH) const bool WITH_DEPTH = false;
+layout(constant_id = SPEC_WITH_POLYGONS) const bool WITH_POLYGONS = false;
+// The paper's transition shifts for all fragments, not only where there are polygons: the polygons' test is the only one.
+layout(constant_id = SPEC_SHIFTED_FOR_ALL) const bool SHIFTED_FOR_ALL = false;
+
+// The invocation's pixels, in registers.
+float visible[ROWS]; // depth of the surface, shifted by epsilon
+float before[ROWS];  // PEELS: depth of the layer before
+float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
+vec4 colors[ROWS];   // weighted color, weight
+vec4 normals[ROWS];  // weighted normal; PEELS: weighted alpha; WITH_DEPTH: weighted depth
+
+// A splat along the column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy. Rows are computed from the splat's center,
+// not stepped from the row above: three multiplications more, and no error adds up.
+struct Column {
+    float w0;
+    vec3 at_center_row;
+    vec3 along_y;
+    float dy; // of the row from which rows are counted, from the splat's center
+};
+
+Column column_of(Splat splat)
+{
+    float dx = top_px.x - splat.x0_px.x;
+    Column column;
+    column.w0 = splat.w0;
+    column.at_center_row.x = splat.uv.x * dx;
+    column.at_center_row.y = splat.uv.z * dx;
+    column.at_center_row.z = 1.0 + splat.w.x * dx;
+    column.along_y = vec3(splat.uv.yw, splat.w.y);
+    column.dy = top_px.y - splat.x0_px.y;
+    return column;
+}
+
+vec3 uvw_of(Column column, int row)
+{
+    return column.at_center_row + column.along_y * (column.dy + float(first_row + row));
+}
+
+// Whether the splat covers the pixel, behind the layer before. A regular splat lies wholly beyond the near plane, but an affine map
+// reaches further than the splat.
+bool covers(vec3 uvw, float depth, int row)
+{
+    float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
+    bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
+    bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
+    return inside && beyond_near && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, before[row]));
+}
+
+// What it weighs there, and 0 outside.
+float weight_of(vec3 uvw, float share, bool inside)
+{
+    float r2 = dot(uvw.xy, uvw.xy);
+    r2 = AFFINE ? r2 : r2 / (uvw.z * uvw.z);
+    float weight = kernel_weight(r2);
+    weight = WEIGHTED ? max(weight * share, LEAST_WEIGHT) : weight;
+    return inside ? weight : 0.0;
+}
+
+// The nearest depth, shifted by epsilon.
+void see(Splat splat, Column column, int row)
+{
+    vec3 uvw = uvw_of(column, row);
+    float depth = column.w0 * uvw.z;
+    visible[row] = covers(uvw, depth, row) ? max(visible[row], depth * splat.inverse_shift) : visible[row];
+}
+
+// Adds what a splat is at a pixel.
+void add(Splat splat, SplatAttributes attributes, Column column, int row)
+{
+    vec3 uvw = uvw_of(column, row);
+    float depth = column.w0 * uvw.z;
+    bool inside = covers(uvw, depth, row);
+    if (WITH_POLYGONS) {
+        inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
+            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, polygon[row] * splat.inverse_shift);
+    } else {
+        inside = inside && depth >= visible[row];
+    }
+    float weight = weight_of(uvw, attributes.share, inside);
+    colors[row] += weight * vec4(attributes.color, 1.0);
+    normals[row].xyz += weight * attributes.normal;
+    if (PEELS) {
+        normals[row].w += weight * attributes.alpha;
+    } else if (WITH_DEPTH) {
+        // Where the splat is not inside, depth may be 0.
+        normals[row].w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, visible[row] / depth) : 0.0;
+    }
+}

@@ -1,0 +1,102 @@
+// Visibility and accumulation of a tile's splats (Guennebaud et al. 2006, section 2, as in visibility.frag.glsl and
+// accumulate.frag.glsl), with depths and sums in registers: the single-pass splatting that Pajarola et al. 2003 name as future
+// work. One workgroup a tile, splats batch by batch.
+
+#define LIT
+#define LIGHTS_SET 0
+#define LIGHTS_BINDING BIND_LIGHTS
+#include "inc/shading.glsl"
+#include "tile/pixel.glsl"
+
+Splat load_splat(uint base, uint end)
+{
+    uint number = base + OWN_LANE;
+    uint record = entry(min(number, end - 1));
+    vec4 r0 = record0(record);
+    Splat splat = Splat(record, r0.xy, r0.z, r0.w, record1(record), record2(record).xy);
+    if (number >= end) {
+        // Behind the list's end: far off, with a map that covers nothing there.
+        splat = Splat(record, vec2(1e9), 1.0, 1.0, vec4(1.0, 0.0, 0.0, 1.0), vec2(0.0));
+    }
+    return splat;
+}
+
+SplatAttributes load_attributes(Splat splat)
+{
+    vec4 r2 = record2(splat.record);
+    uvec4 r3 = record3(splat.record);
+    vec2 red_green = unpackUnorm2x16(r3.z);
+    vec2 blue_alpha = unpackUnorm2x16(r3.w);
+    SplatAttributes attributes;
+    attributes.color = FORMULA(FORMULA_COLOR, vec3(red_green, blue_alpha.x));
+    attributes.alpha = FORMULA(FORMULA_ALPHA, blue_alpha.y);
+    attributes.normal = vec3(r2.w, uintBitsToFloat(r3.xy));
+    attributes.share = r2.z;
+    return attributes;
+}
+
+vec3 turned(vec3 normal, vec3 v)
+{
+    return dot(normal, v) < 0.0 ? -normal : normal;
+}
+
+// Of all splats that are loaded at once, the place where a batch begins; at 0 they have to be loaded.
+uint place_of(uint base, Range range)
+{
+    return LOADED == TILE_BATCH ? 0 : (base - range.first) % LOADED;
+}
+
+void see(Range range)
+{
+    Splat own;
+    for (uint base = range.first; base < range.end; base += TILE_BATCH) {
+        uint place = place_of(base, range);
+        if (place == 0) {
+            own = load_splat(base, range.end);
+            stage_shared(own);
+        }
+        [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
+            Splat splat = broadcast(own, place + k);
+            Column column = column_of(splat);
+            [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+                see(splat, column, row);
+            }
+        }
+    }
+}
+
+// `lit`: each splat is lit by itself, at its center.
+void sum(Range range, bool lit)
+{
+    Splat own;
+    SplatAttributes own_attributes;
+    for (uint base = range.first; base < range.end; base += TILE_BATCH) {
+        uint place = place_of(base, range);
+        if (place == 0) {
+            own = load_splat(base, range.end);
+            stage_shared(own);
+            own_attributes = load_attributes(own);
+            if (lit) {
+                vec3 v = to_eye(own.x0_px);
+                vec3 normal = turned(own_attributes.normal, v);
+                own_attributes.color = own_attributes.alpha * shaded(own_attributes.color, normal, v);
+            }
+            stage_shared(own_attributes);
+        }
+        [[unroll]] for (uint first = 0; first < TILE_BATCH; first += SUMMED_AT_ONCE) {
+            Splat splats[SUMMED_AT_ONCE];
+            SplatAttributes attributes[SUMMED_AT_ONCE];
+            Column columns[SUMMED_AT_ONCE];
+            [[unroll]] for (uint k = 0; k < SUMMED_AT_ONCE; k++) {
+                splats[k] = broadcast(own, place + first + k);
+                attributes[k] = broadcast(own_attributes, place + first + k);
+                columns[k] = column_of(splats[k]);
+            }
+            [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+                [[unroll]] for (uint k = 0; k < SUMMED_AT_ONCE; k++) {
+                    add(splats[k], attributes[k], columns[k], row);
+                }
+            }
+        }
+    }
+}

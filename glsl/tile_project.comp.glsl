@@ -1,0 +1,112 @@
+// Projects each splat once: culls it, or makes a record and a tile rect of it (tile/splat.glsl, tile/rect.glsl); or leaves it to the
+// graphics pipeline: what is not regular, and what touches more tiles than lists have room for.
+#version 460
+#extension GL_EXT_control_flow_attributes : require
+#include "inc/setup.glsl"
+#include "inc/groups.glsl"
+#include "inc/kept.glsl"
+#define KEPT_BLOCKS BIND_KEPT_BLOCKS
+#include "inc/kept_blocks.glsl"
+#include "tile/rect.glsl"
+#include "tile/corners.glsl"
+
+layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
+layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
+layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
+layout(constant_id = SPEC_CHUNK) const uint CHUNK = 0;
+layout(constant_id = SPEC_KEPT) const bool KEPT = false; // of inc/kept.glsl, records of which lie one behind the other
+
+layout(local_size_x = PROJECT_GROUP_SIZE) in;
+layout(set = 1, binding = BIND_RECORDS, std430) writeonly buffer Records0 { vec4 records0[]; };
+layout(set = 1, binding = BIND_RECORDS + 1, std430) writeonly buffer Records1 { vec4 records1[]; };
+layout(set = 1, binding = BIND_RECORDS + 2, std430) writeonly buffer Records2 { vec4 records2[]; };
+layout(set = 1, binding = BIND_RECORDS + 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
+layout(set = 1, binding = BIND_RECTS, std430) writeonly buffer Rects { uint rects[]; };
+layout(set = 1, binding = BIND_KEPT_STARTS, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+layout(set = 1, binding = BIND_KEPT_LIST, std430) readonly buffer KeptList { uint kept_list[]; };
+
+// The splat's number in its chunk, and its place among all that are projected; false where there is none.
+bool find_splat(out uint index, out uint place)
+{
+    index = GROUP_NUMBER * PROJECT_GROUP_SIZE + gl_LocalInvocationID.x;
+    place = frame.first_record + index;
+    if (KEPT) {
+        uint first = first_word_of_chunk();
+        place = kept_starts[first] + index;
+        if (place >= kept_starts[first + words_of_chunk()]) {
+            return false;
+        }
+        index = kept_list[place];
+    }
+    return index < frame.splat_count;
+}
+
+// Where MAY_BE_LARGE is not set, the host has proved that there are none.
+uint rect_of(Mapping m, ImageMap map)
+{
+    const uint large = MAY_BE_LARGE ? RECT_CHUNK + CHUNK : RECT_NONE;
+    if (!m.regular) {
+        return large;
+    }
+    PixelBox px;
+    if (!pixel_box(splat_box(m), px)) {
+        return RECT_NONE;
+    }
+    const uvec2 tile = uvec2(TILE_WIDTH, TILE_HEIGHT);
+    uvec2 first = uvec2(px.first) / tile;
+    uvec2 last = uvec2(px.last) / tile;
+    uvec2 more = last - first;
+    if (max(more.x, more.y) > MOST_MORE || (more.x + 1) * (more.y + 1) > MOST_TILES) {
+        return large;
+    }
+    uint outside = max(more.x, more.y) <= MOST_MORE_OF_SMALL ? corners_outside(map, first, last, vec2(tile)) : 0;
+    if (KEPT) {
+        // Of the band's rows. Behind the choice above, so that a splat is drawn the same way in every band.
+        const uint each = BAND_ROW / TILE_HEIGHT;
+        uvec2 rows = uvec2(max(first.y, kept_rows.x * each), min(last.y, kept_rows.y * each - 1));
+        if (rows.x > rows.y) {
+            return RECT_NONE;
+        }
+        outside &= (rows.x > first.y ? 12 : 15) & (rows.y < last.y ? 3 : 15);
+        // Where only the last row is left, it is the first one.
+        outside >>= rows.x > first.y && rows.x == last.y ? 2 : 0;
+        first.y = rows.x;
+        more.y = rows.y - rows.x;
+    }
+    return rect_from(first, more, outside);
+}
+
+void main()
+{
+    uint index;
+    uint place;
+    if (!find_splat(index, place)) {
+        return;
+    }
+    Mapping m;
+    if (!map_splat(index, m)) {
+        rects[place] = RECT_NONE;
+        return;
+    }
+    ImageMap map = regular_map(m);
+    uint rect = rect_of(m, map);
+    rects[place] = rect;
+    if (rect >= RECT_CHUNK) {
+        return;
+    }
+    float w0 = map.at_x0.z;
+    float uv_scale = map.affine ? 1.0 : 1.0 / w0;
+    float share = share_of(m);
+    vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
+    uvec2 color;
+    if (PACKED && frame.uniform_color == 0) {
+        vec4 rgba = load_packed_color(index);
+        color = uvec2(packUnorm2x16(rgba.rg), packUnorm2x16(rgba.ba));
+    } else {
+        color = colors[frame.uniform_color != 0 ? 0 : index];
+    }
+    records0[place] = vec4(map.x0_px, w0, m.inverse_shift);
+    records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
+    records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
+    records3[place] = uvec4(floatBitsToUint(normal.yz), color);
+}

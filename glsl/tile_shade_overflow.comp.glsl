@@ -1,0 +1,33 @@
+// What an overflow tile shows whose splats were seen and summed in parts (tile_accumulate.comp.glsl with IN_SLOTS), as tile_shade.comp.glsl
+// does it of all others in registers. One workgroup a tile, one invocation a pixel.
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#include "inc/perturb.glsl"
+#include "inc/variant.glsl"
+#include "inc/normalized.glsl"
+#include "tile/constants.glsl"
+layout(local_size_x = TILE_WIDTH, local_size_y_id = SPEC_TILE_HEIGHT) in;
+#define TILE_HEIGHT gl_WorkGroupSize.y
+#define OWN_ROW int(gl_LocalInvocationID.y)
+#include "tile/work.glsl"
+#define LIT
+#define LIGHTS_SET 0
+#define LIGHTS_BINDING BIND_LIGHTS
+#include "inc/shading.glsl"
+
+layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D color_sums;
+layout(set = 0, binding = BIND_NORMALS_BEFORE) uniform texture2D normal_sums;
+layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light; 1: something is there
+
+void main()
+{
+    Range range;
+    if (!find_work(false, range)) {
+        return;
+    }
+    ivec2 in_slot = pixel_in_slot(0);
+    Surface surface = normalized(texelFetch(color_sums, in_slot, 0), texelFetch(normal_sums, in_slot, 0).xyz);
+    vec3 light = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row))));
+    light = HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light;
+    imageStore(shown, pixel_of(0), surface.weight > 0.0 ? vec4(light, 1.0) : vec4(0.0));
+}
