@@ -55,7 +55,6 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
         ("PaperConstants", "crate::passes::PaperConstants"),
         ("FinalizeConstants", "crate::passes::FinalizeConstants"),
         ("TileConstants", "crate::passes::TileConstants"),
-        ("ExportConstants", "crate::passes::ExportConstants"),
     ];
     let one = |problem: String| vec![problem];
     let glsl = Path::new("glsl");

@@ -3,15 +3,11 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
-#include "inc/surface.glsl"
+#include "inc/config.glsl"
+#include "inc/finalize.glsl"
+#include "inc/sums.glsl"
 
-layout(set = 0, binding = 2) uniform texture2D visible_depth;
-
-// The host's mirror is `ExportConstants` in src/passes/constants.rs; the build compares the offsets.
-struct ExportConstants {
-    float near; // world unit
-};
-layout(push_constant, std430) uniform Push { ExportConstants push; };
+layout(set = 0, binding = BIND_SUMS_DEPTH) uniform texture2D visible_depth;
 
 layout(location = 0) out float weight;
 layout(location = 1) out vec4 albedo;
@@ -23,7 +19,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = load_surface(pixel);
     float w_visible = texelFetch(visible_depth, pixel, 0).r;
-    // Without a visible depth only a hair of a rim was accumulated: see visibility.glsl.
+    // Without a visible depth only a hair of a rim was accumulated: see visibility.frag.glsl.
     bool covered = surface.weight > 0.0 && w_visible > 0.0;
     float depth_sum = texelFetch(normal_sums, pixel, 0).w; // of weight * z / z_visible
     float z_visible = push.near / w_visible;

@@ -1,6 +1,5 @@
 // Writes the list of large splats in input order: the place of each is the number of large ones before it.
 #version 460
-#define LARGE_BITS_ACCESS readonly
 #include "inc/frame.glsl"
 #include "inc/large.glsl"
 

@@ -19,7 +19,7 @@ vec2 top_px;
 #include "tile/splat.glsl"
 #include "tile/pixel.glsl"
 
-layout(constant_id = 27) const uint SPLATS = 64; // a multiple of TILE_BATCH
+layout(constant_id = SPEC_LIMIT_SPLATS) const uint SPLATS = 64; // a multiple of TILE_BATCH
 
 layout(local_size_x = 64) in;
 layout(set = 1, binding = 0, std430) writeonly buffer Words { uint words[]; };

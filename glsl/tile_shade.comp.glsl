@@ -48,7 +48,7 @@ void main()
         vec3 light = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row + row))));
         bool covered = surface.weight > 0.0;
         if (WITH_POLYGONS) {
-            // Of polygons, the nearest is shown already. Where splats do not hide it, both blend (inc/shown.glsl).
+            // Of polygons, the nearest is shown already. Where splats do not hide it, both blend (inc/resolve.glsl).
             vec3 of_polygon = texelFetch(shown_before, pixel_within_image(row), 0).rgb;
             bool is_seen = polygon[row] > visible[row];
             float share = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);

@@ -19,6 +19,7 @@ use surfel::{
     count::{Counts, PassCounts, count},
     passes::{Counter, counts_of, papers_pipelines},
     scene::{Filter, KernelEval, Rasterizer, Settings, TileInvocations},
+    shaders::config::SPEC_TEXTURED,
 };
 
 fn arb(counts: &Option<Counts>) -> u32 {
@@ -130,9 +131,9 @@ fn accumulation_with(old: &str, new: &str) -> Counts {
     // One permutation will do.
     let lines = text.lines().filter(|line| !line.starts_with("// Permutations:"));
     let text = lines.collect::<Vec<_>>().join("\n").replace(old, new);
-    fs::write(folder.path().join(name), format!("// Permutations: plain | textured\n{text}\n")).unwrap();
+    fs::write(folder.path().join(name), format!("// Permutations: plain\n{text}\n")).unwrap();
     let built = shader_build::build(folder.path(), &[], &[]).unwrap();
-    count(&built.modules[0].1, &[]).unwrap()
+    count(&built.modules[0].1, &[(SPEC_TEXTURED, 1)]).unwrap()
 }
 
 #[test]

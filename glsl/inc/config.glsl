@@ -17,6 +17,62 @@
 #define SPEC_OUTWARD 13       // Constant: transparent and closed; normals stay outward in layers.
 #define SPEC_IN_LAYERS 14     // Constant: transparent; drawn in layers.
 #define SPEC_PACKED 15        // Constant: disks in 16 bytes, their colors in 4 (`inc/packed.glsl`).
+#define SPEC_LIGHTS 21        // Constant: how many lights of its own the scene has.
+#define SPEC_LIMIT_SPLATS 27  // Constant: splats of each invocation of the limit of kernels.
+#define SPEC_HALF_FLOATS 28   // Constant: what is left in images has 16 bits.
+#define SPEC_PERTURBED_FORMULA 31 // Constant: the formula that is made wrong, for tests of the tests.
+#define SPEC_WITH_DEPTH 32    // Constant: depth is summed, too.
+#define SPEC_SOME_LARGE 40    // Constant: splats are listed as large: points and triangles leave them out, quads are they.
+#define SPEC_SUMMED 41        // Constant: one of `SUMMED_*`.
+#define SPEC_TEXTURED 42      // Constant: the kernel is read from a texture.
+#define SPEC_PEELED 43        // Constant: only what is behind the layer before.
+#define SPEC_SPLATS 44        // Constant: there are sums of splats.
+#define SPEC_POLYGONS 45      // Constant: there are sums of polygons.
+#define SPEC_LAYERED 46       // Constant: there are transparent layers.
+#define SPEC_SHADED 47        // Constant: what is opaque is shaded already.
+#define SPEC_CUT_OFF 48       // Constant: the kernel's texture is 0 outside of the disk.
+#define SPEC_ATOMICS 49       // Constant: each invocation adds atomically.
+
+// Values of SPEC_SUMMED.
+#define SUMMED_OPAQUE 0 // Opaque splats.
+#define SUMMED_BESIDE 1 // Opaque splats that polygons lie beside.
+#define SUMMED_LAYER 2  // A transparent layer.
+#define SUMMED_REST 3   // All that is left for the last transparent layer, lit.
+
+// Bindings of set 0 of splats and polygons.
+#define BIND_SPLATS_SHAPES 0 // Binding: shapes of splats, or vertices.
+#define BIND_SPLATS_COLORS 1 // Binding: their colors.
+
+// Bindings of the set of lists.
+#define BIND_LIST_BITS 0      // Binding: a bit a splat.
+#define BIND_LIST_STARTS 1    // Binding: of words of bits or of blocks, how many are listed before them.
+#define BIND_LIST_ITEMS 2     // Binding: the list.
+#define BIND_LIST_ARGUMENTS 3 // Binding: arguments of what is drawn or dispatched for the list.
+#define BIND_LIST_BLOCKS 4    // Binding: the blocks in which visible splats are looked for.
+#define BIND_LIST_SEEN_BITS 1 // Binding: where those are found that are not hidden, a bit for each that is not.
+#define BIND_LIST_CELLS 2     // Binding: there, the hierarchy of the visible depth.
+#define BIND_LIST_POINTS 0    // Binding: precomputed points of the floor.
+
+// Bindings of the set of the depth's hierarchy.
+#define BIND_CELLS_DEPTH 0 // Binding: the visible depth.
+#define BIND_CELLS 1       // Binding: its hierarchy.
+
+// Bindings of the set that fragments of splats and polygons read.
+#define BIND_READ_DEPTH 0         // Binding: the visible depth where depth is summed; where layers are peeled, that of the layer before.
+#define BIND_READ_KERNEL 1        // Binding: the kernel as a texture.
+#define BIND_READ_POLYGON_DEPTH 2 // Binding: the depth of polygons, or of splats where those are nearer.
+#define BIND_READ_LIGHTS 3        // Binding: the scene's own lights.
+
+// Bindings of the set of sums.
+#define BIND_SUMS_COLORS 0          // Binding: colors of splats.
+#define BIND_SUMS_NORMALS 1         // Binding: normals of splats; of the last layer, weights.
+#define BIND_SUMS_POLYGON_COLORS 2  // Binding: colors of polygons.
+#define BIND_SUMS_POLYGON_NORMALS 3 // Binding: normals of polygons.
+#define BIND_SUMS_SPLATS_BEFORE 2   // Binding: instead of these, colors of splats of the layer before.
+#define BIND_SUMS_POLYGONS_BEFORE 3 // Binding: those of its polygons.
+#define BIND_SUMS_LAYERS 4          // Binding: composed transparent layers.
+#define BIND_SUMS_LIGHTS 5          // Binding: the scene's own lights.
+#define BIND_SUMS_DEPTH 4           // Binding: for the export, the visible depth.
 
 // Values of SPEC_FILTER.
 #define FILTER_NONE 0         // No filter.
@@ -58,16 +114,13 @@
 #define SPEC_SHIFTED_FOR_ALL 18 // Constant: beside polygons, all splats pass that the polygons' own test lets pass.
 #define SPEC_PART_LENGTH 19     // Constant: entries of a tile that one dispatch takes; tiles with more are overflow tiles.
 #define SPEC_STACKED 20         // Constant: the last layer counts as several surfaces.
-#define SPEC_LIGHTS 21          // Constant: how many lights of its own a scene has.
 #define SPEC_MOST_TILES 22      // Constant: tiles that a projected splat touches at most.
 #define SPEC_KEEPS_DEPTH 23     // Constant: someone reads the visible depth.
 #define SPEC_PLACE_BITS 24      // Constant: bits of a tile's column or row in a tile rect.
 #define SPEC_TILE_HEIGHT 25     // Constant: pixels of a tile's columns, `MOST_TILE_HEIGHT` or half as many.
 #define SPEC_IN_SLOTS 26        // Constant: images hold overflow tiles alone, side by side.
-#define SPEC_HALF_FLOATS 28     // Constant: what is left in images has 16 bits.
 #define SPEC_WITH_POLYGONS 29   // Constant: polygons lie beside the splats.
 #define SPEC_DEPTH_PRELOADED 30 // Constant: visibility begins from a depth.
-#define SPEC_WITH_DEPTH 32      // Constant: depth is summed, too.
 #define SPEC_SEES 33            // Constant: visibility is found.
 #define SPEC_SUMS 34            // Constant: what is visible is summed.
 #define SPEC_SEVERAL 35         // Constant: layers take several dispatches, which go on from each other.
@@ -124,6 +177,8 @@
 #define ARGUMENTS_OVERFLOW 4 // VkDispatchIndirectCommand: overflow tiles.
 #define ARGUMENTS_QUADS 8    // VkDrawIndirectCommand: a quad for each run of tiles with splats.
 #define ARGUMENTS_CHUNKS 12  // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline.
+// Sizes.
+#define KERNEL_TEXTURE_SIDE 256 // Texels along a side of the kernel's texture.
 
 // Limits of numbers.
 #define MOST_LIGHTS 16              // Lights of a scene.

@@ -27,6 +27,14 @@ vec2 from_px(vec2 place)
     return PLACES_FROM_CORNER ? gl_FragCoord.xy - place : at_px() - place;
 }
 
+#if defined(FOURTH)
+#define EXTRA_W fourth
+#elif defined(FULL) || defined(CENTER)
+#define EXTRA_W uv_affine.w
+#else
+#define EXTRA_W 0.0
+#endif
+
 #if defined(TRIANGLES)
 
 // Discards the fragment if u^2 + v^2 is above the limit.
@@ -38,7 +46,7 @@ Covered covered(float limit_r2)
     return Covered(triangle_uv, gl_FragCoord.z);
 }
 
-vec3 extra()
+vec4 extra()
 {
     return triangle_extra;
 }
@@ -70,9 +78,9 @@ vec3 low_pass()
     return vec3(from_center_px(), z > frame.near ? frame.near / z : 0.0);
 }
 
-vec3 extra()
+vec4 extra()
 {
-    return vec3(ray_center_extra.w, ray_plane_extra.w, ray_u_extra.w);
+    return vec4(ray_center_extra.w, ray_plane_extra.w, ray_u_extra.w, EXTRA_W);
 }
 
 #else
@@ -107,9 +115,9 @@ vec3 low_pass()
 #endif
 }
 
-vec3 extra()
+vec4 extra()
 {
-    return vec3(x0_w_extra.w, per_x_extra.w, per_y_extra.w);
+    return vec4(x0_w_extra.w, per_x_extra.w, per_y_extra.w, EXTRA_W);
 }
 
 #endif

@@ -1,8 +1,7 @@
 // Emits a splat's primitive with the pass's extra varyings; nothing where it covers no pixel's center.
 //
-// POINTS, SMALL_POINTS: a point sprite; of the small ones all but those that are drawn as quads.
-// QUADS, LISTED_QUADS: a strip of four vertices an instance; the listed ones only for the splats of the list.
-// TRIANGLES, SMALL_TRIANGLES: three vertices.
+// POINTS: a point sprite. TRIANGLES: three vertices. QUADS: a strip of four vertices an instance. SOME_LARGE: of points and triangles
+// all but the splats that are listed as large, of quads only those.
 
 // The same expressions must give the same bits in both passes, which are different pipelines (Vulkan 1.3, "Invariance").
 #define VARYING invariant out
@@ -12,22 +11,22 @@
 #include "inc/quad.glsl"
 #include "inc/triangle.glsl"
 
-#if defined(SMALL_POINTS) || defined(SMALL_TRIANGLES)
-#define LARGE_BITS_ACCESS readonly
-#include "inc/large.glsl"
-#endif
-#if defined(LISTED_QUADS)
+layout(constant_id = SPEC_SOME_LARGE) const bool SOME_LARGE = false;
+#if defined(QUADS)
 layout(set = 1, binding = 2, std430) readonly buffer LargeList { uint large_list[]; };
+#else
+#include "inc/large.glsl"
 #endif
 
 // The splat of this vertex.
 uint splat_index()
 {
-#if defined(LISTED_QUADS)
-    return large_list[gl_InstanceIndex] - frame.first_record;
-#elif defined(QUADS)
+#if defined(QUADS)
+    if (SOME_LARGE) {
+        return large_list[gl_InstanceIndex] - frame.first_record;
+    }
     return gl_InstanceIndex;
-#elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)
+#elif defined(TRIANGLES)
     return gl_VertexIndex / 3;
 #else
     return gl_VertexIndex;
@@ -36,10 +35,10 @@ uint splat_index()
 
 bool is_drawn_elsewhere(uint index)
 {
-#if defined(SMALL_POINTS) || defined(SMALL_TRIANGLES)
-    return is_large(index);
-#else
+#if defined(QUADS)
     return false;
+#else
+    return SOME_LARGE && is_large(index);
 #endif
 }
 
@@ -48,7 +47,7 @@ const float WITHIN_CLIP = 0.5; // a depth: fragments have their own
 void emit_nothing()
 {
     gl_Position = NOWHERE;
-#if defined(POINTS) || defined(SMALL_POINTS)
+#if defined(POINTS)
     gl_PointSize = 1.0;
 #endif
 #if defined(RAYS)
@@ -56,9 +55,9 @@ void emit_nothing()
     ray_plane_extra = vec4(0.0);
     ray_u_extra = vec4(0.0);
     ray_v_square = vec4(0.0);
-#elif defined(TRIANGLES) || defined(SMALL_TRIANGLES)
+#elif defined(TRIANGLES)
     triangle_uv = vec2(0.0);
-    triangle_extra = vec3(0.0);
+    triangle_extra = vec4(0.0);
 #else
     x0_w_extra = vec4(0.0);
     per_x_extra = vec4(0.0);
@@ -70,10 +69,13 @@ void emit_nothing()
     center_low_pass = vec3(0.0);
 #endif
 #endif
+#if defined(FOURTH)
+    fourth = 0.0;
+#endif
 }
 
 #if defined(RAYS)
-void hand_over(Mapping m, vec3 extra)
+void hand_over(Mapping m, vec4 extra)
 {
     // Dual to s and t in the splat's plane: u_axis . s = 1, u_axis . t = 0.
     float n2 = precise_dot(m.n2, m.n2);
@@ -97,8 +99,8 @@ void hand_over(Mapping m, vec3 extra)
     ray_u_extra = vec4(u_axis / stretch, extra.z);
     ray_v_square = vec4(v_axis / stretch, half_square_px);
 }
-#elif !defined(TRIANGLES) && !defined(SMALL_TRIANGLES)
-void hand_over(Mapping m, ImageMap map, vec3 extra)
+#elif !defined(TRIANGLES)
+void hand_over(Mapping m, ImageMap map, vec4 extra)
 {
 #if defined(PLAIN)
     x0_w_extra = vec4(expansion_of(map), extra.x);
@@ -108,7 +110,7 @@ void hand_over(Mapping m, ImageMap map, vec3 extra)
     per_x_extra = vec4(map.along_x, extra.y);
     per_y_extra = vec4(map.along_y, extra.z);
 #if defined(FULL) || defined(CENTER)
-    uv_affine = vec4(map.at_x0.xy, map.affine ? 1.0 : 0.0, 0.0);
+    uv_affine = vec4(map.at_x0.xy, map.affine ? 1.0 : 0.0, extra.w);
 #endif
 #if defined(CENTER)
     bool low_pass = m.p.z > frame.near;
@@ -118,9 +120,9 @@ void hand_over(Mapping m, ImageMap map, vec3 extra)
 #endif
 
 // `depth_factor`: what the pass multiplies depth by.
-void emit(Mapping m, vec3 extra, float depth_factor)
+void emit(Mapping m, vec4 extra, float depth_factor)
 {
-#if defined(TRIANGLES) || defined(SMALL_TRIANGLES)
+#if defined(TRIANGLES)
     vec2 uv = triangle_corner(m, gl_VertexIndex % 3);
     vec3 q = m.p + m.s * uv.x + m.t * uv.y;
     float z = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near) * depth_factor;
@@ -131,7 +133,7 @@ void emit(Mapping m, vec3 extra, float depth_factor)
     triangle_uv = uv;
     triangle_extra = extra;
 #else
-#if defined(POINTS) || defined(SMALL_POINTS)
+#if defined(POINTS)
     Square square;
     if (!square_of(m, square)) {
         emit_nothing();
@@ -155,6 +157,9 @@ void emit(Mapping m, vec3 extra, float depth_factor)
 #endif
 #if defined(RAYS)
     hand_over(m, extra);
+#endif
+#if defined(FOURTH)
+    fourth = extra.w;
 #endif
 #endif
 }

@@ -6,5 +6,6 @@ struct FinalizeConstants {
     vec2 half_size_px;
     float focal_px;
     uint tile_height; // pixels; 0 without tiles
+    float near;       // world unit
 };
 layout(push_constant, std430) uniform Push { FinalizeConstants push; };

@@ -2,14 +2,11 @@
 // kernel_texture.frag.glsl. The division of their projective fetch is done by then: coverage needed it. u = -1 and 1 are
 // the first and the last texel's centers, so that no fetch meets the border.
 
-#define KERNEL_TEXTURE_SIDE 256
-
-layout(set = 2, binding = 1) uniform sampler2D kernel_texture;
+layout(set = 2, binding = BIND_READ_KERNEL) uniform sampler2D kernel_texture;
 
 float kernel_from_texture(vec2 uv)
 {
     const float scale = 0.5 * float(KERNEL_TEXTURE_SIDE - 1) / float(KERNEL_TEXTURE_SIDE);
     float weight = textureLod(kernel_texture, 0.5 + scale * uv, 0.0).r;
-    // What covers weighs 2^-24 at least, which half floats hold only just.
     return FORMULA(FORMULA_KERNEL_TEXTURE, max(weight, LEAST_WEIGHT));
 }

@@ -3,7 +3,7 @@
 
 #define BLOCK 256
 
-layout(set = 1, binding = 0, std430) LARGE_BITS_ACCESS buffer LargeBits { uint large_bits[]; };
+layout(set = 1, binding = 0, std430) readonly buffer LargeBits { uint large_bits[]; };
 
 bool is_large(uint index)
 {

@@ -16,7 +16,8 @@
 // All of it is comparisons, which are exact, of numbers that are bit-equal in all passes: w is (coverage.glsl), and D32 holds
 // what was written. A fragment's w' <= w also after rounding: it is w times a factor of at most 1.
 
-layout(set = 2, binding = 0) uniform texture2D peeled_depth; // D_(k-1)
+layout(constant_id = SPEC_PEELED) const bool PEELED = false; // behind a layer
+layout(set = 2, binding = BIND_READ_DEPTH) uniform texture2D peeled_depth; // D_(k-1)
 
 // Discards what is not behind the layer before.
 void peel(float w)

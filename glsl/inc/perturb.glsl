@@ -5,7 +5,8 @@
 // is only slow and must not be seen.
 
 #ifdef TEST_FORMULAS
-layout(constant_id = 31) const uint PERTURBED_FORMULA = 0;
+#include "inc/config.glsl"
+layout(constant_id = SPEC_PERTURBED_FORMULA) const uint PERTURBED_FORMULA = 0;
 #define FORMULA(number, value) ((PERTURBED_FORMULA == number) ? 1.01 * (value) : (value))
 #define FORMULA_LESS(number, value) ((PERTURBED_FORMULA == number) ? 0.99 * (value) : (value))
 #else

@@ -7,8 +7,9 @@ use super::{
     kernel_texture::kernel_texture,
     lists::Lists,
     splat_pass::{SplatPass, draw_splats},
-    splat_shaders::{Summed, Words, splat_shaders},
+    splat_shaders::Summed,
     sum_format,
+    variant::Constants,
 };
 use crate::{
     error::Result,
@@ -17,7 +18,7 @@ use crate::{
         execute::{Body, PassContext},
     },
     scene::{KernelEval, Settings, Transition},
-    shaders,
+    shaders::config::*,
 };
 
 /// What accumulation leaves.
@@ -28,8 +29,24 @@ pub(super) struct Sums {
     pub normal: Handle<Image>,
 }
 
+/// The specialization constants of what is summed of splats; `peeled`: only what is behind a layer.
+pub(super) fn summed_constants(settings: &Settings, summed: Summed, peeled: bool) -> Constants {
+    let (number, with_depth) = match summed {
+        Summed::Opaque { beside_polygons: false, with_depth } => (SUMMED_OPAQUE, with_depth),
+        Summed::Opaque { beside_polygons: true, with_depth } => (SUMMED_BESIDE, with_depth),
+        Summed::Layer => (SUMMED_LAYER, false),
+        Summed::Rest => (SUMMED_REST, false),
+    };
+    vec![
+        (SPEC_SUMMED, number),
+        (SPEC_WITH_DEPTH, with_depth.into()),
+        (SPEC_TEXTURED, u32::from(settings.kernel_eval == KernelEval::Texture)),
+        (SPEC_PEELED, peeled.into()),
+    ]
+}
+
 /// What the pass is made of.
-pub(super) fn splat_pass(settings: &Settings, summed: Summed) -> Result<SplatPass> {
+pub(super) fn splat_pass(settings: &Settings, summed: Summed) -> SplatPass {
     let depth = match summed {
         // The paper's shift toward the viewer is for all fragments, so that the shader compares alone.
         Summed::Opaque { beside_polygons: true, .. } if settings.transition == Transition::Paper => {
@@ -37,12 +54,12 @@ pub(super) fn splat_pass(settings: &Settings, summed: Summed) -> Result<SplatPas
         }
         _ => vk::CompareOp::GREATER_OR_EQUAL,
     };
-    Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::accumulate(settings, summed))?,
+    SplatPass {
         color_formats: vec![sum_format(settings.accumulate); 2],
         depth: Some((depth, false)),
-        constants: Vec::new(),
-    })
+        constants: summed_constants(settings, summed, false),
+        ..SplatPass::new(settings, |drawn| drawn.accumulate(summed))
+    }
 }
 
 /// The kernel's texture, where it is evaluated so.
@@ -52,7 +69,7 @@ pub(super) fn kernel_of<'a>(
 ) -> Result<Option<Handle<Image>>> {
     match inputs.settings.kernel_eval {
         KernelEval::Analytic => Ok(None),
-        KernelEval::Texture => kernel_texture(graph, inputs, &shaders::KERNEL_TEXTURE_FRAG).map(Some),
+        KernelEval::Texture => kernel_texture(graph, inputs, false).map(Some),
     }
 }
 
@@ -69,7 +86,7 @@ pub(super) fn accumulate<'a>(
 ) -> Result<Sums> {
     let format = sum_format(inputs.settings.accumulate);
     let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
-    let pipelines = splat_pass(inputs.settings, summed)?.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings, summed).pipelines(inputs)?;
     let sampled = [with_depth.then(|| depth.id()), kernel.map(Handle::id), polygons.map(Handle::id)];
 
     let mut sums = Sums {
@@ -88,23 +105,14 @@ pub(super) fn accumulate<'a>(
     }
     let ids = lists.ids();
     lists.read(pass).finish(Box::new(move |context| {
-        bind_sampled(context, inputs, sampled)?;
+        bind_read(context, inputs, sampled, None)?;
         draw_splats(context, inputs, &pipelines, &ids, None)
     }));
     Ok(sums)
 }
 
-/// Binds what fragments of splats or polygons read: set 2 of their layout, which stays bound while the sets below it
-/// change.
-pub(super) fn bind_sampled(
-    context: &PassContext<'_>,
-    inputs: Inputs<'_>,
-    images: [Option<ResourceId>; 3],
-) -> Result<()> {
-    bind_read(context, inputs, images, None)
-}
-
-/// As [`bind_sampled`], with lights.
+/// Binds what the fragments of splats or polygons read, and lights: set 2 of their layout, which stays bound while the sets below
+/// it change. The images are those of `BIND_READ_DEPTH`, `BIND_READ_KERNEL`, `BIND_READ_POLYGON_DEPTH`.
 pub(super) fn bind_read(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
@@ -113,22 +121,20 @@ pub(super) fn bind_read(
 ) -> Result<()> {
     let mut given = Vec::new();
     if let Some(lights) = lights {
-        given.push((3, context.descriptor(lights)?));
+        given.push((BIND_READ_LIGHTS, context.descriptor(lights)?));
     }
-    for (number, id) in (0..).zip(images) {
+    let bindings = [BIND_READ_DEPTH, BIND_READ_KERNEL, BIND_READ_POLYGON_DEPTH];
+    for (number, id) in bindings.into_iter().zip(images) {
         if let Some(id) = id {
             given.push((number, context.descriptor(id)?));
         }
     }
-    if !given.is_empty() {
-        let set = inputs.descriptors.set(&inputs.shaders.read_set, &given)?;
-        let layout = inputs.shaders.splat_layout.raw();
-        let bind_point = vk::PipelineBindPoint::GRAPHICS;
-        // SAFETY: set 2 of the splat passes' layout.
-        unsafe {
-            let device = context.device();
-            device.cmd_bind_descriptor_sets(context.commands(), bind_point, layout, 2, &[set], &[]);
-        }
+    let set = inputs.descriptors.set(&inputs.shaders.read_set, &given)?;
+    let layout = inputs.shaders.splat_layout.raw();
+    let bind_point = vk::PipelineBindPoint::GRAPHICS;
+    // SAFETY: set 2 of the splat passes' layout.
+    unsafe {
+        context.device().cmd_bind_descriptor_sets(context.commands(), bind_point, layout, 2, &[set], &[]);
     }
     Ok(())
 }

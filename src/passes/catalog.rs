@@ -11,7 +11,7 @@ use super::{
     pipelines::GraphicsKey,
     polygons,
     recipe::{Key, PipelineRecipe, compute, graphics},
-    splat_pass::SplatPass,
+    splat_pass::{Portion, SplatPass},
     splat_shaders::Primitive,
     variant::{Constants, splat_constants},
 };
@@ -128,11 +128,11 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
         all.extend(finalize::key(settings, target, shown).map(|key| graphics("finalize", "", key)));
     }
     if at_once && traits.polygons {
-        all.push(graphics("finalize", "", finalize::key_of_shown_polygons(target)));
+        all.push(graphics("finalize", "", finalize::polygon_resolve_key(target)));
     }
     if at_once {
         let draws = if traits.polygons { "tiles beside polygons" } else { "tiles" };
-        all.push(graphics("finalize", draws, finalize::key_of_shown(target, traits.polygons)));
+        all.push(graphics("finalize", draws, finalize::tile_resolve_key(target, traits.polygons)));
     }
     if traits.export {
         all.push(graphics("export", "", export::key()));
@@ -161,10 +161,10 @@ fn splat_keys(
         Primitive::Triangle => ("triangles", "small triangles"),
     };
     match has_list {
-        false => vec![(all, pass.key(pass.shaders.all, own, variant))],
+        false => vec![(all, pass.key(Portion::All, variant))],
         true => vec![
-            (small, pass.key(pass.shaders.small, own, variant)),
-            ("listed quads", pass.key(pass.shaders.listed, Primitive::Quad, variant)),
+            (small, pass.key(Portion::Small, variant)),
+            ("listed quads", pass.key(Portion::Large, variant)),
         ],
     }
 }

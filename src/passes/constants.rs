@@ -79,12 +79,6 @@ pub struct FinalizeConstants {
     pub focal_px: f32,
     /// Pixels of a tile's column; 0 without tiles.
     pub tile_height: u32,
-}
-
-/// What the export is told; see `glsl/export.frag.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct ExportConstants {
     /// Depth of the near plane, world unit.
     pub near: f32,
 }

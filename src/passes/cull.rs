@@ -8,7 +8,7 @@ use ash::vk;
 use super::{
     Draw, Inputs,
     listed::Listed,
-    pipelines::{ComputeKey, LARGE_BINDINGS, Layout},
+    pipelines::{ComputeKey, Layout},
     splat_pass::dispatch,
     tiles::rows_of,
     variant::{Constants, culls},
@@ -20,7 +20,7 @@ use crate::{
         execute::{Body, PassContext},
     },
     prepare::BLOCK_SPLATS,
-    shaders::{self, Shader},
+    shaders::{self, Shader, config::*},
     vk::ComputePipeline,
 };
 
@@ -29,9 +29,6 @@ const WORD: u32 = 32;
 
 /// Invocations of a workgroup, one a word, as in `glsl/cull_mark.comp.glsl`.
 const GROUP: u32 = 64;
-
-/// The binding of the blocks in the set of lists.
-pub(super) const BLOCKS: u32 = LARGE_BINDINGS;
 
 /// Where [`VkDispatchIndirectCommand`](vk::DispatchIndirectCommand) is in the arguments of a chunk, in bytes; before it is the draw.
 const DISPATCH: u64 = 20;
@@ -170,7 +167,7 @@ pub(super) fn list_kept<'a>(
         .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
             for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                let buffers = [(0, id), (BLOCKS, blocks_id)];
+                let buffers = [(BIND_LIST_BITS, id), (BIND_LIST_BLOCKS, blocks_id)];
                 dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
             }
             Ok(())
@@ -210,7 +207,8 @@ pub(super) fn list_marked<'a>(
             // One for all chunks; the set of any will do.
             match inputs.draws.iter().zip(&scan).next() {
                 Some((draw, pipeline)) => {
-                    dispatch(context, inputs, draw, pipeline, &[(0, bits), (1, starts)], [1, 1])
+                    let buffers = [(BIND_LIST_BITS, bits), (BIND_LIST_STARTS, starts)];
+                    dispatch(context, inputs, draw, pipeline, &buffers, [1, 1])
                 }
                 None => Ok(()),
             }
@@ -228,7 +226,13 @@ pub(super) fn list_marked<'a>(
     }
     pass.finish(Box::new(move |context| {
         for ((draw, pipeline), arguments) in inputs.draws.iter().zip(&place).zip(&arguments) {
-            let buffers = [(0, bits), (1, starts), (2, list), (3, *arguments), (BLOCKS, blocks)];
+            let buffers = [
+                (BIND_LIST_BITS, bits),
+                (BIND_LIST_STARTS, starts),
+                (BIND_LIST_ITEMS, list),
+                (BIND_LIST_ARGUMENTS, *arguments),
+                (BIND_LIST_BLOCKS, blocks),
+            ];
             dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
         }
         Ok(())

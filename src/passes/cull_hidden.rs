@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::{
     Inputs,
-    cull::{BLOCKS, Kept, create_bits, groups_of, list_marked, pipelines},
+    cull::{Kept, create_bits, groups_of, list_marked, pipelines},
     pipelines::{ComputeKey, Layout},
     splat_pass::dispatch,
     variant::Constants,
@@ -12,7 +12,7 @@ use super::{
 use crate::{
     error::Result,
     graph::{Access, BufferDesc, Graph, Handle, Image, Start, execute::Body},
-    shaders,
+    shaders::{self, config::*},
 };
 
 /// Pixels along a side of a block, as in `glsl/inc/depth_cells.glsl`.
@@ -45,7 +45,8 @@ pub(super) fn list_seen<'a>(
         .read(depth, Access::SampledCompute)
         .write(&mut cells, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
-            let given = [(0, context.descriptor(depth_id)?), (1, context.descriptor(cells_id)?)];
+            let image = context.descriptor(depth_id)?;
+            let given = [(BIND_CELLS_DEPTH, image), (BIND_CELLS, context.descriptor(cells_id)?)];
             let shaders = inputs.shaders;
             let set = inputs.descriptors.set(&shaders.cells_set, &given)?;
             let layout = shaders.cells_layout.raw();
@@ -72,7 +73,12 @@ pub(super) fn list_seen<'a>(
         .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
             for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                let buffers = [(0, kept_id), (1, seen_id), (2, cells_id), (BLOCKS, blocks_id)];
+                let buffers = [
+                    (BIND_LIST_BITS, kept_id),
+                    (BIND_LIST_SEEN_BITS, seen_id),
+                    (BIND_LIST_CELLS, cells_id),
+                    (BIND_LIST_BLOCKS, blocks_id),
+                ];
                 dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
             }
             Ok(())

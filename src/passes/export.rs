@@ -5,14 +5,14 @@ use ash::vk;
 use super::{
     Inputs,
     accumulate::Sums,
-    constants::ExportConstants,
-    fullscreen::{bind, read_set},
+    finalize,
+    fullscreen::draw_fullscreen,
     pipelines::{GraphicsKey, Layout},
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    shaders,
+    shaders::{self, config::*},
 };
 
 /// The images that the export leaves.
@@ -41,7 +41,7 @@ impl Exported {
 pub(super) fn key() -> GraphicsKey {
     GraphicsKey {
         color_formats: Exported::FORMATS.to_vec(),
-        ..GraphicsKey::fullscreen(&shaders::EXPORT_FRAG, Layout::Export, Vec::new())
+        ..GraphicsKey::fullscreen(&shaders::EXPORT_FRAG, Layout::Finalize, Vec::new())
     }
 }
 
@@ -78,10 +78,13 @@ pub(super) fn export<'a>(
     sums: &Sums,
     depth: &Handle<Image>,
 ) -> Result<Exported> {
-    let layout = &inputs.shaders.export_layout;
     let pipeline = inputs.shaders.graphics(key())?;
-    let constants = ExportConstants { near: inputs.camera.near() as f32 };
-    let ids = [sums.color.id(), sums.normal.id(), depth.id()];
+    let constants = finalize::constants(inputs);
+    let read = [
+        (BIND_SUMS_COLORS, sums.color.id()),
+        (BIND_SUMS_NORMALS, sums.normal.id()),
+        (BIND_SUMS_DEPTH, depth.id()),
+    ];
     let mut exported = images(graph, inputs);
     graph
         .pass("export")
@@ -93,12 +96,7 @@ pub(super) fn export<'a>(
         .write(&mut exported.normal, Access::ColorAttachment, Start::Discard)
         .write(&mut exported.depth, Access::ColorAttachment, Start::Discard)
         .finish(Box::new(move |context| {
-            let images: Vec<_> = (0..).zip(ids).collect();
-            let set = read_set(context, inputs, &inputs.shaders.surface_set, (&images, None))?;
-            bind(context, &pipeline, layout, set, bytemuck::bytes_of(&constants));
-            // SAFETY: inside of rendering, with all bound that the pipeline needs.
-            unsafe { context.device().cmd_draw(context.commands(), 3, 1, 0, 0) };
-            Ok(())
+            draw_fullscreen(context, inputs, &pipeline, (&read, None), &constants)
         }));
     Ok(exported)
 }

@@ -20,7 +20,7 @@ use crate::{
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
     math::srgb::linear_from_srgb,
     scene::Settings,
-    shaders,
+    shaders::{self, config::*},
 };
 
 /// What the opaque passes leave.
@@ -61,37 +61,26 @@ pub(super) struct Traits {
 /// What its pipeline is; none where the background is all that is seen.
 pub(super) fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option<GraphicsKey> {
     let Traits { splats, polygons, layered, lights } = traits;
-    let fragment = match (splats, polygons, layered, lights > 0) {
-        (true, false, false, false) => &shaders::FINALIZE_SPLATS_FRAG,
-        (false, true, false, false) => &shaders::FINALIZE_POLYGONS_FRAG,
-        (true, true, false, false) => &shaders::FINALIZE_HYBRID_FRAG,
-        (true, false, true, false) => &shaders::FINALIZE_SPLATS_LAYERED_FRAG,
-        (false, true, true, false) => &shaders::FINALIZE_POLYGONS_LAYERED_FRAG,
-        (true, true, true, false) => &shaders::FINALIZE_HYBRID_LAYERED_FRAG,
-        (true, false, false, true) => &shaders::FINALIZE_SPLATS_LIT_FRAG,
-        (false, true, false, true) => &shaders::FINALIZE_POLYGONS_LIT_FRAG,
-        (true, true, false, true) => &shaders::FINALIZE_HYBRID_LIT_FRAG,
-        (true, false, true, true) => &shaders::FINALIZE_SPLATS_LAYERED_LIT_FRAG,
-        (false, true, true, true) => &shaders::FINALIZE_POLYGONS_LAYERED_LIT_FRAG,
-        (true, true, true, true) => &shaders::FINALIZE_HYBRID_LAYERED_LIT_FRAG,
-        (false, false, true, _) => &shaders::FINALIZE_NOTHING_LAYERED_FRAG,
-        (false, false, false, _) => return None,
-    };
-    let lights = if splats || polygons { lights } else { 0 };
-    let constants = shown_constants(settings, splats && polygons, lights);
+    if !splats && !polygons && !layered {
+        return None;
+    }
+    let mut constants = resolve_constants(settings, splats, polygons, lights);
+    constants.push((SPEC_LAYERED, layered.into()));
     Some(GraphicsKey {
         color_formats: vec![target_format],
         depth: (!layered).then_some((vk::CompareOp::LESS, false)),
-        ..GraphicsKey::fullscreen(fragment, Layout::Finalize, constants)
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, constants)
     })
 }
 
-/// The specialization constants of what shades sums; `hybrid`: of splats and polygons.
-pub(super) fn shown_constants(settings: &Settings, hybrid: bool, lights: u32) -> Constants {
+/// The specialization constants of what shades sums of splats, polygons, or both (`glsl/inc/resolve.glsl`).
+pub(super) fn resolve_constants(settings: &Settings, splats: bool, polygons: bool, lights: u32) -> Constants {
     let mut constants = shading_constants(settings.shading, lights);
-    if hybrid {
-        constants.push(transition_constant(settings.transition));
-    }
+    constants.extend([
+        transition_constant(settings.transition),
+        (SPEC_SPLATS, splats.into()),
+        (SPEC_POLYGONS, polygons.into()),
+    ]);
     constants
 }
 
@@ -106,6 +95,7 @@ pub(super) fn constants(inputs: Inputs<'_>) -> FinalizeConstants {
         half_size_px: [0.5 * width as f32, 0.5 * height as f32],
         focal_px: inputs.camera.focal_px(height) as f32,
         tile_height: 0, // quads of tiles bring their own
+        near: inputs.camera.near() as f32,
     }
 }
 
@@ -115,11 +105,11 @@ pub(super) fn sums_descriptors(
     polygons: Option<&Sums>,
     layers: Option<&Handle<Image>>,
 ) -> Vec<(u32, ResourceId)> {
-    let of = |sums: &Sums, first: u32| [(first, sums.color.id()), (first + 1, sums.normal.id())];
-    let splats = splats.map(|sums| of(sums, 0));
-    let polygons = polygons.map(|sums| of(sums, 2));
+    let of = |sums: &Sums, [color, normal]: [u32; 2]| [(color, sums.color.id()), (normal, sums.normal.id())];
+    let splats = splats.map(|sums| of(sums, [BIND_SUMS_COLORS, BIND_SUMS_NORMALS]));
+    let polygons = polygons.map(|sums| of(sums, [BIND_SUMS_POLYGON_COLORS, BIND_SUMS_POLYGON_NORMALS]));
     let sums = splats.into_iter().chain(polygons).flatten();
-    sums.chain(layers.map(|layers| (4, layers.id()))).collect()
+    sums.chain(layers.map(|layers| (BIND_SUMS_LAYERS, layers.id()))).collect()
 }
 
 /// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept. `layers`:
@@ -133,7 +123,6 @@ pub(super) fn finalize<'a>(
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
-    let layout = &inputs.shaders.finalize_layout;
     let (splats, polygons) = (opaque.splats.as_ref(), opaque.polygons.as_ref());
     let lights = lights.filter(|_| splats.is_some() || polygons.is_some());
     let traits = Traits {
@@ -143,10 +132,10 @@ pub(super) fn finalize<'a>(
         lights: inputs.lights,
     };
     if let Some(shown) = &opaque.shown {
-        let key = key_of_shown(target_format, opaque.polygon_depth.is_some());
+        let key = tile_resolve_key(target_format, opaque.polygon_depth.is_some());
         return match &opaque.polygon_depth {
             Some(depth) => {
-                let keys = [key_of_shown_polygons(target_format), key];
+                let keys = [polygon_resolve_key(target_format), key];
                 finalize_polygons_and_tiles(graph, inputs, (shown, depth), &opaque.tiles, keys, target)
             }
             None => finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), key, target),
@@ -175,14 +164,7 @@ pub(super) fn finalize<'a>(
     }
     pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| match &pipeline {
-            Some(pipeline) => draw_fullscreen(
-                context,
-                inputs,
-                pipeline,
-                layout,
-                (&ids, lights),
-                bytemuck::bytes_of(&constants),
-            ),
+            Some(pipeline) => draw_fullscreen(context, inputs, pipeline, (&ids, lights), &constants),
             None => Ok(()),
         }));
     Ok(())
@@ -197,20 +179,20 @@ pub(super) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
 }
 
 /// What the pipeline is that brings to the target what tiles show; `beside`: in a pass that has the depth of polygons.
-pub(super) fn key_of_shown(target_format: vk::Format, beside: bool) -> GraphicsKey {
+pub(super) fn tile_resolve_key(target_format: vk::Format, beside: bool) -> GraphicsKey {
     GraphicsKey {
         color_formats: vec![target_format],
         depth: beside.then_some((vk::CompareOp::ALWAYS, false)),
-        ..quads_of_tiles(&shaders::FINALIZE_SHADED_FRAG, Vec::new())
+        ..quads_of_tiles(&shaders::FINALIZE_FRAG, vec![(SPEC_SHADED, 1)])
     }
 }
 
-/// The same where there are polygons.
-pub(super) fn key_of_shown_polygons(target_format: vk::Format) -> GraphicsKey {
+/// What it is where there are polygons alone.
+pub(super) fn polygon_resolve_key(target_format: vk::Format) -> GraphicsKey {
     GraphicsKey {
         color_formats: vec![target_format],
         depth: Some((vk::CompareOp::LESS, false)),
-        ..GraphicsKey::fullscreen(&shaders::FINALIZE_SHADED_FRAG, Layout::Finalize, Vec::new())
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, vec![(SPEC_SHADED, 1)])
     }
 }
 
@@ -237,7 +219,7 @@ fn finalize_tiles<'a>(
     let lights = lights.map(Handle::id);
     pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
-            let set = read_set(context, inputs, &inputs.shaders.sums_set, (&ids, lights))?;
+            let set = read_set(context, inputs, (&ids, lights))?;
             draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, constants)
         }));
     Ok(())
@@ -252,7 +234,6 @@ fn finalize_polygons_and_tiles<'a>(
     [of_polygons, of_tiles]: [GraphicsKey; 2],
     target: &mut Handle<Image>,
 ) -> Result<()> {
-    let layout = &inputs.shaders.finalize_layout;
     let [of_polygons, of_tiles] = [inputs.shaders.graphics(of_polygons)?, inputs.shaders.graphics(of_tiles)?];
     let constants = constants(inputs);
     let (images, seen) = ([(0, shown.id())], SeenTiles::of(tiles));
@@ -261,9 +242,8 @@ fn finalize_polygons_and_tiles<'a>(
         .read(depth, Access::DepthTest)
         .write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
         .finish(Box::new(move |context| {
-            let bytes = bytemuck::bytes_of(&constants);
-            draw_fullscreen(context, inputs, &of_polygons, layout, (&images, None), bytes)?;
-            let set = read_set(context, inputs, &inputs.shaders.sums_set, (&images, None))?;
+            draw_fullscreen(context, inputs, &of_polygons, (&images, None), &constants)?;
+            let set = read_set(context, inputs, (&images, None))?;
             draw_quads_of_tiles(context, inputs, &of_tiles, &seen, set, constants)
         }));
     Ok(())

@@ -20,7 +20,7 @@ use crate::{
     error::Result,
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::Settings,
-    shaders,
+    shaders::{self, config::*},
     vk::Blend,
 };
 
@@ -83,7 +83,7 @@ pub fn floor_points<'a>(
         .pass(&format!("floor points {number}"))
         .write(points, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
-            let given = [(0, context.descriptor(id)?)];
+            let given = [(BIND_LIST_POINTS, context.descriptor(id)?)];
             let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.list_set, &given)?];
             let (device, commands) = (context.device(), context.commands());
             let bind_point = vk::PipelineBindPoint::COMPUTE;
@@ -164,7 +164,7 @@ fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, points: &[FloorPoints<'
         // SAFETY: inside of rendering.
         unsafe { device.cmd_bind_pipeline(commands, bind_point, pipeline.raw()) };
         for &(id, count) in &chunks {
-            let given = [(0, context.descriptor(id)?)];
+            let given = [(BIND_LIST_POINTS, context.descriptor(id)?)];
             let set = inputs.descriptors.set(&inputs.shaders.list_set, &given)?;
             // SAFETY: inside of rendering; pipeline and set have one layout.
             unsafe {

@@ -12,20 +12,20 @@ use crate::{
     error::Result,
     graph::{Access, Graph, Handle, Image, ImageDesc, Start, execute::Body},
     scene::Kernel,
-    shaders::Shader,
+    shaders::{self, config::*},
 };
-
-/// Texels along a side, as in `glsl/inc/kernel_texture.glsl`.
-const SIDE: u32 = 256;
 
 /// Half floats: every device filters them.
 const FORMAT: vk::Format = vk::Format::R16_SFLOAT;
 
-/// What the pipeline is of a shader that writes a kernel. It reads no set and no push constants: any layout will do.
-pub(super) fn key(shader: &'static Shader, kernel: Kernel) -> GraphicsKey {
+/// What its pipeline is; `cut_off`: it is 0 outside of the disk, for the paper's programs. It reads no set and no push constants: any
+/// layout will do.
+pub(super) fn key(kernel: Kernel, cut_off: bool) -> GraphicsKey {
+    let mut constants = kernel_constants(kernel);
+    constants.push((SPEC_CUT_OFF, cut_off.into()));
     GraphicsKey {
         color_formats: vec![FORMAT],
-        ..GraphicsKey::fullscreen(shader, Layout::Finalize, kernel_constants(kernel))
+        ..GraphicsKey::fullscreen(&shaders::KERNEL_TEXTURE_FRAG, Layout::Finalize, constants)
     }
 }
 
@@ -33,10 +33,10 @@ pub(super) fn key(shader: &'static Shader, kernel: Kernel) -> GraphicsKey {
 pub(super) fn kernel_texture<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    shader: &'static Shader,
+    cut_off: bool,
 ) -> Result<Handle<Image>> {
-    let pipeline = inputs.shaders.graphics(key(shader, inputs.settings.kernel))?;
-    let extent = vk::Extent2D { width: SIDE, height: SIDE };
+    let pipeline = inputs.shaders.graphics(key(inputs.settings.kernel, cut_off))?;
+    let extent = vk::Extent2D { width: KERNEL_TEXTURE_SIDE, height: KERNEL_TEXTURE_SIDE };
     let mut texture = graph.create_image("kernel", ImageDesc { format: FORMAT, extent });
     graph.pass("kernel texture").write(&mut texture, Access::ColorAttachment, Start::Discard).finish(
         Box::new(move |context| {

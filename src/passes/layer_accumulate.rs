@@ -4,18 +4,18 @@
 use ash::vk;
 
 use super::{
-    accumulate::{Sums, bind_sampled},
+    accumulate::{Sums, bind_read, summed_constants},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
     splat_pass::{SplatPass, draw_splats},
-    splat_shaders::{Summed, Words, splat_shaders},
+    splat_shaders::Summed,
     sum_format,
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::Settings,
-    shaders,
+    shaders::{self, config::*},
     vk::Blend,
 };
 
@@ -23,23 +23,23 @@ use crate::{
 const IN_LAYER: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER_OR_EQUAL, false));
 
 /// What the pass over splats is made of. `peeled`: only what is behind a layer.
-pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> Result<SplatPass> {
-    Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::accumulate(settings, Summed::Layer { peeled }))?,
+pub(super) fn splat_pass(settings: &Settings, peeled: bool) -> SplatPass {
+    SplatPass {
         color_formats: vec![sum_format(settings.accumulate); 2],
         depth: IN_LAYER,
-        constants: Vec::new(),
-    })
+        constants: summed_constants(settings, Summed::Layer, peeled),
+        ..SplatPass::new(settings, |drawn| drawn.accumulate(Summed::Layer))
+    }
 }
 
 /// What the pass over polygons is made of. `peeled`: only what is behind a layer.
 pub(super) fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
     MeshPass {
-        fragment: if peeled { &shaders::POLYGONS_LAYER_PEELED_FRAG } else { &shaders::POLYGONS_LAYER_FRAG },
+        fragment: &shaders::POLYGONS_TRANSPARENT_FRAG,
         color_formats: vec![sum_format(settings.accumulate); 2],
         blend: Blend::Add,
         depth: IN_LAYER,
-        constants: Vec::new(),
+        constants: vec![(SPEC_SUMMED, SUMMED_LAYER), (SPEC_PEELED, peeled.into())],
     }
 }
 
@@ -50,11 +50,11 @@ pub(super) fn layer_accumulate<'a>(
     depth: &Handle<Image>,
 ) -> Result<Sums> {
     let inputs = layer.inputs;
-    let pipelines = splat_pass(inputs.settings, layer.before.is_some())?.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings, layer.before.is_some()).pipelines(inputs)?;
     let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
     let (lists, gate) = (layer.list_ids(), layer.gate());
     declare(graph, layer, depth, ["color sums", "normal sums", "accumulate"], layer.kernel, move |context| {
-        bind_sampled(context, inputs, sampled)?;
+        bind_read(context, inputs, sampled, None)?;
         draw_splats(context, inputs, &pipelines, &lists, gate)
     })
 }
@@ -70,7 +70,7 @@ pub(super) fn layer_polygons<'a>(
     let sampled = [layer.before.map(Handle::id), None, None];
     let gate = layer.gate();
     declare(graph, layer, depth, ["polygon colors", "polygon normals", "polygons"], None, move |context| {
-        bind_sampled(context, inputs, sampled)?;
+        bind_read(context, inputs, sampled, None)?;
         draw_meshes(context, inputs, &pipelines, gate)
     })
 }

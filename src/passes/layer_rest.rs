@@ -5,11 +5,11 @@
 use ash::vk;
 
 use super::{
-    accumulate::{Sums, bind_read},
+    accumulate::{Sums, bind_read, summed_constants},
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
     splat_pass::{SplatPass, draw_splats},
-    splat_shaders::{Summed, Words, splat_shaders},
+    splat_shaders::Summed,
     sum_format,
     variant::shading_constants,
 };
@@ -17,7 +17,7 @@ use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Start, execute::Body},
     scene::{Accumulate, Settings},
-    shaders,
+    shaders::{self, config::*},
     vk::Blend,
 };
 
@@ -36,32 +36,27 @@ fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
 
 /// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things; `lights`:
 /// the scene's own.
-pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> Result<SplatPass> {
-    Ok(SplatPass {
-        shaders: splat_shaders(
-            settings,
-            &Words::accumulate(settings, Summed::Rest { peeled, lit: lights > 0 }),
-        )?,
+pub(super) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> SplatPass {
+    let mut constants = summed_constants(settings, Summed::Rest, peeled);
+    constants.extend(shading_constants(settings.shading, lights));
+    SplatPass {
         color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
         depth: depth_test(opaque),
-        constants: shading_constants(settings.shading, lights),
-    })
+        constants,
+        ..SplatPass::new(settings, |drawn| drawn.accumulate(Summed::Rest))
+    }
 }
 
 /// What it is made of for polygons.
 pub(super) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> MeshPass {
-    let fragment = match (peeled, lights > 0) {
-        (false, false) => &shaders::POLYGONS_BLENDED_FRAG,
-        (true, false) => &shaders::POLYGONS_BLENDED_PEELED_FRAG,
-        (false, true) => &shaders::POLYGONS_BLENDED_LIT_FRAG,
-        (true, true) => &shaders::POLYGONS_BLENDED_PEELED_LIT_FRAG,
-    };
+    let mut constants = shading_constants(settings.shading, lights);
+    constants.extend([(SPEC_SUMMED, SUMMED_REST), (SPEC_PEELED, peeled.into())]);
     MeshPass {
-        fragment,
+        fragment: &shaders::POLYGONS_TRANSPARENT_FRAG,
         color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
         blend: Blend::Add,
         depth: depth_test(opaque),
-        constants: shading_constants(settings.shading, lights),
+        constants,
     }
 }
 
@@ -70,7 +65,7 @@ pub(super) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let inputs = layer.inputs;
     let settings = inputs.settings;
     let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
-    let splats = splat_pass(settings, peeled, opaque, inputs.lights)?.pipelines(inputs)?;
+    let splats = splat_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
     let meshes = mesh_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
     let mut sums = Sums {
         color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),

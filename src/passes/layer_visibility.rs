@@ -5,7 +5,7 @@ use ash::vk;
 
 use super::{
     DEPTH_FORMAT,
-    accumulate::bind_sampled,
+    accumulate::bind_read,
     copy_depth::copy_depth,
     layers::Layer,
     mesh_draws::{MeshPass, draw_meshes},
@@ -15,18 +15,18 @@ use super::{
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    shaders,
+    shaders::{self, config::*},
     vk::Blend,
 };
 
 /// What it is made of for polygons. `peeled`: only what is behind a layer.
 pub(super) fn mesh_pass(peeled: bool) -> MeshPass {
     MeshPass {
-        fragment: if peeled { &shaders::POLYGONS_DEPTH_PEELED_FRAG } else { &shaders::POLYGONS_DEPTH_FRAG },
+        fragment: &shaders::POLYGONS_DEPTH_FRAG,
         color_formats: Vec::new(),
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
-        constants: Vec::new(),
+        constants: vec![(SPEC_PEELED, peeled.into())],
     }
 }
 
@@ -37,7 +37,7 @@ pub(super) fn layer_visibility<'a>(
 ) -> Result<Handle<Image>> {
     let inputs = layer.inputs;
     let peeled = layer.before.is_some();
-    let splats = visibility::splat_pass(inputs.settings, Some(peeled))?.pipelines(inputs)?;
+    let splats = visibility::splat_pass(inputs.settings, Some(peeled)).pipelines(inputs)?;
     let meshes = mesh_pass(peeled).pipelines(inputs)?;
     let name = layer.name("depth");
     let (mut depth, start) = match layer.opaque {
@@ -48,7 +48,7 @@ pub(super) fn layer_visibility<'a>(
     let (lists, gate) = (layer.list_ids(), layer.gate());
     let pass = graph.pass(&layer.name("visibility")).write(&mut depth, Access::DepthAttachment, start);
     layer.read(pass).finish(Box::new(move |context| {
-        bind_sampled(context, inputs, sampled)?;
+        bind_read(context, inputs, sampled, None)?;
         draw_splats(context, inputs, &splats, &lists, gate)?;
         draw_meshes(context, inputs, &meshes, gate)
     }));

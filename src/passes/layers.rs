@@ -115,11 +115,9 @@ pub(super) fn layers<'a>(
             counted,
         };
         let (depth, sums) = if inputs.settings.last_layer != LastLayer::Drop && !counted {
-            let before = match (inputs.settings.last_layer, sums_before.take()) {
-                (LastLayer::Stack, Some(LayerSums::Surface(splats, polygons))) => Some((splats, polygons)),
-                _ => None,
-            };
-            (None, LayerSums::Rest(layer_rest(graph, &layer)?, before))
+            let stacks = inputs.settings.last_layer == LastLayer::Stack;
+            let before = sums_before.take().filter(|_| stacks).unwrap_or_default();
+            (None, LayerSums { rest: Some(layer_rest(graph, &layer)?), ..before })
         } else {
             let depth = layer_visibility(graph, &layer)?;
             let splats = match inputs.draws.is_empty() {
@@ -130,7 +128,7 @@ pub(super) fn layers<'a>(
                 true => None,
                 false => Some(layer_polygons(graph, &layer, &depth)?),
             };
-            (Some(depth), LayerSums::Surface(splats, polygons))
+            (Some(depth), LayerSums { rest: None, splats, polygons })
         };
         composed = Some(layer_compose(graph, &layer, &sums, composed)?);
         (before, sums_before) = (depth, Some(sums));

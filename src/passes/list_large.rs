@@ -15,7 +15,7 @@ use crate::{
         Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    shaders::{self, Shader},
+    shaders::{self, Shader, config::*},
     vk::ComputePipeline,
 };
 
@@ -117,7 +117,11 @@ pub(super) fn list_large<'a>(
         );
     }
     pass.finish(Box::new(move |context| {
-        count.record(context, |ids| vec![(0, ids.bits), (1, ids.counts)], blocks_of)
+        count.record(
+            context,
+            |ids| vec![(BIND_LIST_BITS, ids.bits), (BIND_LIST_STARTS, ids.counts)],
+            blocks_of,
+        )
     }));
 
     let scan = Dispatches::new(inputs, &ids, &shaders::LARGE_SCAN_COMP)?;
@@ -130,7 +134,11 @@ pub(super) fn list_large<'a>(
         );
     }
     pass.finish(Box::new(move |context| {
-        scan.record(context, |ids| vec![(1, ids.counts), (3, ids.arguments)], |_| 1)
+        scan.record(
+            context,
+            |ids| vec![(BIND_LIST_STARTS, ids.counts), (BIND_LIST_ARGUMENTS, ids.arguments)],
+            |_| 1,
+        )
     }));
 
     let place = Dispatches::new(inputs, &ids, &shaders::LARGE_LIST_COMP)?;
@@ -142,7 +150,13 @@ pub(super) fn list_large<'a>(
             .write(&mut list.list, Access::StorageWriteCompute, Start::Discard);
     }
     pass.finish(Box::new(move |context| {
-        place.record(context, |ids| vec![(0, ids.bits), (1, ids.counts), (2, ids.list)], blocks_of)
+        place.record(
+            context,
+            |ids| {
+                vec![(BIND_LIST_BITS, ids.bits), (BIND_LIST_STARTS, ids.counts), (BIND_LIST_ITEMS, ids.list)]
+            },
+            blocks_of,
+        )
     }));
     Ok(lists)
 }

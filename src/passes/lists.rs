@@ -12,6 +12,7 @@ use crate::{
         Graph, Handle, Image, PassBuilder,
         execute::{Body, PassContext},
     },
+    shaders::config::*,
     vk::Descriptor,
 };
 
@@ -80,8 +81,8 @@ impl ListIds {
     pub fn descriptors(&self, context: &PassContext<'_>, chunk: usize) -> Result<Vec<(u32, Descriptor)>> {
         let mut given = Vec::new();
         if let Some(large) = self.large(chunk) {
-            given.push((0, context.descriptor(large.bits)?));
-            given.push((2, context.descriptor(large.list)?));
+            given.push((BIND_LIST_BITS, context.descriptor(large.bits)?));
+            given.push((BIND_LIST_ITEMS, context.descriptor(large.list)?));
         }
         Ok(given)
     }

@@ -46,7 +46,7 @@ mod visibility;
 use ash::vk;
 
 pub use catalog::{Traits, frame_pipelines, papers_pipelines};
-pub use constants::{ExportConstants, FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
+pub use constants::{FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
 pub use draws::{Draw, draws};
 pub use export::Exported;
 pub use floor::{

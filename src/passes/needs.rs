@@ -26,6 +26,8 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     let layers = if plan.transparent.is_empty() { 0 } else { settings.layers.most() };
     // For each such chunk: three passes that list large ones, two that draw them, in each layer.
     let lists = 5 * listed(&plan.opaque) + (3 + 2 * layers) * listed(&plan.transparent);
+    // Without lists, what draws splats: visibility and accumulation, also of each layer.
+    let lists = lists + 2 + 2 * layers;
     // Of kept splats: three passes that list them, twice, and one that sets them up.
     let kept = |part: &SurfacePlan<'_>| {
         let bands = part.bands().iter().filter(|band| band.visible.is_some()).count();
@@ -34,10 +36,11 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     };
     let lists = lists + kept(&plan.opaque) + kept(&plan.transparent);
     let bands = plan.opaque.bands().len() as u32;
-    // What fragments read: in accumulation, of each band; in each layer's visibility, accumulation and polygons.
-    let reads = 1 + bands + 3 * layers;
-    // Sums: for finalization, of tiles and of polygons; the depth of tiles of each band; and each layer.
-    let sums = 2 + bands + layers;
+    // What fragments read: in visibility and accumulation, of each band, too; of polygons; in each layer's visibility, accumulation
+    // and polygons.
+    let reads = 3 + 2 * bands + 3 * layers;
+    // Sums: for finalization, of tiles and of polygons, and for the export; the depth of tiles of each band; and each layer.
+    let sums = 3 + bands + layers;
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
     let tiles = bands_of_all
         .map(|band| tiles::room(&band.plan))
@@ -47,7 +50,7 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
         room: PoolRoom {
             sets: reads + sums + 1,
             uniform_buffers: reads + sums,
-            images: 2 * reads + 5 * sums + 4,
+            images: 2 * reads + 5 * sums + 1,
             filtered_images: reads,
             ..PoolRoom::default()
         }

@@ -15,7 +15,7 @@ use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
     scene::Settings,
-    shaders,
+    shaders::{self, config::*},
     vk::Blend,
 };
 
@@ -50,7 +50,7 @@ pub fn paper_frame<'a>(
     target_format: vk::Format,
     filtered: bool,
 ) -> Result<()> {
-    let kernel = kernel_texture::kernel_texture(graph, inputs, &shaders::PAPER_KERNEL_FRAG)?;
+    let kernel = kernel_texture::kernel_texture(graph, inputs, true)?;
     let [visibility_key, accumulate_key] = keys(inputs.settings, filtered);
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
     let body = draw_points(inputs, visibility_key, kernel.id())?;
@@ -84,7 +84,7 @@ fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, kernel: ResourceId) -> 
     let pipeline = inputs.shaders.graphics(key)?;
     Ok(Box::new(move |context| {
         let texture = context.descriptor(kernel)?;
-        let texture = inputs.descriptors.set(&inputs.shaders.read_set, &[(1, texture)])?;
+        let texture = inputs.descriptors.set(&inputs.shaders.read_set, &[(BIND_READ_KERNEL, texture)])?;
         let (device, commands) = (context.device(), context.commands());
         let bind_point = vk::PipelineBindPoint::GRAPHICS;
         for draw in inputs.draws {

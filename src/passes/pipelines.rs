@@ -12,18 +12,15 @@ use super::{constants, splat_shaders::Stages, tiles, variant::Constants};
 use crate::{
     error::{Error, Result},
     prepare::SplatSetLayout,
-    shaders::{self, Shader},
+    shaders::{self, Shader, config::*},
     vk::{
         Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
         GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, StandIns,
     },
 };
 
-/// Bindings of set 1 of the splat passes for lists of large splats.
-pub(super) const LARGE_BINDINGS: u32 = 4;
-
-/// The same with the blocks of kept splats.
-const LIST_BINDINGS: u32 = LARGE_BINDINGS + 1;
+/// Bindings of set 1 of the splat passes.
+const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
 
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
 pub fn room_of_lists(sets: u32) -> PoolRoom {
@@ -39,16 +36,12 @@ pub struct Shaders {
     stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
     pub splat_set: SplatSetLayout,
-    /// Set 1 of the splat passes: bits, block counts, list and draw arguments of large splats; blocks of kept ones.
+    /// Set 1 of the splat passes: `BIND_LIST_*`.
     pub(super) list_set: SetLayout,
-    /// Set 2 of the splat passes and of polygons: a depth to compare with (the visible one where depth is summed, that
-    /// of the layer before where layers are peeled), the kernel where it is a texture, the depth of polygons, lights.
+    /// Set 2 of the splat passes and of polygons: `BIND_READ_*`.
     pub(super) read_set: SetLayout,
-    /// Set 0 of finalization and of layers: the sums of splats and of polygons, each of colors and normals; the layers;
-    /// lights.
+    /// Set 0 of the passes over the whole image: `BIND_SUMS_*`.
     pub(super) sums_set: SetLayout,
-    /// Set 0 of export: the sums and the visible depth.
-    pub(super) surface_set: SetLayout,
     /// Set 0 of the hierarchy of depth: the depth, the hierarchy.
     pub(super) cells_set: SetLayout,
     pub(super) splat_layout: PipelineLayout,
@@ -56,7 +49,6 @@ pub struct Shaders {
     /// counts begins after constants were pushed for the stages of a graphics pipeline and before one was bound.
     pub(super) list_layout: PipelineLayout,
     pub(super) finalize_layout: PipelineLayout,
-    pub(super) export_layout: PipelineLayout,
     pub(super) cells_layout: PipelineLayout,
     /// Those of tiles; none on a device with too few storage buffers.
     tiles: Option<tiles::TileLayouts>,
@@ -71,7 +63,6 @@ pub(super) enum Layout {
     Splat,
     List,
     Finalize,
-    Export,
     DepthCells,
     Record,
     Tile,
@@ -122,7 +113,6 @@ impl Shaders {
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
         let read_set = set("read by fragments", &[image, filtered, image, lights])?;
         let sums_set = set("sums", &[image, image, image, image, image, lights])?;
-        let surface_set = set("surface", &[image; 3])?;
         let splat_layout = PipelineLayout::new(
             device,
             "splat passes",
@@ -144,13 +134,6 @@ impl Shaders {
             size_of::<constants::FinalizeConstants>() as u32,
             fragment,
         )?;
-        let export_layout = PipelineLayout::new(
-            device,
-            "export",
-            &[&surface_set],
-            size_of::<constants::ExportConstants>() as u32,
-            fragment,
-        )?;
         let fetched = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: compute };
         let cells_set = set("cells of depth", &[fetched, buffer])?;
         let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
@@ -168,11 +151,9 @@ impl Shaders {
             list_set,
             read_set,
             sums_set,
-            surface_set,
             splat_layout,
             list_layout,
             finalize_layout,
-            export_layout,
             cells_set,
             cells_layout,
             tiles,
@@ -219,7 +200,6 @@ impl Shaders {
             Layout::Splat => &self.splat_layout,
             Layout::List => &self.list_layout,
             Layout::Finalize => &self.finalize_layout,
-            Layout::Export => &self.export_layout,
             Layout::DepthCells => &self.cells_layout,
             Layout::Record => &self.tiles()?.record,
             Layout::Tile => &self.tiles()?.tile,
@@ -273,7 +253,7 @@ impl Shaders {
     #[cfg(feature = "test-formulas")]
     fn perturb(&self, constants: &mut Constants) {
         if let Some(formula) = self.perturbed {
-            constants.push((31, formula as u32));
+            constants.push((SPEC_PERTURBED_FORMULA, formula as u32));
         }
     }
 

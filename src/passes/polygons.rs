@@ -16,7 +16,7 @@ use crate::{
     error::Result,
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::{Accumulate, Settings},
-    shaders,
+    shaders::{self, config::*},
     vk::Blend,
 };
 
@@ -33,16 +33,12 @@ pub(super) fn mesh_pass(settings: &Settings) -> MeshPass {
 
 /// What the pass is made of that shades them; `precision`: of what it leaves.
 pub(super) fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
-    let fragment = match (precision, lights > 0) {
-        (Accumulate::F16, false) => &shaders::POLYGONS_SHADED_HALF_FRAG,
-        (Accumulate::F16, true) => &shaders::POLYGONS_SHADED_HALF_LIT_FRAG,
-        (Accumulate::F32, false) => &shaders::POLYGONS_SHADED_SINGLE_FRAG,
-        (Accumulate::F32, true) => &shaders::POLYGONS_SHADED_SINGLE_LIT_FRAG,
-    };
+    let mut constants = shading_constants(settings.shading, lights);
+    constants.push((SPEC_HALF_FLOATS, u32::from(precision == Accumulate::F16)));
     MeshPass {
-        fragment,
+        fragment: &shaders::POLYGONS_SHADED_FRAG,
         color_formats: vec![sum_format(precision)],
-        constants: shading_constants(settings.shading, lights),
+        constants,
         ..mesh_pass(settings)
     }
 }

@@ -9,18 +9,22 @@ use super::{
     gate::Gate,
     lists::ListIds,
     pipelines::{GraphicsKey, Layout},
-    splat_shaders::{Primitive, SplatShaders, Stages},
+    splat_shaders::{Drawn, Primitive, Stages},
     variant::Constants,
 };
 use crate::{
     error::Result,
     graph::{ResourceId, execute::PassContext},
+    scene::Settings,
+    shaders::config::*,
     vk::{Blend, ComputePipeline, GraphicsPipeline},
 };
 
 /// What a splat pass is made of: its shaders, and what it writes.
 pub(super) struct SplatPass {
-    pub shaders: SplatShaders,
+    pub primitive: Primitive,
+    pub stages: Stages,
+    pub stages_of_quads: Stages,
     pub color_formats: Vec<vk::Format>,
     /// The depth test and whether it writes, where there is one.
     pub depth: Option<(vk::CompareOp, bool)>,
@@ -28,17 +32,45 @@ pub(super) struct SplatPass {
     pub constants: Constants,
 }
 
+/// Which splats of a chunk a draw is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Portion {
+    /// All, as the rasterizer's own primitive.
+    All,
+    /// Those that are not listed as large, as the same.
+    Small,
+    /// Those that are, as quads.
+    Large,
+}
+
 /// The pipelines for one draw: of the rasterizer's own primitive, and quads where there may be large splats.
 pub(super) struct DrawPipelines {
-    primitive: Primitive,
     own: Arc<GraphicsPipeline>,
     quads: Option<Arc<GraphicsPipeline>>,
 }
 
 impl SplatPass {
-    /// What the pipeline is that draws splats of a variant as a primitive.
-    pub fn key(&self, stages: Stages, primitive: Primitive, variant: &Constants) -> GraphicsKey {
-        let constants = [variant.as_slice(), &self.constants].concat();
+    /// A pass with the shaders of what these settings draw, without color, depth and constants of its own: to be completed.
+    pub fn new(settings: &Settings, stages: impl Fn(Drawn) -> Stages) -> Self {
+        let primitive = Primitive::of(settings.rasterizer);
+        Self {
+            primitive,
+            stages: stages(Drawn::of(primitive, settings)),
+            stages_of_quads: stages(Drawn::of(Primitive::Quad, settings)),
+            color_formats: Vec::new(),
+            depth: None,
+            constants: Vec::new(),
+        }
+    }
+
+    /// What the pipeline is that draws a portion of the splats of a variant.
+    pub fn key(&self, portion: Portion, variant: &Constants) -> GraphicsKey {
+        let (primitive, stages) = match portion {
+            Portion::Large => (Primitive::Quad, self.stages_of_quads),
+            Portion::All | Portion::Small => (self.primitive, self.stages),
+        };
+        let some_large = (SPEC_SOME_LARGE, u32::from(portion != Portion::All));
+        let constants = [variant.as_slice(), &self.constants, &[some_large]].concat();
         GraphicsKey {
             color_formats: self.color_formats.clone(),
             blend: Blend::Add,
@@ -49,24 +81,17 @@ impl SplatPass {
 
     /// The pipelines that draw listed splats as quads, one a draw.
     pub fn quad_pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<Arc<GraphicsPipeline>>> {
-        let key = |draw: &Draw<'_>| self.key(self.shaders.listed, Primitive::Quad, &draw.variant);
+        let key = |draw: &Draw<'_>| self.key(Portion::Large, &draw.variant);
         inputs.draws.iter().map(|draw| inputs.shaders.graphics(key(draw))).collect()
     }
 
     /// The pipelines of every draw, in their order.
     pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
-        let make = |stages: Stages, primitive: Primitive, draw: &Draw<'_>| {
-            inputs.shaders.graphics(self.key(stages, primitive, &draw.variant))
-        };
-        let primitive = Primitive::of(inputs.settings.rasterizer);
         let both = |draw: &Draw<'_>| {
-            let own = if draw.may_be_large { self.shaders.small } else { self.shaders.all };
-            let quads = draw.may_be_large.then_some(self.shaders.listed);
-            Ok(DrawPipelines {
-                primitive,
-                own: make(own, primitive, draw)?,
-                quads: quads.map(|quads| make(quads, Primitive::Quad, draw)).transpose()?,
-            })
+            let make = |portion| inputs.shaders.graphics(self.key(portion, &draw.variant));
+            let own = if draw.may_be_large { Portion::Small } else { Portion::All };
+            let quads = draw.may_be_large.then(|| make(Portion::Large)).transpose()?;
+            Ok(DrawPipelines { own: make(own)?, quads })
         };
         inputs.draws.iter().map(both).collect()
     }
@@ -83,12 +108,15 @@ pub(super) fn draw_splats(
     let (device, commands) = (context.device(), context.commands());
     let layout = &inputs.shaders.splat_layout;
     let bind_point = vk::PipelineBindPoint::GRAPHICS;
+    let primitive = Primitive::of(inputs.settings.rasterizer);
+    // Chunks without lists share a set of stand-ins.
+    let unlisted = inputs.descriptors.set(&inputs.shaders.list_set, &[])?;
     for ((number, draw), pipelines) in inputs.draws.iter().enumerate().zip(pipelines) {
-        let mut sets = vec![draw.chunk.set()];
-        let given = lists.descriptors(context, number)?;
-        if !given.is_empty() {
-            sets.push(inputs.descriptors.set(&inputs.shaders.list_set, &given)?);
-        }
+        let list = match lists.descriptors(context, number)? {
+            given if given.is_empty() => unlisted,
+            given => inputs.descriptors.set(&inputs.shaders.list_set, &given)?,
+        };
+        let sets = [draw.chunk.set(), list];
         let arguments = lists.large(number).map(|large| context.buffer(large.arguments)).transpose()?;
         // SAFETY: inside of rendering, with pipelines, sets and push constants of one layout; the graph's barriers
         // order what the draws read.
@@ -101,7 +129,7 @@ pub(super) fn draw_splats(
                 (Some(gate), _) => gate.draw_splats(context, number)?,
                 (None, Some(kept)) => kept.draw_points(context, number)?,
                 (None, None) => {
-                    let [vertices, instances] = pipelines.primitive.counts(draw.chunk.count);
+                    let [vertices, instances] = primitive.counts(draw.chunk.count);
                     device.cmd_draw(commands, vertices, instances, 0, 0);
                 }
             }

@@ -3,8 +3,7 @@
 use ash::vk;
 
 use crate::{
-    error::{Error, Result},
-    scene::{Filter, KernelEval, Rasterizer, Settings},
+    scene::{Filter, Rasterizer, Settings},
     shaders::{self, Shader},
 };
 
@@ -51,28 +50,78 @@ impl Primitive {
     }
 }
 
-/// The shaders of one splat pass.
-pub(super) struct SplatShaders {
-    /// For chunks whose splats are all drawn as the rasterizer's own primitive.
-    pub all: Stages,
-    /// For the others: those of their splats that are.
-    pub small: Stages,
-    /// And those that are drawn as quads, from the list.
-    pub listed: Stages,
+/// A primitive and what its vertex stage hands to fragments (`glsl/inc/varyings.glsl`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Drawn {
+    PlainPoints,
+    CenterPoints,
+    RayPoints,
+    FullQuads,
+    CenterQuads,
+    RayQuads,
+    Triangles,
 }
 
-/// The words that choose among the permutations of a splat pass, beside primitive and interface.
-pub(super) struct Words {
-    /// `visibility` or `accumulate`.
-    pub pass: &'static str,
-    /// Of the vertex stage.
-    pub vertex: Option<&'static str>,
-    /// Of the vertex stage of triangles.
-    pub triangle_vertex: Option<&'static str>,
-    /// Of the fragment stage, in their order.
-    pub fragment: Vec<&'static str>,
-    /// Of the fragment stage of triangles.
-    pub triangle_fragment: Vec<&'static str>,
+impl Drawn {
+    /// Splats of these settings as that primitive.
+    pub fn of(primitive: Primitive, settings: &Settings) -> Self {
+        use Rasterizer::{AffineContour, PerspectivePaper, Raycast, RaycastApproximate};
+        let rays = matches!(settings.rasterizer, Raycast | RaycastApproximate);
+        let max = settings.filter == Filter::Max;
+        // Not expanded about the projected center, which the low-pass filter is around.
+        let elsewhere = matches!(settings.rasterizer, PerspectivePaper | AffineContour);
+        match primitive {
+            Primitive::Point if rays => Self::RayPoints,
+            Primitive::Point if max && elsewhere => Self::CenterPoints,
+            Primitive::Point => Self::PlainPoints,
+            Primitive::Quad if rays => Self::RayQuads,
+            Primitive::Quad if max => Self::CenterQuads,
+            Primitive::Quad => Self::FullQuads,
+            Primitive::Triangle => Self::Triangles,
+        }
+    }
+
+    /// The shaders of visibility; `layer`: of a transparent layer.
+    pub fn visibility(self, layer: bool) -> Stages {
+        match self {
+            Self::PlainPoints => (&shaders::VISIBILITY_POINTS_PLAIN_VERT, &shaders::VISIBILITY_PLAIN_FRAG),
+            Self::CenterPoints => (&shaders::VISIBILITY_POINTS_CENTER_VERT, &shaders::VISIBILITY_CENTER_FRAG),
+            Self::RayPoints => (&shaders::VISIBILITY_POINTS_RAYS_VERT, &shaders::VISIBILITY_RAYS_FRAG),
+            Self::FullQuads => (&shaders::VISIBILITY_QUADS_FULL_VERT, &shaders::VISIBILITY_FULL_FRAG),
+            Self::CenterQuads => (&shaders::VISIBILITY_QUADS_CENTER_VERT, &shaders::VISIBILITY_CENTER_FRAG),
+            Self::RayQuads => (&shaders::VISIBILITY_QUADS_RAYS_VERT, &shaders::VISIBILITY_RAYS_FRAG),
+            Self::Triangles if layer => {
+                (&shaders::VISIBILITY_TRIANGLES_VERT, &shaders::VISIBILITY_TRIANGLES_OWN_DEPTH_FRAG)
+            }
+            Self::Triangles => (&shaders::VISIBILITY_TRIANGLES_VERT, &shaders::VISIBILITY_TRIANGLES_FRAG),
+        }
+    }
+
+    /// The shaders of accumulation.
+    pub fn accumulate(self, summed: Summed) -> Stages {
+        let alone = matches!(summed, Summed::Opaque { beside_polygons: false, .. });
+        match self {
+            Self::PlainPoints if alone => {
+                (&shaders::ACCUMULATE_POINTS_PLAIN_VERT, &shaders::ACCUMULATE_PLAIN_FRAG)
+            }
+            Self::PlainPoints => {
+                (&shaders::ACCUMULATE_POINTS_PLAIN_FOURTH_VERT, &shaders::ACCUMULATE_PLAIN_FOURTH_FRAG)
+            }
+            Self::CenterPoints => (&shaders::ACCUMULATE_POINTS_CENTER_VERT, &shaders::ACCUMULATE_CENTER_FRAG),
+            Self::RayPoints => {
+                (&shaders::ACCUMULATE_POINTS_RAYS_FOURTH_VERT, &shaders::ACCUMULATE_RAYS_FOURTH_FRAG)
+            }
+            Self::FullQuads => (&shaders::ACCUMULATE_QUADS_FULL_VERT, &shaders::ACCUMULATE_FULL_FRAG),
+            Self::CenterQuads => (&shaders::ACCUMULATE_QUADS_CENTER_VERT, &shaders::ACCUMULATE_CENTER_FRAG),
+            Self::RayQuads => {
+                (&shaders::ACCUMULATE_QUADS_RAYS_FOURTH_VERT, &shaders::ACCUMULATE_RAYS_FOURTH_FRAG)
+            }
+            Self::Triangles if summed.is_transparent() => {
+                (&shaders::ACCUMULATE_TRIANGLES_VERT, &shaders::ACCUMULATE_TRIANGLES_OWN_DEPTH_FRAG)
+            }
+            Self::Triangles => (&shaders::ACCUMULATE_TRIANGLES_VERT, &shaders::ACCUMULATE_TRIANGLES_FRAG),
+        }
+    }
 }
 
 /// What accumulation sums, and of which fragments.
@@ -86,142 +135,13 @@ pub(super) enum Summed {
         beside_polygons: bool,
     },
     /// A transparent layer: color, normal and alpha.
-    Layer {
-        /// Behind the one before.
-        peeled: bool,
-    },
+    Layer,
     /// All that is left for the last layer: lit colors, weighted by alpha.
-    Rest {
-        /// Behind the layer before.
-        peeled: bool,
-        /// By lights of the scene's own.
-        lit: bool,
-    },
+    Rest,
 }
 
-impl Words {
-    /// Of visibility: of the opaque part (`None`), or of a layer, perhaps behind one that was peeled off.
-    pub fn visibility(layer: Option<bool>) -> Self {
-        let peeled = (layer == Some(true)).then_some("peeled");
-        Self {
-            pass: "visibility",
-            vertex: None,
-            triangle_vertex: layer.map(|_| "layer"),
-            fragment: peeled.into_iter().collect(),
-            triangle_fragment: layer
-                .map(|peeled| if peeled { "layer_peeled" } else { "layer" })
-                .into_iter()
-                .collect(),
-        }
-    }
-
-    /// Of accumulation.
-    pub fn accumulate(settings: &Settings, summed: Summed) -> Self {
-        let textured = (settings.kernel_eval == KernelEval::Texture).then_some("textured");
-        let (kind, [third, fourth]) = match summed {
-            Summed::Opaque { with_depth, beside_polygons } => {
-                let beside = beside_polygons.then_some("beside");
-                (beside, [with_depth.then_some("with_depth"), beside])
-            }
-            Summed::Layer { peeled } => (Some("layer"), [Some("layer"), peeled.then_some("peeled")]),
-            Summed::Rest { peeled, lit } => {
-                let vertex = if lit { "blended_lit" } else { "blended" };
-                (Some(vertex), [Some("blended"), peeled.then_some("peeled")])
-            }
-        };
-        let fragment: Vec<_> = [textured, third, fourth].into_iter().flatten().collect();
-        let triangle_fragment = fragment.clone();
-        Self { pass: "accumulate", vertex: kind, triangle_vertex: kind, fragment, triangle_fragment }
-    }
-}
-
-/// The shaders of a splat pass.
-pub(super) fn splat_shaders(settings: &Settings, words: &Words) -> Result<SplatShaders> {
-    let pass = words.pass;
-    let [own, quads] = interfaces(settings);
-    let stages = |vertex: &str, interface: &str| {
-        let fragment: String = words.fragment.iter().map(|word| format!("_{word}")).collect();
-        let kind = words.vertex.map(|word| format!("_{word}")).unwrap_or_default();
-        Ok((
-            find(&format!("{pass}_{vertex}{kind}.vert"))?,
-            find(&format!("{pass}_{interface}{fragment}.frag"))?,
-        ))
-    };
-    let (all, small) = match Primitive::of(settings.rasterizer) {
-        Primitive::Point => {
-            (stages(&format!("points_{own}"), own), stages(&format!("small_points_{own}"), own))
-        }
-        // All are quads: there is no list, and nothing small.
-        Primitive::Quad => {
-            let all = || stages(&format!("quads_{quads}"), quads);
-            (all(), all())
-        }
-        Primitive::Triangle => {
-            (stages_of_triangles("triangles", words), stages_of_triangles("small_triangles", words))
-        }
-    };
-    Ok(SplatShaders { all: all?, small: small?, listed: stages(&format!("listed_quads_{quads}"), quads)? })
-}
-
-fn stages_of_triangles(vertex: &str, words: &Words) -> Result<Stages> {
-    let pass = words.pass;
-    let kind = words.triangle_vertex.map(|word| format!("_{word}")).unwrap_or_default();
-    let fragment: String = words.triangle_fragment.iter().map(|word| format!("_{word}")).collect();
-    Ok((find(&format!("{pass}_{vertex}{kind}.vert"))?, find(&format!("{pass}_triangles{fragment}.frag"))?))
-}
-
-/// What the vertex stage hands over (`glsl/inc/varyings.glsl`) of points, and of quads.
-fn interfaces(settings: &Settings) -> [&'static str; 2] {
-    use Rasterizer::{AffineContour, PerspectivePaper, Raycast, RaycastApproximate};
-    let max = settings.filter == Filter::Max;
-    match settings.rasterizer {
-        Raycast | RaycastApproximate => ["rays", "rays"],
-        // Not expanded about the projected center, which the low-pass filter is around.
-        PerspectivePaper | AffineContour if max => ["center", "center"],
-        _ if max => ["plain", "center"],
-        _ => ["plain", "full"],
-    }
-}
-
-pub(super) fn find(name: &str) -> Result<&'static Shader> {
-    shaders::by_name(name).ok_or_else(|| Error::option("shader", format!("{name}: not compiled")))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_setting_has_its_shaders() {
-        let mut checked = 0;
-        for (_, rasterizer) in Rasterizer::METHODS {
-            for (_, filter) in Filter::NAMES {
-                for (_, kernel_eval) in KernelEval::NAMES {
-                    let settings = Settings {
-                        rasterizer: *rasterizer,
-                        filter: *filter,
-                        kernel_eval: *kernel_eval,
-                        ..Settings::default()
-                    };
-                    if settings.validate().is_err() {
-                        continue;
-                    }
-                    for choice in [false, true] {
-                        let of = |layer| splat_shaders(&settings, &Words::visibility(layer));
-                        of(Some(choice)).and(of(None)).unwrap();
-                        for other in [false, true] {
-                            let opaque = Summed::Opaque { with_depth: choice, beside_polygons: other };
-                            let layer = Summed::Layer { peeled: choice };
-                            let rest = Summed::Rest { peeled: choice, lit: other };
-                            for summed in [opaque, layer, rest] {
-                                splat_shaders(&settings, &Words::accumulate(&settings, summed)).unwrap();
-                            }
-                        }
-                    }
-                    checked += 1;
-                }
-            }
-        }
-        assert!(checked > 100, "{checked}");
+impl Summed {
+    fn is_transparent(self) -> bool {
+        !matches!(self, Self::Opaque { .. })
     }
 }

@@ -107,9 +107,5 @@ pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
         Shading::Normals => SHADING_NORMALS,
         Shading::Albedo => SHADING_ALBEDO,
     };
-    let mut constants = vec![(SPEC_SHADING, number)];
-    if lights > 0 {
-        constants.push((SPEC_LIGHTS, lights));
-    }
-    constants
+    vec![(SPEC_SHADING, number), (SPEC_LIGHTS, lights)]
 }

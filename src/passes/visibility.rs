@@ -4,24 +4,24 @@ use ash::vk;
 
 use super::{
     DEPTH_FORMAT, Inputs,
+    accumulate::bind_read,
     lists::Lists,
     splat_pass::{SplatPass, draw_splats},
-    splat_shaders::{Words, splat_shaders},
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::Settings,
+    shaders::config::*,
 };
 
 /// What the pass is made of: for the opaque part, or for a layer, perhaps behind one that was peeled off.
-pub(super) fn splat_pass(settings: &Settings, layer: Option<bool>) -> Result<SplatPass> {
-    Ok(SplatPass {
-        shaders: splat_shaders(settings, &Words::visibility(layer))?,
-        color_formats: Vec::new(),
+pub(super) fn splat_pass(settings: &Settings, layer: Option<bool>) -> SplatPass {
+    SplatPass {
         depth: Some((vk::CompareOp::GREATER, true)),
-        constants: Vec::new(),
-    })
+        constants: vec![(SPEC_PEELED, u32::from(layer == Some(true)))],
+        ..SplatPass::new(settings, |drawn| drawn.visibility(layer.is_some()))
+    }
 }
 
 /// Declares the pass; returns its reversed depth: near / z, 0 where there is nothing.
@@ -30,7 +30,7 @@ pub(super) fn visibility<'a>(
     inputs: Inputs<'a>,
     lists: &Lists,
 ) -> Result<Handle<Image>> {
-    let pipelines = splat_pass(inputs.settings, None)?.pipelines(inputs)?;
+    let pipelines = splat_pass(inputs.settings, None).pipelines(inputs)?;
 
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
     let pass = graph.pass("visibility").write(
@@ -39,6 +39,9 @@ pub(super) fn visibility<'a>(
         Start::Clear(ClearValue::Depth(0.0)),
     );
     let ids = lists.ids();
-    lists.read(pass).finish(Box::new(move |context| draw_splats(context, inputs, &pipelines, &ids, None)));
+    lists.read(pass).finish(Box::new(move |context| {
+        bind_read(context, inputs, [None; 3], None)?;
+        draw_splats(context, inputs, &pipelines, &ids, None)
+    }));
     Ok(depth)
 }

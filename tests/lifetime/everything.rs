@@ -87,7 +87,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let desc = GraphicsPipelineDesc {
         name: "graphics",
         vertex: stage(&shaders::FULLSCREEN_VERT),
-        fragment: stage(&shaders::FINALIZE_SPLATS_FRAG),
+        fragment: stage(&shaders::FINALIZE_FRAG),
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
         cull_clockwise: false,
         color_formats: &[FORMAT],

@@ -2,9 +2,7 @@
 
 use super::{
     super::{
-        layer_accumulate,
-        layer_compose::{self, LayerKind},
-        layer_rest, layer_visibility,
+        layer_accumulate, layer_compose, layer_rest, layer_visibility,
         recipe::{PipelineRecipe, compute, graphics},
         splat_pass::SplatPass,
         splat_shaders::Primitive,
@@ -44,9 +42,9 @@ pub(super) fn drawn(settings: &Settings, traits: Traits) -> Result<Vec<PipelineR
         };
         let rest = ["accumulate the only layer", "accumulate the last layer"][usize::from(peeled)];
         let of_splats = [
-            (names[0], visibility::splat_pass(settings, Some(peeled))?),
-            (names[1], layer_accumulate::splat_pass(settings, peeled)?),
-            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lights())?),
+            (names[0], visibility::splat_pass(settings, Some(peeled))),
+            (names[1], layer_accumulate::splat_pass(settings, peeled)),
+            (rest, layer_rest::splat_pass(settings, peeled, true, traits.lights())),
         ];
         for (name, pass) in &of_splats {
             all.extend(splats(pass).into_iter().map(|(draws, key)| graphics(name, draws, key)));
@@ -60,12 +58,9 @@ pub(super) fn drawn(settings: &Settings, traits: Traits) -> Result<Vec<PipelineR
             all.push(graphics(name, "triangles", pass.key(false, traits.closed)));
         }
     }
-    let surface = if traits.polygons { LayerKind::Hybrid } else { LayerKind::Splats };
-    all.push(graphics("compose a layer", "", layer_compose::key(settings, surface, traits.lights())));
-    all.push(graphics(
-        "compose the last layer",
-        "",
-        layer_compose::key(settings, LayerKind::Rest, traits.lights()),
-    ));
+    for (name, rest) in [("compose a layer", false), ("compose the last layer", true)] {
+        let of = if rest { [false; 2] } else { [true, traits.polygons] };
+        all.push(graphics(name, "", layer_compose::key(settings, rest, of, traits.lights())));
+    }
     Ok(all)
 }

@@ -4,6 +4,7 @@ use super::{
     super::{
         accumulate, cull, cull_hidden, kernel_texture, list_large,
         recipe::{PipelineRecipe, compute, graphics},
+        splat_pass::Portion,
         splat_shaders::{Primitive, Summed},
         tiles,
         variant::Constants,
@@ -14,7 +15,6 @@ use super::{
 use crate::{
     error::Result,
     scene::{Cull, KernelEval, Settings},
-    shaders,
 };
 
 /// By the graphics pipeline.
@@ -45,16 +45,12 @@ pub(super) fn drawn(
     let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
     let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
     let splat_passes = [
-        ("visibility", visibility::splat_pass(settings, None)?),
-        (accumulate_name, accumulate::splat_pass(settings, summed)?),
+        ("visibility", visibility::splat_pass(settings, None)),
+        (accumulate_name, accumulate::splat_pass(settings, summed)),
     ];
     for (pass, splats) in splat_passes {
         if pass == accumulate_name && settings.kernel_eval == KernelEval::Texture {
-            all.push(graphics(
-                "kernel texture",
-                "",
-                kernel_texture::key(&shaders::KERNEL_TEXTURE_FRAG, settings.kernel),
-            ));
+            all.push(graphics("kernel texture", "", kernel_texture::key(settings.kernel, false)));
         }
         let keys = splat_keys(&splats, settings, variant, has_list);
         all.extend(keys.into_iter().map(|(draws, key)| graphics(pass, draws, key)));
@@ -86,10 +82,10 @@ pub(super) fn by_tiles(
     if may_be_large {
         let summed = Summed::Opaque { with_depth: export, beside_polygons: polygons };
         for (pass, splats) in [
-            ("see large splats", visibility::splat_pass(settings, None)?),
-            ("sum large splats", accumulate::splat_pass(settings, summed)?),
+            ("see large splats", visibility::splat_pass(settings, None)),
+            ("sum large splats", accumulate::splat_pass(settings, summed)),
         ] {
-            let key = splats.key(splats.shaders.listed, Primitive::Quad, variant);
+            let key = splats.key(Portion::Large, variant);
             all.push(graphics(pass, "listed quads", key));
         }
     }

@@ -21,7 +21,7 @@ use crate::{
     },
     report::Limit,
     scene::{Settings, TileInvocations},
-    shaders::{self, Shader},
+    shaders::{self, Shader, config::*},
     vk::{Blend, DescriptorPool, Limits},
 };
 
@@ -32,8 +32,7 @@ const KERNEL_SPLATS: u32 = 64;
 #[derive(Clone, Copy, Debug)]
 pub struct LimitDispatch {
     shader: &'static Shader,
-    access: Access,
-    content: Start,
+    atomics: bool,
     groups: u32,
     /// Invocations of it.
     pub invocations: u64,
@@ -46,7 +45,7 @@ pub struct LimitDispatch {
 impl LimitDispatch {
     /// That of a limit as this device has it; `None` where it is not one of compute.
     pub fn of(limit: Limit, limits: &Limits) -> Option<Self> {
-        // As in `glsl/limit_compute.comp.glsl` and `limit_atomics.comp.glsl`.
+        // As in `glsl/limit_compute.comp.glsl`.
         const GROUP: u64 = 256;
         const GROUPS: u32 = 4096;
         // As in `glsl/limit_kernels.comp.glsl`.
@@ -54,8 +53,7 @@ impl LimitDispatch {
         const GROUPS_OF_KERNELS: u32 = 256;
         let nothing = Self {
             shader: &shaders::LIMIT_COMPUTE_COMP,
-            access: Access::StorageWriteCompute,
-            content: Start::Discard,
+            atomics: false,
             groups: GROUPS,
             invocations: GROUP * u64::from(GROUPS),
             units: GROUP * u64::from(GROUPS),
@@ -63,13 +61,7 @@ impl LimitDispatch {
         };
         match limit {
             Limit::Invocations => Some(nothing),
-            Limit::Atomics => Some(Self {
-                shader: &shaders::LIMIT_ATOMICS_COMP,
-                access: Access::StorageReadWriteCompute,
-                content: Start::Load,
-                words: nothing.invocations,
-                ..nothing
-            }),
+            Limit::Atomics => Some(Self { atomics: true, words: nothing.invocations, ..nothing }),
             Limit::Kernels => {
                 let invocations = GROUP_OF_KERNELS * u64::from(GROUPS_OF_KERNELS);
                 let (shader, pixels) = match Invocations::of(TileInvocations::Auto, limits, false) {
@@ -210,25 +202,27 @@ pub fn limit_dispatch<'a>(
     dispatch: LimitDispatch,
     words: &mut Handle<Buffer>,
 ) -> Result<()> {
-    let LimitDispatch { shader, access, content, groups, .. } = dispatch;
+    let LimitDispatch { shader, atomics, groups, .. } = dispatch;
     // Those that are not the shader's own have no effect.
     let mut constants = splat_constants(inputs.settings, false, false);
-    constants.push((27, KERNEL_SPLATS));
+    constants.extend([(SPEC_LIMIT_SPLATS, KERNEL_SPLATS), (SPEC_ATOMICS, atomics.into())]);
     let pipeline = inputs.shaders.compute(ComputeKey { shader, layout: Layout::List, constants })?;
     let id = words.id();
-    graph.pass(limit.name()).write(words, access, content).finish(Box::new(move |context| {
-        let (device, commands) = (context.device(), context.commands());
-        let bind_point = vk::PipelineBindPoint::COMPUTE;
-        let layout = inputs.shaders.list_layout.raw();
-        let set = set_of(context, inputs, id)?;
-        // SAFETY: pipeline and set have one layout, whose push constants the shader does not use.
-        unsafe {
-            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-            device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
-            device.cmd_dispatch(commands, groups, inputs.repeats, 1);
-        }
-        Ok(())
-    }));
+    graph.pass(limit.name()).write(words, Access::StorageReadWriteCompute, Start::Load).finish(Box::new(
+        move |context| {
+            let (device, commands) = (context.device(), context.commands());
+            let bind_point = vk::PipelineBindPoint::COMPUTE;
+            let layout = inputs.shaders.list_layout.raw();
+            let set = set_of(context, inputs, id)?;
+            // SAFETY: pipeline and set have one layout, whose push constants the shader does not use.
+            unsafe {
+                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+                device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
+                device.cmd_dispatch(commands, groups, inputs.repeats, 1);
+            }
+            Ok(())
+        },
+    ));
     Ok(())
 }
 
@@ -238,6 +232,6 @@ fn set_of(
     inputs: LimitInputs<'_>,
     buffer: ResourceId,
 ) -> Result<vk::DescriptorSet> {
-    let given = [(0, context.descriptor(buffer)?)];
+    let given = [(BIND_LIST_POINTS, context.descriptor(buffer)?)];
     inputs.descriptors.set(&inputs.shaders.list_set, &given)
 }

@@ -30,8 +30,12 @@ pub(super) fn keys(plan: &TilePlan, kept: bool) -> [ComputeKey; 4] {
     let walk = |shader: &'static Shader| {
         let texels = u32::from(plan.invocations.fetch_texels());
         let large = u32::from(plan.may_be_large);
-        let constants =
-            [place_bits(plan), (SPEC_KEPT, u32::from(kept)), (SPEC_TEXELS, texels), (SPEC_MAY_BE_LARGE, large)];
+        let constants = [
+            place_bits(plan),
+            (SPEC_KEPT, u32::from(kept)),
+            (SPEC_TEXELS, texels),
+            (SPEC_MAY_BE_LARGE, large),
+        ];
         key(shader, constants.to_vec())
     };
     [

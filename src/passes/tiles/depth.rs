@@ -47,7 +47,7 @@ pub(in super::super) fn depth_buffer<'a>(
         start,
     );
     read_seen(slice::from_ref(tiles), pass).finish(Box::new(move |context| {
-        let set = read_set(context, inputs, &inputs.shaders.sums_set, (&[(0, id)], None))?;
+        let set = read_set(context, inputs, (&[(0, id)], None))?;
         draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, constants)
     }));
     Ok(depth)

@@ -5,7 +5,7 @@ use ash::vk;
 use super::{
     super::{
         Inputs,
-        accumulate::{self, bind_sampled},
+        accumulate::{self, bind_read},
         constants::FrameConstants,
         splat_pass::SplatPass,
         splat_shaders::Summed,
@@ -31,7 +31,7 @@ pub(in super::super) fn see_large<'a>(
     tiles: &Tiles<'a>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
-    let draws = LargeDraws::new(inputs, tiles, &visibility::splat_pass(inputs.settings, None)?)?;
+    let draws = LargeDraws::new(inputs, tiles, &visibility::splat_pass(inputs.settings, None))?;
     let (mut depth, start) = match before {
         Some(before) => (before, Start::Load),
         None => {
@@ -41,7 +41,10 @@ pub(in super::super) fn see_large<'a>(
     };
     let pass = graph.pass(&format!("see {kind}large splats"));
     let pass = pass.write(&mut depth, Access::DepthAttachment, start);
-    read_list(tiles, pass).finish(Box::new(move |context| draws.record(context)));
+    read_list(tiles, pass).finish(Box::new(move |context| {
+        bind_read(context, inputs, [None; 3], None)?;
+        draws.record(context)
+    }));
     Ok(depth)
 }
 
@@ -56,7 +59,7 @@ pub(in super::super) fn sum_large<'a>(
     with_depth: bool,
 ) -> Result<()> {
     let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
-    let draws = LargeDraws::new(inputs, tiles, &accumulate::splat_pass(inputs.settings, summed)?)?;
+    let draws = LargeDraws::new(inputs, tiles, &accumulate::splat_pass(inputs.settings, summed))?;
     let sampled = [with_depth.then(|| depth.id()), None, polygons.map(Handle::id)];
     let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
     let mut pass = graph
@@ -68,7 +71,7 @@ pub(in super::super) fn sum_large<'a>(
         pass = pass.read(polygons, Access::SampledFragment);
     }
     read_list(tiles, pass).finish(Box::new(move |context| {
-        bind_sampled(context, inputs, sampled)?;
+        bind_read(context, inputs, sampled, None)?;
         draws.record(context)
     }));
     Ok(())
@@ -101,7 +104,7 @@ impl<'a> LargeDraws<'a> {
 
     fn record(&self, context: &PassContext<'_>) -> Result<()> {
         let shaders = self.inputs.shaders;
-        let list = [(2, context.descriptor(self.entries)?)];
+        let list = [(BIND_LIST_ITEMS, context.descriptor(self.entries)?)];
         let list = self.inputs.descriptors.set(&shaders.list_set, &list)?;
         let arguments = context.buffer(self.arguments)?;
         let layout = &shaders.splat_layout;
@@ -123,7 +126,13 @@ impl<'a> LargeDraws<'a> {
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
                 device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
                 device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_draw_indirect(commands, arguments, 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * number, 1, 16);
+                device.cmd_draw_indirect(
+                    commands,
+                    arguments,
+                    4 * u64::from(ARGUMENTS_CHUNKS) + 16 * number,
+                    1,
+                    16,
+                );
             }
         }
         Ok(())

@@ -100,7 +100,8 @@ fn declare<'a>(
     let mut state = (work == Work::Parts)
         .then(|| graph.create_buffer(&format!("state of {band}overfull tiles"), state_bytes));
 
-    let update = if peeled.is_some() { Access::SampledAndStoredCompute } else { Access::StorageReadWriteCompute };
+    let update =
+        if peeled.is_some() { Access::SampledAndStoredCompute } else { Access::StorageReadWriteCompute };
     let mut pass = tiles
         .read_lists(TilePass::new(graph, &name))
         .write(BIND_COLORS, layers, update, Start::Load)

@@ -110,7 +110,10 @@ impl<'a> Tiles<'a> {
             starts: buffer("starts", (bins + 3) * 4),
             seen: buffer("seen", tiles * 4),
             runs: buffer("runs", tiles * 8),
-            arguments: buffer("arguments", 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * u64::from(plan.chunk_count)),
+            arguments: buffer(
+                "arguments",
+                4 * u64::from(ARGUMENTS_CHUNKS) + 16 * u64::from(plan.chunk_count),
+            ),
             overfull: buffer("overfull", tiles * 4),
         }
     }
@@ -129,7 +132,11 @@ impl<'a> Tiles<'a> {
 
     fn read_all_but_entries<'g, 'b>(&self, mut pass: TilePass<'g, 'b>) -> TilePass<'g, 'b> {
         for (number, quarter) in (0..).zip(&self.records) {
-            pass = self.read_as_texels(pass, [BIND_RECORDS, BIND_RECORD_TEXELS].map(|first| first + number), quarter);
+            pass = self.read_as_texels(
+                pass,
+                [BIND_RECORDS, BIND_RECORD_TEXELS].map(|first| first + number),
+                quarter,
+            );
         }
         pass.read(BIND_STARTS, &self.starts, Access::StorageReadCompute)
             .read(BIND_NON_EMPTY_TILES, &self.seen, Access::StorageReadCompute)

@@ -39,13 +39,7 @@ impl<'g, 'a> TilePass<'g, 'a> {
         Self { declared: self.declared.read(handle, access), ..self }
     }
 
-    pub fn write<K>(
-        mut self,
-        binding: u32,
-        handle: &mut Handle<K>,
-        access: Access,
-        start: Start,
-    ) -> Self {
+    pub fn write<K>(mut self, binding: u32, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
         self.bound.push((binding, handle.id()));
         Self { declared: self.declared.write(handle, access, start), ..self }
     }
@@ -73,10 +67,7 @@ impl<'g, 'a> TilePass<'g, 'a> {
     }
 
     /// Declares the pass; `body` records it with what is bound.
-    pub fn finish_with(
-        self,
-        body: impl FnOnce(&PassContext<'_>, &[(u32, ResourceId)]) -> Result<()> + 'a,
-    ) {
+    pub fn finish_with(self, body: impl FnOnce(&PassContext<'_>, &[(u32, ResourceId)]) -> Result<()> + 'a) {
         let bound = self.bound;
         self.declared.finish(Box::new(move |context| body(context, &bound)));
     }

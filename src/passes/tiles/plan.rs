@@ -125,8 +125,10 @@ impl TilePlan {
         let bins = u64::from(tile_count) + chunks as u64;
         let segments_with_room = range / 4 / bins / u64::from(BIN_GROUP_SIZE) * u64::from(BIN_GROUP_SIZE);
         let most_records = (range / RECORD_BYTES).min(most_texels);
-        let refused =
-            records == 0 || records > most_records || chunks > MOST_CHUNKS as usize || segments_with_room == 0;
+        let refused = records == 0
+            || records > most_records
+            || chunks > MOST_CHUNKS as usize
+            || segments_with_room == 0;
         if refused {
             return None;
         }

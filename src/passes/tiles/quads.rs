@@ -9,7 +9,8 @@ use super::{
         pipelines::{GraphicsKey, Layout},
         variant::Constants,
     },
-    Tiles, pass::set_of,
+    Tiles,
+    pass::set_of,
 };
 use crate::{
     error::Result,

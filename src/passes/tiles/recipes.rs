@@ -56,8 +56,7 @@ pub(in super::super) fn opaque_recipes(
 ) -> Vec<(&'static str, ComputeKey)> {
     let TileTraits { may_be_large, polygons, export: with_depth, leaves_sums, lights } = traits;
     let hidden = settings.cull == Cull::Hidden;
-    let plan =
-        TilePlan { invocations: invocations(settings), hidden, ..TilePlan::for_recipes(may_be_large) };
+    let plan = TilePlan { invocations: invocations(settings), hidden, ..TilePlan::for_recipes(may_be_large) };
     let step = |pass, step: Step| (pass, splat::key(settings, &plan, Step { with_depth, ..step }));
     let preloaded = may_be_large;
     match polygons {

@@ -3,12 +3,7 @@
 //! alone, then shaded from these.
 
 use super::{
-    super::{
-        Inputs,
-        finalize::shown_constants,
-        pipelines::ComputeKey,
-        variant::shading_constants,
-    },
+    super::{Inputs, finalize::resolve_constants, pipelines::ComputeKey, variant::shading_constants},
     TileImages, TilePass, TilePlan, Tiles, pass,
     splat::{self, TileStart, beside_polygons},
 };
@@ -46,7 +41,7 @@ pub(in super::super) fn key(
         true => [&shaders::TILE_SHADE_COLUMN_HIDDEN_COMP, &shaders::TILE_SHADE_PIXEL_HIDDEN_COMP],
     });
     let mut constants = splat::constants(settings, plan, precision);
-    constants.extend(shown_constants(settings, polygons, lights));
+    constants.extend(resolve_constants(settings, true, polygons, lights));
     if polygons {
         constants.extend(beside_polygons(settings));
     }

@@ -129,14 +129,8 @@ pub(in super::super) struct Step {
 
 impl Step {
     /// Visibility and accumulation of splats alone.
-    pub const FUSED: Self = Self {
-        sees: true,
-        sums: true,
-        hidden: false,
-        with_depth: false,
-        preloaded: false,
-        polygons: false,
-    };
+    pub const FUSED: Self =
+        Self { sees: true, sums: true, hidden: false, with_depth: false, preloaded: false, polygons: false };
     pub const VISIBLE: Self = Self { sums: false, ..Self::FUSED };
     pub const SUMMED: Self = Self { sees: false, ..Self::FUSED };
 }

@@ -1,18 +1,17 @@
-// What a surface shows at a pixel: splats (SPLATS), polygons (POLYGONS), or both of one surface (HYBRID), which then blend
-// by the sum of the splats' weights, clamped to 1, where a polygon covers the pixel (Guennebaud et al. 2006, section 5.1):
-// the sum falls from above 1 to 0 at the border of the splats.
+// From sums to what a surface shows at a pixel: SPLATS, POLYGONS, or both of one surface, which then blend by the sum of the splats'
+// weights, clamped to 1, where a polygon covers the pixel (Guennebaud et al. 2006, section 5.1): the sum falls from above 1 to 0
+// at the border of the splats.
 //
 // LAYER: the surface is transparent; its alpha is the weighted mean, too. Normals of closed things were summed as they are,
 // outward, and are turned to the eye here: at a silhouette, front and back are one surface within epsilon, and turned before,
 // what is left of their sum would face the eye and shine.
 
-#if defined(SPLATS) || defined(HYBRID)
-#include "inc/surface.glsl"
-#endif
-#if defined(POLYGONS) || defined(HYBRID)
-layout(set = 0, binding = 2) uniform texture2D polygon_colors;  // sum of linear albedo, polygons in the sum
-layout(set = 0, binding = 3) uniform texture2D polygon_normals; // sum of normals, sum of alpha
-#endif
+#include "inc/sums.glsl"
+layout(set = 0, binding = BIND_SUMS_POLYGON_COLORS) uniform texture2D polygon_colors;   // sum of linear albedo, polygons in the sum
+layout(set = 0, binding = BIND_SUMS_POLYGON_NORMALS) uniform texture2D polygon_normals; // sum of normals, sum of alpha
+
+layout(constant_id = SPEC_SPLATS) const bool SPLATS = false;
+layout(constant_id = SPEC_POLYGONS) const bool POLYGONS = false;
 
 // `v`: the direction to the eye.
 vec3 turned(vec3 normal, vec3 v)
@@ -24,76 +23,70 @@ vec3 turned(vec3 normal, vec3 v)
 #endif
 }
 
-struct Shown {
+struct Resolved {
     vec3 color;   // linear, shaded
     float alpha;  // 1 unless transparent
     bool covered; // else the others mean nothing
 };
 
 // A surface at a pixel, not shaded yet.
-struct Seen {
+struct Unshaded {
     vec3 albedo;   // linear
     vec3 normal;   // unit, view space, to the eye where it is transparent
     float alpha;   // 1 unless transparent
     float weight;  // sum of weights of splats; of polygons, how many
 };
 
-#if defined(SPLATS) || defined(HYBRID)
-Seen load_splats(ivec2 pixel, vec3 v)
+Unshaded load_splats(ivec2 pixel, vec3 v)
 {
     Surface surface = load_surface(pixel);
-    Seen seen = Seen(surface.albedo, turned(surface.normal, v), 1.0, surface.weight);
+    Unshaded splats = Unshaded(surface.albedo, turned(surface.normal, v), 1.0, surface.weight);
 #if defined(LAYER)
-    seen.alpha = surface.weight > 0.0 ? texelFetch(normal_sums, pixel, 0).w / surface.weight : 0.0;
+    splats.alpha = surface.weight > 0.0 ? texelFetch(normal_sums, pixel, 0).w / surface.weight : 0.0;
 #endif
-    return seen;
+    return splats;
 }
-#endif
 
-#if defined(POLYGONS) || defined(HYBRID)
-Seen load_polygons(ivec2 pixel, vec3 v)
+Unshaded load_polygons(ivec2 pixel, vec3 v)
 {
     vec4 color_sum = texelFetch(polygon_colors, pixel, 0);
     vec4 normal_sum = texelFetch(polygon_normals, pixel, 0);
     float share = color_sum.a > 0.0 ? 1.0 / color_sum.a : 0.0;
-    float length2 = dot(normal_sum.xyz, normal_sum.xyz);
-    vec3 normal = length2 > 0.0 ? normal_sum.xyz * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
-    Seen seen = Seen(color_sum.rgb * share, turned(normal, v), 1.0, color_sum.a);
+    vec3 normal = normal_of_sum(normal_sum.xyz);
+    Unshaded polygons = Unshaded(color_sum.rgb * share, turned(normal, v), 1.0, color_sum.a);
 #if defined(LAYER)
-    seen.alpha = normal_sum.w * share;
+    polygons.alpha = normal_sum.w * share;
 #endif
-    return seen;
+    return polygons;
 }
-#endif
 
-Shown shown_alone(Seen seen, vec3 v)
+Resolved resolve_alone(Unshaded surface, vec3 v)
 {
-    return Shown(shaded(seen.albedo, seen.normal, v), seen.alpha, seen.weight > 0.0);
+    return Resolved(shaded(surface.albedo, surface.normal, v), surface.alpha, surface.weight > 0.0);
 }
 
 // `v`: the unit direction to the eye, view space.
-Shown load_shown(ivec2 pixel, vec3 v)
+Resolved resolve(ivec2 pixel, vec3 v)
 {
-#if defined(SPLATS)
-    return shown_alone(load_splats(pixel, v), v);
-#elif defined(POLYGONS)
-    return shown_alone(load_polygons(pixel, v), v);
-#else
-    Seen splats = load_splats(pixel, v);
-    Seen polygons = load_polygons(pixel, v);
+    if (!POLYGONS) {
+        return resolve_alone(load_splats(pixel, v), v);
+    }
+    if (!SPLATS) {
+        return resolve_alone(load_polygons(pixel, v), v);
+    }
+    Unshaded splats = load_splats(pixel, v);
+    Unshaded polygons = load_polygons(pixel, v);
     float share = polygons.weight > 0.0 ? min(FORMULA(FORMULA_TRANSITION, splats.weight), 1.0) : 1.0;
     if (TRANSITION == TRANSITION_NONE && polygons.weight > 0.0) {
         share = 0.0;
     }
     if (TRANSITION == TRANSITION_ATTRIBUTES) {
-        vec3 blended = mix(polygons.normal, splats.normal, share);
-        float length2 = dot(blended, blended);
-        Seen both;
+        Unshaded both;
         both.albedo = mix(polygons.albedo, splats.albedo, share);
-        both.normal = length2 > 0.0 ? blended * inversesqrt(length2) : vec3(0.0, 0.0, -1.0);
+        both.normal = normal_of_sum(mix(polygons.normal, splats.normal, share));
         both.alpha = mix(polygons.alpha, splats.alpha, share);
         both.weight = max(polygons.weight, splats.weight);
-        return shown_alone(both, v);
+        return resolve_alone(both, v);
     }
     // Few pixels show both. A loop that ends early, for CPU drivers run either side of a branch, whoever takes it; with its
     // condition at the end, for they run a body once more than the condition before it says. What a pixel has when it leaves
@@ -116,6 +109,5 @@ Shown load_shown(ivec2 pixel, vec3 v)
     if (both) {
         color = alpha > 0.0 ? sum / alpha : vec3(0.0);
     }
-    return Shown(color, alpha, max(splats.weight, polygons.weight) > 0.0);
-#endif
+    return Resolved(color, alpha, max(splats.weight, polygons.weight) > 0.0);
 }

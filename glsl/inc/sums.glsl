@@ -2,8 +2,8 @@
 
 #include "inc/normalized.glsl"
 
-layout(set = 0, binding = 0) uniform texture2D color_sums;
-layout(set = 0, binding = 1) uniform texture2D normal_sums;
+layout(set = 0, binding = BIND_SUMS_COLORS) uniform texture2D color_sums;
+layout(set = 0, binding = BIND_SUMS_NORMALS) uniform texture2D normal_sums;
 
 Surface load_surface(ivec2 pixel)
 {
