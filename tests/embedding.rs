@@ -5,6 +5,8 @@ mod common;
 mod in_flight;
 #[path = "embedding/no_waits.rs"]
 mod no_waits;
+#[path = "embedding/orbit.rs"]
+mod orbit;
 
 use common::{builder, headless, host::Host, scenes};
 use glam::DVec3;

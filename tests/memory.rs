@@ -18,14 +18,22 @@ use std::{
 use glam::Vec3;
 use surfel::{
     Headless, HeadlessOptions, Validation,
+    frame::{FrameSlot, HeadlessTarget},
     graph::MemoryClass,
     load::{Model, builtin, load},
+    renderer::Readbacks,
     save,
     scene::{Colors, Object, Rasterizer, Scene, Settings, Shapes, Splats},
+    vk::CommandPool,
 };
 
 /// Counts what is allocated. `realloc` is the trait's own, which holds the old and the new at once: an upper bound.
 struct Counting;
+
+thread_local! {
+    /// Allocations of this thread.
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
 
 static LIVE: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
@@ -35,6 +43,7 @@ unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let live = LIVE.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
         PEAK.fetch_max(live, Ordering::Relaxed);
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
         // SAFETY: this function's contract.
         unsafe { System.alloc(layout) }
     }
@@ -154,5 +163,72 @@ fn a_million_splats_need_little_more_than_themselves() {
         drop(prepared);
         // SAFETY: nothing is being recorded.
         unsafe { headless.queue().wait_idle() }.unwrap();
+    }
+}
+
+/// So many small balls, and a camera that sees all of them or is among them.
+fn balls(count: usize, is_inside: bool) -> (Scene, surfel::Camera) {
+    let side = (count as f64).cbrt().ceil() as usize;
+    let ball = |i: usize| {
+        let place = glam::DVec3::new((i % side) as f64, (i / side % side) as f64, (i / side / side) as f64);
+        let Object { mut splats, closed, .. } = builtin::sphere(100);
+        splats.positions.iter_mut().for_each(|position| *position += 2.5 * place);
+        Object { name: format!("ball {i}"), splats, closed }
+    };
+    let scene = Scene { objects: (0..count).map(ball).collect(), ..Scene::default() };
+    let all = scene.ball().unwrap();
+    let mut camera = surfel::Camera::fit(&all, SMALL_PX, surfel::Camera::DEFAULT_FOV_Y_RAD);
+    if is_inside {
+        camera.eye = all.center + glam::DVec3::new(0.1, 1.25, 1.25);
+    }
+    (scene, camera)
+}
+
+const SMALL_PX: [u32; 2] = [64, 48];
+const FORMAT: ash::vk::Format = ash::vk::Format::R8G8B8A8_SRGB;
+
+/// Allocations of a frame that is like the one before, and of one that is not, of so many balls: recorded, and never submitted.
+fn allocations(count: usize, rasterizer: Rasterizer, is_inside: bool) -> [usize; 2] {
+    let options = HeadlessOptions {
+        validation: Validation::Off,
+        device: std::env::var("SURFEL_TEST_DEVICE").ok(),
+        cache_folder: None,
+    };
+    let headless = Headless::new(&options).expect("tests need a Vulkan device");
+    let (scene, camera) = balls(count, is_inside);
+    let prepared = headless.prepare(&scene, &|_, _| {}).unwrap();
+    let (device, renderer) = (headless.device(), &headless.renderer);
+    let (pool, mut slot) = (CommandPool::new(device, "recorded").unwrap(), FrameSlot::new(device));
+    let targets = [SMALL_PX, [SMALL_PX[1], SMALL_PX[0]]];
+    let targets = targets.map(|size_px| HeadlessTarget::new(device, FORMAT, size_px).unwrap());
+    // The second and the third have one target, the fourth another; all have their pipelines by then.
+    let frames = [&targets[1], &targets[0], &targets[0], &targets[1]].map(|target| {
+        let target = target.target();
+        let size_px = [target.extent.width, target.extent.height];
+        let settings = Settings { rasterizer, size_px, ..Settings::default() };
+        let before = ALLOCATIONS.get();
+        // SAFETY: nothing that was recorded is submitted; all is alive as long as that.
+        unsafe {
+            let (commands, none) = (pool.begin().unwrap(), Readbacks::default());
+            renderer.record(commands, &mut slot, &prepared, &camera, &settings, &target, none, None).unwrap();
+        }
+        pool.end().unwrap();
+        ALLOCATIONS.get() - before
+    });
+    [frames[2], frames[3]]
+}
+
+/// What recording takes is in proportion to the objects: at 64 of them a pass over their pairs would be seen, and at 512 be all there is.
+#[test]
+fn recording_takes_no_more_for_an_object_where_there_are_many() {
+    for (rasterizer, is_inside) in [(Rasterizer::Compute, false), (Rasterizer::Perspective, true)] {
+        let [few, many] = [64, 512].map(|count| allocations(count, rasterizer, is_inside));
+        println!(
+            "{rasterizer:?}: {few:?} allocations of a frame of 64 objects, {many:?} of 512; again, and anew"
+        );
+        for (few, many) in few.into_iter().zip(many) {
+            assert!(many <= 9 * few, "{rasterizer:?}: {few}, {many}");
+        }
+        assert!(few[0] < few[1] && many[0] <= 40 * 512, "{rasterizer:?}: {few:?}, {many:?}");
     }
 }

@@ -10,6 +10,8 @@ thread_local! {
     static LEFT: Cell<u32> = const { Cell::new(u32::MAX) };
     /// The function that failed.
     static FAILED: Cell<Option<&'static str>> = const { Cell::new(None) };
+    /// What was made since it was asked for last: the functions that were called, but for sets and recording.
+    static MADE: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
     /// The device's own functions.
     static OWN: RefCell<Option<ash::DeviceFnV1_0>> = const { RefCell::new(None) };
 }
@@ -26,7 +28,15 @@ pub fn stop() -> Option<&'static str> {
     FAILED.take()
 }
 
+/// The functions that made objects or took memory since the last call.
+pub fn take_made() -> Vec<&'static str> {
+    MADE.take()
+}
+
 fn fails(function: &'static str) -> bool {
+    if function.starts_with("create_") || function == "allocate_memory" {
+        MADE.with_borrow_mut(|made| made.push(function));
+    }
     match LEFT.get() {
         u32::MAX => false,
         0 => match FAILED.get() {
@@ -70,6 +80,7 @@ pub fn device(own: &ash::Device) -> ash::Device {
         bind_buffer_memory(d: vk::Device, b: vk::Buffer, m: vk::DeviceMemory, o: u64);
         bind_image_memory(d: vk::Device, i: vk::Image, m: vk::DeviceMemory, o: u64);
         create_buffer(d: vk::Device, i: *const vk::BufferCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::Buffer);
+        create_buffer_view(d: vk::Device, i: *const vk::BufferViewCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::BufferView);
         create_image(d: vk::Device, i: *const vk::ImageCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::Image);
         create_image_view(d: vk::Device, i: *const vk::ImageViewCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::ImageView);
         create_shader_module(d: vk::Device, i: *const vk::ShaderModuleCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::ShaderModule);

@@ -69,6 +69,7 @@ impl Host {
 
             let core = vk::PhysicalDeviceFeatures::default()
                 .large_points(features.large_points)
+                .draw_indirect_first_instance(features.first_instance)
                 .pipeline_statistics_query(features.pipeline_statistics);
             let mut features12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
             let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
