@@ -24,7 +24,6 @@ mod layers;
 mod layers_table;
 mod limits;
 mod limits_table;
-mod options;
 #[cfg(feature = "compare")]
 mod plot;
 mod run;
@@ -56,7 +55,6 @@ pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames}
 pub use layers::{LayersContestant, LayersReport, OpaqueClaim, Places, Way};
 pub use layers_table::layers_grids;
 pub use limits::{BoundRow, Limit, LimitRound, LimitRow, LimitWork, LimitsReport, PassWork};
-pub use options::{epsilon_option, kernel_option, settings_as_options};
 pub use run::{CameraReport, DeviceReport, InputReport, RunReport, SceneReport, Step};
 pub use slides::{SLIDES, Slide, slides_grid};
 pub use spread::Spread;

@@ -1,6 +1,8 @@
-//! How many transparent surfaces of a pixel are told apart.
+//! The number of transparent surfaces of a pixel that are told apart.
 
-use crate::error::{Error, Result};
+use std::fmt;
+
+use super::OptionValue;
 
 /// The most layers that may be asked for.
 pub const MOST_LAYERS: u32 = 256;
@@ -22,27 +24,34 @@ impl Layers {
             Self::Fixed(layers) | Self::Auto(layers) => layers,
         }
     }
-
-    pub(super) fn validate(self) -> Result<()> {
-        let most = self.most();
-        if !(1..=MOST_LAYERS).contains(&most) {
-            return Err(Error::option("--layers", format!("{most}: expected 1 to {MOST_LAYERS} layers")));
-        }
-        Ok(())
-    }
 }
 
-impl Default for Layers {
-    fn default() -> Self {
-        Self::Fixed(4)
-    }
-}
-
-impl std::fmt::Display for Layers {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Layers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Fixed(layers) => write!(f, "{layers}"),
             Self::Auto(most) => write!(f, "auto:{most}"),
+        }
+    }
+}
+
+impl OptionValue for Layers {
+    fn word(&self) -> String {
+        self.to_string()
+    }
+
+    fn parse(word: &str) -> Result<Self, String> {
+        let parsed = match word.strip_prefix("auto:") {
+            Some(most) => most.parse().map(Self::Auto),
+            None => word.parse().map(Self::Fixed),
+        };
+        parsed.map_err(|_| "expected a number of layers, or auto:MAX, such as 4 or auto:16".to_owned())
+    }
+
+    fn check(&self) -> Result<(), String> {
+        match self.most() {
+            1..=MOST_LAYERS => Ok(()),
+            most => Err(format!("{most}: expected 1 to {MOST_LAYERS} layers")),
         }
     }
 }

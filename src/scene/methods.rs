@@ -1,88 +1,57 @@
 //! The methods that the papers compare: how a splat becomes fragments, how it is filtered, how its weight is found.
 
+use super::option::named;
 use crate::error::{Error, Result};
 
-/// Defines an enum whose values have the names that the command line and the reports use.
-macro_rules! named {
-    ($(#[$doc:meta])* $name:ident { $($(#[$value_doc:meta])* $value:ident = $text:literal,)+ }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum $name {
-            $($(#[$value_doc])* $value,)+
-        }
-
-        impl $name {
-            /// Every value with its name on the command line, the default first.
-            pub const NAMES: &'static [(&'static str, Self)] = &[$(($text, Self::$value)),+];
-
-            /// The value's name on the command line.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$value => $text,)+
-                }
-            }
-        }
-
-        impl Default for $name {
-            fn default() -> Self {
-                Self::NAMES[0].1
-            }
-        }
-    };
-}
-pub(super) use named;
-
 named! {
-    /// How a splat becomes fragments. All but the affine ones and [`Self::RaycastApproximate`] draw the same picture.
+    /// How a splat becomes fragments.
     Rasterizer {
-        /// `Compute` where that is faster and can draw it: on CPU drivers; else `Perspective`. Never another picture.
+        /// `compute` where that is faster and can draw it: on CPU drivers; else `perspective`. Never another picture.
         Auto = "auto",
-        /// The inverse projective map, expanded about the projected center (Guennebaud et al. 2006, section 3).
+        /// Points, by the inverse projective map, expanded about the projected center (Guennebaud et al. 2006, section 3).
         Perspective = "perspective",
-        /// The same map in the paper's own form, `N (x, y, 1)`: less exact in 32 bits.
+        /// Points, by the same map in the paper's own form, `N (x, y, 1)`: less exact in 32 bits.
         PerspectivePaper = "perspective-paper",
-        /// The ray of each fragment meets the splat's plane (Botsch, Hornung, Zwicker, Kobbelt 2005).
+        /// Points; the ray of each fragment meets the splat's plane (Botsch, Hornung, Zwicker, Kobbelt 2005).
         Raycast = "raycast",
-        /// As `Raycast` with that paper's point size, the radius seen at the center's depth: tilted splats off the axis
-        /// are chopped.
+        /// As `raycast` with that paper's point size, the radius seen at the center's depth: tilted splats off the axis are chopped.
         RaycastApproximate = "raycast-approximate",
-        /// An affine map that is exact at the center (Guennebaud, Paulin 2003).
+        /// Points, by an affine map that is exact at the center (Guennebaud, Paulin 2003).
         AffineCenter = "affine-center",
-        /// An affine map that keeps the contour (Zwicker, Räsänen, Botsch, Dachsbacher, Pauly 2004).
+        /// Points, by an affine map that keeps the contour (Zwicker, Räsänen, Botsch, Dachsbacher, Pauly 2004).
         AffineContour = "affine-contour",
         /// One triangle around each splat with the kernel upon it (Pajarola, Sainz, Guidotti 2003, section 5.2).
         Triangle = "triangle",
-        /// `Perspective` with a quad in place of each point.
+        /// `perspective` with a quad in place of each point.
         Quad = "quad",
-        /// `Perspective` in compute, a tile of the image at a time, with all sums in registers; splats that are large, or near
-        /// the eye plane, as quads beside it.
+        /// `perspective` in compute, a tile of the image at a time, with all sums in registers; splats that are large, or near the eye
+        /// plane, as quads beside it.
         Compute = "compute",
     }
 }
 
 named! {
-    /// Where splats are left out that face away or lie outside of the view. The picture is the same; by `compute` but for the
-    /// rounding of sums, which are in another order.
+    /// The place where splats are left out that face away or lie outside of the view.
     Cull {
-        /// What was measured to be faster: with `compute` `List`, and `Hidden` where the splats are of several objects; `List` where
-        /// [`Rasterizer::Auto`] draws points on a CPU; else `Setup`.
+        /// What was measured to be faster: with `compute` `list`, and `hidden` where the splats are of several objects; `list` where
+        /// `--rasterizer auto` draws points on a CPU; else `setup`.
         Auto = "auto",
-        /// By whatever sets splats up: with points, in the vertex stage of each pass.
+        /// Whatever sets splats up: with points, the vertex stage of each pass.
         Setup = "setup",
-        /// Before that, in compute: a list of the others is what is set up, and what is drawn as points. Where a chunk has
-        /// nothing to leave out, there is no list.
+        /// Compute, before that: a list of the others is what is set up, and what is drawn as points. Where a chunk has nothing to
+        /// leave out, there is no list.
         List = "list",
-        /// As `List`, and again before sums: what the visible depth hides is left out of them.
+        /// As `list`, and again before sums: what the visible depth hides is left out of them.
         Hidden = "hidden",
     }
 }
 
 named! {
-    /// What an invocation draws of a tile of 8×8 pixels, or 8×4 ([`Rasterizer::Compute`]). The picture is the same; bit by bit
-    /// unless sums have another order: where a splat is too large for tiles of one height alone, so that the graphics pipeline
+    /// The part of a tile of 8×8 pixels, or 8×4, that one invocation draws ([`Rasterizer::Compute`]). The picture is the same; bit by
+    /// bit unless sums have another order: where a splat is too large for tiles of one height alone, so that the graphics pipeline
     /// draws it, in images above 4096×4096 pixels, and in bands that differ (`--tile-memory`).
     TileInvocations {
-        /// `Column` on CPU drivers, `ShortColumn` there where splats are small, else `Pixel`.
+        /// `column` on CPU drivers, `short-column` there where splats are small, else `pixel`.
         Auto = "auto",
         /// A column of 8 pixels, all sums of which it holds. Eight of them are a tile: a CPU's vector is no longer.
         Column = "column",
@@ -96,26 +65,27 @@ named! {
 named! {
     /// The screen-space low-pass filter (Guennebaud et al. 2006, section 4). Its radius is √2 pixels.
     Filter {
-        /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, for
-        /// ellipses too. An axis of length l becomes √(l² + h²), as under the convolution, but for 0.2%.
+        /// Tangent adjustment after a rotation of the parametrization that makes the projected axes orthogonal, for ellipses too:
+        /// splats cover at least a pixel. An axis of length l becomes √(l² + h²), as under the convolution, but for 0.2%.
         Adjust = "adjust",
         /// No filter: a splat that misses every pixel center is not seen.
         None = "none",
-        /// Tangent adjustment as the paper has it (equations 8 to 10): for disks alone, and thinner than the filter
-        /// where the projected tangents are not orthogonal.
+        /// Tangent adjustment as the paper has it (equations 8 to 10): for disks alone, and thinner than the filter where the
+        /// projected tangents are not orthogonal.
         AdjustPaper = "adjust-paper",
-        /// The larger one of kernel and low-pass filter, for each fragment (Botsch et al. 2005).
+        /// The larger one of kernel and low-pass filter, for each fragment (Botsch et al. 2005). Not for `triangle` or `compute`.
         Max = "max",
-        /// The elliptical weighted average: covariances of kernel and low-pass filter added (Zwicker, Pfister, van Baar,
-        /// Gross 2001). For Gaussian kernels; it brings its own affine map.
+        /// The elliptical weighted average: covariances of kernel and low-pass filter added (Zwicker, Pfister, van Baar, Gross
+        /// 2001). For Gaussian kernels; it brings its own affine map, and draws with `perspective`, `quad`, `compute` and the affine
+        /// rasterizers.
         Ewa = "ewa",
     }
 }
 
 named! {
-    /// What a splat weighs that tangent adjustment has enlarged. With other filters it means nothing.
+    /// The weight of a splat that tangent adjustment has enlarged. With other filters it means nothing.
     FilterWeight {
-        /// Its old area over its new one, on the screen, but at least a 16th ([`LEAST_SHARE`]).
+        /// Its old area over its new one, on the screen, but at least a 16th.
         Area = "area",
         /// As much as any other.
         Unit = "unit",
@@ -127,7 +97,7 @@ named! {
     KernelEval {
         /// By arithmetic.
         Analytic = "analytic",
-        /// From a texture that a projective fetch reads (Guennebaud et al. 2006, section 3.2).
+        /// From a texture that a projective fetch reads (Guennebaud et al. 2006, section 3.2). Not for `compute`.
         Texture = "texture",
     }
 }
@@ -143,12 +113,23 @@ named! {
 }
 
 named! {
-    /// What becomes of the transparent surfaces behind the last layer but one.
+    /// The treatment of splats whose normal points away from the eye.
+    Backfaces {
+        /// `cull` for objects that are closed and opaque, `flip` for the others.
+        Auto = "auto",
+        /// Their normal is turned to the eye.
+        Flip = "flip",
+        /// They are not drawn.
+        Cull = "cull",
+    }
+}
+
+named! {
+    /// The treatment of the transparent surfaces behind the last layer but one.
     LastLayer {
-        /// As `Blend`, with the alpha of several surfaces: as many as their weights are of the layer before.
+        /// As `blend`, with the alpha of several surfaces: as many as their weights are of the layer before.
         Stack = "stack",
-        /// They are all blended in the last layer, weighted by alpha and lit a splat at a time (Guennebaud et al. 2006,
-        /// section 6).
+        /// They are all blended in the last layer, weighted by alpha and lit a splat at a time (Guennebaud et al. 2006, section 6).
         Blend = "blend",
         /// The last layer is one surface like the others; what is behind it is lost.
         Drop = "drop",
@@ -164,8 +145,22 @@ named! {
         Attributes = "attributes",
         /// Not at all: where a polygon is seen, it is all that is seen.
         None = "none",
-        /// As `Color`, with splats shifted toward the viewer everywhere: pixels of splats alone have twice the ε.
+        /// As `color`, with splats shifted toward the viewer everywhere: pixels of splats alone have twice the ε.
         Paper = "paper",
+    }
+}
+
+named! {
+    /// How a surface becomes a color.
+    Shading {
+        /// Lambert plus `0.2 max(r·v, 0)³²`.
+        Phong = "phong",
+        /// `albedo (0.1 + 0.9 n·l)`.
+        Lambert = "lambert",
+        /// The normal as a color: `(n_x, −n_y, −n_z)/2 + ½` of the view-space normal.
+        Normals = "normals",
+        /// The albedo itself.
+        Albedo = "albedo",
     }
 }
 

@@ -11,12 +11,14 @@ mod light;
 mod mesh;
 mod methods;
 mod opacity;
+mod option;
 mod settings;
 mod splats;
 mod storage;
 mod tile_memory;
 mod tint;
 mod transform;
+mod values;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
@@ -25,15 +27,17 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::{Mesh, MeshColors};
 pub use methods::{
-    Accumulate, Cull, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer, Rasterizer,
-    TileInvocations, Transition,
+    Accumulate, Backfaces, Cull, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer,
+    Rasterizer, Shading, TileInvocations, Transition,
 };
 pub use opacity::Opacity;
-pub use settings::{Backfaces, Epsilon, Kernel, Settings, Shading};
+pub use option::{Choice, OptionTable, OptionValue, Setting};
+pub use settings::Settings;
 pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
 pub use storage::{Order, SplatFormat, Storage};
 pub use tile_memory::TileMemory;
 pub use transform::is_invertible;
+pub use values::{Epsilon, Kernel};
 
 /// One thing in a scene: splats and how they are to be treated.
 #[derive(Clone, Debug)]

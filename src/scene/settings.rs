@@ -1,94 +1,75 @@
-//! How a scene is rendered. The default of each setting is the first value of its option in the manual.
+//! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes, TileMemory,
     methods::{
-        Accumulate, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, TileInvocations,
-        Transition,
+        Accumulate, Backfaces, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Shading,
+        TileInvocations, Transition,
     },
+    option::{OptionTable as _, settings},
+    values::{Epsilon, Kernel},
 };
 use crate::error::{Error, Result};
 
-/// Every choice that changes the picture, apart from scene and camera.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Width and height in pixels.
-    pub size_px: [u32; 2],
-    /// How a splat becomes fragments.
-    pub rasterizer: Rasterizer,
-    /// What an invocation draws of a tile.
-    pub tile_invocations: TileInvocations,
-    /// The most that lists of splats by tile take.
-    pub tile_memory: TileMemory,
-    /// The screen-space low-pass filter.
-    pub filter: Filter,
-    /// What a splat weighs that the filter has enlarged.
-    pub filter_weight: FilterWeight,
-    /// The reconstruction kernel.
-    pub kernel: Kernel,
-    /// How the kernel is evaluated.
-    pub kernel_eval: KernelEval,
-    /// Where splats are left out that are not seen.
-    pub cull: Cull,
-    /// The precision of the sums.
-    pub accumulate: Accumulate,
-    /// The depth within which splats are one surface.
-    pub epsilon: Epsilon,
-    /// What happens to splats that face away.
-    pub backfaces: Backfaces,
-    /// How many transparent surfaces of a pixel are told apart.
-    pub layers: Layers,
-    /// What becomes of those behind them.
-    pub last_layer: LastLayer,
-    /// How splats and polygons of one surface meet.
-    pub transition: Transition,
-    /// How a surface becomes a color.
-    pub shading: Shading,
-    /// The color of empty pixels as sRGB values 0–1; `None` leaves them transparent (and black).
-    pub background: Option<[f32; 3]>,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            size_px: [1024, 1024],
-            rasterizer: Rasterizer::default(),
-            tile_invocations: TileInvocations::default(),
-            tile_memory: TileMemory::default(),
-            filter: Filter::default(),
-            filter_weight: FilterWeight::default(),
-            kernel: Kernel::default(),
-            kernel_eval: KernelEval::default(),
-            cull: Cull::default(),
-            accumulate: Accumulate::default(),
-            epsilon: Epsilon::Radii(1.0),
-            backfaces: Backfaces::Auto,
-            layers: Layers::default(),
-            last_layer: LastLayer::default(),
-            transition: Transition::default(),
-            shading: Shading::Phong,
-            background: Some([1.0; 3]),
-        }
+settings! {
+    /// Every choice that changes the picture, apart from scene and camera.
+    #[derive(Clone, Debug, PartialEq)]
+    Settings {
+        /// Width and height in pixels.
+        "size" "WxH" size_px: [u32; 2] = [1024, 1024],
+        /// How splats become fragments. All draw the same picture but `raycast-approximate` and the affine ones.
+        "rasterizer" "NAME" rasterizer: Rasterizer,
+        /// The part of a tile of 8x8 pixels that one invocation draws where splats are drawn by tiles (`--rasterizer compute`).
+        /// The picture is the same, and the reference's too.
+        "tile-invocations" "WHAT" tile_invocations: TileInvocations,
+        /// The most memory that lists of splats by tile take, in megabytes: where all of the image would take more, it is drawn in
+        /// up to 16 bands of rows, one after the other; `auto` is what makes splats and lists one and a half times the model's size
+        /// in memory, but 16 in any case. The picture is the same but for rounding.
+        "tile-memory" "MB" tile_memory: TileMemory,
+        /// The screen-space low-pass filter.
+        "filter" "NAME" filter: Filter,
+        /// The weight of a splat that tangent adjustment has enlarged.
+        "filter-weight" "HOW" filter_weight: FilterWeight,
+        /// The weight within a splat: `gaussian:S` (S in radii) or `psi_e:A,B,N`, whose small weights are for `--accumulate f32`:
+        /// sums of 16 bits lose the colors at its rim.
+        "kernel" "KERNEL" kernel: Kernel,
+        /// How the kernel is evaluated; the reference computes whatever is given here.
+        "kernel-eval" "HOW" kernel_eval: KernelEval,
+        /// The place where splats are left out that face away or lie outside of the view. Lists are for points and for `compute`.
+        /// The picture is the same, by `compute` but for the rounding of sums.
+        "cull" "WHERE" cull: Cull,
+        /// The precision of the sums; the reference sums in 64 bits whatever is given here.
+        "accumulate" "TYPE" accumulate: Accumulate,
+        /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
+        /// length.
+        "epsilon" "1r|LENGTH" epsilon: Epsilon = Epsilon::Radii(1.0),
+        /// The treatment of splats that face away.
+        "backfaces" "WHAT" backfaces: Backfaces,
+        /// The number of layers in which transparent things are drawn, the nearest first; `auto:MAX` is as many as the view needs.
+        /// Without transparent things there is none.
+        "layers" "N|auto:MAX" layers: Layers = Layers::Fixed(4),
+        /// The treatment of what is behind the last layer but one.
+        "last-layer" "WHAT" last_layer: LastLayer,
+        /// How splats and polygons of one surface meet.
+        "transition" "HOW" transition: Transition,
+        /// How the surface is colored, with one light at the eye where a scene file has none.
+        "shading" "NAME" shading: Shading,
+        /// The color of empty pixels, sRGB from 0 to 1; none leaves them transparent (and black).
+        "background" "R,G,B|none" background: Option<[f32; 3]> = Some([1.0; 3]),
     }
 }
-
-/// The most pixels along a side.
-const MAX_SIDE_PX: u32 = 65_536;
 
 impl Settings {
     /// Refuses settings that have no picture.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] for a side outside 1–65536 pixels, kernel parameters that are not finite and
-    /// above 0, an ε that is not finite and at least 0, a background outside 0–1; for a filter that the rasterizer or
-    /// the kernel rules out, and a weight by area without an adjusting filter.
+    /// above 0, an ε that is not finite and at least 0, layers outside 1–256, a background outside 0–1; for a filter or an
+    /// evaluation of the kernel that the rasterizer or the kernel rules out.
     pub fn validate(&self) -> Result<()> {
-        let [width, height] = self.size_px;
-        if !self.size_px.iter().all(|side| (1..=MAX_SIDE_PX).contains(side)) {
-            let problem = format!("{width}x{height}: expected 1 to {MAX_SIDE_PX} pixels a side");
-            return Err(Error::option("--size", problem));
+        for option in Self::OPTIONS {
+            (option.check)(self).map_err(|problem| Error::option(format!("--{}", option.name), problem))?;
         }
-        self.kernel.validate()?;
         self.filter.check(self.rasterizer)?;
         if self.rasterizer == Rasterizer::Compute && self.kernel_eval == KernelEval::Texture {
             let problem =
@@ -98,21 +79,6 @@ impl Settings {
         if self.filter == Filter::Ewa && !matches!(self.kernel, Kernel::Gaussian { .. }) {
             let problem = "ewa: adds covariances, which psi_e has none of; expected --kernel gaussian:S";
             return Err(Error::option("--filter", problem));
-        }
-        let (Epsilon::Radii(epsilon) | Epsilon::Length(epsilon)) = self.epsilon;
-        if !(epsilon >= 0.0 && epsilon.is_finite()) {
-            return Err(Error::option(
-                "--epsilon",
-                format!("{epsilon}: expected a finite number, at least 0"),
-            ));
-        }
-        self.layers.validate()?;
-        if let Some(color) = self.background
-            && !color.iter().all(|component| (0.0..=1.0).contains(component))
-        {
-            let [red, green, blue] = color;
-            let problem = format!("{red},{green},{blue}: expected three numbers from 0 to 1");
-            return Err(Error::option("--background", problem));
         }
         Ok(())
     }
@@ -144,85 +110,6 @@ impl Settings {
         }
         Ok(())
     }
-}
-
-/// The reconstruction kernel over the splat's own `r = √(u²+v²)`; zero beyond `r = 1`.
-///
-/// A fragment whose weight is below 2⁻²⁴ does not cover its pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kernel {
-    /// `exp(−r²/2σ²)`.
-    Gaussian {
-        /// σ in radii, above 0.
-        sigma: f32,
-    },
-    /// `exp(−a q/(1−q))`, `q = rⁿ` (Pajarola, Sainz, Guidotti 2003, section 4). The paper's `b` scales its own r
-    /// and the support alike, so that it cancels here.
-    PsiE {
-        /// Fall-off, above 0.
-        a: f32,
-        /// The paper's support radius, above 0; without effect on the unit disk.
-        b: f32,
-        /// Flatness of the top, above 0.
-        n: f32,
-    },
-}
-
-impl Kernel {
-    fn validate(&self) -> Result<()> {
-        let parameters: &[(&str, f32)] = match *self {
-            Self::Gaussian { sigma } => &[("gaussian: σ", sigma)],
-            Self::PsiE { a, b, n } => &[("psi_e: a", a), ("psi_e: b", b), ("psi_e: n", n)],
-        };
-        for (name, value) in parameters {
-            if !(*value > 0.0 && value.is_finite()) {
-                let problem = format!("{name} is {value}: expected a finite number above 0");
-                return Err(Error::option("--kernel", problem));
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Default for Kernel {
-    fn default() -> Self {
-        Self::Gaussian { sigma: 0.5 }
-    }
-}
-
-/// The depth ε within which a fragment belongs to the nearest surface of its pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Epsilon {
-    /// A multiple of the splat's larger radius, at least 0.
-    Radii(f64),
-    /// A length in world units, at least 0.
-    Length(f64),
-}
-
-/// What happens to splats whose normal points away from the eye.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Backfaces {
-    /// `Cull` for objects that are closed and opaque, `Flip` for the others.
-    #[default]
-    Auto,
-    /// Their normal is turned to the eye.
-    Flip,
-    /// They are not drawn.
-    Cull,
-}
-
-/// How a surface becomes a color: one white light at the eye, no attenuation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Shading {
-    /// Lambert plus `0.2 max(r·v, 0)³²`.
-    #[default]
-    Phong,
-    /// `albedo (0.1 + 0.9 n·l)`.
-    Lambert,
-    /// The normal as a color: `(n_x, −n_y, −n_z)/2 + ½` of the view-space normal.
-    Normals,
-    /// The albedo itself.
-    Albedo,
 }
 
 #[cfg(test)]

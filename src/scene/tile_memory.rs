@@ -1,4 +1,6 @@
-//! How much memory lists of splats by tile may take.
+//! The memory that lists of splats by tile may take.
+
+use super::OptionValue;
 
 /// Bytes of records and lists that a frame by tiles holds at once ([`super::Rasterizer::Compute`]). Where all of the image would take
 /// more, it is drawn in bands of rows, one after the other in the same memory. The picture is the same but for the rounding of sums.
@@ -12,48 +14,24 @@ pub enum TileMemory {
     Most(u64),
 }
 
-/// A megabyte, in which it is told.
-const MEGABYTE: u64 = 1_000_000;
+/// A megabyte, the unit of the option.
+const MEGABYTE: f64 = 1e6;
 
-impl std::fmt::Display for TileMemory {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl OptionValue for TileMemory {
+    fn word(&self) -> String {
         match self {
-            Self::Auto => write!(f, "auto"),
-            Self::Most(bytes) => write!(f, "{}", *bytes as f64 / MEGABYTE as f64),
+            Self::Auto => "auto".to_owned(),
+            Self::Most(bytes) => format!("{}", *bytes as f64 / MEGABYTE),
         }
     }
-}
 
-impl std::str::FromStr for TileMemory {
-    type Err = String;
-
-    /// `auto`, or megabytes.
-    fn from_str(word: &str) -> Result<Self, String> {
-        if word == "auto" {
-            return Ok(Self::Auto);
-        }
+    fn parse(word: &str) -> Result<Self, String> {
         match word.parse::<f64>() {
+            _ if word == "auto" => Ok(Self::Auto),
             Ok(megabytes) if (0.0..=1e9).contains(&megabytes) => {
-                Ok(Self::Most((megabytes * MEGABYTE as f64).round() as u64))
+                Ok(Self::Most((megabytes * MEGABYTE).round() as u64))
             }
             _ => Err("expected auto, or a number of megabytes".to_owned()),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_printed_can_be_read() {
-        for memory in
-            [TileMemory::Auto, TileMemory::Most(0), TileMemory::Most(12_500_000), TileMemory::Most(1)]
-        {
-            assert_eq!(memory.to_string().parse(), Ok(memory));
-        }
-        for wrong in ["", "-1", "NaN", "1e10", "half"] {
-            assert!(wrong.parse::<TileMemory>().is_err(), "{wrong}");
         }
     }
 }

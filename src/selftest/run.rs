@@ -11,7 +11,6 @@ use super::{
 use crate::{
     error::{Error, ErrorKind},
     renderer::Headless,
-    report::settings_as_options,
     vk::Messages,
 };
 
@@ -89,7 +88,7 @@ impl Run<'_> {
         let entry = self.known.entry(&case.name);
         let mut result = CaseResult::new(&case.name);
         if let Some(drawing) = &case.drawing {
-            result.settings = settings_as_options(&drawing.settings);
+            result.settings = drawing.settings.as_options();
         }
         if let Some(why) = self.why_not(case, entry) {
             if case.is_always_run() {

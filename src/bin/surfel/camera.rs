@@ -1,7 +1,11 @@
 //! The camera: from a file, from options, or fitted to the scene.
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
+use clap::Args;
 use glam::DVec3;
 use serde::Deserialize;
 use surfel::{
@@ -9,7 +13,32 @@ use surfel::{
     scene::{Camera, CameraParts},
 };
 
-use crate::{picture_arguments::CameraArguments, scene::Loaded};
+use crate::{parse, scene::Loaded};
+
+/// The camera.
+#[derive(Args)]
+#[command(next_help_heading = "Camera")]
+pub struct CameraArguments {
+    /// Read the camera from this file
+    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov"])]
+    pub camera: Option<PathBuf>,
+
+    /// Where the eye is [default: on +z from the target, so far that the scene fits]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
+    pub eye: Option<[f64; 3]>,
+
+    /// What the middle of the picture shows [default: the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
+    pub target: Option<[f64; 3]>,
+
+    /// What is up [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
+    pub up: Option<[f64; 3]>,
+
+    /// The vertical field of view in degrees [default: 45]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub fov: Option<f64>,
+}
 
 /// More than any camera file holds: what is larger is something else.
 const MAX_FILE_BYTES: u64 = 1 << 16;

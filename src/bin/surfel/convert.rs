@@ -1,7 +1,8 @@
 //! `surfel convert`: a model as a file of splats.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use surfel::{
     Error, ErrorKind, Result,
     compose::{resampled, splats_kind},
@@ -12,12 +13,48 @@ use surfel::{
 };
 
 use crate::{
-    arguments::ConvertArguments,
     console::{self, Bars},
-    outputs,
+    outputs, parse,
     scene::load_object,
     steps::Steps,
 };
+
+const HELP: &str = "Write a model as a file of splats.
+
+Without --resample these are the splats that `surfel render` draws: a disk at each vertex of a mesh, or the splats of the \
+file. With --resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from \
+the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
+
+The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
+alpha (sRGB) where the model has colors. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
+surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn.";
+
+const EXAMPLES: &str = "Examples:
+  surfel convert igea.ply splats.ply                          a disk at each vertex
+  surfel convert igea.ply igea-1m.ply --resample 1000000      a million disks, evenly spread
+  surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7";
+
+/// Write a model as a file of splats, at a mesh's vertices or anew over its area
+#[derive(Args)]
+#[command(long_about = HELP, after_help = EXAMPLES)]
+pub struct ConvertArguments {
+    /// A PLY file (splats or a mesh) or an OBJ file (a mesh)
+    #[arg(value_name = "INPUT")]
+    input: PathBuf,
+
+    /// The file of splats, .ply; an old one is replaced
+    #[arg(value_name = "OUTPUT")]
+    output: PathBuf,
+
+    /// Spread that many disks evenly over the mesh's area; takes about 75 bytes of memory each [default: a disk at each vertex]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u64>(1..=4_294_967_295), allow_hyphen_values = true)]
+    resample: Option<u64>,
+
+    /// Which samples are taken
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "resample")]
+    #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
+    seed: u64,
+}
 
 /// Runs the subcommand.
 ///

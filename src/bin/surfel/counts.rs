@@ -4,7 +4,6 @@ mod isa;
 
 use std::collections::HashSet;
 
-use clap::Args;
 use surfel::{
     Error, Progress as _, Result, Settings,
     passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
@@ -13,35 +12,17 @@ use surfel::{
 };
 
 use crate::{
-    bench::{Bench, BenchArguments},
+    bench::arguments::{Bench, BenchArguments},
     console::{self, Bars},
     json::to_json,
 };
-
-/// Options of `surfel bench counts` alone.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "counts")]
-pub struct CountsArguments {
-    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, 32-bit sums, shadings [default: small disks]
-    #[arg(long)]
-    pub all: bool,
-
-    /// What compilers of these chips make of every pipeline: RADV's names, such as NAVI21 (RDNA2), VEGA10 (GCN 5), POLARIS10,
-    /// GFX1100; or `here` for the device of this machine. No such chip is needed, but RADV (package mesa-vulkan-drivers)
-    #[arg(long, value_name = "CHIP,...", value_delimiter = ',')]
-    pub isa: Vec<String>,
-
-    /// What a process of ours does for one chip: prints the rows as JSON.
-    #[arg(long, hide = true)]
-    pub isa_rows: bool,
-}
 
 /// What a process of ours does for one chip.
 ///
 /// # Errors
 /// As [`isa::rows_here`].
 pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
-    let rows = isa::rows_here(&pipelines(arguments.counts.all)?, arguments.device.as_deref())?;
+    let rows = isa::rows_here(&pipelines(arguments.counts.all)?, arguments.device.asked.as_deref())?;
     console::print(&to_json(&rows)?)
 }
 
@@ -52,7 +33,7 @@ pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
 pub fn gather(arguments: &BenchArguments, bars: &Bars) -> Result<InstructionReport> {
     let counts = &arguments.counts;
     let alone = arguments.table == Bench::Counts;
-    if alone && (arguments.model.is_some() || arguments.validate) {
+    if alone && (arguments.model.is_some() || arguments.device.validate) {
         return Err(Error::option("--model, --validate", "bench counts draws nothing"));
     }
     let pipelines = pipelines(counts.all)?;
@@ -73,7 +54,7 @@ pub fn gather(arguments: &BenchArguments, bars: &Bars) -> Result<InstructionRepo
         "published: Guennebaud, Barthe, Paulin 2006, table 1".to_owned(),
     ];
     for (chip, done) in counts.isa.iter().zip(1..) {
-        let found = isa::rows_of(chip, counts.all, arguments.device.as_deref())?;
+        let found = isa::rows_of(chip, counts.all, arguments.device.asked.as_deref())?;
         for (row, isa) in rows.iter_mut().zip(found) {
             row.isa.extend(isa);
         }
@@ -240,7 +221,7 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.accumulate = settings.accumulate.name().to_owned();
     }
     if ["finalize", "see, sum and shade tiles"].contains(&recipe.pass) {
-        names.shading = surfel::report::settings_as_options(settings)["shading"].clone();
+        names.shading = settings.shading.name().to_owned();
     }
     names
 }

@@ -1,21 +1,80 @@
-//! Opens the device that the command line names.
+//! The device that the command line names, and the validation layer that may watch it.
 
+use std::{collections::BTreeMap, env, path::PathBuf};
+
+use clap::Args;
 use surfel::{
     Result,
     renderer::{Headless, HeadlessOptions},
-    vk::Validation,
+    vk::{Messages, Validation},
 };
 
-use crate::cache;
+use crate::console;
 
-/// A host on the device asked for, or the best, with what was compiled in runs before.
+/// The device.
+#[derive(Args)]
+pub struct DeviceArguments {
+    /// The device: its number or a part of its name, see `surfel info` [default: the best]
+    #[arg(long = "device", id = "device", value_name = "NAME|INDEX")]
+    pub asked: Option<String>,
+
+    /// Have the Vulkan validation layer watch, which makes times worthless; any message makes the exit code 3
+    #[arg(long)]
+    pub validate: bool,
+}
+
+impl DeviceArguments {
+    /// A host on the device asked for, or the best, with what was compiled in runs before.
+    ///
+    /// # Errors
+    /// As [`Headless::new`].
+    pub fn open(&self) -> Result<Headless> {
+        Headless::new(&HeadlessOptions {
+            validation: if self.validate { Validation::On } else { Validation::Off },
+            device: self.asked.clone(),
+            cache_folder: cache_folder(),
+        })
+    }
+
+    /// Works with the host, which it takes, and prints what the validation layer said, if it watched.
+    ///
+    /// # Errors
+    /// As `work`; messages of the layer.
+    pub fn watch(&self, headless: Headless, work: impl FnOnce(Headless) -> Result<()>) -> Result<()> {
+        let messages = headless.device().instance().messages();
+        let done = work(headless);
+        // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
+        let said = if self.validate { conclude(&messages) } else { Ok(()) };
+        done.and(said)
+    }
+}
+
+/// The folder in which compiled pipelines are kept from run to run: `$XDG_CACHE_HOME/surfel`, else `~/.cache/surfel`; `None` where
+/// neither is known, which costs time only.
+fn cache_folder() -> Option<PathBuf> {
+    let absolute = |name| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let caches = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")))?;
+    Some(caches.join("surfel"))
+}
+
+/// Prints each message of the validation layer once, and how often messages of the allow-list came.
 ///
 /// # Errors
-/// As [`Headless::new`].
-pub fn open(asked: Option<&str>, validate: bool) -> Result<Headless> {
-    Headless::new(&HeadlessOptions {
-        validation: if validate { Validation::On } else { Validation::Off },
-        device: asked.map(str::to_owned),
-        cache_folder: cache::folder(),
-    })
+/// [`surfel::ErrorKind::Validation`] if there was any outside the allow-list.
+pub fn conclude(messages: &Messages) -> Result<()> {
+    let mut times: BTreeMap<(String, String), usize> = BTreeMap::new();
+    for message in messages.all() {
+        *times.entry((message.vuid, message.text)).or_default() += 1;
+    }
+    for ((vuid, text), times) in &times {
+        console::say(&format!("validation ({times} times): {vuid}: {}", text.trim()));
+    }
+    let allowed: Vec<String> =
+        messages.allowed_hits().into_iter().map(|(vuid, times)| format!("{vuid} {times} times")).collect();
+    messages.check()?;
+    match allowed.is_empty() {
+        true => console::say("validation: no message"),
+        false => console::say(&format!("validation: no message but allowed ones: {}", allowed.join(", "))),
+    }
+    Ok(())
 }

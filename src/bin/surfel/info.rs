@@ -2,13 +2,22 @@
 
 use std::fmt::Write as _;
 
+use clap::Args;
 use serde::Serialize;
 use surfel::{
     Result,
     vk::{DeviceFacts, DeviceKind, Instance, LoaderFacts, Validation, all_facts, choose, loader_facts},
 };
 
-use crate::{arguments::InfoArguments, console, json::to_json};
+use crate::{console, json::to_json};
+
+/// List devices, drivers and limits, and what a device lacks
+#[derive(Args)]
+pub struct InfoArguments {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
 
 /// Everything that is told.
 #[derive(Serialize)]

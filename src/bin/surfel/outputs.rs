@@ -13,7 +13,7 @@ use surfel::{
     load::{ObjectDescription, Source, is_scene_file, load_scene_file},
 };
 
-use crate::picture_arguments::PictureArguments;
+use crate::picture::PictureArguments;
 
 /// The format of the picture, from its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,8 @@ pub const DUMPED: [&str; 5] = ["weight.exr", "albedo.exr", "normal.exr", "depth.
 pub fn check(arguments: &PictureArguments, timings: Option<&Path>) -> Result<PictureFormat> {
     let format = picture_format(&arguments.output)?;
     let files: Vec<&Path> = [Some(arguments.output.as_path()), timings].into_iter().flatten().collect();
-    let inputs: Vec<&Path> = paths(&arguments.inputs).chain(arguments.camera.camera.as_deref()).collect();
+    let inputs: Vec<&Path> =
+        paths(&arguments.input.inputs).chain(arguments.camera.camera.as_deref()).collect();
     check_places(&files, arguments.dump.as_deref(), &DUMPED, &inputs)?;
     Ok(format)
 }

@@ -1,19 +1,35 @@
 //! `surfel reference`: the same scene with the oracle.
 
+use clap::Args;
 use surfel::{
     Progress as _, Result,
     reference::{self, Picture, Pixel},
 };
 
 use crate::{
-    arguments::ReferenceArguments,
     camera::CameraChoice,
     console::Bars,
     outputs,
+    picture::PictureArguments,
     pictures::{self, Colors, Dump},
-    scene::load_scene,
+    scene::{INPUTS, load_scene},
     steps::Steps,
 };
+
+const EXAMPLES: &str = "Examples:
+  surfel reference igea.ply -o igea.png --size 256x256
+  surfel reference igea.ply --size 256x256 --dump oracle     to compare with: surfel render ... --dump buffers";
+
+/// Draw the same with the reference: in 64 bits on the processor, slow and obvious
+#[derive(Args)]
+#[command(long_about = format!(
+    "Draw the same with the reference. It computes in 64 bits on the processor, slow and obvious, and needs no Vulkan.\n\n{INPUTS}"
+))]
+#[command(after_help = EXAMPLES)]
+pub struct ReferenceArguments {
+    #[command(flatten)]
+    picture: PictureArguments,
+}
 
 /// Runs the subcommand.
 ///
@@ -26,7 +42,8 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let camera = CameraChoice::of(&picture.camera)?;
     let format = outputs::check(picture, None)?;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.inputs, picture.representation, &bars, &mut Steps::default())?;
+    let loaded =
+        load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut Steps::default())?;
     let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);

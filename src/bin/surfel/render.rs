@@ -1,27 +1,83 @@
 //! `surfel render`: a scene on a Vulkan device.
 
+use std::path::PathBuf;
+
+use clap::{Arg, Args};
 use surfel::{
     Progress as _, Result,
     renderer::{Headless, Wanted},
-    report::{RunReport, settings_as_options},
+    report::RunReport,
     save,
     scene::{Settings, Storage},
 };
 
 use crate::{
-    arguments::RenderArguments,
     camera::CameraChoice,
     console::{self, Bars},
-    device, explain,
+    device::DeviceArguments,
+    explain,
     json::to_json,
     measure::{self, View},
     outputs::{self, PictureFormat},
+    parse,
+    picture::PictureArguments,
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
-    scene::{Loaded, load_scene},
+    scene::{INPUTS, Loaded, load_scene},
+    scene_file_keys::KEYS,
+    settings::{Given, Taken},
     steps::Steps,
-    validation,
 };
+
+const EXAMPLES: &str = "Examples:
+  surfel render
+  surfel render igea.ply -o igea.png --size 1920x1080
+  surfel render a.ply b.obj --eye 0,1,4 --target 0,0,0 --fov 60
+  surfel render scene.toml              all keys of scene files: surfel render --help
+  surfel render igea.ply --shading normals --background none -o normals.exr
+  surfel render igea.ply --frames 20 --timings igea.json
+  surfel render igea.ply --accumulate f32 --dump buffers --validate
+
+A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\":45, \"near\":0.01}; near may be left out.";
+
+/// Draw a scene on a Vulkan device
+#[derive(Args)]
+#[command(long_about = format!("Draw a scene on a Vulkan device.\n\n{INPUTS}"))]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{KEYS}"))]
+pub struct RenderArguments {
+    #[command(flatten)]
+    pub picture: PictureArguments,
+
+    #[command(flatten, next_help_heading = "Device and measurement")]
+    device: DeviceArguments,
+
+    #[command(flatten)]
+    storage: Given<Stored>,
+
+    /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
+    /// --timings, else none]
+    #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
+    frames: Option<u32>,
+
+    /// Write what the passes cost, in milliseconds, and all that explains it, as JSON
+    #[arg(long, value_name = "FILE.json")]
+    timings: Option<PathBuf>,
+
+    /// Print why this scene got the passes, pipelines and bytes that it got
+    #[arg(long)]
+    explain: bool,
+}
+
+/// How splats are kept: all of it.
+struct Stored;
+
+impl Taken for Stored {
+    type Table = Storage;
+
+    fn option(_name: &str, option: Arg) -> Option<Arg> {
+        Some(option)
+    }
+}
 
 /// Frames timed where only `--timings` is given.
 const DEFAULT_TIMED_FRAMES: u32 = 10;
@@ -36,16 +92,11 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let camera = CameraChoice::of(&arguments.picture.camera)?;
     let format = outputs::check(&arguments.picture, arguments.timings.as_deref())?;
     let mut steps = Steps::default();
-    let headless =
-        steps.time("open the device", || device::open(arguments.device.as_deref(), arguments.validate))?;
-    let messages = headless.device().instance().messages();
-    let done = headless
-        .renderer
-        .check_settings(&settings)
-        .and_then(|()| draw(headless, arguments, &settings, &camera, format, steps));
-    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
-    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
-    done.and(said)
+    let headless = steps.time("open the device", || arguments.device.open())?;
+    arguments.device.watch(headless, |headless| {
+        headless.renderer.check_settings(&settings)?;
+        draw(headless, arguments, &settings, &camera, format, steps)
+    })
 }
 
 fn draw(
@@ -58,11 +109,11 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.inputs, picture.representation, &bars, &mut steps)?;
+    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut steps)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
     let Loaded { mut scene, inputs, .. } = loaded;
-    scene.storage = Storage { order: arguments.order, format: arguments.splat_format };
+    scene.storage = arguments.storage.over(Storage::default());
     let prepared =
         steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
     bars.clear();
@@ -77,7 +128,7 @@ fn draw(
         let report = RunReport {
             surfel: env!("CARGO_PKG_VERSION").to_owned(),
             device: device_report(headless.device().facts()),
-            settings: settings_as_options(settings),
+            settings: settings.as_options(),
             camera: (&camera).into(),
             scene: scene_report(inputs, &prepared, transient_bytes),
             steps: steps.0,

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::{Args, ValueEnum};
 use surfel::{
     Error, Result,
     compose::{Made, check_memory, make},
@@ -14,6 +15,43 @@ use crate::{
     console::{self, Bars},
     steps::Steps,
 };
+
+/// The manual of inputs.
+pub const INPUTS: &str = "Inputs are PLY files (splats or meshes), OBJ files (meshes), and scene files (.toml: objects, each \
+with its place and looks, lights and a camera; `surfel render --help` has their keys); a mesh becomes disks at its \
+vertices. Several inputs are one scene; none is the built-in model. Lengths are in the files' own unit; +y is up unless \
+--up says otherwise. The camera looks along -z at the whole scene unless told otherwise.";
+
+/// The inputs.
+#[derive(Args)]
+pub struct InputArguments {
+    /// PLY, OBJ or scene files (.toml); none is the built-in model
+    #[arg(value_name = "INPUT")]
+    pub inputs: Vec<PathBuf>,
+
+    /// As what inputs are drawn that are no scene files
+    #[arg(long, value_name = "WHAT", default_value = "splats")]
+    representation: Primitives,
+}
+
+/// The primitives of an input.
+#[derive(Clone, Copy, ValueEnum)]
+enum Primitives {
+    /// Splats; a mesh with a disk at each vertex
+    Splats,
+    /// The triangles of a mesh
+    Mesh,
+}
+
+impl InputArguments {
+    /// As what inputs are drawn that are no scene files.
+    pub fn representation(&self) -> Representation {
+        match self.representation {
+            Primitives::Splats => Representation::Splats,
+            Primitives::Mesh => Representation::Mesh,
+        }
+    }
+}
 
 /// A scene with its extent and where it came from.
 pub struct Loaded {

@@ -57,7 +57,7 @@ mod tests {
 
     fn refusal(arguments: &[&str]) -> String {
         let words = ["surfel"].iter().chain(arguments);
-        let error = Arguments::try_parse_from(words).unwrap_err();
+        let error = Arguments::try_parse_from(words).err().unwrap();
         one_line(&error.to_string(), &manual(arguments[0]))
     }
 

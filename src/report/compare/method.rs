@@ -211,7 +211,7 @@ mod tests {
         };
         assert_eq!(method.names().line(), "raycast, adjust-paper unit, f32, texture");
         let settings = method.settings(&Settings::default());
-        let options = crate::report::settings_as_options(&settings);
+        let options = settings.as_options();
         let names = method.names();
         let expected = [
             ("rasterizer", names.rasterizer),

@@ -58,7 +58,7 @@ fn report() -> CompareReport {
             timestamp_period_ns: 1.0,
             timestamp_valid_bits: 64,
         },
-        settings: crate::report::settings_as_options(&Settings::default()),
+        settings: Settings::default().as_options(),
         camera: (&Camera::fit(&crate::scene::Ball { center: glam::DVec3::ZERO, radius: 1.0 }, [64; 2], 0.75))
             .into(),
         inputs: Vec::new(),

@@ -1,18 +1,48 @@
 //! The options of `surfel bench`.
 
-use std::{collections::HashSet, hash::Hash, path::PathBuf};
+use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Arg, Args, ValueEnum};
 use surfel::{
     Error, Result,
     report::PAPER_SPLATS,
-    scene::{Accumulate, Filter, KernelEval, Rasterizer, Settings},
+    scene::{Rasterizer, Settings},
 };
 
-use crate::{counts::CountsArguments, parse, picture_arguments::choice};
+use crate::{
+    device::DeviceArguments,
+    parse,
+    settings::{Given, Taken, once, one_of},
+};
 
-/// Options of `surfel bench`.
-#[derive(Debug, Args)]
+const HELP: &str = "\
+Measure what things cost, in figures that can be trusted or say that they can't be.
+
+What is compared takes turns, frame pair by frame pair, so that a change of the machine's speed meets all of it alike; \
+ratios are taken within each round. The floor draws the same points through the same fixed-function stages into the same \
+formats with nothing computed: `x floor` is how many times its time a method takes; `x bound`, \
+of bench floor, how many times what the device's own limits alone would take. A median comes with an interval that holds the true one with 95% confidence, whatever the distribution. Notes say when a median is too uncertain (--max-spread), \
+the machine's speed drifted, its clock moved, or other processes took the processor; with --strict they end in exit code 2.
+
+As a gate: `--json now.json` keeps a run, `--baseline now.json` judges a later one by it. Times are judged by x floor, so \
+that the two runs need not be on an equally fast machine: worse is what is beyond both intervals and --tolerance. Counts of \
+fragments, vertices and bytes may grow by a thousandth. Anything worse ends in exit code 3. growth has no floor, and is judged by its counts.";
+
+const EXAMPLES: &str = "Examples:
+  surfel bench floor                      the built-in model
+  surfel bench table1 --model igea.ply --markdown table1.md --plot table1.svg
+  surfel bench slides --model igea.ply
+  surfel bench table1 --splats 154k,460k --json before.json
+  surfel bench table1 --splats 154k,460k --baseline before.json
+  surfel bench layers --markdown layers.md
+  surfel bench transition --model igea.ply
+  surfel bench growth --model igea.ply --rasterizer perspective,raycast --plot growth.svg
+  surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
+  surfel bench all --csv tables --json all.json";
+
+/// Measure: tables of what things cost
+#[derive(Args)]
+#[command(long_about = HELP, after_help = EXAMPLES)]
 pub struct BenchArguments {
     /// What is measured
     #[arg(value_name = "NAME")]
@@ -29,29 +59,16 @@ pub struct BenchArguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
-    /// Width and height in pixels; for growth over splats
-    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse::size)]
-    pub size: [u32; 2],
+    #[command(flatten)]
+    settings: Given<Common>,
 
     /// Sizes of growth over pixels, with commas between; a number alone is a square [default: 256 to 4096]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::square_or_size)]
     pub sizes: Vec<[u32; 2]>,
 
     /// The rasterizer of floor; of growth several, with commas between, in turn and beside the first [default: perspective]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = choice(Rasterizer::NAMES))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = one_of(Rasterizer::NAMES))]
     pub rasterizer: Vec<Rasterizer>,
-
-    /// The filter of all but slides, which has each method's own
-    #[arg(long, value_name = "FILTER", default_value = "adjust", value_parser = choice(Filter::NAMES))]
-    pub filter: Filter,
-
-    /// How the kernel is evaluated
-    #[arg(long, value_name = "HOW", default_value = "analytic", value_parser = choice(KernelEval::NAMES))]
-    pub kernel_eval: KernelEval,
-
-    /// The precision of the sums
-    #[arg(long, value_name = "TYPE", default_value = "f16", value_parser = choice(Accumulate::NAMES))]
-    pub accumulate: Accumulate,
 
     /// Frames timed of each method, in turn with the floor: in pairs after an untimed one, and as many again for the times
     /// of their passes; floor has as many rounds of single frames
@@ -59,22 +76,17 @@ pub struct BenchArguments {
     #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
 
-    /// The device: its number or a part of its name, see `surfel info` [default: the best]
-    #[arg(long, value_name = "NAME|INDEX", help_heading = "Device and measurement")]
-    pub device: Option<String>,
+    #[command(flatten, next_help_heading = "Device and measurement")]
+    pub device: DeviceArguments,
 
     /// How uncertain a median may be without a note: half its 95% interval, in percent; three times that ends a gate
     #[arg(long, value_name = "PERCENT", default_value_t = 5.0, help_heading = "Device and measurement")]
-    #[arg(value_parser = parse::percent, allow_hyphen_values = true)]
+    #[arg(value_parser = parse::number("percent", 0.0..=1000.0), allow_hyphen_values = true)]
     pub max_spread: f64,
 
     /// Refuse doubtful figures: any note makes the exit code 2
     #[arg(long, help_heading = "Device and measurement")]
     pub strict: bool,
-
-    /// Have the Vulkan validation layer watch, which makes the times worthless; any message makes the exit code 3
-    #[arg(long, help_heading = "Device and measurement")]
-    pub validate: bool,
 
     /// The JSON of an earlier run: any figure that became worse makes the exit code 3; takes 12 frames at least
     #[arg(long, value_name = "FILE.json", help_heading = "Gate")]
@@ -82,7 +94,7 @@ pub struct BenchArguments {
 
     /// By how much a time over the floor may grow beside the uncertainty of both runs, in percent
     #[arg(long, value_name = "PERCENT", default_value_t = 3.0, requires = "baseline", help_heading = "Gate")]
-    #[arg(value_parser = parse::percent, allow_hyphen_values = true)]
+    #[arg(value_parser = parse::number("percent", 0.0..=1000.0), allow_hyphen_values = true)]
     pub tolerance: f64,
 
     /// Write the tables and all that explains them as JSON
@@ -101,13 +113,30 @@ pub struct BenchArguments {
     #[arg(long, value_name = "FILE.svg", help_heading = "Results")]
     pub plot: Option<PathBuf>,
 
-    /// Of `bench counts`.
     #[command(flatten)]
     pub counts: CountsArguments,
 }
 
+/// Options of `surfel bench counts` alone.
+#[derive(Args)]
+#[command(next_help_heading = "counts")]
+pub struct CountsArguments {
+    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, 32-bit sums, shadings [default: small disks]
+    #[arg(long)]
+    pub all: bool,
+
+    /// What compilers of these chips make of every pipeline: RADV's names, such as NAVI21 (RDNA2), VEGA10 (GCN 5), POLARIS10,
+    /// GFX1100; or `here` for the device of this machine. No such chip is needed, but RADV (package mesa-vulkan-drivers)
+    #[arg(long, value_name = "CHIP,...", value_delimiter = ',')]
+    pub isa: Vec<String>,
+
+    /// Print the rows of this machine's device as JSON: for a process of ours, one a chip
+    #[arg(long, hide = true)]
+    pub isa_rows: bool,
+}
+
 /// What can be measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Bench {
     /// The passes against a floor, the same points and formats with nothing computed; and against the device's own limits
     Floor,
@@ -128,57 +157,25 @@ pub enum Bench {
     All,
 }
 
-/// Which tables a name stands for.
-#[derive(Clone, Copy, Debug)]
-pub struct Tables {
-    pub floor: bool,
-    pub table1: bool,
-    pub slides: bool,
-    pub layers: bool,
-    pub transition: bool,
-    pub growth: bool,
-    pub counts: bool,
-}
-
 impl Bench {
-    /// The tables of this name.
-    pub fn tables(self) -> Tables {
-        let is = |one| self == one || self == Self::All;
-        Tables {
-            floor: is(Self::Floor),
-            table1: is(Self::Table1),
-            slides: is(Self::Slides),
-            layers: is(Self::Layers),
-            transition: is(Self::Transition),
-            growth: self == Self::Growth,
-            counts: is(Self::Counts),
-        }
+    /// Whether this name stands for that table.
+    pub fn has(self, table: Self) -> bool {
+        self == table || self == Self::All && table != Self::Growth
     }
 
-    /// As it is written on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Floor => "floor",
-            Self::Table1 => "table1",
-            Self::Slides => "slides",
-            Self::Layers => "layers",
-            Self::Transition => "transition",
-            Self::Growth => "growth",
-            Self::Counts => "counts",
-            Self::All => "all",
-        }
-    }
-}
-
-impl Tables {
-    /// Any whose contestants take turns of pairs of frames.
-    pub fn take_turns(self) -> bool {
-        self.table1 || self.slides || self.layers || self.transition || self.growth
+    /// Whether any of its figures are times.
+    pub fn is_timed(self) -> bool {
+        self != Self::Counts
     }
 
-    /// Any whose figures are times.
-    pub fn are_timed(self) -> bool {
-        self.floor || self.take_turns()
+    /// Whether any of its contestants take turns of pairs of frames.
+    pub fn takes_turns(self) -> bool {
+        self.is_timed() && self != Self::Floor
+    }
+
+    /// Its word on the command line.
+    pub fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 }
 
@@ -186,29 +183,33 @@ impl Tables {
 const GROWTH_SPLATS: [u64; 10] =
     [10_000, 30_000, 100_000, 154_000, 300_000, 460_000, 1_000_000, 1_400_000, 3_000_000, 5_000_000];
 
-/// What is listed, each once; the default where nothing is.
-fn once<T: Copy + Eq + Hash>(listed: &[T], default: &[T]) -> Vec<T> {
-    let mut all = if listed.is_empty() { default.to_vec() } else { listed.to_vec() };
-    let mut seen = HashSet::new();
-    all.retain(|value| seen.insert(*value));
-    all
+/// The settings that all methods have in common.
+struct Common;
+
+impl Taken for Common {
+    type Table = Settings;
+
+    fn option(name: &str, option: Arg) -> Option<Arg> {
+        match name {
+            "size" => Some(option.help("Width and height in pixels; for growth over splats")),
+            "filter" => Some(option.help("The filter of all but slides, which has each method's own")),
+            "kernel-eval" | "accumulate" => Some(option),
+            _ => None,
+        }
+    }
 }
 
 impl BenchArguments {
-    /// What all methods have in common.
+    /// The settings that all methods have in common.
     pub fn settings(&self) -> Settings {
-        Settings {
-            size_px: self.size,
-            filter: self.filter,
-            kernel_eval: self.kernel_eval,
-            accumulate: self.accumulate,
+        self.settings.over(Settings {
             // Other tables have their own, or are set beside the floor, which is made of points.
             rasterizer: match (self.table, self.rasterizer.as_slice()) {
                 (Bench::Floor, [rasterizer]) => *rasterizer,
                 _ => Rasterizer::Perspective,
             },
             ..Settings::default()
-        }
+        })
     }
 
     /// Refuses lists that the table does not take.

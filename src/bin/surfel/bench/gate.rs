@@ -13,7 +13,7 @@ use surfel::{
     },
 };
 
-use super::arguments::BenchArguments;
+use super::arguments::{Bench, BenchArguments};
 
 /// How many times --max-spread an interval may be wide, for the gate to see through it.
 const WIDEST: f64 = 3.0;
@@ -46,8 +46,10 @@ pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
     if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
         return Err(Error::input(path, "", format!("has '{}' twice", twice[0])));
     }
-    let tables = arguments.table.tables();
-    if tables.take_turns() && arguments.frames < FEWEST_FRAMES || tables.floor && arguments.frames < 6 {
+    let table = arguments.table;
+    if table.takes_turns() && arguments.frames < FEWEST_FRAMES
+        || table.has(Bench::Floor) && arguments.frames < 6
+    {
         return Err(Error::option(
             "--frames",
             format!("{}: a gate takes {FEWEST_FRAMES} at least", arguments.frames),
@@ -130,19 +132,18 @@ pub fn conclude(arguments: &BenchArguments, report: &BenchReport) -> Result<()> 
 
 /// What must be equal for two runs to compare; without a report, what the command line alone decides.
 fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap<String, String> {
-    let tables = arguments.table.tables();
-    let mut subject: BTreeMap<String, String> = surfel::report::settings_as_options(&arguments.settings())
-        .into_iter()
-        .map(|(name, value)| (name.to_owned(), value))
-        .collect();
-    subject.insert("table".to_owned(), arguments.table.name().to_owned());
-    subject.insert("validation".to_owned(), arguments.validate.to_string());
-    if tables.take_turns() {
+    let table = arguments.table;
+    let options = arguments.settings().as_options().into_iter();
+    let mut subject: BTreeMap<String, String> =
+        options.map(|(name, value)| (name.to_owned(), value)).collect();
+    subject.insert("table".to_owned(), table.name());
+    subject.insert("validation".to_owned(), arguments.device.validate.to_string());
+    if table.takes_turns() {
         let splats: Vec<String> = arguments.splats.iter().map(u64::to_string).collect();
         let splats = if splats.is_empty() { "default".to_owned() } else { splats.join(",") };
         subject.insert("splats".to_owned(), splats);
     }
-    if tables.growth {
+    if table.has(Bench::Growth) {
         let sizes: Vec<String> =
             arguments.growth_sizes().iter().map(|[width, height]| format!("{width}x{height}")).collect();
         let rasterizers = arguments.rasterizers();
@@ -150,7 +151,7 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
         subject.insert("sizes".to_owned(), sizes.join(","));
         subject.insert("rasterizers".to_owned(), rasterizers.join(","));
     }
-    if tables.counts {
+    if table.has(Bench::Counts) {
         subject.insert("all pipelines".to_owned(), arguments.counts.all.to_string());
     }
     if let Some(report) = report {

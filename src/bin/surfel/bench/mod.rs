@@ -1,6 +1,6 @@
 //! `surfel bench`: tables of what things cost.
 
-mod arguments;
+pub mod arguments;
 mod contest;
 mod floor;
 mod gate;
@@ -16,18 +16,18 @@ mod transition;
 use surfel::{
     Error, Result,
     renderer::Headless,
-    report::{BenchReport, InputReport, TrustLimits, settings_as_options},
+    report::{BenchReport, InputReport, TrustLimits},
     scene::Settings,
 };
 
-pub use arguments::{Bench, BenchArguments};
+use arguments::Bench;
+pub use arguments::BenchArguments;
 
 use crate::{
     console::{self, Bars},
     counts, device,
     machine::Watch,
     reports::device_report,
-    validation,
 };
 
 /// What every table is given.
@@ -54,7 +54,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     }
     arguments.settings().validate()?;
     let counts = &arguments.counts;
-    if !arguments.table.tables().counts && (counts.all || !counts.isa.is_empty()) {
+    if !arguments.table.has(Bench::Counts) && (counts.all || !counts.isa.is_empty()) {
         return Err(Error::option("--isa, --all", format!("{} counts nothing", arguments.table.name())));
     }
     if arguments.table == Bench::Layers && arguments.model.is_some() {
@@ -64,8 +64,8 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
     // Instructions are counted without a device.
-    let mut headless = match arguments.table.tables().are_timed() {
-        true => Some(device::open(arguments.device.as_deref(), arguments.validate)?),
+    let mut headless = match arguments.table.is_timed() {
+        true => Some(arguments.device.open()?),
         false => None,
     };
     let mut report = gather(headless.as_mut(), arguments)?;
@@ -76,8 +76,8 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     console::print(&report.text())?;
     outputs::write(arguments, &report)?;
     judgement?;
-    if let (true, Some(headless)) = (arguments.validate, headless) {
-        validation::conclude(&headless.device().instance().messages())?;
+    if let (true, Some(headless)) = (arguments.device.validate, headless) {
+        device::conclude(&headless.device().instance().messages())?;
     }
     gate::conclude(arguments, &report)
 }
@@ -92,7 +92,7 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     let mut report = BenchReport {
         surfel: env!("CARGO_PKG_VERSION").to_owned(),
         commit: option_env!("SURFEL_COMMIT").map(str::to_owned),
-        settings: settings_as_options(&settings),
+        settings: settings.as_options(),
         frames: arguments.frames,
         limits,
         ..BenchReport::default()
@@ -108,11 +108,11 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     };
     // First, since it takes no time to find that a chip is unknown.
     report.counts =
-        arguments.table.tables().counts.then(|| counts::gather(arguments, &stage.bars)).transpose()?;
+        arguments.table.has(Bench::Counts).then(|| counts::gather(arguments, &stage.bars)).transpose()?;
     let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut stage, &mut report));
     stage.bars.clear();
     measured?;
-    if arguments.validate {
+    if arguments.device.validate {
         report.flags.push("measured under validation: the times are worthless".to_owned());
     }
     Ok(report)
@@ -124,23 +124,23 @@ fn measure(headless: &mut Headless, stage: &mut Stage<'_>, report: &mut BenchRep
     let facts = headless.device().facts().clone();
     report.device = Some(device_report(&facts));
     let watch = Watch::begin(&facts);
-    let tables = stage.arguments.table.tables();
-    if tables.floor {
+    let table = stage.arguments.table;
+    if table.has(Bench::Floor) {
         report.floor = Some(floor::measure(headless, stage)?);
     }
-    if tables.table1 {
+    if table.has(Bench::Table1) {
         report.table1 = table1::measure(headless, stage)?;
     }
-    if tables.slides {
+    if table.has(Bench::Slides) {
         report.slides = Some(slides::measure(headless, stage)?);
     }
-    if tables.layers {
+    if table.has(Bench::Layers) {
         report.layers = Some(layers::measure(headless, stage)?);
     }
-    if tables.transition {
+    if table.has(Bench::Transition) {
         report.transition = Some(transition::measure(headless, stage)?);
     }
-    if tables.growth {
+    if table.has(Bench::Growth) {
         report.growth = Some(growth::measure(headless, stage)?);
     }
     let machine = watch.end(&stage.clocks_mhz);

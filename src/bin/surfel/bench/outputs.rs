@@ -8,7 +8,7 @@ use surfel::{
     save,
 };
 
-use super::arguments::BenchArguments;
+use super::arguments::{Bench, BenchArguments};
 use crate::{json::to_json, outputs};
 
 /// Checks that all files that are asked for can be written.
@@ -17,7 +17,7 @@ use crate::{json::to_json, outputs};
 /// A place that can't be written to, that is an input, or that is named twice; a plot without anything to plot.
 pub fn check(arguments: &BenchArguments) -> Result<()> {
     let BenchArguments { json, markdown, plot, csv, model, baseline, table, .. } = arguments;
-    if plot.is_some() && !table.tables().table1 && !table.tables().growth {
+    if plot.is_some() && !table.has(Bench::Table1) && !table.has(Bench::Growth) {
         return Err(Error::option("--plot", format!("{} is not over numbers of splats", table.name())));
     }
     let files: Vec<&Path> = [json, markdown, plot].into_iter().flatten().map(PathBuf::as_path).collect();

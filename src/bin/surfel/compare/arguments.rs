@@ -2,22 +2,18 @@
 
 use std::path::PathBuf;
 
-use clap::{
-    Args,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Arg, Args};
 use surfel::{
-    load::Representation,
     report::compare::Selection,
-    scene::{
-        Accumulate, Backfaces, Epsilon, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings,
-        Shading,
-    },
+    scene::{Accumulate, Epsilon, Filter, FilterWeight, KernelEval, Rasterizer, Settings, Shading},
 };
 
 use crate::{
+    camera::CameraArguments,
+    device::DeviceArguments,
     parse,
-    picture_arguments::{BACKFACES, CameraArguments, REPRESENTATIONS, SHADINGS, choice},
+    scene::{INPUTS, InputArguments},
+    settings::{Given, Listed, Taken, chosen, listed},
 };
 
 /// What `--zoom` decides by itself.
@@ -32,28 +28,46 @@ const ZOOM_HAS_ITS_OWN: [&str; 15] = [
     "fov",
     "rasterizer",
     "accumulate",
-    "kernel_eval",
+    "kernel-eval",
     "quick",
     "backfaces",
     "frames",
     "pictures",
 ];
 
-/// Options of `surfel compare`.
-#[derive(Debug, Args)]
+const HELP: &str = "\
+Every combination of rasterizer, filter, precision of the sums and kernel evaluation draws the same scene. What it costs is \
+timed at --time-size, with the methods in turn, so that a change of the machine's speed meets all of them. How wrong it is is \
+found at --size, twice: against the oracle of the same method in 64 bits (implementation error), and against the ground \
+truth, the continuous surface at many samples a pixel under the filter's Gaussian (method error). All of it takes minutes; \
+--quick shows what each option changes by itself.
+
+Columns: milliseconds a pass and a frame (median, smallest, largest); fragments a pass; linear color, where white is 1 (largest \
+and root mean square) over the pixels that both pictures cover; PSNR in decibels below white; SSIM, 1 for equal pictures; \
+pixels that only one of them covers; image, the root mean square over all that either picture touches, over white; normals \
+in degrees; depth relative to itself; out, the share of pixels left out of the implementation error, because rounding alone \
+may turn a rim or the epsilon test there (their error is in the JSON). A star marks the Pareto front: no other \
+method is at least as good in milliseconds a frame and in image (equal within 1%) and better in one. Two runs differ \
+in times, what is told of them, and the stars, in nothing else.
+
+With --zoom, a tilted checkerboard is drawn from many distances in place of a scene, by each filter, against the \
+ground truth.";
+
+const EXAMPLES: &str = "Examples:
+  surfel compare igea.ply --quick                         each option by itself
+  surfel compare igea.ply --json all.json --plot all.svg  every combination
+  surfel compare --filter adjust --rasterizer perspective,raycast --frames 50
+  surfel compare --zoom --plot zoom.svg                   the filters over distance";
+
+/// Put methods side by side: what each costs, and how far its picture is from the exact one
+#[derive(Args)]
+#[command(long_about = format!("Put methods side by side.\n\n{HELP}\n\n{INPUTS}"), after_help = EXAMPLES)]
 pub struct CompareArguments {
-    /// PLY, OBJ or scene files (.toml); none is the built-in model
-    #[arg(value_name = "INPUT")]
-    pub inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub input: InputArguments,
 
-    /// As what inputs are drawn that are no scene files: as splats, a mesh with a disk at each vertex, or as the triangles
-    /// of a mesh
-    #[arg(long, value_name = "WHAT", default_value = "splats", value_parser = choice(REPRESENTATIONS))]
-    pub representation: Representation,
-
-    /// Width and height of the pictures whose errors are found, in pixels; references take long
-    #[arg(long, value_name = "WxH", default_value = "256x256", value_parser = parse::size)]
-    pub size: [u32; 2],
+    #[command(flatten)]
+    common: Given<Common>,
 
     /// Width and height at which frames are timed and fragments counted, of the same proportions [default: 4 times --size]
     #[arg(long, value_name = "WxH", value_parser = parse::size)]
@@ -79,20 +93,14 @@ pub struct CompareArguments {
     pub zoom_splats: Option<u32>,
 
     /// By how many degrees the checkerboard is tilted against the view, 0 to 85 [default: 75]
-    #[arg(long, value_name = "DEGREES", conflicts_with = "inputs", requires = "zoom", value_parser = parse::tilt)]
+    #[arg(long, value_name = "DEGREES", conflicts_with = "inputs", requires = "zoom", value_parser = parse::number("degrees", 0.0..=85.0))]
     pub zoom_tilt: Option<f64>,
 
-    /// From where.
     #[command(flatten)]
     pub camera: CameraArguments,
 
-    /// Which methods.
     #[command(flatten)]
     pub methods: MethodArguments,
-
-    /// What they have in common.
-    #[command(flatten)]
-    pub common: CommonArguments,
 
     /// Frames timed of each method, in pairs: the methods take turns, an untimed frame before each pair, and a pair behind
     /// it for the times of their passes
@@ -100,13 +108,8 @@ pub struct CompareArguments {
     #[arg(value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: u32,
 
-    /// The device: its number or a part of its name, see `surfel info` [default: the best]
-    #[arg(long, value_name = "NAME|INDEX", help_heading = "Device and measurement")]
-    pub device: Option<String>,
-
-    /// Have the Vulkan validation layer watch, which makes the times worthless; any message makes the exit code 3
-    #[arg(long, help_heading = "Device and measurement")]
-    pub validate: bool,
+    #[command(flatten, next_help_heading = "Device and measurement")]
+    pub device: DeviceArguments,
 
     /// Write all figures and all that explains them as JSON
     #[arg(long, value_name = "FILE.json", help_heading = "Results")]
@@ -122,7 +125,7 @@ pub struct CompareArguments {
 }
 
 /// Which methods are compared.
-#[derive(Debug, Args)]
+#[derive(Args)]
 #[command(next_help_heading = "Methods: lists with commas, or all; every combination that exists")]
 pub struct MethodArguments {
     /// How splats become fragments
@@ -150,58 +153,29 @@ pub struct MethodArguments {
     pub quick: bool,
 }
 
-/// What all methods have in common.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "The same for all methods")]
-pub struct CommonArguments {
-    /// The weight within a splat: gaussian:S (S in radii) or psi_e:A,B,N
-    #[arg(long, value_name = "KERNEL", default_value = "gaussian:0.5", value_parser = parse::kernel)]
-    pub kernel: Kernel,
+/// The settings that all methods have in common.
+struct Common;
 
-    /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r,
-    /// or a length [default: 1r; with --zoom: 1000r]
-    #[arg(long, value_name = "1r|LENGTH", value_parser = parse::epsilon)]
-    #[arg(allow_hyphen_values = true)]
-    pub epsilon: Option<Epsilon>,
+impl Taken for Common {
+    type Table = Settings;
 
-    /// Splats that face away: auto leaves them out where the surface is closed and turns them elsewhere
-    #[arg(long, value_name = "WHAT", default_value = "auto", value_parser = choice(BACKFACES))]
-    pub backfaces: Backfaces,
-
-    /// How the surface is colored, with one light at the eye [default: phong; with --zoom: albedo]
-    #[arg(long, value_name = "NAME", value_parser = choice(SHADINGS))]
-    pub shading: Option<Shading>,
-}
-
-/// A value of a list, or all of them.
-#[derive(Clone, Copy, Debug)]
-pub struct Listed<T>(Option<T>);
-
-/// Takes one of these names, or `all`.
-fn listed<T: Copy + Send + Sync + 'static>(
-    values: &'static [(&'static str, T)],
-) -> impl TypedValueParser<Value = Listed<T>> {
-    let names = values.iter().map(|(name, _)| *name).chain(["all"]);
-    PossibleValuesParser::new(names).try_map(move |given| {
-        let found = values.iter().find(|(name, _)| *name == given).map(|(_, value)| *value);
-        (found.is_some() || given == "all").then_some(Listed(found)).ok_or("none of the possible values")
-    })
-}
-
-/// Every value that is listed, once, in the order of the list; `default` where there is no list.
-fn values<T: Copy + PartialEq>(list: &[Listed<T>], names: &[(&str, T)], default: &[T]) -> Vec<T> {
-    let all: Vec<T> = names.iter().map(|(_, value)| *value).collect();
-    let mut chosen: Vec<T> = Vec::new();
-    let given = list.iter().flat_map(|listed| match listed.0 {
-        Some(value) => vec![value],
-        None => all.clone(),
-    });
-    for value in given.chain(if list.is_empty() { default.to_vec() } else { Vec::new() }) {
-        if !chosen.contains(&value) {
-            chosen.push(value);
-        }
+    fn option(name: &str, option: Arg) -> Option<Arg> {
+        let zoom = |option: Arg, defaults: &str| {
+            let help = format!("{} [default: {defaults}]", option.get_help().cloned().unwrap_or_default());
+            option.default_value(None).help(help)
+        };
+        let option = match name {
+            "size" => {
+                let help = "Width and height of the pictures whose errors are found, in pixels; references take long";
+                return Some(option.default_value("256x256").help(help));
+            }
+            "kernel" | "backfaces" => option,
+            "epsilon" => zoom(option, "1r; with --zoom: 1000r"),
+            "shading" => zoom(option, "phong; with --zoom: albedo"),
+            _ => return None,
+        };
+        Some(option.help_heading("The same for all methods"))
     }
-    chosen
 }
 
 impl CompareArguments {
@@ -209,60 +183,50 @@ impl CompareArguments {
     pub fn selection(&self) -> Selection {
         let MethodArguments { rasterizer, filter, filter_weight, accumulate, kernel_eval, .. } =
             &self.methods;
-        let both_weights = [FilterWeight::Area, FilterWeight::Unit];
-        let (weights, sums): (&[_], &[_]) = match self.zoom {
-            false => (&both_weights[..1], &[Accumulate::F16, Accumulate::F32]),
-            true => (&both_weights, &[Accumulate::F32]),
+        let selection = Selection {
+            rasterizers: chosen(rasterizer, &[]),
+            filters: chosen(filter, &[]),
+            filter_weights: chosen(filter_weight, &[FilterWeight::Area]),
+            accumulates: chosen(accumulate, &[Accumulate::F16, Accumulate::F32]),
+            kernel_evals: chosen(kernel_eval, &[]),
         };
-        if self.zoom {
-            return Selection {
+        match self.zoom {
+            false => selection,
+            true => Selection {
                 rasterizers: vec![Rasterizer::Perspective],
-                filters: values(filter, Filter::NAMES, &[]),
-                filter_weights: values(filter_weight, FilterWeight::NAMES, weights),
-                accumulates: sums.to_vec(),
-                kernel_evals: vec![KernelEval::default()],
-            };
-        }
-        Selection {
-            rasterizers: values(rasterizer, Rasterizer::METHODS, &[]),
-            filters: values(filter, Filter::NAMES, &[]),
-            filter_weights: values(filter_weight, FilterWeight::NAMES, weights),
-            accumulates: values(accumulate, Accumulate::NAMES, sums),
-            kernel_evals: values(kernel_eval, KernelEval::NAMES, &[]),
+                filter_weights: chosen(filter_weight, &[FilterWeight::Area, FilterWeight::Unit]),
+                accumulates: vec![Accumulate::F32],
+                kernel_evals: vec![KernelEval::Analytic],
+                ..selection
+            },
         }
     }
 
-    /// What all methods have in common, at the size of the errors. The background is white.
+    /// The settings that all methods have in common, at the size of the errors. The background is white.
     pub fn settings(&self) -> Settings {
-        // The board is one surface, all of which a filter may mix; at 1r, splats that it has enlarged to pixels would hide
-        // their own neighbors behind them, which is a matter of epsilon and not of the filter.
-        let (shading, epsilon) = match self.zoom {
-            true => (Shading::Albedo, Epsilon::Radii(1000.0)),
-            false => (Shading::Phong, Settings::default().epsilon),
-        };
-        Settings {
-            size_px: self.size,
-            kernel: self.common.kernel,
-            epsilon: self.common.epsilon.unwrap_or(epsilon),
-            backfaces: self.common.backfaces,
-            shading: self.common.shading.unwrap_or(shading),
-            ..Settings::default()
-        }
+        let settings = Settings::default();
+        self.common.over(match self.zoom {
+            false => settings,
+            // The board is one surface, all of which a filter may mix; at 1r, splats that it has enlarged to pixels would hide
+            // their own neighbors behind them, which is a matter of epsilon and not of the filter.
+            true => Settings { shading: Shading::Albedo, epsilon: Epsilon::Radii(1000.0), ..settings },
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::Parser as _;
+    use clap::{Command, FromArgMatches as _};
 
     use super::*;
-    use crate::arguments::{Arguments, Command};
+
+    fn parsed(words: &[&str]) -> Result<CompareArguments, clap::Error> {
+        let command = CompareArguments::augment_args(Command::new("compare").no_binary_name(true));
+        CompareArguments::from_arg_matches(&command.try_get_matches_from(words)?)
+    }
 
     fn compare(words: &[&str]) -> CompareArguments {
-        match Arguments::try_parse_from(["surfel", "compare"].iter().chain(words)).unwrap().command {
-            Command::Compare(arguments) => *arguments,
-            other => panic!("{other:?}"),
-        }
+        parsed(words).unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]
@@ -290,9 +254,7 @@ mod tests {
         assert_eq!(selection.rasterizers, [Rasterizer::Perspective]);
         assert_eq!((selection.filters.len(), selection.filter_weights.len()), (5, 2));
         assert_eq!(selection.accumulates, [Accumulate::F32]);
-        let refused = |words: &[&str]| {
-            Arguments::try_parse_from(["surfel", "compare"].iter().chain(words)).unwrap_err().to_string()
-        };
+        let refused = |words: &[&str]| parsed(words).err().unwrap().to_string();
         assert!(refused(&["--zoom", "a.ply"]).contains("cannot be used with"));
         assert!(refused(&["--zoom", "--rasterizer", "quad"]).contains("cannot be used with"));
         assert!(refused(&["--zoom", "--fov", "9"]).contains("cannot be used with"));

@@ -15,10 +15,7 @@ use surfel::{
     passes::counts_of,
     prepare::PreparedScene,
     renderer::{Headless, Wanted},
-    report::{
-        compare::{CompareReport, ErrorFigures, Method, MethodRow, PictureKey, Skipped, Surface, errors},
-        settings_as_options,
-    },
+    report::compare::{CompareReport, ErrorFigures, Method, MethodRow, PictureKey, Skipped, Surface, errors},
     save,
     scene::{Camera, Scene, Settings},
 };
@@ -29,13 +26,11 @@ pub use pictures::{MAGNIFIED, Shown, difference};
 use crate::{
     camera::CameraChoice,
     console::{self, Bars},
-    device,
     json::to_json,
     outputs,
     reports::device_report,
     scene::{Loaded, load_scene},
     steps::Steps,
-    validation,
 };
 use pictures::Show;
 
@@ -53,15 +48,10 @@ pub fn run(arguments: &CompareArguments) -> Result<()> {
     let base = arguments.settings();
     base.validate()?;
     check_outputs(arguments)?;
-    let headless = device::open(arguments.device.as_deref(), arguments.validate)?;
-    let messages = headless.device().instance().messages();
-    let done = match arguments.zoom {
+    arguments.device.watch(arguments.device.open()?, |headless| match arguments.zoom {
         true => zoom::run(headless, arguments),
         false => compare(headless, arguments),
-    };
-    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
-    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
-    done.and(said)
+    })
 }
 
 fn check_outputs(arguments: &CompareArguments) -> Result<()> {
@@ -73,15 +63,16 @@ fn check_outputs(arguments: &CompareArguments) -> Result<()> {
     let files: Vec<&Path> =
         [&arguments.json, &arguments.plot].into_iter().flatten().map(|p| p.as_path()).collect();
     let inputs: Vec<&Path> =
-        outputs::paths(&arguments.inputs).chain(arguments.camera.camera.as_deref()).collect();
+        outputs::paths(&arguments.input.inputs).chain(arguments.camera.camera.as_deref()).collect();
     outputs::check_places(&files, arguments.pictures.as_deref(), &[], &inputs)
 }
 
 /// The size at which frames are timed.
 fn time_size(arguments: &CompareArguments) -> Result<[u32; 2]> {
-    let [width, height] = arguments.size;
+    let size_px = arguments.settings().size_px;
+    let [width, height] = size_px;
     let Some(size) = arguments.time_size else {
-        return Ok(arguments.size.map(|side| side.saturating_mul(TIME_SCALE)));
+        return Ok(size_px.map(|side| side.saturating_mul(TIME_SCALE)));
     };
     // Another shape would show another part of the scene.
     if u64::from(size[0]) * u64::from(height) != u64::from(size[1]) * u64::from(width) {
@@ -106,8 +97,9 @@ fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
     timed_settings(&headless, arguments)?; // before anything takes long
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
-    let loaded = load_scene(&arguments.inputs, arguments.representation, &bars, &mut Steps::default())?;
-    let camera = choice.camera(&loaded, arguments.size)?;
+    let loaded =
+        load_scene(&arguments.input.inputs, arguments.input.representation(), &bars, &mut Steps::default())?;
+    let camera = choice.camera(&loaded, arguments.settings().size_px)?;
     let mut show = |shown: Shown<'_>| match &arguments.pictures {
         Some(folder) => pictures::write(folder, &shown),
         None => Ok(()),
@@ -199,7 +191,7 @@ pub fn gather(
     let mut report = CompareReport {
         surfel: env!("CARGO_PKG_VERSION").to_owned(),
         device: device_report(headless.device().facts()),
-        settings: candidates::common_options(settings_as_options(base)),
+        settings: candidates::common_options(base.as_options()),
         camera: camera.into(),
         inputs: inputs.clone(),
         splats: prepared.splat_count(),
@@ -218,7 +210,7 @@ pub fn gather(
 /// What a reader of the figures has to know.
 fn notes(arguments: &CompareArguments) -> Vec<String> {
     let mut notes = vec!["instructions: of disks on a closed surface, none of them large".to_owned()];
-    if arguments.validate {
+    if arguments.device.validate {
         notes.push("timed under validation: the times are worthless".to_owned());
     }
     notes

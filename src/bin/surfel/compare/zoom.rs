@@ -8,7 +8,6 @@ use surfel::{
     renderer::{Headless, Wanted},
     report::{
         compare::{Method, errors},
-        settings_as_options,
         zoom::{
             Board, DEFAULT_TILT_DEG, FilterNames, ZoomFigures, ZoomReport, ZoomStep, samples_per_side,
             zoom_path,
@@ -87,7 +86,7 @@ pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars
 
 /// Everything but the filter.
 fn zoom_options(base: &Settings, method: &Method) -> std::collections::BTreeMap<&'static str, String> {
-    let mut options = settings_as_options(&method.settings(base));
+    let mut options = method.settings(base).as_options();
     options.remove("filter");
     options.remove("filter-weight");
     options

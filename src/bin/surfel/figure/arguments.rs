@@ -5,10 +5,24 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use surfel::{Error, Result};
 
-use crate::parse;
+use crate::{device::DeviceArguments, parse};
 
-/// Options of `surfel figure`.
-#[derive(Debug, Args)]
+const HELP: &str = "\
+Draw a figure of the papers as a labeled picture: comparisons as PNG, curves as SVG. G is Guennebaud, Barthe, Paulin, \
+\"Splat/Mesh Blending, Perspective Rasterization and Transparency for Point-Based Rendering\", 2006; P is Pajarola, Sainz, \
+Guidotti, \"Object-Space Blending and Splatting of Points\", 2003. Everything shown was drawn by the device. Without a name, \
+the figures are listed.";
+
+const EXAMPLES: &str = "Examples:
+  surfel figure                            what there is
+  surfel figure g3                         g3.png in the current folder
+  surfel figure p10 -o kernels.svg
+  surfel figure p19 --model igea.ply --size 600x600";
+
+/// Draw the papers' figures as labeled pictures
+#[derive(Args)]
+#[command(long_about = HELP, after_help = EXAMPLES)]
+#[command(mut_arg("device", |device| device.requires("name")), mut_arg("validate", |validate| validate.requires("name")))]
 pub struct FigureArguments {
     /// Which figure [default: list them]
     #[arg(value_name = "NAME")]
@@ -26,13 +40,8 @@ pub struct FigureArguments {
     #[arg(long, value_name = "FILE", requires = "name")]
     pub model: Option<PathBuf>,
 
-    /// The device: its number or a part of its name, see `surfel info` [default: the best]
-    #[arg(long, value_name = "NAME|INDEX", requires = "name")]
-    pub device: Option<String>,
-
-    /// Have the Vulkan validation layer watch; any message makes the exit code 3
-    #[arg(long, requires = "name")]
-    pub validate: bool,
+    #[command(flatten)]
+    pub device: DeviceArguments,
 }
 
 /// The figures of the papers.
@@ -68,19 +77,8 @@ const SIDES_PX: std::ops::RangeInclusive<u32> = 32..=4096;
 
 impl Figure {
     /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::G1 => "g1",
-            Self::G3 => "g3",
-            Self::G4 => "g4",
-            Self::G5 => "g5",
-            Self::G6 => "g6",
-            Self::Slides => "slides",
-            Self::P9 => "p9",
-            Self::P10 => "p10",
-            Self::P18 => "p18",
-            Self::P19 => "p19",
-        }
+    pub fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 
     /// The ending of its file's name.
@@ -162,10 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_those_of_the_command_line_and_the_list_explains_each() {
-        for figure in Figure::value_variants() {
-            assert_eq!(figure.to_possible_value().unwrap().get_name(), figure.name());
-        }
+    fn the_list_explains_each_figure() {
         let list = Figure::list();
         assert_eq!(list.lines().count(), Figure::value_variants().len());
         assert!(list.lines().all(|line| line.contains(" figure ") && line.len() > 40), "{list}");

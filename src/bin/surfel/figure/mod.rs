@@ -31,7 +31,7 @@ pub use sheet::{Panel, Sheet};
 
 use crate::{
     console::{self, Bars},
-    device, outputs, validation,
+    outputs,
 };
 use easel::Easel;
 
@@ -57,12 +57,9 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     }
     let inputs: Vec<&Path> = arguments.model.as_deref().into_iter().collect();
     outputs::check_places(&[&output], None, &[], &inputs)?;
-    let headless = device::open(arguments.device.as_deref(), arguments.validate)?;
-    let messages = headless.device().instance().messages();
-    let done = draw_once(headless, arguments, figure).and_then(|drawn| write(&drawn, &output, size_px));
-    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
-    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
-    done.and(said)
+    arguments.device.watch(arguments.device.open()?, |headless| {
+        write(&draw_once(headless, arguments, figure)?, &output, size_px)
+    })
 }
 
 fn draw_once(mut headless: Headless, arguments: &FigureArguments, figure: Figure) -> Result<Drawn> {

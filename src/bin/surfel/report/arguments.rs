@@ -3,12 +3,29 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use surfel::scene::OptionValue as _;
 
 use super::command_line::CommandLine;
-use crate::parse;
+use crate::{device::DeviceArguments, parse};
 
-/// Options of `surfel report`.
-#[derive(Debug, Args)]
+const HELP: &str = "\
+Make a page of what this device can do: the model in pictures; every method's speed against its error; the filters over \
+distance; the papers' figures; what frames cost beside the least that the same pixels can cost; what transparent layers \
+cost, and transitions from splats to polygons; numerical stability. It says first what makes its times doubtful, and last \
+what to type for each part by itself.
+
+The page is one file that loads nothing: it opens offline, on a phone and on paper, and can be sent as it is. It holds \
+no date: two runs differ in times, and what is told of them, alone. It takes many minutes; --quick, one or two. Nothing is \
+written before all is done.";
+
+const EXAMPLES: &str = "Examples:
+  surfel report --quick                      surfel-report/index.html, of the built-in model
+  surfel report --model igea.ply -o igea     of a scan, every method
+  surfel report --device 1 --frames 50 -o b  of another device, with more frames";
+
+/// All of it as one page: pictures, tables, and plots of speed against error
+#[derive(Args)]
+#[command(long_about = HELP, after_help = EXAMPLES)]
 pub struct ReportArguments {
     /// The folder: index.html is the page, report.json has all figures; made where it is missing, old ones are replaced
     #[arg(short, long, value_name = "DIR", default_value = "surfel-report")]
@@ -40,13 +57,8 @@ pub struct ReportArguments {
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: Option<u32>,
 
-    /// The device: its number or a part of its name, see `surfel info` [default: the best]
-    #[arg(long, value_name = "NAME|INDEX")]
-    pub device: Option<String>,
-
-    /// Have the Vulkan validation layer watch, which makes the times worthless; any message makes the exit code 3
-    #[arg(long)]
-    pub validate: bool,
+    #[command(flatten)]
+    pub device: DeviceArguments,
 }
 
 /// How much larger the model is shown than its errors are found.
@@ -64,18 +76,16 @@ impl ReportArguments {
     /// The command line that draws the model with a shading.
     pub fn render(&self, shading: &str) -> CommandLine {
         let size_px = self.size_px().map(|side| side.saturating_mul(PICTURE_SCALE));
-        let line = CommandLine::new(["render"]).input(self.model.as_deref());
-        let line = line.word("-o").word(format!("{shading}.png"));
-        self.on_device(line.option("--size", text(size_px)).option("--shading", shading))
+        let line = self.on_model("render").option("-o", format!("{shading}.png"));
+        self.on_device(line.option("--size", size_px.word()).option("--shading", shading))
     }
 
     /// The command line that compares the methods.
     pub fn compare(&self) -> CommandLine {
-        let line = CommandLine::new(["compare"]).input(self.model.as_deref());
-        let line = self.with_samples(self.with_size(line));
+        let line = self.with_samples(self.with_size(self.on_model("compare")));
         let time_size_px = self.size_px().map(|side| side.saturating_mul(QUICK_TIME_SCALE));
         let line = match self.quick {
-            true => line.word("--quick").option("--time-size", text(time_size_px)),
+            true => line.word("--quick").option("--time-size", time_size_px.word()),
             false => line,
         };
         self.on_device(self.with_frames(line)).option("--plot", "methods.svg")
@@ -83,19 +93,11 @@ impl ReportArguments {
 
     /// The command line that compares the filters over distance.
     pub fn zoom(&self) -> CommandLine {
+        let steps = self.zoom_steps.or(self.quick.then_some(9));
         let line = self.with_size(CommandLine::new(["compare", "--zoom"]));
-        let line = match self.quick {
-            true => line.option("--zoom-splats", "300"),
-            false => line,
-        };
-        let line = match self.zoom_steps.or(self.quick.then_some(9)) {
-            Some(steps) => line.option("--zoom-steps", steps.to_string()),
-            None => line,
-        };
-        let line = match self.quick && self.size.is_none() {
-            true => line.option("--size", "128x128"),
-            false => line,
-        };
+        let line = line.given("--zoom-splats", self.quick.then_some("300"));
+        let line = line.given("--zoom-steps", steps.map(|steps| steps.to_string()));
+        let line = line.given("--size", (self.quick && self.size.is_none()).then_some("128x128"));
         self.on_device(self.with_samples(line)).option("--plot", "distance.svg")
     }
 
@@ -104,90 +106,59 @@ impl ReportArguments {
         self.on_device(CommandLine::new(["figure", name]))
     }
 
-    /// The command line that measures a table.
+    /// The command line that measures a table; the short form takes fewer splats and pixels.
     pub fn bench(&self, name: &str) -> CommandLine {
         let line = CommandLine::new(["bench", name]);
-        let line = match &self.model {
-            Some(model) if name != "layers" => line.option("--model", model),
-            _ => line,
-        };
-        let line = match self.splats(name) {
-            Some(splats) => line.option("--splats", splats),
-            None => line,
-        };
-        let line = match self.quick && ["layers", "transition"].contains(&name) {
-            true => line.option("--size", "512x512"),
-            false => line,
-        };
-        let line = match name == "table1" {
-            true => line.option("--plot", "table1.svg"),
-            false => line,
-        };
-        match name == "counts" {
-            true => CommandLine::new(["bench", name]),
-            false => {
-                let line = self.on_device(self.with_frames(line));
-                if self.validate { line.word("--validate") } else { line }
-            }
+        if name == "counts" {
+            return line;
         }
+        let (splats, size) = match name {
+            _ if !self.quick => (None, None),
+            "table1" => (Some("20k,154k"), None),
+            "slides" => (Some("154k"), None),
+            "layers" => (Some("300"), Some("512x512")),
+            "transition" => (Some("20k"), Some("512x512")),
+            _ => (None, None),
+        };
+        let line = line.given("--model", self.model.as_ref().filter(|_| name != "layers"));
+        let line = line.given("--splats", splats).given("--size", size);
+        let line = line.given("--plot", (name == "table1").then_some("table1.svg"));
+        let line = self.on_device(self.with_frames(line));
+        if self.device.validate { line.word("--validate") } else { line }
     }
 
-    /// Fewer splats in the short form.
-    fn splats(&self, table: &str) -> Option<&'static str> {
-        match table {
-            "table1" if self.quick => Some("20k,154k"),
-            "slides" if self.quick => Some("154k"),
-            "layers" if self.quick => Some("300"),
-            "transition" if self.quick => Some("20k"),
-            _ => None,
-        }
+    fn on_model(&self, command: &str) -> CommandLine {
+        CommandLine::new([command]).input(self.model.as_deref())
     }
 
     fn with_size(&self, line: CommandLine) -> CommandLine {
-        match self.size {
-            Some(size_px) => line.option("--size", text(size_px)),
-            None => line,
-        }
+        line.given("--size", self.size.map(|size_px| size_px.word()))
     }
 
     fn with_samples(&self, line: CommandLine) -> CommandLine {
-        match self.samples.or(self.quick.then_some(8)) {
-            Some(samples) => line.option("--samples", samples.to_string()),
-            None => line,
-        }
+        let samples = self.samples.or(self.quick.then_some(8));
+        line.given("--samples", samples.map(|samples| samples.to_string()))
     }
 
     fn with_frames(&self, line: CommandLine) -> CommandLine {
-        match self.frames.or(self.quick.then_some(6)) {
-            Some(frames) => line.option("--frames", frames.to_string()),
-            None => line,
-        }
+        let frames = self.frames.or(self.quick.then_some(6));
+        line.given("--frames", frames.map(|frames| frames.to_string()))
     }
 
     fn on_device(&self, line: CommandLine) -> CommandLine {
-        match &self.device {
-            Some(device) => line.option("--device", device),
-            None => line,
-        }
+        line.given("--device", self.device.asked.as_ref())
     }
-}
-
-fn text([width, height]: [u32; 2]) -> String {
-    format!("{width}x{height}")
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::Parser as _;
-
     use super::*;
-    use crate::arguments::{Arguments, Command};
+    use crate::{
+        bench::BenchArguments, compare::CompareArguments, figure::FigureArguments, render::RenderArguments,
+    };
 
     fn report(words: &[&str]) -> ReportArguments {
-        match Arguments::try_parse_from(["surfel", "report"].iter().chain(words)).unwrap().command {
-            Command::Report(arguments) => arguments,
-            other => panic!("{other:?}"),
-        }
+        CommandLine::new(["report"].iter().chain(words)).arguments().unwrap_or_else(|e| panic!("{e}"))
     }
 
     #[test]
@@ -196,13 +167,13 @@ mod tests {
             ["--model", "a b.ply", "--device", "1", "--frames", "7", "--size", "9x9", "--samples", "3"];
         for words in [&[][..], &["--quick"], &given] {
             let arguments = report(words);
-            assert!(matches!(arguments.render("normals").command(), Ok(Command::Render(_))), "{words:?}");
-            assert!(matches!(arguments.figure("g1").command(), Ok(Command::Figure(_))), "{words:?}");
+            arguments.render("normals").arguments::<RenderArguments>().unwrap_or_else(|e| panic!("{e}"));
+            arguments.figure("g1").arguments::<FigureArguments>().unwrap_or_else(|e| panic!("{e}"));
             for table in ["floor", "table1", "slides", "layers", "transition", "counts"] {
-                assert!(matches!(arguments.bench(table).command(), Ok(Command::Bench(_))), "{words:?}");
+                arguments.bench(table).arguments::<BenchArguments>().unwrap_or_else(|e| panic!("{e}"));
             }
             for line in [arguments.compare(), arguments.zoom()] {
-                assert!(matches!(line.command(), Ok(Command::Compare(_))), "{line}");
+                line.arguments::<CompareArguments>().unwrap_or_else(|e| panic!("{line}: {e}"));
             }
         }
         let line = report(&given).compare().to_string();

@@ -6,10 +6,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use clap::Parser as _;
+use clap::{Args, Command};
 use surfel::{Error, Result};
-
-use crate::arguments::{Arguments, Command};
 
 /// The words after the program's name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,6 +38,14 @@ impl CommandLine {
         }
     }
 
+    /// With an option that has a value.
+    pub fn given(self, name: &str, value: Option<impl AsRef<OsStr>>) -> Self {
+        match value {
+            Some(value) => self.option(name, value),
+            None => self,
+        }
+    }
+
     /// With an input file, if there is one.
     pub fn input(self, path: Option<&Path>) -> Self {
         let Some(path) = path else { return self };
@@ -48,19 +54,15 @@ impl CommandLine {
         self.word(if dashed { Path::new(".").join(path) } else { PathBuf::from(path) })
     }
 
-    /// What it asks for.
+    /// The arguments that it gives to its subcommand, which is `A`'s.
     ///
     /// # Errors
-    /// Words that are no command line.
-    pub fn command(&self) -> Result<Command> {
-        let words = [OsString::from("surfel")].into_iter().chain(self.0.iter().cloned());
-        let parsed = Arguments::try_parse_from(words);
-        parsed.map(|arguments| arguments.command).map_err(|error| Error::option("report", error.to_string()))
-    }
-
-    /// A command line that asks for something else than it was made for: no input leads there.
-    pub fn unexpected(&self) -> Error {
-        Error::option("report", format!("{self}: another subcommand was expected"))
+    /// Words that the subcommand does not take.
+    pub fn arguments<A: Args>(&self) -> Result<A> {
+        // The subcommand stands where the program's name would.
+        let matches = A::augment_args(Command::new("surfel")).try_get_matches_from(&self.0);
+        let parsed = matches.and_then(|matches| A::from_arg_matches(&matches));
+        parsed.map_err(|error| Error::option("report", error.to_string()))
     }
 }
 
@@ -83,6 +85,7 @@ impl fmt::Display for CommandLine {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compare::CompareArguments;
 
     #[test]
     fn words_are_quoted_where_a_shell_would_split_them() {
@@ -95,13 +98,9 @@ mod tests {
     fn values_and_files_that_start_with_a_dash_are_no_options() {
         let line = CommandLine::new(["compare"]).input(Some(Path::new("-a.ply"))).option("--device", "-b");
         assert_eq!(line.to_string(), "surfel compare ./-a.ply --device=-b");
-        match line.command().unwrap() {
-            Command::Compare(compare) => {
-                assert_eq!(compare.inputs, [Path::new("./-a.ply")]);
-                assert_eq!(compare.device.as_deref(), Some("-b"));
-            }
-            other => panic!("{other:?}"),
-        }
-        assert!(CommandLine::new(["compare", "--sise"]).command().is_err());
+        let compare: CompareArguments = line.arguments().unwrap();
+        assert_eq!(compare.input.inputs, [Path::new("./-a.ply")]);
+        assert_eq!(compare.device.asked.as_deref(), Some("-b"));
+        assert!(CommandLine::new(["compare", "--sise"]).arguments::<CompareArguments>().is_err());
     }
 }

@@ -15,10 +15,7 @@ use super::{
     part::Panel,
     session::{Session, shortened},
 };
-use crate::{
-    arguments::Command,
-    compare::{self, BACKGROUND, MAGNIFIED, Shown, difference},
-};
+use crate::compare::{self, BACKGROUND, CompareArguments, MAGNIFIED, Shown, difference};
 
 /// What was compared.
 pub struct Comparison {
@@ -50,7 +47,7 @@ pub struct MethodPicture {
 /// As [`compare::gather`].
 pub fn gather(session: &mut Session<'_>) -> Result<Comparison> {
     let line = session.arguments.compare();
-    let Command::Compare(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let arguments: CompareArguments = line.arguments()?;
     let mut truth = None;
     let mut pictures = Vec::new();
     let mut show = |shown: Shown<'_>| {

@@ -9,7 +9,10 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
-use crate::{arguments::Command, bench, json::to_value};
+use crate::{
+    bench::{self, BenchArguments},
+    json::to_value,
+};
 
 /// Gathers the part.
 ///
@@ -17,7 +20,7 @@ use crate::{arguments::Command, bench, json::to_value};
 /// None that an input could lead to.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let line = session.arguments.bench("counts");
-    let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let arguments: BenchArguments = line.arguments()?;
     let report = bench::gather(None, &arguments)?;
     let mut part = Part {
         finding: "The papers' own programs come out as published, but for 1 or 2 instructions; ours have more, which is what \

@@ -13,7 +13,10 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
-use crate::{arguments::Command, compare::zoom, json::to_value};
+use crate::{
+    compare::{CompareArguments, zoom},
+    json::to_value,
+};
 
 /// A figure of a filter at a distance.
 type Figure = fn(&ZoomStep, usize) -> Option<String>;
@@ -24,7 +27,7 @@ type Figure = fn(&ZoomStep, usize) -> Option<String>;
 /// Whatever goes wrong.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let line = session.arguments.zoom();
-    let Command::Compare(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let arguments: CompareArguments = line.arguments()?;
     let report = zoom::gather(session.headless, &arguments, session.bars)?;
     session.bars.clear();
     let mut part =

@@ -1,15 +1,12 @@
 //! The papers' figures, as this device draws them.
 
-use surfel::{Result, report::curves::CurvePlot};
+use surfel::{Error, Result, report::curves::CurvePlot};
 
 use super::{
     part::{Block, Panel, Part},
     session::Session,
 };
-use crate::{
-    arguments::Command,
-    figure::{self, Drawn, Sheet},
-};
+use crate::figure::{self, Drawn, FigureArguments, Sheet};
 
 /// Figures by their names, with what one sees and what follows.
 const FIGURES: [(&str, &str); 8] = [
@@ -72,8 +69,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     };
     for (name, caption) in FIGURES {
         let line = session.arguments.figure(name);
-        let Command::Figure(arguments) = line.command()? else { return Err(line.unexpected()) };
-        let Some(figure) = arguments.name else { return Err(line.unexpected()) };
+        let arguments: FigureArguments = line.arguments()?;
+        let figure = arguments.name.ok_or_else(|| Error::option("NAME", "expected a figure"))?;
         match figure::draw(session.headless, session.bars, &arguments, figure)? {
             Drawn::Sheet(sheet) => sheet_blocks(&mut part, &sheet, caption)?,
             Drawn::Plot(plot) => plot_blocks(&mut part, &plot, arguments.size_px(figure)?, caption)?,

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, env};
 
 use serde::Serialize;
 use surfel::{
-    report::{DeviceReport, InputReport, settings_as_options},
+    report::{DeviceReport, InputReport},
     scene::Settings,
     vk::{DeviceFacts, DeviceKind},
 };
@@ -38,7 +38,7 @@ pub struct Head {
 impl Head {
     /// Of this run.
     pub fn of(facts: &DeviceFacts, arguments: &ReportArguments, loaded: &Loaded) -> Self {
-        let mut settings = settings_as_options(&Settings::default());
+        let mut settings = Settings::default().as_options();
         settings.remove("size");
         Self {
             surfel: env!("CARGO_PKG_VERSION"),

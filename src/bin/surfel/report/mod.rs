@@ -33,16 +33,13 @@ use surfel::{Error, ErrorKind, Result, load::Representation, renderer::Headless,
 pub use arguments::ReportArguments;
 
 use crate::{
-    arguments::Command,
     camera::CameraChoice,
-    compare,
+    compare::{self, CompareArguments},
     console::{self, Bars},
-    device,
     json::to_json,
     outputs,
     scene::load_scene,
     steps::Steps,
-    validation,
 };
 use head::Head;
 use part::{Chapter, Part};
@@ -82,12 +79,7 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
     let in_the_way: Vec<_> = outputs::paths(&inputs).collect();
     outputs::check_places(&[], Some(&arguments.output), &FILES, &in_the_way)?;
-    let headless = device::open(arguments.device.as_deref(), arguments.validate)?;
-    let messages = headless.device().instance().messages();
-    let done = make(headless, arguments);
-    // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
-    let said = if arguments.validate { validation::conclude(&messages) } else { Ok(()) };
-    done.and(said)
+    arguments.device.watch(arguments.device.open()?, |headless| make(headless, arguments))
 }
 
 fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
@@ -120,8 +112,7 @@ fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
 
 /// Refuses sizes that only a later part would find too large.
 fn check_sizes(headless: &Headless, arguments: &ReportArguments) -> Result<()> {
-    let line = arguments.compare();
-    let Command::Compare(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let arguments: CompareArguments = arguments.compare().arguments()?;
     arguments.settings().validate()?;
     compare::timed_settings(headless, &arguments).map(|_| ())
 }

@@ -7,7 +7,10 @@ use surfel::{
 };
 
 use super::{command_line::CommandLine, session::Session};
-use crate::{arguments::Command, bench, json::to_value};
+use crate::{
+    bench::{self, BenchArguments},
+    json::to_value,
+};
 
 /// A part of the page: an entry of the table of contents.
 pub struct Chapter {
@@ -111,7 +114,7 @@ impl Part {
         finding: impl FnOnce(&BenchReport) -> String,
     ) -> Result<Self> {
         let line = session.arguments.bench(what);
-        let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
+        let arguments: BenchArguments = line.arguments()?;
         let report = bench::gather(Some(&mut *session.headless), &arguments)?;
         let mut part = Self {
             finding: finding(&report),

@@ -13,7 +13,7 @@ use super::{
     part::{Block, Panel, Part},
     session::Session,
 };
-use crate::{arguments::Command, json::to_value};
+use crate::{json::to_value, render::RenderArguments};
 
 /// The shadings shown, with what they show.
 const SHADINGS: [(&str, &str); 3] = [
@@ -82,7 +82,7 @@ fn picture(
     line: &CommandLine,
     [shading, about]: [&str; 2],
 ) -> Result<Panel> {
-    let Command::Render(arguments) = line.command()? else { return Err(line.unexpected()) };
+    let arguments: RenderArguments = line.arguments()?;
     let settings = arguments.picture.settings();
     settings.check_scene(&session.loaded.scene)?;
     let wanted = Wanted { picture: true, ..Wanted::default() };

@@ -66,7 +66,7 @@ impl<'a> Session<'a> {
         let measured = measure(self)?;
         let machine = watch.end(&[]);
         let mut flags = machine.flags(&TrustLimits::default());
-        if self.arguments.validate {
+        if self.arguments.device.validate {
             flags.push("measured under validation: the times are worthless".to_owned());
         }
         Ok((measured, machine, flags))

@@ -9,7 +9,10 @@ use super::{
     part::{Block, Part},
     session::Session,
 };
-use crate::{arguments::Command, bench, json::to_value};
+use crate::{
+    bench::{self, BenchArguments},
+    json::to_value,
+};
 
 /// Gathers the part.
 ///
@@ -20,7 +23,7 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let mut data = Vec::new();
     for table in ["table1", "slides"] {
         let line = session.arguments.bench(table);
-        let Command::Bench(arguments) = line.command()? else { return Err(line.unexpected()) };
+        let arguments: BenchArguments = line.arguments()?;
         let report = bench::gather(Some(&mut *session.headless), &arguments)?;
         data.push(to_value(&report)?);
         if !report.table1.is_empty() {

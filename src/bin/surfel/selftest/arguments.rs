@@ -11,7 +11,7 @@ use crate::parse;
 const NOT_WITH_LIST: [&str; 7] = ["junit", "json", "known", "no_known", "retries", "device", "no_validate"];
 
 /// What it does.
-pub const HELP: &str = "\
+const HELP: &str = "\
 Draw every hard scene with every method and compare it with the oracle in 64 bits, under validation: for those who change \
 a driver, a validation layer, or surfel. Files are not needed, the scenes are built in; each is hard in one known way.
 
@@ -40,7 +40,7 @@ Of several that match a case the last counts, and --known counts above what come
 an error.";
 
 /// How it is used.
-pub const EXAMPLES: &str = "Examples:
+const EXAMPLES: &str = "Examples:
   surfel selftest --quick                                  less than a minute on a processor
   surfel selftest --junit selftest.xml --json selftest.json
   surfel selftest --case methods.triangle --case '*.edge-on-disks'
@@ -49,8 +49,9 @@ pub const EXAMPLES: &str = "Examples:
 
 Exit codes: 0 fine; 1 an option or a list is at fault; 2 the device is at fault; 3 cases failed, or pass against the list.";
 
-/// Options of `surfel selftest`.
-#[derive(Debug, Args)]
+/// Compare every method with the oracle on every hard scene, under validation: for the CI of drivers
+#[derive(Args)]
+#[command(long_about = HELP, after_help = EXAMPLES)]
 pub struct SelftestArguments {
     /// A part: every rasterizer on every scene; every filter and every option with every rasterizer on a sphere of disks; layers
     /// on all their scenes, and with every rasterizer and every filter on one

@@ -16,7 +16,7 @@ use surfel::{
     vk::{LoaderFacts, Validation, loader_facts},
 };
 
-pub use arguments::{EXAMPLES, HELP, SelftestArguments};
+pub use arguments::SelftestArguments;
 
 use crate::{
     console::{self, Bars},

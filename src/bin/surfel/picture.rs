@@ -1,0 +1,114 @@
+//! The options of all that draws one picture: what is drawn, from where and how.
+
+use std::path::PathBuf;
+
+use clap::{Arg, Args};
+use surfel::scene::Settings;
+
+use crate::{
+    camera::CameraArguments,
+    scene::InputArguments,
+    settings::{Given, Taken},
+};
+
+/// A picture.
+#[derive(Args)]
+pub struct PictureArguments {
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats
+    #[arg(short, long, value_name = "FILE", default_value = "surfel.png")]
+    pub output: PathBuf,
+
+    /// Also write weight, albedo, normal and depth of the opaque splats' surface, and the final picture, as .exr into this
+    /// folder, linear 32-bit floats
+    #[arg(long, value_name = "DIR")]
+    pub dump: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub camera: CameraArguments,
+
+    #[command(flatten)]
+    settings: Given<Picture>,
+}
+
+/// All settings.
+struct Picture;
+
+impl Taken for Picture {
+    type Table = Settings;
+
+    fn option(name: &str, option: Arg) -> Option<Arg> {
+        Some(option.help_heading((name != "size").then_some("Method")))
+    }
+}
+
+impl PictureArguments {
+    /// The settings, not yet checked.
+    pub fn settings(&self) -> Settings {
+        self.settings.over(Settings::default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Command, FromArgMatches as _};
+    use surfel::scene::{
+        Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
+        Rasterizer, Shading, TileInvocations, TileMemory, Transition,
+    };
+
+    use super::*;
+
+    fn picture(words: &[String]) -> PictureArguments {
+        let command = PictureArguments::augment_args(Command::new("test").no_binary_name(true));
+        PictureArguments::from_arg_matches(&command.get_matches_from(words)).unwrap()
+    }
+
+    #[test]
+    fn the_defaults_of_the_command_line_are_those_of_the_library() {
+        assert_eq!(picture(&[]).settings(), Settings::default());
+    }
+
+    #[test]
+    fn settings_that_a_report_prints_can_be_given_again() {
+        let settings = Settings {
+            size_px: [7, 9],
+            rasterizer: Rasterizer::AffineContour,
+            tile_invocations: TileInvocations::Pixel,
+            tile_memory: TileMemory::Most(12_500_000),
+            filter: Filter::AdjustPaper,
+            filter_weight: FilterWeight::Unit,
+            kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
+            kernel_eval: KernelEval::Texture,
+            cull: Cull::List,
+            accumulate: Accumulate::F32,
+            epsilon: Epsilon::Length(0.25),
+            backfaces: Backfaces::Cull,
+            layers: Layers::Fixed(7),
+            last_layer: LastLayer::Drop,
+            transition: Transition::Attributes,
+            shading: Shading::Normals,
+            background: None,
+        };
+        let others = Settings {
+            backfaces: Backfaces::Flip,
+            layers: Layers::Auto(16),
+            shading: Shading::Albedo,
+            background: Some([0.5, 0.25, 0.0]),
+            ..settings.clone()
+        };
+        for settings in [settings, others] {
+            let options = settings.as_options().into_iter();
+            let words: Vec<String> = options.flat_map(|(name, value)| [format!("--{name}"), value]).collect();
+            assert_eq!(picture(&words).settings(), settings);
+        }
+    }
+
+    #[test]
+    fn negative_coordinates_are_no_options() {
+        let camera = picture(&["--eye", "-1,2,-3", "--up", "-0.5,0,1"].map(str::to_owned)).camera;
+        assert_eq!((camera.eye, camera.up), (Some([-1.0, 2.0, -3.0]), Some([-0.5, 0.0, 1.0])));
+    }
+}
