@@ -17,14 +17,14 @@ const SPLATS: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\
     0 0 0 0 0 1 1\n1 0 0 0 1 0 1\n2 0 0 0 0 0 1\n";
 
 /// A folder with a mesh and splats.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
+fn folder() -> temp_dir::TempDir {
+    let folder = temp_dir::TempDir::new().unwrap();
     fs::write(folder.path().join("mesh.obj"), OCTAHEDRON).unwrap();
     fs::write(folder.path().join("splats.ply"), SPLATS).unwrap();
     folder
 }
 
-fn of_file(folder: &tempfile::TempDir, name: &str) -> ObjectDescription {
+fn of_file(folder: &temp_dir::TempDir, name: &str) -> ObjectDescription {
     ObjectDescription::of_file(folder.path().join(name))
 }
 

@@ -59,7 +59,7 @@ mod tests {
     use crate::load::{Model, load};
 
     fn load_bytes(name: &str, bytes: &[u8]) -> Result<Model, String> {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();
         load(&path, &()).map_err(|e| {
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn missing_files_and_folders_are_named() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let missing = load(&folder.path().join("no.ply"), &()).unwrap_err();
         assert_eq!(missing.exit_code(), 1);
         let expected = format!("{}/no.ply: cannot read: No such file", folder.path().display());

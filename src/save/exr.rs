@@ -47,7 +47,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_bit_by_bit() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join("a.exr");
         let special = [0.0, -0.0, 1.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 1e-42, f32::MAX, 0.1];
         for channels in [&["Y"][..], &["X", "Y", "Z"], &["R", "G", "B", "A"]] {

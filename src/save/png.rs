@@ -45,7 +45,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join("a.png");
         let bytes: Vec<u8> = (0..=255).cycle().take(5 * 3 * 4).collect();
         png(&path, [5, 3], 4, &bytes).unwrap();

@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn a_failure_leaves_the_old_file_and_no_other() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join("a.txt");
         write(&path, |file| file.write_all(b"old")).unwrap();
         let failed = write(&path, |file| {
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn a_file_is_replaced() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join("a.txt");
         for content in [b"one", b"two"] {
             write(&path, |file| file.write_all(content)).unwrap();
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn folders_devices_and_missing_folders_are_refused() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let missing = folder.path().join("missing/a.txt");
         for (path, problem) in [(folder.path(), "is a directory"), (&missing, "No such file")] {
             let error = write(path, |_| Ok(())).unwrap_err();

@@ -7,11 +7,11 @@ use std::{
 };
 
 /// A folder that goes away with its content.
-pub struct Folder(tempfile::TempDir);
+pub struct Folder(temp_dir::TempDir);
 
 impl Folder {
     pub fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
+        Self(temp_dir::TempDir::new().unwrap())
     }
 
     pub fn path(&self, name: &str) -> PathBuf {

@@ -3,11 +3,17 @@
 
 #![allow(dead_code, unused_imports, reason = "each test binary uses its own part")]
 
+pub mod cases;
 pub mod faults;
 pub mod host;
 pub mod watched;
 
-use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
+use std::{
+    ffi::OsStr,
+    ops::{Deref, DerefMut},
+    process::Command,
+    sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError},
+};
 
 pub use surfel::{
     hard_scenes::{self as scenes, builder},
@@ -56,11 +62,42 @@ pub fn assert_validation_is_silent(headless: &Headless) {
     assert!(said.is_empty(), "{} validation messages, the first: {:#?}", said.len(), said[0]);
 }
 
-/// One renderer for all tests of a program, one test at a time: its pipelines are made once.
-pub fn shared() -> MutexGuard<'static, Headless> {
+/// The one renderer of a program, whose pipelines are made once, for one test at a time. What the validation layer says
+/// meanwhile fails that test.
+pub struct Shared(MutexGuard<'static, Headless>);
+
+/// Waits until no other test has the renderer.
+pub fn shared() -> Shared {
     static SHARED: OnceLock<Mutex<Headless>> = OnceLock::new();
-    // A test that failed leaves the renderer between two frames: it can go on.
-    SHARED.get_or_init(|| Mutex::new(headless())).lock().unwrap_or_else(PoisonError::into_inner)
+    // A test that failed leaves the renderer between two frames: it can go on, with the limits of the device.
+    let headless = SHARED.get_or_init(|| Mutex::new(headless())).lock();
+    let mut headless = headless.unwrap_or_else(PoisonError::into_inner);
+    let own = headless.device().facts().limits;
+    headless.renderer.lower_limits(&own);
+    Shared(headless)
+}
+
+impl Deref for Shared {
+    type Target = Headless;
+
+    fn deref(&self) -> &Headless {
+        &self.0
+    }
+}
+
+impl DerefMut for Shared {
+    fn deref_mut(&mut self) -> &mut Headless {
+        &mut self.0
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        let said = self.device().instance().messages().take();
+        if !std::thread::panicking() {
+            assert!(said.is_empty(), "{} validation messages, the first: {:#?}", said.len(), said[0]);
+        }
+    }
 }
 
 /// Uploads and renders one frame, with all that can be read back.
@@ -105,4 +142,24 @@ pub fn with_limits<T>(
 pub fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
     let different = compare::different_values(a, b);
     assert_eq!(different, 0, "{what}: {different} values differ");
+}
+
+/// Runs a test of this program once more, in a process of its own with these variables, and fails as it does; `false` in that
+/// process, where the work is to be done.
+pub fn ran_alone(test: &str, environment: &[(&str, &OsStr)]) -> bool {
+    const ALONE: &str = "SURFEL_TEST_ALONE";
+    if std::env::var_os(ALONE).is_some() {
+        return false;
+    }
+    let mut program = Command::new(std::env::current_exe().unwrap());
+    let output = program
+        .args(["--exact", test, "--nocapture"])
+        .env(ALONE, "1")
+        .envs(environment.iter().copied())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    println!("{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success() && said.contains("1 passed"), "{test} failed in a process of its own");
+    true
 }

@@ -147,7 +147,7 @@ mod tests {
     use super::*;
 
     fn parsed(text: &str) -> std::result::Result<Camera, String> {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join("cam.json");
         fs::write(&path, text).unwrap();
         read(&path).map_err(|e| {

@@ -150,7 +150,7 @@ mod tests {
     use std::fs;
 
     fn load_text(name: &str, text: &str) -> std::result::Result<InputReport, String> {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, text).unwrap();
         let loaded = load_scene(&[path], Representation::Splats, &Bars::new(), &mut Steps::default());

@@ -11,11 +11,11 @@ use crate::{
 };
 
 /// A folder with a model beside and below the scene file, and one outside.
-struct Place(tempfile::TempDir);
+struct Place(temp_dir::TempDir);
 
 impl Place {
     fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = temp_dir::TempDir::new().unwrap();
         for below in ["scene/models", "other"] {
             fs::create_dir_all(folder.path().join(below)).unwrap();
         }

@@ -72,8 +72,8 @@ mod tests {
     use super::*;
 
     /// A folder such as `/sys/class/drm`.
-    fn drm(cards: &[(&str, &str, &str)]) -> tempfile::TempDir {
-        let drm = tempfile::tempdir().unwrap();
+    fn drm(cards: &[(&str, &str, &str)]) -> temp_dir::TempDir {
+        let drm = temp_dir::TempDir::new().unwrap();
         for (name, slot, busy) in cards {
             let device = drm.path().join(name).join("device");
             fs::create_dir_all(&device).unwrap();

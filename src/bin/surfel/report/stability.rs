@@ -1,4 +1,4 @@
-//! The tables of numerical stability. A test measures and writes them (`tests/stability`); here they are shown.
+//! The tables of numerical stability. A test measures and writes them (`tests/gpu/stability`); here they are shown.
 
 use surfel::{Result, report::Grid};
 
@@ -10,7 +10,7 @@ use super::{
 use crate::json::to_value;
 
 /// What the test has written.
-const TABLES: &str = include_str!("../../../../tests/stability/README.md");
+const TABLES: &str = include_str!("../../../../tests/gpu/stability/README.md");
 
 /// What its columns mean.
 const COLUMNS: [&str; 5] = [
@@ -37,7 +37,7 @@ pub fn gather(_: &mut Session<'_>) -> Result<Part> {
     part.blocks.push(Block::Text(
         "Single splats, set up in f32 on the device as the renderer sets them up, against f64. These tables are not of this \
          run: a test of the sources measured them on lavapipe (llvmpipe, Mesa 22.3.6), and holds every device that it runs on \
-         to their bounds: `SURFEL_UPDATE_TABLES=1 cargo test --release --test stability` writes them anew."
+         to their bounds: `SURFEL_UPDATE_TABLES=1 cargo test --release --test gpu stability` writes them anew."
             .to_owned(),
     ));
     part.blocks.push(Block::List(COLUMNS.map(str::to_owned).to_vec()));

@@ -1,0 +1,304 @@
+//! The program as its users meet it: what it writes, what it says, how it ends. Needs a Vulkan device, and fails
+//! without one.
+
+mod bench;
+mod compare;
+mod convert;
+mod counts;
+mod faults;
+mod figure;
+mod files;
+mod growth;
+mod program;
+mod report;
+mod scene_file;
+mod selftest;
+
+use std::fs;
+
+use files::{exr, png};
+use program::{Folder, surfel};
+use serde_json::Value;
+
+const SMALL: [&str; 2] = ["--size", "64x64"];
+
+#[test]
+fn the_built_in_model_becomes_a_picture() {
+    let folder = Folder::new();
+    let run = surfel(&folder, &["render", "--size", "64x48"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(folder.names(), ["surfel.png"]);
+    let picture = png(&folder.path("surfel.png"));
+    assert_eq!((picture.size, picture.channels), ([64, 48], 3));
+    // The corners are background, the middle is not.
+    assert_eq!(picture.at(0, 0), [255, 255, 255]);
+    assert_ne!(picture.at(32, 24), [255, 255, 255]);
+}
+
+#[test]
+fn x_is_to_the_right_and_y_is_up() {
+    let folder = Folder::new();
+    // A large disk, and two small ones in front of it: one above its middle, one to the right of it.
+    folder.write(
+        "a.ply",
+        splats("0 0 0 0 0 1 1 0 0 255\n0 0.5 0.1 0 0 1 0.2 255 0 0\n0.5 0 0.1 0 0 1 0.2 0 255 0\n"),
+    );
+    let run = surfel(
+        &folder,
+        &["render", "a.ply", "-o", "a.png", "--shading", "albedo", "--epsilon", "0.01", SMALL[0], SMALL[1]],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let picture = png(&folder.path("a.png"));
+    let ball = 1.05 * 32.0;
+    let (half, quarter) = (32, (32.0 * 0.5 * 32.0 / ball) as u32);
+    assert_eq!(picture.at(half, half), [0, 0, 255]);
+    assert_eq!(picture.at(half, half - quarter), [255, 0, 0], "+y is up");
+    assert_eq!(picture.at(half + quarter, half), [0, 255, 0], "+x is to the right");
+}
+
+#[test]
+fn render_and_reference_agree() {
+    let folder = Folder::new();
+    let options = ["--size", "96x64", "--accumulate", "f32", "--eye", "0.5,1,2.5", "--fov", "40"];
+    let run = |subcommand: &str, dump: &str| {
+        let words = [&[subcommand, "-o", "a.png", "--dump", dump], &options[..]].concat();
+        let run = surfel(&folder, &words);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        png(&folder.path("a.png"))
+    };
+    let pictures = [run("render", "gpu"), run("reference", "new/cpu")];
+    assert_eq!(folder.names_in("gpu"), folder.names_in("new/cpu"));
+    assert_eq!(folder.names_in("gpu"), ["albedo.exr", "depth.exr", "final.exr", "normal.exr", "weight.exr"]);
+    let both = |name: &str| {
+        [exr(&folder.path(&format!("gpu/{name}"))), exr(&folder.path(&format!("new/cpu/{name}")))]
+    };
+
+    let [gpu, cpu] = both("weight.exr");
+    assert_eq!(
+        (gpu.size, gpu.channels.keys().map(String::as_str).collect::<String>()),
+        ([96, 64], "Y".into())
+    );
+    let (covered, beyond) = compare(&gpu.channels["Y"], &cpu.channels["Y"], |g, c| (g - c).abs() <= 1e-3 * c);
+    println!("weight: {covered} pixels covered, {beyond} beyond 1e-3");
+    assert!(covered > 1000, "{covered}");
+    // Rounding may turn a fragment at a rim or at the threshold of the surface; one pixel in five hundred may have one.
+    assert!(beyond * 500 <= covered, "{beyond} of {covered}");
+
+    let [gpu, cpu] = both("depth.exr");
+    let empty = |values: &[f32]| values.iter().filter(|z| **z == f32::INFINITY).count();
+    assert!(empty(&gpu.channels["Z"]) > 100 && empty(&gpu.channels["Z"]) == empty(&cpu.channels["Z"]));
+    let (_, beyond) = compare(&gpu.channels["Z"], &cpu.channels["Z"], |g, c| (g - c).abs() <= 1e-3 * c);
+    assert!(beyond * 500 <= covered, "{beyond} of {covered}");
+
+    for (name, channels) in [("albedo.exr", "BGR"), ("normal.exr", "XYZ"), ("final.exr", "ABGR")] {
+        let [gpu, cpu] = both(name);
+        assert_eq!(gpu.channels.keys().map(String::as_str).collect::<String>(), channels);
+        for (channel, values) in &gpu.channels {
+            let (_, beyond) = compare(values, &cpu.channels[channel], |g, c| (g - c).abs() <= 0.01);
+            assert!(beyond * 100 <= covered, "{name} {channel}: {beyond} of {covered}");
+        }
+    }
+    let [gpu, cpu] = pictures;
+    let differ = gpu.pixels.iter().zip(&cpu.pixels).filter(|(g, c)| g.abs_diff(**c) > 2).count();
+    assert!(differ * 100 <= gpu.pixels.len(), "{differ} of {} bytes of the PNGs differ", gpu.pixels.len());
+}
+
+/// How many pixels the second has, and in how many the first is not close to it.
+fn compare(gpu: &[f32], cpu: &[f32], close: fn(f32, f32) -> bool) -> (usize, usize) {
+    assert_eq!(gpu.len(), cpu.len());
+    let covered = cpu.iter().filter(|value| **value != 0.0 && value.is_finite()).count();
+    let beyond = gpu.iter().zip(cpu).filter(|(g, c)| **g != **c && !close(**g, **c)).count();
+    (covered, beyond)
+}
+
+#[test]
+fn the_picture_is_the_same_with_and_without_a_dump_and_as_floats() {
+    let folder = Folder::new();
+    // A dump has the sums, of which those of 16 bits are rounded before they are shaded, not after.
+    let f32 = ["--accumulate", "f32"];
+    for words in [&["-o", "a.png"][..], &["-o", "b.png", "--dump", "d"], &["-o", "c.exr", "--frames", "1"]] {
+        let run = surfel(&folder, &[&["render", "--size", "64x64"], &f32[..], words].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+    }
+    assert_eq!(fs::read(folder.path("a.png")).unwrap(), fs::read(folder.path("b.png")).unwrap());
+    let (whole, dumped) = (exr(&folder.path("c.exr")), exr(&folder.path("d/final.exr")));
+    // The dump sums the depth as well, which leaves the color as it is; and it shades in another stage: some ten operations, in
+    // an order that each stage's compiler decides, of colors up to 1.2.
+    for (name, values) in &whole.channels {
+        let (_, differ) = compare(values, &dumped.channels[name], |a, b| (a - b).abs() < 20.0 * f32::EPSILON);
+        assert_eq!(differ, 0, "{name}");
+    }
+}
+
+#[test]
+fn several_inputs_are_one_scene() {
+    let folder = Folder::new();
+    folder.write("left.ply", splats("-1 0 0 0 0 1 0.5 255 0 0\n"));
+    folder.write("right.obj", "v 0.5 -0.5 0\nv 1.5 -0.5 0\nv 1 0.5 0\nf 1 2 3\n");
+    let words =
+        ["render", "left.ply", "right.obj", "-o", "a.png", "--shading", "albedo", "--background", "none"];
+    let run = surfel(&folder, &[&words[..], &SMALL].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("left.ply: 1 disks\n"), "{}", run.stderr);
+    assert!(run.stderr.contains("right.obj: 3 vertices, 1 triangles: open"), "{}", run.stderr);
+    let picture = png(&folder.path("a.png"));
+    assert_eq!(picture.channels, 4);
+    let has = |color: [u8; 4]| picture.pixels.chunks_exact(4).filter(|pixel| **pixel == color).count();
+    assert!(has([255, 0, 0, 255]) > 20 && has([204, 204, 204, 255]) > 20);
+    // Without a background, what is empty is transparent.
+    assert!(has([0, 0, 0, 0]) > 500);
+}
+
+#[test]
+fn a_camera_file_says_the_same_as_the_options() {
+    let folder = Folder::new();
+    folder.write("cam.json", r#"{"eye":[1,2,3], "target":[0,0.25,0], "up":[0,0,1], "fov_deg":50}"#);
+    let options = ["--eye", "1,2,3", "--target", "0,0.25,0", "--up", "0,0,1", "--fov", "50"];
+    for (output, words) in [("a.png", &["--camera", "cam.json"][..]), ("b.png", &options)] {
+        let run = surfel(&folder, &[&["render", "-o", output, SMALL[0], SMALL[1]], words].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+    }
+    let (a, b) = (png(&folder.path("a.png")), png(&folder.path("b.png")));
+    assert_eq!(a.pixels, b.pixels);
+    surfel(&folder, &["render", "-o", "c.png", SMALL[0], SMALL[1]]);
+    assert_ne!(png(&folder.path("c.png")).pixels, a.pixels);
+}
+
+#[test]
+fn timings_hold_all_that_explains_a_measurement() {
+    let folder = Folder::new();
+    let words =
+        ["render", SMALL[0], SMALL[1], "--rasterizer", "perspective", "--frames", "3", "--timings", "t.json"];
+    let run = surfel(&folder, &[&words[..], &["--explain"]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let json: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
+    assert_eq!(json["surfel"], env!("CARGO_PKG_VERSION"));
+    for field in ["name", "driver", "api_version"] {
+        assert!(json["device"][field].as_str().is_some_and(|text| !text.is_empty()), "{field}");
+    }
+    assert!(
+        json["device"]["timestamp_period_ns"].is_f64() && json["device"]["timestamp_valid_bits"].is_u64()
+    );
+    assert_eq!(json["settings"]["size"], "64x64");
+    assert_eq!(json["settings"]["kernel"], "gaussian:0.5");
+    assert_eq!(json["camera"]["fov_deg"], 45.0);
+    assert!(json["camera"]["near"].as_f64().unwrap() > 0.0);
+    assert_eq!((&json["scene"]["splats"], &json["scene"]["dropped"]), (&150_000.into(), &0.into()));
+    assert!(
+        json["scene"]["splat_bytes"].as_u64() > Some(150_000) && json["scene"]["transient_bytes"].is_u64()
+    );
+    let steps = json["steps"].as_array().unwrap();
+    assert!(steps.len() >= 4 && steps.iter().all(|step| step["secs"].as_f64().unwrap() >= 0.0), "{steps:?}");
+
+    let frames = &json["frames"];
+    assert_eq!((&frames["warm_up_frames"], &frames["timed_frames"]), (&2.into(), &3.into()));
+    let passes = frames["passes"].as_array().unwrap();
+    let names: Vec<_> = passes.iter().map(|pass| pass["name"].as_str().unwrap()).collect();
+    // Nothing is read back in frames that are timed.
+    assert_eq!(names, ["visibility", "accumulate", "finalize"]);
+    let ordered = |spread: &Value| {
+        let [min, median, max] = ["min", "median", "max"].map(|figure| spread[figure].as_f64().unwrap());
+        assert!(0.0 <= min && min <= median && median <= max, "{spread}");
+        median
+    };
+    if json["device"]["timestamp_valid_bits"] != 0 {
+        let sum: f64 = passes.iter().map(|pass| ordered(&pass["ms"])).sum();
+        assert!(sum > 0.0);
+        assert!(ordered(&frames["frame_ms"]) > 0.0);
+        assert!(ordered(&frames["sum_of_passes_ms"]) > 0.0);
+    }
+    assert!(ordered(&frames["submit_to_wait_ms"]) > 0.0);
+    if passes[0]["vertices"].is_u64() {
+        assert_eq!((&passes[0]["vertices"], &passes[1]["vertices"]), (&150_000.into(), &150_000.into()));
+        assert!(passes[2]["fragments"].as_u64() >= Some(64 * 64));
+    }
+    assert!(frames["flags"].is_array());
+    // People see the same, and why.
+    for text in ["median ms", "accumulate", "submission to end of wait", "pipelines: 3", "every scene"] {
+        assert!(run.stdout.contains(text), "'{text}' is not in\n{}", run.stdout);
+    }
+}
+
+#[test]
+fn info_names_the_device_that_renders() {
+    let folder = Folder::new();
+    let run = surfel(&folder, &["info"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let json: Value = serde_json::from_str(&surfel(&folder, &["info", "--json"]).stdout).unwrap();
+    let device = json["devices"].as_array().unwrap().iter().find(|device| device["default"] == true).unwrap();
+    let name = device["name"].as_str().unwrap();
+    println!("device: {name} ({})", device["driver"]);
+    assert!(run.stdout.contains(&format!("{name} (the default)")), "{}", run.stdout);
+    assert!(
+        device["refused"].as_array().unwrap().is_empty() && device["max_image_side_px"].as_u64() > Some(4000)
+    );
+    let timed = surfel(&folder, &["render", SMALL[0], SMALL[1], "--frames", "1", "--device", name]);
+    assert!(timed.code == 0 && timed.stdout.starts_with(name), "{}", timed.stdout);
+}
+
+#[test]
+fn a_run_under_validation_is_silent() {
+    let folder = Folder::new();
+    let words =
+        ["render", SMALL[0], SMALL[1], "--validate", "--timings", "t.json", "--dump", "d", "--explain"];
+    let run = surfel(&folder, &words);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("validation: no message"), "{}", run.stderr);
+}
+
+#[test]
+fn the_manual_is_complete_and_plain() {
+    let folder = Folder::new();
+    let subcommands =
+        ["render", "reference", "compare", "convert", "figure", "bench", "report", "selftest", "info"];
+    let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
+    for words in [vec!["--help"]].iter().chain(&helps) {
+        let run = surfel(&folder, words);
+        assert!(run.code == 0 && run.stderr.is_empty(), "{}", run.stderr);
+        assert!(run.stdout.contains("Usage: surfel") && !run.stdout.contains('\u{1b}'), "{}", run.stdout);
+    }
+    let render = surfel(&folder, &["render", "--help"]).stdout;
+    for text in
+        ["pixels", "degrees", "[default: 1024x1024]", "Examples:", "surfel render igea.ply", "fov_deg"]
+    {
+        assert!(render.contains(text), "'{text}' is not in\n{render}");
+    }
+    let version = surfel(&folder, &["--version"]);
+    assert_eq!((version.code, version.stdout.trim()), (0, concat!("surfel ", env!("CARGO_PKG_VERSION"))));
+}
+
+/// A PLY of disks: position, normal, radius, red, green, blue a line.
+fn splats(lines: &str) -> String {
+    let count = lines.lines().count();
+    let property = |name: &str| format!("property float {name}\n");
+    let floats: String = ["x", "y", "z", "nx", "ny", "nz", "radius"].map(property).concat();
+    let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    format!("ply\nformat ascii 1.0\nelement vertex {count}\n{floats}{colors}end_header\n{lines}")
+}
+
+#[test]
+fn passes_without_draws_are_no_reason_for_a_flag() {
+    let folder = Folder::new();
+    // So near that large splats are listed in compute passes.
+    let words = [
+        "render",
+        "--size",
+        "64x64",
+        "--eye",
+        "0,0,0.2",
+        "--target",
+        "0,0,3",
+        "--rasterizer",
+        "perspective",
+        "--timings",
+        "t.json",
+        "--frames",
+        "2",
+    ];
+    let run = surfel(&folder, &words);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let report: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
+    let passes = report["frames"]["passes"].as_array().unwrap();
+    assert!(passes.iter().any(|pass| pass["name"] == "count large splats" && pass["fragments"].is_null()));
+    assert!(!report["frames"]["flags"].to_string().contains("not counted"), "{}", report["frames"]["flags"]);
+}

@@ -1,0 +1,258 @@
+//! Pictures in bands of the image against the same all at once: the same splats in every pixel, in sums of another order.
+
+use crate::common::{ALL, assert_same_bits, compare::F32, scenes, shared, with_limits};
+use glam::DVec3;
+use surfel::{
+    hard_scenes::{Hard, sphere, transparent},
+    renderer::{Frame, Headless, Wanted},
+    scene::{
+        Accumulate, Backfaces, Cull, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes, SplatFormat,
+        Storage, TileInvocations, TileMemory,
+    },
+};
+
+fn draw(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory) -> Frame {
+    draw_as(headless, hard, tile_memory, ALL)
+}
+
+fn draw_as(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory, wanted: Wanted) -> Frame {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let rasterizer = Rasterizer::Compute;
+    let settings = Settings { rasterizer, tile_memory, ..hard.settings.clone() };
+    headless.render(&prepared, &hard.camera, &settings, wanted).unwrap()
+}
+
+/// How many bands a frame has: 0 where all of it is drawn at once.
+fn bands(frame: &Frame) -> usize {
+    frame
+        .plan
+        .passes
+        .iter()
+        .filter(|pass| pass.name.starts_with("count ") && pass.name.contains("band-"))
+        .count()
+}
+
+fn hard(name: &'static str, objects: Vec<Object>, eye: [f64; 3]) -> Hard {
+    let settings = Settings { size_px: [131, 203], accumulate: Accumulate::F32, ..Settings::default() };
+    let scene = Scene { objects, ..Scene::default() };
+    Hard { name, scene, camera: scenes::builder::camera(eye, [0.0; 3]), settings }
+}
+
+/// A ball of ellipses twice as long as wide.
+fn ellipses(mut object: Object) -> Object {
+    let Shapes::Disks { normals, radii } = &object.splats.shapes else { unreachable!() };
+    let s: Vec<_> = normals.iter().zip(radii).map(|(n, r)| *r * n.any_orthonormal_vector()).collect();
+    let t = normals.iter().zip(&s).map(|(n, s)| 0.5 * n.cross(*s)).collect();
+    object.splats.shapes = Shapes::Ellipses { s, t };
+    object
+}
+
+/// Scenes large enough for bands: each in its own way hard for what is known of a block without looking at its splats.
+fn scenes_of_blocks() -> Vec<Hard> {
+    let ball = || sphere(100_000, DVec3::ZERO);
+    let three =
+        || (0..3).map(|i| sphere(35_001 + 7 * i, DVec3::new(0.0, 1.5 * (i as f64 - 1.0), 0.0))).collect();
+    let mut all = vec![
+        hard("a ball", vec![ball()], [0.0, 0.0, 3.2]),
+        hard("seen askew", vec![ball()], [1.9, 2.1, 1.7]),
+        hard("cut by every side of the view", vec![ball()], [0.0, 0.0, 2.3]),
+        hard("three, two of them cut", three(), [0.0, 0.0, 4.0]),
+        hard("one behind the other", three(), [0.0, 6.0, 0.1]),
+        hard("ellipses", vec![ellipses(ball())], [0.3, -0.2, 2.8]),
+    ];
+    let with = |name, change: &dyn Fn(&mut Hard)| {
+        let mut hard = hard(name, three(), [0.4, 0.3, 4.5]);
+        change(&mut hard);
+        hard
+    };
+    all.extend([
+        with("the inside, too", &|hard| hard.settings.backfaces = Backfaces::Flip),
+        with("open, all in view", &|hard| {
+            hard.scene.objects.iter_mut().for_each(|object| object.closed = false);
+            hard.camera = scenes::builder::camera([0.4, 0.3, 8.0], [0.0; 3]);
+        }),
+        with("some of them large", &|hard| {
+            let Shapes::Disks { radii, .. } = &mut hard.scene.objects[1].splats.shapes else {
+                unreachable!()
+            };
+            radii.iter_mut().step_by(9000).for_each(|radius| *radius = 0.7);
+        }),
+        with("unfiltered", &|hard| hard.settings.filter = Filter::None),
+        with("ewa", &|hard| hard.settings.filter = Filter::Ewa),
+        with("without what is hidden", &|hard| hard.settings.cull = Cull::Hidden),
+        with("tiles half as high", &|hard| {
+            hard.settings.tile_invocations = TileInvocations::ShortColumn;
+        }),
+        with("an invocation a pixel", &|hard| hard.settings.tile_invocations = TileInvocations::Pixel),
+        with("packed", &|hard| {
+            hard.scene.storage = Storage { format: SplatFormat::Packed, ..Storage::default() };
+        }),
+        with("far from the origin", &|hard| {
+            let far = DVec3::new(4e6, -7e6, 1e7);
+            for object in &mut hard.scene.objects {
+                object.splats.positions.iter_mut().for_each(|position| *position += far);
+            }
+            let eye = far + DVec3::new(0.4, 0.3, 4.5);
+            hard.camera = scenes::builder::camera(eye.into(), far.into());
+        }),
+        with("transparent", &|hard| {
+            let objects = hard.scene.objects.drain(..);
+            hard.scene.objects =
+                objects.map(|ball| transparent::tinted(ball, [0.8, 0.5, 0.3, 0.4])).collect();
+        }),
+        with("transparent and opaque", &|hard| {
+            let last = hard.scene.objects.pop().unwrap();
+            hard.scene.objects.push(transparent::tinted(last, [0.8, 0.5, 0.3, 0.4]));
+        }),
+    ]);
+    all
+}
+
+/// Of each sum's f32 additions 2⁻²⁴ each, at random.
+const WEIGHT_TOLERANCE: f32 = 1e-5;
+
+fn assert_same_surface(bands: &Frame, whole: &Frame, name: &str) {
+    for (i, (a, b)) in bands.weight.iter().zip(&whole.weight).enumerate() {
+        assert!((a - b).abs() <= WEIGHT_TOLERANCE * b, "{name}, pixel {i}: {a}, all at once {b}");
+    }
+    for (i, (a, b)) in bands.linear.iter().zip(&whole.linear).enumerate() {
+        let far = a.iter().zip(b).any(|(a, b)| (a - b).abs() > F32.color as f32 || a.is_nan() != b.is_nan());
+        assert!(!far, "{name}, pixel {i}: {a:?}, all at once {b:?}");
+    }
+}
+
+#[test]
+fn bands_draw_the_same_splats_in_every_pixel() {
+    let mut headless = shared();
+    for hard in scenes_of_blocks() {
+        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
+        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
+        println!("{}: {} bands", hard.name, bands(&cut));
+        assert_eq!(bands(&whole), 0, "{}", hard.name);
+        assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
+        assert_same_surface(&cut, &whole, hard.name);
+    }
+}
+
+/// The picture alone, which tiles of the opaque scenes shade themselves, each band its own into one image.
+#[test]
+fn bands_show_the_same_picture() {
+    let mut headless = shared();
+    let picture = Wanted { surface: false, ..ALL };
+    let mut shaded = 0;
+    for hard in scenes_of_blocks() {
+        let [whole, cut] =
+            [u64::MAX, 0].map(|most| draw_as(&mut headless, &hard, TileMemory::Most(most), picture));
+        assert!(bands(&whole) == 0 && bands(&cut) >= 2, "{}", hard.name);
+        assert_same_surface(&cut, &whole, hard.name);
+        let passes = &cut.plan.passes;
+        let count = passes.iter().filter(|pass| pass.name.starts_with("see, sum and shade band-")).count();
+        assert!([0, bands(&cut)].contains(&count), "{}: {count}", hard.name);
+        shaded += usize::from(count > 0);
+    }
+    println!("{shaded} scenes are shaded at once");
+    assert!(shaded >= 10, "{shaded}");
+}
+
+/// Without shuffles a dispatch takes 30 000 entries of a tile, so that some bands alone may have overfull tiles and others not.
+#[test]
+fn bands_with_and_without_overfull_tiles_are_one_image() {
+    let mut headless = shared();
+    let mut hard = hard("a ball", vec![sphere(100_000, DVec3::ZERO)], [0.0, 0.0, 3.2]);
+    hard.settings.accumulate = Accumulate::F16;
+    with_limits(
+        &mut headless,
+        |limits| limits.shuffles = false,
+        |headless| {
+            // Shaded by tiles.
+            let picture = |headless: &mut Headless, memory| {
+                let picture = draw_as(headless, &hard, memory, Wanted { surface: false, ..ALL });
+                let shades = |name: &str| name.starts_with("shade ") && name.ends_with("overfull tiles");
+                let count = picture.plan.passes.iter().filter(|pass| shades(&pass.name)).count();
+                assert!([0, bands(&picture).max(1)].contains(&count), "{count}");
+                picture
+            };
+            let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
+            let shown = picture(headless, TileMemory::Most(u64::MAX));
+            let mut overfull_in_some = 0;
+            for megabytes in [2.5, 3.0, 3.5, 4.0, 4.5] {
+                let memory = TileMemory::Most((megabytes * 1e6) as u64);
+                let cut = draw(headless, &hard, memory);
+                let overfull = cut.plan.passes.iter().filter(|pass| pass.name.contains("overfull")).count();
+                println!("{megabytes} MB: {} bands, {overfull} passes of overfull tiles", bands(&cut));
+                // Where no band has them sums have 16 bits, other than those of the whole image.
+                if overfull > 0 && bands(&cut) > 1 {
+                    assert_same_surface(&cut, &whole, hard.name);
+                    assert_same_surface(&picture(headless, memory), &shown, hard.name);
+                    overfull_in_some += 1;
+                }
+            }
+            assert!(overfull_in_some > 0, "no cut has bands with overfull tiles");
+        },
+    );
+}
+
+/// Layers with large splats are the graphics pipeline's, in one piece: here the lists of all have room for large ones, but those of
+/// bands, which know only of blocks that have one, do not.
+#[test]
+fn layers_with_large_splats_have_no_bands() {
+    let mut headless = shared();
+    let mut ball = transparent::tinted(sphere(100_000, DVec3::ZERO), [0.8, 0.5, 0.3, 0.4]);
+    let Shapes::Disks { radii, .. } = &mut ball.splats.shapes else { unreachable!() };
+    radii.iter_mut().step_by(1500).for_each(|radius| *radius = 0.12);
+    let mut hard = hard("a ball", vec![ball], [0.0, 0.0, 3.2]);
+    hard.settings.layers = surfel::scene::Layers::Fixed(2);
+    let draw_both = |headless: &mut Headless| {
+        let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
+        let cut = draw(headless, &hard, TileMemory::Most(0));
+        assert!(whole.plan.passes.iter().any(|pass| pass.name == "layers of tiles"));
+        assert_same_surface(&cut, &whole, hard.name);
+        bands(&cut)
+    };
+    assert!(draw_both(&mut headless) > 1);
+    let few_entries = |limits: &mut surfel::vk::Limits| limits.max_storage_buffer_range = 1_800_000;
+    with_limits(&mut headless, few_entries, |headless| assert_eq!(draw_both(headless), 0));
+}
+
+/// Most of them are not cut: they have too few splats, large ones, or polygons.
+#[test]
+fn no_hard_scene_is_another_where_memory_is_short() {
+    let mut headless = shared();
+    for mut hard in scenes::all().into_iter().chain(transparent::all()) {
+        hard.settings.accumulate = Accumulate::F32;
+        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
+        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
+        if bands(&cut) == 0 {
+            assert_same_bits(&cut, &whole, hard.name);
+        } else {
+            println!("{}: {} bands", hard.name, bands(&cut));
+            assert_same_surface(&cut, &whole, hard.name);
+        }
+    }
+}
+
+/// What bands can't help is drawn all at once: no order in space, all of it in one row, or a filter without a bound.
+#[test]
+fn what_bands_do_not_help_has_none() {
+    let mut headless = shared();
+    let ball = || vec![sphere(20_000, DVec3::ZERO)];
+    let mut shuffled = hard("in the order of input", ball(), [0.0, 0.0, 3.2]);
+    shuffled.scene.storage = Storage { order: Order::Input, ..Storage::default() };
+    // Neighbors of the spiral that the ball is made of are on one parallel, which is no order in space.
+    let Shapes::Disks { normals, radii } = &mut shuffled.scene.objects[0].splats.shapes else {
+        unreachable!()
+    };
+    let from: Vec<usize> = (0..20_000).map(|i| i * 7919 % 20_000).collect();
+    *normals = from.iter().map(|&i| normals[i]).collect();
+    *radii = from.iter().map(|&i| radii[i]).collect();
+    let positions = &mut shuffled.scene.objects[0].splats.positions;
+    *positions = from.iter().map(|&i| positions[i]).collect();
+    let mut paper = hard("the paper's filter", ball(), [0.0, 0.0, 3.2]);
+    paper.settings.filter = Filter::AdjustPaper;
+    for hard in [shuffled, hard("far away", ball(), [0.0, 0.0, 900.0]), paper] {
+        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
+        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
+        assert_eq!(bands(&cut), 0, "{}", hard.name);
+        assert_same_bits(&cut, &whole, hard.name);
+    }
+}

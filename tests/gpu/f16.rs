@@ -1,0 +1,171 @@
+//! 16-bit accumulation: how far it is from the oracle beside 32 bits, how far it may be, and what many splats do to it.
+//!
+//! A sum S of `n` positive values in binary16 errs by at most `e = n (2·2⁻¹⁰ S + 2·2⁻²⁴)`, and a quotient of two such sums
+//! by about twice that, relative (`selftest::half::Rounding`): that bound is asserted at every pixel. It says nothing beyond some hundred fragments, where sums stall: a sum of equal
+//! summands a stops in the first binade whose step is 2a or more (with truncation: more than a), between 2048 a and
+//! 4096 a (1024 a and 2048 a): a normalized color is then within a factor 2 of the input. On the way there a summand of
+//! 0.5 to 1.5 steps is taken as a whole step, so that a sum may grow by 2/3 to 2 times its rate: a factor 3.
+
+use crate::common::{
+    builder::{Builder, camera, settings},
+    compare::compare,
+    render,
+    scenes::{self, Hard},
+    shared,
+};
+use glam::DVec3;
+use surfel::{
+    reference,
+    scene::{Accumulate, Filter, FilterWeight, Kernel, Settings},
+    selftest::half::Rounding,
+};
+
+fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
+    let mut hard = hard.clone();
+    change(&mut hard.settings);
+    hard
+}
+
+#[test]
+fn every_hard_scene_stays_within_the_rounding_of_16_bits_and_finite() {
+    let mut headless = shared();
+    let mut all = scenes::all();
+    let psi_e = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
+    all.push(Hard { name: "sphere, psi_e", ..with(&scenes::sphere_of_disks(), |s| s.kernel = psi_e) });
+    for hard in all {
+        let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+        let in_32 = render(&mut headless, &hard);
+        let in_16 = render(&mut headless, &with(&hard, |s| s.accumulate = Accumulate::F16));
+        // Of weight 1 each: the sum counts the fragments.
+        let flat = Kernel::Gaussian { sigma: 1e6 };
+        let full_disk = matches!(hard.settings.kernel, Kernel::Gaussian { .. });
+        let counts =
+            render(&mut headless, &with(&hard, |s| (s.kernel, s.filter_weight) = (flat, FilterWeight::Unit)))
+                .weight;
+        println!("32 bits: {}", compare(&in_32, &oracle).row(hard.name));
+        let errors = compare(&in_16, &oracle);
+        println!("16 bits: {}", errors.row(hard.name));
+
+        let values = in_16.albedo.iter().chain(&in_16.normal).chain(&in_16.linear).flatten();
+        assert!(values.chain(&in_16.weight).all(|value| value.is_finite()), "{}", hard.name);
+        let (mut checked, mut most) = (0, 0.0_f64);
+        for (i, count) in counts.iter().enumerate() {
+            let (count, weight) = (f64::from(*count), f64::from(in_32.weight[i]));
+            let covered = in_16.weight[i] > 0.0;
+            assert_eq!(covered, in_16.depth[i].is_finite(), "{}: pixel {i}", hard.name);
+            // ψ_E covers less than the flat kernel, so that its count is only an upper bound.
+            assert!(count > 0.0 || !full_disk || weight == 0.0);
+            let rounding = Rounding::of(count);
+            if !rounding.holds(weight) {
+                continue;
+            }
+            let error = (f64::from(in_16.weight[i]) - weight).abs() / rounding.of_sum(weight);
+            assert!(error <= 1.0, "{}: pixel {i}: weight {error} of its bound", hard.name);
+            for c in 0..3 {
+                let (a, b) = (f64::from(in_16.albedo[i][c]), f64::from(in_32.albedo[i][c]));
+                let bound = rounding.of_mean(b, weight);
+                assert!((a - b).abs() <= bound, "{}: pixel {i}: albedo {a}, {b}", hard.name);
+            }
+            let depth = f64::from(in_16.depth[i]) / f64::from(in_32.depth[i]) - 1.0;
+            assert!(
+                depth.abs() <= rounding.of_quotient(weight),
+                "{}: pixel {i}: depth off by {depth}",
+                hard.name
+            );
+            most = most.max(error);
+            checked += 1;
+        }
+        println!("16 bits: {checked} pixels within the bound, at most {:.0}% of it", 100.0 * most);
+        assert!(checked >= 1000 || hard.name.contains("coincident"), "{}: {checked}", hard.name);
+    }
+}
+
+/// A filter takes all but a 16th of a small splat's weight, and a kernel may end at 2⁻²⁴: what covers must not vanish in
+/// 16 bits, or the background would show where visibility has hidden all else; nor may the color of dark splats.
+#[test]
+fn small_filtered_splats_cover_in_16_bits_what_they_cover_in_32() {
+    let mut headless = shared();
+    let kernels = [
+        Kernel::Gaussian { sigma: 0.5 },
+        Kernel::Gaussian { sigma: 0.2 },
+        Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
+    ];
+    for kernel in kernels {
+        for filter in [Filter::Adjust, Filter::Ewa] {
+            let hard = with(&scenes::subpixel_filtered(), |s| (s.kernel, s.filter) = (kernel, filter));
+            if hard.settings.validate().is_err() {
+                continue; // ewa adds the covariances of Gaussians
+            }
+            let in_32 = render(&mut headless, &hard);
+            let in_16 = render(&mut headless, &with(&hard, |s| s.accumulate = Accumulate::F16));
+            let covered = |weight: &[f32]| weight.iter().map(|weight| *weight > 0.0).collect::<Vec<_>>();
+            assert!(covered(&in_32.weight) == covered(&in_16.weight), "{kernel:?} {filter:?}");
+            assert!(in_32.weight.iter().filter(|weight| **weight > 0.0).count() > 10_000);
+        }
+    }
+    // Isolated specks of linear 0.0015, 5 of 255 in sRGB, weigh 0.0085 at least: 214 steps of 2⁻²⁴ of color.
+    let dark = 0.0015;
+    let mut builder = Builder::default();
+    for i in 0..64 {
+        let at = |k: i32| 0.04 * f64::from(k) - 0.14 + 0.001 * f64::from(i);
+        builder.disk(DVec3::new(at(i % 8), at(i / 8), 0.0), DVec3::Z, 1e-5, [dark, dark, dark, 1.0]);
+    }
+    let settings = Settings { size_px: [128, 128], accumulate: Accumulate::F16, ..settings() };
+    let camera = camera([0.0, 0.0, 0.5], [0.0; 3]);
+    let hard = Hard { name: "dark specks", scene: builder.scene(false), camera, settings };
+    let frame = render(&mut headless, &hard);
+    let covered: Vec<_> = (0..frame.weight.len()).filter(|i| frame.weight[*i] > 0.0).collect();
+    assert!(covered.len() > 200, "{}", covered.len());
+    for i in covered {
+        // A step of color, by which the device may cut off, and as much again for two relative roundings.
+        let error = (f64::from(frame.albedo[i][0]) / f64::from(dark) - 1.0).abs();
+        assert!(error < 2.0 / 200.0, "pixel {i}: {error}");
+    }
+}
+
+/// N13: identical splats at one place, a few pixels large.
+fn identical(count: usize, color: [f32; 4], accumulate: Accumulate) -> Hard {
+    let mut builder = Builder::default();
+    for _ in 0..count {
+        builder.disk(DVec3::ZERO, DVec3::Z, 0.04, color);
+    }
+    let settings = Settings { size_px: [32, 32], accumulate, ..settings() };
+    let camera = camera([0.0, 0.0, 0.5], [0.0; 3]);
+    Hard { name: "identical splats", scene: builder.scene(false), camera, settings }
+}
+
+#[test]
+fn n13_the_color_of_identical_splats_is_that_of_one() {
+    let mut headless = shared();
+    let color = [0.9, 0.3, 0.011, 1.0];
+    for count in [1_usize, 10, 100, 2047, 2048, 10_000, 100_000] {
+        for accumulate in [Accumulate::F32, Accumulate::F16] {
+            let frame = render(&mut headless, &identical(count, color, accumulate));
+            let covered: Vec<_> = (0..frame.weight.len()).filter(|i| frame.weight[*i] > 0.0).collect();
+            assert!(covered.len() > 20);
+            let (mut error, mut ratio) = (0.0_f32, 1.0_f32);
+            for &i in &covered {
+                let finite = frame.albedo[i].iter().chain(&frame.normal[i]).all(|v| v.is_finite());
+                assert!(finite && frame.weight[i].is_finite() && frame.depth[i].is_finite());
+                for (got, color) in frame.albedo[i].iter().zip(&color[..3]) {
+                    error = error.max((got - color).abs());
+                    ratio = ratio.max((got / color).max(color / got));
+                }
+            }
+            let in_255 = error * 255.0;
+            println!(
+                "{count:6} identical splats, {accumulate:?}: color off by {in_255:.3}/255, factor {ratio:.4}"
+            );
+            match accumulate {
+                Accumulate::F32 => assert!(in_255 <= 1.0, "{count}: {in_255}/255"),
+                // See the head of this file, here and below; 1% for the rounding of the summands themselves.
+                Accumulate::F16 if count <= 10 => {
+                    let relative = 2.0 * count as f32 / 1024.0;
+                    assert!(ratio <= (1.0 + relative) / (1.0 - relative), "{count}: factor {ratio}");
+                }
+                Accumulate::F16 if count < 10_000 => assert!(ratio <= 3.03, "{count}: factor {ratio}"),
+                Accumulate::F16 => assert!(ratio <= 2.02, "{count}: factor {ratio}"),
+            }
+        }
+    }
+}

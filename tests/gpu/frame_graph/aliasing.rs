@@ -1,0 +1,99 @@
+//! Transients that share memory, and what is refused before anything is recorded.
+
+use ash::vk;
+use surfel::{
+    graph::{
+        Cause, Compiled,
+        execute::{Physical, Transients, execute},
+    },
+    vk::CommandPool,
+};
+
+use crate::{
+    common::watched::Watched,
+    frame_graph::chain::{buffers, chain, submit},
+};
+
+#[test]
+fn images_that_share_memory_keep_their_pixels_in_execution_after_execution() {
+    let watched = Watched::new();
+    let (pattern, result) = buffers(&watched);
+    let (compiled, _) = chain(&watched, &pattern, &result);
+    let slot = |name| {
+        let mut resources = compiled.plan.resources.iter();
+        resources.find(|resource| resource.name == name).unwrap().slot.unwrap()
+    };
+    assert!(slot("first").overlaps(&slot("third")), "{}", compiled.plan);
+    assert!(!slot("first").overlaps(&slot("second")) && !slot("second").overlaps(&slot("third")));
+    let transients = Transients::new(&watched.device, &compiled.plan, |_| 0).unwrap();
+    let of_one = slot("first").size_bytes;
+    assert!(transients.bytes() < 3 * of_one, "{} bytes for three of {of_one}", transients.bytes());
+
+    // Three executions of equal plans on the same memory, without a wait between them.
+    let mut last = None;
+    let mut pools = Vec::new();
+    for _ in 0..3 {
+        let (compiled, imports) = chain(&watched, &pattern, &result);
+        let (pool, epoch) = submit(&watched, compiled, &transients, &imports);
+        pools.push(pool);
+        last = Some(epoch);
+    }
+    watched.queue.wait(last.unwrap()).unwrap();
+    assert!(pattern.bytes() == result.bytes(), "the pixels are the pattern's");
+    assert!(pattern.bytes().iter().any(|byte| *byte != pattern.bytes()[0]));
+    assert_eq!(watched.said(), [] as [String; 0]);
+}
+
+/// The silence above is the barriers' doing.
+#[test]
+fn without_the_barrier_for_a_former_tenant_the_layer_speaks() {
+    let watched = Watched::new();
+    let (pattern, result) = buffers(&watched);
+    let (mut compiled, imports) = chain(&watched, &pattern, &result);
+    let transients = Transients::new(&watched.device, &compiled.plan, |_| 0).unwrap();
+    let third = compiled.plan.resources.iter().position(|resource| resource.name == "third").unwrap();
+    let mut dropped = 0;
+    for pass in &mut compiled.plan.passes {
+        for barrier in &mut pass.barriers.resources {
+            if barrier.resource.index() == third && barrier.cause == Cause::FirstUse {
+                (barrier.src.stages, barrier.src.access) = Default::default();
+                dropped += 1;
+            }
+        }
+        dropped += usize::from(pass.barriers.memory.take().is_some());
+    }
+    assert!(dropped > 0, "{}", compiled.plan);
+    let (_pool, epoch) = submit(&watched, compiled, &transients, &imports);
+    watched.queue.wait(epoch).unwrap();
+    let said = watched.said();
+    assert!(said.iter().any(|vuid| vuid.starts_with("SYNC-HAZARD")), "{said:?}");
+}
+
+#[test]
+fn an_import_that_is_missing_or_of_the_wrong_kind_is_refused_before_anything_is_recorded() {
+    let watched = Watched::new();
+    let (pattern, result) = buffers(&watched);
+    let (compiled, imports) = chain(&watched, &pattern, &result);
+    let transients = Transients::new(&watched.device, &compiled.plan, |_| 0).unwrap();
+    let wrong_kind = (imports[1].0, Physical::Image(vk::Image::null(), vk::ImageView::null()));
+    let cases = [
+        (vec![imports[0]], "resource 'result': has no Vulkan object: an import was not given"),
+        (vec![imports[0], wrong_kind], "resource 'result': is a buffer, and an image was given"),
+    ];
+    for (given, expected) in cases {
+        let (compiled, _) = chain(&watched, &pattern, &result);
+        let pool = CommandPool::new(&watched.device, "chain").unwrap();
+        // SAFETY: the pool is new; what is refused was not recorded, and the rest of it is submitted.
+        let error = unsafe {
+            let commands = pool.begin().unwrap();
+            let Compiled { plan, bodies } = compiled;
+            let error =
+                execute(&watched.device, commands, &plan, bodies, &transients, &given, None).unwrap_err();
+            let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
+            watched.queue.wait(epoch).unwrap();
+            error
+        };
+        assert!(error.to_string().ends_with(expected), "{error}");
+    }
+    assert_eq!(watched.said(), [] as [String; 0]);
+}

@@ -1,0 +1,202 @@
+//! Nothing leaks and nothing dies too early: whatever the order of drops, with work under way, and whichever step of
+//! making something fails. The validation layer reports what is left when a device is destroyed, and what is destroyed
+//! in use.
+
+mod everything;
+
+use crate::common::{
+    builder::{self, Random},
+    faults,
+    host::Host,
+    watched::Watched,
+};
+use ash::vk;
+use everything::{FORMAT, SIZE_PX, everything, pixels, scene, settings};
+use surfel::{
+    Error,
+    frame::{FrameSlot, HeadlessTarget},
+    graph::execute::Profile,
+    renderer::{Readbacks, Renderer},
+    vk::{Buffer, BufferDesc, CommandPool, EnabledFeatures, Image, ImageDesc, MemoryUse, Queue, Staging},
+};
+
+/// Fisher and Yates.
+fn shuffle<T>(things: &mut [T], random: &mut Random) {
+    for last in (1..things.len()).rev() {
+        things.swap(last, (random.unit() * (last + 1) as f64) as usize);
+    }
+}
+
+#[test]
+fn any_order_of_drops_with_a_frame_under_way_leaks_nothing_and_destroys_nothing_in_use() {
+    for seed in 0..12 {
+        let watched = Watched::new();
+        let (messages, device) = (watched.messages.clone(), watched.device.clone());
+        let profile = [Profile::Times, Profile::Counts, Profile::Frame][(seed % 3) as usize];
+        let mut things = everything(watched, profile);
+        shuffle(&mut things, &mut Random(seed));
+        // Every second time our clone is gone first, so that the last of the things takes the device with it.
+        let device = (seed % 4 < 2).then_some(device);
+        things.into_iter().for_each(drop);
+        if let Some(device) = device {
+            assert_ne!(device.memory_in_use().1, 0, "what was dropped waits for its epoch");
+            let queue = Queue::new(&device).unwrap();
+            // SAFETY: nothing is recorded.
+            unsafe { queue.wait_idle() }.unwrap();
+            assert_eq!(device.memory_in_use(), (0, 0), "seed {seed}");
+        }
+        assert_eq!(messages.all(), [], "seed {seed}");
+    }
+}
+
+/// The layer would have said so above.
+#[test]
+fn a_leaked_object_is_reported_when_the_device_is_destroyed() {
+    let watched = Watched::new();
+    // SAFETY: the leak is the defect.
+    unsafe { watched.device.raw().create_fence(&vk::FenceCreateInfo::default(), None) }.unwrap();
+    let messages = watched.messages.clone();
+    drop(watched);
+    let vuids: Vec<_> = messages.all().into_iter().map(|message| message.vuid).collect();
+    assert_eq!(vuids, ["VUID-vkDestroyDevice-device-00378"]);
+
+    let host = Host::new(EnabledFeatures::default());
+    // SAFETY: as above.
+    unsafe { host.device.create_fence(&vk::FenceCreateInfo::default(), None) }.unwrap();
+    let said = host.destroy();
+    assert!(said.len() == 1 && said[0].contains("VUID-vkDestroyDevice-device-00378"), "{said:?}");
+}
+
+/// So would it of an object that is destroyed before the host has waited for the device.
+#[test]
+fn an_object_destroyed_in_use_is_reported() {
+    let watched = Watched::new();
+    let device = watched.device.raw();
+    let flag = BufferDesc { name: "flag", size: 256, usage: vk::BufferUsageFlags::TRANSFER_DST };
+    let flag = Buffer::new(&watched.device, flag, MemoryUse::Readback).unwrap();
+    let info = vk::BufferCreateInfo::default().size(256).usage(vk::BufferUsageFlags::TRANSFER_DST);
+    let pool = CommandPool::new(&watched.device, "program").unwrap();
+    // SAFETY: the buffer is destroyed too early by the rules: the defect. In fact the device has finished, which only
+    // the flag's bytes tell, so that no driver stumbles over it.
+    unsafe {
+        let buffer = device.create_buffer(&info, None).unwrap();
+        let needed = device.get_buffer_memory_requirements(buffer);
+        let info = vk::MemoryAllocateInfo::default()
+            .allocation_size(1 << 20)
+            .memory_type_index(needed.memory_type_bits.trailing_zeros());
+        let memory = device.allocate_memory(&info, None).unwrap();
+        device.bind_buffer_memory(buffer, memory, 0).unwrap();
+        watched.said();
+        let commands = pool.begin().unwrap();
+        device.cmd_fill_buffer(commands, buffer, 0, 256, 1);
+        device.cmd_fill_buffer(commands, flag.raw(), 0, 256, !0);
+        let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
+        let last = &raw const flag.bytes()[255];
+        while last.read_volatile() == 0 {
+            std::thread::yield_now();
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        device.destroy_buffer(buffer, None);
+        assert_eq!(watched.said(), ["VUID-vkDestroyBuffer-buffer-00922"]);
+        watched.queue.wait(epoch).unwrap();
+        device.free_memory(memory, None);
+    }
+}
+
+#[test]
+fn sizes_that_no_device_has_are_refused_and_leave_nothing() {
+    let watched = Watched::new();
+    let device = &watched.device;
+    let beyond = device.facts().limits.max_image_side + 1;
+    for (width, height) in [(0, 5), (5, 0), (beyond, 1), (1, beyond), (u32::MAX, u32::MAX)] {
+        let extent = vk::Extent2D { width, height };
+        let desc = ImageDesc { name: "wrong", format: FORMAT, extent, usage: vk::ImageUsageFlags::SAMPLED };
+        let error = Image::new(device, desc).err().unwrap();
+        assert!(error.to_string().starts_with(&format!("wrong: an image of {width}x{height}")), "{error}");
+    }
+    let usage = vk::BufferUsageFlags::TRANSFER_DST;
+    let empty = BufferDesc { name: "empty", size: 0, usage };
+    assert!(Buffer::new(device, empty, MemoryUse::Device).is_err());
+    let mut staging = Staging::new(device, "staging", 16).unwrap();
+    let small = BufferDesc { name: "small", size: 8, usage };
+    let small = Buffer::new(device, small, MemoryUse::Device).unwrap();
+    assert!(staging.push(&small, 0, &[0; 9]).is_err(), "more than the target has");
+    assert!(staging.push(&small, 1, &[0; 8]).is_err(), "beyond the target's end");
+    assert!(staging.push(&small, u64::MAX, &[0; 8]).is_err(), "beyond all numbers");
+    staging.push(&small, 0, &[0; 8]).unwrap();
+    staging.push(&small, 0, &[0; 8]).unwrap();
+    assert!(staging.push(&small, 0, &[0; 1]).is_err(), "more than the batch has");
+    let pool = CommandPool::new(device, "pool").unwrap();
+    assert!(pool.end().is_err(), "not begun");
+    drop((pool, staging, small));
+    // SAFETY: nothing is recorded.
+    unsafe { watched.queue.wait_idle() }.unwrap();
+    assert_eq!(device.memory_in_use(), (0, 0));
+    let messages = watched.messages.clone();
+    drop(watched);
+    assert_eq!(messages.all(), []);
+}
+
+/// Everything that a host does with us up to a recorded frame.
+fn set_up_and_record(device: &surfel::vk::Device) -> Result<(), Error> {
+    let commands = CommandPool::new(device, "frame")?;
+    let renderer = Renderer::new(device, None)?;
+    // SAFETY: new, and never submitted.
+    let buffer = unsafe { commands.begin() }?;
+    let mut submit = |staging: Staging| {
+        // SAFETY: recording; never submitted.
+        unsafe { staging.record(buffer) };
+        Ok(())
+    };
+    let prepared = renderer.prepare(&scene(), &mut submit, &|_, _| {})?;
+    let mut slot = FrameSlot::new(device);
+    let target = HeadlessTarget::new(device, FORMAT, SIZE_PX)?;
+    let picture = pixels(device, "picture", 4)?;
+    let readbacks = Readbacks { target: Some(picture.raw()), surface: None };
+    let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
+    let (target, settings) = (target.target(), settings());
+    // SAFETY: recording; never submitted.
+    unsafe {
+        let profile = Some(Profile::Times);
+        renderer.record(buffer, &mut slot, &prepared, &camera, &settings, &target, readbacks, profile)
+    }?;
+    commands.end()?;
+    Ok(())
+}
+
+/// The n-th call that makes something fails, for every n that there is.
+#[test]
+fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
+    let host = Host::new(EnabledFeatures {
+        large_points: true,
+        pipeline_statistics: false,
+        draw_indirect_count: false,
+        first_instance: false,
+    });
+    let mut failed = Vec::new();
+    for succeed in 0.. {
+        assert!(succeed < 1000, "there is no end");
+        let device = host.lend(faults::device(&host.device));
+        faults::fail_after(succeed);
+        let result = set_up_and_record(&device);
+        let Some(function) = faults::stop() else {
+            result.unwrap();
+            break;
+        };
+        let error = result.expect_err(function);
+        assert_eq!(error.exit_code(), 2, "{function}: {error}");
+        assert!(!error.to_string().contains("''"), "{function}: no object is named: {error}");
+        // SAFETY: nothing was ever submitted.
+        unsafe { device.epoch_done(device.end_epoch()) };
+        assert_eq!(device.memory_in_use(), (0, 0), "{succeed}: {function}");
+        assert_eq!(host.said(), [] as [String; 0], "{succeed}: {function}");
+        failed.push(function);
+    }
+    println!("{} calls failed one after the other", failed.len());
+    assert!(failed.len() > 50, "{failed:?}");
+    for function in ["allocate_memory", "create_image_view", "create_graphics_pipelines", "bind_image_memory"]
+    {
+        assert!(failed.contains(&function), "{function} is among them: {failed:?}");
+    }
+    assert_eq!(host.destroy(), [] as [String; 0]);
+}

@@ -1,0 +1,28 @@
+//! What is drawn, and all else that needs a device. One renderer draws for all tests, under validation; a few have a device
+//! of their own.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bands;
+mod by_design;
+mod cull;
+mod embedding;
+mod f16;
+mod floor;
+mod frame_graph;
+mod hard_cases;
+mod in_use;
+mod lifetime;
+mod memory;
+mod methods;
+mod oracle;
+mod packed;
+mod paper_form;
+mod pictures;
+mod seam;
+mod selftest;
+mod stability;
+mod tiles;
+mod transparency;
+mod validation;

@@ -1,0 +1,175 @@
+//! The GPU path against the f64 oracle: every hard scene, and every setting that changes the picture.
+
+use crate::common::{
+    against_oracle, assert_agrees,
+    compare::F32,
+    render,
+    scenes::{self, Hard},
+    shared,
+};
+use surfel::{
+    renderer::Frame,
+    scene::{Accumulate, Backfaces, Epsilon, Filter, Kernel, Order, Settings, Shading, Storage},
+};
+
+const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
+/// Its weight falls to 2⁻²⁴ at r = 0.58, inside the rim.
+const NARROW: Kernel = Kernel::Gaussian { sigma: 0.1 };
+
+fn with(hard: Hard, name: &'static str, change: impl FnOnce(&mut Settings)) -> Hard {
+    let mut settings = hard.settings.clone();
+    change(&mut settings);
+    Hard { name, settings, ..hard }
+}
+
+#[test]
+fn every_hard_scene_agrees_with_the_oracle_in_32_bits() {
+    let mut headless = shared();
+    let mut failures = Vec::new();
+    for hard in scenes::all() {
+        let (_, oracle, errors) = against_oracle(&mut headless, &hard);
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        assert_eq!(prepared.defects, oracle.defects, "{}", hard.name);
+        for beyond in errors.beyond(&F32) {
+            failures.push(format!("{}: {beyond}", hard.name));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+#[test]
+fn the_order_on_the_device_changes_the_picture_by_rounding_alone() {
+    let mut headless = shared();
+    let mut drawn = |order, accumulate| {
+        let mut hard = with(scenes::random_ellipses(Filter::Adjust), "order", |s| s.accumulate = accumulate);
+        hard.scene.storage = Storage { order, ..Storage::default() };
+        render(&mut headless, &hard)
+    };
+    let frames = |accumulate, drawn: &mut dyn FnMut(_, _) -> Frame| {
+        [Order::Morton, Order::Input].map(|order| drawn(order, accumulate))
+    };
+    let [morton, input] = frames(Accumulate::F32, &mut drawn);
+    for (a, b) in [(&morton.weight, &input.weight), (&morton.depth, &input.depth)] {
+        for (i, (a, b)) in a.iter().zip(b).enumerate() {
+            // What is seen is found by a minimum, which knows no order: the same fragments are summed, some tens of them,
+            // each time rounded to 2⁻²⁴ of the sum.
+            let limit = 64.0 * 0.5 * f32::EPSILON * a.abs();
+            assert!(a == b || (a - b).abs() <= limit, "pixel {i}: {a} and {b}");
+        }
+    }
+    // An order that nothing follows would draw the same twice: with 16 bits rounding shows.
+    let [morton, input] = frames(Accumulate::F16, &mut drawn);
+    assert_ne!(morton.weight, input.weight);
+}
+
+#[test]
+fn both_kernels_agree_with_the_oracle_where_they_end_inside_the_rim() {
+    let mut headless = shared();
+    let kernels = [
+        with(scenes::sphere_of_disks(), "sphere, psi_e", |s| s.kernel = PSI_E),
+        with(scenes::random_ellipses(Filter::Adjust), "ellipses, psi_e", |s| s.kernel = PSI_E),
+        with(scenes::ground(), "ground, psi_e", |s| s.kernel = PSI_E),
+        with(scenes::sphere_of_disks(), "sphere, psi_e n = 1", |s| {
+            s.kernel = Kernel::PsiE { a: 1.0, b: 1.0, n: 1.0 };
+        }),
+        with(scenes::sphere_of_disks(), "sphere, narrow Gaussian", |s| s.kernel = NARROW),
+        with(scenes::random_ellipses(Filter::Adjust), "ellipses, narrow Gaussian", |s| s.kernel = NARROW),
+    ];
+    for hard in kernels {
+        assert_agrees(&mut headless, &hard, 1000);
+    }
+    // Unfiltered ellipses get as thin as 0.1 px. A center is placed to half a step of f32 in pixels, 7.6e-6 at 128 px,
+    // which is 1e-4 of such an axis; both coordinates together shift r² by up to 2e-4. The default's |d ln w / d r²| is
+    // 2, that of psi_e up to 10 where its weight counts (above e⁻²): 5 times the error.
+    let thin =
+        with(scenes::random_ellipses(Filter::None), "unfiltered ellipses, psi_e", |s| s.kernel = PSI_E);
+    // Normals of disks at grazing angles nearly cancel, which magnifies errors of weights; the narrow kernel's are 25
+    // times the default's, as is its slope: 50 everywhere.
+    let grazing = with(scenes::edge_on(), "edge-on disks, narrow Gaussian", |s| s.kernel = NARROW);
+    for (hard, factor) in [(thin, 5.0), (grazing, 25.0)] {
+        let (_, _, errors) = against_oracle(&mut headless, &hard);
+        let beyond = errors.beyond(&F32.times(factor));
+        assert!(beyond.is_empty(), "{}: {beyond:#?}", hard.name);
+    }
+}
+
+#[test]
+fn all_shadings_agree_with_the_oracle() {
+    let mut headless = shared();
+    let shadings = [
+        ("sphere, Phong", Shading::Phong),
+        ("sphere, Lambert", Shading::Lambert),
+        ("sphere, normals", Shading::Normals),
+        ("sphere, albedo", Shading::Albedo),
+    ];
+    for (name, shading) in shadings {
+        for (name, background) in [(name, Some([0.2, 0.5, 1.0])), (name, None)] {
+            let hard = with(scenes::sphere_of_disks(), name, |s| {
+                s.shading = shading;
+                s.background = background;
+            });
+            let (frame, oracle) = assert_agrees(&mut headless, &hard, 1000);
+            let empty = oracle.pixels.iter().enumerate().filter(|(_, p)| !p.is_covered() && !p.rim);
+            let mut seen = 0;
+            for (i, expected) in empty {
+                for c in 0..4 {
+                    assert!((f64::from(frame.linear[i][c]) - expected.color[c]).abs() < 1e-6, "{name}: {i}");
+                }
+                seen += 1;
+            }
+            assert!(seen > 1000, "{name}: {seen} empty pixels");
+        }
+    }
+}
+
+#[test]
+fn each_rule_for_back_faces_agrees_with_the_oracle() {
+    let mut headless = shared();
+    let mut weights = Vec::new();
+    for (name, backfaces, closed) in [
+        ("closed sphere, back faces auto", Backfaces::Auto, true),
+        ("open sphere, back faces auto", Backfaces::Auto, false),
+        ("open sphere, back faces culled", Backfaces::Cull, false),
+        ("closed sphere, back faces flipped", Backfaces::Flip, true),
+    ] {
+        let mut hard = with(scenes::sphere_of_disks(), name, |s| {
+            s.backfaces = backfaces;
+            // So large that the far side belongs to the surface wherever it is drawn.
+            s.epsilon = Epsilon::Length(3.0);
+        });
+        hard.scene.objects[0].closed = closed;
+        let (frame, _) = assert_agrees(&mut headless, &hard, 1000);
+        weights.push(frame.weight.iter().map(|w| f64::from(*w)).sum::<f64>());
+    }
+    // Culled or not is seen: the far side adds its weight.
+    assert!(weights[0] < 0.8 * weights[1] && weights[2] < 0.8 * weights[3], "{weights:?}");
+    assert!(weights[0] == weights[2] && weights[1] == weights[3], "{weights:?}");
+}
+
+#[test]
+fn every_epsilon_agrees_with_the_oracle_and_zero_leaves_no_pixel_empty() {
+    let mut headless = shared();
+    for (name, epsilon) in [
+        ("epsilon 0", Epsilon::Radii(0.0)),
+        ("epsilon of length 0", Epsilon::Length(0.0)),
+        ("epsilon 3 r", Epsilon::Radii(3.0)),
+        ("epsilon of length 0.07", Epsilon::Length(0.07)),
+        ("epsilon above every depth", Epsilon::Length(50.0)),
+    ] {
+        let shapes = [
+            scenes::sphere_of_disks(),
+            scenes::random_ellipses(Filter::Adjust),
+            scenes::random_ellipses(Filter::None),
+            scenes::cut_by_the_near_plane(),
+        ];
+        for scene in shapes {
+            let hard = with(scene, name, |s| s.epsilon = epsilon);
+            let (frame, oracle) = assert_agrees(&mut headless, &hard, 1000);
+            // The nearest fragment belongs to the surface only if both passes find the same depth, to the last bit.
+            for (i, expected) in oracle.pixels.iter().enumerate() {
+                let empty = expected.is_covered() && !expected.rim && frame.weight[i] == 0.0;
+                assert!(!empty, "{name}: pixel {i} is empty");
+            }
+        }
+    }
+}

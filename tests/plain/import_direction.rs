@@ -1,0 +1,197 @@
+//! The folders of `src/` form layers, and imports point one way: to the layers above, as ARCHITECTURE.md lists them.
+//!
+//! Works on the text, not on a build, so that also code behind features and in tests is held to it.
+
+mod paths;
+
+use std::{fs, path::Path};
+
+use paths::{UsedPath, used_paths};
+
+/// A folder or file of `src/` may import what stands in a line above its own, and nothing else.
+const LAYERS: &[&[&str]] = &[
+    &["error", "progress"],
+    &["math"],
+    &["scene"],
+    &["load", "save", "hard_scenes"],
+    &["geometry"],
+    &["reference"],
+    &["count"],
+    &["report"],
+    &["compose"],
+    &["vk"],
+    &["graph"],
+    &["shaders"],
+    &["prepare"],
+    &["passes"],
+    &["frame"],
+    &["renderer"],
+    &["selftest"],
+];
+
+/// What a folder may not import although it stands above: (folder, import, why).
+const FORBIDDEN: &[(&str, &str, &str)] =
+    &[("reference", "math", "the oracle shares no formula with the code it judges")];
+
+/// The one folder of `graph/` in which a device may appear: compiling a graph is plain data.
+const GRAPH_WITH_DEVICE: &str = "graph/execute/";
+
+fn layer(folder: &str) -> Option<usize> {
+    LAYERS.iter().position(|layer| layer.contains(&folder))
+}
+
+/// Every illegal import of a file, as `src/<file>:<line>: <edge>: <why>`. `file` is relative to `src/`.
+fn violations(file: &str, text: &str) -> Vec<String> {
+    let folder = file.split('/').next().unwrap_or(file).trim_end_matches(".rs");
+    // The crate's root only lists the layers, and the program above them may use all.
+    if folder == "lib" || folder == "bin" {
+        return Vec::new();
+    }
+    let Some(own) = layer(folder) else {
+        return vec![format!("src/{file}:1: {folder}: not in the list of layers")];
+    };
+    let judge = |used: &UsedPath| -> Option<String> {
+        let in_graph_core = folder == "graph" && !file.starts_with(GRAPH_WITH_DEVICE);
+        let (root, target) =
+            (used.segments.first()?.as_str(), used.segments.get(1).map_or("", String::as_str));
+        let why = match root {
+            "ash" if in_graph_core && matches!(target, "Device" | "*") => {
+                format!("the graph's core has no device in it; only {GRAPH_WITH_DEVICE} may")
+            }
+            "crate" if target == folder => return None,
+            "crate" if in_graph_core && target == "vk" => {
+                format!("the graph's core has no device in it; only {GRAPH_WITH_DEVICE} may")
+            }
+            "crate" => {
+                let forbidden = FORBIDDEN.iter().find(|(from, to, _)| *from == folder && *to == target);
+                match (layer(target), forbidden) {
+                    (_, Some((.., why))) => (*why).to_owned(),
+                    (None, _) => "not in the list of layers; name the module itself".to_owned(),
+                    (Some(other), _) if other >= own => "imports point only to layers above".to_owned(),
+                    _ => return None,
+                }
+            }
+            _ => return None,
+        };
+        Some(format!("src/{file}:{}: {folder} -> {root}::{target}: {why}", used.line))
+    };
+    used_paths(file, text).iter().filter_map(judge).collect()
+}
+
+/// All Rust files below `folder`, as paths relative to `root`, except the part of the build script in `src/`.
+fn rust_files(root: &Path, folder: &Path, found: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let relative = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
+        if relative == "shaders/build" {
+            continue;
+        }
+        if path.is_dir() {
+            rust_files(root, &path, found);
+        } else if relative.ends_with(".rs") {
+            found.push(relative);
+        }
+    }
+}
+
+#[test]
+fn no_folder_imports_from_a_layer_below_or_beside() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    rust_files(&src, &src, &mut files);
+    files.sort();
+    assert!(
+        files.iter().any(|f| f == "scene/mod.rs") && files.len() > 5,
+        "looked in the wrong place: {files:?}"
+    );
+    let found: Vec<String> =
+        files.iter().flat_map(|f| violations(f, &fs::read_to_string(src.join(f)).unwrap())).collect();
+    assert!(found.is_empty(), "\n{}\n", found.join("\n"));
+}
+
+#[test]
+fn legal_imports_pass() {
+    let cases = [
+        ("scene/camera.rs", "use super::Bounds;\nuse crate::error::{Error, Result};"),
+        (
+            "scene/deep/leaf.rs",
+            "use super::super::mesh::Mesh; mod tests { use super::super::super::Camera; }",
+        ),
+        (
+            "passes/mod.rs",
+            "use crate::{graph::Graph, shaders, vk::{self, Buffer}};\nfn f() { crate::math::f() }",
+        ),
+        ("reference/mod.rs", "use crate::scene::Scene; // use crate::math::x"),
+        ("graph/execute/mod.rs", "use crate::vk::Queue; use ash::Device;"),
+        ("graph/cull.rs", "use ash::vk;\n/// [`crate::passes`] \nconst A: &str = \"crate::passes\";"),
+        ("math/mod.rs", "pub(crate) fn f() {} mod tests { use super::f; }"),
+        ("lib.rs", "pub use crate::renderer::Renderer;"),
+        ("bin/surfel/main.rs", "use surfel::renderer::Renderer;"),
+    ];
+    for (file, text) in cases {
+        assert_eq!(violations(file, text), [""; 0], "{file}: {text}");
+    }
+}
+
+#[test]
+fn illegal_imports_are_found_with_line_and_edge() {
+    let cases = [
+        ("scene/mod.rs", "\nuse crate::passes::Frame;", "src/scene/mod.rs:2: scene -> crate::passes: "),
+        (
+            "scene/mod.rs",
+            "use crate::{error::Error,\n vk::Buffer};",
+            "src/scene/mod.rs:2: scene -> crate::vk: ",
+        ),
+        ("scene/mod.rs", "fn f() -> crate::vk::X {}", "src/scene/mod.rs:1: scene -> crate::vk: "),
+        ("scene/mod.rs", "use super::vk;", "src/scene/mod.rs:1: scene -> crate::vk: "),
+        ("scene/a/b.rs", "use super::super::super::vk;", "src/scene/a/b.rs:1: scene -> crate::vk: "),
+        ("scene/a.rs", "use super::{Mesh, super::vk::X};", "src/scene/a.rs:1: scene -> crate::vk: "),
+        ("scene/a.rs", "mod t { use super::super::super::vk; }", "src/scene/a.rs:1: scene -> crate::vk: "),
+        (
+            "math/mod.rs",
+            "macro_rules! m { () => { $crate::vk::f() } }",
+            "src/math/mod.rs:1: math -> crate::vk: ",
+        ),
+        ("load/ply.rs", "use crate::save::x;", "src/load/ply.rs:1: load -> crate::save: "),
+        (
+            "reference/mod.rs",
+            "use crate::math::x;",
+            "src/reference/mod.rs:1: reference -> crate::math: the oracle",
+        ),
+        (
+            "scene/mod.rs",
+            "use crate::utils::x;",
+            "src/scene/mod.rs:1: scene -> crate::utils: not in the list",
+        ),
+        ("scene/mod.rs", "use crate::Error;", "src/scene/mod.rs:1: scene -> crate::Error: not in the list"),
+        ("scene/mod.rs", "use crate::*;", "src/scene/mod.rs:1: scene -> crate::*: not in the list"),
+        ("utils/mod.rs", "", "src/utils/mod.rs:1: utils: not in the list"),
+        ("graph/cull.rs", "use crate::vk::X;", "src/graph/cull.rs:1: graph -> crate::vk: the graph's core"),
+        (
+            "graph/cull.rs",
+            "fn f(d: &ash::Device) {}",
+            "src/graph/cull.rs:1: graph -> ash::Device: the graph's core",
+        ),
+        (
+            "graph/cull.rs",
+            "use ash::{vk, Device};",
+            "src/graph/cull.rs:1: graph -> ash::Device: the graph's core",
+        ),
+        ("renderer.rs", "use crate::bin::x;", "src/renderer.rs:1: renderer -> crate::bin: not in the list"),
+        (
+            "vk/a.rs",
+            "const C: char = '\"'; use crate::graph::X; // \"",
+            "src/vk/a.rs:1: vk -> crate::graph: ",
+        ),
+        ("vk/a.rs", "/* /* */ \" */ use crate::graph::X;", "src/vk/a.rs:1: vk -> crate::graph: "),
+        ("vk/a.rs", "const R: &str = r#\"\\\"#; use crate::graph::X;", "src/vk/a.rs:1: vk -> crate::graph: "),
+        ("vk/a.rs", "fn f<'a>(x: &'a str) -> crate::graph::X<'a> {}", "src/vk/a.rs:1: vk -> crate::graph: "),
+    ];
+    for (file, text, start) in cases {
+        let found = violations(file, text);
+        assert!(
+            found.len() == 1 && found[0].starts_with(start),
+            "{file}: {text}\n  expected {start}\n  {found:?}"
+        );
+    }
+}

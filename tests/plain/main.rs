@@ -1,0 +1,9 @@
+//! What needs no device: files, the shaders' build, instructions counted, and the direction of imports.
+
+#[path = "../../src/shaders/build/mod.rs"]
+mod shader_build;
+
+mod import_direction;
+mod instructions;
+mod shaders;
+mod splat_file;
