@@ -147,7 +147,7 @@ pub(super) fn frame_constants(
         epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
         epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
         point_cap_px: limits.point_size_range[1],
-        point_step_px: limits.point_size_granularity.max(f32::MIN_POSITIVE),
+        point_step_px: point_step_px(limits.point_size_granularity),
         splat_count: 0,
         uniform_color: 0,
         view_from_local_scale: view.view_from_local_scale as f32,
@@ -155,6 +155,12 @@ pub(super) fn frame_constants(
         first_record: 0,
         listed_blocks: 0,
     }
+}
+
+/// The step by which shaders round point sizes up. Devices may report 0, for any size; a square of pixels has a
+/// whole side, which is a multiple of a 16th.
+fn point_step_px(granularity: f32) -> f32 {
+    granularity.max(1.0 / 16.0)
 }
 
 /// A vector in f32, and what that leaves of it.
@@ -188,4 +194,21 @@ fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> boo
         && [edge_x * z - x, edge_x * z + x, edge_y * z - y, edge_y * z + y]
             .into_iter()
             .all(|side| least(side) >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As `glsl/inc/point.glsl` rounds.
+    #[test]
+    fn points_are_as_large_as_their_squares_whatever_step_the_device_reports() {
+        for granularity in [0.0, 1e-30, 0.0625, 0.125, 1.0] {
+            let step = point_step_px(granularity);
+            for side in 1..=8192 {
+                let side = side as f32;
+                assert_eq!((side / step).ceil() * step, side, "{granularity}");
+            }
+        }
+    }
 }

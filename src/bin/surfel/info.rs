@@ -146,6 +146,10 @@ fn rows(device: &DeviceInfo) -> Vec<(&'static str, String)> {
         None => "none with graphics and compute".to_owned(),
     };
     let [_, largest_px] = device.point_size_range_px;
+    let step = match device.point_size_step_px {
+        0.0 => String::new(),
+        step => format!(" in steps of {step} px"),
+    };
     let timestamps = match device.timestamp_valid_bits {
         0 => "none".to_owned(),
         bits => format!("{bits} bits, {} ns a tick", device.timestamp_period_ns),
@@ -156,13 +160,7 @@ fn rows(device: &DeviceInfo) -> Vec<(&'static str, String)> {
         ("Vulkan", device.api_version.clone()),
         ("queue", queue),
         ("pictures", format!("up to {0} x {0} px", device.max_image_side_px)),
-        (
-            "points",
-            format!(
-                "up to {largest_px} px in steps of {} px; larger splats are quads",
-                device.point_size_step_px
-            ),
-        ),
+        ("points", format!("up to {largest_px} px{step}; larger splats are quads")),
         ("storage buffers", format!("{} bytes in reach of a shader", device.max_storage_buffer_bytes)),
         ("timestamps", timestamps),
     ];
