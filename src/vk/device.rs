@@ -82,6 +82,7 @@ impl Device {
             .large_points(features.large_points)
             .draw_indirect_first_instance(features.first_instance)
             .pipeline_statistics_query(features.pipeline_statistics);
+        let mut features10 = vk::PhysicalDeviceFeatures2::default().features(core);
         let mut features12 = vk::PhysicalDeviceVulkan12Features::default()
             .timeline_semaphore(true)
             .draw_indirect_count(features.draw_indirect_count);
@@ -97,7 +98,7 @@ impl Device {
             [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
         let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
-            .enabled_features(&core)
+            .push_next(&mut features10)
             .push_next(&mut features12)
             .push_next(&mut features13);
         if executables {

@@ -7,38 +7,9 @@ use ash::{ext, vk};
 use super::{
     messages::{Messages, on_message},
     result::VkResultExt,
+    validation::{FEATURES, Through, VALIDATION_LAYER, Validation, settings},
 };
 use crate::error::{ErrorKind, Result};
-
-pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
-
-/// Whether the validation layer watches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Validation {
-    /// No layer is loaded.
-    Off,
-    /// Core, synchronization and best-practices checks. Hazards across submits too where
-    /// [`arm_validation_across_submits`] came first.
-    On,
-}
-
-/// Makes validation layers up to 1.3.239 or so look for hazards across submits, which they only do when told by
-/// the environment (newer ones do so by themselves). Adds to what the user has set.
-///
-/// # Safety
-/// No other thread may read or write the process's environment at the same time; in a program: first thing in
-/// `main`; in tests: before the process's first Vulkan instance, behind a `Once`.
-pub unsafe fn arm_validation_across_submits() {
-    const FLAG: &str = "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
-    let separator = if cfg!(windows) { ";" } else { ":" };
-    let enables = match std::env::var("VK_LAYER_ENABLES") {
-        Ok(set) if set.split(separator).any(|flag| flag == FLAG) => return,
-        Ok(set) if !set.is_empty() => format!("{set}{separator}{FLAG}"),
-        _ => FLAG.to_owned(),
-    };
-    // SAFETY: this function's own contract.
-    unsafe { std::env::set_var("VK_LAYER_ENABLES", enables) };
-}
 
 /// A Vulkan instance; clones share it.
 #[derive(Clone)]
@@ -91,22 +62,23 @@ impl Instance {
         if debug_utils {
             extensions.push(ext::debug_utils::NAME.as_ptr());
         }
-        if watch {
-            extensions.push(ext::validation_features::NAME.as_ptr());
-        }
+        let through = if watch { Some(Through::of_installed(&entry)?) } else { None };
+        extensions.extend(through.map(|through| through.extension().as_ptr()));
         let messages = Arc::new(Messages::default());
-        let enables = [
-            vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION,
-            vk::ValidationFeatureEnableEXT::BEST_PRACTICES,
-        ];
-        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enables);
+        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
+        let settings = settings();
+        let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
         let mut early = messenger_info(&messages);
         let mut info = vk::InstanceCreateInfo::default()
             .application_info(&app)
             .enabled_layer_names(layers)
             .enabled_extension_names(&extensions);
-        if watch {
-            info = info.push_next(&mut features).push_next(&mut early);
+        if let Some(through) = through {
+            info = match through {
+                Through::LayerSettings => info.push_next(&mut settings),
+                Through::ValidationFeatures => info.push_next(&mut features),
+            };
+            info = info.push_next(&mut early);
         }
         // SAFETY: the chain above lives until the call returns; `messages` outlives the instance (field order).
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::{instance::VALIDATION_LAYER, result::VkResultExt};
+use super::{result::VkResultExt, validation::VALIDATION_LAYER};
 use crate::error::{ErrorKind, Result};
 
 /// Versions of the system's Vulkan parts.

@@ -68,7 +68,7 @@ impl Messages {
     /// Takes one message in, as the layer's callback does.
     pub(super) fn push(&self, message: Message) {
         let mut log = self.log();
-        match ALLOWED.iter().position(|allowed| allowed.vuid == message.vuid) {
+        match ALLOWED.iter().position(|allowed| allowed.covers(&message.vuid, &message.text)) {
             Some(index) => {
                 log.allowed_hits.resize(ALLOWED.len(), 0);
                 log.allowed_hits[index] += 1;

@@ -31,6 +31,7 @@ mod result;
 mod sampler;
 mod staging;
 mod stand_ins;
+mod validation;
 
 pub use allow_list::{ALLOWED, Allowed};
 pub use borrowed::{BorrowedDevice, EnabledFeatures};
@@ -45,7 +46,7 @@ pub use executables::{Executable, executables};
 pub use facts::all_facts;
 pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
 pub use image::{Image, ImageDesc};
-pub use instance::{Instance, Validation, arm_validation_across_submits};
+pub use instance::Instance;
 pub use layout::PipelineLayout;
 pub use loader::{LoaderFacts, loader_facts};
 pub use memory::{Memory, MemoryUse};
@@ -57,6 +58,7 @@ pub use result::VkResultExt;
 pub use sampler::Sampler;
 pub use staging::Staging;
 pub use stand_ins::StandIns;
+pub use validation::{Validation, arm_validation_across_submits};
 
 /// One shader stage of a pipeline: its name for messages, its SPIR-V, its specialization constants.
 #[derive(Clone, Copy)]

@@ -145,7 +145,7 @@ fn what_is_allowed_is_counted_and_not_reported_and_has_a_reason() {
     let watched = Watched::new();
     let hits = watched.messages.allowed_hits();
     hits.iter().for_each(|(vuid, hits)| println!("allowed: {vuid} {hits} times"));
-    assert!(hits.iter().any(|(vuid, hits)| vuid.ends_with("specialuse-extension-debugging") && *hits > 0));
+    assert!(hits.iter().any(|(vuid, hits)| vuid.contains("specialuse-extension") && *hits > 0));
     assert_eq!(watched.messages.all(), []);
     watched.messages.check().unwrap();
 }
