@@ -2,7 +2,6 @@
 
 mod in_flight;
 mod no_waits;
-#[path = "embedding/orbit.rs"]
 mod orbit;
 
 use crate::common::{builder, host::Host, scenes, shared, watched::Watched};

@@ -19,8 +19,7 @@ fn draw(object: Object, size_px: [u32; 2]) -> Frame {
     let prepared = headless.prepare(&scene, &|_, _| {}).unwrap();
     let settings = Settings { size_px, ..Settings::default() };
     let camera = Camera::fit(&scene.ball().unwrap(), size_px, Camera::DEFAULT_FOV_Y_RAD);
-    let frame = headless.render(&prepared, &camera, &settings, BOTH).unwrap();
-    frame
+    headless.render(&prepared, &camera, &settings, BOTH).unwrap()
 }
 
 /// Empty pixels that can't be reached from the image's border through empty pixels: holes in the silhouette.

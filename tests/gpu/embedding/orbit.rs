@@ -11,7 +11,6 @@ use surfel::{
 use crate::{
     common::{faults, headless, host::Host, scenes},
     embedding::{in_flight::InFlight, upload},
-
 };
 
 const FRAMES: usize = 60;
