@@ -1,4 +1,4 @@
-//! From `glsl/` to SPIR-V in Rust's hands. Part of `build.rs` and of the test `tests/shaders.rs`; not of the library.
+//! From `glsl/` to SPIR-V in Rust's hands. Part of `build.rs` and of the test `tests/plain/shaders.rs`; not of the library.
 
 mod compile;
 mod config;
