@@ -154,44 +154,6 @@ fn bands_show_the_same_picture() {
     assert!(shaded >= 10, "{shaded}");
 }
 
-/// Without shuffles a dispatch takes 30 000 entries of a tile, so that some bands alone may have overfull tiles and others not.
-#[test]
-fn bands_with_and_without_overfull_tiles_are_one_image() {
-    let mut headless = shared();
-    let mut hard = hard("a ball", vec![sphere(100_000, DVec3::ZERO)], [0.0, 0.0, 3.2]);
-    hard.settings.accumulate = Accumulate::F16;
-    with_limits(
-        &mut headless,
-        |limits| limits.shuffles = false,
-        |headless| {
-            // Shaded by tiles.
-            let picture = |headless: &mut Headless, memory| {
-                let picture = draw_as(headless, &hard, memory, Wanted { surface: false, ..ALL });
-                let shades = |name: &str| name.starts_with("shade ") && name.ends_with("overfull tiles");
-                let count = picture.plan.passes.iter().filter(|pass| shades(&pass.name)).count();
-                assert!([0, bands(&picture).max(1)].contains(&count), "{count}");
-                picture
-            };
-            let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
-            let shown = picture(headless, TileMemory::Most(u64::MAX));
-            let mut overfull_in_some = 0;
-            for megabytes in [2.5, 3.0, 3.5, 4.0, 4.5] {
-                let memory = TileMemory::Most((megabytes * 1e6) as u64);
-                let cut = draw(headless, &hard, memory);
-                let overfull = cut.plan.passes.iter().filter(|pass| pass.name.contains("overfull")).count();
-                println!("{megabytes} MB: {} bands, {overfull} passes of overfull tiles", bands(&cut));
-                // Where no band has them sums have 16 bits, other than those of the whole image.
-                if overfull > 0 && bands(&cut) > 1 {
-                    assert_same_surface(&cut, &whole, hard.name);
-                    assert_same_surface(&picture(headless, memory), &shown, hard.name);
-                    overfull_in_some += 1;
-                }
-            }
-            assert!(overfull_in_some > 0, "no cut has bands with overfull tiles");
-        },
-    );
-}
-
 /// Layers with large splats are the graphics pipeline's, in one piece: here the lists of all have room for large ones, but those of
 /// bands, which know only of blocks that have one, do not.
 #[test]
