@@ -43,6 +43,7 @@ pub mod geometry;
 pub mod graph;
 #[cfg(feature = "selftest")]
 pub mod hard_scenes;
+pub mod instruments;
 #[cfg(feature = "files")]
 pub mod load;
 pub mod math;

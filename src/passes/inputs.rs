@@ -2,11 +2,12 @@
 
 use ash::vk;
 
-use super::{
-    Draw, MeshDraw, Shaders, TilePlan,
-    listed::Listed,
-    plan::{SplatMethod, SurfacePlan},
-    tiles::Band,
+use crate::passes::{
+    pipeline::cache::Shaders,
+    plan::{
+        SplatMethod, SurfacePlan, bands::Band, block_list::Listed, draws::Draw, mesh_draws::MeshDraw,
+        tiles::TilePlan,
+    },
 };
 use crate::{
     graph::ImageDesc,
@@ -35,9 +36,9 @@ pub struct Inputs<'a> {
     pub settings: &'a Settings,
     /// Pipelines and their layouts.
     pub shaders: &'a Shaders,
-    /// Descriptor sets that live as long as the frame; room for [`super::needs`].
+    /// Descriptor sets that live as long as the frame; room for [`crate::passes::plan::needs`].
     pub descriptors: &'a DescriptorPool,
-    /// The queries of [`super::needs`], where it has any.
+    /// The queries of [`crate::passes::plan::needs`], where it has any.
     pub occlusion: Option<&'a Occlusion>,
 }
 
@@ -66,7 +67,7 @@ impl<'a> Inputs<'a> {
     }
 
     /// Inputs for the opaque or the transparent things of a scene.
-    pub(super) fn of(self, plan: &'a SurfacePlan<'a>) -> Self {
+    pub(crate) fn of(self, plan: &'a SurfacePlan<'a>) -> Self {
         let culls_hidden = matches!(plan.method, SplatMethod::Primitives { culls_hidden: true, .. });
         Self {
             draws: &plan.splats,
@@ -80,7 +81,7 @@ impl<'a> Inputs<'a> {
 
     /// Inputs for each band of tiles, with what goes in front of its tiles in the names of passes (nothing where there
     /// is one) and how it is drawn.
-    pub(super) fn of_bands(self) -> Vec<(String, Self, &'a TilePlan)> {
+    pub(crate) fn of_bands(self) -> Vec<(String, Self, &'a TilePlan)> {
         let of = |(number, band): (usize, &'a Band<'a>)| {
             let name = if self.bands.len() > 1 { format!("band-{number} ") } else { String::new() };
             let (draws, kept) = (band.splats.as_slice(), band.visible.as_ref());
@@ -89,12 +90,12 @@ impl<'a> Inputs<'a> {
         (1..).zip(self.bands).map(of).collect()
     }
 
-    pub(super) fn extent(&self) -> vk::Extent2D {
+    pub(crate) fn extent(&self) -> vk::Extent2D {
         let [width, height] = self.settings.size_px;
         vk::Extent2D { width, height }
     }
 
-    pub(super) fn image(&self, format: vk::Format) -> ImageDesc {
+    pub(crate) fn image(&self, format: vk::Format) -> ImageDesc {
         ImageDesc { format, extent: self.extent() }
     }
 }

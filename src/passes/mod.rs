@@ -1,91 +1,44 @@
 //! The passes of a frame: one pass, one file, one function that declares it.
 
-mod accumulate;
-mod blocks;
-mod catalog;
-mod constants;
-mod copy_depth;
-mod cull;
-mod cull_hidden;
-mod draws;
-mod export;
-mod finalize;
-mod floor;
-#[cfg(feature = "test-formulas")]
-mod formula;
-mod fullscreen;
-mod gate;
-mod inputs;
-#[cfg(feature = "counts")]
-mod instructions;
-mod kernel_texture;
-mod layer_accumulate;
-mod layer_compose;
-mod layer_rest;
-mod layer_visibility;
-mod layers;
-mod lights;
-mod list_large;
-mod listed;
-mod lists;
-mod mesh_draws;
-mod needs;
-mod paper;
-mod pipelines;
-mod plan;
-mod polygons;
-mod readback;
-mod recipe;
-mod seen;
-mod splat_pass;
-mod splat_shaders;
-mod tiles;
-mod variant;
-mod visibility;
+pub(crate) mod cull;
+pub(crate) mod inputs;
+pub(crate) mod layers;
+pub(crate) mod pipeline;
+pub(crate) mod plan;
+pub(crate) mod polygons;
+pub(crate) mod resolve;
+pub(crate) mod splats;
+pub(crate) mod tiles;
 
 use ash::vk;
 
-pub use catalog::{Traits, frame_pipelines, papers_pipelines};
-pub use constants::{FinalizeConstants, FrameConstants, PaperConstants, TileConstants};
-pub use draws::{Draw, draws};
-pub use export::Exported;
-pub use floor::{
-    FLOOR_POINT_BYTES, FloorPoints, LimitDispatch, LimitInputs, floor_frame, floor_points, limit_dispatch,
-    limit_draws, limit_fill,
+use crate::passes::pipeline::formats::sum_format;
+
+pub use crate::passes::inputs::Inputs;
+pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
+pub use crate::passes::pipeline::constants::{
+    FinalizeConstants, FrameConstants, PaperConstants, TileConstants,
 };
 #[cfg(feature = "test-formulas")]
-pub use formula::Formula;
-pub use inputs::Inputs;
-#[cfg(feature = "counts")]
-pub use instructions::{Counter, counts_of};
-pub use mesh_draws::{MeshDraw, mesh_draws};
-pub use needs::{Needs, needs};
-pub use paper::paper_frame;
-pub use pipelines::{Shaders, room_of_lists};
-pub use plan::{FramePlan, SplatMethod, SurfacePlan, check_method};
-pub use readback::{readback, readback_buffer};
-pub use recipe::{PipelineRecipe, PipelineStages};
-pub use tiles::{
-    Band, Invocations, ListsInUse, STORAGE_BUFFERS as TILE_STORAGE_BUFFERS, TilePlan, TilesInUse, told_by,
+pub use crate::passes::pipeline::formula::Formula;
+pub use crate::passes::pipeline::recipe::{PipelineRecipe, PipelineStages};
+pub use crate::passes::plan::draws::{Draw, draws};
+pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};
+pub use crate::passes::plan::needs::{Needs, needs};
+pub use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, method::check as check_method};
+pub use crate::passes::resolve::export::Exported;
+pub use crate::passes::resolve::readback::{readback, readback_buffer};
+pub use crate::passes::{
+    pipeline::tile_layouts::STORAGE_BUFFERS as TILE_STORAGE_BUFFERS,
+    plan::{bands::Band, invocations::Invocations, tiles::TilePlan},
 };
 
-use self::{finalize::Opaque, lists::Lists, plan::Outputs, tiles::TileStart};
+use crate::passes::{cull::lists::Lists, plan::Outputs, resolve::finalize::Opaque, tiles::splat::TileStart};
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
     scene::Accumulate,
 };
-
-/// The format of the sums.
-fn sum_format(accumulate: Accumulate) -> vk::Format {
-    match accumulate {
-        Accumulate::F16 => vk::Format::R16G16B16A16_SFLOAT,
-        Accumulate::F32 => vk::Format::R32G32B32A32_SFLOAT,
-    }
-}
-
-/// The visibility pass's reversed depth: near / z.
-const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 
 /// The whole frame. What a scene does not have takes no pass: splats, polygons, transparent things; large splats are listed
 /// where one may exceed the device's largest point or come near the eye plane; the surface is exported as data where that
@@ -103,9 +56,9 @@ pub fn frame<'a>(
 ) -> Result<Option<Exported>> {
     let kernel = match plan.opaque.splats.is_empty() && plan.transparent.splats.is_empty() {
         true => None,
-        false => accumulate::kernel_of(graph, inputs)?,
+        false => splats::accumulate::kernel_of(graph, inputs)?,
     };
-    let lights = lights::lights(graph, &plan.lights);
+    let lights = resolve::lights::lights(graph, &plan.lights);
     let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
     let outputs = Outputs { surface: export, layers: !plan.transparent.is_empty(), target_format };
 
@@ -125,15 +78,25 @@ pub fn frame<'a>(
             let inputs = inputs.of(&plan.transparent);
             match inputs.bands.is_empty() {
                 false => Some(tiles::layers(graph, inputs, opaque.depth(), lights.as_ref())?),
-                true => layers::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?,
+                true => {
+                    layers::frame::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?
+                }
             }
         }
     };
-    finalize::finalize(graph, inputs, &opaque, layers.as_ref(), lights.as_ref(), target, target_format)?;
+    resolve::finalize::finalize(
+        graph,
+        inputs,
+        &opaque,
+        layers.as_ref(),
+        lights.as_ref(),
+        target,
+        target_format,
+    )?;
     match (export, &opaque.splats, &opaque.splat_depth) {
         (false, ..) => Ok(None),
-        (true, Some(sums), Some(depth)) => export::export(graph, inputs, sums, depth).map(Some),
-        (true, ..) => Ok(Some(export::export_nothing(graph, inputs))),
+        (true, Some(sums), Some(depth)) => resolve::export::export(graph, inputs, sums, depth).map(Some),
+        (true, ..) => Ok(Some(resolve::export::export_nothing(graph, inputs))),
     }
 }
 
@@ -147,17 +110,24 @@ fn by_primitives<'a>(
     let mut opaque = Opaque::default();
     let lists = Lists::make(graph, inputs, "")?;
     if !inputs.draws.is_empty() {
-        opaque.splat_depth = Some(visibility::visibility(graph, inputs, &lists)?);
+        opaque.splat_depth = Some(splats::visibility::visibility(graph, inputs, &lists)?);
     }
     if !inputs.meshes.is_empty() {
-        let (seen, depth) = polygons::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
+        let (seen, depth) = polygons::draw::polygons(graph, inputs, opaque.splat_depth.as_ref())?;
         (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
     }
     if let Some(depth) = &opaque.splat_depth {
         let polygons = opaque.polygon_depth.as_ref();
         let lists = lists.without_hidden(graph, inputs, depth)?;
-        opaque.splats =
-            Some(accumulate::accumulate(graph, inputs, &lists, depth, polygons, kernel, outputs.surface)?);
+        opaque.splats = Some(splats::accumulate::accumulate(
+            graph,
+            inputs,
+            &lists,
+            depth,
+            polygons,
+            kernel,
+            outputs.surface,
+        )?);
     }
     Ok(opaque)
 }
@@ -175,7 +145,7 @@ fn shaded_by_tiles<'a>(
     let mut opaque = Opaque::default();
     let mut start = TileStart::Empty;
     if !inputs.meshes.is_empty() {
-        let depth = polygons::shaded(graph, inputs, (&mut shown.image, precision), lights)?;
+        let depth = polygons::draw::shaded(graph, inputs, (&mut shown.image, precision), lights)?;
         (opaque.polygon_depth, start) = (Some(depth), TileStart::Polygons);
     }
     for (band, inputs, plan) in inputs.of_bands() {
@@ -221,7 +191,7 @@ fn summed_by_tiles<'a>(
             depth = Some(tiles::depth_buffer(graph, inputs, &band, &tiles, &images.depth, depth)?);
         }
         if polygons {
-            let (seen, depth) = polygons::polygons(graph, inputs, depth.as_ref())?;
+            let (seen, depth) = polygons::draw::polygons(graph, inputs, depth.as_ref())?;
             tiles::sum(graph, inputs, &band, &tiles, &mut images, (Some(&depth), with_depth), true)?;
             (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
         }

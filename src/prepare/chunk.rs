@@ -10,10 +10,7 @@ use super::{
     radii::RadiusStep,
     rebase::Rebase,
 };
-use crate::{
-    error::Result,
-    vk::{Binding, Device, SetLayout, Staging},
-};
+use crate::{error::Result, vk::Staging};
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
 const MAX_SPLATS: usize = 1 << 22;
@@ -22,26 +19,6 @@ const MAX_SPLATS: usize = 1 << 22;
 pub(super) fn capacity(max_storage_buffer_range: u64) -> usize {
     let fit = max_storage_buffer_range / shape_bytes(true) as u64;
     usize::try_from(fit).unwrap_or(usize::MAX).clamp(1, MAX_SPLATS)
-}
-
-/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors.
-pub struct SplatSetLayout(SetLayout);
-
-impl SplatSetLayout {
-    /// The layout.
-    ///
-    /// # Errors
-    /// Whatever the driver answers.
-    pub fn new(device: &Device) -> Result<Self> {
-        let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::COMPUTE;
-        let binding = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages };
-        Ok(Self(SetLayout::new(device, "splats", &[binding, binding])?))
-    }
-
-    /// The set's layout.
-    pub fn set(&self) -> &SetLayout {
-        &self.0
-    }
 }
 
 /// Splats of one object in buffers of their own.

@@ -2,11 +2,33 @@
 
 use ash::vk;
 
-use super::chunk::SplatSetLayout;
 use crate::{
     error::Result,
-    vk::{Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool, Staging},
+    vk::{
+        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool,
+        SetLayout, Staging,
+    },
 };
+
+/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors.
+pub struct SplatSetLayout(SetLayout);
+
+impl SplatSetLayout {
+    /// The layout.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device) -> Result<Self> {
+        let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::COMPUTE;
+        let binding = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages };
+        Ok(Self(SetLayout::new(device, "splats", &[binding, binding])?))
+    }
+
+    /// The set's layout.
+    pub fn set(&self) -> &SetLayout {
+        &self.0
+    }
+}
 
 /// Where chunks are made: the device, the layout of their sets, and whoever runs batches of uploads.
 pub(super) struct Uploader<'u> {

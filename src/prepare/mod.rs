@@ -15,7 +15,8 @@ mod rebase;
 mod sequence;
 
 pub use blocks::{BLOCK_SPLATS, Block};
-pub use chunk::{Chunk, SplatSetLayout};
+pub use chunk::Chunk;
+pub use memory::SplatSetLayout;
 pub use mesh_chunk::MeshChunk;
 pub use packed::{LARGEST_TURN_RAD, as_packed};
 pub use radii::RadiusStep;

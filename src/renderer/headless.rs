@@ -257,7 +257,7 @@ impl Targets {
 }
 
 /// Records, submits and waits with the headless host's own command buffer.
-pub(super) fn submit_and_wait(
+pub(crate) fn submit_and_wait(
     headless: &Headless,
     record: impl FnOnce(vk::CommandBuffer) -> Result<()>,
 ) -> Result<()> {

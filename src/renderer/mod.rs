@@ -2,22 +2,14 @@
 //! waits, so that an embedding host keeps device, queue and submission to itself; [`Headless`] is such a host.
 
 mod explain;
-mod floor;
-mod headless;
-mod in_use;
-mod limit_points;
-mod limits;
-mod paper;
+pub(crate) mod headless;
 
 use std::sync::Arc;
 
 use ash::vk;
 
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
-pub use floor::Floor;
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
-pub use limits::{LimitProbes, Probe};
-pub use paper::draw_as_published;
 
 use crate::{
     error::{Error, Result},
@@ -35,7 +27,7 @@ use crate::{
 /// Draws splats on a device.
 pub struct Renderer {
     device: Device,
-    limits: Limits,
+    pub(crate) limits: Limits,
     /// Pipelines and their layouts.
     pub shaders: Shaders,
 }
@@ -120,7 +112,7 @@ impl Renderer {
     }
 
     /// The plan of a scene that can be drawn so.
-    fn frame_plan<'a>(
+    pub(crate) fn frame_plan<'a>(
         &self,
         scene: &'a PreparedScene,
         camera: &Camera,
@@ -178,10 +170,10 @@ impl Renderer {
     }
 }
 
-type Imports = Vec<(ResourceId, Physical)>;
+pub(crate) type Imports = Vec<(ResourceId, Physical)>;
 
 /// The whole frame: its passes, and a copy for each thing that the host wants to read.
-fn declare<'a>(
+pub(crate) fn declare<'a>(
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     target: &Target,
@@ -224,7 +216,7 @@ fn declare<'a>(
 }
 
 /// A host-visible buffer for an image: the frame before may still write it; the host reads it after.
-fn import_readback(
+pub(crate) fn import_readback(
     graph: &mut Graph<Body<'_>>,
     what: &str,
     format: vk::Format,
@@ -241,7 +233,7 @@ fn import_readback(
 }
 
 /// Bytes of a pixel, for the formats that are read back.
-fn bytes_per_pixel(format: vk::Format) -> u64 {
+pub(crate) fn bytes_per_pixel(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32G32B32A32_SFLOAT => 16,
         vk::Format::R16G16B16A16_SFLOAT => 8,

@@ -3,7 +3,8 @@
 use crate::common::{scenes, shared, with_limits};
 use surfel::{
     graph::execute::{FrameProfile, Profile},
-    renderer::{Floor, LimitProbes, Wanted},
+    instruments::{Floor, LimitProbes},
+    renderer::Wanted,
     report::Limit,
 };
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use surfel::{
     graph::execute::{FrameProfile, Profile},
     hard_scenes::{Hard, sphere},
-    passes::{ListsInUse, TilesInUse},
+    instruments::{ListsInUse, TilesInUse},
     renderer::{Headless, Wanted},
     scene::{Colors, Cull, Filter, Object, Rasterizer, Scene, Settings, TileInvocations, TileMemory},
 };

@@ -6,8 +6,9 @@ use crate::common::{
     shared,
 };
 use surfel::{
+    instruments::draw_as_published,
     reference::{self, Picture},
-    renderer::{Headless, Wanted, draw_as_published},
+    renderer::{Headless, Wanted},
     scene::{Accumulate, Filter, FilterWeight, Shading, Shapes},
 };
 

@@ -26,6 +26,7 @@ const LAYERS: &[&[&str]] = &[
     &["passes"],
     &["frame"],
     &["renderer"],
+    &["instruments"],
     &["selftest"],
 ];
 

@@ -11,7 +11,7 @@ use std::{
 
 use surfel::{
     count::{Counts, PassCounts, count},
-    passes::{Counter, counts_of, papers_pipelines},
+    instruments::{Counter, counts_of, papers_pipelines},
     scene::{Filter, KernelEval, Rasterizer, Settings, TileInvocations},
     shaders::config::SPEC_TEXTURED,
 };

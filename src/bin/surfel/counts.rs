@@ -6,7 +6,8 @@ use std::collections::HashSet;
 
 use surfel::{
     Error, Progress as _, Result, Settings,
-    passes::{Counter, PipelineRecipe, PipelineStages, Traits, frame_pipelines, papers_pipelines},
+    instruments::{Counter, Traits, frame_pipelines, papers_pipelines},
+    passes::{PipelineRecipe, PipelineStages},
     report::{InstructionReport, InstructionRow, PipelineNames},
     scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
 };

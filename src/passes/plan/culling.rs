@@ -1,8 +1,8 @@
 //! Which splats are left out before they are set up, and before they are summed (`--cull`).
 
-use super::{
-    super::{Draw, splat_shaders::Primitive, variant::culls},
-    method::are_few,
+use crate::passes::{
+    pipeline::{splat_shaders::Primitive, variant::culls},
+    plan::{draws::Draw, few::are_few},
 };
 use crate::{
     prepare::BLOCK_SPLATS,
@@ -14,17 +14,17 @@ use crate::{
 const MOST_INDICES: u32 = 1 << 24;
 
 /// Whether some splats face away and are not drawn, or may lie outside of the view.
-pub(super) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
+pub(crate) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
     splats.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
 }
 
 /// Whether tiles are made of listed splats where a list gains something.
-pub(super) fn lists_tiles(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
+pub(crate) fn lists_tiles(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
     settings.cull != Cull::Setup && list_has_room(splats, limits)
 }
 
 /// Whether the graphics pipeline draws listed splats alone. Layers draw all.
-pub(super) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
+pub(crate) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
     let wanted = match settings.cull {
         // Where points were named, they are set up as the papers do it.
         Cull::Auto => settings.rasterizer == Rasterizer::Auto && limits.is_cpu && !are_few(splats, settings),
@@ -45,7 +45,7 @@ fn list_has_room(splats: &[Draw<'_>], limits: &Limits) -> bool {
 
 /// Whether a tile sums only what its visible depth does not hide. Beside polygons more than what visibility lets through may
 /// count, and layers are behind each other.
-pub(super) fn tiles_cull_hidden(splats: &[Draw<'_>], polygons: bool, settings: &Settings) -> bool {
+pub(crate) fn tiles_cull_hidden(splats: &[Draw<'_>], polygons: bool, settings: &Settings) -> bool {
     let wanted = match settings.cull {
         // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
         // taken for several: 3% of a frame.)
@@ -58,13 +58,13 @@ pub(super) fn tiles_cull_hidden(splats: &[Draw<'_>], polygons: bool, settings: &
 
 /// Whether the graphics pipeline sums only what the visible depth does not hide: not where fragments farther behind count, too, because
 /// the paper's transition shifts toward the viewer what visibility has shifted away.
-pub(super) fn primitives_cull_hidden(polygons: bool, settings: &Settings) -> bool {
+pub(crate) fn primitives_cull_hidden(polygons: bool, settings: &Settings) -> bool {
     let shifted_twice = polygons && settings.transition == Transition::Paper;
     settings.cull == Cull::Hidden && !shifted_twice
 }
 
 /// Gives each chunk the number of its first splat among all.
-pub(super) fn number_splats(splats: &mut [Draw<'_>]) {
+pub(crate) fn number_splats(splats: &mut [Draw<'_>]) {
     let mut next = 0_u32;
     for draw in splats {
         draw.constants.first_record = next;

@@ -1,13 +1,15 @@
 //! How splats are drawn: by tiles or by the graphics pipeline, and why.
 
-use super::{
-    super::{
-        Draw,
-        listed::Listed,
-        seen::SeenSplats,
-        tiles::{self, Band, STORAGE_BUFFERS, TilePlan},
+use crate::passes::plan::few::are_few;
+use crate::passes::plan::{
+    bands::{cut_into_bands, most_bytes},
+    tiles::rows::rows_of_image,
+};
+use crate::passes::{
+    pipeline::tile_layouts::STORAGE_BUFFERS,
+    plan::{
+        SplatMethod, bands::Band, block_list::Listed, culling, draws::Draw, seen::SeenSplats, tiles::TilePlan,
     },
-    SplatMethod, culling,
 };
 use crate::{
     error::{Error, Result},
@@ -26,7 +28,7 @@ type Reason = &'static str;
 ///
 /// # Errors
 /// The reason against tiles.
-pub(super) fn tiles<'a>(
+pub(crate) fn tiles<'a>(
     splats: &[Draw<'a>],
     polygons: bool,
     settings: &Settings,
@@ -43,7 +45,7 @@ pub(super) fn tiles<'a>(
 }
 
 /// How the graphics pipeline draws these splats, which it numbers.
-pub(super) fn primitives<'a>(
+pub(crate) fn primitives<'a>(
     splats: &mut [Draw<'a>],
     polygons: bool,
     settings: &Settings,
@@ -53,7 +55,7 @@ pub(super) fn primitives<'a>(
         culling::number_splats(splats);
         return SplatMethod::default();
     }
-    let rows = tiles::rows_of_image(settings);
+    let rows = rows_of_image(settings);
     let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
     SplatMethod::Primitives {
         visible: Some(Listed::of(splats, &seen.chunks, rows)),
@@ -71,7 +73,7 @@ fn bands<'a>(
 ) -> Option<Vec<Band<'a>>> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
     let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
-    let most_bytes = tiles::most_bytes(splats, settings.tile_memory);
+    let most_bytes = most_bytes(splats, settings.tile_memory);
     // Bands are made of listed splats, too.
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     let gains = culling::may_leave_out(splats) || whole.bytes() > most_bytes;
@@ -80,7 +82,7 @@ fn bands<'a>(
         culling::number_splats(&mut splats);
         return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
     }
-    let rows = tiles::rows_of_image(settings);
+    let rows = rows_of_image(settings);
     let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
     let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
     if left_to_others(&whole) {
@@ -89,7 +91,7 @@ fn bands<'a>(
     // Polygons may be drawn between two passes over the whole image.
     let cut = match polygons {
         true => Vec::new(),
-        false => tiles::cut_into_bands(splats, &seen, &whole, settings, limits),
+        false => cut_into_bands(splats, &seen, &whole, settings, limits),
     };
     // A splat that is large for a band alone would be the graphics pipeline's, too.
     match cut.is_empty() || cut.iter().any(left_to_others) {
@@ -106,20 +108,6 @@ fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::
         Rasterizer::Auto => can_do_tiles(settings, limits).map(|()| "auto: on a CPU faster than points"),
         _ => Err("another rasterizer was asked for"),
     }
-}
-
-/// Pixels of the image for each splat above which tiles are not taken. Where they begin to lose was measured to lie between 870 and 2600
-/// at 512x512, 1050 and 3500 at 1024x1024, 4200 and 14 000 at 2048x2048 (`benches/README.md`).
-const MOST_PIXELS_A_SPLAT: u64 = 1000;
-
-/// Whether splats are so few that tiles gain little.
-pub(super) fn are_few(splats: &[Draw<'_>], settings: &Settings) -> bool {
-    is_few(splats.iter().map(|draw| u64::from(draw.chunk.count)).sum(), settings)
-}
-
-fn is_few(splats: u64, settings: &Settings) -> bool {
-    let [width, height] = settings.size_px.map(u64::from);
-    splats * MOST_PIXELS_A_SPLAT < width * height
 }
 
 fn can_do_tiles(settings: &Settings, limits: &Limits) -> std::result::Result<(), Reason> {
@@ -151,6 +139,7 @@ pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::passes::plan::few::is_few;
 
     #[test]
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {

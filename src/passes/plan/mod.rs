@@ -1,17 +1,30 @@
 //! The plan of a frame: what scene, camera, settings and device decide about it, decided here, once. Whatever records a frame,
 //! sizes its pools or explains it reads the plan.
 
-mod culling;
-mod method;
-mod words;
+pub(crate) mod bands;
+pub(crate) mod block_list;
+pub(crate) mod blocks;
+pub(crate) mod culling;
+pub(crate) mod draws;
+pub(crate) mod few;
+pub(crate) mod invocations;
+pub(crate) mod mesh_draws;
+pub(crate) mod method;
+pub(crate) mod needs;
+pub(crate) mod seen;
+pub(crate) mod tiles;
+pub(crate) mod words;
 
-pub use self::method::check as check_method;
-
-use super::{
-    Draw, MeshDraw, draws, lights,
-    listed::Listed,
-    mesh_draws, sum_format,
-    tiles::{Band, TilePlan},
+use crate::passes::pipeline::formats::sum_format;
+use crate::passes::{
+    plan::{
+        bands::Band,
+        block_list::Listed,
+        draws::{Draw, draws},
+        mesh_draws::{MeshDraw, mesh_draws},
+        tiles::TilePlan,
+    },
+    resolve::lights,
 };
 use crate::{
     prepare::PreparedScene,
@@ -117,7 +130,7 @@ impl<'a> SurfacePlan<'a> {
     }
 
     /// Where the graphics pipeline's splats are looked for, if only those that may be seen are drawn.
-    pub(super) fn visible(&self) -> Option<&Listed> {
+    pub(crate) fn visible(&self) -> Option<&Listed> {
         match &self.method {
             SplatMethod::Primitives { visible, .. } => visible.as_ref(),
             SplatMethod::Tiles(_) => None,
@@ -126,7 +139,7 @@ impl<'a> SurfacePlan<'a> {
 
     /// Whether tiles can be shaded in the dispatch that sums their splats: the graphics pipeline draws none of these, and polygons,
     /// which are shaded before, blend with them as colors, beside tiles that one dispatch takes.
-    pub(super) fn tiles_can_shade(&self, settings: &Settings) -> bool {
+    pub(crate) fn tiles_can_shade(&self, settings: &Settings) -> bool {
         let polygons = !self.meshes.is_empty();
         let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_be_overfull();
         let as_colors = !polygons || settings.transition != Transition::Attributes;
@@ -141,7 +154,7 @@ impl<'a> SurfacePlan<'a> {
 
 /// What is wanted of a frame beside its picture, and in which format that is.
 #[derive(Clone, Copy)]
-pub(super) struct Outputs {
+pub(crate) struct Outputs {
     /// The opaque surface as data: sums, of depth too, are exported.
     pub surface: bool,
     /// Transparent layers lie before the opaque surface.

@@ -1,6 +1,9 @@
 //! The plan in words, for `--explain`.
 
-use super::{super::splat_shaders::Primitive, SplatMethod, SurfacePlan};
+use crate::passes::{
+    pipeline::splat_shaders::Primitive,
+    plan::{SplatMethod, SurfacePlan},
+};
 use crate::scene::Settings;
 
 impl SurfacePlan<'_> {

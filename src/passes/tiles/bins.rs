@@ -3,16 +3,17 @@
 
 use ash::vk;
 
-use super::{
-    super::{
-        Inputs,
-        constants::TileConstants,
-        cull::{Kept, list_kept},
-        pipelines::ComputeKey,
+use crate::passes::tiles::place_bits;
+use crate::passes::{
+    cull::visible::{Kept, list_kept},
+    inputs::Inputs,
+    pipeline::{cache::ComputeKey, constants::TileConstants},
+    plan::tiles::TilePlan,
+    tiles::{
+        TilePass, Tiles,
+        pass::{TileDispatch, key},
+        record::record,
     },
-    TilePass, TilePlan, Tiles,
-    pass::{TileDispatch, key},
-    record::record,
 };
 use crate::{
     error::Result,
@@ -20,13 +21,8 @@ use crate::{
     shaders::{self, Shader, config::*},
 };
 
-/// The constant of how spans are cut.
-pub(super) fn place_bits(plan: &TilePlan) -> (u32, u32) {
-    (SPEC_PLACE_BITS, plan.place_bits)
-}
-
 /// The pipelines of what counts, adds up, finds where lists start, and fills. `kept`: records are those of a list.
-pub(super) fn keys(plan: &TilePlan, kept: bool) -> [ComputeKey; 4] {
+pub(crate) fn keys(plan: &TilePlan, kept: bool) -> [ComputeKey; 4] {
     let walk = |shader: &'static Shader| {
         let texels = u32::from(plan.invocations.fetch_texels());
         let large = u32::from(plan.may_be_large);
@@ -48,7 +44,7 @@ pub(super) fn keys(plan: &TilePlan, kept: bool) -> [ComputeKey; 4] {
 
 /// Declares the passes that set splats up and list them by tile. `kind`, in front of the names, tells several such lists of a
 /// frame apart.
-pub(in super::super) fn list<'a>(
+pub(crate) fn list<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,

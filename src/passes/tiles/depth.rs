@@ -4,9 +4,15 @@ use std::slice;
 
 use ash::vk;
 
-use super::{
-    super::{DEPTH_FORMAT, Inputs, finalize, fullscreen::read_set, pipelines::GraphicsKey},
-    SeenTiles, Tiles, draw_quads_of_tiles, quads_of_tiles, read_seen,
+use crate::passes::pipeline::formats::DEPTH_FORMAT;
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{cache::GraphicsKey, fullscreen::read_set},
+    resolve::finalize,
+    tiles::{
+        Tiles,
+        quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
+    },
 };
 use crate::{
     error::Result,
@@ -15,7 +21,7 @@ use crate::{
 };
 
 /// What the pipeline is.
-pub(super) fn key() -> GraphicsKey {
+pub(crate) fn key() -> GraphicsKey {
     GraphicsKey {
         depth: Some((vk::CompareOp::ALWAYS, true)),
         ..quads_of_tiles(&shaders::TILE_DEPTH_FRAG, Vec::new())
@@ -23,7 +29,7 @@ pub(super) fn key() -> GraphicsKey {
 }
 
 /// Declares the pass. `kind`, in front of the tiles, tells those of several bands apart; `before`: the depth buffer that `visible` begins from; else it is 0 where there are no splats.
-pub(in super::super) fn depth_buffer<'a>(
+pub(crate) fn depth_buffer<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,

@@ -2,16 +2,15 @@
 
 use ash::vk;
 
-use super::{
-    super::{
-        Inputs,
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{constants::FrameConstants, splat_shaders::Summed},
+    splats::{
         accumulate::{self, bind_read},
-        constants::FrameConstants,
-        splat_pass::SplatPass,
-        splat_shaders::Summed,
+        draw::SplatPass,
         visibility,
     },
-    TileImages, Tiles,
+    tiles::{Tiles, splat::TileImages},
 };
 use crate::{
     error::Result,
@@ -24,7 +23,7 @@ use crate::{
 
 /// Declares their visibility; returns the depth, as that of all splats is. `kind`, in front of the splats, tells those of several bands
 /// apart; `before`: the depth of other bands.
-pub(in super::super) fn see_large<'a>(
+pub(crate) fn see_large<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
@@ -35,7 +34,8 @@ pub(in super::super) fn see_large<'a>(
     let (mut depth, start) = match before {
         Some(before) => (before, Start::Load),
         None => {
-            let depth = graph.create_image("depth", inputs.image(super::super::DEPTH_FORMAT));
+            let depth =
+                graph.create_image("depth", inputs.image(crate::passes::pipeline::formats::DEPTH_FORMAT));
             (depth, Start::Clear(ClearValue::Depth(0.0)))
         }
     };
@@ -49,7 +49,7 @@ pub(in super::super) fn see_large<'a>(
 }
 
 /// Declares their accumulation, upon the sums of tiles. `polygons`, `with_depth`: as for all splats.
-pub(in super::super) fn sum_large<'a>(
+pub(crate) fn sum_large<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,

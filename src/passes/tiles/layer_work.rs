@@ -1,7 +1,7 @@
 //! What each dispatch does of transparent layers: all of them, some, or, where a tile has more splats than one dispatch takes, a
 //! step of one with a part of the splats.
 
-use super::{super::constants::TileConstants, TilePlan};
+use crate::passes::{pipeline::constants::TileConstants, plan::tiles::TilePlan};
 use crate::{
     scene::{LastLayer, Settings},
     shaders::config::*,
@@ -41,7 +41,7 @@ fn shares(settings: &Settings, plan: &TilePlan) -> Vec<Share> {
 
 /// How a dispatch works on a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Work {
+pub(crate) enum Work {
     /// All layers at once.
     Whole,
     /// Some layers after the other.
@@ -58,7 +58,7 @@ impl Work {
 }
 
 /// The constants of each dispatch.
-pub(super) fn dispatches(
+pub(crate) fn dispatches(
     settings: &Settings,
     plan: &TilePlan,
     work: Work,
@@ -97,7 +97,8 @@ fn steps(settings: &Settings) -> Vec<(u32, u32)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::Invocations, *};
+    use super::*;
+    use crate::passes::plan::invocations::Invocations;
     use crate::{scene::Layers, vk::Limits};
 
     #[test]

@@ -2,12 +2,17 @@
 
 use ash::vk;
 
-use super::{
-    super::{Inputs, pipelines::ComputeKey, sum_format, variant::shading_constants},
-    TilePass, TilePlan, Tiles,
-    bins::list,
-    layer_work::{Work, dispatches},
-    pass, splat,
+use crate::passes::pipeline::formats::sum_format;
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{cache::ComputeKey, variant::shading_constants},
+    plan::tiles::TilePlan,
+    tiles::{
+        TilePass, Tiles,
+        bins::list,
+        layer_work::{Work, dispatches},
+        pass, splat,
+    },
 };
 use crate::{
     error::Result,
@@ -24,7 +29,7 @@ const PEELED_FORMAT: vk::Format = vk::Format::R32G32_SFLOAT;
 
 /// What depends on the scene beside the splats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) struct Beside {
+pub(crate) struct Beside {
     /// There are opaque things.
     pub opaque: bool,
     /// The scene's own lights.
@@ -32,7 +37,7 @@ pub(in super::super) struct Beside {
 }
 
 /// The pipeline.
-pub(in super::super) fn key(settings: &Settings, plan: &TilePlan, beside: Beside, work: Work) -> ComputeKey {
+pub(crate) fn key(settings: &Settings, plan: &TilePlan, beside: Beside, work: Work) -> ComputeKey {
     let shader = plan.invocations.shader(match work {
         Work::Whole | Work::Several => [&shaders::TILE_LAYERS_COLUMN_COMP, &shaders::TILE_LAYERS_PIXEL_COMP],
         Work::Parts => {
@@ -57,14 +62,14 @@ fn stacked(settings: &Settings) -> bool {
 }
 
 /// Declares the passes, of lists too; returns what the layers add up to: linear light times alpha, and alpha.
-pub(in super::super) fn layers<'a>(
+pub(crate) fn layers<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     opaque: Option<&Handle<Image>>,
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Handle<Image>> {
     let mut layers = graph.create_image("layers", inputs.image(sum_format(inputs.settings.accumulate)));
-    super::clear(graph, "clear layers", &mut [&mut layers]);
+    crate::passes::tiles::clear(graph, "clear layers", &mut [&mut layers]);
     let around = (opaque, lights);
     for (band, inputs, plan) in inputs.of_bands() {
         let tiles = list(graph, inputs, &format!("transparent {band}"), plan)?;

@@ -3,60 +3,44 @@
 //! What it leaves is what the graphics pipeline's passes leave: sums, and a depth. Splats that are too large for that, or not
 //! regular, are listed too, by chunk, and drawn by the graphics pipeline into the same images.
 
-mod bands;
-mod bins;
-mod depth;
-mod in_use;
-mod invocations;
-mod large;
-mod layer_work;
-mod layers;
-mod layouts;
-mod overfull;
-mod pass;
-mod plan;
-mod quads;
-mod recipes;
-mod record;
-mod shaded;
-mod splat;
+pub(crate) mod bins;
+pub(crate) mod depth;
+pub(crate) mod large;
+pub(crate) mod layer_work;
+pub(crate) mod layers;
+pub(crate) mod overfull;
+pub(crate) mod pass;
+pub(crate) mod quads;
+pub(crate) mod record;
+pub(crate) mod shaded;
+pub(crate) mod splat;
 
 use ash::vk;
 
-pub use self::{
-    bands::Band,
-    in_use::{ListsInUse, TilesInUse, told_by},
-    invocations::Invocations,
-    plan::TilePlan,
+use crate::passes::pipeline::tile_layouts::STORAGE_BUFFERS;
+pub use crate::passes::plan::tiles::TilePlan;
+use crate::passes::tiles::pass::TilePass;
+pub(crate) use crate::passes::{
+    plan::tiles::RECORD_BYTES,
+    tiles::{
+        bins::list,
+        depth::depth_buffer,
+        large::{see_large, sum_large},
+        layers::layers,
+        shaded::{Shown, shaded},
+        splat::{TileImages, fused, see, sum},
+    },
 };
-pub(super) use self::{
-    bands::{cut_into_bands, most_bytes},
-    bins::list,
-    depth::depth_buffer,
-    large::{see_large, sum_large},
-    layers::layers,
-    layouts::TileLayouts,
-    pass::rows_of,
-    plan::rows_of_image,
-    quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
-    recipes::{TileTraits, depth_recipe, layers_recipe, list_recipes, opaque_recipes},
-    shaded::{Shown, shaded},
-    splat::{TileImages, TileStart, fused, see, sum},
-};
-use pass::TilePass;
 
-use super::{Inputs, constants::TileConstants};
+use crate::passes::{inputs::Inputs, pipeline::constants::TileConstants};
 use crate::{
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Image, Start, execute::Body},
     shaders::config::*,
     vk::PoolRoom,
 };
 
-/// Storage buffers in the layout of the pass that makes records.
-pub const STORAGE_BUFFERS: u32 = 18;
-
 /// What the buffers of records are called.
-const RECORD_QUARTERS: [&str; 4] = [
+pub(crate) const RECORD_QUARTERS: [&str; 4] = [
     "first quarter of records",
     "second quarter of records",
     "third quarter of records",
@@ -64,7 +48,7 @@ const RECORD_QUARTERS: [&str; 4] = [
 ];
 
 /// What a frame has to list splats by tile.
-pub(super) struct Tiles<'a> {
+pub(crate) struct Tiles<'a> {
     pub plan: &'a TilePlan,
     /// Splats ready to be drawn: 16 bytes of each in each.
     records: [Handle<Buffer>; 4],
@@ -95,9 +79,8 @@ impl<'a> Tiles<'a> {
         const WORDS: vk::Format = vk::Format::R32G32B32A32_UINT;
         let (tiles, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
         let formats = [FLOATS, FLOATS, FLOATS, WORDS];
-        let records = std::array::from_fn(|i| {
-            create(RECORD_QUARTERS[i], plan.record_room * plan::RECORD_BYTES, formats[i])
-        });
+        let records =
+            std::array::from_fn(|i| create(RECORD_QUARTERS[i], plan.record_room * RECORD_BYTES, formats[i]));
         let mut words = |what: &str, count| create(what, count * 4, vk::Format::R32_UINT);
         let (entries, spans) = (words("entries", plan.entry_room), words("spans", plan.record_room));
         let mut buffer = |what: &str, size_bytes| create(what, size_bytes, vk::Format::UNDEFINED);
@@ -158,8 +141,13 @@ impl<'a> Tiles<'a> {
     }
 }
 
+/// The constant of how spans are cut.
+pub(crate) fn place_bits(plan: &TilePlan) -> (u32, u32) {
+    (SPEC_PLACE_BITS, plan.place_bits)
+}
+
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
-pub(super) fn room(plan: &TilePlan) -> PoolRoom {
+pub(crate) fn room(plan: &TilePlan) -> PoolRoom {
     let sets = plan.chunk_count * 3 + 12;
     PoolRoom {
         sets,

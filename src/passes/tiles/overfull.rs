@@ -6,11 +6,11 @@
 
 use ash::vk;
 
-use super::{super::constants::TileConstants, pass::TileDispatch};
+use crate::passes::{pipeline::constants::TileConstants, tiles::pass::TileDispatch};
 use crate::{error::Result, graph::ResourceId, shaders::config::*};
 
 /// Pixels of an image that has room for so many tiles.
-pub(super) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -> vk::Extent2D {
+pub(crate) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -> vk::Extent2D {
     vk::Extent2D {
         width: tiles.min(SLOTS_IN_ROW) * tile_width,
         height: tiles.div_ceil(SLOTS_IN_ROW) * tile_height,
@@ -18,7 +18,7 @@ pub(super) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -
 }
 
 /// Records the dispatches of a pass: perhaps of whole tiles, then of all parts of overfull ones.
-pub(super) fn in_parts(
+pub(crate) fn in_parts(
     pass: &TileDispatch<'_, '_>,
     arguments: ResourceId,
     whole: bool,

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::{
-    super::{
-        Inputs,
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{
+        cache::{ComputeKey, Layout},
         constants::TileConstants,
-        pipelines::{ComputeKey, Layout},
         variant::Constants,
     },
-    TilePlan,
+    plan::tiles::TilePlan,
 };
 use crate::{
     error::Result,
@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// A pass in the making. Each resource is named once, with its binding in the set of tiles and its access.
-pub(super) struct TilePass<'g, 'a> {
+pub(crate) struct TilePass<'g, 'a> {
     declared: PassBuilder<'g, Body<'a>>,
     bound: Vec<(u32, ResourceId)>,
 }
@@ -81,7 +81,7 @@ impl<'g, 'a> TilePass<'g, 'a> {
         body: impl FnOnce(&TileDispatch<'_, '_>) -> Result<()> + 'a,
     ) -> Result<()> {
         let pipeline = inputs.shaders.compute(key)?;
-        let constants = super::constants(inputs, plan);
+        let constants = crate::passes::tiles::constants(inputs, plan);
         self.finish_with(move |context, bound| {
             let dispatch = TileDispatch { context, inputs, pipeline, constants };
             dispatch.bind(bound)?;
@@ -104,12 +104,12 @@ impl<'g, 'a> TilePass<'g, 'a> {
 }
 
 /// The pipeline of a shader in the layout of tiles.
-pub(super) fn key(shader: &'static Shader, constants: Constants) -> ComputeKey {
+pub(crate) fn key(shader: &'static Shader, constants: Constants) -> ComputeKey {
     ComputeKey { shader, layout: Layout::Tile, constants }
 }
 
 /// A set of tiles with these bindings.
-pub(super) fn set_of(
+pub(crate) fn set_of(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     bound: &[(u32, ResourceId)],
@@ -120,7 +120,7 @@ pub(super) fn set_of(
 }
 
 /// A pass over tiles while it is recorded, with all bound.
-pub(super) struct TileDispatch<'c, 'a> {
+pub(crate) struct TileDispatch<'c, 'a> {
     pub context: &'c PassContext<'c>,
     inputs: Inputs<'a>,
     pipeline: Arc<ComputePipeline>,
@@ -204,14 +204,14 @@ impl TileDispatch<'_, '_> {
 }
 
 /// Workgroups along a row, and rows, as in `glsl/inc/groups.glsl`.
-pub(in super::super) fn rows_of(groups: u32) -> [u32; 2] {
+pub(crate) fn rows_of(groups: u32) -> [u32; 2] {
     let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);
     [groups.div_ceil(rows.max(1)), rows]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::rows_of;
+    use crate::passes::tiles::pass::rows_of;
 
     #[test]
     fn rows_hold_all_workgroups_and_few_more() {

@@ -2,15 +2,14 @@
 
 use ash::vk;
 
-use super::{
-    super::{
-        Inputs,
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{
+        cache::{GraphicsKey, Layout},
         constants::FinalizeConstants,
-        pipelines::{GraphicsKey, Layout},
         variant::Constants,
     },
-    Tiles,
-    pass::set_of,
+    tiles::{Tiles, pass::set_of},
 };
 use crate::{
     error::Result,
@@ -20,7 +19,7 @@ use crate::{
 };
 
 /// Which tiles have splats, for the passes that draw over them.
-pub(in super::super) struct SeenTiles {
+pub(crate) struct SeenTiles {
     /// Of each band the runs, and the arguments of their draw.
     bands: Vec<(ResourceId, ResourceId)>,
     /// Pixels of each tile's columns.
@@ -38,23 +37,20 @@ impl SeenTiles {
 }
 
 /// Declares that a pass draws over the tiles that have splats.
-pub(in super::super) fn read_seen<'g, B>(
-    bands: &[Tiles<'_>],
-    pass: PassBuilder<'g, B>,
-) -> PassBuilder<'g, B> {
+pub(crate) fn read_seen<'g, B>(bands: &[Tiles<'_>], pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
     bands.iter().fold(pass, |pass, tiles| {
         pass.read(&tiles.runs, Access::StorageReadVertex).read(&tiles.arguments, Access::IndirectRead)
     })
 }
 
 /// A pipeline that draws quads over tiles: without color, blending and depth, to be completed.
-pub(in super::super) fn quads_of_tiles(fragment: &'static Shader, constants: Constants) -> GraphicsKey {
+pub(crate) fn quads_of_tiles(fragment: &'static Shader, constants: Constants) -> GraphicsKey {
     let stages = (&shaders::TILE_QUADS_VERT, fragment);
     GraphicsKey::new(stages, Layout::TileQuads, vk::PrimitiveTopology::TRIANGLE_STRIP, constants)
 }
 
 /// Records the draws. `set`: what the fragments read; `constants`: finalization's, without the tiles' height.
-pub(in super::super) fn draw_quads_of_tiles(
+pub(crate) fn draw_quads_of_tiles(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     pipeline: &GraphicsPipeline,

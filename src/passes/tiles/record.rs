@@ -2,16 +2,15 @@
 
 use ash::vk;
 
-use super::{
-    super::{
-        Inputs,
-        cull::Kept,
-        pipelines::{ComputeKey, Layout},
+use crate::passes::{
+    cull::visible::Kept,
+    inputs::Inputs,
+    pipeline::{
+        cache::{ComputeKey, Layout},
         variant::Constants,
     },
-    TilePass, TilePlan, Tiles,
-    bins::place_bits,
-    pass::set_of,
+    plan::tiles::TilePlan,
+    tiles::{TilePass, Tiles, pass::set_of, place_bits},
 };
 use crate::{
     error::Result,
@@ -20,7 +19,7 @@ use crate::{
 };
 
 /// What the pipeline is, for one chunk, of which perhaps a list is set up.
-pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, kept: bool) -> ComputeKey {
+pub(crate) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, kept: bool) -> ComputeKey {
     let mut constants = variant.clone();
     constants.extend([
         place_bits(plan),
@@ -35,7 +34,7 @@ pub(in super::super) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, ke
 }
 
 /// Declares the pass.
-pub(super) fn record<'a>(
+pub(crate) fn record<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
@@ -76,7 +75,8 @@ pub(super) fn record<'a>(
             match &kept {
                 Some(kept) => kept.dispatch(context, number)?,
                 None => {
-                    let [x, y] = super::rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE));
+                    let [x, y] =
+                        crate::passes::tiles::pass::rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE));
                     // SAFETY: all is bound that the pipeline needs.
                     unsafe { device.cmd_dispatch(commands, x, y, 1) };
                 }

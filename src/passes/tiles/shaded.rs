@@ -2,10 +2,15 @@
 //! more splats than one dispatch takes, of which there are few, if any, are seen and summed in parts after it, in images of such tiles
 //! alone, then shaded from these.
 
-use super::{
-    super::{Inputs, finalize::resolve_constants, pipelines::ComputeKey, variant::shading_constants},
-    TileImages, TilePass, TilePlan, Tiles, pass,
-    splat::{self, TileStart, beside_polygons},
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{cache::ComputeKey, variant::shading_constants},
+    plan::tiles::TilePlan,
+    resolve::finalize::resolve_constants,
+    tiles::{
+        TilePass, Tiles, pass,
+        splat::{self, TileImages, TileStart, beside_polygons},
+    },
 };
 use crate::{
     error::Result,
@@ -15,7 +20,7 @@ use crate::{
 };
 
 /// What tiles show, in place of sums.
-pub(in super::super) struct Shown {
+pub(crate) struct Shown {
     pub image: Handle<Image>,
     /// The image's.
     pub precision: Accumulate,
@@ -23,14 +28,14 @@ pub(in super::super) struct Shown {
 
 /// Beside what tiles are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) struct Beside {
+pub(crate) struct Beside {
     pub polygons: bool,
     /// The scene's own lights.
     pub lights: u32,
 }
 
 /// The pipeline. `precision`: of what is shown.
-pub(in super::super) fn key(
+pub(crate) fn key(
     settings: &Settings,
     plan: &TilePlan,
     precision: Accumulate,
@@ -54,8 +59,8 @@ fn leaves_hidden_out(plan: &TilePlan, polygons: bool) -> bool {
 }
 
 /// Declares all of it, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
-/// [`super::fused`].
-pub(in super::super) fn shaded<'a>(
+/// [`crate::passes::tiles::splat::fused`].
+pub(crate) fn shaded<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,

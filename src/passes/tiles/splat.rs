@@ -3,17 +3,20 @@
 
 use ash::vk;
 
-use super::{
-    super::{
-        Inputs,
-        accumulate::Sums,
-        pipelines::ComputeKey,
-        sum_format,
+use crate::passes::pipeline::formats::sum_format;
+use crate::passes::{
+    inputs::Inputs,
+    pipeline::{
+        cache::ComputeKey,
         variant::{Constants, splat_constants},
     },
-    TilePass, TilePlan, Tiles,
-    overfull::{extent_of_slots, in_parts},
-    pass,
+    plan::tiles::TilePlan,
+    splats::accumulate::Sums,
+    tiles::{
+        TilePass, Tiles,
+        overfull::{extent_of_slots, in_parts},
+        pass,
+    },
 };
 use crate::{
     error::Result,
@@ -23,10 +26,10 @@ use crate::{
 };
 
 /// The depth that tiles find, for other compute passes and for fragments.
-pub(in super::super) const VISIBLE_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
+pub(crate) const VISIBLE_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
 
 /// What tiles leave. Outside of tiles with splats, the images hold nothing unless they were cleared.
-pub(in super::super) struct TileImages {
+pub(crate) struct TileImages {
     pub sums: Sums,
     pub depth: Handle<Image>,
     /// They hold overfull tiles alone, one beside the other.
@@ -50,7 +53,7 @@ impl TileImages {
         };
         if cleared {
             let TileImages { sums: Sums { color, normal }, depth, .. } = &mut images;
-            super::clear(graph, "clear sums", &mut [color, normal, depth]);
+            crate::passes::tiles::clear(graph, "clear sums", &mut [color, normal, depth]);
         }
         images
     }
@@ -86,7 +89,7 @@ fn accumulate_of(settings: &Settings, plan: &TilePlan) -> Accumulate {
 
 /// What the images hold when a pass writes to their tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) enum TileStart {
+pub(crate) enum TileStart {
     /// Nothing, and what tiles without splats hold then nobody reads.
     Empty,
     /// What polygons show, and nothing elsewhere: all of it is read.
@@ -115,7 +118,7 @@ impl TileStart {
 
 /// What one pass does, and beside what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) struct Step {
+pub(crate) struct Step {
     pub sees: bool,
     pub sums: bool,
     /// What is hidden is left out of sums.
@@ -136,7 +139,7 @@ impl Step {
 }
 
 /// The constants of what draws from the lists. What differs between chunks is in their records.
-pub(super) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate) -> Constants {
+pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate) -> Constants {
     let mut constants = splat_constants(settings, false, false);
     constants.extend([
         (SPEC_PART_LENGTH, plan.part_length),
@@ -147,13 +150,13 @@ pub(super) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
 }
 
 /// The constants of what draws beside polygons.
-pub(super) fn beside_polygons(settings: &Settings) -> Constants {
+pub(crate) fn beside_polygons(settings: &Settings) -> Constants {
     let shifted_for_all = u32::from(settings.transition == Transition::Paper);
     vec![(SPEC_WITH_POLYGONS, 1), (SPEC_SHIFTED_FOR_ALL, shifted_for_all)]
 }
 
 /// The pipeline of a step.
-pub(in super::super) fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
+pub(crate) fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
     let shader = plan.invocations.shader(match step.hidden {
         false => [&shaders::TILE_ACCUMULATE_COLUMN_COMP, &shaders::TILE_ACCUMULATE_PIXEL_COMP],
         true => [&shaders::TILE_ACCUMULATE_COLUMN_HIDDEN_COMP, &shaders::TILE_ACCUMULATE_PIXEL_HIDDEN_COMP],
@@ -174,7 +177,7 @@ pub(in super::super) fn key(settings: &Settings, plan: &TilePlan, step: Step) ->
 /// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
 /// drawn; `kind`, in front of the tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the
 /// images hold.
-pub(in super::super) fn fused<'a>(
+pub(crate) fn fused<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
@@ -203,7 +206,7 @@ pub(in super::super) fn fused<'a>(
 }
 
 /// Declares visibility alone: of parts of overfull tiles, or of `all` tiles. `before`: as in [`fused`].
-pub(in super::super) fn see<'a>(
+pub(crate) fn see<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
@@ -228,7 +231,7 @@ pub(in super::super) fn see<'a>(
 
 /// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any;
 /// `with_depth`: as in [`fused`].
-pub(in super::super) fn sum<'a>(
+pub(crate) fn sum<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,

@@ -87,7 +87,7 @@ pub struct PassRow {
     pub vertices: Option<u64>,
     /// Invocations of the fragment stage in one frame; `None` where not counted.
     pub fragments: Option<u64>,
-    /// Instructions of its vertex stage, paper-comparable ([`crate::passes::counts_of`]); `None` where not counted.
+    /// Instructions of its vertex stage, paper-comparable ([`crate::instruments::counts_of`]); `None` where not counted.
     pub vertex_instructions: Option<u32>,
     /// The same of its fragment stage.
     pub fragment_instructions: Option<u32>,

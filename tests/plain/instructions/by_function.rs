@@ -10,7 +10,8 @@ use std::{
 
 use surfel::{
     count::count_by_line,
-    passes::{Counter, PipelineRecipe, Traits, frame_pipelines},
+    instruments::{Counter, Traits, frame_pipelines},
+    passes::PipelineRecipe,
     scene::{Filter, Settings},
 };
 

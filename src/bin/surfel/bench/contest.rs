@@ -4,8 +4,9 @@ use std::cell::Cell;
 
 use surfel::{
     Error, Result,
+    instruments::Floor,
     prepare::PreparedScene,
-    renderer::{Floor, Headless},
+    renderer::Headless,
     report::{Measured, drift_flag, spread_flag},
     scene::{Camera, Scene, Settings},
 };

@@ -4,8 +4,9 @@
 use surfel::{
     Error, Progress as _, Result,
     graph::execute::{FrameProfile, Profile},
+    instruments::Floor,
     load::Representation,
-    renderer::{Floor, Headless, Wanted},
+    renderer::{Headless, Wanted},
     report::{FloorReport, FloorRow, drift_flag, passes_flag, spread_flag},
     scene::{Rasterizer, Settings},
 };

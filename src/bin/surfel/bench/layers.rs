@@ -5,7 +5,8 @@ mod balls;
 
 use surfel::{
     Result,
-    renderer::{Floor, Headless},
+    instruments::Floor,
+    renderer::Headless,
     report::{LayersReport, Places, Way},
     scene::{LastLayer, Layers, Settings},
 };

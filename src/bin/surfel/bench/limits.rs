@@ -8,9 +8,9 @@ use surfel::{
         Access, Executed, Plan, PlannedPass, Use,
         execute::{FrameProfile, PassCounts, PassProfile},
     },
-    passes::{ListsInUse, TilesInUse},
+    instruments::{LimitProbes, ListsInUse, Probe, TilesInUse},
     prepare::{Chunk, PreparedScene},
-    renderer::{Headless, LimitProbes, Probe},
+    renderer::Headless,
     report::{Limit, LimitRound, LimitWork, LimitsReport, PassWork},
     scene::Settings,
 };

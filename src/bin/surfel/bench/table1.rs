@@ -4,8 +4,8 @@
 use surfel::{
     Result,
     graph::execute::Profile,
-    passes::counts_of,
-    renderer::{Floor, Headless},
+    instruments::{Floor, counts_of},
+    renderer::Headless,
     report::{Measured, PaperMethod, ThroughputRow, drift_flag, spread_flag},
     scene::{Camera, Rasterizer, Settings},
 };

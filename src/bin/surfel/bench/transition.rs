@@ -5,7 +5,8 @@ mod halves;
 
 use surfel::{
     Result,
-    renderer::{Floor, Headless},
+    instruments::Floor,
+    renderer::Headless,
     report::{Drawn, TransitionReport},
     scene::{Ball, Camera, Scene, Settings, Transition},
 };

@@ -12,7 +12,7 @@ use std::{fmt::Display, path::Path};
 use serde::Serialize;
 use surfel::{
     Error, Progress as _, Result,
-    passes::counts_of,
+    instruments::counts_of,
     prepare::PreparedScene,
     renderer::{Headless, Wanted},
     report::compare::{CompareReport, ErrorFigures, Method, MethodRow, PictureKey, Skipped, Surface, errors},

@@ -1,0 +1,238 @@
+//! What the device can do at most, one thing at a time: points without fragments, fragments without computing, blending,
+//! copies, invocations, atomics, splats at pixels. Each is a pass of its own that repeats the one thing, and nothing else, for long enough to be timed.
+//!
+//! Fragments come from points of 32 pixels: a triangle over the whole image would be drawn only once by a driver that
+//! sees that the next one hides it tile by tile.
+
+use ash::vk;
+
+use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
+use crate::passes::{
+    pipeline::{
+        cache::{ComputeKey, GraphicsKey, Layout, Shaders},
+        variant::splat_constants,
+    },
+    plan::invocations::Invocations,
+};
+use crate::{
+    error::{ErrorKind, Result},
+    graph::{
+        Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, ResourceId, Start,
+        execute::{Body, PassContext},
+    },
+    report::Limit,
+    scene::{Settings, TileInvocations},
+    shaders::{self, Shader, config::*},
+    vk::{Blend, DescriptorPool, Limits},
+};
+
+/// Splats of each invocation of the kernels' limit.
+const KERNEL_SPLATS: u32 = 64;
+
+/// A row of workgroups of a limit of compute.
+#[derive(Clone, Copy, Debug)]
+pub struct LimitDispatch {
+    shader: &'static Shader,
+    atomics: bool,
+    groups: u32,
+    /// Invocations of it.
+    pub invocations: u64,
+    /// Units of the limit.
+    pub units: u64,
+    /// Words of the buffer that it writes to.
+    pub words: u64,
+}
+
+impl LimitDispatch {
+    /// That of a limit as this device has it; `None` where it is not one of compute.
+    pub fn of(limit: Limit, limits: &Limits) -> Option<Self> {
+        // As in `glsl/limit_compute.comp.glsl`.
+        const GROUP: u64 = 256;
+        const GROUPS: u32 = 4096;
+        // As in `glsl/limit_kernels.comp.glsl`.
+        const GROUP_OF_KERNELS: u64 = 64;
+        const GROUPS_OF_KERNELS: u32 = 256;
+        let nothing = Self {
+            shader: &shaders::LIMIT_COMPUTE_COMP,
+            atomics: false,
+            groups: GROUPS,
+            invocations: GROUP * u64::from(GROUPS),
+            units: GROUP * u64::from(GROUPS),
+            words: GROUPS.into(),
+        };
+        match limit {
+            Limit::Invocations => Some(nothing),
+            Limit::Atomics => Some(Self { atomics: true, words: nothing.invocations, ..nothing }),
+            Limit::Kernels => {
+                let invocations = GROUP_OF_KERNELS * u64::from(GROUPS_OF_KERNELS);
+                let (shader, pixels) = match Invocations::of(TileInvocations::Auto, limits, false) {
+                    Invocations::Pixels => (&shaders::LIMIT_KERNELS_PIXELS_COMP, 1),
+                    columns => (&shaders::LIMIT_KERNELS_COMP, columns.tile_height().into()),
+                };
+                let units = invocations * pixels * u64::from(KERNEL_SPLATS);
+                Some(Self {
+                    shader,
+                    groups: GROUPS_OF_KERNELS,
+                    invocations,
+                    units,
+                    words: invocations,
+                    ..nothing
+                })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// What the pass of a limit is given.
+#[derive(Clone, Copy)]
+pub struct LimitInputs<'a> {
+    /// Size of the image and format of the sums.
+    pub settings: &'a Settings,
+    /// Pipelines and their layouts.
+    pub shaders: &'a Shaders,
+    /// Room for a set of lists.
+    pub descriptors: &'a DescriptorPool,
+    /// How often the work is done in the pass.
+    pub repeats: u32,
+}
+
+impl LimitInputs<'_> {
+    fn image(&self, graph: &mut Graph<Body<'_>>, name: &str, format: vk::Format) -> Handle<Image> {
+        let [width, height] = self.settings.size_px;
+        graph.create_image(name, ImageDesc { format, extent: vk::Extent2D { width, height } })
+    }
+}
+
+/// Declares the pass that draws points: those of `count` in `points`, which lie outside of the clip volume for
+/// [`Limit::Points`], are a pixel each for [`Limit::DrawnPoints`], and cover the image for limits of fragments.
+///
+/// # Errors
+/// [`ErrorKind::Graph`] for a limit that is not one of drawing; whatever the driver answers when the pipeline is made.
+pub fn limit_draws<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: LimitInputs<'a>,
+    limit: Limit,
+    points: &Handle<Buffer>,
+    count: u32,
+) -> Result<()> {
+    let key = |fragment| {
+        let stages = (&shaders::FLOOR_POINTS_VERT, fragment);
+        GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, Vec::new())
+    };
+    let sums = sum_format(inputs.settings.accumulate);
+    let color = vk::Format::R8G8B8A8_UNORM;
+    let mut far = 0.0;
+    let (key, colors) = match limit {
+        Limit::Points | Limit::Fragments => (key(&shaders::FLOOR_FILL_FRAG), vec![color]),
+        Limit::DrawnPoints => {
+            far = 1.0;
+            let depth = Some((vk::CompareOp::GREATER, true));
+            (GraphicsKey { depth, ..key(&shaders::FLOOR_DEPTH_FRAG) }, Vec::new())
+        }
+        // All have one depth, so that every fragment passes and is written.
+        Limit::DepthFragments => {
+            let depth = Some((vk::CompareOp::GREATER_OR_EQUAL, true));
+            (GraphicsKey { depth, ..key(&shaders::FLOOR_DEPTH_FRAG) }, Vec::new())
+        }
+        Limit::BlendedFragments => {
+            (GraphicsKey { blend: Blend::Add, ..key(&shaders::FLOOR_ADD_FRAG) }, vec![sums; 2])
+        }
+        Limit::Bytes | Limit::Invocations | Limit::Atomics | Limit::Kernels => {
+            let (pass, reason) = (limit.name().to_owned(), "is not a limit of drawing".to_owned());
+            return Err(ErrorKind::Graph { pass, resource: String::new(), reason }.into());
+        }
+    };
+    let has_depth = key.depth.is_some();
+    let pipeline = inputs.shaders.graphics(GraphicsKey { color_formats: colors.clone(), ..key })?;
+    let mut images: Vec<_> = (0..)
+        .zip(colors)
+        .map(|(i, format)| inputs.image(graph, &format!("limit color {i}"), format))
+        .collect();
+    let mut depth = has_depth.then(|| inputs.image(graph, "limit depth", DEPTH_FORMAT));
+    // Nobody reads what is drawn.
+    let mut pass = graph.pass(limit.name()).read(points, Access::StorageReadVertex).side_effect();
+    for image in &mut images {
+        pass = pass.write(image, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])));
+    }
+    if let Some(depth) = &mut depth {
+        pass = pass.write(depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(far)));
+    }
+    let id = points.id();
+    pass.finish(Box::new(move |context| {
+        let (device, commands) = (context.device(), context.commands());
+        let bind_point = vk::PipelineBindPoint::GRAPHICS;
+        let layout = inputs.shaders.splat_layout.raw();
+        let set = set_of(context, inputs, id)?;
+        // SAFETY: inside of rendering; pipeline and set have one layout.
+        unsafe {
+            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+            device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
+            for _ in 0..inputs.repeats {
+                device.cmd_draw(commands, count, 1, 0, 0);
+            }
+        }
+        Ok(())
+    }));
+    Ok(())
+}
+
+/// Declares the pass that fills a buffer: memory that was never written may not be there at all.
+pub fn limit_fill(graph: &mut Graph<Body<'_>>, buffer: &mut Handle<Buffer>) {
+    let id = buffer.id();
+    graph.pass("fill what is copied").write(buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
+        move |context| {
+            // SAFETY: outside of rendering; all of a buffer made for transfers, whose size is a multiple of 4.
+            unsafe {
+                let (device, commands) = (context.device(), context.commands());
+                device.cmd_fill_buffer(commands, context.buffer(id)?, 0, vk::WHOLE_SIZE, 0x3c5a_96e1);
+            }
+            Ok(())
+        },
+    ));
+}
+
+/// Declares the pass that dispatches a limit of compute, `repeats` rows of it, which write to `words`.
+///
+/// # Errors
+/// Whatever the driver answers when the pipeline is made.
+pub fn limit_dispatch<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: LimitInputs<'a>,
+    limit: Limit,
+    dispatch: LimitDispatch,
+    words: &mut Handle<Buffer>,
+) -> Result<()> {
+    let LimitDispatch { shader, atomics, groups, .. } = dispatch;
+    // Those that are not the shader's own have no effect.
+    let mut constants = splat_constants(inputs.settings, false, false);
+    constants.extend([(SPEC_LIMIT_SPLATS, KERNEL_SPLATS), (SPEC_ATOMICS, atomics.into())]);
+    let pipeline = inputs.shaders.compute(ComputeKey { shader, layout: Layout::List, constants })?;
+    let id = words.id();
+    graph.pass(limit.name()).write(words, Access::StorageReadWriteCompute, Start::Load).finish(Box::new(
+        move |context| {
+            let (device, commands) = (context.device(), context.commands());
+            let bind_point = vk::PipelineBindPoint::COMPUTE;
+            let layout = inputs.shaders.list_layout.raw();
+            let set = set_of(context, inputs, id)?;
+            // SAFETY: pipeline and set have one layout, whose push constants the shader does not use.
+            unsafe {
+                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+                device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
+                device.cmd_dispatch(commands, groups, inputs.repeats, 1);
+            }
+            Ok(())
+        },
+    ));
+    Ok(())
+}
+
+/// Set 1 with one buffer.
+fn set_of(
+    context: &PassContext<'_>,
+    inputs: LimitInputs<'_>,
+    buffer: ResourceId,
+) -> Result<vk::DescriptorSet> {
+    let given = [(BIND_LIST_POINTS, context.descriptor(buffer)?)];
+    inputs.descriptors.set(&inputs.shaders.list_set, &given)
+}

@@ -1,0 +1,78 @@
+//! Looks into the lists of a frame: how much they hold only the device knows.
+
+use std::collections::BTreeMap;
+
+use ash::vk;
+
+use super::list_occupancy::{self, ListsInUse};
+use crate::renderer::{Headless, Readbacks, declare, headless::submit_and_wait};
+use crate::{
+    error::Result,
+    frame::{FrameSlot, HeadlessTarget, SlotParts},
+    graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
+    passes::{self, Inputs},
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+    vk::{Buffer, BufferDesc, MemoryUse},
+};
+
+impl Headless {
+    /// What the lists of a frame hold: draws it once, in memory of its own, and reads back the buffers that tell it.
+    ///
+    /// # Errors
+    /// As [`super::Renderer::record`].
+    pub fn lists_in_use(
+        &self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<ListsInUse> {
+        let (device, renderer) = (self.device(), &self.renderer);
+        let frame = renderer.frame_plan(scene, camera, settings)?;
+        let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
+        let mut slot = FrameSlot::new(device);
+        let counts_draws = device.features().draw_indirect_count;
+        // SAFETY: nothing was recorded in it.
+        unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
+        let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
+        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &renderer.shaders, descriptors) };
+        let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
+
+        let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
+        let mut buffers = Vec::new();
+        for name in list_occupancy::told_by(inputs, &frame) {
+            let Some((content, GraphBufferDesc { size_bytes: size, .. })) = graph.content_of(&name) else {
+                continue;
+            };
+            let copy = format!("read-back of {name}");
+            let desc = BufferDesc { name: &copy, size, usage: vk::BufferUsageFlags::TRANSFER_DST };
+            let buffer = Buffer::new(device, desc, MemoryUse::Readback)?;
+            let desc = GraphBufferDesc::of_bytes(size);
+            let mut to = graph.import_buffer(&copy, desc, BufferState::default(), Some(host));
+            imports.push((to.id(), Physical::Buffer(buffer.raw())));
+            passes::readback_buffer(&mut graph, &format!("read back {name}"), &content, &mut to, size);
+            buffers.push((name, buffer));
+        }
+        let mut names = Vec::new();
+        submit_and_wait(self, |commands| {
+            // SAFETY: recording; all that is used is alive until the wait.
+            let plan = unsafe {
+                renderer.shaders.begin_frame(commands);
+                execution.record(commands, graph, &imports)
+            }?;
+            names.extend(plan.resources.iter().map(|resource| resource.name.clone()));
+            Ok(())
+        })?;
+        let words = |buffer: &Buffer| {
+            buffer.bytes().chunks_exact(4).map(bytemuck::pod_read_unaligned).collect::<Vec<u32>>()
+        };
+        let told: BTreeMap<_, _> =
+            buffers.iter().map(|(name, buffer)| (name.clone(), words(buffer))).collect();
+        let mut in_use = ListsInUse::of(inputs, &frame, &told);
+        // Lists of large splats, or of those that something hides.
+        for name in names.into_iter().filter(|name| name.contains("list of ")) {
+            in_use.bytes.entry(name).or_insert(0);
+        }
+        Ok(in_use)
+    }
+}

@@ -1,0 +1,99 @@
+//! The last layer (Guennebaud et al. 2006, section 6): all that is behind the layers before, in one sum, without visibility.
+//! Weights are multiplied by alpha, so that what hides more counts more, and each splat is lit by itself: normals of
+//! surfaces behind each other have no meaningful mean.
+
+use ash::vk;
+
+use crate::passes::pipeline::formats::sum_format;
+use crate::passes::{
+    layers::layer::Layer,
+    pipeline::{splat_shaders::Summed, variant::shading_constants},
+    polygons::mesh_pass::{MeshPass, draw_meshes},
+    splats::{
+        accumulate::{Sums, bind_read, summed_constants},
+        draw::{SplatPass, draw_splats},
+    },
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Start, execute::Body},
+    scene::{Accumulate, Settings},
+    shaders::{self, config::*},
+    vk::Blend,
+};
+
+/// The format of the sum of weights.
+fn weight_format(settings: &Settings) -> vk::Format {
+    match settings.accumulate {
+        Accumulate::F16 => vk::Format::R16_SFLOAT,
+        Accumulate::F32 => vk::Format::R32_SFLOAT,
+    }
+}
+
+/// In front of opaque things, where there are any.
+fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
+    opaque.then_some((vk::CompareOp::GREATER_OR_EQUAL, false))
+}
+
+/// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things; `lights`:
+/// the scene's own.
+pub(crate) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> SplatPass {
+    let mut constants = summed_constants(settings, Summed::Rest, peeled);
+    constants.extend(shading_constants(settings.shading, lights));
+    SplatPass {
+        color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
+        depth: depth_test(opaque),
+        constants,
+        ..SplatPass::new(settings, |drawn| drawn.accumulate(Summed::Rest))
+    }
+}
+
+/// What it is made of for polygons.
+pub(crate) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> MeshPass {
+    let mut constants = shading_constants(settings.shading, lights);
+    constants.extend([(SPEC_SUMMED, SUMMED_REST), (SPEC_PEELED, peeled.into())]);
+    MeshPass {
+        fragment: &shaders::POLYGONS_TRANSPARENT_FRAG,
+        color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
+        blend: Blend::Add,
+        depth: depth_test(opaque),
+        constants,
+    }
+}
+
+/// Declares the pass; returns Σ weight · alpha · color with Σ weight · alpha, and Σ weight.
+pub(crate) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>) -> Result<Sums> {
+    let inputs = layer.inputs;
+    let settings = inputs.settings;
+    let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
+    let splats = splat_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
+    let meshes = mesh_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
+    let mut sums = Sums {
+        color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),
+        normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),
+    };
+    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
+    let mut pass = graph
+        .pass(&layer.name("accumulate"))
+        .write(&mut sums.color, Access::ColorAttachment, zero)
+        .write(&mut sums.normal, Access::ColorAttachment, zero);
+    if let Some(opaque) = layer.opaque {
+        pass = pass.read(opaque, Access::DepthTest);
+    }
+    if let Some(kernel) = layer.kernel {
+        pass = pass.read(kernel, Access::SampledFragment);
+    }
+    if let Some(lights) = layer.lights {
+        // Splats are lit in the vertex stage, polygons in the fragment stage.
+        pass = pass.read(lights, Access::UniformReadVertex).read(lights, Access::UniformReadFragment);
+    }
+    let lights = layer.lights.map(Handle::id);
+    let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
+    let (lists, gate) = (layer.list_ids(), layer.gate());
+    layer.read(pass).finish(Box::new(move |context| {
+        bind_read(context, inputs, sampled, lights)?;
+        draw_splats(context, inputs, &splats, &lists, gate)?;
+        draw_meshes(context, inputs, &meshes, gate)
+    }));
+    Ok(sums)
+}

@@ -1,0 +1,310 @@
+//! Pipelines, made when a frame first needs them, and the layouts that they share.
+
+use std::{
+    collections::HashMap,
+    path::Path,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use ash::vk;
+
+use crate::passes::{
+    pipeline::tile_layouts::{STORAGE_BUFFERS, TileLayouts},
+    pipeline::{constants, splat_shaders::Stages, variant::Constants},
+};
+use crate::{
+    error::{Error, Result},
+    prepare::SplatSetLayout,
+    shaders::{self, Shader, config::*},
+    vk::{
+        Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
+        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, StandIns,
+    },
+};
+
+/// Bindings of set 1 of the splat passes.
+const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
+
+/// Room for so many sets of lists: all bindings count, whatever a set has in them.
+pub fn room_of_lists(sets: u32) -> PoolRoom {
+    PoolRoom { sets, buffers: LIST_BINDINGS * sets, ..PoolRoom::default() }
+}
+
+/// The layouts of all passes and the pipelines made so far.
+pub struct Shaders {
+    device: Device,
+    graphics: Mutex<HashMap<GraphicsKey, Arc<GraphicsPipeline>>>,
+    compute: Mutex<HashMap<ComputeKey, Arc<ComputePipeline>>>,
+    cache: PipelineCache,
+    stand_ins: Arc<StandIns>,
+    /// Set 0 of the splat passes.
+    pub splat_set: SplatSetLayout,
+    /// Set 1 of the splat passes: `BIND_LIST_*`.
+    pub(crate) list_set: SetLayout,
+    /// Set 2 of the splat passes and of polygons: `BIND_READ_*`.
+    pub(crate) read_set: SetLayout,
+    /// Set 0 of the passes over the whole image: `BIND_SUMS_*`.
+    pub(crate) sums_set: SetLayout,
+    /// Set 0 of the hierarchy of depth: the depth, the hierarchy.
+    pub(crate) cells_set: SetLayout,
+    pub(crate) splat_layout: PipelineLayout,
+    /// The sets and constants of the splat passes for compute alone. lavapipe of Mesa 22.3 crashes where a query of
+    /// counts begins after constants were pushed for the stages of a graphics pipeline and before one was bound.
+    pub(crate) list_layout: PipelineLayout,
+    pub(crate) finalize_layout: PipelineLayout,
+    pub(crate) cells_layout: PipelineLayout,
+    /// Those of tiles; none on a device with too few storage buffers.
+    tiles: Option<TileLayouts>,
+    /// The formula that is made wrong; for tests of the tests.
+    #[cfg(feature = "test-formulas")]
+    pub perturbed: Option<crate::passes::pipeline::formula::Formula>,
+}
+
+/// One of the layouts that pipelines share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Layout {
+    Splat,
+    List,
+    Finalize,
+    DepthCells,
+    Record,
+    Tile,
+    TileQuads,
+}
+
+/// All that a graphics pipeline is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct GraphicsKey {
+    pub vertex: &'static Shader,
+    pub fragment: &'static Shader,
+    pub layout: Layout,
+    pub constants: Constants,
+    pub topology: vk::PrimitiveTopology,
+    /// Polygons that face away are not drawn.
+    pub cull_clockwise: bool,
+    pub color_formats: Vec<vk::Format>,
+    pub blend: Blend,
+    /// The depth test: the comparison and whether it writes.
+    pub depth: Option<(vk::CompareOp, bool)>,
+}
+
+/// All that a compute pipeline is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct ComputeKey {
+    pub shader: &'static Shader,
+    pub layout: Layout,
+    pub constants: Constants,
+}
+
+impl Shaders {
+    /// Layouts without any pipeline yet. Compiled pipelines are kept in `cache_folder` from run to run.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(device: &Device, cache_folder: Option<&Path>) -> Result<Self> {
+        let (vertex, fragment, compute) =
+            (vk::ShaderStageFlags::VERTEX, vk::ShaderStageFlags::FRAGMENT, vk::ShaderStageFlags::COMPUTE);
+        let buffer = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex | compute };
+        let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages: vertex | fragment };
+        let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
+        let splat_set = SplatSetLayout::new(device)?;
+        let stand_ins = Arc::new(StandIns::new(device)?);
+        let set = |name, bindings: &[Binding]| -> Result<SetLayout> {
+            Ok(SetLayout::new(device, name, bindings)?.with_stand_ins(&stand_ins, &[]))
+        };
+        let list_set = set("lists", &vec![buffer; LIST_BINDINGS as usize])?;
+        let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
+        let read_set = set("read by fragments", &[image, filtered, image, lights])?;
+        let sums_set = set("sums", &[image, image, image, image, image, lights])?;
+        let splat_layout = PipelineLayout::new(
+            device,
+            "splat passes",
+            &[splat_set.set(), &list_set, &read_set],
+            size_of::<constants::FrameConstants>() as u32,
+            vertex | fragment,
+        )?;
+        let list_layout = PipelineLayout::new(
+            device,
+            "lists of large splats",
+            &[splat_set.set(), &list_set],
+            size_of::<constants::FrameConstants>() as u32,
+            compute,
+        )?;
+        let finalize_layout = PipelineLayout::new(
+            device,
+            "finalization",
+            &[&sums_set],
+            size_of::<constants::FinalizeConstants>() as u32,
+            fragment,
+        )?;
+        let fetched = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: compute };
+        let cells_set = set("cells of depth", &[fetched, buffer])?;
+        let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
+        let has_tiles = device.facts().limits.storage_buffers_a_stage >= STORAGE_BUFFERS;
+        let tiles = has_tiles
+            .then(|| TileLayouts::new(device, splat_set.set(), &sums_set, &stand_ins))
+            .transpose()?;
+        Ok(Self {
+            device: device.clone(),
+            graphics: Mutex::default(),
+            compute: Mutex::default(),
+            cache: PipelineCache::open(device, cache_folder)?,
+            stand_ins,
+            splat_set,
+            list_set,
+            read_set,
+            sums_set,
+            splat_layout,
+            list_layout,
+            finalize_layout,
+            cells_set,
+            cells_layout,
+            tiles,
+            #[cfg(feature = "test-formulas")]
+            perturbed: None,
+        })
+    }
+
+    /// Records what a frame's sets need before its passes.
+    ///
+    /// # Safety
+    /// As [`StandIns::make_ready`].
+    pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) {
+        // SAFETY: this function's contract.
+        unsafe { self.stand_ins.make_ready(commands) };
+    }
+
+    /// Writes compiled pipelines to the cache's file.
+    ///
+    /// # Errors
+    /// Whatever the driver or the file system answers.
+    pub fn save_cache(&self) -> Result<()> {
+        self.cache.save()
+    }
+
+    /// The pipelines made so far, by name: vertex and fragment shader, or compute shader.
+    pub fn pipeline_names(&self) -> Vec<String> {
+        let graphics = lock(&self.graphics);
+        let compute = lock(&self.compute);
+        let mut names: Vec<_> = graphics.keys().map(GraphicsKey::name).collect();
+        names.extend(compute.keys().map(|key| key.shader.name.to_owned()));
+        names.sort();
+        names
+    }
+
+    /// The layouts of tiles, on a device that has them.
+    pub(crate) fn tiles(&self) -> Result<&TileLayouts> {
+        let reason = "compute: the device has too few storage buffers for a stage";
+        self.tiles.as_ref().ok_or_else(|| Error::option("--rasterizer", reason.to_owned()))
+    }
+
+    pub(crate) fn layout(&self, layout: Layout) -> Result<&PipelineLayout> {
+        Ok(match layout {
+            Layout::Splat => &self.splat_layout,
+            Layout::List => &self.list_layout,
+            Layout::Finalize => &self.finalize_layout,
+            Layout::DepthCells => &self.cells_layout,
+            Layout::Record => &self.tiles()?.record,
+            Layout::Tile => &self.tiles()?.tile,
+            Layout::TileQuads => &self.tiles()?.quads,
+        })
+    }
+
+    pub(crate) fn graphics(&self, mut key: GraphicsKey) -> Result<Arc<GraphicsPipeline>> {
+        self.perturb(&mut key.constants);
+        let mut made = lock(&self.graphics);
+        if let Some(pipeline) = made.get(&key) {
+            return Ok(Arc::clone(pipeline));
+        }
+        let constants = &key.constants;
+        let desc = GraphicsPipelineDesc {
+            name: &key.name(),
+            vertex: key.vertex.stage(constants),
+            fragment: key.fragment.stage(constants),
+            topology: key.topology,
+            cull_clockwise: key.cull_clockwise,
+            color_formats: &key.color_formats,
+            blend: key.blend,
+            depth: key.depth.map(|(compare, write)| DepthState {
+                format: crate::passes::pipeline::formats::DEPTH_FORMAT,
+                compare,
+                write,
+            }),
+            layout: self.layout(key.layout)?,
+        };
+        let pipeline = Arc::new(GraphicsPipeline::new(&self.device, &self.cache, &desc)?);
+        made.insert(key, Arc::clone(&pipeline));
+        Ok(pipeline)
+    }
+
+    pub(crate) fn compute(&self, mut key: ComputeKey) -> Result<Arc<ComputePipeline>> {
+        self.perturb(&mut key.constants);
+        let mut made = lock(&self.compute);
+        if let Some(pipeline) = made.get(&key) {
+            return Ok(Arc::clone(pipeline));
+        }
+        let desc = ComputePipelineDesc {
+            name: key.shader.name,
+            stage: key.shader.stage(&key.constants),
+            layout: self.layout(key.layout)?,
+        };
+        let pipeline = Arc::new(ComputePipeline::new(&self.device, &self.cache, &desc)?);
+        made.insert(key, Arc::clone(&pipeline));
+        Ok(pipeline)
+    }
+
+    #[cfg(feature = "test-formulas")]
+    fn perturb(&self, constants: &mut Constants) {
+        if let Some(formula) = self.perturbed {
+            constants.push((SPEC_PERTURBED_FORMULA, formula as u32));
+        }
+    }
+
+    #[cfg(not(feature = "test-formulas"))]
+    fn perturb(&self, _constants: &mut Constants) {}
+}
+
+impl GraphicsKey {
+    /// A triangle over the whole target without blending and depth: to be completed.
+    pub fn fullscreen(fragment: &'static Shader, layout: Layout, constants: Constants) -> Self {
+        let stages = (&shaders::FULLSCREEN_VERT, fragment);
+        Self::new(stages, layout, vk::PrimitiveTopology::TRIANGLE_LIST, constants)
+    }
+
+    /// Points, quads or triangles without color, blending and depth: to be completed.
+    pub fn new(
+        (vertex, fragment): Stages,
+        layout: Layout,
+        topology: vk::PrimitiveTopology,
+        constants: Constants,
+    ) -> Self {
+        Self {
+            vertex,
+            fragment,
+            layout,
+            constants,
+            topology,
+            cull_clockwise: false,
+            color_formats: Vec::new(),
+            blend: Blend::Replace,
+            depth: None,
+        }
+    }
+
+    /// The names of its shaders.
+    pub fn name(&self) -> String {
+        format!("{} + {}", self.vertex.name, self.fragment.name)
+    }
+}
+
+impl Shader {
+    /// The stage of a pipeline with these specialization constants.
+    fn stage<'a>(&'static self, constants: &'a Constants) -> Stage<'a> {
+        Stage { name: self.name, spirv: self.spirv(), constants }
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    // A panic while the lock was held leaves a map without the pipeline that was being made.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

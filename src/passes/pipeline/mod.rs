@@ -1,0 +1,12 @@
+//! Pipelines: what they are made of, the layouts that they share, and those that were made.
+
+pub(crate) mod cache;
+pub(crate) mod constants;
+pub(crate) mod formats;
+#[cfg(feature = "test-formulas")]
+pub(crate) mod formula;
+pub(crate) mod fullscreen;
+pub(crate) mod recipe;
+pub(crate) mod splat_shaders;
+pub(crate) mod tile_layouts;
+pub(crate) mod variant;

@@ -1,0 +1,140 @@
+//! Bands of the image, one after the other in the same memory, where lists of all of it would take more than they are meant to.
+//!
+//! How many splats a band has is known on the host from what bounds their blocks, so that memory has a bound before the device has
+//! found anything. In a band records have other numbers, by which a tile's list is ordered: pictures are the same but for the
+//! rounding of sums in another order, and that these need 32 bits where a tile of any band may have more splats than one dispatch takes.
+
+use std::ops::Range;
+
+use crate::passes::plan::{block_list::Listed, draws::Draw, seen::SeenSplats, tiles::TilePlan};
+use crate::{
+    prepare::Chunk,
+    scene::{Settings, TileMemory},
+    vk::Limits,
+};
+
+/// Bytes that lists may take in any case.
+const LEAST_BYTES: u64 = 16_000_000;
+
+/// The most bands: each takes a few commands more.
+const MOST_BANDS: usize = 16;
+
+/// How often other bands are tried.
+const ATTEMPTS: u32 = 8;
+
+/// Rows of tiles with their lists.
+pub struct Band<'a> {
+    /// The chunks.
+    pub splats: Vec<Draw<'a>>,
+    /// Where splats that may be seen are looked for, if only those are set up.
+    pub visible: Option<Listed>,
+    /// How they are drawn.
+    pub plan: TilePlan,
+}
+
+impl<'a> Band<'a> {
+    /// A band of splats that are listed first: of the blocks that may touch its rows.
+    pub fn new(splats: &[Draw<'a>], seen: &SeenSplats, plan: TilePlan) -> Self {
+        let mut splats = splats.to_vec();
+        let visible = Some(Listed::of(&mut splats, &seen.chunks, plan.rows.clone()));
+        Self { splats, visible, plan }
+    }
+}
+
+/// Bytes that records and lists of a frame may take at once: what splats with them are one and a half times what the splats take in a
+/// scene.
+pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
+    let sum = |of: fn(&Chunk) -> u64| draws.iter().map(|draw| of(draw.chunk)).sum::<u64>();
+    match memory {
+        TileMemory::Auto => {
+            let splats = sum(Chunk::bytes);
+            (sum(|chunk| chunk.scene_bytes) * 3 / 2).saturating_sub(splats).max(LEAST_BYTES)
+        }
+        TileMemory::Most(bytes) => bytes,
+    }
+}
+
+/// The plans of bands of what `whole` would draw at once; none where memory is enough for that, or where bands would not help: so many
+/// splats in so few rows, or in no order.
+pub(crate) fn cut_into_bands(
+    draws: &[Draw<'_>],
+    seen: &SeenSplats,
+    whole: &TilePlan,
+    settings: &Settings,
+    limits: &Limits,
+) -> Vec<TilePlan> {
+    let most_bytes = most_bytes(draws, settings.tile_memory);
+    if whole.bytes() <= most_bytes {
+        return Vec::new();
+    }
+    let cut = Cut { draws, seen, culls_hidden: whole.hidden, settings, limits };
+    cut.within(most_bytes, whole).unwrap_or_default()
+}
+
+/// What is cut into bands.
+struct Cut<'c, 'a> {
+    draws: &'c [Draw<'a>],
+    seen: &'c SeenSplats,
+    culls_hidden: bool,
+    settings: &'c Settings,
+    limits: &'c Limits,
+}
+
+impl Cut<'_, '_> {
+    /// The plans of bands that take so many bytes, or little more where that would be too many bands; none where bands gain nothing.
+    fn within(&self, most_bytes: u64, whole: &TilePlan) -> Option<Vec<TilePlan>> {
+        // All bands together take at least what the whole does.
+        let most_bytes = most_bytes.max(whole.bytes() / MOST_BANDS as u64);
+        let mut wanted = most_bytes;
+        let mut found: Option<Vec<TilePlan>> = None;
+        for _ in 0..ATTEMPTS {
+            match self.plans(wanted) {
+                Some(plans) => {
+                    let bytes = |plans: &[TilePlan]| plans.iter().map(TilePlan::bytes).max().unwrap_or(0);
+                    let enough = bytes(&plans) <= most_bytes;
+                    if found.as_ref().is_none_or(|found| bytes(&plans) < bytes(found)) {
+                        found = Some(plans);
+                    }
+                    if enough {
+                        break;
+                    }
+                    wanted -= wanted / 16;
+                }
+                None if found.is_some() => break,
+                None => wanted += wanted / 2,
+            }
+        }
+        let gains = |plans: &Vec<TilePlan>| {
+            plans.len() > 1 && plans.iter().all(|plan| 4 * plan.bytes() <= 3 * whole.bytes())
+        };
+        found.filter(gains)
+    }
+
+    fn plan(&self, rows: Range<u32>) -> Option<TilePlan> {
+        TilePlan::of_blocks(self.draws, self.seen, rows, self.culls_hidden, self.settings, self.limits)
+    }
+
+    /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
+    fn plans(&self, most_bytes: u64) -> Option<Vec<TilePlan>> {
+        let Range { start: first, end } = self.seen.rows()?;
+        let mut plans: Vec<TilePlan> = Vec::new();
+        let mut next = first;
+        while next < end {
+            // A row alone is a band, whatever it takes. Longer ones take no less, so that the longest is found by bisection.
+            let (mut fits, mut too_long) = (next + 1, end + 1);
+            while too_long - fits > 1 {
+                let middle = fits + (too_long - fits) / 2;
+                match self.plan(next..middle) {
+                    Some(plan) if plan.bytes() > most_bytes => too_long = middle,
+                    _ => fits = middle,
+                }
+            }
+            plans.extend(self.plan(next..fits));
+            next = fits;
+            if plans.len() > MOST_BANDS {
+                return None;
+            }
+        }
+        Some(plans.iter().map(|plan| plan.with_common_capacity(&plans)).collect())
+    }
+}

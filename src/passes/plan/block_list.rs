@@ -1,0 +1,64 @@
+//! The blocks of splats in which those are looked for that may be seen (`blocks.rs`), brought to the device.
+
+use std::ops::Range;
+
+use crate::passes::plan::{draws::Draw, seen::SeenBlock};
+use crate::{
+    graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
+    prepare::BLOCK_SPLATS,
+};
+
+/// Beside a block's number: none of its splats is left out, as in `glsl/inc/kept_blocks.glsl`.
+const ALL_KEPT: u32 = 1 << 31;
+
+/// Words in front of the blocks: the rows.
+const ROW_WORDS: usize = 2;
+
+/// Bytes of a buffer that one command updates at most.
+const MOST_UPDATED: usize = 65_536;
+
+/// The blocks of all chunks in which splats are looked for, as `glsl/inc/kept_blocks.glsl` has them: the rows of tiles, then the
+/// chunks' blocks one behind the other.
+pub struct Listed(Vec<u32>);
+
+impl Listed {
+    /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk the number of its first splat among
+    /// those that are looked at.
+    pub fn of(draws: &mut [Draw<'_>], seen: &[Vec<SeenBlock>], rows: Range<u32>) -> Self {
+        let mut words = vec![rows.start, rows.end];
+        for (draw, blocks) in draws.iter_mut().zip(seen) {
+            let before = words.len();
+            draw.constants.first_record = (before - ROW_WORDS) as u32 * BLOCK_SPLATS;
+            let touching = blocks.iter().filter(|block| block.touches(&rows));
+            words.extend(touching.map(|block| {
+                let all_kept = if block.is_within(&rows) { ALL_KEPT } else { 0 };
+                block.number | all_kept
+            }));
+            if words.len() == before {
+                // There is one in any case, for whoever counts what is kept: behind all splats.
+                words.push(u32::MAX / BLOCK_SPLATS);
+            }
+            draw.constants.listed_blocks = (words.len() - before) as u32;
+        }
+        Self(words)
+    }
+
+    /// Declares the pass that brings them to the device.
+    pub(crate) fn upload<'a>(&'a self, graph: &mut Graph<Body<'a>>, what: &str) -> Handle<Buffer> {
+        let bytes: &[u8] = bytemuck::cast_slice(&self.0);
+        let name = format!("blocks of {what}");
+        let mut buffer = graph.create_buffer(&name, BufferDesc::of_bytes(bytes.len() as u64));
+        let id = buffer.id();
+        graph.pass(&name).write(&mut buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
+            move |context| {
+                for (piece, offset) in bytes.chunks(MOST_UPDATED).zip((0..).step_by(MOST_UPDATED)) {
+                    let buffer = context.buffer(id)?;
+                    // SAFETY: outside of rendering; within the buffer, a multiple of 4 and not above 65 536 bytes.
+                    unsafe { context.device().cmd_update_buffer(context.commands(), buffer, offset, piece) };
+                }
+                Ok(())
+            },
+        ));
+        buffer
+    }
+}

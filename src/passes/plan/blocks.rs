@@ -1,0 +1,150 @@
+//! Which blocks of a chunk may be seen, and in which rows of tiles: found on the host, by what bounds all splats of a block.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::passes::plan::seen::SeenBlock;
+use crate::{
+    math::size::{SizeBound, box_within_px},
+    prepare::{Block, Chunk, ViewFromLocal},
+    shaders::config::BAND_ROW,
+};
+
+/// How blocks are looked at.
+#[derive(Clone, Copy)]
+pub struct Look<'a> {
+    /// The motion to view space.
+    pub view: &'a ViewFromLocal,
+    /// What bounds the images of the chunk's splats.
+    pub bound: &'a SizeBound,
+    /// Splats that face away are not drawn.
+    pub culls: bool,
+    /// A filter enlarges a splat's image by a few pixels at most.
+    pub bounded: bool,
+}
+
+/// What a device finds in f32 may differ from this file's f64 by so much of an angle.
+const ANGLE_RESERVE_RAD: f64 = 1e-3;
+
+/// The same of a place, as a part of its distance from the eye; and of the distances of the chunk's origin from both, whose difference it
+/// is to a device.
+const LENGTH_RESERVE: f64 = 1e-5;
+const ORIGIN_RESERVE: f64 = 1e-6;
+
+/// The farthest that a filter takes a splat's image beyond itself, and rounding: pixels.
+const FILTER_RESERVE_PX: f64 = 6.0;
+
+/// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
+/// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
+/// `glsl/cull_mark.comp.glsl`, of a ball in place of a splat.
+pub fn seen_blocks(chunk: &Chunk, look: &Look<'_>) -> Vec<SeenBlock> {
+    (0..).zip(&chunk.blocks).filter_map(|(number, block)| seen_block(number, block, look)).collect()
+}
+
+fn seen_block(number: u32, block: &Block, look: &Look<'_>) -> Option<SeenBlock> {
+    let ball = Ball::of(block, look);
+    let angles = ball.angles(block);
+    let right = std::f64::consts::FRAC_PI_2;
+    if look.culls && angles[1] < right {
+        return None;
+    }
+    let Image { rows, most_x, is_whole } = ball.image(look)?;
+    let scale = look.view.view_from_local_scale;
+    let largest_radius = block.largest_radius * scale;
+    let bound = SizeBound { nearest_z: ball.z - ball.reach, largest_radius, ..*look.bound };
+    let of_chunk = box_within_px(look.bound, largest_radius, most_x);
+    Some(SeenBlock {
+        number,
+        count: block.count,
+        box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk),
+        rows,
+        all_seen: is_whole && (!look.culls || angles[0] > right),
+    })
+}
+
+/// A block from the eye, in the view's unit.
+struct Ball {
+    /// Its middle, in the local space's axes.
+    middle: DVec3,
+    /// How far from there centers are.
+    radius: f64,
+    /// How far anything of its splats is.
+    reach: f64,
+    /// Its middle in view space.
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+/// Where a block's splats may be seen.
+struct Image {
+    /// In which rows of tiles.
+    rows: Range<u32>,
+    /// No farther from the middle, along x and y in the image plane.
+    most_x: f64,
+    /// None of it is beside the image.
+    is_whole: bool,
+}
+
+impl Ball {
+    fn of(block: &Block, look: &Look<'_>) -> Self {
+        let scale = look.view.view_from_local_scale;
+        let middle = block.center * scale + look.view.origin_from_eye;
+        let of_origin = look.view.origin_from_eye.length() + block.center.length() * scale;
+        let reserve = LENGTH_RESERVE * middle.length() + ORIGIN_RESERVE * of_origin;
+        let radius = block.radius * scale + reserve;
+        let [x, y, z] = look.view.rows.map(|row| {
+            let [x, y, z, _] = row.map(f64::from);
+            DVec3::new(x, y, z).dot(middle)
+        });
+        // A splat's points are within the root of 2 of its larger radius, for skew axes.
+        Self { middle, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
+    }
+
+    /// `None` where nothing of it may be seen.
+    fn image(&self, look: &Look<'_>) -> Option<Image> {
+        let [width, height] = look.bound.size_px;
+        let all = 0..(height as u32).div_ceil(BAND_ROW);
+        if self.z + self.reach < look.bound.near {
+            return None;
+        }
+        let is_far = self.reach <= 0.25 * self.z; // NaN is not
+        if !look.bounded || !is_far {
+            return Some(Image { rows: all, most_x: f64::INFINITY, is_whole: false });
+        }
+        let [x, y] = [self.x, self.y].map(|side| {
+            let c = side / self.z;
+            (c, self.reach / (self.z - self.reach) * (1.0 + c.abs()))
+        });
+        let in_px = |(c, away): (f64, f64), side: f64| {
+            let (middle_px, away_px) = (0.5 * side + c * look.bound.focal_px, away * look.bound.focal_px);
+            [middle_px - away_px - FILTER_RESERVE_PX, middle_px + away_px + FILTER_RESERVE_PX]
+        };
+        let (x_px, y_px) = (in_px(x, width), in_px(y, height));
+        if x_px[1] < 0.0 || x_px[0] > width || y_px[1] < 0.0 || y_px[0] > height {
+            return None;
+        }
+        let row = |y: f64| (y.clamp(0.0, height) as u32) / BAND_ROW;
+        let first = row(y_px[0]).min(all.end - 1);
+        let rows = first..(row(y_px[1]) + 1).min(all.end);
+        let within = |px: [f64; 2], side: f64| px[0] >= 0.0 && px[1] <= side;
+        let is_whole = self.z - self.reach > look.bound.near && within(x_px, width) && within(y_px, height);
+        Some(Image { rows, most_x: (x.0.abs() + x.1).max(y.0.abs() + y.1), is_whole })
+    }
+
+    /// Between which the angles lie of normals and the ways from the eye to their centers: above 90° a splat shows the eye its face.
+    fn angles(&self, block: &Block) -> [f64; 2] {
+        let distance = self.middle.length();
+        let is_outside = self.radius < distance; // NaN is not
+        if !is_outside {
+            return [0.0, std::f64::consts::PI];
+        }
+        let of_axis = block.axis.angle_between(self.middle);
+        let around = (self.radius / distance).asin() + block.spread_rad + ANGLE_RESERVE_RAD;
+        [of_axis - around, of_axis + around]
+    }
+}
+
+#[cfg(test)]
+mod tests;

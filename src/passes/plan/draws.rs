@@ -1,0 +1,218 @@
+//! What is drawn: the chunks of a prepared scene as this frame's camera and settings see them.
+
+use glam::{DVec3, DVec4};
+
+use crate::passes::{
+    pipeline::{
+        constants::FrameConstants,
+        splat_shaders::Primitive,
+        variant::{Constants, culls, splat_constants},
+    },
+    plan::{
+        blocks::{Look, seen_blocks},
+        seen::SeenBlock,
+    },
+};
+use crate::{
+    math::size::{SizeBound, box_px, largest_box_px},
+    prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal},
+    scene::{Camera, Epsilon, Filter, Settings},
+    shaders::config::*,
+    vk::Limits,
+};
+
+/// A chunk in this frame.
+#[derive(Clone)]
+pub struct Draw<'a> {
+    /// The splats.
+    pub chunk: &'a Chunk,
+    /// What its shaders are told.
+    pub constants: FrameConstants,
+    /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
+    pub largest_box_px: f64,
+    /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as above.
+    pub boxes: Vec<(u32, f64)>,
+    /// From where, for [`Self::seen_blocks`].
+    view: ViewFromLocal,
+    bound: SizeBound,
+    bounded: bool,
+    /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
+    pub wholly_in_view: bool,
+    /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
+    /// triangle: such ones are then listed and drawn as quads. Never with a rasterizer that draws quads only.
+    pub may_be_large: bool,
+    /// The specialization constants of its pipelines.
+    pub(crate) variant: Constants,
+}
+
+impl Draw<'_> {
+    /// The blocks in which there may be something to see.
+    pub(crate) fn seen_blocks(&self) -> Vec<SeenBlock> {
+        let Self { view, bound, bounded, .. } = self;
+        seen_blocks(self.chunk, &Look { view, bound, culls: culls(&self.variant), bounded: *bounded })
+    }
+}
+
+/// The low-pass filter's radius: √2 pixels (Guennebaud et al. 2006, section 4.1).
+const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
+
+/// Where ε stops to grow, in radii and in view units, of which the eye is about 1 away: everything belongs to the nearest
+/// surface long before, and f32 ends at 3e38.
+const LARGEST_EPSILON: f64 = 1e30;
+
+/// All chunks of splats as seen from a camera.
+pub fn draws<'a>(
+    scene: &'a PreparedScene,
+    camera: &Camera,
+    settings: &Settings,
+    limits: &Limits,
+) -> Vec<Draw<'a>> {
+    let focal_px = camera.focal_px(settings.size_px[1]);
+    let primitive = Primitive::of(settings.rasterizer);
+    let draw = |chunk: &'a Chunk| {
+        let view = chunk.rebase.view_from_local(camera);
+        let near = near_in_view(camera, &view);
+        let epsilon = match settings.epsilon {
+            Epsilon::Radii(radii) => (radii, 0.0),
+            Epsilon::Length(length) => (0.0, length),
+        };
+        let bound = SizeBound {
+            nearest_z: nearest_z(chunk, &view),
+            largest_radius: chunk.largest_radius * view.view_from_local_scale,
+            near,
+            focal_px,
+            size_px: settings.size_px.map(f64::from),
+            filter_px: if settings.filter == Filter::None { 0.0 } else { FILTER_RADIUS_PX },
+        };
+        let point_cap_px = limits.point_size_range[1];
+        let largest_box_px = largest_box_px(&bound);
+        let box_of = |step: &RadiusStep| {
+            let radius = step.radius * view.view_from_local_scale;
+            (step.count, box_px(&bound, radius).min(largest_box_px))
+        };
+        Draw {
+            chunk,
+            constants: FrameConstants {
+                splat_count: chunk.count,
+                uniform_color: u32::from(chunk.uniform_color),
+                ..frame_constants(&view, camera, settings, limits, epsilon)
+            },
+            largest_box_px,
+            boxes: chunk.radii.iter().map(box_of).collect(),
+            view,
+            bound,
+            bounded: settings.filter != Filter::AdjustPaper,
+            wholly_in_view: wholly_in_view(chunk, &view, &bound),
+            may_be_large: match primitive {
+                Primitive::Point => largest_box_px > f64::from(point_cap_px),
+                // Filters leave no splat thin.
+                Primitive::Triangle => settings.filter == Filter::None || largest_box_px.is_infinite(),
+                Primitive::Quad => false,
+            },
+            variant: {
+                let cull_closed = chunk.closed && !chunk.transparent;
+                let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);
+                if chunk.transparent {
+                    constants.extend([(SPEC_OUTWARD, u32::from(chunk.closed)), (SPEC_IN_LAYERS, 1)]);
+                }
+                if chunk.packed {
+                    constants.push((SPEC_PACKED, 1));
+                }
+                constants
+            },
+        }
+    };
+    scene.chunks.iter().map(draw).collect()
+}
+
+/// The depth of the near plane in view space. Nearer than that f32 ends; the eye is about 1 away.
+fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
+    (camera.near() * view.view_from_world_scale).max(1e-37)
+}
+
+/// What is the same for all that is drawn in one local space; ε in radii and as a world length.
+pub(crate) fn frame_constants(
+    view: &ViewFromLocal,
+    camera: &Camera,
+    settings: &Settings,
+    limits: &Limits,
+    (epsilon_radii, epsilon_length): (f64, f64),
+) -> FrameConstants {
+    let focal_px = camera.focal_px(settings.size_px[1]);
+    let epsilon_length = epsilon_length * view.view_from_world_scale;
+    FrameConstants {
+        view_from_local_x: view.rows[0],
+        view_from_local_y: view.rows[1],
+        view_from_local_z: view.rows[2],
+        size_px: settings.size_px.map(|side| side as f32),
+        focal_px: focal_px as f32,
+        near: near_in_view(camera, view) as f32,
+        filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
+        epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
+        epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
+        point_cap_px: limits.point_size_range[1],
+        point_step_px: point_step_px(limits.point_size_granularity),
+        splat_count: 0,
+        uniform_color: 0,
+        view_from_local_scale: view.view_from_local_scale as f32,
+        origin_from_eye: in_two_parts(view.origin_from_eye),
+        first_record: 0,
+        listed_blocks: 0,
+    }
+}
+
+/// The step by which shaders round point sizes up. Devices may report 0, for any size; a square of pixels has a
+/// whole side, which is a multiple of a 16th.
+fn point_step_px(granularity: f32) -> f32 {
+    granularity.max(1.0 / 16.0)
+}
+
+/// A vector in f32, and what that leaves of it.
+fn in_two_parts(v: DVec3) -> [f32; 6] {
+    let high = v.as_vec3();
+    let low = (v - high.as_dvec3()).as_vec3();
+    [high.x, high.y, high.z, low.x, low.y, low.z]
+}
+
+/// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius.
+fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
+    let [x, y, z, translation] = view.rows[2].map(f64::from);
+    let row = DVec3::new(x, y, z);
+    let [lo, hi] = chunk.bounds;
+    let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    let local = row.dot(center) - row.abs().dot(half) - chunk.largest_radius;
+    local * view.view_from_local_scale + translation
+}
+
+/// Whether the box of the chunk's centers lies between the near plane and the four sides of the view.
+fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> bool {
+    let [x, y, z] = view.rows.map(|row| DVec4::from_array(row.map(f64::from)));
+    let [edge_x, edge_y] = bound.size_px.map(|side| 0.5 * side / bound.focal_px);
+    let [lo, hi] = chunk.bounds;
+    let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    let least = |plane: DVec4| {
+        let normal = plane.truncate();
+        view.view_from_local_scale * (normal.dot(center) - normal.abs().dot(half)) + plane.w
+    };
+    least(z) >= bound.near
+        && [edge_x * z - x, edge_x * z + x, edge_y * z - y, edge_y * z + y]
+            .into_iter()
+            .all(|side| least(side) >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As `glsl/inc/point.glsl` rounds.
+    #[test]
+    fn points_are_as_large_as_their_squares_whatever_step_the_device_reports() {
+        for granularity in [0.0, 1e-30, 0.0625, 0.125, 1.0] {
+            let step = point_step_px(granularity);
+            for side in 1..=8192 {
+                let side = side as f32;
+                assert_eq!((side / step).ceil() * step, side, "{granularity}");
+            }
+        }
+    }
+}

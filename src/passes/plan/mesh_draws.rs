@@ -1,0 +1,47 @@
+//! Polygons: the meshes of a prepared scene as this frame's camera and settings see them.
+
+use crate::passes::{pipeline::constants::FrameConstants, plan::draws::frame_constants};
+use crate::{
+    prepare::{MeshChunk, PreparedScene},
+    scene::{Backfaces, Camera, Epsilon, Settings},
+    vk::Limits,
+};
+
+/// A piece of a mesh in this frame.
+pub struct MeshDraw<'a> {
+    /// The triangles.
+    pub chunk: &'a MeshChunk,
+    /// What its shaders are told.
+    pub constants: FrameConstants,
+    /// Triangles that face away are not drawn.
+    pub cull: bool,
+}
+
+/// All pieces of meshes as seen from a camera.
+pub fn mesh_draws<'a>(
+    scene: &'a PreparedScene,
+    camera: &Camera,
+    settings: &Settings,
+    limits: &Limits,
+) -> Vec<MeshDraw<'a>> {
+    let epsilon = match settings.epsilon {
+        Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
+        Epsilon::Length(length) => length,
+    };
+    let draw = |chunk: &'a MeshChunk| {
+        let view = chunk.rebase.view_from_local(camera);
+        MeshDraw {
+            chunk,
+            constants: FrameConstants {
+                uniform_color: u32::from(chunk.uniform_color),
+                ..frame_constants(&view, camera, settings, limits, (0.0, epsilon))
+            },
+            cull: match settings.backfaces {
+                Backfaces::Auto => chunk.closed && !chunk.transparent,
+                Backfaces::Flip => false,
+                Backfaces::Cull => true,
+            },
+        }
+    };
+    scene.meshes.iter().map(draw).collect()
+}

@@ -1,0 +1,62 @@
+//! What a frame takes from whoever records it: descriptor sets and queries.
+
+use crate::passes::{
+    layers::frame as layers,
+    pipeline::cache::room_of_lists,
+    plan::{FramePlan, SurfacePlan},
+    tiles,
+};
+use crate::{
+    scene::{Layers, Settings},
+    vk::PoolRoom,
+};
+
+/// What a frame takes for itself from whoever records it, at most.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Needs {
+    /// Descriptor sets.
+    pub room: PoolRoom,
+    /// Queries whether anything was drawn.
+    pub occlusion_queries: u32,
+}
+
+/// What a frame takes, at most. `counts_draws`: the device can take the number of draws from a buffer.
+pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> Needs {
+    // With large splats.
+    let listed = |part: &SurfacePlan<'_>| part.splats.iter().filter(|draw| draw.may_be_large).count() as u32;
+    let layers = if plan.transparent.is_empty() { 0 } else { settings.layers.most() };
+    // For each such chunk: three passes that list large ones, two that draw them, in each layer.
+    let lists = 5 * listed(&plan.opaque) + (3 + 2 * layers) * listed(&plan.transparent);
+    // Without lists, what draws splats: visibility and accumulation, also of each layer.
+    let lists = lists + 2 + 2 * layers;
+    // Of kept splats: three passes that list them, twice, and one that sets them up.
+    let kept = |part: &SurfacePlan<'_>| {
+        let bands = part.bands().iter().filter(|band| band.visible.is_some()).count();
+        let lists = bands + usize::from(part.visible().is_some());
+        (8 * lists * part.splats.len()) as u32
+    };
+    let lists = lists + kept(&plan.opaque) + kept(&plan.transparent);
+    let bands = plan.opaque.bands().len() as u32;
+    // What fragments read: in visibility and accumulation, of each band, too; of polygons; in each layer's visibility, accumulation
+    // and polygons.
+    let reads = 3 + 2 * bands + 3 * layers;
+    // Sums: for finalization, of tiles and of polygons, and for the export; the depth of tiles of each band; and each layer.
+    let sums = 3 + bands + layers;
+    let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
+    let tiles = bands_of_all
+        .map(|band| tiles::room(&band.plan))
+        .fold(PoolRoom::default(), |sum, room| sum.plus(&room));
+    let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
+    Needs {
+        room: PoolRoom {
+            sets: reads + sums + 1,
+            uniform_buffers: reads + sums,
+            images: 2 * reads + 5 * sums + 1,
+            filtered_images: reads,
+            ..PoolRoom::default()
+        }
+        .plus(&room_of_lists(lists))
+        .plus(&tiles),
+        occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
+    }
+}

@@ -1,0 +1,256 @@
+//! What is decided on the host about drawing splats by tiles: how records are cut into segments, how much room lists have.
+
+pub(crate) mod rows;
+
+use std::ops::Range;
+
+use crate::passes::plan::invocations::Invocations;
+use crate::passes::plan::tiles::rows::tile_rows;
+use crate::{math::size::pixels_along, shaders::config::*, vk::Limits};
+
+/// Bits of a tile's column or row in a span, as in `glsl/tile/rect.glsl`; what is left of 16 is for how many tiles a splat touches
+/// along a side. The first that has room for the image is taken.
+const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
+
+/// Tiles along a side that a splat of a record touches at most: `MOST_MORE` and one there.
+fn most_tiles_a_side(place_bits: u32) -> u32 {
+    3 << (14 - place_bits)
+}
+
+/// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
+const MOST_ITERATIONS: u32 = 60_000;
+
+/// Segments: enough to keep a CPU's cores busy with vectors of 8, and few enough that their counts of all tiles stay small.
+const SEGMENTS: u32 = 32;
+
+/// Blocks of a segment at least: of few splats, most of the work is to add up counts that are 0.
+const LEAST_BLOCKS: u32 = 4;
+
+/// Entries of lists that there is room for at least, where the device allows it; for each splat; and for each pixel: as much as
+/// sums of 16 bits take.
+const LEAST_ENTRIES: u64 = 8 << 20;
+const ENTRIES_A_SPLAT: u64 = 16;
+const ENTRIES_A_PIXEL: u64 = 4;
+
+/// Walks over all segments, one after the other, unless splats touch [`MOST_OF_MANY`] tiles at most.
+const MOST_ROUNDS: u32 = 16;
+const MOST_OF_MANY: u64 = 64;
+
+/// Where spans begin that stand for no tiles, as in `glsl/tile/rect.glsl`.
+pub(crate) const SPAN_CHUNK: u32 = u32::MAX - MOST_CHUNKS;
+
+/// The bytes of a quarter of a record, each quarter in a buffer of its own.
+pub(crate) const RECORD_BYTES: u64 = 16;
+
+/// Tiles that a box of so many pixels touches at most: along a side one more for each tile's pixels beyond the first.
+fn tiles_of(box_px: f64, invocations: Invocations) -> u64 {
+    let along = |side: u32| {
+        let side = f64::from(side);
+        ((pixels_along(box_px) + side - 2.0) / side).floor() + 1.0
+    };
+    (along(TILE_WIDTH) * along(invocations.tile_height())) as u64 // of what has no bound, the largest number
+}
+
+/// How splats are drawn by tiles.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TilePlan {
+    /// Tiles along a row.
+    pub tiles_x: u32,
+    /// The rows that it is for: all of the image, or a band.
+    pub rows: Range<u32>,
+    /// Tiles of these.
+    pub tile_count: u32,
+    /// Splats of all chunks, or of their blocks that may be seen, at most.
+    pub record_count: u32,
+    /// Records that there is room for.
+    pub record_room: u64,
+    /// Chunks.
+    pub chunk_count: u32,
+    /// Segments of records, one invocation each.
+    pub segments: u32,
+    /// Records of one.
+    pub segment_length: u32,
+    /// Records that are walked over in one dispatch.
+    pub round_length: u32,
+    /// Bits of a column or row of tiles in a span.
+    pub place_bits: u32,
+    /// Tiles that a splat of a record touches at most.
+    pub most_tiles: u32,
+    /// Entries of all lists together that there is room for.
+    pub entry_room: u64,
+    /// Entries over which a dispatch can walk twice.
+    pub walk_length: u32,
+    /// Entries of a tile up to which one dispatch does all of it.
+    pub part_length: u32,
+    /// Layers that one dispatch does of such a tile.
+    pub layers_at_once: u32,
+    /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
+    pub may_be_large: bool,
+    /// In some band of the image a tile may have more entries than one dispatch takes, so that sums need 32 bits in all.
+    pub overfull_somewhere: bool,
+    /// What a tile's visible depth hides is not summed.
+    pub hidden: bool,
+    /// What they draw, and how they come by splats.
+    pub invocations: Invocations,
+}
+
+impl TilePlan {
+    /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
+    pub fn bytes(&self) -> u64 {
+        let records = self.record_room;
+        // Four quarters and a span; an index, a bit, and a 32nd of a count.
+        let of_records = records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4;
+        let counts = u64::from(self.segments) * u64::from(self.bin_count()) * 4;
+        // Starts, tiles with splats, runs, the overfull.
+        of_records + self.entry_room * 4 + counts + u64::from(self.bin_count()) * 20
+    }
+
+    /// The same for so many chunks with so many splats of boxes up to so many pixels.
+    pub(crate) fn of_boxes(
+        chunks: usize,
+        boxes: &[(u32, f64)],
+        [width, height]: [u32; 2],
+        limits: &Limits,
+        invocations: Invocations,
+    ) -> Option<Self> {
+        let range = limits.max_storage_buffer_range;
+        // A record, or an entry, is a texel of each buffer that it is in.
+        let most_texels = if invocations.fetch_texels() { u64::from(limits.max_texels) } else { u64::MAX };
+        let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
+        let rows = 0..height.div_ceil(BAND_ROW);
+        let (tiles_x, tiles_y) = (width.div_ceil(TILE_WIDTH), tile_rows(rows.end, invocations));
+        let tile_count = tiles_x * tiles_y;
+        let bins = u64::from(tile_count) + chunks as u64;
+        let segments_with_room = range / 4 / bins / u64::from(BIN_GROUP_SIZE) * u64::from(BIN_GROUP_SIZE);
+        let most_records = (range / RECORD_BYTES).min(most_texels);
+        let refused = records == 0
+            || records > most_records
+            || chunks > MOST_CHUNKS as usize
+            || segments_with_room == 0;
+        if refused {
+            return None;
+        }
+        let has_places = |bits: &u32| tiles_x.max(tiles_y) <= (1 << bits) - most_tiles_a_side(*bits);
+        let place_bits = PLACE_BITS.into_iter().find(has_places)?;
+        let most_a_side = most_tiles_a_side(place_bits);
+        let record_count = u32::try_from(records).ok()?;
+        let blocks = record_count.div_ceil(SEGMENT_BLOCK);
+        let segments_with_work = blocks.div_ceil(LEAST_BLOCKS).next_multiple_of(BIN_GROUP_SIZE).min(SEGMENTS);
+        let segments = segments_with_room.min(u64::from(segments_with_work)) as u32;
+        let segment_length = blocks.div_ceil(segments) * SEGMENT_BLOCK;
+        let of_pixels = u64::from(width) * u64::from(height) * ENTRIES_A_PIXEL;
+        let room =
+            (records * ENTRIES_A_SPLAT).max(LEAST_ENTRIES).max(of_pixels).min(range / 4).min(most_texels);
+        // Rounds are as long as if each of their records had the most; there must not be too many.
+        let in_rounds = u64::from(MOST_ROUNDS * MOST_ITERATIONS / segment_length).max(MOST_OF_MANY);
+        let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);
+        // A splat that is left to the graphics pipeline has an entry, too.
+        let entries = |most: u64| -> u64 {
+            boxes.iter().map(|(count, px)| u64::from(*count) * tiles_of(*px, invocations).min(most)).sum()
+        };
+        let largest = boxes.iter().map(|(_, px)| *px).fold(0.0, f64::max);
+        // As many as there is room for if all have them; or as they have, where there is room for all.
+        let most_tiles =
+            if entries(most_of_all) <= room { tiles_of(largest, invocations) } else { room / records };
+        let most_tiles = most_tiles.min(most_of_all);
+        let entry_room = entries(most_tiles);
+        let longest = f64::from((most_a_side - 1) * invocations.tile_height().min(TILE_WIDTH));
+        let fits = largest <= longest && tiles_of(largest, invocations) <= most_tiles;
+        let most_tiles = most_tiles as u32;
+        let walk_length = TILE_BATCH * MOST_ITERATIONS / 2;
+        Some(Self {
+            tiles_x,
+            rows,
+            tile_count,
+            record_count,
+            record_room: records,
+            chunk_count: chunks as u32,
+            segments,
+            segment_length,
+            round_length: (MOST_ITERATIONS / most_tiles).min(segment_length),
+            place_bits,
+            most_tiles,
+            entry_room,
+            walk_length,
+            part_length: walk_length,
+            layers_at_once: 1,
+            may_be_large: !fits,
+            overfull_somewhere: false,
+            hidden: false,
+            invocations,
+        })
+    }
+
+    /// The plan for what leaves out hidden splats: it walks three times.
+    fn without_hidden(self) -> Self {
+        let walk_length = self.walk_length / 3 * 2;
+        Self { hidden: true, walk_length, part_length: walk_length, ..self }
+    }
+
+    /// The bins of all lists: tiles, then chunks.
+    pub fn bin_count(&self) -> u32 {
+        self.tile_count + self.chunk_count
+    }
+
+    /// A tile's pixels along both sides.
+    pub(crate) fn tile_px(&self) -> [u32; 2] {
+        [TILE_WIDTH, self.invocations.tile_height()]
+    }
+
+    /// A plan of no scene, for pipelines alone: a thousand splats on a device that has what tiles like.
+    pub(crate) fn for_recipes(may_be_large: bool) -> Self {
+        Self {
+            tiles_x: 1,
+            rows: 0..1,
+            tile_count: 1,
+            record_count: 1000,
+            record_room: 1000,
+            chunk_count: 1,
+            segments: SEGMENTS,
+            segment_length: SEGMENTS,
+            round_length: SEGMENTS,
+            place_bits: PLACE_BITS[0],
+            most_tiles: most_tiles_a_side(PLACE_BITS[0]).pow(2),
+            entry_room: LEAST_ENTRIES,
+            walk_length: 4 * MOST_ITERATIONS,
+            part_length: 4 * MOST_ITERATIONS,
+            layers_at_once: 1,
+            may_be_large,
+            overfull_somewhere: false,
+            hidden: false,
+            invocations: Invocations::Columns,
+        }
+    }
+
+    /// The plan for so many layers at most, each of which walks twice, under so many lights: up to 16 layers in one dispatch, or of
+    /// more 4 in each. Every step of the last layer's walk is a loop over the lights, too; so is every pixel of a layer, for which
+    /// there is the reserve.
+    pub fn with_layers(self, most: u32, lights: u32) -> Self {
+        let layers_at_once = if most <= 16 { most } else { 4 };
+        let walk_length = self.walk_length / (1 + lights);
+        Self { layers_at_once, walk_length, part_length: walk_length / layers_at_once, ..self }
+    }
+
+    /// Whether a tile may have more splats than one dispatch takes.
+    pub fn may_be_overfull(&self) -> bool {
+        self.overfull_somewhere || self.record_count > self.part_length
+    }
+
+    /// Parts of a tile that has all splats.
+    pub fn parts(&self) -> u32 {
+        self.record_count.div_ceil(self.walk_length)
+    }
+
+    /// The same; none where a tile can't be overfull.
+    pub fn parts_of_overfull(&self) -> u32 {
+        if self.may_be_overfull() { self.parts() } else { 0 }
+    }
+
+    /// Tiles that may be overfull at once.
+    pub fn most_overfull(&self) -> u64 {
+        (self.entry_room / u64::from(self.part_length)).clamp(1, self.tile_count.into())
+    }
+}
+
+#[cfg(test)]
+mod tests;

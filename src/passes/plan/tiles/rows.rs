@@ -1,0 +1,118 @@
+//! Plans for some rows of the image's tiles: what they need of all that is drawn, and what those of several bands have in common.
+
+use std::ops::Range;
+
+use ash::vk;
+
+use crate::passes::plan::tiles::{MOST_ITERATIONS, TilePlan};
+use crate::{
+    passes::plan::{
+        draws::Draw,
+        invocations::{Invocations, are_small},
+        seen::SeenSplats,
+    },
+    scene::Settings,
+    shaders::config::*,
+    vk::Limits,
+};
+
+/// All rows that bands can have.
+pub(crate) fn rows_of_image(settings: &Settings) -> Range<u32> {
+    0..settings.size_px[1].div_ceil(BAND_ROW)
+}
+
+/// Rows of tiles in so many rows of a band.
+pub(crate) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
+    rows * (BAND_ROW / invocations.tile_height())
+}
+
+impl TilePlan {
+    /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
+    pub fn of(draws: &[Draw<'_>], culls_hidden: bool, settings: &Settings, limits: &Limits) -> Option<Self> {
+        let boxes: Vec<_> = draws.iter().flat_map(|draw| &draw.boxes).copied().collect();
+        Self::of_rows(draws, &boxes, rows_of_image(settings), culls_hidden, settings, limits)
+    }
+
+    /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
+    pub fn tightened_to_blocks(
+        self,
+        draws: &[Draw<'_>],
+        seen: &SeenSplats,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        let of_blocks = Self::of_blocks(draws, seen, self.rows.clone(), self.hidden, settings, limits);
+        let draws_as_much = |of_blocks: &Self| self.may_be_large || !of_blocks.may_be_large;
+        let better = |of_blocks: &Self| draws_as_much(of_blocks) && of_blocks.bytes() < self.bytes();
+        of_blocks.filter(better).unwrap_or(self)
+    }
+
+    /// The plan for the blocks that may touch some rows of tiles; none where there is none, or more than the device has room for.
+    pub(crate) fn of_blocks(
+        draws: &[Draw<'_>],
+        seen: &SeenSplats,
+        rows: Range<u32>,
+        culls_hidden: bool,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Option<Self> {
+        Self::of_rows(draws, &seen.boxes(&rows), rows, culls_hidden, settings, limits)
+    }
+
+    /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
+    fn of_rows(
+        draws: &[Draw<'_>],
+        boxes: &[(u32, f64)],
+        rows: Range<u32>,
+        culls_hidden: bool,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Option<Self> {
+        // By all that is drawn, so that all bands have the same.
+        let all = || draws.iter().flat_map(|draw| &draw.boxes);
+        let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
+        let of = |invocations| Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations);
+        // Twice as many tiles of a huge image may have no room; in no band then.
+        let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
+        Some(if culls_hidden { plan.without_hidden() } else { plan })
+    }
+
+    /// The same for some rows of the image alone.
+    pub(crate) fn within(self, rows: Range<u32>) -> Self {
+        let tile_count = self.tiles_x * tile_rows(rows.end - rows.start, self.invocations);
+        Self { tile_count, rows, ..self }
+    }
+
+    /// The same as one of several bands, which have their pipelines and images in common, and buffers of the same sizes, so that
+    /// each lies where that of the band before was.
+    pub(crate) fn with_common_capacity(&self, bands: &[Self]) -> Self {
+        let largest = |of: fn(&Self) -> u64| bands.iter().map(of).max().unwrap_or(0);
+        // A band that leaves splats to the graphics pipeline has no room for more tiles of each.
+        let with_room = bands.iter().filter(|band| band.may_be_large).map(|band| band.most_tiles).min();
+        let most_tiles = (largest(|band| band.most_tiles.into()) as u32).min(with_room.unwrap_or(u32::MAX));
+        Self {
+            record_room: largest(|band| band.record_room),
+            most_tiles,
+            round_length: (MOST_ITERATIONS / most_tiles.max(1)).min(self.segment_length),
+            segments: largest(|band| band.segments.into()) as u32,
+            entry_room: largest(|band| band.entry_room),
+            may_be_large: bands.iter().any(|band| band.may_be_large),
+            overfull_somewhere: bands.iter().any(Self::may_be_overfull),
+            ..self.clone()
+        }
+    }
+
+    /// Its rows as pixels of an image.
+    pub(crate) fn area(&self, image: vk::Extent2D) -> vk::Rect2D {
+        let [first, end] = [self.rows.start, self.rows.end].map(|row| (row * BAND_ROW).min(image.height));
+        vk::Rect2D {
+            offset: vk::Offset2D { x: 0, y: first as i32 },
+            extent: vk::Extent2D { width: image.width, height: end - first },
+        }
+    }
+
+    /// The first tile of its rows.
+    pub fn first_tile(&self) -> u32 {
+        tile_rows(self.rows.start, self.invocations) * self.tiles_x
+    }
+}

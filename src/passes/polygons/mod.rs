@@ -1,0 +1,5 @@
+//! Polygons.
+
+pub(crate) mod copy_depth;
+pub(crate) mod draw;
+pub(crate) mod mesh_pass;

@@ -1,0 +1,6 @@
+//! From sums to the picture, and to data.
+
+pub(crate) mod export;
+pub(crate) mod finalize;
+pub(crate) mod lights;
+pub(crate) mod readback;

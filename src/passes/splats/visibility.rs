@@ -1,0 +1,50 @@
+//! Visibility splatting: the depth of the nearest surface, moved away from the eye by ε.
+
+use ash::vk;
+
+use crate::passes::pipeline::formats::DEPTH_FORMAT;
+use crate::passes::{
+    cull::lists::Lists,
+    inputs::Inputs,
+    splats::{
+        accumulate::bind_read,
+        draw::{SplatPass, draw_splats},
+    },
+};
+use crate::{
+    error::Result,
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    scene::Settings,
+    shaders::config::*,
+};
+
+/// What the pass is made of: for the opaque part, or for a layer, perhaps behind one that was peeled off.
+pub(crate) fn splat_pass(settings: &Settings, layer: Option<bool>) -> SplatPass {
+    SplatPass {
+        depth: Some((vk::CompareOp::GREATER, true)),
+        constants: vec![(SPEC_PEELED, u32::from(layer == Some(true)))],
+        ..SplatPass::new(settings, |drawn| drawn.visibility(layer.is_some()))
+    }
+}
+
+/// Declares the pass; returns its reversed depth: near / z, 0 where there is nothing.
+pub(crate) fn visibility<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    lists: &Lists,
+) -> Result<Handle<Image>> {
+    let pipelines = splat_pass(inputs.settings, None).pipelines(inputs)?;
+
+    let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
+    let pass = graph.pass("visibility").write(
+        &mut depth,
+        Access::DepthAttachment,
+        Start::Clear(ClearValue::Depth(0.0)),
+    );
+    let ids = lists.ids();
+    lists.read(pass).finish(Box::new(move |context| {
+        bind_read(context, inputs, [None; 3], None)?;
+        draw_splats(context, inputs, &pipelines, &ids, None)
+    }));
+    Ok(depth)
+}
