@@ -1,6 +1,6 @@
 // Transparent layers of a tile's splats, all in one dispatch: peeling (inc/peel.glsl proves that no surface is lost or taken
 // twice), accumulation, shading, and composition from front to back. The graphics pipeline needs three passes a layer for that
-// (src/passes/layers.rs). Overflow tiles are left to tile_layers_overflow.comp.glsl.
+// (src/passes/layers/frame.rs). Overflow tiles are left to tile_layers_overflow.comp.glsl.
 // Permutations: column pixel
 #version 460
 #extension GL_EXT_control_flow_attributes : require

@@ -1,5 +1,5 @@
 // What the passes over the whole image are told of it. The host's mirror is `FinalizeConstants` in
-// src/passes/constants.rs; the build compares the offsets.
+// src/passes/pipeline/constants.rs; the build compares the offsets.
 
 struct FinalizeConstants {
     vec4 background; // linear, straight alpha

@@ -1,5 +1,5 @@
 // What every splat pass is told of the frame, as push constants. The host's mirror is `FrameConstants` in
-// src/passes/constants.rs; the build compares the offsets.
+// src/passes/pipeline/constants.rs; the build compares the offsets.
 //
 // Local space: the world, moved by the chunk's f64 origin and scaled by a power of two so that most splats are within
 // about 1. View space: eye at the origin, x right, y down, z forward, in a unit of which the eye's distance is about 1

@@ -18,7 +18,7 @@
 layout(set = 0, binding = 0, std430) readonly buffer Shapes { vec4 shapes[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
 
-// The host's mirror is `PaperConstants` in src/passes/constants.rs; the build compares the offsets.
+// The host's mirror is `PaperConstants` in src/passes/pipeline/constants.rs; the build compares the offsets.
 struct PaperConstants {
     vec4 view_from_local_x; // row of the rotation, then the translation, local unit
     vec4 view_from_local_y;

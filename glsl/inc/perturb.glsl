@@ -14,7 +14,7 @@ layout(constant_id = SPEC_PERTURBED_FORMULA) const uint PERTURBED_FORMULA = 0;
 #define FORMULA_LESS(number, value) (value)
 #endif
 
-// The numbers; src/passes/formula.rs names the same.
+// The numbers; src/passes/pipeline/formula.rs names the same.
 #define FORMULA_INVERSE_MAPPING_U 1
 #define FORMULA_INVERSE_MAPPING_V 2
 #define FORMULA_INVERSE_MAPPING_W 3

@@ -1,4 +1,4 @@
-// What differs between pipelines of the same shader; config.glsl says what each number means, and src/passes/variant.rs sets them.
+// What differs between pipelines of the same shader; config.glsl says what each number means, and src/passes/pipeline/variant.rs sets them.
 #include "inc/config.glsl"
 
 layout(constant_id = SPEC_ELLIPSES) const bool ELLIPSES = false;

@@ -1,5 +1,5 @@
 // Splats by tiles of the image, in compute: what the passes share. The host's mirror is `TileConstants` in
-// src/passes/constants.rs; the build compares the offsets.
+// src/passes/pipeline/constants.rs; the build compares the offsets.
 //
 // Each splat is projected once (tile_project.comp.glsl), to a record (tile/splat.glsl) and the rect of tiles that its box touches
 // (tile/rect.glsl). Records are dealt out to segments, SEGMENT_BLOCK at a time, so that all segments have as much to do wherever in

@@ -2,7 +2,7 @@
 //
 // All rows are computed for every splat of the tile, without a branch: on a CPU driver, lanes of a vector are invocations,
 // and it has no branch to gain by. Records and lists are texel buffers, which CPU drivers read without a loop over lanes
-// (src/passes/tiles/invocations.rs).
+// (src/passes/plan/invocations.rs).
 
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 
