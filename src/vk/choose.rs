@@ -70,6 +70,8 @@ pub struct Limits {
     pub timestamp_valid_bits: u32,
     /// Storage buffers that a stage can have, no more than a `u32` holds.
     pub storage_buffers_a_stage: u32,
+    /// Shaders store to images of floats of 16 and 32 bits without naming the format.
+    pub stores_without_format: bool,
     /// 8 invocations or more of a compute stage can hand values to each other, and vote (`SHUFFLE`, `VOTE`,
     /// `BALLOT`).
     pub shuffles: bool,
@@ -93,6 +95,7 @@ impl Limits {
             timestamp_period_ns: 1.0,
             timestamp_valid_bits: 0,
             storage_buffers_a_stage: 32,
+            stores_without_format: true,
             shuffles: false,
             first_instance: true,
             is_cpu: false,

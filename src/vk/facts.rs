@@ -23,6 +23,14 @@ pub fn all_facts(instance: &Instance) -> Result<Vec<(vk::PhysicalDevice, DeviceF
     Ok(devices.into_iter().map(|device| (device, unsafe { facts(instance.raw(), device, None) })).collect())
 }
 
+/// Formats of images that shaders store to without naming them.
+const STORED_FORMATS: [vk::Format; 4] = [
+    vk::Format::R16G16B16A16_SFLOAT,
+    vk::Format::R32G32B32A32_SFLOAT,
+    vk::Format::R32G32_SFLOAT,
+    vk::Format::R32_SFLOAT,
+];
+
 /// The facts of one device. `family` is that of the queue to be used; `None` takes the first that will do.
 ///
 /// # Safety
@@ -77,6 +85,13 @@ pub(super) unsafe fn facts(
     // SAFETY: as above.
     let format = |format| unsafe {
         instance.get_physical_device_format_properties(device, format).optimal_tiling_features
+    };
+    let stores = |format| {
+        let mut extended = vk::FormatProperties3::default();
+        let mut properties = vk::FormatProperties2::default().push_next(&mut extended);
+        // SAFETY: as above; the chain lives until the call returns.
+        unsafe { instance.get_physical_device_format_properties2(device, format, &mut properties) };
+        extended.optimal_tiling_features.contains(vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT)
     };
     let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND | vk::FormatFeatureFlags::SAMPLED_IMAGE;
     let depth = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT | vk::FormatFeatureFlags::SAMPLED_IMAGE;
@@ -135,6 +150,7 @@ pub(super) unsafe fn facts(
                 .min(limits.max_viewport_dimensions[1]),
             timestamp_period_ns: limits.timestamp_period,
             timestamp_valid_bits: queue_family.map_or(0, |index| families[index].timestamp_valid_bits),
+            stores_without_format: version >= vk::API_VERSION_1_3 && STORED_FORMATS.into_iter().all(stores),
             storage_buffers_a_stage: limits.max_per_stage_descriptor_storage_buffers,
             first_instance: core.draw_indirect_first_instance == vk::TRUE,
             is_cpu: properties.device_type == vk::PhysicalDeviceType::CPU,

@@ -201,6 +201,7 @@ mod tests {
                 timestamp_period_ns: 1.0,
                 timestamp_valid_bits: 0,
                 storage_buffers_a_stage: 16,
+                stores_without_format: true,
                 shuffles: false,
                 first_instance: true,
                 is_cpu: false,

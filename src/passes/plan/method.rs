@@ -117,8 +117,13 @@ fn can_do_tiles(settings: &Settings, limits: &Limits) -> std::result::Result<(),
     if settings.kernel_eval == KernelEval::Texture {
         return Err("tiles find kernels by arithmetic");
     }
-    if !limits.first_instance || limits.storage_buffers_a_stage < STORAGE_BUFFERS {
-        return Err("the device lacks drawIndirectFirstInstance, or storage buffers");
+    if !limits.first_instance
+        || limits.storage_buffers_a_stage < STORAGE_BUFFERS
+        || !limits.stores_without_format
+    {
+        return Err(
+            "the device lacks drawIndirectFirstInstance, storage buffers, or stores without a format",
+        );
     }
     Ok(())
 }
