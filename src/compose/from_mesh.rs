@@ -2,7 +2,7 @@
 
 use super::{
     hybrid::{self, usual_samples},
-    object::{Parts, Work},
+    parts::{Parts, StepTimer},
     words::{finish, finish_triangles, mesh_head, normals_computed, radii_computed, split_into},
 };
 use crate::{
@@ -19,7 +19,7 @@ pub(super) fn parts(
     own: Mesh,
     name: String,
     object: &ObjectDescription,
-    work: &mut Work<'_>,
+    work: &mut StepTimer<'_>,
 ) -> Result<Parts> {
     let placed = |own: Mesh| {
         let mut mesh = own.transformed(&object.world_from_object);

@@ -7,21 +7,22 @@ mod from_mesh;
 mod hybrid;
 mod memory;
 mod object;
+mod parts;
 mod words;
 
 use std::path::Path;
 
 pub use from_mesh::resampled;
 pub use memory::check_memory;
-pub use object::{Made, make};
+pub use object::{BuiltObject, make};
 pub use words::{finish, splats_kind};
 
 use crate::{
     error::Result,
-    load::load_scene_file,
+    load::{ObjectDescription, load_scene_file},
     progress::Progress,
     report::InputReport,
-    scene::{CameraParts, Scene},
+    scene::{CameraParts, Light, Scene},
 };
 
 /// The scene of a scene file.
@@ -38,18 +39,34 @@ pub struct Composed {
 /// Loads a scene file and all that it names.
 ///
 /// # Errors
-/// As [`load_scene_file`], [`check_memory`] and [`make`].
+/// As [`load_scene_file`] and [`build`].
 pub fn compose(path: &Path, progress: &dyn Progress) -> Result<Composed> {
     let file = load_scene_file(path)?;
-    check_memory(&file.objects)?;
-    let mut scene = Scene { lights: file.lights, ..Scene::default() };
-    let mut reports = Vec::new();
-    for object in &file.objects {
-        let made = make(object, progress)?;
-        reports.push(made.report.clone());
-        made.add_to(&mut scene);
-    }
+    let (scene, reports) = build(&file.objects, file.lights, progress, &mut |_| {})?;
     Ok(Composed { scene, camera: file.camera.unwrap_or_default(), reports })
+}
+
+/// Makes all objects and puts them into a scene; tells of each when it is made. With it what was done, one an object.
+///
+/// # Errors
+/// As [`check_memory`] and [`make`].
+pub fn build(
+    objects: &[ObjectDescription],
+    lights: Vec<Light>,
+    progress: &dyn Progress,
+    tell: &mut dyn FnMut(&BuiltObject),
+) -> Result<(Scene, Vec<InputReport>)> {
+    check_memory(objects)?;
+    let mut scene = Scene { lights, ..Scene::default() };
+    let mut reports = Vec::new();
+    for object in objects {
+        let built = make(object, progress)?;
+        tell(&built);
+        reports.push(built.report);
+        scene.objects.extend(built.splats);
+        scene.meshes.extend(built.triangles);
+    }
+    Ok((scene, reports))
 }
 
 #[cfg(test)]

@@ -1,8 +1,12 @@
 //! One object: its model loaded or made, placed, colored, and turned into what is drawn.
 
-use std::{path::Path, time::Instant};
+use std::path::Path;
 
-use super::{from_mesh, words::finish_splats};
+use super::{
+    from_mesh,
+    parts::{Parts, StepTimer},
+    words::finish_splats,
+};
 use crate::{
     error::{Error, ErrorKind, Result},
     load::{
@@ -12,12 +16,12 @@ use crate::{
     },
     progress::Progress,
     report::{InputReport, Step},
-    scene::{MeshObject, Object, Scene},
+    scene::{MeshObject, Object},
 };
 
 /// What an object became; at least one of the two has something to draw.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct BuiltObject {
     /// What is drawn of it as splats; each can be drawn.
     pub splats: Option<Object>,
     /// What is drawn of it as triangles.
@@ -28,21 +32,13 @@ pub struct Made {
     pub steps: Vec<Step>,
 }
 
-impl Made {
-    /// Puts it into a scene.
-    pub fn add_to(self, scene: &mut Scene) {
-        scene.objects.extend(self.splats);
-        scene.meshes.extend(self.triangles);
-    }
-}
-
 /// Loads or makes a model and makes of it what its description says.
 ///
 /// # Errors
 /// As [`load`] and [`crate::geometry::resample`]; [`ErrorKind::Input`] for splats that should be resampled or drawn as
 /// triangles, and for a model of which nothing can be drawn.
-pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<Made> {
-    let mut work = Work { progress, steps: Vec::new() };
+pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<BuiltObject> {
+    let mut work = StepTimer { progress, steps: Vec::new() };
     let (model, name) = open(object, &mut work)?;
     let parts = match model {
         Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
@@ -56,34 +52,11 @@ pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<Made>
         let problem = format!("no {what} can be drawn ({})", report.summary);
         return Err(of_object(Error::input("", "", problem), object));
     }
-    Ok(Made { splats, triangles, report, steps: work.steps })
-}
-
-/// Both parts, and what was done.
-pub(super) struct Parts {
-    pub splats: Option<Object>,
-    pub triangles: Option<MeshObject>,
-    pub report: InputReport,
-}
-
-/// Long work, with its times.
-pub(super) struct Work<'a> {
-    pub progress: &'a dyn Progress,
-    steps: Vec<Step>,
-}
-
-impl Work<'_> {
-    /// Does a step and notes its time.
-    pub(super) fn time<T>(&mut self, name: String, work: impl FnOnce(&dyn Progress) -> T) -> T {
-        let start = Instant::now();
-        let done = work(self.progress);
-        self.steps.push(Step { name, secs: start.elapsed().as_secs_f64() });
-        done
-    }
+    Ok(BuiltObject { splats, triangles, report, steps: work.steps })
 }
 
 /// The model and its name, as it is before it is placed.
-fn open(object: &ObjectDescription, work: &mut Work<'_>) -> Result<(Model, String)> {
+fn open(object: &ObjectDescription, work: &mut StepTimer<'_>) -> Result<(Model, String)> {
     let own = match &object.source {
         Source::File(path) => file_name(path),
         Source::BuiltIn { model, .. } => format!("built-in {}", model.name()),

@@ -16,7 +16,7 @@ use crate::{
         execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
     },
     passes::{self, Needs},
-    report::Limit,
+    report::ThroughputProbe,
     scene::{Accumulate, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
 };
@@ -42,7 +42,7 @@ const MOST_REPEATS: u32 = 1 << 12;
 
 /// One limit of the device, ready to be measured again and again.
 pub struct Probe {
-    limit: Limit,
+    limit: ThroughputProbe,
     /// What it works on: points to draw; source and target of a copy; what a dispatch writes.
     buffers: Vec<Buffer>,
     /// Where it is one of compute.
@@ -82,21 +82,23 @@ impl LimitProbes {
             let Points { buffer, count } = Points::upload(headless, points)?;
             Ok::<_, crate::error::Error>(Probe::new(headless, limit, vec![buffer], count, units))
         };
-        made.probes.push(drawn(Limit::Points, &outside, POINTS as u64)?);
+        made.probes.push(drawn(ThroughputProbe::Points, &outside, POINTS as u64)?);
         let small = small_points(settings.size_px, POINTS);
-        made.probes.push(drawn(Limit::DrawnPoints, &small, POINTS as u64)?);
-        for limit in [Limit::Fragments, Limit::DepthFragments, Limit::BlendedFragments] {
+        made.probes.push(drawn(ThroughputProbe::DrawnPoints, &small, POINTS as u64)?);
+        for limit in
+            [ThroughputProbe::Fragments, ThroughputProbe::DepthFragments, ThroughputProbe::BlendedFragments]
+        {
             made.probes.push(drawn(limit, &cover, fragments)?);
         }
         match copy_buffers(headless) {
             Ok(buffers) => {
                 // What is read and what is written.
                 let bytes = 2 * buffers[0].size();
-                made.probes.push(Probe::new(headless, Limit::Bytes, buffers.into(), 0, bytes));
+                made.probes.push(Probe::new(headless, ThroughputProbe::Bytes, buffers.into(), 0, bytes));
             }
             Err(error) => made.notes.push(format!("bytes are not measured: {error}")),
         }
-        for limit in [Limit::Invocations, Limit::Atomics, Limit::Kernels] {
+        for limit in [ThroughputProbe::Invocations, ThroughputProbe::Atomics, ThroughputProbe::Kernels] {
             let Some(dispatch) = LimitDispatch::of(limit, &headless.renderer.limits) else { continue };
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
             let words = BufferDesc { name: "words of a limit", size: 4 * dispatch.words, usage };
@@ -144,15 +146,24 @@ impl LimitProbes {
 }
 
 impl Probe {
-    fn new(headless: &Headless, limit: Limit, buffers: Vec<Buffer>, points: u32, units: u64) -> Self {
+    fn new(
+        headless: &Headless,
+        limit: ThroughputProbe,
+        buffers: Vec<Buffer>,
+        points: u32,
+        units: u64,
+    ) -> Self {
         let slot = FrameSlot::new(headless.device());
-        let covers = matches!(limit, Limit::Fragments | Limit::DepthFragments | Limit::BlendedFragments);
+        let covers = matches!(
+            limit,
+            ThroughputProbe::Fragments | ThroughputProbe::DepthFragments | ThroughputProbe::BlendedFragments
+        );
         let repeats = if covers { FEWEST_COVERS } else { 1 };
         Self { limit, buffers, dispatch: None, points, units, repeats, slot }
     }
 
     /// What it measures.
-    pub fn limit(&self) -> Limit {
+    pub fn limit(&self) -> ThroughputProbe {
         self.limit
     }
 
@@ -166,7 +177,7 @@ impl Probe {
     fn calibrate(&mut self, headless: &Headless, settings: &Settings) -> Result<()> {
         self.secs(headless, settings)?;
         // A copy is long by itself, and one into the memory of another would have to wait for it.
-        while self.limit != Limit::Bytes && self.repeats < MOST_REPEATS {
+        while self.limit != ThroughputProbe::Bytes && self.repeats < MOST_REPEATS {
             match self.secs(headless, settings)? {
                 Some(secs) if secs < LONG_ENOUGH_SECS => self.repeats *= 2,
                 _ => break,
@@ -197,8 +208,14 @@ impl Probe {
             handles.push(handle);
         }
         match (self.limit, handles.as_mut_slice()) {
-            (Limit::Bytes, [from, to]) => {
-                passes::readback_buffer(&mut graph, Limit::Bytes.name(), from, to, self.buffers[0].size());
+            (ThroughputProbe::Bytes, [from, to]) => {
+                passes::readback_buffer(
+                    &mut graph,
+                    ThroughputProbe::Bytes.name(),
+                    from,
+                    to,
+                    self.buffers[0].size(),
+                );
             }
             (limit, [buffer, ..]) => match self.dispatch {
                 Some(dispatch) => limit_passes::limit_dispatch(&mut graph, inputs, limit, dispatch, buffer)?,

@@ -1,8 +1,13 @@
 //! The times of several frames of the same passes, and where they contradict each other.
 
+use std::fmt;
+
 use serde::Serialize;
 
-use super::Spread;
+use super::{
+    Grid, Spread,
+    cells::{figure, number},
+};
 
 /// How far the sum of the passes may be from the frame's time, and that from the time of submission and wait, before it is flagged,
 /// as a part of the latter.
@@ -100,6 +105,34 @@ impl FrameTimes {
             flags: flags(samples, &passes),
             passes,
         }
+    }
+}
+
+/// A line of the table: what it is of, and whether that is a pass, which has counts.
+type Line<'a> = (String, Option<Spread>, Option<&'a PassFigures>);
+
+impl fmt::Display for FrameTimes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut lines: Vec<Line<'_>> = Vec::new();
+        lines.extend(self.passes.iter().map(|pass| (format!("  {}", pass.name), pass.ms, Some(pass))));
+        lines.extend([
+            ("sum of the passes".to_owned(), self.sum_of_passes_ms, None),
+            ("frame, passes not timed".to_owned(), self.frame_ms, None),
+            ("submission to end of wait".to_owned(), self.submit_to_wait_ms, None),
+            ("recorded by the host".to_owned(), self.record_ms, None),
+        ]);
+        let count = |pass: Option<&PassFigures>, of: fn(&PassFigures) -> Option<u64>| {
+            pass.map_or_else(String::new, |pass| figure(of(pass)))
+        };
+        let title = format!("{} frames after {} to warm up", self.timed_frames, self.warm_up_frames);
+        let table = Grid::of("", &lines)
+            .column(title, |(name, ..)| name.clone())
+            .column("median ms", |(_, ms, _)| number(ms.map(|ms| ms.median), 3))
+            .column("min", |(_, ms, _)| number(ms.map(|ms| ms.min), 3))
+            .column("max", |(_, ms, _)| number(ms.map(|ms| ms.max), 3))
+            .column("vertices", |(.., pass)| count(*pass, |pass| pass.vertices))
+            .column("fragments", |(.., pass)| count(*pass, |pass| pass.fragments));
+        write!(f, "{}", table.with_notes(self.flags.iter().map(|flag| format!("note: {flag}"))))
     }
 }
 

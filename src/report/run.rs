@@ -1,10 +1,10 @@
 //! One run of the renderer: on what, of what, and what it cost.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, fmt};
 
 use serde::Serialize;
 
-use super::FrameTimes;
+use super::{FrameTimes, Grid};
 use crate::scene::Camera;
 
 /// Everything that is needed to understand, repeat and compare a measurement.
@@ -112,5 +112,16 @@ impl From<&Camera> for CameraReport {
             fov_deg: camera.fov_y_rad.to_degrees(),
             near: camera.near(),
         }
+    }
+}
+
+impl fmt::Display for RunReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let DeviceReport { name, driver, api_version, .. } = &self.device;
+        writeln!(f, "{name}, {driver}, Vulkan {api_version}; {} splats", self.scene.splats)?;
+        let steps = Grid::of("", &self.steps)
+            .column("before the frames", |step| format!("  {}", step.name))
+            .column("seconds", |step| format!("{:.3}", step.secs));
+        write!(f, "{}{}", steps.grid(), self.frames)
     }
 }

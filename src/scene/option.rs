@@ -87,6 +87,13 @@ macro_rules! named {
             }
         }
 
+        /// In reports, too, a value is its name.
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.name())
+            }
+        }
+
         impl $crate::scene::OptionValue for $name {
             const CHOICES: &'static [$crate::scene::Choice] =
                 &[$($crate::scene::Choice { name: $text, help: concat!($($help),+) }),+];

@@ -5,7 +5,7 @@ use surfel::{
     graph::execute::{FrameProfile, Profile},
     instruments::{Floor, LimitProbes},
     renderer::Wanted,
-    report::Limit,
+    report::ThroughputProbe,
 };
 
 fn fragments(profile: &FrameProfile) -> Vec<u64> {
@@ -73,18 +73,22 @@ fn the_limits_shade_what_their_rates_count() {
             assert!(secs.is_some_and(|secs| secs > 0.0), "{limit:?}");
             match limit {
                 // None is kept, and none counted where a driver tests the depth first.
-                Limit::Points => assert_eq!(fragments, Some(0)),
-                Limit::DrawnPoints => {}
+                ThroughputProbe::Points => assert_eq!(fragments, Some(0)),
+                ThroughputProbe::DrawnPoints => {}
                 // Points of 32 pixels: in 64x96 none overlaps another. Drivers may count by blocks of 4x4.
-                Limit::Fragments | Limit::DepthFragments | Limit::BlendedFragments => {
+                ThroughputProbe::Fragments
+                | ThroughputProbe::DepthFragments
+                | ThroughputProbe::BlendedFragments => {
                     let fragments = fragments.expect("counted");
                     let most = if size_px == [64, 96] { probe.units() } else { probe.units() * 5 / 4 };
                     assert!((probe.units()..=most).contains(&fragments), "{limit:?}: {fragments}");
                 }
-                Limit::Bytes => assert_eq!(fragments, None),
-                Limit::Invocations | Limit::Atomics => assert_eq!(fragments, Some(probe.units())),
+                ThroughputProbe::Bytes => assert_eq!(fragments, None),
+                ThroughputProbe::Invocations | ThroughputProbe::Atomics => {
+                    assert_eq!(fragments, Some(probe.units()))
+                }
                 // 64 splats at each pixel of an invocation: a column of 8 on a CPU, one on others.
-                Limit::Kernels => {
+                ThroughputProbe::Kernels => {
                     let pixels = if headless.device().facts().limits.is_cpu { 8 } else { 1 };
                     assert_eq!(fragments.map(|counted| 64 * pixels * counted), Some(probe.units()));
                 }

@@ -4,19 +4,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use surfel::{
-    Error, ErrorKind, Result,
-    compose::{resampled, splats_kind},
-    load::{Model, Samples, load},
-    report::InputReport,
+    Result,
+    compose::splats_kind,
+    load::{Model, load},
     save,
-    scene::{Mesh, Object},
+    scene::Object,
 };
 
 use crate::{
     console::{self, Bars},
     outputs, parse,
-    scene::load_object,
-    steps::Steps,
+    scene::{load_object, not_a_mesh, resample_mesh},
 };
 
 const HELP: &str = "Write a model as a file of splats.
@@ -65,8 +63,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     let bars = Bars::new();
     let made = match arguments.resample {
         Some(count) => resampled_file(&arguments.input, count, arguments.seed, &bars),
-        None => load_object(&arguments.input, &bars, &mut Steps::default())
-            .map(|(object, report)| (object, report.summary)),
+        None => load_object(&arguments.input, &bars).map(|(object, report)| (object, report.summary)),
     };
     bars.clear();
     let (object, summary) = made?;
@@ -88,29 +85,4 @@ fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Ob
         Model::Splats { .. } => return Err(not_a_mesh(path)),
     };
     resample_mesh(&mesh, path, count, seed, bars).map(|(object, report)| (object, report.summary))
-}
-
-/// Why a file of splats can't be resampled.
-pub fn not_a_mesh(path: &Path) -> Error {
-    let problem = "the file holds splats; expected a mesh, to take samples of its triangles";
-    Error::input(path, "", problem)
-}
-
-/// Splats spread evenly over the mesh of the file at `path`.
-///
-/// # Errors
-/// As [`resample`].
-pub fn resample_mesh(
-    mesh: &Mesh,
-    path: &Path,
-    count: u64,
-    seed: u64,
-    bars: &Bars,
-) -> Result<(Object, InputReport)> {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    resampled(mesh, name, Samples { count, seed }, bars).map_err(|error| match error.kind() {
-        // The library knows no file.
-        ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
-        _ => error,
-    })
 }

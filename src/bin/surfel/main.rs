@@ -8,7 +8,6 @@ mod camera;
 mod compare;
 mod console;
 mod convert;
-mod counts;
 mod device;
 mod explain;
 mod figure;

@@ -7,7 +7,7 @@ use surfel::{
     graph::execute::Profile,
     prepare::PreparedScene,
     renderer::Headless,
-    report::FrameTimes,
+    report::{FrameTimes, TimedFrames},
     scene::{Camera, Settings},
 };
 
@@ -47,8 +47,9 @@ pub fn frame_times(
     for _ in 1..WARM_UP_FRAMES {
         draw(headless, Profile::Frame)?;
     }
-    let (samples, names) = turns::samples(headless, &mut draw, frames)?;
-    let transient_bytes = headless.transient_bytes();
-    let counts = turns::counts(&draw(headless, Profile::Counts)?.profile);
-    Ok((FrameTimes::of(&names, WARM_UP_FRAMES, &samples, &counts), transient_bytes))
+    let mut timed = TimedFrames::default();
+    turns::add_round(headless, &mut draw, frames, &mut timed)?;
+    turns::add_counts(headless, &mut draw, &mut timed)?;
+    let times = FrameTimes::of(&timed.passes, WARM_UP_FRAMES, &timed.rounds.concat(), &timed.counts);
+    Ok((times, timed.transient_bytes))
 }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use surfel::{
-    Error, Result,
-    compose::{Made, check_memory, make},
-    load::{BuiltIn, ObjectDescription, Representation, is_scene_file, load_scene_file},
+    Error, ErrorKind, Result,
+    compose::{build, make, resampled},
+    load::{BuiltIn, ObjectDescription, Representation, Samples, is_scene_file, load_scene_file},
     report::InputReport,
-    scene::{Ball, CameraParts, Light, Object, Scene},
+    scene::{Ball, CameraParts, Light, Mesh, Object, Scene},
 };
 
 use crate::{
@@ -69,7 +69,7 @@ pub struct Loaded {
 /// drawn as `meshes` says, but for those of scene files, which say it themselves.
 ///
 /// # Errors
-/// As [`load_scene_file`], [`check_memory`] and [`make`]; two scene files that both have a camera.
+/// As [`load_scene_file`] and [`build`]; two scene files that both have a camera.
 pub fn load_scene(
     inputs: &[PathBuf],
     meshes: Representation,
@@ -77,35 +77,52 @@ pub fn load_scene(
     steps: &mut Steps,
 ) -> Result<Loaded> {
     let Described { objects, lights, camera } = describe(inputs, meshes)?;
-    check_memory(&objects)?;
-    let mut scene = Scene { lights, ..Scene::default() };
-    let mut reports = Vec::new();
-    for object in &objects {
-        let made = made(object, bars, steps)?;
-        console::say(&made.report.summary);
-        reports.push(made.report.clone());
-        made.add_to(&mut scene);
-    }
+    let built = build(&objects, lights, bars, &mut |object| {
+        bars.clear();
+        steps.0.extend(object.steps.iter().cloned());
+        console::say(&object.report.summary);
+    });
+    bars.clear();
+    let (scene, inputs) = built?;
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
-    Ok(Loaded { scene, ball, camera, inputs: reports })
+    Ok(Loaded { scene, ball, camera, inputs })
 }
 
 /// The splats of one input that is no scene file, without those that can't be drawn.
 ///
 /// # Errors
 /// As [`make`].
-pub fn load_object(path: &Path, bars: &Bars, steps: &mut Steps) -> Result<(Object, InputReport)> {
-    let made = made(&ObjectDescription::of_file(path), bars, steps)?;
-    let splats = made.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
-    Ok((splats, made.report))
+pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport)> {
+    let built = make(&ObjectDescription::of_file(path), bars);
+    bars.clear();
+    let built = built?;
+    let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
+    Ok((splats, built.report))
 }
 
-fn made(object: &ObjectDescription, bars: &Bars, steps: &mut Steps) -> Result<Made> {
-    let made = make(object, bars);
-    bars.clear();
-    let mut made = made?;
-    steps.0.append(&mut made.steps);
-    Ok(made)
+/// Why a file of splats can't be resampled.
+pub fn not_a_mesh(path: &Path) -> Error {
+    let problem = "the file holds splats; expected a mesh, to take samples of its triangles";
+    Error::input(path, "", problem)
+}
+
+/// Splats spread evenly over the mesh of the file at `path`.
+///
+/// # Errors
+/// As [`resampled`].
+pub fn resample_mesh(
+    mesh: &Mesh,
+    path: &Path,
+    count: u64,
+    seed: u64,
+    bars: &Bars,
+) -> Result<(Object, InputReport)> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    resampled(mesh, name, Samples { count, seed }, bars).map_err(|error| match error.kind() {
+        // The library knows no file.
+        ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
+        _ => error,
+    })
 }
 
 /// All that the inputs describe.

@@ -2,107 +2,101 @@
 //! within a round hold.
 
 use surfel::{
-    Error, Progress as _, Result,
+    Progress as _, Result,
     graph::execute::{FrameProfile, Profile},
     prepare::PreparedScene,
     renderer::{Headless, Wanted},
-    report::FrameSample,
+    report::{FrameSample, TimedFrames, UNTIMED_A_TURN},
     scene::{Camera, Settings},
 };
 
 use crate::console::Bars;
 
 /// Timed frames in a turn, and as many again for the times of their passes.
-pub const FRAMES_A_TURN: u32 = 2;
-
-/// Frames before them that are not timed: what drew before needed other images, whose memory is touched for the first
-/// time after each change.
-pub const UNTIMED_A_TURN: u32 = 1;
+const FRAMES_A_TURN: u32 = 2;
 
 /// One frame, measured.
-pub struct Drawn {
+pub struct MeasuredFrame {
     /// What was measured of it.
     pub profile: FrameProfile,
     /// Seconds from its submission to the end of the wait for it.
     pub wall_secs: f64,
     /// Seconds in which the host recorded it.
     pub record_secs: f64,
+    /// Bytes of device memory that its own images and buffers share.
+    pub transient_bytes: u64,
 }
 
 /// Draws a frame and measures it.
-pub type Draw<'a> = Box<dyn FnMut(&mut Headless, Profile) -> Result<Drawn> + 'a>;
-
-/// What one contestant's frames took.
-#[derive(Default)]
-pub struct Timed {
-    /// Its passes, in the frame's order.
-    pub names: Vec<String>,
-    /// Round by round.
-    pub rounds: Vec<Vec<FrameSample>>,
-    /// Vertices and fragments of each pass, where they were counted.
-    pub counts: Vec<Option<[u64; 2]>>,
-}
-
-impl Timed {
-    /// All frames.
-    pub fn samples(&self) -> Vec<FrameSample> {
-        self.rounds.concat()
-    }
-}
+pub type Draw<'a> = Box<dyn FnMut(&mut Headless, Profile) -> Result<MeasuredFrame> + 'a>;
 
 /// The frames of a scene.
 pub fn frames<'a>(scene: &'a PreparedScene, camera: &'a Camera, settings: Settings) -> Draw<'a> {
     Box::new(move |headless, profile| {
         let wanted = Wanted { profile: Some(profile), ..Wanted::default() };
         let frame = headless.render(scene, camera, &settings, wanted)?;
-        let (profile, wall_secs, record_secs) =
-            (frame.profile.unwrap_or_default(), frame.wall_secs, frame.record_secs);
-        Ok(Drawn { profile, wall_secs, record_secs })
+        Ok(MeasuredFrame {
+            profile: frame.profile.unwrap_or_default(),
+            wall_secs: frame.wall_secs,
+            record_secs: frame.record_secs,
+            transient_bytes: headless.transient_bytes(),
+        })
     })
 }
 
-/// Draws `frames` frames whose passes are not timed, then as many of which they are: the times of both, and the passes'
-/// names.
+/// Adds a round: `frames` frames whose passes are not timed, then as many of which they are.
 ///
 /// # Errors
 /// As `draw`.
-pub fn samples(
+pub fn add_round(
     headless: &mut Headless,
-    draw: &mut dyn FnMut(&mut Headless, Profile) -> Result<Drawn>,
+    draw: &mut Draw<'_>,
     frames: u32,
-) -> Result<(Vec<FrameSample>, Vec<String>)> {
+    timed: &mut TimedFrames,
+) -> Result<()> {
     let ms = |secs: f64| 1e3 * secs;
-    let mut samples = Vec::new();
+    let mut round = Vec::new();
     for _ in 0..frames {
         let whole = draw(headless, Profile::Frame)?;
-        samples.push(FrameSample {
+        round.push(FrameSample {
             passes_ms: Vec::new(),
             frame_ms: whole.profile.span_secs.map(ms),
             wall_ms: ms(whole.wall_secs),
             record_ms: ms(whole.record_secs),
         });
+        timed.transient_bytes = whole.transient_bytes;
     }
-    let mut names = Vec::new();
-    for sample in &mut samples {
+    for sample in &mut round {
         let passes = draw(headless, Profile::Times)?.profile.passes;
         sample.passes_ms = passes.iter().map(|pass| pass.secs.map(ms)).collect();
-        names = passes.into_iter().map(|pass| pass.name).collect();
+        timed.passes = passes.into_iter().map(|pass| pass.name).collect();
     }
-    Ok((samples, names))
+    timed.rounds.extend((!round.is_empty()).then_some(round));
+    Ok(())
+}
+
+/// Counts vertices and fragments of each pass in a frame of their own, because counting costs time.
+///
+/// # Errors
+/// As `draw`.
+pub fn add_counts(headless: &mut Headless, draw: &mut Draw<'_>, timed: &mut TimedFrames) -> Result<()> {
+    let passes = draw(headless, Profile::Counts)?.profile.passes.into_iter();
+    timed.counts = passes.map(|pass| pass.counts.map(|counts| [counts.vertices, counts.fragments])).collect();
+    Ok(())
 }
 
 /// Times `frames` frames of each contestant and counts vertices and fragments of one more. One that fails is left out of
 /// the rounds that follow. A first round, in which pipelines are made, is not timed. `under_load` is called after it and after
 /// the last, while the device is warm.
-pub fn take(
+pub fn measure_interleaved(
     headless: &mut Headless,
     mut contestants: Vec<Draw<'_>>,
     frames: u32,
     what: &str,
     bars: &Bars,
     under_load: &mut dyn FnMut(),
-) -> Vec<Result<Timed>> {
-    let mut all: Vec<Result<Timed>> = contestants.iter().map(|_| Ok(Timed::default())).collect();
+) -> Vec<Result<TimedFrames>> {
+    let mut all: Vec<Result<TimedFrames>> = contestants.iter().map(|_| Ok(TimedFrames::default())).collect();
     let rounds = frames.div_ceil(FRAMES_A_TURN);
     let total = u64::from(rounds + 1) * contestants.len() as u64;
     let mut done = 0;
@@ -112,11 +106,12 @@ pub fn take(
             round => FRAMES_A_TURN.min(frames - (round - 1) * FRAMES_A_TURN),
         };
         for (draw, result) in contestants.iter_mut().zip(&mut all) {
-            if let Ok(timed) = result
-                && let Err(error) = one_turn(headless, draw, timed, timed_frames)
-            {
-                *result = Err(error);
-            }
+            unless_failed(result, |timed| {
+                for _ in 0..UNTIMED_A_TURN {
+                    draw(headless, Profile::Frame)?;
+                }
+                add_round(headless, draw, timed_frames, timed)
+            });
             done += 1;
             bars.step(what, done, total);
         }
@@ -125,34 +120,16 @@ pub fn take(
         }
     }
     for (draw, result) in contestants.iter_mut().zip(&mut all) {
-        if let Ok(timed) = result {
-            match draw(headless, Profile::Counts) {
-                Ok(drawn) => timed.counts = counts(&drawn.profile),
-                Err(error) => *result = Err(error),
-            }
-        }
+        unless_failed(result, |timed| add_counts(headless, draw, timed));
     }
     all
 }
 
-/// Vertices and fragments of each pass.
-pub fn counts(profile: &FrameProfile) -> Vec<Option<[u64; 2]>> {
-    profile.passes.iter().map(|pass| pass.counts.map(|counts| [counts.vertices, counts.fragments])).collect()
-}
-
-fn one_turn(
-    headless: &mut Headless,
-    draw: &mut Draw<'_>,
-    timed: &mut Timed,
-    timed_frames: u32,
-) -> Result<(), Error> {
-    for _ in 0..UNTIMED_A_TURN {
-        draw(headless, Profile::Frame)?;
+/// Goes on with a result, unless it is an error already.
+fn unless_failed(result: &mut Result<TimedFrames>, work: impl FnOnce(&mut TimedFrames) -> Result<()>) {
+    if let Ok(timed) = result
+        && let Err(error) = work(timed)
+    {
+        *result = Err(error);
     }
-    let (round, names) = samples(headless, draw, timed_frames)?;
-    if !round.is_empty() {
-        timed.rounds.push(round);
-        timed.names = names;
-    }
-    Ok(())
 }

@@ -20,7 +20,7 @@ use crate::{
         Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    report::Limit,
+    report::ThroughputProbe,
     scene::{Settings, TileInvocations},
     shaders::{self, Shader, config::*},
     vk::{Blend, DescriptorPool, Limits},
@@ -45,7 +45,7 @@ pub struct LimitDispatch {
 
 impl LimitDispatch {
     /// That of a limit as this device has it; `None` where it is not one of compute.
-    pub fn of(limit: Limit, limits: &Limits) -> Option<Self> {
+    pub fn of(limit: ThroughputProbe, limits: &Limits) -> Option<Self> {
         // As in `glsl/limit_compute.comp.glsl`.
         const GROUP: u64 = 256;
         const GROUPS: u32 = 4096;
@@ -61,9 +61,9 @@ impl LimitDispatch {
             words: GROUPS.into(),
         };
         match limit {
-            Limit::Invocations => Some(nothing),
-            Limit::Atomics => Some(Self { atomics: true, words: nothing.invocations, ..nothing }),
-            Limit::Kernels => {
+            ThroughputProbe::Invocations => Some(nothing),
+            ThroughputProbe::Atomics => Some(Self { atomics: true, words: nothing.invocations, ..nothing }),
+            ThroughputProbe::Kernels => {
                 let invocations = GROUP_OF_KERNELS * u64::from(GROUPS_OF_KERNELS);
                 let (shader, pixels) = match Invocations::of(TileInvocations::Auto, limits, false) {
                     Invocations::Pixels => (&shaders::LIMIT_KERNELS_PIXELS_COMP, 1),
@@ -105,14 +105,14 @@ impl LimitInputs<'_> {
 }
 
 /// Declares the pass that draws points: those of `count` in `points`, which lie outside of the clip volume for
-/// [`Limit::Points`], are a pixel each for [`Limit::DrawnPoints`], and cover the image for limits of fragments.
+/// [`ThroughputProbe::Points`], are a pixel each for [`ThroughputProbe::DrawnPoints`], and cover the image for limits of fragments.
 ///
 /// # Errors
 /// [`ErrorKind::Graph`] for a limit that is not one of drawing; whatever the driver answers when the pipeline is made.
 pub fn limit_draws<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: LimitInputs<'a>,
-    limit: Limit,
+    limit: ThroughputProbe,
     points: &Handle<Buffer>,
     count: u32,
 ) -> Result<()> {
@@ -124,21 +124,24 @@ pub fn limit_draws<'a>(
     let color = vk::Format::R8G8B8A8_UNORM;
     let mut far = 0.0;
     let (key, colors) = match limit {
-        Limit::Points | Limit::Fragments => (key(&shaders::FLOOR_FILL_FRAG), vec![color]),
-        Limit::DrawnPoints => {
+        ThroughputProbe::Points | ThroughputProbe::Fragments => (key(&shaders::FLOOR_FILL_FRAG), vec![color]),
+        ThroughputProbe::DrawnPoints => {
             far = 1.0;
             let depth = Some((vk::CompareOp::GREATER, true));
             (GraphicsKey { depth, ..key(&shaders::FLOOR_DEPTH_FRAG) }, Vec::new())
         }
         // All have one depth, so that every fragment passes and is written.
-        Limit::DepthFragments => {
+        ThroughputProbe::DepthFragments => {
             let depth = Some((vk::CompareOp::GREATER_OR_EQUAL, true));
             (GraphicsKey { depth, ..key(&shaders::FLOOR_DEPTH_FRAG) }, Vec::new())
         }
-        Limit::BlendedFragments => {
+        ThroughputProbe::BlendedFragments => {
             (GraphicsKey { blend: Blend::Add, ..key(&shaders::FLOOR_ADD_FRAG) }, vec![sums; 2])
         }
-        Limit::Bytes | Limit::Invocations | Limit::Atomics | Limit::Kernels => {
+        ThroughputProbe::Bytes
+        | ThroughputProbe::Invocations
+        | ThroughputProbe::Atomics
+        | ThroughputProbe::Kernels => {
             let (pass, reason) = (limit.name().to_owned(), "is not a limit of drawing".to_owned());
             return Err(ErrorKind::Graph { pass, resource: String::new(), reason }.into());
         }
@@ -199,7 +202,7 @@ pub fn limit_fill(graph: &mut Graph<Body<'_>>, buffer: &mut Handle<Buffer>) {
 pub fn limit_dispatch<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: LimitInputs<'a>,
-    limit: Limit,
+    limit: ThroughputProbe,
     dispatch: LimitDispatch,
     words: &mut Handle<Buffer>,
 ) -> Result<()> {

@@ -1,47 +1,31 @@
 //! Which methods are compared, and how they are named.
 
+use std::{collections::HashSet, fmt};
+
 use serde::Serialize;
 
 use crate::scene::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer, Settings};
 
 /// One way to draw: what the papers vary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Method {
     /// How a splat becomes fragments.
     pub rasterizer: Rasterizer,
-    /// The screen-space low-pass filter.
-    pub filter: Filter,
-    /// What a splat weighs that the filter has enlarged.
-    pub filter_weight: FilterWeight,
+    /// The screen-space low-pass filter, and what a splat weighs that it has enlarged.
+    #[serde(flatten)]
+    pub filter: WeightedFilter,
     /// The precision of the sums.
     pub accumulate: Accumulate,
     /// How the kernel is evaluated.
     pub kernel_eval: KernelEval,
 }
 
-/// A method by the names of its options, as reports write it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct MethodNames {
-    /// `--rasterizer`.
-    pub rasterizer: &'static str,
-    /// `--filter`.
-    pub filter: &'static str,
-    /// `--filter-weight`.
-    pub filter_weight: &'static str,
-    /// `--accumulate`.
-    pub accumulate: &'static str,
-    /// `--kernel-eval`.
-    pub kernel_eval: &'static str,
-}
-
-/// What decides the exact picture of a method: methods of one key share their reference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct PictureKey {
-    /// One of the rasterizers that draw this picture.
-    pub rasterizer: Rasterizer,
-    /// The filter.
+/// A filter and its weight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+pub struct WeightedFilter {
+    /// The screen-space low-pass filter.
     pub filter: Filter,
-    /// Its weight.
+    /// What a splat weighs that the filter has enlarged.
     pub filter_weight: FilterWeight,
 }
 
@@ -50,46 +34,44 @@ impl Method {
     pub fn settings(&self, base: &Settings) -> Settings {
         Settings {
             rasterizer: self.rasterizer,
-            filter: self.filter,
-            filter_weight: self.filter_weight,
+            filter: self.filter.filter,
+            filter_weight: self.filter.filter_weight,
             accumulate: self.accumulate,
             kernel_eval: self.kernel_eval,
             ..base.clone()
         }
     }
 
-    /// What its exact picture depends on: not on how sums and kernels are rounded, nor on which of the rasterizers
-    /// that are exact draws it.
-    pub fn picture_key(&self) -> PictureKey {
-        let rasterizer = self.rasterizer.family();
-        PictureKey { rasterizer, filter: self.filter, filter_weight: self.filter_weight }
+    /// The method whose exact picture is also its own: it does not depend on how sums and kernels are rounded, nor on which of
+    /// the rasterizers that are exact draws it.
+    pub fn exact(&self) -> Self {
+        let (accumulate, kernel_eval) = <(Accumulate, KernelEval)>::default();
+        Self { rasterizer: self.rasterizer.family(), filter: self.filter, accumulate, kernel_eval }
     }
 
-    /// The names of its options.
-    pub fn names(&self) -> MethodNames {
-        MethodNames {
-            rasterizer: self.rasterizer.name(),
-            filter: self.filter.name(),
-            filter_weight: self.filter_weight.name(),
-            accumulate: self.accumulate.name(),
-            kernel_eval: self.kernel_eval.name(),
-        }
+    /// Of these settings.
+    fn of(settings: &Settings) -> Self {
+        let Settings { rasterizer, filter, filter_weight, accumulate, kernel_eval, .. } = *settings;
+        Self { rasterizer, filter: WeightedFilter { filter, filter_weight }, accumulate, kernel_eval }
     }
 }
 
-impl MethodNames {
-    /// The filter with its weight, where that is not the default: `adjust`, `adjust unit`.
-    pub fn filter_and_weight(&self) -> String {
-        match self.filter_weight {
-            weight if weight == FilterWeight::default().name() => self.filter.to_owned(),
-            weight => format!("{} {weight}", self.filter),
-        }
+/// In a line, such as `perspective, adjust, f16, analytic`.
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { rasterizer, filter, accumulate, kernel_eval } = self;
+        write!(f, "{}, {filter}, {}, {}", rasterizer.name(), accumulate.name(), kernel_eval.name())
     }
+}
 
-    /// All in one line, such as `perspective, adjust, f16, analytic`.
-    pub fn line(&self) -> String {
-        let filter = self.filter_and_weight();
-        format!("{}, {filter}, {}, {}", self.rasterizer, self.accumulate, self.kernel_eval)
+/// The filter, with its weight where that is not the default: `adjust`, `adjust unit`.
+impl fmt::Display for WeightedFilter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.filter.name())?;
+        match self.filter_weight == FilterWeight::default() {
+            true => Ok(()),
+            false => write!(f, " {}", self.filter_weight.name()),
+        }
     }
 }
 
@@ -108,32 +90,30 @@ pub struct Selection {
     pub kernel_evals: Vec<KernelEval>,
 }
 
+/// Each of the settings with each of the values.
+fn with_each<T: Copy>(all: Vec<Settings>, values: &[T], set: fn(&mut Settings, T)) -> Vec<Settings> {
+    let with = |settings: &Settings, value: T| {
+        let mut settings = settings.clone();
+        set(&mut settings, value);
+        settings
+    };
+    all.iter().flat_map(|settings| values.iter().map(move |value| with(settings, *value))).collect()
+}
+
 impl Selection {
     /// Every combination, whether it exists or not, each once.
     pub fn product(&self) -> Vec<Method> {
-        let mut methods = Vec::new();
-        for &rasterizer in &self.rasterizers {
-            for &filter in &self.filters {
-                // Only tangent adjustment leaves a splat a weight to choose.
-                let default = [FilterWeight::default()];
-                let filter_weights: &[_] = if filter.adjusts() { &self.filter_weights } else { &default };
-                for &filter_weight in filter_weights {
-                    for &accumulate in &self.accumulates {
-                        for &kernel_eval in &self.kernel_evals {
-                            methods.push(Method {
-                                rasterizer,
-                                filter,
-                                filter_weight,
-                                accumulate,
-                                kernel_eval,
-                            });
-                        }
-                    }
-                }
-            }
-        }
-        methods.dedup();
-        methods
+        let all = vec![Settings::default()];
+        let all = with_each(all, &self.rasterizers, |settings, value| settings.rasterizer = value);
+        let all = with_each(all, &self.filters, |settings, value| settings.filter = value);
+        let all = with_each(all, &self.filter_weights, |settings, value| {
+            // Only tangent adjustment leaves a splat a weight to choose.
+            settings.filter_weight = if settings.filter.adjusts() { value } else { FilterWeight::default() };
+        });
+        let all = with_each(all, &self.accumulates, |settings, value| settings.accumulate = value);
+        let all = with_each(all, &self.kernel_evals, |settings, value| settings.kernel_eval = value);
+        let mut seen = HashSet::new();
+        all.iter().map(Method::of).filter(|method| seen.insert(*method)).collect()
     }
 
     /// The combination of all first values, and those that differ from it in one option: what each option changes by
@@ -141,19 +121,17 @@ impl Selection {
     pub fn one_at_a_time(&self) -> Vec<Method> {
         let all = self.product();
         let Some(&first) = all.first() else { return all };
-        let differences = |method: &Method| {
+        let differs = |method: &Method| {
             [
                 method.rasterizer != first.rasterizer,
-                method.filter != first.filter,
-                method.filter_weight != first.filter_weight,
+                method.filter.filter != first.filter.filter,
+                method.filter.filter_weight != first.filter.filter_weight,
                 method.accumulate != first.accumulate,
                 method.kernel_eval != first.kernel_eval,
             ]
-            .into_iter()
-            .filter(|differs| *differs)
-            .count()
         };
-        all.into_iter().filter(|method| differences(method) <= 1).collect()
+        let one = |method: &Method| differs(method).into_iter().filter(|differs| *differs).count() <= 1;
+        all.into_iter().filter(one).collect()
     }
 }
 
@@ -188,14 +166,14 @@ mod tests {
     fn one_at_a_time_is_the_default_and_a_method_for_each_other_value() {
         let methods = all().one_at_a_time();
         assert_eq!(methods.len(), 1 + 8 + 4 + 1 + 1);
-        assert_eq!(methods[0].names().line(), "perspective, adjust, f16, analytic");
-        assert!(methods.iter().any(|method| method.names().line() == "quad, adjust, f16, analytic"));
-        assert!(!methods.iter().any(|method| method.names().line() == "quad, none, f16, analytic"));
+        assert_eq!(methods[0].to_string(), "perspective, adjust, f16, analytic");
+        assert!(methods.iter().any(|method| method.to_string() == "quad, adjust, f16, analytic"));
+        assert!(!methods.iter().any(|method| method.to_string() == "quad, none, f16, analytic"));
     }
 
     #[test]
     fn exact_rasterizers_share_a_picture_and_the_others_have_their_own() {
-        let keys: std::collections::HashSet<_> = all().product().iter().map(Method::picture_key).collect();
+        let keys: std::collections::HashSet<_> = all().product().iter().map(Method::exact).collect();
         // The exact one, the chopped one, two affine ones; with five filters each.
         assert_eq!(keys.len(), 4 * 5);
     }
@@ -204,24 +182,22 @@ mod tests {
     fn every_part_of_a_method_reaches_the_settings_and_the_line() {
         let method = Method {
             rasterizer: Rasterizer::Raycast,
-            filter: Filter::AdjustPaper,
-            filter_weight: FilterWeight::Unit,
+            filter: WeightedFilter { filter: Filter::AdjustPaper, filter_weight: FilterWeight::Unit },
             accumulate: Accumulate::F32,
             kernel_eval: KernelEval::Texture,
         };
-        assert_eq!(method.names().line(), "raycast, adjust-paper unit, f32, texture");
+        assert_eq!(method.to_string(), "raycast, adjust-paper unit, f32, texture");
         let settings = method.settings(&Settings::default());
         let options = settings.as_options();
-        let names = method.names();
-        let expected = [
-            ("rasterizer", names.rasterizer),
-            ("filter", names.filter),
-            ("filter-weight", names.filter_weight),
-            ("accumulate", names.accumulate),
-            ("kernel-eval", names.kernel_eval),
-        ];
-        for (option, name) in expected {
-            assert_eq!(options[option], name, "{option}");
+        let json = serde_json::to_value(method).unwrap();
+        for (option, name) in [
+            ("rasterizer", "rasterizer"),
+            ("filter", "filter"),
+            ("filter-weight", "filter_weight"),
+            ("accumulate", "accumulate"),
+            ("kernel-eval", "kernel_eval"),
+        ] {
+            assert_eq!(json[name], options[option].as_str(), "{option}");
         }
     }
 }

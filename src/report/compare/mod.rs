@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 pub use errors::{Deviation, ErrorFigures, errors};
-pub use method::{Method, MethodNames, PictureKey, Selection};
+pub use method::{Method, Selection, WeightedFilter};
 pub use pareto::pareto_front;
 pub use ssim::ssim;
 pub use surface::Surface;
@@ -58,9 +58,9 @@ pub struct CompareReport {
 /// One method's figures.
 #[derive(Clone, Debug, Serialize)]
 pub struct MethodRow {
-    /// Its names.
+    /// Which it is.
     #[serde(flatten)]
-    pub method: MethodNames,
+    pub method: Method,
     /// Its passes.
     pub passes: Vec<PassRow>,
     /// Milliseconds of a frame whose passes are not timed; `None` where not measured.
@@ -79,26 +79,29 @@ pub struct MethodRow {
 /// One pass of a method.
 #[derive(Clone, Debug, Serialize)]
 pub struct PassRow {
-    /// The pass.
-    pub name: String,
-    /// Its milliseconds; `None` where not measured.
-    pub ms: Option<Spread>,
-    /// Invocations of the vertex stage in one frame; `None` where not counted.
-    pub vertices: Option<u64>,
-    /// Invocations of the fragment stage in one frame; `None` where not counted.
-    pub fragments: Option<u64>,
+    /// What it costs.
+    #[serde(flatten)]
+    pub figures: PassFigures,
     /// Instructions of its vertex stage, paper-comparable ([`crate::instruments::counts_of`]); `None` where not counted.
     pub vertex_instructions: Option<u32>,
     /// The same of its fragment stage.
     pub fragment_instructions: Option<u32>,
 }
 
+impl PassRow {
+    /// Its instructions, as `46/3`; `None` where not counted.
+    fn instructions(&self) -> Option<String> {
+        let (vertex, fragment) = self.vertex_instructions.zip(self.fragment_instructions)?;
+        Some(format!("{vertex}/{fragment}"))
+    }
+}
+
 /// A method that could not be compared.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Skipped {
-    /// Its names.
+    /// Which it is.
     #[serde(flatten)]
-    pub method: MethodNames,
+    pub method: Method,
     /// Why, in a line.
     pub reason: String,
 }
@@ -106,15 +109,12 @@ pub struct Skipped {
 impl MethodRow {
     /// Of a method's frames and errors; whether it is on the front is not known yet.
     pub fn new(
-        method: MethodNames,
+        method: Method,
         times: FrameTimes,
         implementation_error: ErrorFigures,
         method_error: ErrorFigures,
     ) -> Self {
-        let pass = |pass: PassFigures| {
-            let PassFigures { name, ms, vertices, fragments } = pass;
-            PassRow { name, ms, vertices, fragments, vertex_instructions: None, fragment_instructions: None }
-        };
+        let pass = |figures| PassRow { figures, vertex_instructions: None, fragment_instructions: None };
         Self {
             method,
             passes: times.passes.into_iter().map(pass).collect(),
@@ -135,25 +135,16 @@ impl MethodRow {
     #[cfg(feature = "counts")]
     pub fn set_instructions(&mut self, counted: &[crate::count::PassCounts]) {
         for pass in &mut self.passes {
-            if let Some(counts) = counted.iter().find(|counts| counts.pass == pass.name) {
+            if let Some(counts) = counted.iter().find(|counts| counts.pass == pass.figures.name) {
                 pass.vertex_instructions = counts.vertex.as_ref().and_then(|counts| counts.arb);
                 pass.fragment_instructions = counts.fragment.as_ref().and_then(|counts| counts.arb);
             }
         }
     }
 
-    /// Instructions of the pass of this name, as `46/3`; `-` where not counted.
-    fn instructions(&self, pass: &str) -> String {
-        let row = self.passes.iter().find(|row| row.name == pass);
-        match row.and_then(|row| row.vertex_instructions.zip(row.fragment_instructions)) {
-            Some((vertex, fragment)) => format!("{vertex}/{fragment}"),
-            None => "-".to_owned(),
-        }
-    }
-
-    /// Fragments of the pass of this name.
-    fn fragments(&self, pass: &str) -> Option<u64> {
-        self.passes.iter().find(|row| row.name == pass)?.fragments
+    /// The pass of this name.
+    fn pass(&self, name: &str) -> Option<&PassRow> {
+        self.passes.iter().find(|pass| pass.figures.name == name)
     }
 }
 

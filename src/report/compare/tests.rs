@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::{
-    report::FrameSample,
-    scene::{Accumulate, Camera, Filter, FilterWeight, KernelEval, Rasterizer, Settings},
+    report::{FrameSample, PLOT_SIZE_PX},
+    scene::{Accumulate, Camera, Filter, KernelEval, Rasterizer, Settings},
 };
 
-fn method(rasterizer: Rasterizer, filter: Filter) -> MethodNames {
+fn method(rasterizer: Rasterizer, filter: Filter) -> Method {
     let (accumulate, kernel_eval) = (Accumulate::F32, KernelEval::Analytic);
-    let filter_weight = FilterWeight::default();
-    Method { rasterizer, filter, filter_weight, accumulate, kernel_eval }.names()
+    let filter = WeightedFilter { filter, ..WeightedFilter::default() };
+    Method { rasterizer, filter, accumulate, kernel_eval }
 }
 
 fn figures(rms: f64) -> ErrorFigures {
@@ -99,7 +99,7 @@ fn what_was_not_measured_is_a_dash() {
     report.methods.truncate(1);
     let row = &mut report.methods[0];
     row.frame_ms = None;
-    row.passes.iter_mut().for_each(|pass| (pass.ms, pass.fragments) = (None, None));
+    row.passes.iter_mut().for_each(|pass| (pass.figures.ms, pass.figures.fragments) = (None, None));
     row.method_error =
         ErrorFigures { color: None, image: None, psnr_db: None, ssim: None, ..row.method_error };
     report.mark_front();
@@ -109,7 +109,7 @@ fn what_was_not_measured_is_a_dash() {
     let rows: Vec<usize> =
         table.lines().filter(|line| line.starts_with("  perspective")).map(dashes).collect();
     assert_eq!(rows, [8, 5], "{table}");
-    assert!(report.plot_svg().unwrap().contains("Pareto front"));
+    assert!(report.plot().svg(PLOT_SIZE_PX).unwrap().contains("Pareto front"));
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn json_has_names_units_and_null_for_what_is_not_counted() {
 
 #[test]
 fn the_plot_names_the_front_its_axes_and_each_filter() {
-    let svg = report().plot_svg().unwrap();
+    let svg = report().plot().svg(PLOT_SIZE_PX).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     for text in [
         "perspective, adjust, f32, analytic",
@@ -142,5 +142,5 @@ fn the_plot_names_the_front_its_axes_and_each_filter() {
     }
     // Not on the front, so without its name.
     assert!(!svg.contains("quad, adjust"));
-    assert_eq!(svg, report().plot_svg().unwrap());
+    assert_eq!(svg, report().plot().svg(PLOT_SIZE_PX).unwrap());
 }

@@ -5,7 +5,10 @@ use std::fmt;
 use serde::Serialize;
 
 use super::{ZoomReport, ZoomStep};
-use crate::scene::FilterWeight;
+use crate::{
+    report::compare::WeightedFilter,
+    scene::{Filter, FilterWeight},
+};
 
 /// One claim, judged at every step where both filters have figures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,25 +35,25 @@ impl ZoomReport {
     /// All claims about `adjust`, with each weight that was drawn.
     pub fn judge(&self) -> Vec<Claim> {
         let mut claims = Vec::new();
-        let index = |filter: &str, weight: &str| {
-            self.filters.iter().position(|names| names.filter == filter && names.filter_weight == weight)
+        let index = |filter, filter_weight| {
+            self.filters.iter().position(|own| *own == WeightedFilter { filter, filter_weight })
         };
-        for (weight, _) in FilterWeight::NAMES {
-            let Some(adjust) = index("adjust", weight) else { continue };
-            let name = self.filters[adjust].line();
+        let default = FilterWeight::default();
+        for (_, weight) in FilterWeight::NAMES {
+            let Some(adjust) = index(Filter::Adjust, *weight) else { continue };
             let everywhere: &dyn Fn(&ZoomStep) -> bool = &|_| true;
             let mixed: &dyn Fn(&ZoomStep) -> bool = &|step| step.is_mixed(&self.board);
             let error: Figure = ZoomStep::rms;
-            let default = FilterWeight::default().name();
             let cases: [(_, _, _, Figure, _, _); 4] = [
-                ("adjust-paper", *weight, "at least as good as adjust-paper", error, 1.0, everywhere),
-                ("max", default, "better than max where splats are mixed", error, 1.0, mixed),
-                ("ewa", default, "not more than 10% worse than ewa", error, 1.1, everywhere),
-                ("ewa", default, "no more fragments than ewa", ZoomStep::fragments, 1.0, everywhere),
+                (Filter::AdjustPaper, *weight, "at least as good as adjust-paper", error, 1.0, everywhere),
+                (Filter::Max, default, "better than max where splats are mixed", error, 1.0, mixed),
+                (Filter::Ewa, default, "not more than 10% worse than ewa", error, 1.1, everywhere),
+                (Filter::Ewa, default, "no more fragments than ewa", ZoomStep::fragments, 1.0, everywhere),
             ];
             for (other, other_weight, text, figure, limit, at) in cases {
                 if let Some(other) = index(other, other_weight) {
-                    claims.push(self.claim(format!("{name}: {text}"), [adjust, other], figure, limit, at));
+                    let claim = format!("{}: {text}", self.filters[adjust]);
+                    claims.push(self.claim(claim, [adjust, other], figure, limit, at));
                 }
             }
         }

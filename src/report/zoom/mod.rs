@@ -10,8 +10,11 @@ use serde::Serialize;
 
 pub use claims::Claim;
 
-use super::{DeviceReport, compare::ErrorFigures};
-use crate::{reference::MOST_SAMPLES_PER_SIDE, scene::FilterWeight};
+use super::{
+    DeviceReport,
+    compare::{ErrorFigures, WeightedFilter},
+};
+use crate::reference::MOST_SAMPLES_PER_SIDE;
 
 /// By how many degrees the board is tilted against the view where nothing else is said: so much that a splat can be larger
 /// than the filter along one axis and smaller along the other.
@@ -39,7 +42,7 @@ pub struct ZoomReport {
     /// The board.
     pub board: Board,
     /// The filters that are compared.
-    pub filters: Vec<FilterNames>,
+    pub filters: Vec<WeightedFilter>,
     /// From far to near.
     pub steps: Vec<ZoomStep>,
     /// What the figures say about `adjust`.
@@ -57,15 +60,6 @@ pub struct Board {
     pub radius: f64,
     /// Degrees between its normal and the view.
     pub tilt_deg: f64,
-}
-
-/// A filter and its weight.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct FilterNames {
-    /// `--filter`.
-    pub filter: &'static str,
-    /// `--filter-weight`.
-    pub filter_weight: &'static str,
 }
 
 /// One distance.
@@ -104,16 +98,6 @@ impl ZoomStep {
     #[expect(clippy::cast_precision_loss, reason = "counts of fragments are far below 2⁵³")]
     fn fragments(&self, filter: usize) -> Option<f64> {
         Some(self.figures.get(filter)?.as_ref()?.fragments? as f64)
-    }
-}
-
-impl FilterNames {
-    /// The filter, with its weight where that is not the default.
-    pub fn line(&self) -> String {
-        match self.filter_weight {
-            weight if weight == FilterWeight::default().name() => self.filter.to_owned(),
-            weight => format!("{} {weight}", self.filter),
-        }
     }
 }
 

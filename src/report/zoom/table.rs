@@ -2,72 +2,69 @@
 
 use std::fmt;
 
-use super::{ZoomReport, ZoomStep};
+use super::{ZoomFigures, ZoomReport};
+use crate::report::{
+    Grid,
+    cells::{figure, scientific},
+};
 
-/// The width of a filter's column.
-const WIDTH: usize = 17;
+impl ZoomReport {
+    /// What was looked at, and how.
+    pub fn setting(&self) -> String {
+        let ([width, height], board) = (self.size_px, &self.board);
+        let samples = |side: u32| u64::from(side).pow(2);
+        let least = samples(self.samples_per_side);
+        let most = self.steps.iter().map(|step| samples(step.samples_per_side)).max().unwrap_or(least);
+        let far = match most > least {
+            true => format!(", up to {most} where splats are far below one"),
+            false => String::new(),
+        };
+        format!(
+            "checkerboard of {0}x{0} splats, fields of {1}x{1}, radius {2} of the spacing, tilted by {3} degrees\n\
+             {width}x{height} pixels, ground truth of {least} samples a pixel{far}",
+            board.splats_per_side, board.splats_per_field, board.radius, board.tilt_deg
+        )
+    }
+
+    /// Errors, holes and fragments of every filter at every distance.
+    pub fn grids(&self) -> [Grid; 3] {
+        [
+            self.grid("RMS of linear color over pixels that both cover (~: mixed)", |own| {
+                own.error.color.map(|color| scientific(Some(color.rms)))
+            }),
+            self.grid("pixels covered in one and empty in the other", |own| {
+                Some(own.error.coverage_px.to_string())
+            }),
+            self.grid("fragments of the accumulation", |own| Some(own.fragments?.to_string())),
+        ]
+    }
+
+    /// A table of one figure.
+    fn grid(&self, title: &str, of: fn(&ZoomFigures) -> Option<String>) -> Grid {
+        let table = Grid::of(title, &self.steps).column("px", |step| {
+            let mixed = if step.is_mixed(&self.board) { "~" } else { "" };
+            format!("{:.3}{mixed}", step.pixels_per_splat)
+        });
+        let filters = self.filters.iter().enumerate();
+        filters
+            .fold(table, |table, (i, filter)| {
+                table.column(filter.to_string(), |step| {
+                    figure(step.figures.get(i).and_then(|own| of(own.as_ref()?)))
+                })
+            })
+            .grid()
+    }
+
+    /// What the tables' marks mean.
+    pub const NOTE: &str = "px: the spacing of the splats in the middle of the picture; mixed: there larger than the filter \
+        (sqrt 2 px) along one axis and smaller along the other";
+}
 
 impl fmt::Display for ZoomReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [width, height] = self.size_px;
-        let samples = u64::from(self.samples_per_side).pow(2);
-        let board = &self.board;
-        writeln!(f, "{}, {}", self.device.name, self.device.driver)?;
-        writeln!(
-            f,
-            "checkerboard of {0}x{0} splats, fields of {1}x{1}, radius {2} of the spacing, tilted by {3} degrees",
-            board.splats_per_side, board.splats_per_field, board.radius, board.tilt_deg
-        )?;
-        let most =
-            self.steps.iter().map(|step| u64::from(step.samples_per_side).pow(2)).max().unwrap_or(samples);
-        write!(f, "{width}x{height} pixels, ground truth of {samples} samples a pixel")?;
-        match most > samples {
-            true => writeln!(f, ", up to {most} where splats are far below one")?,
-            false => writeln!(f)?,
-        }
-        self.block(f, "RMS of linear color over pixels that both cover (~: mixed)", &|step, i| {
-            step.rms(i).map(|rms| format!("{rms:.3e}"))
-        })?;
-        self.block(f, "pixels covered in one and empty in the other", &|step, i| {
-            Some(step.figures.get(i)?.as_ref()?.error.coverage_px.to_string())
-        })?;
-        self.block(f, "fragments of the accumulation", &|step, i| {
-            Some(step.figures.get(i)?.as_ref()?.fragments?.to_string())
-        })?;
-        writeln!(
-            f,
-            "px: the spacing of the splats in the middle of the picture; mixed: there larger than the filter (sqrt 2 \
-             px) along one axis and smaller along the other"
-        )?;
-        for claim in &self.claims {
-            writeln!(f, "{claim}")?;
-        }
-        Ok(())
-    }
-}
-
-impl ZoomReport {
-    /// A table of one figure.
-    fn block(
-        &self,
-        f: &mut fmt::Formatter<'_>,
-        title: &str,
-        figure: &dyn Fn(&ZoomStep, usize) -> Option<String>,
-    ) -> fmt::Result {
-        writeln!(f, "\n{title}")?;
-        write!(f, "{:>9} ", "px")?;
-        for filter in &self.filters {
-            write!(f, " {:>WIDTH$}", filter.line())?;
-        }
-        writeln!(f)?;
-        for step in &self.steps {
-            let mixed = if step.is_mixed(&self.board) { '~' } else { ' ' };
-            write!(f, "{:9.3}{mixed}", step.pixels_per_splat)?;
-            for i in 0..self.filters.len() {
-                write!(f, " {:>WIDTH$}", figure(step, i).unwrap_or_else(|| "-".to_owned()))?;
-            }
-            writeln!(f)?;
-        }
-        Ok(())
+        writeln!(f, "{}, {}\n{}", self.device.name, self.device.driver, self.setting())?;
+        self.grids().iter().try_for_each(|grid| write!(f, "\n{grid}"))?;
+        writeln!(f, "{}", Self::NOTE)?;
+        self.claims.iter().try_for_each(|claim| writeln!(f, "{claim}"))
     }
 }

@@ -1,14 +1,12 @@
 //! Path, claims, table and plot of a report that is made by hand.
 
 use super::*;
-use crate::report::compare::Deviation;
+use crate::{
+    report::{PLOT_SIZE_PX, compare::Deviation},
+    scene::Filter,
+};
 
-const FILTERS: [FilterNames; 4] = [
-    FilterNames { filter: "adjust", filter_weight: "area" },
-    FilterNames { filter: "adjust-paper", filter_weight: "area" },
-    FilterNames { filter: "max", filter_weight: "area" },
-    FilterNames { filter: "ewa", filter_weight: "area" },
-];
+const FILTERS: [Filter; 4] = [Filter::Adjust, Filter::AdjustPaper, Filter::Max, Filter::Ewa];
 
 fn figures((rms, fragments): (f64, u64)) -> Option<ZoomFigures> {
     let color = Some(Deviation { max: rms, rms });
@@ -43,7 +41,7 @@ fn report(steps: &[(f64, [(f64, u64); 4])]) -> ZoomReport {
         size_px: [64, 64],
         samples_per_side: 16,
         board: Board { splats_per_side: 60, splats_per_field: 5, radius: 1.0, tilt_deg: DEFAULT_TILT_DEG },
-        filters: FILTERS.to_vec(),
+        filters: FILTERS.map(|filter| WeightedFilter { filter, ..WeightedFilter::default() }).to_vec(),
         steps: steps
             .iter()
             .map(|(px, all)| ZoomStep {
@@ -145,7 +143,7 @@ fn table_and_plot_show_every_filter_and_step() {
         3,
         "{table}"
     );
-    let svg = report.plot_svg().unwrap();
+    let svg = report.plot().svg(PLOT_SIZE_PX).unwrap();
     for text in ["adjust-paper", "ewa", "pixels a splat", "mixed: larger than"] {
         assert!(svg.contains(text), "{text}");
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Arg, Args, ValueEnum};
 use surfel::{
     Error, Result,
-    report::PAPER_SPLATS,
+    report::bench::PAPER_SPLATS,
     scene::{Rasterizer, Settings},
 };
 

@@ -1,123 +1,77 @@
-//! Several ways to draw, timed in turn with a floor.
-
-use std::cell::Cell;
+//! Several ways to draw, measured in turn with a floor.
 
 use surfel::{
-    Error, Result,
+    Result,
+    graph::execute::Profile,
     instruments::Floor,
     prepare::PreparedScene,
     renderer::Headless,
-    report::{Measured, drift_flag, spread_flag},
-    scene::{Camera, Scene, Settings},
+    report::{
+        TimedFrames,
+        bench::{Measurement, drift_flag, spread_flag},
+    },
+    scene::{Camera, Settings},
 };
 
-use super::{Stage, table1::floor_frames};
+use super::context::BenchContext;
 use crate::{
     machine::clock_mhz,
-    turns::{self, Draw, Timed},
+    turns::{self, Draw, MeasuredFrame},
 };
 
 /// A way to draw.
-pub struct Entry<'a> {
+pub struct Entry<'a, S> {
     /// What it is called; unique in its table.
     pub name: String,
     /// What is drawn.
     pub scene: &'a PreparedScene,
     /// How.
     pub settings: Settings,
+    /// What else its table tells of it.
+    pub subject: S,
 }
 
-/// What was measured of all entries and of the floor.
-pub struct Contest {
-    names: Vec<String>,
-    entries: Vec<Timed>,
-    floor: Timed,
-    /// Bytes of device memory in each entry's transients.
-    pub transient_bytes: Vec<u64>,
-}
-
-impl Contest {
-    /// Of the entries, in their order.
-    pub fn entries(&self) -> Vec<Measured<'_>> {
-        self.names.iter().zip(&self.entries).map(|(name, timed)| measured(name, timed)).collect()
-    }
-
-    /// Of the floor.
-    pub fn floor(&self) -> Measured<'_> {
-        measured("floor", &self.floor)
-    }
-}
-
-/// What was measured of one way to draw.
-pub fn measured<'a>(name: &'a str, timed: &'a Timed) -> Measured<'a> {
-    Measured {
-        name,
-        paper: None,
-        passes: &timed.names,
-        rounds: &timed.rounds,
-        counts: &timed.counts,
-        instructions: &[],
-    }
-}
-
-/// Brings a scene to the device.
-///
-/// # Errors
-/// Settings that the scene rules out; whatever the allocator or the driver answers.
-pub fn prepare(headless: &Headless, stage: &Stage<'_>, scene: &Scene) -> Result<PreparedScene> {
-    stage.settings.check_scene(scene)?;
-    headless.prepare(scene, &|done, total| surfel::Progress::step(&stage.bars, "upload", done, total))
-}
-
-/// Times all entries of a table in turn with a floor, and notes what makes the figures doubtful.
-///
-/// # Errors
-/// Whatever the driver answers.
-pub fn take(
+/// Measures all entries of a table in turn with a floor, where there is one, and notes what makes the figures doubtful. `what`
+/// names them in progress and notes.
+pub fn measure<S>(
     headless: &mut Headless,
-    stage: &mut Stage<'_>,
-    table: &str,
+    context: &mut BenchContext<'_>,
+    what: &str,
     camera: &Camera,
-    entries: Vec<Entry<'_>>,
-    floor: Floor<'_>,
-) -> Result<Contest> {
-    let names: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
-    let bytes: Vec<Cell<u64>> = entries.iter().map(|_| Cell::new(0)).collect();
-    let mut contestants: Vec<Draw<'_>> =
-        entries.into_iter().zip(&bytes).map(|(entry, bytes)| noting(bytes, entry, camera)).collect();
-    contestants.push(floor_frames(floor));
-    let task = format!("{table}: frames");
+    entries: Vec<Entry<'_, S>>,
+    floor: Option<Floor<'_>>,
+) -> Result<(Vec<Measurement<S>>, TimedFrames)> {
+    let mut draws: Vec<Draw<'_>> = Vec::new();
+    for entry in &entries {
+        draws.push(turns::frames(entry.scene, camera, entry.settings.clone()));
+    }
+    draws.extend(floor.map(floor_frames));
     let facts = headless.device().facts().clone();
-    let (frames, clocks) = (stage.arguments.frames, &mut stage.clocks_mhz);
-    let timed = turns::take(headless, contestants, frames, &task, &stage.bars, &mut || {
+    let (count, clocks) = (context.arguments.frames, &mut context.clocks_mhz);
+    let task = format!("{what}: frames");
+    let timed = turns::measure_interleaved(headless, draws, count, &task, &context.bars, &mut || {
         clocks.extend(clock_mhz(&facts));
     });
-    let mut entries: Vec<Timed> = timed.into_iter().collect::<Result<_>>()?;
-    let Some(floor) = entries.pop() else { return Err(Error::option("bench", "nothing was measured")) };
-    let transient_bytes = bytes.iter().map(Cell::get).collect();
-    let contest = Contest { names, entries, floor, transient_bytes };
-    flag(stage, table, &contest);
-    Ok(contest)
-}
-
-/// The frames of an entry, each of which notes the bytes of its transients.
-pub fn noting<'a>(bytes: &'a Cell<u64>, entry: Entry<'a>, camera: &'a Camera) -> Draw<'a> {
-    let mut draw = turns::frames(entry.scene, camera, entry.settings);
-    Box::new(move |headless, profile| {
-        let drawn = draw(headless, profile)?;
-        bytes.set(headless.transient_bytes());
-        Ok(drawn)
-    })
-}
-
-fn flag(stage: &mut Stage<'_>, table: &str, contest: &Contest) {
-    let entries = contest.entries();
-    let frames: Vec<Vec<f64>> = entries.iter().chain([&contest.floor()]).map(Measured::frame_ms).collect();
-    stage.flags.extend(drift_flag(table, &frames, &stage.limits));
-    for entry in &entries {
-        let what = format!("{table}, {}", entry.name);
-        let times = entry.times();
-        stage.flags.extend(spread_flag(&what, times.frame_ms.as_ref(), &stage.limits));
-        stage.flags.extend(times.flags.iter().map(|flag| format!("{what}: {flag}")));
+    let mut timed: Vec<TimedFrames> = timed.into_iter().collect::<Result<_>>()?;
+    let rounds: Vec<Vec<f64>> = timed.iter().map(TimedFrames::frame_ms).collect();
+    context.flags.extend(drift_flag(what, &rounds, &context.limits));
+    let floor = (timed.len() > entries.len()).then(|| timed.pop()).flatten();
+    let contestants = entries.into_iter().zip(timed).map(|(entry, timed)| (entry.name, entry.subject, timed));
+    let measured = Measurement::all(contestants.collect(), floor.as_ref());
+    for own in &measured {
+        let what = format!("{what}, {}", own.name);
+        context.flags.extend(spread_flag(&what, own.frames.frame_ms.as_ref(), &context.limits));
+        context.flags.extend(own.frames.flags.iter().map(|flag| format!("{what}: {flag}")));
     }
+    Ok((measured, floor.unwrap_or_default()))
+}
+
+fn floor_frames(mut floor: Floor<'_>) -> Draw<'_> {
+    Box::new(move |headless: &mut Headless, profile: Profile| {
+        let begun = std::time::Instant::now();
+        let profile = floor.frame(headless, profile)?;
+        // What the host does for it is not told apart from the wait.
+        let (wall_secs, record_secs) = (begun.elapsed().as_secs_f64(), f64::NAN);
+        Ok(MeasuredFrame { profile, wall_secs, record_secs, transient_bytes: 0 })
+    })
 }

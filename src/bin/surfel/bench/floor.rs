@@ -4,34 +4,32 @@
 use surfel::{
     Error, Progress as _, Result,
     graph::execute::{FrameProfile, Profile},
-    instruments::Floor,
+    instruments::{Floor, LimitProbes},
     load::Representation,
     renderer::{Headless, Wanted},
-    report::{FloorReport, FloorRow, drift_flag, passes_flag, spread_flag},
+    report::{
+        bench::{FloorReport, FloorRound, FloorRow, drift_flag, spread_flag},
+        passes_flag,
+    },
     scene::{Rasterizer, Settings},
 };
 
-use super::{
-    Stage,
-    limits::{FrameWork, Limits},
-};
+use super::{context::BenchContext, limits::FrameWork};
 use crate::{
     camera::CameraChoice,
     machine::clock_mhz,
     reports::scene_report,
     scene::{Loaded, load_scene},
     steps::Steps,
+    turns,
 };
 
 /// Rounds that are not counted: pipelines, transients, caches.
 const WARM_UP_ROUNDS: u32 = 3;
 
 /// Measures the model as it is.
-///
-/// # Errors
-/// Whatever goes wrong.
-pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorReport> {
-    let (arguments, settings, bars) = (stage.arguments, &stage.settings, &stage.bars);
+pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Result<FloorReport> {
+    let (arguments, settings, bars) = (context.arguments, &context.settings, &context.bars);
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
     let loaded = load_scene(&inputs, Representation::Splats, bars, &mut Steps::default())?;
     let camera = CameraChoice::none().camera(&loaded, settings.size_px)?;
@@ -41,36 +39,38 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
     let points = Settings { rasterizer: Rasterizer::Perspective, ..settings.clone() };
     let mut floor = Floor::new(headless, &prepared, &camera, &points, false)?;
     let mut strict = Floor::new(headless, &prepared, &camera, &points, true)?;
-    let mut limits = Limits::new(headless, settings)?;
+    let mut probes = LimitProbes::new(headless, settings)?;
 
-    let mut rounds = Vec::new();
-    let mut names = Vec::new();
-    let mut sums_and_frames_ms = Vec::new();
+    let (mut rounds, mut names, mut sums_and_frames_ms) = (Vec::new(), Vec::new(), Vec::new());
     let facts = headless.device().facts().clone();
-    for round in 0..WARM_UP_ROUNDS + arguments.frames {
-        bars.step("rounds", round.into(), (WARM_UP_ROUNDS + arguments.frames).into());
-        let mut measured = |profile| -> Result<FrameProfile> {
-            let wanted = Wanted { profile: Some(profile), ..Wanted::default() };
-            let frame = headless.render(&prepared, &camera, settings, wanted)?;
-            Ok(frame.profile.unwrap_or_default())
+    let mut draw = turns::frames(&prepared, &camera, settings.clone());
+    let last = WARM_UP_ROUNDS + arguments.frames - 1;
+    for number in 0..=last {
+        bars.step("rounds", number.into(), u64::from(last) + 1);
+        let frame_ms = draw(headless, Profile::Frame)?.profile.span_secs.map(|secs| 1e3 * secs);
+        let profile = draw(headless, Profile::Times)?.profile;
+        let round = FloorRound {
+            passes_ms: [
+                passes_ms(&profile)?,
+                passes_ms(&floor.frame(headless, Profile::Times)?)?,
+                passes_ms(&strict.frame(headless, Profile::Times)?)?,
+            ],
+            limits_ms: probes
+                .measure(headless)?
+                .into_iter()
+                .map(|secs| secs.map(|secs| 1e3 * secs))
+                .collect(),
         };
-        let frame_ms = measured(Profile::Frame)?.span_secs.map(|secs| 1e3 * secs);
-        let profile = measured(Profile::Times)?;
-        let times = [
-            passes_ms(&profile)?,
-            passes_ms(&floor.frame(headless, Profile::Times)?)?,
-            passes_ms(&strict.frame(headless, Profile::Times)?)?,
-        ];
-        limits.round(headless, (round >= WARM_UP_ROUNDS).then_some(&times[0]))?;
-        if round >= WARM_UP_ROUNDS {
-            sums_and_frames_ms.extend(frame_ms.map(|frame_ms| (times[0].iter().sum(), frame_ms)));
-            rounds.push(times);
+        if number >= WARM_UP_ROUNDS {
+            sums_and_frames_ms.extend(frame_ms.map(|frame_ms| (round.passes_ms[0].iter().sum(), frame_ms)));
+            rounds.push(round);
         }
         names = profile.passes.into_iter().map(|pass| pass.name).collect();
-        if round == WARM_UP_ROUNDS || round + 1 == WARM_UP_ROUNDS + arguments.frames {
-            stage.clocks_mhz.extend(clock_mhz(&facts));
+        if [WARM_UP_ROUNDS, last].contains(&number) {
+            context.clocks_mhz.extend(clock_mhz(&facts));
         }
     }
+    drop(draw);
     bars.clear();
     let transient_bytes = headless.transient_bytes();
     let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
@@ -89,17 +89,17 @@ pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<FloorRe
         strict_points: strict.count(),
         rounds: arguments.frames,
         rows: FloorRow::rows(&names, &rounds, [&fragments[0], &fragments[1]]),
-        limits: limits.report(&work, &counted),
+        limits: work.bounds(&counted, &probes, &rounds),
     };
     let frames: Vec<Vec<f64>> =
-        (0..3).map(|kind| rounds.iter().map(|round| round[kind].iter().sum()).collect()).collect();
-    stage.flags.extend(drift_flag("floor", &frames, &stage.limits));
+        (0..3).map(|kind| rounds.iter().map(|round| round.passes_ms[kind].iter().sum()).collect()).collect();
+    context.flags.extend(drift_flag("floor", &frames, &context.limits));
     let costs = passes_flag(sums_and_frames_ms.into_iter());
-    stage.flags.extend(costs.map(|flag| format!("floor: {flag}")));
+    context.flags.extend(costs.map(|flag| format!("floor: {flag}")));
     if let Some(frame) = report.rows.last() {
-        stage.flags.extend(spread_flag("floor, frame", frame.ms.as_ref(), &stage.limits));
+        context.flags.extend(spread_flag("floor, frame", frame.ms.as_ref(), &context.limits));
     }
-    stage.inputs.extend(inputs);
+    context.inputs.extend(inputs);
     Ok(report)
 }
 

@@ -6,10 +6,11 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     report::{
-        BenchReport, DeviceReport, GrowthReport, InputReport, LayersReport, TransitionReport, counts_gate,
-        floor_gate,
-        gate::{Gate, GateLimits, Judgement, Verdict},
-        throughput_gate,
+        DeviceReport, InputReport,
+        bench::{
+            BenchReport, Judgement,
+            gate::{Gate, GateLimits, Verdict, differences},
+        },
     },
 };
 
@@ -71,17 +72,10 @@ pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
         ("surfel", report.surfel.clone()),
         ("commit", report.commit.clone().unwrap_or_else(|| "unknown".to_owned())),
     ];
-    let mut figures = throughput_gate("table1", &report.table1);
-    figures.extend(report.slides.iter().flat_map(|row| throughput_gate("slides", std::slice::from_ref(row))));
-    figures.extend(report.floor.iter().flat_map(floor_gate));
-    figures.extend(report.layers.iter().flat_map(LayersReport::gate));
-    figures.extend(report.transition.iter().flat_map(TransitionReport::gate));
-    figures.extend(report.growth.iter().flat_map(GrowthReport::gate));
-    figures.extend(report.counts.iter().flat_map(counts_gate));
     Gate {
         subject: subject(arguments, Some(report)),
         circumstances: circumstances.map(|(name, value)| (name.to_owned(), value)).into(),
-        figures,
+        figures: report.figures(),
     }
 }
 
@@ -163,12 +157,9 @@ fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap
 }
 
 fn check_subject(path: &Path, now: &BTreeMap<String, String>, before: &Gate) -> Result<()> {
-    let known = |map: &BTreeMap<String, String>| {
-        map.iter().filter(|(name, _)| now.contains_key(*name)).map(|(n, v)| (n.clone(), v.clone())).collect()
-    };
-    let now = Gate { subject: now.clone(), ..Gate::default() };
-    let before = Gate { subject: known(&before.subject), ..Gate::default() };
-    match now.mismatch(&before).first() {
+    let known = before.subject.iter().filter(|(name, _)| now.contains_key(*name));
+    let known = known.map(|(name, value)| (name.clone(), value.clone())).collect();
+    match differences(&known, now).first() {
         Some(first) => Err(Error::input(path, "", format!("the baseline is of something else: {first}"))),
         None => Ok(()),
     }

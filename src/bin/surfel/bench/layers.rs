@@ -7,13 +7,14 @@ use surfel::{
     Result,
     instruments::Floor,
     renderer::Headless,
-    report::{LayersReport, Places, Way},
+    report::bench::{LayersDrawn, LayersReport, Places},
     scene::{LastLayer, Layers, Settings},
 };
 
 use super::{
-    Stage,
+    arguments::Bench,
     contest::{self, Entry},
+    context::BenchContext,
 };
 
 /// The most layers that are allowed where the device finds out how many there are.
@@ -59,42 +60,35 @@ impl Contestant {
         }
     }
 
-    fn settings(&self, stage: &Stage<'_>) -> Settings {
-        Settings { layers: self.layers, last_layer: self.last_layer, ..stage.settings.clone() }
+    /// What the table tells of it.
+    fn drawn(&self) -> LayersDrawn {
+        LayersDrawn {
+            layers: (!self.opaque).then(|| self.layers.most()),
+            auto: !self.opaque && matches!(self.layers, Layers::Auto(_)),
+            paper_fps: self.paper_fps,
+        }
     }
 }
 
 /// Measures them.
-///
-/// # Errors
-/// Whatever goes wrong.
-pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<LayersReport> {
-    let splats = stage.arguments.splats_of(super::Bench::Layers).unwrap_or(balls::SPLATS);
+pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Result<LayersReport> {
+    let splats = context.arguments.splats_of(Bench::Layers).unwrap_or(balls::SPLATS);
     let (transparent, input) = balls::scene(splats, balls::ALPHA)?;
-    let camera = balls::camera(&transparent, stage.settings.size_px);
-    headless.renderer.check(&camera, &stage.settings)?;
-    let transparent = contest::prepare(headless, stage, &transparent)?;
-    let opaque = contest::prepare(headless, stage, &balls::scene(splats, 1.0)?.0)?;
-    let floor = Floor::new(headless, &opaque, &camera, &stage.settings, false)?;
-    let contestants = contestants();
-    let entry = |contestant: &Contestant| Entry {
-        name: contestant.name(),
-        scene: if contestant.opaque { &opaque } else { &transparent },
-        settings: contestant.settings(stage),
+    let camera = balls::camera(&transparent, context.settings.size_px);
+    headless.renderer.check(&camera, &context.settings)?;
+    let transparent = context.prepare(headless, &transparent)?;
+    let opaque = context.prepare(headless, &balls::scene(splats, 1.0)?.0)?;
+    let floor = Floor::new(headless, &opaque, &camera, &context.settings, false)?;
+    let entry = |own: Contestant| Entry {
+        name: own.name(),
+        scene: if own.opaque { &opaque } else { &transparent },
+        settings: Settings { layers: own.layers, last_layer: own.last_layer, ..context.settings.clone() },
+        subject: own.drawn(),
     };
-    let entries = contestants.iter().map(entry).collect();
-    let contest = contest::take(headless, stage, "layers", &camera, entries, floor)?;
-    let way = |(contestant, bytes): (&Contestant, &u64)| Way {
-        layers: (!contestant.opaque).then(|| contestant.layers.most()),
-        auto: !contestant.opaque && matches!(contestant.layers, Layers::Auto(_)),
-        paper_fps: contestant.paper_fps,
-        transient_bytes: *bytes,
-    };
-    let ways: Vec<Way> = contestants.iter().zip(&contest.transient_bytes).map(way).collect();
-    let report =
-        LayersReport::of((balls::COUNT, splats), &contest.entries(), &ways, &contest.floor(), PLACES);
-    stage.inputs.push(input);
-    Ok(report)
+    let entries = contestants().into_iter().map(entry).collect();
+    let (ways, floor) = contest::measure(headless, context, "layers", &camera, entries, Some(floor))?;
+    context.inputs.push(input);
+    Ok(LayersReport::of((balls::COUNT, splats), ways, &floor, PLACES))
 }
 
 #[cfg(test)]

@@ -1,66 +1,19 @@
-//! The device's limits beside the frame's passes, and how much each pass does of what they limit.
+//! How much each pass of a frame does of what the device has limits for.
 
 use std::collections::BTreeMap;
 
 use surfel::{
-    Result,
     graph::{
         Access, Executed, Plan, PlannedPass, Use,
         execute::{FrameProfile, PassCounts, PassProfile},
     },
     instruments::{LimitProbes, ListsInUse, Probe, TilesInUse},
     prepare::{Chunk, PreparedScene},
-    renderer::Headless,
-    report::{Limit, LimitRound, LimitWork, LimitsReport, PassWork},
-    scene::Settings,
+    report::{
+        ThroughputProbe,
+        bench::{FloorRound, LimitWork, LimitsReport, PassWork},
+    },
 };
-
-/// The limits, measured round by round.
-pub struct Limits {
-    probes: LimitProbes,
-    rounds: Vec<LimitRound>,
-}
-
-impl Limits {
-    /// Sets them up for frames with these settings.
-    ///
-    /// # Errors
-    /// Whatever the driver answers.
-    pub fn new(headless: &Headless, settings: &Settings) -> Result<Self> {
-        Ok(Self { probes: LimitProbes::new(headless, settings)?, rounds: Vec::new() })
-    }
-
-    /// Measures all limits once; in rounds that count, beside the frame's passes.
-    ///
-    /// # Errors
-    /// Whatever the driver answers.
-    pub fn round(&mut self, headless: &Headless, passes_ms: Option<&[f64]>) -> Result<()> {
-        let secs = self.probes.measure(headless)?;
-        if let Some(passes_ms) = passes_ms {
-            let limits_ms = secs.into_iter().map(|secs| secs.map(|secs| 1e3 * secs)).collect();
-            self.rounds.push(LimitRound { passes_ms: passes_ms.to_vec(), limits_ms });
-        }
-        Ok(())
-    }
-
-    /// What came of it. `counted` are the counts of the frame.
-    pub fn report(self, frame: &FrameWork<'_>, counted: &FrameProfile) -> LimitsReport {
-        let bytes_per_blended = self.probes.bytes_per_blended_fragment();
-        let work = |probe: &Probe| LimitWork {
-            limit: probe.limit(),
-            units: probe.units(),
-            bytes_per_unit: match probe.limit() {
-                Limit::BlendedFragments => Some(bytes_per_blended),
-                Limit::Bytes => Some(1),
-                _ => None,
-            },
-        };
-        let works: Vec<LimitWork> = self.probes.probes.iter().map(work).collect();
-        let passes = frame.plan.passes.iter().zip(&counted.passes);
-        let passes: Vec<PassWork> = passes.map(|(pass, counted)| frame.pass(pass, counted)).collect();
-        LimitsReport::of(&works, &passes, &self.rounds, self.probes.notes)
-    }
-}
 
 /// A frame, as far as it tells what its passes do.
 pub struct FrameWork<'a> {
@@ -72,6 +25,28 @@ pub struct FrameWork<'a> {
 }
 
 impl<'a> FrameWork<'a> {
+    /// How far the frame is from the device's limits, of rounds in which both were measured. `counted` are its counts.
+    pub fn bounds(
+        &self,
+        counted: &FrameProfile,
+        probes: &LimitProbes,
+        rounds: &[FloorRound],
+    ) -> LimitsReport {
+        let work = |probe: &Probe| LimitWork {
+            limit: probe.limit(),
+            units: probe.units(),
+            bytes_per_unit: match probe.limit() {
+                ThroughputProbe::BlendedFragments => Some(probes.bytes_per_blended_fragment()),
+                ThroughputProbe::Bytes => Some(1),
+                _ => None,
+            },
+        };
+        let works: Vec<LimitWork> = probes.probes.iter().map(work).collect();
+        let passes = self.plan.passes.iter().zip(&counted.passes);
+        let passes: Vec<PassWork> = passes.map(|(pass, counted)| self.pass(pass, counted)).collect();
+        LimitsReport::of(&works, &passes, rounds, probes.notes.clone())
+    }
+
     /// How much a pass does. Of one of compute that are its invocations, the bytes that it is known to move, and, of tiles, the
     /// splats at their pixels.
     fn pass(&self, pass: &PlannedPass, counted: &PassProfile) -> PassWork {
@@ -83,12 +58,12 @@ impl<'a> FrameWork<'a> {
             in_use: &self.in_use.bytes,
         };
         let mut bytes = self.plan.least_bytes(pass, executed);
-        units.extend(counted.invocations.map(|invocations| (Limit::Invocations, invocations)));
+        units.extend(counted.invocations.map(|invocations| (ThroughputProbe::Invocations, invocations)));
         if let Some(PassCounts { vertices, fragments }) = counted.counts {
-            units.insert(Limit::Points, vertices);
+            units.insert(ThroughputProbe::Points, vertices);
             units.insert(fragments_of(pass), fragments);
             if vertices >= self.scene.splat_count() || uses(pass, Access::IndexRead) {
-                units.extend(self.drawn_points.map(|points| (Limit::DrawnPoints, points)));
+                units.extend(self.drawn_points.map(|points| (ThroughputProbe::DrawnPoints, points)));
                 bytes = bytes.map(|bytes| bytes + self.shape_bytes(vertices));
             }
         }
@@ -97,13 +72,13 @@ impl<'a> FrameWork<'a> {
                 bytes = bytes.map(|bytes| bytes + self.shape_bytes(tiles.records));
             }
             (Some(tiles), Some(OfTiles::DrawsAll)) => {
-                units.insert(Limit::Kernels, tiles.splat_pixels);
+                units.insert(ThroughputProbe::Kernels, tiles.splat_pixels);
             }
             // Of lists, an unknown part: by what else is known of it, its bound would be next to nothing.
             (_, Some(OfTiles::Draws)) => (units, bytes) = (BTreeMap::new(), None),
             _ => {}
         }
-        units.extend(bytes.map(|bytes| (Limit::Bytes, bytes)));
+        units.extend(bytes.map(|bytes| (ThroughputProbe::Bytes, bytes)));
         PassWork { name: pass.name.clone(), units }
     }
 
@@ -164,13 +139,13 @@ fn uses(pass: &PlannedPass, access: Access) -> bool {
 const COLOR_BYTES: u64 = 8;
 
 /// What a pass's fragments are: the plan has the attachments, but only the pass's name tells whether it blends.
-fn fragments_of(pass: &PlannedPass) -> Limit {
+fn fragments_of(pass: &PlannedPass) -> ThroughputProbe {
     let has_colors = pass.rendering.as_ref().is_some_and(|rendering| !rendering.colors.is_empty());
     match () {
-        () if !has_colors => Limit::DepthFragments,
+        () if !has_colors => ThroughputProbe::DepthFragments,
         () if pass.name.starts_with("accumulate") || pass.name.starts_with("compose") => {
-            Limit::BlendedFragments
+            ThroughputProbe::BlendedFragments
         }
-        () => Limit::Fragments,
+        () => ThroughputProbe::Fragments,
     }
 }

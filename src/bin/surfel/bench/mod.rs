@@ -2,6 +2,8 @@
 
 pub mod arguments;
 mod contest;
+mod context;
+mod counts;
 mod floor;
 mod gate;
 mod growth;
@@ -16,33 +18,19 @@ mod transition;
 use surfel::{
     Error, Result,
     renderer::Headless,
-    report::{BenchReport, InputReport, TrustLimits},
-    scene::Settings,
+    report::bench::{BenchReport, TrustLimits},
 };
 
 use arguments::Bench;
 pub use arguments::BenchArguments;
+use context::BenchContext;
 
 use crate::{
     console::{self, Bars},
-    counts, device,
+    device,
     machine::Watch,
     reports::device_report,
 };
-
-/// What every table is given.
-struct Stage<'a> {
-    arguments: &'a BenchArguments,
-    settings: Settings,
-    bars: Bars,
-    /// What was drawn so far.
-    inputs: Vec<InputReport>,
-    /// What makes figures doubtful so far.
-    flags: Vec<String>,
-    /// The clock, whenever the device had just worked.
-    clocks_mhz: Vec<f64>,
-    limits: TrustLimits,
-}
 
 /// Runs the subcommand.
 ///
@@ -83,9 +71,6 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// Measures and counts what the command line names. Tables of times are left out where no device is given.
-///
-/// # Errors
-/// Whatever goes wrong.
 pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Result<BenchReport> {
     let settings = arguments.settings();
     let limits = TrustLimits { uncertainty: 0.01 * arguments.max_spread, ..TrustLimits::default() };
@@ -97,7 +82,7 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
         limits,
         ..BenchReport::default()
     };
-    let mut stage = Stage {
+    let mut context = BenchContext {
         arguments,
         settings,
         bars: Bars::new(),
@@ -108,9 +93,9 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     };
     // First, since it takes no time to find that a chip is unknown.
     report.counts =
-        arguments.table.has(Bench::Counts).then(|| counts::gather(arguments, &stage.bars)).transpose()?;
-    let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut stage, &mut report));
-    stage.bars.clear();
+        arguments.table.has(Bench::Counts).then(|| counts::gather(arguments, &context.bars)).transpose()?;
+    let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut context, &mut report));
+    context.bars.clear();
     measured?;
     if arguments.device.validate {
         report.flags.push("measured under validation: the times are worthless".to_owned());
@@ -119,34 +104,34 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
 }
 
 /// Measures the tables whose figures are times.
-fn measure(headless: &mut Headless, stage: &mut Stage<'_>, report: &mut BenchReport) -> Result<()> {
-    headless.renderer.check_settings(&stage.settings)?;
+fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut BenchReport) -> Result<()> {
+    headless.renderer.check_settings(&context.settings)?;
     let facts = headless.device().facts().clone();
     report.device = Some(device_report(&facts));
     let watch = Watch::begin(&facts);
-    let table = stage.arguments.table;
+    let table = context.arguments.table;
     if table.has(Bench::Floor) {
-        report.floor = Some(floor::measure(headless, stage)?);
+        report.floor = Some(floor::measure(headless, context)?);
     }
     if table.has(Bench::Table1) {
-        report.table1 = table1::measure(headless, stage)?;
+        report.table1 = table1::measure(headless, context)?;
     }
     if table.has(Bench::Slides) {
-        report.slides = Some(slides::measure(headless, stage)?);
+        report.slides = Some(slides::measure(headless, context)?);
     }
     if table.has(Bench::Layers) {
-        report.layers = Some(layers::measure(headless, stage)?);
+        report.layers = Some(layers::measure(headless, context)?);
     }
     if table.has(Bench::Transition) {
-        report.transition = Some(transition::measure(headless, stage)?);
+        report.transition = Some(transition::measure(headless, context)?);
     }
     if table.has(Bench::Growth) {
-        report.growth = Some(growth::measure(headless, stage)?);
+        report.growth = Some(growth::measure(headless, context)?);
     }
-    let machine = watch.end(&stage.clocks_mhz);
-    report.flags = machine.flags(&stage.limits);
-    report.flags.append(&mut stage.flags);
-    report.inputs = std::mem::take(&mut stage.inputs);
+    let machine = watch.end(&context.clocks_mhz);
+    report.flags = machine.flags(&context.limits);
+    report.flags.append(&mut context.flags);
+    report.inputs = std::mem::take(&mut context.inputs);
     report.machine = Some(machine);
     Ok(())
 }

@@ -9,8 +9,8 @@ use surfel::{
     scene::{Ball, Mesh, Object, Scene},
 };
 
-use super::Stage;
-use crate::{convert::resample_mesh, scene::Loaded};
+use super::context::BenchContext;
+use crate::scene::{Loaded, not_a_mesh, resample_mesh};
 
 /// What a table draws.
 pub enum Source {
@@ -25,11 +25,11 @@ impl Source {
     ///
     /// # Errors
     /// As [`load`]; a file of splats, which can't be resampled.
-    pub fn open(stage: &Stage<'_>) -> Result<Self> {
-        let Some(path) = &stage.arguments.model else { return Ok(Self::BuiltIn) };
-        match load(path, &stage.bars)? {
+    pub fn open(context: &BenchContext<'_>) -> Result<Self> {
+        let Some(path) = &context.arguments.model else { return Ok(Self::BuiltIn) };
+        match load(path, &context.bars)? {
             Model::Mesh(mesh) => Ok(Self::Mesh(mesh, path.clone())),
-            Model::Splats { .. } => Err(crate::convert::not_a_mesh(path)),
+            Model::Splats { .. } => Err(not_a_mesh(path)),
         }
     }
 
@@ -37,7 +37,7 @@ impl Source {
     ///
     /// # Errors
     /// A mesh without area; more splats than there is memory for.
-    pub fn scene(&self, splats: u64, stage: &Stage<'_>) -> Result<Loaded> {
+    pub fn scene(&self, splats: u64, context: &BenchContext<'_>) -> Result<Loaded> {
         let (object, report): (Object, InputReport) = match self {
             Self::BuiltIn => {
                 let count = usize::try_from(splats).unwrap_or(usize::MAX);
@@ -45,7 +45,7 @@ impl Source {
                     .map_err(|problem| Error::option("--splats", problem))?;
                 finish(builtin::relief(count), String::new(), None)
             }
-            Self::Mesh(mesh, path) => resample_mesh(mesh, path, splats, 0, &stage.bars)?,
+            Self::Mesh(mesh, path) => resample_mesh(mesh, path, splats, 0, &context.bars)?,
         };
         let scene = Scene { objects: vec![object], ..Scene::default() };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });

@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use surfel::{
     Error, Result,
-    report::{BenchReport, growth_plot, throughput_plot},
+    report::{
+        PLOT_SIZE_PX,
+        bench::{BenchReport, TABLES, growth_plot, throughput_plot},
+    },
     save,
 };
 
@@ -22,28 +25,9 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
     }
     let files: Vec<&Path> = [json, markdown, plot].into_iter().flatten().map(PathBuf::as_path).collect();
     let inputs: Vec<&Path> = [model, baseline].into_iter().flatten().map(PathBuf::as_path).collect();
-    let names: Vec<&str> = TABLES.iter().map(|(name, _)| *name).collect();
-    outputs::check_places(&files, csv.as_deref(), &names, &inputs)
+    let names = TABLES.map(|name| format!("{name}.csv"));
+    outputs::check_places(&files, csv.as_deref(), &names.each_ref().map(String::as_str), &inputs)
 }
-
-/// The files of `--csv`, and how the titles of their tables begin.
-const TABLES: [(&str, &str); 15] = [
-    ("floor.csv", "floor: "),
-    ("floor-limits.csv", "limits: "),
-    ("floor-bounds.csv", "bounds: "),
-    ("table1.csv", "table 1: throughput"),
-    ("table1-passes.csv", "table 1: where"),
-    ("slides.csv", "the slides' methods, "),
-    ("slides-throughput.csv", "the slides' methods: throughput"),
-    ("slides-passes.csv", "the slides' methods: where"),
-    ("layers.csv", "layers, "),
-    ("layers-empty.csv", "layers: what an empty"),
-    ("transition.csv", "transition, "),
-    ("growth-splats.csv", "growth over splats"),
-    ("growth-pixels.csv", "growth over pixels"),
-    ("growth-passes.csv", "growth: where"),
-    ("counts.csv", "counts: "),
-];
 
 /// Writes them.
 ///
@@ -58,21 +42,16 @@ pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
     }
     if let Some(path) = &arguments.plot {
         let name = report.device.as_ref().map_or("", |device| device.name.as_str());
-        let svg = match &report.growth {
-            Some(growth) => growth_plot(growth, name)?,
-            None => throughput_plot(&report.table1, name)?,
+        let plot = match &report.growth {
+            Some(growth) => growth_plot(growth, name),
+            None => throughput_plot(&report.table1, name),
         };
-        save::text(path, &svg)?;
+        save::text(path, &plot.svg(PLOT_SIZE_PX)?)?;
     }
     if let Some(folder) = &arguments.csv {
         std::fs::create_dir_all(folder).map_err(|e| Error::file(folder, "write", e))?;
-        for grid in report.grids() {
-            if let Some((name, _)) = TABLES.iter().find(|(_, title)| grid.title.starts_with(title)) {
-                save::text(&folder.join(name), &grid.csv())?;
-            }
-        }
-        if let Some(counts) = &report.counts {
-            save::text(&folder.join("counts.csv"), &counts.csv())?;
+        for (name, csv) in report.csvs() {
+            save::text(&folder.join(format!("{name}.csv")), &csv)?;
         }
     }
     Ok(())

@@ -7,13 +7,14 @@ use surfel::{
     Result,
     instruments::Floor,
     renderer::Headless,
-    report::{Drawn, TransitionReport},
+    report::bench::{HalfAndHalf, Primitives, TransitionReport},
     scene::{Ball, Camera, Scene, Settings, Transition},
 };
 
 use super::{
-    Bench, Stage,
+    arguments::Bench,
     contest::{self, Entry},
+    context::BenchContext,
     model::Source,
 };
 use halves::Halves;
@@ -29,44 +30,37 @@ const TRANSITIONS: [Transition; 4] =
 ///
 /// # Errors
 /// A model that is no mesh, or has no two halves; whatever goes wrong.
-pub fn measure(headless: &mut Headless, stage: &mut Stage<'_>) -> Result<TransitionReport> {
-    let source = Source::open(stage)?;
-    let splats = stage.arguments.splats_of(Bench::Transition).unwrap_or(SPLATS);
-    let Halves { model, hybrid, splats, polygons, inputs } = halves::make(&source, splats, stage)?;
+pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Result<TransitionReport> {
+    let source = Source::open(context)?;
+    let splats = context.arguments.splats_of(Bench::Transition).unwrap_or(SPLATS);
+    let Halves { model, hybrid, splats, polygons, inputs } = halves::make(&source, splats, &context.bars)?;
     let ball = hybrid.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
-    let camera = Camera::fit(&ball, stage.settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
-    headless.renderer.check(&camera, &stage.settings)?;
-    let of_both = contest::prepare(headless, stage, &hybrid)?;
-    let of_splats = contest::prepare(headless, stage, &splats)?;
-    let of_polygons = contest::prepare(headless, stage, &polygons)?;
-    let floor = Floor::new(headless, &of_splats, &camera, &stage.settings, false)?;
-    let mut entries: Vec<Entry<'_>> = TRANSITIONS
-        .iter()
-        .map(|transition| Entry {
-            name: transition.name().to_owned(),
-            scene: &of_both,
-            settings: Settings { transition: *transition, ..stage.settings.clone() },
-        })
-        .collect();
-    let mut drawn: Vec<Drawn> = TRANSITIONS
-        .iter()
-        .map(|transition| Drawn { transition: *transition != TRANSITIONS[0], ..drawn_of(&hybrid) })
-        .collect();
-    for (name, prepared, scene) in
-        [("all splats", &of_splats, &splats), ("all polygons", &of_polygons, &polygons)]
-    {
-        let settings = stage.settings.clone();
-        entries.push(Entry { name: name.to_owned(), scene: prepared, settings });
-        drawn.push(drawn_of(scene));
-    }
-    let contest = contest::take(headless, stage, "transition", &camera, entries, floor)?;
-    let drawn: Vec<(Drawn, u64)> = drawn.into_iter().zip(contest.transient_bytes.iter().copied()).collect();
-    stage.inputs.extend(inputs);
-    Ok(TransitionReport::of(model, &contest.entries(), &drawn, &contest.floor()))
+    let camera = Camera::fit(&ball, context.settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    headless.renderer.check(&camera, &context.settings)?;
+    let of_both = context.prepare(headless, &hybrid)?;
+    let of_splats = context.prepare(headless, &splats)?;
+    let of_polygons = context.prepare(headless, &polygons)?;
+    let floor = Floor::new(headless, &of_splats, &camera, &context.settings, false)?;
+    let entry = |name: &str, prepared, scene, transition| Entry {
+        name: name.to_owned(),
+        scene: prepared,
+        settings: Settings { transition, ..context.settings.clone() },
+        subject: drawn(scene, transition),
+    };
+    let with = |transition: Transition| entry(transition.name(), &of_both, &hybrid, transition);
+    let mut entries: Vec<Entry<'_, HalfAndHalf>> = TRANSITIONS.into_iter().map(with).collect();
+    let none = context.settings.transition;
+    entries.push(entry("all splats", &of_splats, &splats, none));
+    entries.push(entry("all polygons", &of_polygons, &polygons, none));
+    let (contestants, floor) =
+        contest::measure(headless, context, "transition", &camera, entries, Some(floor))?;
+    context.inputs.extend(inputs);
+    Ok(TransitionReport { model, contestants, floor: floor.times() })
 }
 
-/// Of a scene without a transition.
-fn drawn_of(scene: &Scene) -> Drawn {
+fn drawn(scene: &Scene, transition: Transition) -> HalfAndHalf {
     let triangles = scene.meshes.iter().map(|object| object.mesh.triangles.len() as u64).sum();
-    Drawn { splats: scene.splat_count() as u64, triangles, transition: false }
+    let splats = scene.splat_count() as u64;
+    let transition = splats > 0 && triangles > 0 && transition != Transition::None;
+    HalfAndHalf { drawn: Primitives { splats, triangles, transition } }
 }

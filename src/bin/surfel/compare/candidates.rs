@@ -19,22 +19,19 @@ pub fn split(
     let (mut left, mut skipped) = (Vec::new(), Vec::new());
     let perspective = methods.iter().any(|method| method.rasterizer == Rasterizer::Perspective);
     for method in methods {
-        if perspective && method.filter == Filter::Ewa && method.rasterizer == Rasterizer::AffineCenter {
+        if perspective && method.filter.filter == Filter::Ewa && method.rasterizer == Rasterizer::AffineCenter
+        {
             let reason = "--filter ewa brings the map of affine-center: drawn as perspective's".to_owned();
-            skipped.push(Skipped { method: method.names(), reason });
+            skipped.push(Skipped { method, reason });
             continue;
         }
-        match check(&method.settings(base), scene, renderer) {
+        let settings = method.settings(base);
+        match renderer.check_settings(&settings).and_then(|()| settings.check_scene(scene)) {
             Ok(()) => left.push(method),
-            Err(error) => skipped.push(Skipped { method: method.names(), reason: error.to_string() }),
+            Err(error) => skipped.push(Skipped { method, reason: error.to_string() }),
         }
     }
     (left, skipped)
-}
-
-fn check(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Result<()> {
-    renderer.check_settings(settings)?;
-    settings.check_scene(scene)
 }
 
 /// Refuses to compare nothing.
@@ -42,9 +39,9 @@ fn check(settings: &Settings, scene: &Scene, renderer: &Renderer) -> Result<()> 
 /// # Errors
 /// The first reason why a method was left out, where none is left.
 pub fn some_left(left: usize, skipped: &[Skipped]) -> Result<()> {
-    match (left, skipped.first()) {
-        (0, Some(first)) => Err(Error::option("compare", format!("no method is left; {}", first.reason))),
-        (0, None) => Err(Error::option("compare", "no method is left")),
+    let reason = skipped.first().map_or_else(String::new, |first| format!("; {}", first.reason));
+    match left {
+        0 => Err(Error::option("compare", format!("no method is left{reason}"))),
         _ => Ok(()),
     }
 }

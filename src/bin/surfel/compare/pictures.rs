@@ -8,7 +8,8 @@ use surfel::{
     save,
 };
 
-use super::BACKGROUND;
+/// White, linear: what the pictures are compared over.
+pub const BACKGROUND: [f32; 3] = [1.0; 3];
 
 /// How much differences are magnified, so that they are seen.
 pub const MAGNIFIED: u8 = 4;
@@ -47,10 +48,8 @@ pub fn write(folder: &Path, shown: &Shown<'_>) -> Result<()> {
     match shown {
         Shown::Truth(truth) => png("truth", truth, &truth.srgb_over(BACKGROUND)),
         Shown::Method { method, drawn, oracle, truth } => {
-            let names = method.names();
-            let filter = names.filter_and_weight();
-            let exact = format!("{} {filter} oracle", method.picture_key().rasterizer.name());
-            let name = names.line();
+            let exact = format!("{} {} oracle", method.exact().rasterizer.name(), method.filter);
+            let name = method.to_string();
             png(&exact, oracle, &oracle.srgb_over(BACKGROUND))?;
             png(&name, drawn, &drawn.srgb_over(BACKGROUND))?;
             png(&format!("{name} difference"), drawn, &difference(drawn, truth))

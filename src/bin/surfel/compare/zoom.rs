@@ -8,15 +8,12 @@ use surfel::{
     renderer::{Headless, Wanted},
     report::{
         compare::{Method, errors},
-        zoom::{
-            Board, DEFAULT_TILT_DEG, FilterNames, ZoomFigures, ZoomReport, ZoomStep, samples_per_side,
-            zoom_path,
-        },
+        zoom::{Board, DEFAULT_TILT_DEG, ZoomFigures, ZoomReport, ZoomStep, samples_per_side, zoom_path},
     },
     scene::{Camera, Scene, Settings},
 };
 
-use super::{BACKGROUND, CompareArguments, Stage, candidates, references, surface};
+use super::{arguments::CompareArguments, candidates, context::CompareContext, pictures::BACKGROUND};
 use crate::{console::Bars, reports::device_report};
 
 /// Turns the board about its normal and shifts it, in degrees and spacings, so that no row of splats coincides with a row
@@ -26,15 +23,6 @@ const SHIFT: DVec3 = DVec3::new(0.31, 0.17, 0.0);
 
 /// How far beyond the picture's border splats count: more than the reach of any filter and of the ground truth.
 const MARGIN_PX: f64 = 16.0;
-
-/// Compares all filters at all distances, and tells of it.
-///
-/// # Errors
-/// As [`gather`]; results that can't be written.
-pub fn run(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
-    let report = gather(&mut headless, arguments, &Bars::new())?;
-    super::tell(&headless, arguments, &report, || report.plot_svg())
-}
 
 /// Compares all filters at all distances.
 ///
@@ -54,16 +42,13 @@ pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars
         let camera = camera(pixels_per_splat, tilt_deg, base.size_px);
         let scene = in_view(&board, &camera, base.size_px);
         let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
-        let stage = Stage { arguments, scene: &scene, prepared: &prepared, camera: &camera, base, bars };
+        let context = CompareContext { scene: &scene, prepared: &prepared, camera: &camera, base, bars };
         let task = format!("ground truth {} of {}", number + 1, path.len());
-        let step = step(headless, &stage, &methods, [pixels_per_splat, tilt_deg], &task);
+        let samples = samples_per_side(pixels_per_splat, tilt_deg, arguments.samples);
+        let step = step(headless, &context, &methods, (pixels_per_splat, samples), &task);
         bars.clear();
         steps.push(step?);
     }
-    let names = |method: &Method| {
-        let names = method.names();
-        FilterNames { filter: names.filter, filter_weight: names.filter_weight }
-    };
     let mut report = ZoomReport {
         surfel: env!("CARGO_PKG_VERSION").to_owned(),
         device: device_report(headless.device().facts()),
@@ -76,7 +61,7 @@ pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars
             radius: CHECKERBOARD_RADIUS,
             tilt_deg,
         },
-        filters: methods.iter().map(names).collect(),
+        filters: methods.iter().map(|method| method.filter).collect(),
         steps,
         claims: Vec::new(),
     };
@@ -133,38 +118,36 @@ fn in_view(board: &Scene, camera: &Camera, size_px: [u32; 2]) -> Scene {
 
 fn step(
     headless: &mut Headless,
-    stage: &Stage<'_>,
+    context: &CompareContext<'_>,
     methods: &[Method],
-    [pixels_per_splat, tilt_deg]: [f64; 2],
+    (pixels_per_splat, samples_per_side): (f64, u32),
     task: &str,
 ) -> Result<ZoomStep> {
-    let Stage { arguments, scene, camera, base, bars, .. } = *stage;
-    let samples = samples_per_side(pixels_per_splat, tilt_deg, arguments.samples);
-    let truth = references::truth(scene, camera, base, samples, task, bars)?;
+    let truth = context.truth(samples_per_side, task)?;
     let mut figures = Vec::new();
     for method in methods {
         let mut drawn = || -> Result<ZoomFigures> {
-            let drawn = surface(headless, stage, method)?;
-            let fragments = fragments(headless, stage, method)?;
+            let drawn = context.draw(headless, method)?;
+            let fragments = fragments(headless, context, method)?;
             Ok(ZoomFigures { fragments, error: errors(&drawn, &truth, &[], BACKGROUND) })
         };
         figures.push(match drawn() {
             Ok(figures) => Some(figures),
             Err(error) => {
-                bars.note(&format!("{} at {pixels_per_splat:.3} px a splat: {error}", method.names().line()));
+                context.bars.note(&format!("{method} at {pixels_per_splat:.3} px a splat: {error}"));
                 None
             }
         });
     }
-    Ok(ZoomStep { pixels_per_splat, samples_per_side: samples, figures })
+    Ok(ZoomStep { pixels_per_splat, samples_per_side, figures })
 }
 
 /// Fragments of the accumulation.
-fn fragments(headless: &mut Headless, stage: &Stage<'_>, method: &Method) -> Result<Option<u64>> {
+fn fragments(headless: &mut Headless, context: &CompareContext<'_>, method: &Method) -> Result<Option<u64>> {
     let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
-    let settings = method.settings(stage.base);
+    let settings = method.settings(context.base);
     let profile =
-        headless.render(stage.prepared, stage.camera, &settings, wanted)?.profile.unwrap_or_default();
+        headless.render(context.prepared, context.camera, &settings, wanted)?.profile.unwrap_or_default();
     let pass = profile.passes.iter().find(|pass| pass.name == "accumulate");
     Ok(pass.and_then(|pass| pass.counts).map(|counts| counts.fragments))
 }

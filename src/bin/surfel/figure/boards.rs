@@ -1,50 +1,51 @@
-//! Checkerboards in perspective: the built-in board of points one unit apart, seen from above it.
+//! Figures of checkerboards in perspective: the built-in board of points one unit apart, seen from above it.
 
 use glam::DVec3;
 use surfel::{
     Result,
     load::builtin::{CHECKERBOARD_FIELD, CHECKERBOARD_RADIUS, checkerboard},
-    scene::{Accumulate, Camera, Epsilon, Filter, Scene, Settings, Shading},
+    scene::{Accumulate, Camera, Epsilon, Filter, KernelEval, Rasterizer, Scene, Settings, Shading},
 };
 
-use super::{easel::Easel, sheet::Panel};
+use super::{
+    context::FigureContext,
+    kernels::PsiE,
+    sheet::{Panel, Sheet},
+};
 
 /// A board and from where it is seen; lengths in units of the spacing between points.
-pub struct Board {
+struct Board {
     /// Points along a side.
-    pub side: usize,
+    side: usize,
     /// The eye; the board is in the plane z = 0 around the origin.
-    pub eye: DVec3,
+    eye: DVec3,
     /// To the right of the direction +y.
-    pub turn_deg: f64,
+    turn_deg: f64,
     /// Downward from the horizon.
-    pub pitch_deg: f64,
+    pitch_deg: f64,
     /// The vertical field of view.
-    pub fov_y_deg: f64,
+    fov_y_deg: f64,
 }
 
 /// A way to draw it, with what is said about it.
-pub struct Way {
+struct Way {
     /// The panel's name.
-    pub name: &'static str,
+    name: &'static str,
     /// What else is to be said.
-    pub caption: String,
+    caption: String,
     /// All but the size.
-    pub settings: Settings,
+    settings: Settings,
 }
 
 impl Board {
     /// Draws the board in each way, each pixel enlarged that many times.
-    ///
-    /// # Errors
-    /// As the easel's.
-    pub fn panels(&self, easel: &mut Easel<'_>, enlarge: u32, ways: &[Way]) -> Result<Vec<Panel>> {
-        let scene = easel.prepare(&Scene { objects: vec![checkerboard(self.side)], ..Scene::default() })?;
-        let size_px = easel.size_px.map(|side| (side / enlarge).max(1));
+    fn panels(&self, context: &mut FigureContext<'_>, enlarge: u32, ways: &[Way]) -> Result<Vec<Panel>> {
+        let scene = context.prepare(&Scene { objects: vec![checkerboard(self.side)], ..Scene::default() })?;
+        let size_px = context.size_px.map(|side| (side / enlarge).max(1));
         ways.iter()
             .map(|Way { name, caption, settings }| {
                 let settings = Settings { size_px, ..settings.clone() };
-                let picture = easel.picture(&scene, &self.camera(), &settings)?.enlarged(enlarge);
+                let picture = context.picture(&scene, &self.camera(), &settings)?.enlarged(enlarge);
                 Ok(Panel { name: (*name).to_owned(), caption: caption.clone(), picture })
             })
             .collect()
@@ -59,7 +60,7 @@ impl Board {
     }
 
     /// What the board is, for a note.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         format!(
             "Board: {side}x{side} points, fields of {CHECKERBOARD_FIELD}x{CHECKERBOARD_FIELD} points, disks of radius \
              {CHECKERBOARD_RADIUS} in units of the spacing; {}° vertical field of view.",
@@ -73,7 +74,7 @@ impl Board {
 ///
 /// ε is larger than the board. With a multiple of the radius, a pixel toward the horizon would take the nearest of the
 /// many points that it sees, and whatever the filter, the board would alias: filters are compared, not visibility.
-pub fn unlit(filter: Filter) -> Settings {
+fn unlit(filter: Filter) -> Settings {
     Settings {
         filter,
         shading: Shading::Albedo,
@@ -85,5 +86,119 @@ pub fn unlit(filter: Filter) -> Settings {
 }
 
 /// What all of [`unlit`] have in common, for a note.
-pub const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; the \
+const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; the \
     background is blue.";
+
+/// The kernel and the low-pass filter of figures 3 and 4.
+const GAUSSIAN_TEXT: &str = "Gaussian kernel, sigma 0.5 radii; low-pass radius sqrt 2 px.";
+
+/// A way without a kernel of its own.
+fn way(name: &'static str, filter: Filter, caption: &str) -> Way {
+    Way { name, caption: caption.to_owned(), settings: unlit(filter) }
+}
+
+/// Guennebaud et al. 2006, figure 3: four filters on a checkerboard to the horizon.
+pub fn g3(context: &mut FigureContext<'_>) -> Result<Sheet> {
+    // From above the near edge: disks are some pixels large there and far below a pixel at the horizon.
+    let board = Board {
+        side: 600,
+        eye: DVec3::new(0.3, -330.0, 30.0),
+        turn_deg: 8.0,
+        pitch_deg: 11.0,
+        fov_y_deg: 24.0,
+    };
+    let ways = [
+        way(
+            "No filter",
+            Filter::None,
+            "patterns that are not on the board, where fields are finer than pixels",
+        ),
+        way("Full EWA [Zwicker et al. 2001]", Filter::Ewa, "gray, where fields are finer than pixels"),
+        way(
+            "Tangent adjustment, surfel's adjust",
+            Filter::Adjust,
+            "orthogonal axes, as long as EWA's but for 0.2%",
+        ),
+        way(
+            "Maximum of kernel and low-pass filter [Botsch et al. 2005]",
+            Filter::Max,
+            "ragged, where splats are wider than pixels but not higher",
+        ),
+    ];
+    let notes = vec![board.text(), GAUSSIAN_TEXT.to_owned(), UNLIT_TEXT.to_owned()];
+    Ok(Sheet {
+        title: "Filters on a checkerboard in perspective (Guennebaud et al. 2006, figure 3)".to_owned(),
+        columns: 1,
+        panels: board.panels(context, 1, &ways)?,
+        notes,
+        ..Sheet::default()
+    })
+}
+
+/// So that single pixels are seen.
+const ENLARGE: u32 = 3;
+
+/// Guennebaud et al. 2006, figure 4: splats that are magnified in one direction and minified in the other.
+pub fn g4(context: &mut FigureContext<'_>) -> Result<Sheet> {
+    let board = Board {
+        side: 600,
+        eye: DVec3::new(0.3, -150.0, 5.0),
+        turn_deg: 20.0,
+        pitch_deg: 2.9,
+        fov_y_deg: 3.0,
+    };
+    let ways = [
+        way("Maximum [Botsch et al. 2005]", Filter::Max, "steps and speckles along the edges"),
+        way("Tangent adjustment, surfel's adjust", Filter::Adjust, "edges are smooth"),
+        way("Full EWA, to judge both by", Filter::Ewa, "not in the paper's figure"),
+    ];
+    Ok(Sheet {
+        title: "A close view of a checkerboard (Guennebaud et al. 2006, figure 4)".to_owned(),
+        columns: 3,
+        panels: board.panels(context, ENLARGE, &ways)?,
+        notes: vec![
+            format!("{} Each pixel is {ENLARGE}x{ENLARGE} here.", board.text()),
+            GAUSSIAN_TEXT.to_owned(),
+            UNLIT_TEXT.to_owned(),
+        ],
+        ..Sheet::default()
+    })
+}
+
+/// Pajarola et al. 2003, figure 18: a round kernel and a more localized one on a checkerboard.
+pub fn p18(context: &mut FigureContext<'_>) -> Result<Sheet> {
+    let board = Board {
+        side: 512,
+        eye: DVec3::new(0.3, -250.0, 14.0),
+        turn_deg: 25.0,
+        pitch_deg: 32.0,
+        fov_y_deg: 40.0,
+    };
+    let way = |name, kernel: PsiE| Way {
+        name,
+        caption: kernel.text(),
+        settings: Settings {
+            rasterizer: Rasterizer::Triangle,
+            kernel: kernel.kernel(),
+            kernel_eval: KernelEval::Texture,
+            ..unlit(Filter::None)
+        },
+    };
+    let ways = [
+        way("a) a round kernel", PsiE { a: 1.0, b: 1.5, n: 2.0 }),
+        way("b) a more localized kernel", PsiE { a: 6.0, b: 1.5, n: 3.0 }),
+    ];
+    Ok(Sheet {
+        title: "Blending kernels on a checkerboard (Pajarola et al. 2003, figure 18)".to_owned(),
+        columns: 2,
+        panels: board.panels(context, 1, &ways)?,
+        notes: vec![
+            board.text(),
+            "As in the paper, a textured triangle for each splat and no screen-space filter. Unlike there, every point \
+             is drawn: no level of detail (the paper's tau is 0.02% of the window)."
+                .to_owned(),
+            UNLIT_TEXT.to_owned(),
+        ],
+        ..Sheet::default()
+    })
+}

@@ -11,7 +11,7 @@ use surfel::{
     scene::{Accumulate, Camera, Colors, Filter, Object, Scene, Settings, Shapes, Splats},
 };
 
-use super::easel::Easel;
+use super::context::FigureContext;
 
 /// Pixels to a unit of the image plane.
 const FOCAL_PX: f64 = 300.0;
@@ -74,12 +74,9 @@ impl RoundSplat {
     }
 
     /// Draws it: a window of `window_px` pixels with `samples` along each pixel.
-    ///
-    /// # Errors
-    /// As the easel's.
     pub fn footprint(
         self,
-        easel: &mut Easel<'_>,
+        context: &mut FigureContext<'_>,
         filter: Filter,
         window_px: u16,
         samples: u16,
@@ -94,7 +91,7 @@ impl RoundSplat {
             colors: Colors::Uniform([1.0; 4]),
         };
         let object = Object { name: "splat".to_owned(), splats, closed: false };
-        let scene = easel.prepare(&Scene { objects: vec![object], ..Scene::default() })?;
+        let scene = context.prepare(&Scene { objects: vec![object], ..Scene::default() })?;
         // The window with a pixel around it, and as much on the left, where nothing is.
         let half_height = u32::from(window_px) / 2 + 1;
         let center_px = (FOCAL_PX * CENTER.x / CENTER.z).round() as u32;
@@ -107,13 +104,13 @@ impl RoundSplat {
         let mut weights = vec![0.0; side * side];
         let task = format!("footprint of {}", filter.name());
         for frame in 0..samples * samples {
-            easel.bars.step(&task, frame as u64, (samples * samples) as u64);
+            context.bars.step(&task, frame as u64, (samples * samples) as u64);
             let within = [frame % samples, frame / samples];
             // From the pixel's center, to the right and down.
             let offset_px = within.map(|i| (i as f64 + 0.5) / samples as f64 - 0.5);
             let eye = world(DVec3::new(offset_px[0], offset_px[1], 0.0) * (DEPTH / FOCAL_PX));
             let camera = Camera { eye, target: eye - DVec3::Z, up: DVec3::Y, fov_y_rad, near: None };
-            let drawn = easel.weights(&scene, &camera, &settings)?;
+            let drawn = context.weights(&scene, &camera, &settings)?;
             for row in 0..window {
                 // The center is between pixels, in the middle of the window.
                 let first = (row + 1) * size_px[0] as usize + size_px[0] as usize - 1 - window;
@@ -123,7 +120,7 @@ impl RoundSplat {
                 }
             }
         }
-        easel.bars.clear();
+        context.bars.clear();
         Ok(Footprint { side, weights })
     }
 }

@@ -3,7 +3,7 @@
 use surfel::{Result, scene::Filter};
 
 use super::{
-    easel::Easel,
+    context::FigureContext,
     footprint::{Footprint, RoundSplat},
     raster::Raster,
     sheet::{Panel, Sheet},
@@ -42,10 +42,7 @@ const CONTOUR: [u8; 3] = [213, 40, 0];
 const PIXEL_CENTER: [u8; 3] = [0, 114, 178];
 
 /// Draws the figure.
-///
-/// # Errors
-/// As the easel's.
-pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
+pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let mut panels = Vec::new();
     let mut headings = Vec::new();
     for Case { name, splat, window_px } in CASES {
@@ -55,10 +52,10 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
              tangents are {:.0}° apart",
             splat.paper_angle_deg()
         ));
-        let samples = (easel.size_px[0] / u32::from(window_px)).clamp(1, MOST_SAMPLES) as u16;
+        let samples = (context.size_px[0] / u32::from(window_px)).clamp(1, MOST_SAMPLES) as u16;
         let mut ewa = None;
         for (filter, name) in FILTERS {
-            let drawn = splat.footprint(easel, filter, window_px, samples)?;
+            let drawn = splat.footprint(context, filter, window_px, samples)?;
             let ewa =
                 ewa.get_or_insert_with(|| Footprint { side: drawn.side, weights: drawn.weights.clone() });
             let caption = match filter {
@@ -67,7 +64,7 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
                     format!("peak {:.3}, shape {:.0}% off", drawn.peak(), 100.0 * drawn.shape_difference(ewa))
                 }
             };
-            let picture = panel(&drawn, ewa, window_px.into(), easel.size_px)?;
+            let picture = panel(&drawn, ewa, window_px.into(), context.size_px)?;
             panels.push(Panel { name: name.to_owned(), caption, picture });
         }
     }

@@ -10,7 +10,7 @@ use surfel::{
 };
 
 use super::{
-    easel::Easel,
+    context::FigureContext,
     raster::Raster,
     sheet::{Panel, Sheet},
 };
@@ -30,23 +30,23 @@ const SIGMA: f32 = 0.4;
 /// Draws the figure.
 ///
 /// # Errors
-/// As the easel's; a model that can't be loaded, or is no mesh.
-pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
-    let (mesh, name) = model(easel)?;
-    let (sampled, plain) = (split(easel, &mesh, true)?, split(easel, &mesh, false)?);
+/// As those of [`FigureContext`]; a model that can't be loaded, or is no mesh.
+pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
+    let (mesh, name) = model(context)?;
+    let (sampled, plain) = (split(context, &mesh, true)?, split(context, &mesh, false)?);
     let notes = vec![text(&name, &mesh, &sampled, &plain), settings_text()];
     let (sampled, plain) = (scene(sampled), scene(plain));
     let ball = sampled.ball().ok_or_else(|| Error::input(&name, "", "has nothing to draw"))?;
-    let fit = Camera::fit(&ball, easel.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let fit = Camera::fit(&ball, context.size_px, Camera::DEFAULT_FOV_Y_RAD);
     let camera = Camera { fov_y_rad: NEARER * fit.fov_y_rad, ..fit };
-    let (sampled, plain) = (easel.prepare(&sampled)?, easel.prepare(&plain)?);
-    let settings = |transition| settings(easel.size_px, transition);
+    let (sampled, plain) = (context.prepare(&sampled)?, context.prepare(&plain)?);
+    let settings = |transition| settings(context.size_px, transition);
     let (naive, smoothed) = (settings(Transition::None), settings(Transition::Color));
-    let weights = easel.weights(&sampled, &camera, &smoothed)?;
-    let weights = Raster { size_px: easel.size_px, pixels: weights.into_iter().map(gray).collect() };
+    let weights = context.weights(&sampled, &camera, &smoothed)?;
+    let weights = Raster { size_px: context.size_px, pixels: weights.into_iter().map(gray).collect() };
     let mut panel =
         |name: &str, caption: &str, scene: &PreparedScene, settings: &Settings| -> Result<Panel> {
-            let picture = easel.picture(scene, &camera, settings)?;
+            let picture = context.picture(scene, &camera, settings)?;
             Ok(Panel { name: name.to_owned(), caption: caption.to_owned(), picture })
         };
     let panels = vec![
@@ -61,20 +61,20 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
     ];
     Ok(Sheet {
         title: "Polygons and splats of one surface (Guennebaud et al. 2006, figure 5)".to_owned(),
-        headings: Vec::new(),
         columns: 2,
         panels,
         notes,
+        ..Sheet::default()
     })
 }
 
-fn model(easel: &Easel<'_>) -> Result<(Mesh, String)> {
-    let Some(path) = easel.model else {
+fn model(context: &FigureContext<'_>) -> Result<(Mesh, String)> {
+    let Some(path) = context.model else {
         return Ok((relief_mesh(FEW_TRIANGLES), "The built-in relief".to_owned()));
     };
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let model = load(path, easel.bars);
-    easel.bars.clear();
+    let model = load(path, context.bars);
+    context.bars.clear();
     match model? {
         Model::Mesh(mesh) => Ok((mesh, name)),
         Model::Splats { .. } => {
@@ -84,13 +84,13 @@ fn model(easel: &Easel<'_>) -> Result<(Mesh, String)> {
 }
 
 /// Half of it as polygons, half as splats, as many as there are vertices.
-fn split(easel: &Easel<'_>, mesh: &Mesh, sample_edges: bool) -> Result<Hybrid> {
+fn split(context: &FigureContext<'_>, mesh: &Mesh, sample_edges: bool) -> Result<Hybrid> {
     let d = mesh.bounds().map_or(0.0, |bounds| POLYGONS.dot(bounds.center()));
     let stays = |i: usize| mesh.corners(i).is_some_and(|[a, b, c]| POLYGONS.dot((a + b + c) / 3.0) >= d);
     let vertices = mesh.positions.iter().filter(|position| POLYGONS.dot(**position) < d).count();
     let options = HybridOptions { samples: vertices.max(1) as u64, seed: 0, sample_edges };
-    let split = hybrid(mesh, &stays, &options, easel.bars);
-    easel.bars.clear();
+    let split = hybrid(mesh, &stays, &options, context.bars);
+    context.bars.clear();
     split
 }
 

@@ -1,30 +1,23 @@
 //! `surfel figure`: the papers' figures as labeled pictures.
 //!
-//! One file a figure. Comparisons are panels on a `sheet`, written as PNG; curves are plots, written as SVG. Whatever is
+//! Figures of a kind share a file. Comparisons are panels on a `sheet`, written as PNG; curves are plots, written as SVG. Whatever is
 //! shown was drawn by the device: curves of kernels are weights that it has written, no formulas.
 
 mod arguments;
 mod boards;
-mod easel;
+mod context;
 mod footprint;
 mod g1;
-mod g3;
-mod g4;
 mod g5;
-mod g6;
 mod glass;
 mod kernels;
-mod p10;
-mod p18;
 mod p19;
-mod p9;
 mod raster;
 mod sheet;
-mod slides;
 
 use std::path::Path;
 
-use surfel::{Error, Result, renderer::Headless, report::curves::CurvePlot, save};
+use surfel::{Error, Result, renderer::Headless, report::Plot, save};
 
 pub use arguments::{Figure, FigureArguments};
 pub use sheet::{Panel, Sheet};
@@ -33,14 +26,14 @@ use crate::{
     console::{self, Bars},
     outputs,
 };
-use easel::Easel;
+use context::FigureContext;
 
 /// What a figure is before it is a file.
-pub enum Drawn {
+pub enum Drawing {
     /// Pictures side by side.
     Sheet(Sheet),
     /// Curves.
-    Plot(CurvePlot),
+    Plot(Plot),
 }
 
 /// Runs the subcommand.
@@ -62,7 +55,7 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     })
 }
 
-fn draw_once(mut headless: Headless, arguments: &FigureArguments, figure: Figure) -> Result<Drawn> {
+fn draw_once(mut headless: Headless, arguments: &FigureArguments, figure: Figure) -> Result<Drawing> {
     let drawn = draw(&mut headless, &Bars::new(), arguments, figure);
     // A lost cache costs the next run some time, that is all.
     let _ = headless.renderer.shaders.save_cache();
@@ -78,33 +71,33 @@ pub fn draw(
     bars: &Bars,
     arguments: &FigureArguments,
     figure: Figure,
-) -> Result<Drawn> {
+) -> Result<Drawing> {
     let size_px = arguments.size_px(figure)?;
-    let mut easel = Easel { headless, bars, size_px, model: arguments.model.as_deref() };
+    let mut context = FigureContext { headless, bars, size_px, model: arguments.model.as_deref() };
     let drawn = match figure {
-        Figure::G1 => g1::draw(&mut easel).map(Drawn::Sheet),
-        Figure::G3 => g3::draw(&mut easel).map(Drawn::Sheet),
-        Figure::G4 => g4::draw(&mut easel).map(Drawn::Sheet),
-        Figure::G5 => g5::draw(&mut easel).map(Drawn::Sheet),
-        Figure::G6 => g6::draw(&mut easel).map(Drawn::Sheet),
-        Figure::Slides => slides::draw(&mut easel).map(Drawn::Sheet),
-        Figure::P9 => p9::draw(&mut easel).map(Drawn::Plot),
-        Figure::P10 => p10::draw(&mut easel).map(Drawn::Plot),
-        Figure::P18 => p18::draw(&mut easel).map(Drawn::Sheet),
-        Figure::P19 => p19::draw(&mut easel).map(Drawn::Sheet),
+        Figure::G1 => g1::draw(&mut context).map(Drawing::Sheet),
+        Figure::G3 => boards::g3(&mut context).map(Drawing::Sheet),
+        Figure::G4 => boards::g4(&mut context).map(Drawing::Sheet),
+        Figure::G5 => g5::draw(&mut context).map(Drawing::Sheet),
+        Figure::G6 => glass::g6(&mut context).map(Drawing::Sheet),
+        Figure::Slides => glass::slides(&mut context).map(Drawing::Sheet),
+        Figure::P9 => kernels::p9(&mut context).map(Drawing::Plot),
+        Figure::P10 => kernels::p10(&mut context).map(Drawing::Plot),
+        Figure::P18 => boards::p18(&mut context).map(Drawing::Sheet),
+        Figure::P19 => p19::draw(&mut context).map(Drawing::Sheet),
     };
     bars.clear();
     drawn
 }
 
-fn write(drawn: &Drawn, output: &Path, size_px: [u32; 2]) -> Result<()> {
+fn write(drawn: &Drawing, output: &Path, size_px: [u32; 2]) -> Result<()> {
     let [width, height] = match drawn {
-        Drawn::Sheet(sheet) => {
+        Drawing::Sheet(sheet) => {
             let raster = sheet.draw()?;
             save::png(output, raster.size_px, 3, raster.pixels.as_flattened())?;
             raster.size_px
         }
-        Drawn::Plot(plot) => {
+        Drawing::Plot(plot) => {
             save::text(output, &plot.svg(size_px)?)?;
             size_px
         }

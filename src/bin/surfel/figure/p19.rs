@@ -7,7 +7,7 @@ use surfel::{
 };
 
 use super::{
-    easel::Easel,
+    context::FigureContext,
     kernels::PsiE,
     sheet::{Panel, Sheet},
 };
@@ -22,12 +22,12 @@ const NEARER: f64 = 0.5;
 /// Draws the figure.
 ///
 /// # Errors
-/// As the easel's; a model that can't be loaded.
-pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
-    let (scene, what) = match easel.model {
+/// As those of [`FigureContext`]; a model that can't be loaded.
+pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
+    let (scene, what) = match context.model {
         Some(path) => {
             let scene =
-                load_scene(&[path.to_owned()], Representation::Splats, easel.bars, &mut Steps::default())?
+                load_scene(&[path.to_owned()], Representation::Splats, context.bars, &mut Steps::default())?
                     .scene;
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
             let what = format!("{name}, {} splats", scene.splat_count());
@@ -43,12 +43,12 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
         }
     };
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
-    let fit = Camera::fit(&ball, easel.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let fit = Camera::fit(&ball, context.size_px, Camera::DEFAULT_FOV_Y_RAD);
     let camera = Camera { fov_y_rad: NEARER * fit.fov_y_rad, ..fit };
-    let prepared = easel.prepare(&scene)?;
+    let prepared = context.prepare(&scene)?;
     let mut panel = |name: &str, kernel: PsiE| -> Result<Panel> {
         let settings = Settings {
-            size_px: easel.size_px,
+            size_px: context.size_px,
             rasterizer: Rasterizer::Triangle,
             filter: Filter::None,
             kernel: kernel.kernel(),
@@ -56,7 +56,7 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
             accumulate: Accumulate::F32,
             ..Settings::default()
         };
-        let picture = easel.picture(&prepared, &camera, &settings)?;
+        let picture = context.picture(&prepared, &camera, &settings)?;
         Ok(Panel { name: name.to_owned(), caption: kernel.text(), picture })
     };
     let panels = vec![
@@ -65,7 +65,6 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
     ];
     Ok(Sheet {
         title: "Blending kernels on a model (Pajarola et al. 2003, figure 19)".to_owned(),
-        headings: Vec::new(),
         columns: 2,
         panels,
         notes: vec![
@@ -73,5 +72,6 @@ pub fn draw(easel: &mut Easel<'_>) -> Result<Sheet> {
             "As in the paper, a textured triangle for each splat, no screen-space filter, every point drawn (tau = 0)."
                 .to_owned(),
         ],
+        ..Sheet::default()
     })
 }

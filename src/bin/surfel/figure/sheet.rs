@@ -15,6 +15,7 @@ pub struct Panel {
 }
 
 /// A figure.
+#[derive(Default)]
 pub struct Sheet {
     /// Over all.
     pub title: String,

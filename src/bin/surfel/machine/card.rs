@@ -4,7 +4,7 @@
 use std::{fs, path::Path, thread, time::Duration};
 
 use surfel::{
-    report::{CardUse, TrustLimits},
+    report::bench::{CardUse, TrustLimits},
     vk::{DeviceFacts, DeviceKind},
 };
 

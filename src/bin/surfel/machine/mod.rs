@@ -8,7 +8,10 @@ mod pci;
 use std::{fs, path::Path, thread};
 
 use surfel::{
-    report::{CardUse, Machine, Spread},
+    report::{
+        Spread,
+        bench::{CardUse, Machine},
+    },
     vk::{DeviceFacts, DeviceKind},
 };
 

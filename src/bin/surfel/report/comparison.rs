@@ -2,20 +2,21 @@
 
 use surfel::{
     Result,
+    renderer::Headless,
     report::{
-        Machine, TrustLimits,
+        bench::{Machine, TrustLimits, spread_flag},
         compare::{CompareReport, Method, MethodRow},
-        spread_flag,
     },
-    scene::{Rasterizer, Settings},
+    scene::{Camera, Rasterizer, Settings},
 };
 
-use super::{
-    command_line::CommandLine,
-    part::Panel,
-    session::{Session, shortened},
+use super::{arguments::ReportArguments, command_line::CommandLine, part::Panel};
+use crate::{
+    compare::{self, BACKGROUND, CompareArguments, MAGNIFIED, Shown, difference},
+    console::Bars,
+    machine::Watch,
+    scene::Loaded,
 };
-use crate::compare::{self, BACKGROUND, CompareArguments, MAGNIFIED, Shown, difference};
 
 /// What was compared.
 pub struct Comparison {
@@ -29,25 +30,22 @@ pub struct Comparison {
     pub flags: Vec<String>,
     /// What all filters aim at.
     pub truth: Option<Panel>,
-    /// Methods that differ from the default in filter or rasterizer.
-    pub pictures: Vec<MethodPicture>,
+    /// Of methods that differ from the default in filter or rasterizer: the picture, and how far it is from the truth.
+    pub pictures: Vec<[Panel; 2]>,
 }
 
-/// What a method draws.
-pub struct MethodPicture {
-    /// Its picture.
-    pub drawn: Panel,
-    /// How far that is from the truth.
-    pub difference: Panel,
-}
-
-/// Compares the methods.
+/// Compares the methods, with an eye on the machine.
 ///
 /// # Errors
 /// As [`compare::gather`].
-pub fn gather(session: &mut Session<'_>) -> Result<Comparison> {
-    let line = session.arguments.compare();
-    let arguments: CompareArguments = line.arguments()?;
+pub fn gather(
+    headless: &mut Headless,
+    arguments: &ReportArguments,
+    (loaded, camera): (&Loaded, &Camera),
+    bars: &Bars,
+) -> Result<Comparison> {
+    let line = arguments.compare();
+    let compare: CompareArguments = line.arguments()?;
     let mut truth = None;
     let mut pictures = Vec::new();
     let mut show = |shown: Shown<'_>| {
@@ -58,40 +56,31 @@ pub fn gather(session: &mut Session<'_>) -> Result<Comparison> {
                 truth = Some(Panel::new("ground truth", caption, "The model", surface.size_px, &pixels)?);
             }
             Shown::Method { method, drawn, truth: exact, .. } if is_shown(method) => {
-                let names = method.names();
-                let name = format!("{}, {}", names.rasterizer, names.filter_and_weight());
+                let name = format!("{}, {}", method.rasterizer.name(), method.filter);
                 let (size_px, pixels) = (drawn.size_px, drawn.srgb_over(BACKGROUND));
-                let far = difference(drawn, exact);
                 let caption = format!("from the ground truth, {MAGNIFIED} times");
-                pictures.push(MethodPicture {
-                    difference: Panel::new("difference", caption, &name, size_px, &far)?,
-                    drawn: Panel::new(name, "", "The model", size_px, &pixels)?,
-                });
+                let far = Panel::new("difference", caption, &name, size_px, &difference(drawn, exact))?;
+                pictures.push([Panel::new(name, "", "The model", size_px, &pixels)?, far]);
             }
             Shown::Method { .. } => {}
         }
         Ok(())
     };
-    let (report, machine, mut flags) = session.watched(|session| {
-        let Session { headless, loaded, camera, bars, .. } = session;
-        compare::gather(headless, &arguments, loaded, camera, bars, &mut show)
-    })?;
-    flags.extend(doubts(&report));
-    Ok(Comparison { line, report, machine, flags, truth, pictures })
-}
-
-impl Comparison {
-    /// How it was measured.
-    pub fn text(&self) -> String {
-        let report = &self.report;
-        let [[width, height], [error_width, error_height]] = [report.time_size_px, report.error_size_px];
-        format!(
-            "Times and fragments at {width}x{height} pixels, {} frames of each method, the methods in turn; errors at \
-             {error_width}x{error_height} pixels, against a ground truth of {} samples a pixel.",
-            report.timed_frames,
-            u64::from(report.samples_per_side).pow(2)
-        )
+    let device = headless.device().clone();
+    let watch = Watch::begin(device.facts());
+    let report = compare::gather(headless, &compare, loaded, camera, bars, &mut show)?;
+    let machine = watch.end(&[]);
+    let limits = TrustLimits::default();
+    let mut flags = machine.flags(&limits);
+    if arguments.device.validate {
+        flags.push("measured under validation: the times are worthless".to_owned());
     }
+    let spread = |row: &MethodRow| spread_flag(&row.method.to_string(), row.frame_ms.as_ref(), &limits);
+    flags.extend(shortened(report.methods.iter().filter_map(spread).collect()));
+    let own = |row: &MethodRow| row.flags.iter().map(|flag| format!("{}: {flag}", row.method)).collect();
+    let own: Vec<Vec<String>> = report.methods.iter().map(own).collect();
+    flags.extend(shortened(own.concat()));
+    Ok(Comparison { line, report, machine, flags, truth, pictures })
 }
 
 /// Whether a method differs from the default in its filter or its rasterizer alone.
@@ -103,13 +92,13 @@ fn is_shown(method: &Method) -> bool {
     own == with_filter || own == with_rasterizer
 }
 
-/// What is odd about the methods' times.
-fn doubts(report: &CompareReport) -> Vec<String> {
-    let limits = TrustLimits::default();
-    let spread = |row: &MethodRow| spread_flag(&row.method.line(), row.frame_ms.as_ref(), &limits);
-    let own =
-        |row: &MethodRow| row.flags.iter().map(|flag| format!("{}: {flag}", row.method.line())).collect();
-    let spreads = shortened(report.methods.iter().filter_map(spread).collect());
-    let own: Vec<Vec<String>> = report.methods.iter().map(own).collect();
-    spreads.into_iter().chain(shortened(own.concat())).collect()
+/// The sentences of a flag that many rows have: all of a few, else the first with how many more there are.
+fn shortened(flags: Vec<String>) -> Vec<String> {
+    const FEW: usize = 3;
+    match flags.as_slice() {
+        [first, others @ ..] if others.len() >= FEW => {
+            vec![format!("{first}; and {} more like this one", others.len())]
+        }
+        _ => flags,
+    }
 }

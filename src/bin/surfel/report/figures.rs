@@ -1,12 +1,12 @@
 //! The papers' figures, as this device draws them.
 
-use surfel::{Error, Result, report::curves::CurvePlot};
+use surfel::{Error, Result, report::Plot};
 
 use super::{
     part::{Block, Panel, Part},
     session::Session,
 };
-use crate::figure::{self, Drawn, FigureArguments, Sheet};
+use crate::figure::{self, Drawing, FigureArguments, Sheet};
 
 /// Figures by their names, with what one sees and what follows.
 const FIGURES: [(&str, &str); 8] = [
@@ -57,9 +57,6 @@ const FIGURES: [(&str, &str); 8] = [
 ];
 
 /// Gathers the part.
-///
-/// # Errors
-/// Whatever goes wrong.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let mut part = Part {
         finding: "Everything shown was drawn by this device, curves included: they are weights that it has written. G: \
@@ -72,8 +69,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
         let arguments: FigureArguments = line.arguments()?;
         let figure = arguments.name.ok_or_else(|| Error::option("NAME", "expected a figure"))?;
         match figure::draw(session.headless, session.bars, &arguments, figure)? {
-            Drawn::Sheet(sheet) => sheet_blocks(&mut part, &sheet, caption)?,
-            Drawn::Plot(plot) => plot_blocks(&mut part, &plot, arguments.size_px(figure)?, caption)?,
+            Drawing::Sheet(sheet) => sheet_blocks(&mut part, &sheet, caption)?,
+            Drawing::Plot(plot) => plot_blocks(&mut part, &plot, arguments.size_px(figure)?, caption)?,
         }
         part.commands.push(line);
     }
@@ -109,13 +106,17 @@ fn sheet_blocks(part: &mut Part, sheet: &Sheet, caption: &str) -> Result<()> {
     Ok(())
 }
 
-fn plot_blocks(part: &mut Part, plot: &CurvePlot, size_px: [u32; 2], caption: &str) -> Result<()> {
+fn plot_blocks(part: &mut Part, plot: &Plot, size_px: [u32; 2], caption: &str) -> Result<()> {
     let title = plot.title.first().cloned().unwrap_or_default();
     part.blocks.push(Block::Heading(title.clone()));
-    let names: Vec<&str> = plot.curves.iter().map(|curve| curve.name.as_str()).collect();
+    let names: Vec<&str> = plot.names().collect();
+    let axes = plot
+        .charts
+        .first()
+        .map_or_else(String::new, |chart| format!("{} over {}", chart.y.name, chart.x.name));
     part.blocks.push(Block::Plot {
         svg: plot.svg(size_px)?,
-        alt: format!("{title}: {} over {}, curves for {}", plot.y_label, plot.x_label, names.join("; ")),
+        alt: format!("{title}: {axes}, curves for {}", names.join("; ")),
         caption: caption.to_owned(),
     });
     Ok(())

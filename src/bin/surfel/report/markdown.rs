@@ -15,7 +15,7 @@ pub fn tables(text: &str) -> Vec<Grid> {
             None => grids.push(Grid { head: cells, ..Grid::default() }),
             // The line under the head.
             Some(_) if cells.iter().all(|cell| cell.contains("---")) => {}
-            Some(grid) => grid.row(cells),
+            Some(grid) => grid.rows.push(cells),
         }
         within = true;
     }

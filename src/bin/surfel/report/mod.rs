@@ -5,15 +5,12 @@
 //! printed in it.
 
 mod arguments;
-mod bench;
-mod cells;
+mod benches;
 mod command_line;
 mod comparison;
-mod counts;
 mod distance;
 mod figures;
 mod head;
-mod layers;
 mod markdown;
 mod methods;
 mod page;
@@ -21,14 +18,14 @@ mod part;
 mod pictures;
 mod session;
 mod stability;
-mod table1;
-mod transition;
 
 use std::{collections::BTreeMap, fs};
 
 use serde::Serialize;
 use serde_json::Value;
-use surfel::{Error, ErrorKind, Result, load::Representation, renderer::Headless, report::Machine, save};
+use surfel::{
+    Error, ErrorKind, Result, load::Representation, renderer::Headless, report::bench::Machine, save,
+};
 
 pub use arguments::ReportArguments;
 
@@ -42,21 +39,24 @@ use crate::{
     steps::Steps,
 };
 use head::Head;
-use part::{Chapter, Part};
+use part::Part;
 use session::Session;
+
+/// A part of the page: its name in links and in the JSON, its heading, and what gathers it.
+type Chapter = (&'static str, &'static str, fn(&mut Session<'_>) -> Result<Part>);
 
 /// The parts of the page.
 const CHAPTERS: &[Chapter] = &[
-    Chapter { id: "pictures", title: "Pictures", gather: pictures::gather },
-    Chapter { id: "methods", title: "Methods: speed against error", gather: methods::gather },
-    Chapter { id: "distance", title: "Filters over distance", gather: distance::gather },
-    Chapter { id: "figures", title: "The papers' figures", gather: figures::gather },
-    Chapter { id: "bench", title: "What frames cost", gather: bench::gather },
-    Chapter { id: "tables", title: "The paper's tables", gather: table1::gather },
-    Chapter { id: "layers", title: "Transparent layers", gather: layers::gather },
-    Chapter { id: "transition", title: "From splats to polygons", gather: transition::gather },
-    Chapter { id: "counts", title: "Instructions", gather: counts::gather },
-    Chapter { id: "stability", title: "Numerical stability", gather: stability::gather },
+    ("pictures", "Pictures", pictures::gather),
+    ("methods", "Methods: speed against error", methods::gather),
+    ("distance", "Filters over distance", distance::gather),
+    ("figures", "The papers' figures", figures::gather),
+    ("bench", "What frames cost", benches::floor),
+    ("tables", "The paper's tables", benches::tables),
+    ("layers", "Transparent layers", benches::layers),
+    ("transition", "From splats to polygons", benches::transition),
+    ("counts", "Instructions", benches::counts),
+    ("stability", "Numerical stability", stability::gather),
 ];
 
 /// The files in the folder.
@@ -89,24 +89,26 @@ fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
     let loaded = load_scene(&inputs, Representation::Splats, &bars, &mut Steps::default())?;
     let camera = CameraChoice::none().camera(&loaded, arguments.size_px())?;
     let head = Head::of(headless.device().facts(), arguments, &loaded);
-    let mut session = Session::new(&mut headless, arguments, &loaded, &camera, &bars);
+    let (headless, loaded, camera, bars) = (&mut headless, &loaded, &camera, &bars);
+    let mut session = Session { headless, arguments, loaded, camera, bars, comparison: None };
     let mut parts = Vec::new();
-    for (number, chapter) in CHAPTERS.iter().enumerate() {
-        console::say(&format!("part {} of {}: {}", number + 1, CHAPTERS.len(), chapter.title));
-        let gathered = (chapter.gather)(&mut session);
+    for (number, (id, title, gather)) in CHAPTERS.iter().enumerate() {
+        console::say(&format!("part {} of {}: {title}", number + 1, CHAPTERS.len()));
+        let gathered = gather(&mut session);
         bars.clear();
-        parts.push(match gathered {
+        let part = match gathered {
             // The input or an option, or too little memory for what this part draws: other parts may do without it.
             Err(error) if error.exit_code() == 1 || matches!(error.kind(), ErrorKind::Memory { .. }) => {
-                console::say(&format!("{}: {error}", chapter.title));
+                console::say(&format!("{title}: {error}"));
                 Part::missing(&error)
             }
             gathered => gathered?,
-        });
+        };
+        parts.push(Part { id, title, ..part });
     }
     write(arguments, &head, &parts)?;
     // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
+    let _ = session.headless.renderer.shaders.save_cache();
     Ok(())
 }
 
@@ -119,15 +121,14 @@ fn check_sizes(headless: &Headless, arguments: &ReportArguments) -> Result<()> {
 
 /// The page last: where it is, all is.
 fn write(arguments: &ReportArguments, head: &Head, parts: &[Part]) -> Result<()> {
-    let both = || CHAPTERS.iter().zip(parts);
     let data = Data {
         head,
-        flags: both().map(|(chapter, part)| (chapter.id, part.flags.as_slice())).collect(),
-        machine: both().filter_map(|(chapter, part)| Some((chapter.id, part.machine.as_ref()?))).collect(),
-        parts: both().map(|(chapter, part)| (chapter.id, &part.data)).collect(),
+        flags: parts.iter().map(|part| (part.id, part.flags.as_slice())).collect(),
+        machine: parts.iter().filter_map(|part| Some((part.id, part.machine.as_ref()?))).collect(),
+        parts: parts.iter().map(|part| (part.id, &part.data)).collect(),
     };
     let [page, json] = FILES.map(|name| arguments.output.join(name));
-    let texts = [page::html(head, CHAPTERS, parts), to_json(&data)?];
+    let texts = [page::html(head, parts), to_json(&data)?];
     fs::create_dir_all(&arguments.output).map_err(|e| Error::file(&arguments.output, "write", e))?;
     save::text(&json, &texts[1])?;
     save::text(&page, &texts[0])?;

@@ -6,7 +6,7 @@ use surfel::report::Grid;
 
 use super::{
     head::Head,
-    part::{Block, Chapter, Panel, Part},
+    part::{Block, Panel, Part},
 };
 
 const STYLE: &str = include_str!("style.css");
@@ -15,8 +15,7 @@ const STYLE: &str = include_str!("style.css");
 const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
 
 /// The whole page.
-pub fn html(head: &Head, chapters: &[Chapter], parts: &[Part]) -> String {
-    let both = || chapters.iter().zip(parts);
+pub fn html(head: &Head, parts: &[Part]) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -32,16 +31,16 @@ pub fn html(head: &Head, chapters: &[Chapter], parts: &[Part]) -> String {
                 nav aria-label="Contents" {
                     a href="#top" { "surfel report" }
                     ol {
-                        @for (chapter, part) in both() {
-                            li { a href={ "#" (chapter.id) } { (chapter.title) @if !part.flags.is_empty() { " ⚠" } } }
+                        @for part in parts {
+                            li { a href={ "#" (part.id) } { (part.title) @if !part.flags.is_empty() { " ⚠" } } }
                         }
                         li { a href="#repeat" { "How to repeat this" } }
                     }
                 }
                 main {
-                    (header(head, chapters, parts))
-                    @for (chapter, part) in both() { (section(chapter, part)) }
-                    (repeat(head, chapters, parts))
+                    (header(head, parts))
+                    @for part in parts { (section(part)) }
+                    (repeat(head, parts))
                 }
             }
         }
@@ -50,8 +49,7 @@ pub fn html(head: &Head, chapters: &[Chapter], parts: &[Part]) -> String {
 }
 
 /// What it is about, what follows, and what to doubt.
-fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
-    let both = || chapters.iter().zip(parts);
+fn header(head: &Head, parts: &[Part]) -> Markup {
     let doubtful = parts.iter().any(|part| !part.flags.is_empty());
     html! {
         header id="top" {
@@ -62,9 +60,9 @@ fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
                 @if doubtful {
                     p { "Not all of them. Ratios within one table hold better than milliseconds: methods took turns." }
                     ul {
-                        @for (chapter, part) in both() {
+                        @for part in parts {
                             @for flag in &part.flags {
-                                li { a href={ "#" (chapter.id) } { (chapter.title) } ": " (rich(flag)) }
+                                li { a href={ "#" (part.id) } { (part.title) } ": " (rich(flag)) }
                             }
                         }
                     }
@@ -79,8 +77,8 @@ fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
             }
             h2 { "What follows" }
             dl class="findings" {
-                @for (chapter, part) in both() {
-                    dt { a href={ "#" (chapter.id) } { (chapter.title) } }
+                @for part in parts {
+                    dt { a href={ "#" (part.id) } { (part.title) } }
                     dd { (rich(&part.finding)) }
                 }
             }
@@ -95,10 +93,10 @@ fn header(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
     }
 }
 
-fn section(chapter: &Chapter, part: &Part) -> Markup {
+fn section(part: &Part) -> Markup {
     html! {
-        section id=(chapter.id) {
-            h2 { (chapter.title) }
+        section id=(part.id) {
+            h2 { (part.title) }
             p class="finding" { (rich(&part.finding)) }
             @if !part.flags.is_empty() {
                 ul class="doubt" { @for flag in &part.flags { li { (rich(flag)) } } }
@@ -113,7 +111,7 @@ fn section(chapter: &Chapter, part: &Part) -> Markup {
 }
 
 /// All command lines at one place.
-fn repeat(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
+fn repeat(head: &Head, parts: &[Part]) -> Markup {
     html! {
         section id="repeat" {
             h2 { "How to repeat this" }
@@ -121,9 +119,9 @@ fn repeat(head: &Head, chapters: &[Chapter], parts: &[Part]) -> Markup {
             pre { (head.command) }
             p { "Its parts, each by itself; two runs differ in times and what is told of them, in nothing else:" }
             pre {
-                @for (chapter, part) in chapters.iter().zip(parts) {
+                @for part in parts {
                     @if !part.commands.is_empty() {
-                        "# " (chapter.title) "\n"
+                        "# " (part.title) "\n"
                         @for line in &part.commands { (line.to_string()) "\n" }
                     }
                 }
@@ -227,10 +225,9 @@ mod tests {
 
     #[test]
     fn tables_name_their_rows_and_mark_some_and_escape_all() {
-        let mut grid = Grid::new("a `b` <c>", &["name", "x & y, ms"]);
-        grid.row(["<i>".to_owned(), "1".to_owned()]);
-        grid.row(["two".to_owned(), "2".to_owned()]);
-        let shown = table(&grid, &[1]).into_string();
+        let rows = [("<i>", 1), ("two", 2)];
+        let grid = Grid::of("a `b` <c>", &rows).column("name", |row| row.0).column("x & y, ms", |row| row.1);
+        let shown = table(&grid.grid(), &[1]).into_string();
         for expected in [
             "<caption>a <code>b</code> &lt;c&gt;</caption>",
             "<th scope=\"col\">x &amp; y, ms</th>",
@@ -243,9 +240,8 @@ mod tests {
 
     #[test]
     fn a_part_that_could_not_be_gathered_says_why() {
-        let chapter = Chapter { id: "x", title: "X", gather: |_| Ok(Part::default()) };
         let part = Part::missing(&surfel::Error::option("bench", "no <timestamps>"));
-        let shown = section(&chapter, &part).into_string();
+        let shown = section(&part).into_string();
         assert!(shown.contains("Not on this page: bench: no &lt;timestamps&gt;"), "{shown}");
     }
 

@@ -2,29 +2,19 @@
 
 use surfel::{
     Error, Result,
-    report::{BenchReport, Grid, Machine},
+    report::{Grid, bench::Machine},
     save,
 };
 
-use super::{command_line::CommandLine, session::Session};
-use crate::{
-    bench::{self, BenchArguments},
-    json::to_value,
-};
+use super::command_line::CommandLine;
 
 /// A part of the page: an entry of the table of contents.
-pub struct Chapter {
+#[derive(Default)]
+pub struct Part {
     /// Its name in links and in the JSON.
     pub id: &'static str,
     /// Its heading.
     pub title: &'static str,
-    /// Gathers it.
-    pub gather: fn(&mut Session<'_>) -> Result<Part>,
-}
-
-/// A part, gathered.
-#[derive(Default)]
-pub struct Part {
     /// What follows from it, in a sentence or two: stands in the summary, too.
     pub finding: String,
     /// What there is to see, in order.
@@ -104,40 +94,9 @@ impl Panel {
 }
 
 impl Part {
-    /// What `surfel bench WHAT` measures, and what follows from it.
-    ///
-    /// # Errors
-    /// Whatever goes wrong.
-    pub fn of_bench(
-        session: &mut Session<'_>,
-        what: &str,
-        finding: impl FnOnce(&BenchReport) -> String,
-    ) -> Result<Self> {
-        let line = session.arguments.bench(what);
-        let arguments: BenchArguments = line.arguments()?;
-        let report = bench::gather(Some(&mut *session.headless), &arguments)?;
-        let mut part = Self {
-            finding: finding(&report),
-            commands: vec![line],
-            data: to_value(&report)?,
-            ..Self::default()
-        };
-        for grid in report.grids() {
-            part.table(grid);
-        }
-        part.flags = report.flags;
-        part.machine = report.machine;
-        Ok(part)
-    }
-
     /// One that could not be gathered.
     pub fn missing(error: &Error) -> Self {
         let finding = format!("Not on this page: {error}");
         Self { flags: vec![finding.clone()], finding, ..Self::default() }
-    }
-
-    /// Adds a table of which no row stands out.
-    pub fn table(&mut self, grid: Grid) {
-        self.blocks.push(Block::Table(grid, Vec::new()));
     }
 }

@@ -30,9 +30,6 @@ struct Data<'a> {
 }
 
 /// Gathers the part.
-///
-/// # Errors
-/// Whatever goes wrong.
 pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let mut part = Part::default();
     let inputs = &session.loaded.inputs;
@@ -60,8 +57,7 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     let comparison = session.comparison()?;
     part.commands.push(comparison.line.clone().option("-o", "pictures"));
     part.blocks.push(Block::Heading("What each filter and each rasterizer draws".to_owned()));
-    let pairs = comparison.pictures.drain(..);
-    let (columns, panels) = (6, pairs.flat_map(|picture| [picture.drawn, picture.difference]).collect());
+    let (columns, panels) = (6, comparison.pictures.drain(..).flatten().collect());
     let truth: Vec<Panel> = comparison.truth.take().into_iter().collect();
     part.blocks.push(Block::Pictures { columns, panels: truth, caption: String::new() });
     part.blocks.push(Block::Pictures {

@@ -24,9 +24,6 @@ const COLUMNS: [&str; 5] = [
 ];
 
 /// Gathers the part.
-///
-/// # Errors
-/// None.
 pub fn gather(_: &mut Session<'_>) -> Result<Part> {
     let grids = grids();
     let mut part = Part {
@@ -41,9 +38,7 @@ pub fn gather(_: &mut Session<'_>) -> Result<Part> {
             .to_owned(),
     ));
     part.blocks.push(Block::List(COLUMNS.map(str::to_owned).to_vec()));
-    for grid in grids {
-        part.table(grid);
-    }
+    part.blocks.extend(grids.into_iter().map(|grid| Block::Table(grid, Vec::new())));
     Ok(part)
 }
 

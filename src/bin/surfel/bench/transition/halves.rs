@@ -13,7 +13,8 @@ use surfel::{
     scene::{Mesh, MeshObject, Object, Scene},
 };
 
-use super::super::{Stage, model::Source};
+use super::super::model::Source;
+use crate::console::Bars;
 
 /// The scenes.
 pub struct Halves {
@@ -36,7 +37,7 @@ const SEED: u64 = 0;
 ///
 /// # Errors
 /// A mesh that has no two halves; more splats than there is memory for.
-pub fn make(source: &Source, splats: u64, stage: &Stage<'_>) -> Result<Halves> {
+pub fn make(source: &Source, splats: u64, bars: &Bars) -> Result<Halves> {
     let of_file = |error: Error| match (source, error.kind()) {
         // The library knows no file.
         (Source::Mesh(_, path), ErrorKind::Input { problem, .. }) => Error::input(path, "", problem.as_str()),
@@ -53,9 +54,9 @@ pub fn make(source: &Source, splats: u64, stage: &Stage<'_>) -> Result<Halves> {
             (&built_in, "built-in sphere".to_owned())
         }
     };
-    let both = hybrid_scene(mesh, &model, splats, stage).map_err(of_file)?;
+    let both = hybrid_scene(mesh, &model, splats, bars).map_err(of_file)?;
     let samples = Samples { count: splats, seed: SEED };
-    let (object, report) = resampled(mesh, model.clone(), samples, &stage.bars).map_err(of_file)?;
+    let (object, report) = resampled(mesh, model.clone(), samples, bars).map_err(of_file)?;
     let (shaded, found) = shaded_mesh(mesh.clone());
     let whole = MeshObject { name: model.clone(), mesh: shaded, closed: found.closed };
     Ok(Halves {
@@ -67,13 +68,13 @@ pub fn make(source: &Source, splats: u64, stage: &Stage<'_>) -> Result<Halves> {
     })
 }
 
-fn hybrid_scene(mesh: &Mesh, name: &str, splats: u64, stage: &Stage<'_>) -> Result<(Scene, InputReport)> {
+fn hybrid_scene(mesh: &Mesh, name: &str, splats: u64, bars: &Bars) -> Result<(Scene, InputReport)> {
     let Some(middle) = middle(mesh) else {
         return Err(Error::input(name, "", "has no triangle that can be drawn"));
     };
     let options = HybridOptions { samples: splats.div_ceil(2), seed: SEED, sample_edges: true };
     let stays = |i: usize| place(mesh, i).is_some_and(|(x, _)| x >= middle);
-    let Hybrid { splats, polygons, closed, .. } = hybrid(mesh, &stays, &options, &stage.bars)?;
+    let Hybrid { splats, polygons, closed, .. } = hybrid(mesh, &stays, &options, bars)?;
     if splats.is_empty() || polygons.triangles.is_empty() {
         return Err(Error::input(name, "", "has no two halves: expected triangles to the left and right"));
     }

@@ -1,0 +1,41 @@
+//! What every table is measured with, and gathers on the way.
+
+use surfel::{
+    Progress as _, Result,
+    prepare::PreparedScene,
+    renderer::Headless,
+    report::{InputReport, bench::TrustLimits},
+    scene::{Scene, Settings},
+};
+
+use super::arguments::BenchArguments;
+use crate::console::Bars;
+
+/// What every table is given.
+pub struct BenchContext<'a> {
+    /// The command line.
+    pub arguments: &'a BenchArguments,
+    /// The settings that all methods have in common.
+    pub settings: Settings,
+    /// Progress.
+    pub bars: Bars,
+    /// Beyond which figures are flagged.
+    pub limits: TrustLimits,
+    /// The inputs of what was drawn so far.
+    pub inputs: Vec<InputReport>,
+    /// What makes figures doubtful so far.
+    pub flags: Vec<String>,
+    /// The clock, whenever the device had just worked.
+    pub clocks_mhz: Vec<f64>,
+}
+
+impl BenchContext<'_> {
+    /// Brings a scene to the device.
+    ///
+    /// # Errors
+    /// Settings that the scene rules out; whatever the allocator or the driver answers.
+    pub fn prepare(&self, headless: &Headless, scene: &Scene) -> Result<PreparedScene> {
+        self.settings.check_scene(scene)?;
+        headless.prepare(scene, &|done, total| self.bars.step("upload", done, total))
+    }
+}

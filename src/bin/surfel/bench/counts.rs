@@ -1,0 +1,268 @@
+//! `surfel bench counts`: the instructions of every pipeline, by the two rules and as drivers' compilers have them.
+
+mod isa;
+
+use std::collections::HashSet;
+
+use surfel::{
+    Error, Progress as _, Result, Settings,
+    instruments::{Counter, Traits, frame_pipelines, papers_pipelines},
+    passes::{PipelineRecipe, PipelineStages},
+    report::{
+        bench::{InstructionReport, InstructionRow, PipelineNames},
+        compare::WeightedFilter,
+    },
+    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
+};
+
+use super::arguments::{Bench, BenchArguments};
+use crate::{
+    console::{self, Bars},
+    json::to_json,
+};
+
+/// What a process of ours does for one chip.
+///
+/// # Errors
+/// As [`isa::rows_here`].
+pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
+    let rows = isa::rows_here(&pipelines(arguments.counts.all)?, arguments.device.asked.as_deref())?;
+    console::print(&to_json(&rows)?)
+}
+
+/// Counts every pipeline.
+///
+/// # Errors
+/// A chip that no compiler here knows; options that need a scene.
+pub fn gather(arguments: &BenchArguments, bars: &Bars) -> Result<InstructionReport> {
+    let counts = &arguments.counts;
+    let alone = arguments.table == Bench::Counts;
+    if alone && (arguments.model.is_some() || arguments.device.validate) {
+        return Err(Error::option("--model, --validate", "bench counts draws nothing"));
+    }
+    let pipelines = pipelines(counts.all)?;
+    let total = pipelines.len() as u64;
+    let mut rows = Vec::new();
+    let mut counter = Counter::default();
+    for ((names, recipe), done) in pipelines.into_iter().zip(1..) {
+        rows.push(InstructionRow {
+            names,
+            counts: counter.pipeline(&recipe)?,
+            published: recipe.published(),
+            isa: Vec::new(),
+        });
+        bars.step("count", done, total);
+    }
+    let mut notes = vec![
+        "VP/FP: instructions of ARB programs, an upper bound: see benches/INSTRUCTIONS.md".to_owned(),
+        "published: Guennebaud, Barthe, Paulin 2006, table 1".to_owned(),
+    ];
+    for (chip, done) in counts.isa.iter().zip(1..) {
+        let found = isa::rows_of(chip, counts.all, arguments.device.asked.as_deref())?;
+        for (row, isa) in rows.iter_mut().zip(found) {
+            row.isa.extend(isa);
+        }
+        bars.step("compile", done, counts.isa.len() as u64);
+    }
+    if !counts.isa.is_empty() {
+        notes.push(
+            "chips: as the driver's compiler tells it; latency and throughput are its estimates in cycles"
+                .to_owned(),
+        );
+    }
+    Ok(InstructionReport { rows, notes })
+}
+
+/// The pipelines of all methods, each once, and those of the papers' own programs.
+fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
+    let mut found = Vec::new();
+    let mut seen = HashSet::new();
+    for recipe in papers_pipelines() {
+        let names = PipelineNames {
+            pass: recipe.pass.to_owned(),
+            draws: "points".to_owned(),
+            rasterizer: "as published".to_owned(),
+            shaders: shaders(&recipe),
+            ..PipelineNames::default()
+        };
+        found.push((names, recipe));
+    }
+    for settings in every_settings(all) {
+        if settings.validate().is_err() {
+            continue;
+        }
+        for traits in every_traits(all) {
+            if settings.check_object("", traits.ellipses).is_err() || !is_listed(&settings, traits) {
+                continue;
+            }
+            for recipe in frame_pipelines(&settings, traits)? {
+                if seen.insert(recipe.clone()) {
+                    found.push((names(&settings, traits, &recipe), recipe));
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The kernel of Pajarola et al. 2003 with its default parameters, which change no instruction.
+const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
+
+fn every_settings(all: bool) -> Vec<Settings> {
+    let mut every = Vec::new();
+    let weights: &[FilterWeight] =
+        if all { &[FilterWeight::Area, FilterWeight::Unit] } else { &[FilterWeight::Area] };
+    for (_, rasterizer) in Rasterizer::METHODS {
+        for (_, filter) in Filter::NAMES {
+            for (_, kernel_eval) in KernelEval::NAMES {
+                for filter_weight in weights {
+                    every.push(Settings {
+                        rasterizer: *rasterizer,
+                        filter: *filter,
+                        kernel_eval: *kernel_eval,
+                        filter_weight: *filter_weight,
+                        ..Settings::default()
+                    });
+                }
+            }
+        }
+    }
+    let tile_invocations = TileInvocations::Pixel;
+    every.push(Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() });
+    if all {
+        let shadings = [Shading::Lambert, Shading::Normals, Shading::Albedo];
+        // The other kernel is another pipeline of each.
+        let with_psi_e = |settings: &Settings| Settings { kernel: PSI_E, ..settings.clone() };
+        every.extend(every.iter().map(with_psi_e).collect::<Vec<_>>());
+        // So are sums in targets of another format, though their stages are the same.
+        let with_f32 = |settings: &Settings| Settings { accumulate: Accumulate::F32, ..settings.clone() };
+        every.extend(every.iter().map(with_f32).collect::<Vec<_>>());
+        every.extend(shadings.map(|shading| Settings { shading, ..Settings::default() }));
+    }
+    every
+}
+
+fn every_traits(all: bool) -> Vec<Traits> {
+    if !all {
+        return vec![Traits::default()];
+    }
+    let mut every = Vec::new();
+    for ellipses in [false, true] {
+        for may_be_large in [false, true] {
+            for export in [false, true] {
+                for closed in [true, false] {
+                    let traits = Traits { ellipses, closed, may_be_large, ..Traits::default() };
+                    every.push(Traits { export, floor: export, ..traits });
+                    every.extend(beyond_opaque_splats(Traits { export, ..traits }));
+                }
+            }
+        }
+    }
+    every
+}
+
+/// The same with polygons, transparent things and lights.
+fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
+    let polygons = Traits { polygons: true, ..traits };
+    if traits.export {
+        return vec![polygons];
+    }
+    let [splats, both] = [traits, polygons].map(|traits| Traits { transparent: true, ..traits });
+    vec![polygons, splats, both, Traits { lit: true, ..both }]
+}
+
+/// Layers and polygons are listed for each rasterizer and filter; the other options change them as they change opaque splats.
+fn is_listed(settings: &Settings, traits: Traits) -> bool {
+    let Settings { rasterizer, filter, tile_invocations, .. } = *settings;
+    let beyond = traits.polygons || traits.transparent || traits.lit;
+    !beyond || *settings == Settings { rasterizer, filter, tile_invocations, ..Settings::default() }
+}
+
+/// What tells a pipeline from others.
+fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> PipelineNames {
+    let splats = match (traits.ellipses, traits.closed) {
+        (false, true) => "disks",
+        (true, true) => "ellipses",
+        (false, false) => "open disks",
+        (true, false) => "open ellipses",
+    };
+    let mut names = PipelineNames {
+        pass: recipe.pass.to_owned(),
+        draws: recipe.draws.to_owned(),
+        shaders: shaders(recipe),
+        ..PipelineNames::default()
+    };
+    let kernel_eval = settings.kernel_eval.name();
+    let kernel_eval = match settings.kernel {
+        Kernel::Gaussian { .. } => kernel_eval.to_owned(),
+        Kernel::PsiE { .. } => format!("psi_e {kernel_eval}"),
+    };
+    if recipe.pass == "kernel texture" && settings.kernel == PSI_E {
+        names.kernel_eval = kernel_eval.clone();
+    }
+    if recipe.sets_splats_up() {
+        names.rasterizer = settings.rasterizer.name().to_owned();
+        let (filter, filter_weight) = (settings.filter, settings.filter_weight);
+        names.filter = WeightedFilter { filter, filter_weight }.to_string();
+        names.kernel_eval = kernel_eval;
+        names.splats = splats.to_owned();
+    }
+    if recipe.draws == "triangles" && !recipe.sets_splats_up() {
+        names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
+    }
+    let sums = [
+        "accumulate",
+        "floor add",
+        "see, sum and shade tiles",
+        "see and sum tiles",
+        "sum tiles",
+        "sum large splats",
+        "layers of tiles",
+    ];
+    if sums.contains(&recipe.pass) && settings.accumulate != Accumulate::default() {
+        names.accumulate = settings.accumulate.name().to_owned();
+    }
+    if ["finalize", "see, sum and shade tiles"].contains(&recipe.pass) {
+        names.shading = settings.shading.name().to_owned();
+    }
+    names
+}
+
+fn shaders(recipe: &PipelineRecipe) -> String {
+    match recipe.stages() {
+        PipelineStages::Graphics(vertex, fragment) => format!("{} + {}", vertex.name, fragment.name),
+        PipelineStages::Compute(shader) => shader.name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A gate finds a figure by its name.
+    #[test]
+    fn every_pipeline_has_a_name_of_its_own() {
+        for (all, at_least) in [(false, 100), (true, 9000)] {
+            let pipelines = pipelines(all).unwrap();
+            let names: HashSet<_> = pipelines.iter().map(|(names, _)| names).collect();
+            assert_eq!(names.len(), pipelines.len());
+            assert!(names.len() > at_least, "{}", names.len());
+        }
+    }
+
+    #[test]
+    fn sums_of_either_width_have_rows() {
+        let all = pipelines(true).unwrap();
+        let rows = |pass: &str, accumulate: &str| -> HashSet<PipelineNames> {
+            let of = all.iter().filter(|(names, _)| names.pass == pass && names.accumulate == accumulate);
+            of.map(|(names, _)| PipelineNames { accumulate: String::new(), ..names.clone() }).collect()
+        };
+        for pass in ["accumulate", "floor add"] {
+            assert_eq!(rows(pass, ""), rows(pass, "f32"), "{pass}");
+            assert!(!rows(pass, "").is_empty(), "{pass}");
+        }
+        for pass in ["visibility", "finalize", "export", "kernel texture", "floor depth"] {
+            assert!(!rows(pass, "").is_empty() && rows(pass, "f32").is_empty(), "{pass}");
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What all figures are drawn with.
+
+use std::path::Path;
+
+use surfel::{
+    Progress as _, Result,
+    prepare::PreparedScene,
+    renderer::{Frame, Headless, Wanted},
+    scene::{Camera, Scene, Settings},
+};
+
+use super::raster::Raster;
+use crate::console::Bars;
+
+/// A device, and what the command line says.
+pub struct FigureContext<'a> {
+    /// The device.
+    pub headless: &'a mut Headless,
+    /// Progress.
+    pub bars: &'a Bars,
+    /// Width and height of a panel or plot.
+    pub size_px: [u32; 2],
+    /// The file to show in place of the built-in model.
+    pub model: Option<&'a Path>,
+}
+
+impl FigureContext<'_> {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    /// As [`Headless::prepare`].
+    pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene> {
+        let prepared = self.headless.prepare(scene, &|done, total| self.bars.step("upload", done, total));
+        self.bars.clear();
+        prepared
+    }
+
+    /// Draws the picture.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn picture(&mut self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<Raster> {
+        let wanted = Wanted { picture: true, ..Wanted::default() };
+        let Frame { size_px, srgb, .. } = self.headless.render(scene, camera, settings, wanted)?;
+        Ok(Raster {
+            size_px,
+            pixels: srgb.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect(),
+        })
+    }
+
+    /// Draws the sums of the weights, row by row from the top left.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn weights(
+        &mut self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<Vec<f32>> {
+        let wanted = Wanted { surface: true, ..Wanted::default() };
+        Ok(self.headless.render(scene, camera, settings, wanted)?.weight)
+    }
+}

@@ -1,0 +1,130 @@
+//! Milliseconds a frame over numbers of splats, and over pixels, as plots; all axes are logarithmic.
+
+use plotters::style::{BLACK, RGBColor};
+
+use super::{GrowthPoint, GrowthReport, ThroughputRow};
+use crate::report::{
+    Spread,
+    plot::{Axis, Chart, Mark, Place, Plot, Sign, color},
+};
+
+/// Whether a place is on logarithmic axes.
+fn is_placed((_, ms): &Place) -> bool {
+    *ms > 0.0 && ms.is_finite()
+}
+
+/// Of each line's name, color and width, and its points, those that are on the axes.
+fn line(
+    plot: &mut Plot,
+    name: String,
+    (color, width): (RGBColor, u32),
+    points: impl Iterator<Item = Place>,
+) -> Mark {
+    plot.legend.push((Sign::Line(color, width), name));
+    Mark::Line { points: points.filter(is_placed).collect(), color, width, dot_px: 0 }
+}
+
+/// A bar beside a line.
+fn bar(x: f64, ends: [f64; 2], color: RGBColor) -> Mark {
+    Mark::Line { points: ends.map(|ms| (x, ms)).to_vec(), color, width: 1, dot_px: 0 }
+}
+
+/// A chart whose axes hold all lines and bars.
+fn chart(caption: &str, [x, y]: [&str; 2], marks: Vec<Mark>) -> Chart {
+    let places = || {
+        marks.iter().flat_map(|mark| match mark {
+            Mark::Line { points, .. } => points.as_slice(),
+            _ => &[],
+        })
+    };
+    let x = Axis::logarithmic(x, places().map(|(x, _)| *x));
+    let y = Axis::logarithmic(y, places().map(|(_, ms)| *ms));
+    Chart { caption: caption.to_owned(), x, y, marks }
+}
+
+/// Milliseconds a frame of every method, of the floor, and of the paper's. The bars are the smallest and the largest.
+pub fn throughput_plot(rows: &[ThroughputRow], device: &str) -> Plot {
+    let median = |row: &ThroughputRow, ms: Option<Spread>| Some((row.splats as f64, ms?.median));
+    let mut plot = Plot::default();
+    let mut marks = Vec::new();
+    for (i, method) in rows.first().iter().flat_map(|row| row.methods.iter().enumerate()) {
+        let own = |row: &ThroughputRow| median(row, row.methods.get(i)?.frames.frame_ms);
+        marks.push(line(&mut plot, method.name.clone(), (color(i), 2), rows.iter().filter_map(own)));
+        let paper =
+            |row: &ThroughputRow| Some((row.splats as f64, 1e3 / row.methods.get(i)?.subject.paper?.fps));
+        let paper: Vec<Place> = rows.iter().filter_map(paper).collect();
+        if !paper.is_empty() {
+            let name = format!("the paper's {}", method.name.split(',').next().unwrap_or_default());
+            marks.push(line(&mut plot, name, (color(i), 1), paper.into_iter()));
+        }
+    }
+    let floor = rows.iter().filter_map(|row| median(row, row.floor.frame_ms));
+    marks.push(line(&mut plot, "floor".to_owned(), (BLACK, 2), floor));
+    for row in rows {
+        for (i, method) in row.methods.iter().enumerate() {
+            let ms = method.frames.frame_ms.filter(|ms| ms.min > 0.0);
+            marks.extend(ms.map(|ms| bar(row.splats as f64, [ms.min, ms.max], color(i))));
+        }
+    }
+    let axes = ["splats", "milliseconds a frame (median; bars: smallest and largest)"];
+    plot.charts.push(chart(device, axes, marks));
+    plot
+}
+
+/// Milliseconds a frame of every rasterizer, over splats above and over pixels below. The bars are the intervals of the
+/// medians, where there are any.
+pub fn growth_plot(report: &GrowthReport, device: &str) -> Plot {
+    let mut plot = Plot::default();
+    let methods = report.points().next().into_iter().flat_map(|point| &point.methods);
+    for (i, method) in methods.enumerate() {
+        plot.legend.push((Sign::Line(color(i), 2), method.name.clone()));
+    }
+    let fixed = report.over_splats.first().map(|point| format!("{} pixels", point.size()));
+    let caption = format!("{device}: {}", fixed.unwrap_or_default());
+    plot.charts.push(growth_chart(&report.over_splats, &caption, "splats", |point| point.splats));
+    let fixed = report.over_pixels.first().map(|point| format!("{} splats", point.splats));
+    let caption = fixed.unwrap_or_default();
+    plot.charts.push(growth_chart(&report.over_pixels, &caption, "pixels", GrowthPoint::pixels));
+    plot
+}
+
+/// A line for each rasterizer.
+fn growth_chart(points: &[GrowthPoint], caption: &str, name: &str, grows: fn(&GrowthPoint) -> u64) -> Chart {
+    let mut marks = Vec::new();
+    for i in 0..points.iter().map(|point| point.methods.len()).max().unwrap_or(0) {
+        let spread = |point: &GrowthPoint| {
+            let ms = point.methods.get(i)?.frames.frame_ms.filter(|ms| ms.min > 0.0)?;
+            Some((grows(point) as f64, ms))
+        };
+        let all: Vec<(f64, Spread)> = points.iter().filter_map(spread).collect();
+        let medians = all.iter().map(|(x, ms)| (*x, ms.median)).collect();
+        marks.push(Mark::Line { points: medians, color: color(i), width: 2, dot_px: 3 });
+        marks.extend(all.iter().filter_map(|(x, ms)| Some(bar(*x, ms.interval?, color(i)))));
+    }
+    chart(caption, [name, "milliseconds a frame"], marks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::growth::tests::report, *};
+
+    #[test]
+    fn the_plot_has_a_line_for_each_rasterizer_in_both_charts() {
+        let svg = growth_plot(&report(), "a device").svg([1280, 800]).unwrap();
+        for text in ["a device: 64x64 pixels", "1000 splats", "splats", "pixels", "perspective", "raycast"] {
+            assert!(svg.contains(&format!("\n{text}\n")), "'{text}' is not in {svg}");
+        }
+        for hex in ["#0072B2", "#D55E00"] {
+            // Two curves and the legend's line; two bars in each chart.
+            let lines = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(hex));
+            assert_eq!(lines.count(), 3 + 4, "{hex}");
+        }
+    }
+
+    #[test]
+    fn nothing_measured_is_an_empty_plot() {
+        for plot in [growth_plot(&GrowthReport::default(), ""), throughput_plot(&[], "")] {
+            assert!(plot.svg([1280, 800]).unwrap().starts_with("<svg"));
+        }
+    }
+}
