@@ -82,15 +82,21 @@ pub struct IsaRow {
     pub statistics: Vec<(String, f64)>,
 }
 
+/// A stage's name, and its counts in a pass.
+type Stage = (&'static str, fn(&PassCounts) -> Option<&Counts>);
+
+/// A figure's name, and its value for a stage.
+type StageFigure = (&'static str, fn(&Counts) -> Option<u32>);
+
 /// The stages of a pipeline, each with its instructions.
-const STAGES: [(&str, fn(&PassCounts) -> Option<&Counts>); 3] = [
+const STAGES: [Stage; 3] = [
     ("vertex", |counts| counts.vertex.as_ref()),
     ("fragment", |counts| counts.fragment.as_ref()),
     ("compute", |counts| counts.compute.as_ref()),
 ];
 
 /// The figures of a stage in CSV.
-const STAGE_FIGURES: [(&str, fn(&Counts) -> Option<u32>); 11] = [
+const STAGE_FIGURES: [StageFigure; 11] = [
     ("arb", |counts| counts.arb),
     ("arb_longest_path", |counts| counts.arb_longest_path),
     ("scalar", |counts| Some(counts.scalar)),

@@ -20,7 +20,7 @@ impl ZoomReport {
         let mut mixed = mixed.map(|step| step.pixels_per_splat);
         let mut marks = Vec::new();
         if let Some(first) = mixed.next() {
-            marks.push(Mark::Band { x: [first, mixed.last().unwrap_or(first)] });
+            marks.push(Mark::Band { x: [first, mixed.next_back().unwrap_or(first)] });
         }
         let mut legend = Vec::new();
         for (i, (points, filter)) in lines.into_iter().zip(&self.filters).enumerate() {
