@@ -44,7 +44,6 @@ pub(super) struct Resource {
 #[derive(Debug)]
 pub(super) struct Pass {
     pub(super) name: String,
-    pub(super) why: &'static str,
     pub(super) uses: Vec<Use>,
     pub(super) side_effect: bool,
     /// The name of the first handle that is another graph's.
@@ -62,17 +61,6 @@ pub struct Use {
     pub access: Access,
     /// How a write begins; `None` for a read.
     pub start: Option<Start>,
-    /// Where shaders find it; `None` where they don't.
-    pub at: Option<At>,
-}
-
-/// A place that shaders read or write a resource at: one of the pass's descriptor sets, and a binding of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct At {
-    /// The pass's own number for the set.
-    pub set: u32,
-    /// The binding in it.
-    pub binding: u32,
 }
 
 /// What a write does with the content that it finds.
@@ -153,8 +141,7 @@ impl<Body> Graph<Body> {
 
     /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
     pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
-        let pass =
-            Pass { name: name.to_owned(), why: "", uses: Vec::new(), side_effect: false, foreign: None };
+        let pass = Pass { name: name.to_owned(), uses: Vec::new(), side_effect: false, foreign: None };
         PassBuilder { graph: self, pass }
     }
 }
@@ -185,33 +172,14 @@ pub struct PassBuilder<'a, Body> {
 impl<Body> PassBuilder<'_, Body> {
     /// Reads a resource. Several reads of one image must agree on its layout.
     pub fn read<Kind>(mut self, handle: &Handle<Kind>, access: Access) -> Self {
-        self.declare(handle, access, None, None);
+        self.declare(handle, access, None);
         self
     }
 
     /// Writes a resource: what is in it from now on is this pass's work.
     pub fn write<Kind>(mut self, handle: &mut Handle<Kind>, access: Access, start: Start) -> Self {
-        self.declare(handle, access, Some(start), None);
+        self.declare(handle, access, Some(start));
         handle.version += 1;
-        self
-    }
-
-    /// Reads a resource that shaders find at this place.
-    pub fn read_at<Kind>(mut self, at: At, handle: &Handle<Kind>, access: Access) -> Self {
-        self.declare(handle, access, None, Some(at));
-        self
-    }
-
-    /// Writes a resource that shaders find at this place.
-    pub fn write_at<Kind>(mut self, at: At, handle: &mut Handle<Kind>, access: Access, start: Start) -> Self {
-        self.declare(handle, access, Some(start), Some(at));
-        handle.version += 1;
-        self
-    }
-
-    /// Says why the frame has the pass, for whoever explains it.
-    pub fn why(mut self, why: &'static str) -> Self {
-        self.pass.why = why;
         self
     }
 
@@ -232,9 +200,9 @@ impl<Body> PassBuilder<'_, Body> {
         self.graph.bodies.push(body);
     }
 
-    fn declare<Kind>(&mut self, handle: &Handle<Kind>, access: Access, start: Option<Start>, at: Option<At>) {
+    fn declare<Kind>(&mut self, handle: &Handle<Kind>, access: Access, start: Option<Start>) {
         if handle.graph == self.graph.declared.id {
-            self.pass.uses.push(Use { resource: handle.id, version: handle.version, access, start, at });
+            self.pass.uses.push(Use { resource: handle.id, version: handle.version, access, start });
         } else {
             self.pass.foreign.get_or_insert(handle.name.clone());
         }

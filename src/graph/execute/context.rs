@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::{
-    super::{Access, PlannedPass, ResourceDesc, ResourceId, Use},
+    super::{Access, PlannedPass, ResourceDesc, ResourceId},
     Physical,
     recorder::Recorder,
 };
@@ -77,18 +77,6 @@ impl PassContext<'_> {
             }
             (_, ResourceDesc::Image(_)) => return Err(self.refuse(id, "is an image, not a buffer")),
         })
-    }
-
-    /// All that the pass declared at places of one of its sets, each with its binding.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Graph`] for an import that was not given.
-    pub fn descriptors(&self, set: u32) -> Result<Vec<(u32, Descriptor)>> {
-        let of_set = |usage: &Use| {
-            let at = usage.at.filter(|at| at.set == set)?;
-            Some(self.descriptor(usage.resource).map(|descriptor| (at.binding, descriptor)))
-        };
-        self.pass.uses.iter().filter_map(of_set).collect()
     }
 
     /// The image behind a resource that the pass declared.
