@@ -57,10 +57,8 @@ pub struct SetLayout {
     kinds: Vec<vk::DescriptorType>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
-    /// What its sets have in place of what they are not given, by the bindings' numbers.
-    stand_ins: Vec<Descriptor>,
-    // Keeps them alive.
-    _stand_ins: Option<Arc<StandIns>>,
+    /// What its sets have in place of what they are not given, and the bindings of texels that are unsigned integers.
+    stand_ins: Option<(Arc<StandIns>, Vec<u32>)>,
 }
 
 impl SetLayout {
@@ -89,18 +87,24 @@ impl SetLayout {
             .of_call("vkCreateDescriptorSetLayout", name)?;
         device.set_name(raw, name);
         let kinds = bindings.iter().map(|binding| binding.kind).collect();
-        let (stand_ins, _stand_ins) = (Vec::new(), None);
-        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler, stand_ins, _stand_ins })
+        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler, stand_ins: None })
     }
 
     /// The same with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
     /// unsigned integers.
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
-        let stand_in =
-            |(number, kind): (u32, &vk::DescriptorType)| stand_ins.of(*kind, integers.contains(&number));
-        self.stand_ins = (0..).zip(&self.kinds).map(stand_in).collect();
-        self._stand_ins = Some(Arc::clone(stand_ins));
+        self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));
         self
+    }
+
+    /// The stand-ins of the bindings that are not given, by their numbers.
+    fn stand_ins(&self, is_given: impl Fn(u32) -> bool) -> Result<Vec<(u32, Descriptor)>> {
+        let Some((stand_ins, integers)) = &self.stand_ins else { return Ok(Vec::new()) };
+        let left_out = (0..).zip(&self.kinds).filter(|(number, _)| !is_given(*number));
+        let of = |(number, kind): (u32, &vk::DescriptorType)| {
+            Ok((number, stand_ins.of(*kind, integers.contains(&number))?))
+        };
+        left_out.map(of).collect()
     }
 
     /// The raw layout.
@@ -214,8 +218,7 @@ impl DescriptorPool {
             .of_call("vkAllocateDescriptorSets", &self.name)?[0];
         self.device.set_name(set, &self.name);
         let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
-        let stand_ins = (0..).zip(layout.stand_ins.iter().copied()).filter(|(number, _)| !is_given(*number));
-        let all = given.iter().copied().chain(stand_ins);
+        let all = given.iter().copied().chain(layout.stand_ins(is_given)?);
         let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
         let writes = infos.iter().map(|(number, info)| {
             let kind = layout.kinds[*number as usize];

@@ -27,7 +27,7 @@ fn cases_pass_and_both_files_tell_of_each() {
         names.len() > 100 && names[0] == "device.open" && names.ends_with(&["device.close"]),
         "{names:?}"
     );
-    for text in ["Vulkan 1.", "validation layer", "methods", "early-depth", "seconds"] {
+    for text in ["Vulkan 1.", "validation layer", "methods", "repeat", "seconds"] {
         assert!(run.stdout.contains(text), "{}", run.stdout);
     }
 

@@ -108,7 +108,7 @@ impl Shaders {
         let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
-        let stand_ins = Arc::new(StandIns::new(device)?);
+        let stand_ins = Arc::new(StandIns::new(device));
         let set = |name, bindings: &[Binding]| -> Result<SetLayout> {
             Ok(SetLayout::new(device, name, bindings)?.with_stand_ins(&stand_ins, &[]))
         };
@@ -167,11 +167,14 @@ impl Shaders {
 
     /// Records what a frame's sets need before its passes.
     ///
+    /// # Errors
+    /// Whatever the driver or the allocator answers.
+    ///
     /// # Safety
     /// As [`StandIns::make_ready`].
-    pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) {
+    pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) -> Result<()> {
         // SAFETY: this function's contract.
-        unsafe { self.stand_ins.make_ready(commands) };
+        unsafe { self.stand_ins.make_ready(commands) }
     }
 
     /// Writes compiled pipelines to the cache's file.

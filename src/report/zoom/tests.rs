@@ -130,8 +130,8 @@ fn table_and_plot_show_every_filter_and_step() {
     let table = report.to_string();
     for text in [
         "adjust-paper",
-        "    0.050 ",
-        "    2.000~",
+        "\n0.050 ",
+        "\n2.000~",
         "1.000e-2",
         "fragments",
         "adjust: no more fragments than ewa: yes",
