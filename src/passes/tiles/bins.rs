@@ -75,13 +75,16 @@ pub(crate) fn list<'a>(
         .read_as_texels(pass, rects, &tiles.spans)
         .read_if(BIND_KEPT_STARTS, kept_starts, read)
         .write(BIND_COUNTS, &mut tiles.counts, update, Start::Load)
-        .finish(inputs, plan, count, walk)?;
+        .finish(inputs, (plan, count), walk)?;
 
     let groups = plan.bin_count().div_ceil(BIN_GROUP_SIZE);
     TilePass::new(graph, &format!("total {kind}tiles"))
         .write(BIND_COUNTS, &mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .write(BIND_STARTS, &mut tiles.starts, write, Start::Discard)
-        .finish(inputs, plan, total, move |pass| pass.groups(pass.constants, groups))?;
+        .finish(inputs, (plan, total), move |pass| {
+            pass.groups(pass.constants, groups);
+            Ok(())
+        })?;
 
     TilePass::new(graph, &format!("start {kind}tiles"))
         .write(BIND_STARTS, &mut tiles.starts, Access::StorageReadWriteCompute, Start::Load)
@@ -89,7 +92,10 @@ pub(crate) fn list<'a>(
         .write(BIND_RUNS, &mut tiles.runs, write, Start::Discard)
         .write(BIND_ARGUMENTS, &mut tiles.arguments, write, Start::Discard)
         .write(BIND_OVERFLOW_TILES, &mut tiles.overfull, write, Start::Discard)
-        .finish(inputs, plan, start, |pass| pass.groups(pass.constants, 1))?;
+        .finish(inputs, (plan, start), |pass| {
+            pass.groups(pass.constants, 1);
+            Ok(())
+        })?;
 
     // Where the graphics pipeline draws some, it wants the splats' own numbers.
     let numbers = kept.as_ref().filter(|_| plan.may_be_large).map(Kept::list);
@@ -101,7 +107,7 @@ pub(crate) fn list<'a>(
         .read(BIND_STARTS, &tiles.starts, read)
         .write(BIND_COUNTS, &mut tiles.counts, update, Start::Load)
         .write(BIND_ENTRIES, &mut tiles.entries, write, Start::Discard)
-        .finish(inputs, plan, fill, walk)?;
+        .finish(inputs, (plan, fill), walk)?;
     Ok(tiles)
 }
 
@@ -112,7 +118,7 @@ fn walk(pass: &TileDispatch<'_, '_>) -> Result<()> {
         if round_first > 0 {
             pass.wait();
         }
-        pass.groups(TileConstants { round_first, ..pass.constants }, segments.div_ceil(BIN_GROUP_SIZE))?;
+        pass.groups(TileConstants { round_first, ..pass.constants }, segments.div_ceil(BIN_GROUP_SIZE));
     }
     Ok(())
 }

@@ -125,7 +125,7 @@ fn declare<'a>(
     }
     let key = key(settings, plan, Beside { opaque: opaque.is_some(), lights: inputs.lights }, work);
     let arguments = tiles.arguments.id();
-    pass.finish(inputs, plan, key, move |pass| {
+    pass.finish(inputs, (plan, key), move |pass| {
         let dispatches = dispatches(settings, plan, work, pass.constants);
         pass.indirect_in_turn(dispatches, arguments, first_word)
     })

@@ -1,7 +1,5 @@
 //! One compute pass over tiles: what is bound, its pipeline, and how it is dispatched.
 
-use std::sync::Arc;
-
 use ash::vk;
 
 use crate::passes::{
@@ -20,7 +18,7 @@ use crate::{
         execute::{Body, PassContext},
     },
     shaders::{Shader, config::*},
-    vk::ComputePipeline,
+    vk::{ComputePipeline, PipelineLayout},
 };
 
 /// A pass in the making. Each resource is named once, with its binding in the set of tiles and its access.
@@ -29,19 +27,16 @@ pub(crate) struct TilePass<'g, 'a> {
     bound: Vec<(u32, ResourceId)>,
 }
 
+/// A pipeline, and the plan that its push constants are of.
+pub(crate) type Pipeline<'p> = (&'p TilePlan, ComputeKey);
+
 impl<'g, 'a> TilePass<'g, 'a> {
     pub fn new(graph: &'g mut Graph<Body<'a>>, name: &str) -> Self {
         Self { declared: graph.pass(name), bound: Vec::new() }
     }
 
-    pub fn read<K>(mut self, binding: u32, handle: &Handle<K>, access: Access) -> Self {
-        self.bound.push((binding, handle.id()));
-        Self { declared: self.declared.read(handle, access), ..self }
-    }
-
-    pub fn write<K>(mut self, binding: u32, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
-        self.bound.push((binding, handle.id()));
-        Self { declared: self.declared.write(handle, access, start), ..self }
+    pub fn read<K>(self, binding: u32, handle: &Handle<K>, access: Access) -> Self {
+        self.bind(binding, handle).declare(|pass| pass.read(handle, access))
     }
 
     /// Reads what there may be.
@@ -52,7 +47,11 @@ impl<'g, 'a> TilePass<'g, 'a> {
         }
     }
 
-    /// Binds once more what the pass declares elsewhere.
+    pub fn write<K>(self, binding: u32, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
+        self.bind(binding, handle).declare(|pass| pass.write(handle, access, start))
+    }
+
+    /// Binds what the pass declares elsewhere.
     pub fn bind<K>(mut self, binding: u32, handle: &Handle<K>) -> Self {
         self.bound.push((binding, handle.id()));
         self
@@ -66,26 +65,33 @@ impl<'g, 'a> TilePass<'g, 'a> {
         Self { declared: declare(self.declared), ..self }
     }
 
-    /// Declares the pass; `body` records it with what is bound.
-    pub fn finish_with(self, body: impl FnOnce(&PassContext<'_>, &[(u32, ResourceId)]) -> Result<()> + 'a) {
+    /// Declares the pass; `body` records it with a set of all that is bound.
+    pub fn finish_with_set(
+        self,
+        inputs: Inputs<'a>,
+        body: impl FnOnce(&PassContext<'_>, vk::DescriptorSet) -> Result<()> + 'a,
+    ) {
         let bound = self.bound;
-        self.declared.finish(Box::new(move |context| body(context, &bound)));
+        self.declared.finish(Box::new(move |context| {
+            let given = bound.iter().map(|(binding, id)| Ok((*binding, context.descriptor(*id)?)));
+            let given = given.collect::<Result<Vec<_>>>()?;
+            body(context, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &given)?)
+        }));
     }
 
     /// Declares the pass of one pipeline; `body` records its dispatches.
     pub fn finish(
         self,
         inputs: Inputs<'a>,
-        plan: &TilePlan,
-        key: ComputeKey,
+        (plan, key): Pipeline<'_>,
         body: impl FnOnce(&TileDispatch<'_, '_>) -> Result<()> + 'a,
     ) -> Result<()> {
         let pipeline = inputs.shaders.compute(key)?;
         let constants = crate::passes::tiles::constants(inputs, plan);
-        self.finish_with(move |context, bound| {
-            let dispatch = TileDispatch { context, inputs, pipeline, constants };
-            dispatch.bind(bound)?;
-            body(&dispatch)
+        self.finish_with_set(inputs, move |context, set| {
+            let pass = TileDispatch { context, layout: &inputs.shaders.tiles()?.tile, constants };
+            pass.bind(&pipeline, set);
+            body(&pass)
         });
         Ok(())
     }
@@ -94,12 +100,11 @@ impl<'g, 'a> TilePass<'g, 'a> {
     pub fn finish_indirect(
         self,
         inputs: Inputs<'a>,
-        plan: &TilePlan,
-        key: ComputeKey,
+        pipeline: Pipeline<'_>,
         (arguments, first_word): (&Handle<Buffer>, u32),
     ) -> Result<()> {
         let arguments = arguments.id();
-        self.finish(inputs, plan, key, move |pass| pass.indirect(pass.constants, arguments, first_word))
+        self.finish(inputs, pipeline, move |pass| pass.indirect(pass.constants, arguments, first_word))
     }
 }
 
@@ -108,61 +113,44 @@ pub(crate) fn key(shader: &'static Shader, constants: Constants) -> ComputeKey {
     ComputeKey { shader, layout: Layout::Tile, constants }
 }
 
-/// A set of tiles with these bindings.
-pub(crate) fn set_of(
-    context: &PassContext<'_>,
-    inputs: Inputs<'_>,
-    bound: &[(u32, ResourceId)],
-) -> Result<vk::DescriptorSet> {
-    let descriptor = |(binding, id): &(u32, ResourceId)| Ok((*binding, context.descriptor(*id)?));
-    let given = bound.iter().map(descriptor).collect::<Result<Vec<_>>>()?;
-    inputs.descriptors.set(&inputs.shaders.tiles()?.set, &given)
-}
-
 /// A pass over tiles while it is recorded, with all bound.
 pub(crate) struct TileDispatch<'c, 'a> {
-    pub context: &'c PassContext<'c>,
-    inputs: Inputs<'a>,
-    pipeline: Arc<ComputePipeline>,
+    context: &'c PassContext<'c>,
+    layout: &'a PipelineLayout,
     pub constants: TileConstants,
 }
 
 impl TileDispatch<'_, '_> {
-    fn bind(&self, bound: &[(u32, ResourceId)]) -> Result<()> {
-        let set = set_of(self.context, self.inputs, bound)?;
-        let layout = self.inputs.shaders.tiles()?.tile.raw();
+    fn bind(&self, pipeline: &ComputePipeline, set: vk::DescriptorSet) {
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         let (device, commands) = (self.context.device(), self.context.commands());
         // SAFETY: pipeline and set have one layout; the graph's barriers order what is read and written.
         unsafe {
-            device.cmd_bind_pipeline(commands, bind_point, self.pipeline.raw());
-            device.cmd_bind_descriptor_sets(commands, bind_point, layout, 0, &[set], &[]);
+            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
+            device.cmd_bind_descriptor_sets(commands, bind_point, self.layout.raw(), 0, &[set], &[]);
         }
-        Ok(())
     }
 
-    fn push(&self, constants: TileConstants) -> Result<()> {
-        let layout = &self.inputs.shaders.tiles()?.tile;
-        let (commands, bytes) = (self.context.commands(), bytemuck::bytes_of(&constants));
+    fn push(&self, constants: TileConstants) {
+        let (commands, layout) = (self.context.commands(), self.layout);
+        let bytes = bytemuck::bytes_of(&constants);
         // SAFETY: the layout's constants are these.
         unsafe {
             self.context.device().cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, bytes);
         }
-        Ok(())
     }
 
     /// Records a dispatch of so many workgroups.
-    pub fn groups(&self, constants: TileConstants, groups: u32) -> Result<()> {
-        self.push(constants)?;
+    pub fn groups(&self, constants: TileConstants, groups: u32) {
+        self.push(constants);
         let [x, y] = rows_of(groups);
         // SAFETY: all is bound that the pipeline needs.
         unsafe { self.context.device().cmd_dispatch(self.context.commands(), x, y, 1) };
-        Ok(())
     }
 
     /// Records a dispatch of as many as a buffer says from a word on.
     pub fn indirect(&self, constants: TileConstants, arguments: ResourceId, first_word: u32) -> Result<()> {
-        self.push(constants)?;
+        self.push(constants);
         let (commands, arguments) = (self.context.commands(), self.context.buffer(arguments)?);
         // SAFETY: as in `groups`; the arguments were declared to be read, and are within the buffer.
         unsafe {

@@ -9,7 +9,7 @@ use crate::passes::{
         constants::FinalizeConstants,
         variant::Constants,
     },
-    tiles::{Tiles, pass::set_of},
+    tiles::Tiles,
 };
 use crate::{
     error::Result,
@@ -63,7 +63,8 @@ pub(crate) fn draw_quads_of_tiles(
     let (device, commands) = (context.device(), context.commands());
     let constants = FinalizeConstants { tile_height: seen.tile_height, ..constants };
     for (runs, arguments) in &seen.bands {
-        let sets = [set, set_of(context, inputs, &[(BIND_RUNS, *runs)])?];
+        let list = [(BIND_RUNS, context.descriptor(*runs)?)];
+        let sets = [set, inputs.descriptors.set(&inputs.shaders.tiles()?.set, &list)?];
         let arguments = context.buffer(*arguments)?;
         // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order what is
         // read; the arguments are within the buffer.

@@ -10,7 +10,7 @@ use crate::passes::{
         variant::Constants,
     },
     plan::tiles::TilePlan,
-    tiles::{TilePass, Tiles, pass::set_of, place_bits},
+    tiles::{TilePass, Tiles, place_bits},
 };
 use crate::{
     error::Result,
@@ -58,8 +58,7 @@ pub(crate) fn record<'a>(
         pass = pass.write(binding, buffer, Access::StorageWriteCompute, Start::Discard);
     }
     let kept = kept.map(Kept::ids);
-    pass.finish_with(move |context, bound| {
-        let set = set_of(context, inputs, bound)?;
+    pass.finish_with_set(inputs, move |context, set| {
         let layout = &inputs.shaders.tiles()?.record;
         let bind_point = vk::PipelineBindPoint::COMPUTE;
         let (device, commands) = (context.device(), context.commands());

@@ -84,7 +84,7 @@ pub(crate) fn shaded<'a>(
         pass = pass.bind(BIND_COLORS_BEFORE, &shown.image);
     }
     let key = key(inputs.settings, plan, shown.precision, beside);
-    pass.finish_indirect(inputs, plan, key, (&tiles.arguments, ARGUMENTS_TILES))?;
+    pass.finish_indirect(inputs, (plan, key), (&tiles.arguments, ARGUMENTS_TILES))?;
     match plan.may_be_overfull() {
         true => shade_overfull(graph, inputs, kind, tiles, shown, lights),
         false => Ok(()),
@@ -116,8 +116,7 @@ fn shade_overfull<'a>(
         .write(BIND_COLORS, &mut shown.image, access, content)
         .finish_indirect(
             inputs,
-            plan,
-            pass::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants),
+            (plan, pass::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants)),
             (&tiles.arguments, ARGUMENTS_OVERFLOW),
         )
 }

@@ -197,7 +197,7 @@ pub(crate) fn fused<'a>(
         .write(BIND_NORMALS, &mut images.sums.normal, access, content)
         .write(BIND_VISIBLE_DEPTH, &mut images.depth, access, content)
         .read_if(BIND_DEPTH_BEFORE, before, Access::SampledCompute)
-        .finish_indirect(inputs, plan, key, (&tiles.arguments, ARGUMENTS_TILES))?;
+        .finish_indirect(inputs, (plan, key), (&tiles.arguments, ARGUMENTS_TILES))?;
     if plan.may_be_overfull() {
         see(graph, inputs, kind, tiles, images, before, false)?;
         sum(graph, inputs, kind, tiles, images, (None, with_depth), false)?;
@@ -266,5 +266,5 @@ fn finish<'a>(
     let mut key = key(inputs.settings, tiles.plan, step);
     key.constants.push((SPEC_IN_SLOTS, u32::from(images.in_slots)));
     let (arguments, parts) = (tiles.arguments.id(), tiles.plan.parts_of_overfull());
-    pass.finish(inputs, tiles.plan, key, move |pass| in_parts(pass, arguments, all, parts))
+    pass.finish(inputs, (tiles.plan, key), move |pass| in_parts(pass, arguments, all, parts))
 }
