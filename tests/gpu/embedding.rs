@@ -187,7 +187,7 @@ fn without_large_points_every_splat_is_a_quad() {
     frame.submit(&host, &ours);
     frame.wait(&host, &ours);
     let names = renderer.shaders.pipeline_names();
-    assert!(names.iter().any(|name| name.starts_with("accumulate_listed_quads")), "{names:?}");
+    assert!(names.iter().any(|name| name.starts_with("accumulate_quads")), "{names:?}");
 
     let picture = frame.pixels.bytes();
     assert!(picture.iter().any(|byte| *byte != 255), "the picture is not empty");

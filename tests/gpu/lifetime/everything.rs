@@ -69,13 +69,15 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         SetLayout::new(&device, "splats", &[binding; 2]).unwrap(),
         SetLayout::new(&device, "large", &[binding; 4]).unwrap(),
     );
-    let images = SetLayout::new(&device, "images", &[sampled; 2]).unwrap();
+    let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, ..sampled };
+    let of_finalization = [sampled, sampled, sampled, sampled, sampled, lights];
+    let images = SetLayout::new(&device, "images", &of_finalization).unwrap();
     let compute_layout = {
         let stages = vk::ShaderStageFlags::COMPUTE;
         PipelineLayout::new(&device, "compute", &[&splats, &large], 128, stages).unwrap()
     };
     let layout =
-        PipelineLayout::new(&device, "graphics", &[&images], 32, vk::ShaderStageFlags::FRAGMENT).unwrap();
+        PipelineLayout::new(&device, "graphics", &[&images], 64, vk::ShaderStageFlags::FRAGMENT).unwrap();
     let stage =
         |shader: &'static shaders::Shader| Stage { name: shader.name, spirv: shader.spirv(), constants: &[] };
     let desc = ComputePipelineDesc {
