@@ -29,9 +29,10 @@ impl Watched {
         Self { device, queue, messages }
     }
 
-    /// The identifiers of what was said since the last call.
+    /// The identifiers of what was said since the last call, without the prefix that later layers dropped.
     pub fn said(&self) -> Vec<String> {
-        self.messages.take().into_iter().map(|message: Message| message.vuid).collect()
+        let name = |message: Message| message.vuid.trim_start_matches("UNASSIGNED-").to_owned();
+        self.messages.take().into_iter().map(name).collect()
     }
 
     /// A buffer of 4 KiB.

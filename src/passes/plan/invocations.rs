@@ -35,10 +35,14 @@ pub(crate) fn are_small<'a>(boxes: impl Iterator<Item = &'a (u32, f64)>) -> bool
 }
 
 impl Invocations {
+    /// Whether an invocation can draw a column of pixels on this device.
+    pub fn has_columns(limits: &Limits) -> bool {
+        limits.shuffles && limits.max_texels >= LEAST_TEXELS
+    }
+
     /// What was asked for, as this device can do it; `small`: the splats are.
     pub fn of(wanted: TileInvocations, limits: &Limits, small: bool) -> Self {
-        let hands_on = limits.shuffles && limits.max_texels >= LEAST_TEXELS;
-        let columns = |short| match (hands_on, short) {
+        let columns = |short| match (Self::has_columns(limits), short) {
             // A column alone would load every splat by itself.
             (false, _) => Self::Pixels,
             (true, false) => Self::Columns,

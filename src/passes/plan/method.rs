@@ -8,7 +8,8 @@ use crate::passes::plan::{
 use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS,
     plan::{
-        SplatMethod, bands::Band, block_list::Listed, culling, draws::Draw, seen::SeenSplats, tiles::TilePlan,
+        SplatMethod, bands::Band, block_list::Listed, culling, draws::Draw, invocations::Invocations,
+        seen::SeenSplats, tiles::TilePlan,
     },
 };
 use crate::{
@@ -104,6 +105,9 @@ fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::
     match settings.rasterizer {
         Rasterizer::Compute => can_do_tiles(settings, limits).map(|()| "asked for"),
         Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
+        Rasterizer::Auto if !Invocations::has_columns(limits) => {
+            Err("auto: on a CPU tiles gain by shuffles among 8 invocations, which the device lacks")
+        }
         Rasterizer::Auto if few => Err("auto: so few that tiles gain little"),
         Rasterizer::Auto => can_do_tiles(settings, limits).map(|()| "auto: on a CPU faster than points"),
         _ => Err("another rasterizer was asked for"),
@@ -148,7 +152,7 @@ mod tests {
 
     #[test]
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
-        let cpu = Limits { is_cpu: true, ..Limits::for_tests() };
+        let cpu = Limits { is_cpu: true, shuffles: true, max_texels: u32::MAX, ..Limits::for_tests() };
         let auto = Settings::default();
         assert!(wants_tiles(false, &auto, &cpu).is_ok());
         assert!(wants_tiles(false, &auto, &Limits::for_tests()).is_err());
@@ -157,6 +161,7 @@ mod tests {
         assert!(wants_tiles(false, &textured, &cpu).is_err());
         assert!(wants_tiles(false, &auto, &Limits { first_instance: false, ..cpu }).is_err());
         assert!(wants_tiles(true, &auto, &cpu).is_err());
+        assert!(wants_tiles(false, &auto, &Limits { shuffles: false, ..cpu }).is_err());
         // An image of this size has a pixel more than a thousand for each of 1048 splats.
         assert!(is_few(1048, &auto) && !is_few(1049, &auto));
         let named = |rasterizer| Settings { rasterizer, ..Settings::default() };

@@ -28,7 +28,7 @@ const ZOOM_HAS_ITS_OWN: [&str; 15] = [
     "fov",
     "rasterizer",
     "accumulate",
-    "kernel-eval",
+    "kernel_eval",
     "quick",
     "backfaces",
     "frames",
