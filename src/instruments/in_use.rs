@@ -20,7 +20,7 @@ impl Headless {
     /// What the lists of a frame hold: draws it once, in memory of its own, and reads back the buffers that tell it.
     ///
     /// # Errors
-    /// As [`super::Renderer::record`].
+    /// As [`crate::renderer::Renderer::record`].
     pub fn lists_in_use(
         &self,
         scene: &PreparedScene,

@@ -36,9 +36,9 @@ pub struct Inputs<'a> {
     pub settings: &'a Settings,
     /// Pipelines and their layouts.
     pub shaders: &'a Shaders,
-    /// Descriptor sets that live as long as the frame; room for [`crate::passes::plan::needs`].
+    /// Descriptor sets that live as long as the frame; room for [`crate::passes::needs`].
     pub descriptors: &'a DescriptorPool,
-    /// The queries of [`crate::passes::plan::needs`], where it has any.
+    /// The queries of [`crate::passes::needs`], where it has any.
     pub occlusion: Option<&'a Occlusion>,
 }
 
