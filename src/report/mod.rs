@@ -5,6 +5,7 @@
 
 #[cfg(feature = "cli")]
 pub mod bench;
+#[cfg_attr(not(feature = "cli"), allow(dead_code, reason = "most tables are the program's"))]
 mod cells;
 #[cfg(feature = "compare")]
 pub mod compare;
