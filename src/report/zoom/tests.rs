@@ -132,7 +132,7 @@ fn table_and_plot_show_every_filter_and_step() {
         "adjust-paper",
         "\n0.050 ",
         "\n2.000~",
-        "1.000e-2",
+        "1.00e-2",
         "fragments",
         "adjust: no more fragments than ewa: yes",
     ] {

@@ -2,7 +2,7 @@
 
 mod isa;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use surfel::{
     Error, Progress as _, Result, Settings,
@@ -102,7 +102,26 @@ fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
             }
         }
     }
-    Ok(found)
+    Ok(told_apart(found))
+}
+
+/// Adds to the shaders of pipelines with equal names the specialization constants by which they differ, as `number=value`.
+fn told_apart(mut pipelines: Vec<(PipelineNames, PipelineRecipe)>) -> Vec<(PipelineNames, PipelineRecipe)> {
+    let mut alike: HashMap<PipelineNames, Vec<usize>> = HashMap::new();
+    for (place, (names, _)) in pipelines.iter().enumerate() {
+        alike.entry(names.clone()).or_default().push(place);
+    }
+    for places in alike.into_values().filter(|places| places.len() > 1) {
+        let constants: Vec<Vec<(u32, u32)>> =
+            places.iter().map(|place| pipelines[*place].1.constants().to_vec()).collect();
+        let differs = |constant: &&(u32, u32)| !constants.iter().all(|of| of.contains(constant));
+        for (place, own) in places.iter().zip(&constants) {
+            let own: Vec<String> =
+                own.iter().filter(differs).map(|(number, value)| format!("{number}={value}")).collect();
+            pipelines[*place].0.shaders += &format!(" ({})", own.join(", "));
+        }
+    }
+    pipelines
 }
 
 /// The kernel of Pajarola et al. 2003 with its default parameters, which change no instruction.
