@@ -57,7 +57,7 @@ impl Headless {
         submit_and_wait(self, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
             let plan = unsafe {
-                renderer.shaders.begin_frame(commands);
+                renderer.shaders.begin_frame(commands)?;
                 execution.record(commands, graph, &imports)
             }?;
             names.extend(plan.resources.iter().map(|resource| resource.name.clone()));

@@ -67,7 +67,7 @@ pub fn draw_as_published(
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
         unsafe {
-            shaders.begin_frame(commands);
+            shaders.begin_frame(commands)?;
             execution.record(commands, graph, &imports).map(drop)
         }
     })?;

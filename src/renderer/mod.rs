@@ -164,7 +164,7 @@ impl Renderer {
         let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
         // SAFETY: this function's contract.
         unsafe {
-            self.shaders.begin_frame(commands);
+            self.shaders.begin_frame(commands)?;
             execution.record(commands, graph, &imports)
         }
     }

@@ -57,10 +57,8 @@ pub struct SetLayout {
     kinds: Vec<vk::DescriptorType>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
-    /// What its sets have in place of what they are not given, by the bindings' numbers.
-    stand_ins: Vec<Descriptor>,
-    // Keeps them alive.
-    _stand_ins: Option<Arc<StandIns>>,
+    /// What its sets have in place of what they are not given; and the bindings of texels that are unsigned integers.
+    stand_ins: Option<(Arc<StandIns>, Vec<u32>)>,
 }
 
 impl SetLayout {
@@ -89,17 +87,13 @@ impl SetLayout {
             .of_call("vkCreateDescriptorSetLayout", name)?;
         device.set_name(raw, name);
         let kinds = bindings.iter().map(|binding| binding.kind).collect();
-        let (stand_ins, _stand_ins) = (Vec::new(), None);
-        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler, stand_ins, _stand_ins })
+        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler, stand_ins: None })
     }
 
     /// The same with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
     /// unsigned integers.
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
-        let stand_in =
-            |(number, kind): (u32, &vk::DescriptorType)| stand_ins.of(*kind, integers.contains(&number));
-        self.stand_ins = (0..).zip(&self.kinds).map(stand_in).collect();
-        self._stand_ins = Some(Arc::clone(stand_ins));
+        self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));
         self
     }
 
@@ -213,10 +207,14 @@ impl DescriptorPool {
         let set = unsafe { self.device.raw().allocate_descriptor_sets(&info) }
             .of_call("vkAllocateDescriptorSets", &self.name)?[0];
         self.device.set_name(set, &self.name);
-        let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
-        let stand_ins = (0..).zip(layout.stand_ins.iter().copied()).filter(|(number, _)| !is_given(*number));
-        let all = given.iter().copied().chain(stand_ins);
-        let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
+        let mut infos: Vec<_> =
+            given.iter().map(|(number, descriptor)| (*number, Info::of(*descriptor))).collect();
+        if let Some((stand_ins, integers)) = &layout.stand_ins {
+            let is_missing = |number: &u32| given.iter().all(|(other, _)| other != number);
+            for (number, kind) in (0..).zip(&layout.kinds).filter(|(number, _)| is_missing(number)) {
+                infos.push((number, Info::of(stand_ins.of(*kind, integers.contains(&number))?)));
+            }
+        }
         let writes = infos.iter().map(|(number, info)| {
             let kind = layout.kinds[*number as usize];
             let write =

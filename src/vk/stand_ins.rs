@@ -1,5 +1,7 @@
 //! Stand-ins for what a shader names and its specialization does not use: Vulkan wants a valid descriptor for it all the same.
 
+use std::sync::OnceLock;
+
 use ash::vk;
 
 use super::{
@@ -17,26 +19,35 @@ const IMAGE_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 /// Bytes of the buffers: as much as a uniform block of ours.
 const BUFFER_BYTES: u64 = 1024;
 
-/// A small buffer of each kind and an image of one texel, whose contents mean nothing.
+/// A small buffer of each kind and an image of one texel, whose contents mean nothing. They are made when one is first wanted: a device
+/// that pipelines are only compiled for need not have memory.
 pub struct StandIns {
     device: Device,
+    made: OnceLock<Made>,
+}
+
+struct Made {
     floats: Buffer,
     integers: Buffer,
     image: Image,
 }
 
 impl StandIns {
-    /// Stand-ins on a device.
-    ///
-    /// # Errors
-    /// Whatever the driver or the allocator answers.
-    pub fn new(device: &Device) -> Result<Self> {
+    /// Those of a device.
+    pub fn new(device: &Device) -> Self {
+        Self { device: device.clone(), made: OnceLock::new() }
+    }
+
+    fn made(&self) -> Result<&Made> {
+        if let Some(made) = self.made.get() {
+            return Ok(made);
+        }
         let buffer = |name, format| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER
                 | vk::BufferUsageFlags::UNIFORM_BUFFER
                 | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
             let desc = BufferDesc { name, size: BUFFER_BYTES, usage };
-            Buffer::new(device, desc, MemoryUse::Device)?.with_texels(name, format)
+            Buffer::new(&self.device, desc, MemoryUse::Device)?.with_texels(name, format)
         };
         let image = ImageDesc {
             name: "stand-in",
@@ -44,19 +55,23 @@ impl StandIns {
             extent: vk::Extent2D { width: 1, height: 1 },
             usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::STORAGE,
         };
-        Ok(Self {
-            device: device.clone(),
+        let made = Made {
             floats: buffer("stand-in of floats", vk::Format::R32G32B32A32_SFLOAT)?,
             integers: buffer("stand-in of integers", vk::Format::R32_UINT)?,
-            image: Image::new(device, image)?,
-        })
+            image: Image::new(&self.device, image)?,
+        };
+        // Where another thread was faster, these are dropped.
+        Ok(self.made.get_or_init(|| made))
     }
 
     /// Records what brings the image into its layout: once a frame, before its passes, so that no frame depends on another.
     ///
     /// # Safety
     /// `commands` must be recording outside of rendering, and the stand-ins alive until it has run.
-    pub unsafe fn make_ready(&self, commands: vk::CommandBuffer) {
+    ///
+    /// # Errors
+    /// Whatever the driver or the allocator answers.
+    pub unsafe fn make_ready(&self, commands: vk::CommandBuffer) -> Result<()> {
         let range = vk::ImageSubresourceRange::default()
             .aspect_mask(vk::ImageAspectFlags::COLOR)
             .level_count(1)
@@ -70,25 +85,30 @@ impl StandIns {
             .new_layout(vk::ImageLayout::GENERAL)
             .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
-            .image(self.image.raw())
+            .image(self.made()?.image.raw())
             .subresource_range(range)];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
         // SAFETY: this function's contract.
         unsafe { self.device.raw().cmd_pipeline_barrier2(commands, &info) };
+        Ok(())
     }
 
     /// The one for a binding of this kind; `integers`: its texels are unsigned integers, else floats.
-    pub(super) fn of(&self, kind: vk::DescriptorType, integers: bool) -> Descriptor {
-        let buffer = if integers { &self.integers } else { &self.floats };
-        match kind {
+    ///
+    /// # Errors
+    /// As [`Self::make_ready`].
+    pub(super) fn of(&self, kind: vk::DescriptorType, integers: bool) -> Result<Descriptor> {
+        let made = self.made()?;
+        let buffer = if integers { &made.integers } else { &made.floats };
+        Ok(match kind {
             vk::DescriptorType::UNIFORM_TEXEL_BUFFER => {
                 Descriptor::Texels(buffer.texels().unwrap_or_default())
             }
-            vk::DescriptorType::STORAGE_IMAGE => Descriptor::Storage(self.image.view()),
+            vk::DescriptorType::STORAGE_IMAGE => Descriptor::Storage(made.image.view()),
             vk::DescriptorType::SAMPLED_IMAGE | vk::DescriptorType::COMBINED_IMAGE_SAMPLER => {
-                Descriptor::Sampled(self.image.view(), vk::ImageLayout::GENERAL)
+                Descriptor::Sampled(made.image.view(), vk::ImageLayout::GENERAL)
             }
             _ => Descriptor::Buffer(buffer.raw(), buffer.size()),
-        }
+        })
     }
 }

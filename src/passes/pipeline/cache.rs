@@ -108,7 +108,7 @@ impl Shaders {
         let lights = Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages: vertex | fragment };
         let image = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: fragment };
         let splat_set = SplatSetLayout::new(device)?;
-        let stand_ins = Arc::new(StandIns::new(device)?);
+        let stand_ins = Arc::new(StandIns::new(device));
         let set = |name, bindings: &[Binding]| -> Result<SetLayout> {
             Ok(SetLayout::new(device, name, bindings)?.with_stand_ins(&stand_ins, &[]))
         };
@@ -169,9 +169,12 @@ impl Shaders {
     ///
     /// # Safety
     /// As [`StandIns::make_ready`].
-    pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) {
+    ///
+    /// # Errors
+    /// As [`StandIns::make_ready`].
+    pub unsafe fn begin_frame(&self, commands: vk::CommandBuffer) -> Result<()> {
         // SAFETY: this function's contract.
-        unsafe { self.stand_ins.make_ready(commands) };
+        unsafe { self.stand_ins.make_ready(commands) }
     }
 
     /// Writes compiled pipelines to the cache's file.
