@@ -21,7 +21,6 @@ void main()
 {
     uint index = splat_index();
     Mapping m;
-    normal_weight = vec4(0.0);
     if (!is_drawn_elsewhere(index) && map_splat(index, m)) {
         vec4 extra = vec4(load_color(index), 0.0);
         if (SUMMED == SUMMED_REST) {

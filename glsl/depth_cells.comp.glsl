@@ -5,18 +5,18 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/depth_cells.glsl"
 
-layout(local_size_x = SIDE, local_size_y = SIDE) in;
-layout(set = 0, binding = 0) uniform texture2D visible_depth;
-layout(set = 0, binding = 1, std430) writeonly buffer DepthCells { float depth_cells[]; };
+layout(local_size_x = DEPTH_CELLS_SIDE, local_size_y = DEPTH_CELLS_SIDE) in;
+layout(set = 0, binding = BIND_CELLS_DEPTH) uniform texture2D visible_depth;
+layout(set = 0, binding = BIND_CELLS, std430) writeonly buffer DepthCells { float depth_cells[]; };
 
-shared float farthest[SIDE * SIDE];
+shared float farthest[DEPTH_CELLS_SIDE * DEPTH_CELLS_SIDE];
 
 void main()
 {
     ivec2 size = textureSize(visible_depth, 0);
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    ivec2 first = SIDE * cell;
-    ivec2 end = min(first + SIDE, size);
+    ivec2 first = DEPTH_CELLS_SIDE * cell;
+    ivec2 end = min(first + DEPTH_CELLS_SIDE, size);
     float least = 1e30;
     for (int y = first.y; y < end.y; y++) {
         for (int x = first.x; x < end.x; x++) {
@@ -27,7 +27,7 @@ void main()
     farthest[gl_LocalInvocationIndex] = least;
     barrier();
     if (gl_LocalInvocationIndex == 0) {
-        for (uint i = 1; i < SIDE * SIDE; i++) {
+        for (uint i = 1; i < DEPTH_CELLS_SIDE * DEPTH_CELLS_SIDE; i++) {
             least = min(least, farthest[i]);
         }
         depth_cells[place_of_block(size, ivec2(gl_WorkGroupID.xy))] = least;

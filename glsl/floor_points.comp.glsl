@@ -5,7 +5,7 @@
 #include "inc/point.glsl"
 
 layout(local_size_x = 256) in;
-layout(set = 1, binding = 0, std430) writeonly buffer FloorPoints { vec4 points[]; }; // x, y, depth, size
+layout(set = 1, binding = BIND_LIST_POINTS, std430) writeonly buffer FloorPoints { vec4 points[]; }; // x, y, depth, size
 
 void main()
 {

@@ -1,6 +1,8 @@
 // For the floor benchmark: a pass-through vertex stage.
 #version 460
-layout(set = 1, binding = 0, std430) readonly buffer FloorPoints { vec4 points[]; }; // x, y, depth, size
+#include "inc/config.glsl"
+
+layout(set = 1, binding = BIND_LIST_POINTS, std430) readonly buffer FloorPoints { vec4 points[]; }; // x, y, depth, size
 
 void main()
 {

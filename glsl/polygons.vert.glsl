@@ -6,8 +6,8 @@
 #include "inc/frame.glsl"
 #include "inc/view.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer Vertices { vec4 vertices[]; }; // position 0, normal 0; local space
-layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
+layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Vertices { vec4 vertices[]; }; // position 0, normal 0; local space
+layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
 
 layout(location = 0) out vec4 color_alpha; // linear
 layout(location = 1) out vec3 normal;      // view space, on the side from which the corners are counterclockwise

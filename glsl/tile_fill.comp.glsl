@@ -8,7 +8,7 @@ layout(set = 0, binding = BIND_STARTS, std430) readonly buffer Starts { uint sta
 layout(set = 0, binding = BIND_ENTRIES, std430) writeonly buffer Entries { uint entries[]; };
 
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
-layout(set = 0, binding = BIND_KEPT_LIST, std430) readonly buffer KeptList { uint kept_list[]; };
+layout(set = 0, binding = BIND_VISIBLE_LIST, std430) readonly buffer VisibleList { uint visible_list[]; };
 
 void visit(uint record, uint bin)
 {
@@ -16,8 +16,8 @@ void visit(uint record, uint bin)
     uint before = counts[place];
     counts[place] = before + 1;
     // The graphics pipeline, which draws what is in the bins of chunks, knows splats by their own numbers.
-    bool own_number = KEPT && MAY_BE_LARGE && bin >= push.tile_count;
-    entries[starts[bin] + before] = own_number ? kept_list[record] : record;
+    bool own_number = LISTED && MAY_BE_LARGE && bin >= push.tile_count;
+    entries[starts[bin] + before] = own_number ? visible_list[record] : record;
 }
 
 void main()

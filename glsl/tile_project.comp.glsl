@@ -3,10 +3,8 @@
 #version 460
 #extension GL_EXT_control_flow_attributes : require
 #include "inc/setup.glsl"
-#include "inc/groups.glsl"
-#include "inc/kept.glsl"
-#define KEPT_BLOCKS BIND_KEPT_BLOCKS
-#include "inc/kept_blocks.glsl"
+#define LIST_BLOCKS BIND_VISIBLE_BLOCKS
+#include "inc/list.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
 
@@ -14,7 +12,7 @@ layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
 layout(constant_id = SPEC_CHUNK) const uint CHUNK = 0;
-layout(constant_id = SPEC_KEPT) const bool KEPT = false; // of inc/kept.glsl, records of which lie one behind the other
+layout(constant_id = SPEC_LISTED) const bool LISTED = false; // of inc/list.glsl, records of which lie one behind the other
 
 layout(local_size_x = PROJECT_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_RECORDS, std430) writeonly buffer Records0 { vec4 records0[]; };
@@ -22,21 +20,21 @@ layout(set = 1, binding = BIND_RECORDS + 1, std430) writeonly buffer Records1 { 
 layout(set = 1, binding = BIND_RECORDS + 2, std430) writeonly buffer Records2 { vec4 records2[]; };
 layout(set = 1, binding = BIND_RECORDS + 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
 layout(set = 1, binding = BIND_RECTS, std430) writeonly buffer Rects { uint rects[]; };
-layout(set = 1, binding = BIND_KEPT_STARTS, std430) readonly buffer KeptStarts { uint kept_starts[]; };
-layout(set = 1, binding = BIND_KEPT_LIST, std430) readonly buffer KeptList { uint kept_list[]; };
+layout(set = 1, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
+layout(set = 1, binding = BIND_VISIBLE_LIST, std430) readonly buffer VisibleList { uint visible_list[]; };
 
 // The splat's number in its chunk, and its place among all that are projected; false where there is none.
 bool find_splat(out uint index, out uint place)
 {
     index = GROUP_NUMBER * PROJECT_GROUP_SIZE + gl_LocalInvocationID.x;
     place = frame.first_record + index;
-    if (KEPT) {
+    if (LISTED) {
         uint first = first_word_of_chunk();
-        place = kept_starts[first] + index;
-        if (place >= kept_starts[first + words_of_chunk()]) {
+        place = visible_starts[first] + index;
+        if (place >= visible_starts[first + words_of_chunk()]) {
             return false;
         }
-        index = kept_list[place];
+        index = visible_list[place];
     }
     return index < frame.splat_count;
 }
@@ -60,10 +58,10 @@ uint rect_of(Mapping m, ImageMap map)
         return large;
     }
     uint outside = max(more.x, more.y) <= MOST_MORE_OF_SMALL ? corners_outside(map, first, last, vec2(tile)) : 0;
-    if (KEPT) {
+    if (LISTED) {
         // Of the band's rows. Behind the choice above, so that a splat is drawn the same way in every band.
         const uint each = BAND_ROW / TILE_HEIGHT;
-        uvec2 rows = uvec2(max(first.y, kept_rows.x * each), min(last.y, kept_rows.y * each - 1));
+        uvec2 rows = uvec2(max(first.y, visible_rows.x * each), min(last.y, visible_rows.y * each - 1));
         if (rows.x > rows.y) {
             return RECT_NONE;
         }

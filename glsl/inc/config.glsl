@@ -32,6 +32,8 @@
 #define SPEC_SHADED 47        // Constant: what is opaque is shaded already.
 #define SPEC_CUT_OFF 48       // Constant: the kernel's texture is 0 outside of the disk.
 #define SPEC_ATOMICS 49       // Constant: each invocation adds atomically.
+#define SPEC_LARGE_LIST 50    // Constant: a list is that of large splats.
+#define SPEC_FILTERED 51      // Constant: the paper's own visibility is filtered.
 
 // Values of SPEC_SUMMED.
 #define SUMMED_OPAQUE 0 // Opaque splats.
@@ -39,17 +41,22 @@
 #define SUMMED_LAYER 2  // A transparent layer.
 #define SUMMED_REST 3   // All that is left for the last transparent layer, lit.
 
+// Sets of the passes over splats and polygons.
+#define SET_SPLATS 0 // Set: what is drawn.
+#define SET_LIST 1   // Set: lists of splats.
+#define SET_READ 2   // Set: what fragments read.
+
 // Bindings of set 0 of splats and polygons.
 #define BIND_SPLATS_SHAPES 0 // Binding: shapes of splats, or vertices.
 #define BIND_SPLATS_COLORS 1 // Binding: their colors.
 
 // Bindings of the set of lists.
 #define BIND_LIST_BITS 0      // Binding: a bit a splat.
-#define BIND_LIST_STARTS 1    // Binding: of words of bits or of blocks, how many are listed before them.
+#define BIND_LIST_STARTS 1    // Binding: how many come before each word of bits, then in all.
 #define BIND_LIST_ITEMS 2     // Binding: the list.
 #define BIND_LIST_ARGUMENTS 3 // Binding: arguments of what is drawn or dispatched for the list.
 #define BIND_LIST_BLOCKS 4    // Binding: the blocks in which visible splats are looked for.
-#define BIND_LIST_SEEN_BITS 1 // Binding: where those are found that are not hidden, a bit for each that is not.
+#define BIND_LIST_UNHIDDEN_BITS 1 // Binding: where hidden ones are looked for, a bit for each that is not.
 #define BIND_LIST_CELLS 2     // Binding: there, the hierarchy of the visible depth.
 #define BIND_LIST_POINTS 0    // Binding: precomputed points of the floor.
 
@@ -124,7 +131,7 @@
 #define SPEC_SEES 33            // Constant: visibility is found.
 #define SPEC_SUMS 34            // Constant: what is visible is summed.
 #define SPEC_SEVERAL 35         // Constant: layers take several dispatches, which go on from each other.
-#define SPEC_KEPT 36            // Constant: only the splats of a list are projected.
+#define SPEC_LISTED 36            // Constant: only the splats of a list are projected.
 #define SPEC_TEXELS 37          // Constant: tile rects are read as texels.
 
 // Bindings of the set of tiles.
@@ -145,9 +152,9 @@
 #define BIND_COLORS_BEFORE 17  // Binding: `BIND_COLORS` as it was before.
 #define BIND_NORMALS_BEFORE 18 // Binding: `BIND_NORMALS` as it was before.
 #define BIND_RUNS 19           // Binding: runs of tiles with splats.
-#define BIND_KEPT_STARTS 20    // Binding: how many splats are kept before each word of their bits.
-#define BIND_KEPT_LIST 21      // Binding: the list of kept splats.
-#define BIND_KEPT_BLOCKS 22    // Binding: the blocks in which they are looked for.
+#define BIND_VISIBLE_STARTS 20    // Binding: how many splats are kept before each word of their bits.
+#define BIND_VISIBLE_LIST 21      // Binding: the list of kept splats.
+#define BIND_VISIBLE_BLOCKS 22    // Binding: the blocks in which they are looked for.
 #define BIND_RECORD_TEXELS 23  // Binding: the quarters of projected splats, as texels.
 #define BIND_ENTRY_TEXELS 27   // Binding: the lists, as texels.
 #define BIND_RECT_TEXELS 28    // Binding: tile rects, as texels.
@@ -177,8 +184,13 @@
 #define ARGUMENTS_OVERFLOW 4 // VkDispatchIndirectCommand: overflow tiles.
 #define ARGUMENTS_QUADS 8    // VkDrawIndirectCommand: a quad for each run of tiles with splats.
 #define ARGUMENTS_CHUNKS 12  // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline.
-// Sizes.
+
+// Other sizes.
 #define KERNEL_TEXTURE_SIDE 256 // Texels along a side of the kernel's texture.
+#define BLOCK_SPLATS 256        // Splats of a chunk that have bounds of their own; the last block may have fewer.
+#define LIST_GROUP_SIZE 64      // Invocations of a workgroup, one a word of bits, that marks or lists splats.
+#define ALL_VISIBLE 1073741824  // Beside a block's number: none of its splats is left out.
+#define DEPTH_CELLS_SIDE 8      // Pixels along a side of a cell of the depth's hierarchy, and cells along a side of a block of cells.
 
 // Limits of numbers.
 #define MOST_LIGHTS 16              // Lights of a scene.

@@ -13,9 +13,9 @@
 
 layout(constant_id = SPEC_SOME_LARGE) const bool SOME_LARGE = false;
 #if defined(QUADS)
-layout(set = 1, binding = 2, std430) readonly buffer LargeList { uint large_list[]; };
+layout(set = 1, binding = BIND_LIST_ITEMS, std430) readonly buffer LargeList { uint large_list[]; };
 #else
-#include "inc/large.glsl"
+layout(set = 1, binding = BIND_LIST_BITS, std430) readonly buffer LargeBits { uint large_bits[]; };
 #endif
 
 // The splat of this vertex.
@@ -38,39 +38,18 @@ bool is_drawn_elsewhere(uint index)
 #if defined(QUADS)
     return false;
 #else
-    return SOME_LARGE && is_large(index);
+    return SOME_LARGE && (large_bits[index / 32] >> (index % 32) & 1) != 0;
 #endif
 }
 
 const float WITHIN_CLIP = 0.5; // a depth: fragments have their own
 
+// What is handed on means nothing then.
 void emit_nothing()
 {
     gl_Position = NOWHERE;
 #if defined(POINTS)
     gl_PointSize = 1.0;
-#endif
-#if defined(RAYS)
-    ray_center_extra = vec4(0.0);
-    ray_plane_extra = vec4(0.0);
-    ray_u_extra = vec4(0.0);
-    ray_v_square = vec4(0.0);
-#elif defined(TRIANGLES)
-    triangle_uv = vec2(0.0);
-    triangle_extra = vec4(0.0);
-#else
-    x0_w_extra = vec4(0.0);
-    per_x_extra = vec4(0.0);
-    per_y_extra = vec4(0.0);
-#if defined(FULL) || defined(CENTER)
-    uv_affine = vec4(0.0);
-#endif
-#if defined(CENTER)
-    center_low_pass = vec3(0.0);
-#endif
-#endif
-#if defined(FOURTH)
-    fourth = 0.0;
 #endif
 }
 

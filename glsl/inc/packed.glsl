@@ -1,6 +1,6 @@
 // Disks in 16 bytes, and colors in 4: what src/prepare/packed.rs packs, where the layout, its bounds and sources are.
 
-layout(set = 0, binding = 0, std430) readonly buffer PackedShapes { uvec4 packed_shapes[]; };
+layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer PackedShapes { uvec4 packed_shapes[]; };
 
 // A coordinate in the lower 25 bits, in steps of 2^-24: exact.
 float unpacked_coordinate(uint word)

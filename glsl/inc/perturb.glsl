@@ -4,8 +4,9 @@
 // FORMULA makes a value too large. FORMULA_LESS makes it too small: for those that bound what is drawn, where too much
 // is only slow and must not be seen.
 
-#ifdef TEST_FORMULAS
 #include "inc/config.glsl"
+
+#ifdef TEST_FORMULAS
 layout(constant_id = SPEC_PERTURBED_FORMULA) const uint PERTURBED_FORMULA = 0;
 #define FORMULA(number, value) ((PERTURBED_FORMULA == number) ? 1.01 * (value) : (value))
 #define FORMULA_LESS(number, value) ((PERTURBED_FORMULA == number) ? 0.99 * (value) : (value))

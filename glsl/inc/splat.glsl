@@ -7,8 +7,8 @@
 #include "inc/view.glsl"
 #include "inc/packed.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer Shapes { vec4 shapes[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
+layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Shapes { vec4 shapes[]; };
+layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
 
 // A point of the splat is p + u s + v t with u^2 + v^2 <= 1.
 struct Splat {

@@ -12,8 +12,8 @@ layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read
 layout(set = 0, binding = BIND_RECTS, std430) readonly buffer Rects { uint rects[]; };
 layout(set = 0, binding = BIND_RECT_TEXELS) uniform utextureBuffer rect_texels;
 
-layout(constant_id = SPEC_KEPT) const bool KEPT = false; // records are those of a list, whose length only the device knows
-layout(set = 0, binding = BIND_KEPT_STARTS, std430) readonly buffer KeptStarts { uint kept_starts[]; };
+layout(constant_id = SPEC_LISTED) const bool LISTED = false; // records are those of a list, whose length only the device knows
+layout(set = 0, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
 
 uint rect_of(uint record)
 {
@@ -34,7 +34,7 @@ void walk()
         return;
     }
     uint next = push.round_first;
-    uint record_count = KEPT ? kept_starts[kept_starts.length() - 1] : push.record_count;
+    uint record_count = LISTED ? visible_starts[visible_starts.length() - 1] : push.record_count;
     uint end = min(next + push.round_length, own_records(segment, record_count));
     uint record = 0;
     // Of the record, what is not visited yet: tiles of a row, and rows behind it.

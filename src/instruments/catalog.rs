@@ -189,7 +189,7 @@ mod tests {
         assert_eq!(
             of(&Settings { kernel_eval: KernelEval::Texture, ..settings }, all),
             [
-                "count large splats ",
+                "mark large splats ",
                 "scan large splats ",
                 "list large splats ",
                 "visibility small points",

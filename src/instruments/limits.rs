@@ -13,7 +13,7 @@ use crate::{
     frame::{FrameSlot, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
-        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
+        execute::{Body, FrameProfile, PassProfile, Physical, Profile, VisibleList},
     },
     passes::{self, Needs},
     report::ThroughputProbe,
@@ -245,7 +245,7 @@ fn copy_buffers(headless: &Headless) -> Result<[Buffer; 2]> {
     limit_passes::limit_fill(&mut graph, &mut from);
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
-        unsafe { Kept::default().execute(device, commands, graph, &imports, None) }.map(drop)
+        unsafe { VisibleList::default().execute(device, commands, graph, &imports, None) }.map(drop)
     })?;
     Ok(buffers)
 }

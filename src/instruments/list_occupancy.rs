@@ -43,8 +43,8 @@ pub struct TilesInUse {
 
 /// The buffers of one kind of lists that tell what they hold.
 struct Names {
-    /// How many splats are kept before each word of bits, then in all.
-    kept_starts: String,
+    /// How many splats are visible before each word of bits, then in all.
+    visible_starts: String,
     spans: String,
     starts: String,
     arguments: String,
@@ -54,7 +54,7 @@ impl Names {
     fn of(kind: &str) -> Self {
         let of_tiles = |what| format!("{what} of {kind}tiles");
         Self {
-            kept_starts: format!("starts of kept {kind}splats"),
+            visible_starts: format!("starts of visible {kind}splats"),
             spans: of_tiles("spans"),
             starts: of_tiles("starts"),
             arguments: of_tiles("arguments"),
@@ -85,8 +85,8 @@ fn lists<'a>(
 /// The buffers that tell it, of those that a frame has.
 pub fn told_by<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>) -> Vec<String> {
     let names = |(kind, ..): (String, Inputs<'_>, Option<&TilePlan>)| {
-        let Names { kept_starts, spans, starts, arguments } = Names::of(&kind);
-        [kept_starts, spans, starts, arguments]
+        let Names { visible_starts, spans, starts, arguments } = Names::of(&kind);
+        [visible_starts, spans, starts, arguments]
     };
     lists(inputs, plan).flat_map(names).collect()
 }
@@ -98,14 +98,14 @@ impl ListsInUse {
         for (kind, inputs, plan) in lists(inputs, plan) {
             let names = Names::of(&kind);
             let words = |name: &String| told.get(name).map_or(&[][..], Vec::as_slice);
-            let kept = words(&names.kept_starts).last().map(|count| u64::from(*count));
-            if let Some(kept) = kept {
-                let of_kept = |what: &str| format!("{what} of kept {kind}splats");
+            let visible = words(&names.visible_starts).last().map(|count| u64::from(*count));
+            if let Some(visible) = visible {
+                let of_visible = |what: &str| format!("{what} of visible {kind}splats");
                 // Of starts, how many there are.
-                all.bytes.extend([(of_kept("list"), 4 * kept), (of_kept("starts"), 4)]);
+                all.bytes.extend([(of_visible("list"), 4 * visible), (of_visible("starts"), 4)]);
             }
             if let Some(plan) = plan {
-                let set_up = kept.unwrap_or(plan.record_count.into());
+                let set_up = visible.unwrap_or(plan.record_count.into());
                 let told = [&names.spans, &names.starts, &names.arguments].map(words);
                 all.add_tiles(kind, (plan, inputs.settings.size_px), set_up, told);
             }

@@ -30,7 +30,7 @@ pub(crate) fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
     [
         GraphicsKey {
             depth: Some((vk::CompareOp::GREATER, true)),
-            ..GraphicsKey::new(visibility, Layout::Splat, points, vec![(0, u32::from(filtered))])
+            ..GraphicsKey::new(visibility, Layout::Splat, points, vec![(SPEC_FILTERED, filtered.into())])
         },
         GraphicsKey {
             color_formats: vec![sum_format(settings.accumulate); 2],

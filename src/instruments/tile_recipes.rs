@@ -46,12 +46,12 @@ pub(crate) fn list_recipes(
     settings: &Settings,
     variant: &Constants,
     may_be_large: bool,
-    kept: bool,
+    visible: bool,
 ) -> Vec<(&'static str, ComputeKey)> {
     let plan = TilePlan { invocations: invocations(settings), ..TilePlan::for_recipes(may_be_large) };
-    let set_up = ("set up splats", record::key(variant, &plan, 0, kept));
+    let set_up = ("set up splats", record::key(variant, &plan, 0, visible));
     let lists = ["count tiles", "total tiles", "start tiles", "fill tiles"];
-    [set_up].into_iter().chain(lists.into_iter().zip(bins::keys(&plan, kept))).collect()
+    [set_up].into_iter().chain(lists.into_iter().zip(bins::keys(&plan, visible))).collect()
 }
 
 /// The passes of the opaque part.

@@ -5,7 +5,7 @@ use ash::vk;
 use crate::passes::{
     pipeline::cache::Shaders,
     plan::{
-        SplatMethod, SurfacePlan, bands::Band, block_list::Listed, draws::Draw, mesh_draws::MeshDraw,
+        SplatMethod, SurfacePlan, bands::Band, block_list::ListedBlocks, draws::Draw, mesh_draws::MeshDraw,
         tiles::TilePlan,
     },
 };
@@ -25,9 +25,9 @@ pub struct Inputs<'a> {
     /// Bands of tiles, where splats are drawn so.
     pub bands: &'a [Band<'a>],
     /// Where the splats are looked for that are listed, where only those are set up.
-    pub kept: Option<&'a Listed>,
+    pub listed: Option<&'a ListedBlocks>,
     /// What is hidden is left out before sums.
-    pub leaves_hidden_out: bool,
+    pub culls_hidden: bool,
     /// The scene's own lights.
     pub lights: u32,
     /// From where.
@@ -55,8 +55,8 @@ impl<'a> Inputs<'a> {
             draws,
             meshes,
             bands: &[],
-            kept: None,
-            leaves_hidden_out: false,
+            listed: None,
+            culls_hidden: false,
             lights: 0,
             camera,
             settings,
@@ -73,8 +73,8 @@ impl<'a> Inputs<'a> {
             draws: &plan.splats,
             meshes: &plan.meshes,
             bands: plan.bands(),
-            kept: plan.visible(),
-            leaves_hidden_out: culls_hidden,
+            listed: plan.visible(),
+            culls_hidden,
             ..self
         }
     }
@@ -84,8 +84,8 @@ impl<'a> Inputs<'a> {
     pub(crate) fn of_bands(self) -> Vec<(String, Self, &'a TilePlan)> {
         let of = |(number, band): (usize, &'a Band<'a>)| {
             let name = if self.bands.len() > 1 { format!("band-{number} ") } else { String::new() };
-            let (draws, kept) = (band.splats.as_slice(), band.visible.as_ref());
-            (name, Self { draws, kept, ..self }, &band.plan)
+            let (draws, listed) = (band.splats.as_slice(), band.visible.as_ref());
+            (name, Self { draws, listed, ..self }, &band.plan)
         };
         (1..).zip(self.bands).map(of).collect()
     }

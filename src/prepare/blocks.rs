@@ -7,9 +7,7 @@ use super::{
     pack::{Packed, Survey},
     packed,
 };
-
-/// Splats of a block, as in `glsl/inc/kept.glsl`.
-pub const BLOCK_SPLATS: u32 = 256;
+use crate::shaders::config::BLOCK_SPLATS;
 
 /// What bounds the splats of a block, in the chunk's local space.
 #[derive(Clone, Copy, Debug)]

@@ -45,7 +45,7 @@ pub struct Chunk {
     pub radii: Vec<RadiusStep>,
     /// What its splats take in a scene ([`crate::scene::Splats::bytes`]).
     pub scene_bytes: u64,
-    /// Its splats in runs of [`super::BLOCK_SPLATS`].
+    /// Its splats in runs of [`BLOCK_SPLATS`](crate::shaders::config::BLOCK_SPLATS).
     pub blocks: Vec<Block>,
     /// Bytes of a shape and of a color.
     bytes_each: [u64; 2],

@@ -14,7 +14,7 @@ mod radii;
 mod rebase;
 mod sequence;
 
-pub use blocks::{BLOCK_SPLATS, Block};
+pub use blocks::Block;
 pub use chunk::Chunk;
 pub use memory::SplatSetLayout;
 pub use mesh_chunk::MeshChunk;

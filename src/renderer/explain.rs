@@ -191,14 +191,14 @@ fn reason(pass: &str) -> &'static str {
         "lights" => "the scene has lights of its own",
         "arguments of layers" => "--layers auto: layers are left out on the device where there is none",
         "export" => "the surface itself was asked for",
-        "count large splats" | "scan large splats" | "list large splats" => {
+        "mark large splats" | "scan large splats" | "list large splats" => {
             "a splat may exceed the device's largest point, or come near the eye plane"
         }
         "cells of depth" => "--cull hidden: the farthest visible depth of parts of the image",
-        "mark seen splats" | "scan seen splats" | "list seen splats" => {
+        "mark unhidden splats" | "scan unhidden splats" | "list unhidden splats" => {
             "--cull hidden: what the visible depth hides is not summed"
         }
-        name if name.contains(" kept ") => {
+        name if name.contains(" visible ") => {
             "some splats face away or may lie outside of the view: the others are listed"
         }
         "set up points" | "set up transparent points" => {
@@ -225,7 +225,7 @@ fn reason(pass: &str) -> &'static str {
         name if name.starts_with("set up") => "transparent splats: each is made ready to be drawn by tiles",
         name if name.ends_with(" tiles") => "lists of splats by tile: counted, placed by prefix sums, filled",
         name if name.starts_with("read back") => "the host reads it",
-        name if name.starts_with("count large") || name.contains(" large transparent") => {
+        name if name.starts_with("mark large") || name.contains(" large transparent") => {
             "a transparent splat may exceed the device's largest point, or come near the eye plane"
         }
         name if name.starts_with("begin depth of layer") => "opaque things hide transparent ones behind them",

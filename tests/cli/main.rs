@@ -299,6 +299,6 @@ fn passes_without_draws_are_no_reason_for_a_flag() {
     assert_eq!(run.code, 0, "{}", run.stderr);
     let report: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
     let passes = report["frames"]["passes"].as_array().unwrap();
-    assert!(passes.iter().any(|pass| pass["name"] == "count large splats" && pass["fragments"].is_null()));
+    assert!(passes.iter().any(|pass| pass["name"] == "mark large splats" && pass["fragments"].is_null()));
     assert!(!report["frames"]["flags"].to_string().contains("not counted"), "{}", report["frames"]["flags"]);
 }

@@ -56,8 +56,8 @@ fn points_of_a_list_are_the_same_bits_on_every_hard_scene_with_every_filter() {
                 let all = draw(&mut headless, &hard, Cull::Setup, ALL);
                 let kept = draw(&mut headless, &hard, Cull::List, ALL);
                 let seen = draw(&mut headless, &hard, Cull::Hidden, ALL);
-                assert!(!passes(&all).contains(&"list kept splats"));
-                listed += usize::from(passes(&kept).contains(&"list kept splats"));
+                assert!(!passes(&all).contains(&"list visible splats"));
+                listed += usize::from(passes(&kept).contains(&"list visible splats"));
                 let what = format!("{} {}", hard.name, filter.name());
                 assert_same_bits(&all, &kept, &what);
                 assert_same_bits(&all, &seen, &format!("{what}, hidden"));
@@ -87,7 +87,7 @@ fn what_the_papers_transition_sums_is_not_hidden() {
         let all = draw(&mut headless, &hard, Cull::Setup, ALL);
         let seen = draw(&mut headless, &hard, Cull::Hidden, ALL);
         assert_same_bits(&all, &seen, transition.name());
-        assert_eq!(passes(&seen).contains(&"list seen splats"), transition == Transition::Color);
+        assert_eq!(passes(&seen).contains(&"list unhidden splats"), transition == Transition::Color);
         // By tiles, which know what they hide.
         hard.settings.rasterizer = Rasterizer::Compute;
         let picture = Wanted { surface: false, ..ALL };
@@ -145,7 +145,9 @@ fn tiles_of_a_list_are_the_same_within_rounding() {
             Hard { settings: Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() }, ..hard };
         let all = draw(&mut headless, &hard, Cull::Setup, ALL);
         let kept = draw(&mut headless, &hard, Cull::Auto, ALL);
-        assert!(passes(&kept).contains(&"list kept splats") && !passes(&all).contains(&"list kept splats"));
+        assert!(
+            passes(&kept).contains(&"list visible splats") && !passes(&all).contains(&"list visible splats")
+        );
         assert_eq!(passes(&kept).contains(&"sum large splats"), large);
         assert!(all.weight.iter().any(|weight| *weight > 0.0));
         for (a, b) in all.weight.iter().zip(&kept.weight) {
@@ -198,7 +200,7 @@ fn where_nothing_is_left_out_there_is_no_list() {
         let mut hard = balls(Settings { rasterizer, ..Settings::default() });
         hard.scene.objects = open(vec![hard.scene.objects.swap_remove(1)]);
         let lists = |headless: &mut Headless, hard: &Hard| {
-            passes(&draw(headless, hard, Cull::List, ALL)).contains(&"mark kept splats")
+            passes(&draw(headless, hard, Cull::List, ALL)).contains(&"mark visible splats")
         };
         assert!(!lists(&mut headless, &hard));
         let culled = Settings { backfaces: Backfaces::Cull, ..hard.settings.clone() };

@@ -52,7 +52,7 @@ fn a_scene_gets_the_passes_it_needs_and_no_other() {
     assert_eq!(
         names(&everything),
         [
-            "count large splats",
+            "mark large splats",
             "scan large splats",
             "list large splats",
             "visibility",

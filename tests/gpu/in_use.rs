@@ -74,7 +74,7 @@ fn lists_of_a_few_splats_hold_what_they_must() {
         assert_eq!(of("seen of tiles"), 4 * 13);
         assert_eq!((of("entries of tiles"), of("first quarter of records of tiles")), (4 * 25, 16 * 3));
         assert!((4 * 4..=4 * 5).contains(&of("spans of tiles")), "{}", of("spans of tiles"));
-        assert_eq!(bytes.get("list of kept splats"), Some(&of("spans of tiles")));
+        assert_eq!(bytes.get("list of visible splats"), Some(&of("spans of tiles")));
         assert_eq!(of("overfull of tiles"), 0);
     }
 }
@@ -152,7 +152,7 @@ fn what_is_told_is_told_of_buffers_that_the_frame_has() {
         (ball(0.5), 3.2, by_tiles([131, 203]), &[]),
         (ball(1.0), 3.2, in_bands, &[]),
         (ball(1.0), 3.2, Settings { cull: Cull::List, ..points.clone() }, &[]),
-        (ball(1.0), 3.2, Settings { cull: Cull::Hidden, ..points.clone() }, &["list of seen splats"]),
+        (ball(1.0), 3.2, Settings { cull: Cull::Hidden, ..points.clone() }, &["list of unhidden splats"]),
         (ball(1.0), 1.001, Settings { cull: Cull::Setup, ..points }, &["large list of chunk 0"]),
     ] {
         let hard = hard(vec![object], [0.0, 0.0, eye_z], settings);
@@ -200,7 +200,7 @@ fn the_device_counts_no_less_than_lists_are_told_to_hold() {
     let ListsInUse { bytes, tiles } = in_use(&mut headless, &hard);
     let profile = counted(&mut headless, &hard);
     let vertices = counts_of(&profile, "visibility").counts.unwrap().vertices;
-    assert_eq!((bytes["list of kept splats"], tiles.len()), (4 * vertices, 0));
+    assert_eq!((bytes["list of visible splats"], tiles.len()), (4 * vertices, 0));
 
     // Without lists nothing is told.
     hard.settings.cull = Cull::Setup;

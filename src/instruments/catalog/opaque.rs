@@ -5,7 +5,10 @@ use crate::instruments::{
     tile_recipes,
 };
 use crate::passes::{
-    cull::{hidden as cull_hidden, large as list_large, visible as cull},
+    cull::{
+        hidden, large,
+        visible::{self, list_key},
+    },
     pipeline::{
         recipe::{PipelineRecipe, compute, graphics},
         splat_shaders::{Primitive, Summed},
@@ -16,6 +19,7 @@ use crate::passes::{
 use crate::{
     error::Result,
     scene::{Cull, KernelEval, Settings},
+    shaders,
 };
 
 /// By the graphics pipeline.
@@ -27,21 +31,21 @@ pub(crate) fn drawn(
 ) -> Result<Vec<PipelineRecipe>> {
     let mut all = Vec::new();
     if has_list {
-        let [count, scan, list] = list_large::keys(variant);
-        all.push(compute("count large splats", count));
+        let [mark, scan, list] = large::keys(variant);
+        all.push(compute("mark large splats", mark));
         all.push(compute("scan large splats", scan));
         all.push(compute("list large splats", list));
     }
     let points = Primitive::of(settings.rasterizer) == Primitive::Point;
     let culled = match settings.cull {
-        Cull::List | Cull::Hidden if points => cull::recipes(variant),
+        Cull::List | Cull::Hidden if points => visible::recipes(variant),
         _ => Vec::new(),
     };
-    let kept = !culled.is_empty();
+    let listed = !culled.is_empty();
     all.extend(culled.into_iter().map(|(pass, key)| compute(pass, key)));
-    if kept && settings.cull == Cull::Hidden {
-        all.push(compute("cells of depth", cull_hidden::cells_key()));
-        all.push(compute("mark seen splats", cull_hidden::hidden_key(variant)));
+    if listed && settings.cull == Cull::Hidden {
+        all.push(compute("cells of depth", hidden::cells_key()));
+        all.push(compute("mark unhidden splats", list_key(&shaders::MARK_UNHIDDEN_COMP, variant.clone())));
     }
     let summed = Summed::Opaque { with_depth: traits.export, beside_polygons: traits.polygons };
     let accumulate_name = if traits.polygons { "accumulate beside polygons" } else { "accumulate" };
@@ -69,7 +73,7 @@ pub(crate) fn by_tiles(
     let (leaves_sums, lights) = (traits.leaves_sums(settings), traits.lights());
     let of_tiles = tile_recipes::TileTraits { may_be_large, polygons, export, leaves_sums, lights };
     let mut all = Vec::new();
-    let culled = if settings.cull == Cull::Setup { Vec::new() } else { cull::recipes(variant) };
+    let culled = if settings.cull == Cull::Setup { Vec::new() } else { visible::recipes(variant) };
     let set_up = culled.len();
     let passes = [
         tile_recipes::list_recipes(settings, variant, may_be_large, set_up > 0),

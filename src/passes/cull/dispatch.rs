@@ -5,29 +5,34 @@ use ash::vk;
 use crate::{
     error::Result,
     graph::{ResourceId, execute::PassContext},
-    passes::{inputs::Inputs, plan::draws::Draw},
+    passes::{inputs::Inputs, pipeline::constants::FrameConstants, plan::draws::Draw},
     vk::ComputePipeline,
 };
 
-/// Records a dispatch over the splats of a chunk, with these buffers in set 1: so many workgroups in a row, and rows.
+/// A set of lists with these buffers.
+pub(crate) fn list_set(
+    context: &PassContext<'_>,
+    inputs: Inputs<'_>,
+    buffers: &[(u32, ResourceId)],
+) -> Result<vk::DescriptorSet> {
+    let given = buffers.iter().map(|(number, id)| Ok((*number, context.descriptor(*id)?)));
+    inputs.descriptors.set(&inputs.shaders.list_set, &given.collect::<Result<Vec<_>>>()?)
+}
+
+/// Records a dispatch over the splats of a chunk, with this set of lists: so many workgroups in a row, and rows.
 pub(crate) fn dispatch(
     context: &PassContext<'_>,
     inputs: Inputs<'_>,
     draw: &Draw<'_>,
+    constants: &FrameConstants,
     pipeline: &ComputePipeline,
-    buffers: &[(u32, ResourceId)],
+    lists: vk::DescriptorSet,
     [x, y]: [u32; 2],
-) -> Result<()> {
-    let mut given = Vec::new();
-    for (number, id) in buffers {
-        given.push((*number, context.descriptor(*id)?));
-    }
-    let shaders = inputs.shaders;
-    let sets = [draw.chunk.set(), inputs.descriptors.set(&shaders.list_set, &given)?];
-    let layout = &shaders.list_layout;
-    let constants = bytemuck::bytes_of(&draw.constants);
+) {
+    let layout = &inputs.shaders.list_layout;
     let bind_point = vk::PipelineBindPoint::COMPUTE;
     let (device, commands) = (context.device(), context.commands());
+    let (sets, constants) = ([draw.chunk.set(), lists], bytemuck::bytes_of(constants));
     // SAFETY: pipeline, sets and push constants have one layout; the graph's barriers order the passes.
     unsafe {
         device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
@@ -35,5 +40,4 @@ pub(crate) fn dispatch(
         device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
         device.cmd_dispatch(commands, x, y, 1);
     }
-    Ok(())
 }

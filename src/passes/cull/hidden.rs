@@ -3,13 +3,9 @@
 use ash::vk;
 
 use crate::passes::{
-    cull::dispatch::dispatch,
-    cull::visible::{Kept, create_bits, groups_of, list_marked, pipelines},
+    cull::visible::{VisibleList, create_bits, dispatch_words, list_marked, pipelines},
     inputs::Inputs,
-    pipeline::{
-        cache::{ComputeKey, Layout},
-        variant::Constants,
-    },
+    pipeline::cache::{ComputeKey, Layout},
 };
 use crate::{
     error::Result,
@@ -17,29 +13,22 @@ use crate::{
     shaders::{self, config::*},
 };
 
-/// Pixels along a side of a block, as in `glsl/inc/depth_cells.glsl`.
-const BLOCK_PX: u32 = 64;
-
-/// What makes the hierarchy.
+/// What makes the hierarchy of the visible depth.
 pub(crate) fn cells_key() -> ComputeKey {
     ComputeKey { shader: &shaders::DEPTH_CELLS_COMP, layout: Layout::DepthCells, constants: Vec::new() }
 }
 
-/// What marks the splats of a variant.
-pub(crate) fn hidden_key(variant: &Constants) -> ComputeKey {
-    ComputeKey { shader: &shaders::CULL_HIDDEN_COMP, layout: Layout::List, constants: variant.clone() }
-}
-
-/// Declares the passes that list those of the kept splats that the visible depth does not hide.
-pub(crate) fn list_seen<'a>(
+/// Declares the passes that list those of the visible splats that the visible depth does not hide.
+pub(crate) fn list_unhidden<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    kept: Kept,
+    visible: VisibleList,
     depth: &Handle<Image>,
-) -> Result<Kept> {
-    let blocks = inputs.settings.size_px.map(|side| side.div_ceil(BLOCK_PX));
-    // Of each block 64 cells and itself.
-    let words = u64::from(blocks[0]) * u64::from(blocks[1]) * 65;
+) -> Result<VisibleList> {
+    const CELLS: u32 = DEPTH_CELLS_SIDE * DEPTH_CELLS_SIDE;
+    // Of each block its cells and itself.
+    let [x, y] = inputs.settings.size_px.map(|side| side.div_ceil(CELLS));
+    let words = u64::from(x) * u64::from(y) * u64::from(CELLS + 1);
     let mut cells = graph.create_buffer("cells of depth", BufferDesc::of_bytes(4 * words));
     let (depth_id, cells_id, pipeline) = (depth.id(), cells.id(), inputs.shaders.compute(cells_key())?);
     graph
@@ -47,8 +36,10 @@ pub(crate) fn list_seen<'a>(
         .read(depth, Access::SampledCompute)
         .write(&mut cells, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
-            let image = context.descriptor(depth_id)?;
-            let given = [(BIND_CELLS_DEPTH, image), (BIND_CELLS, context.descriptor(cells_id)?)];
+            let given = [
+                (BIND_CELLS_DEPTH, context.descriptor(depth_id)?),
+                (BIND_CELLS, context.descriptor(cells_id)?),
+            ];
             let shaders = inputs.shaders;
             let set = inputs.descriptors.set(&shaders.cells_set, &given)?;
             let layout = shaders.cells_layout.raw();
@@ -58,32 +49,26 @@ pub(crate) fn list_seen<'a>(
             unsafe {
                 device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout, 0, &[set], &[]);
-                device.cmd_dispatch(commands, blocks[0], blocks[1], 1);
+                device.cmd_dispatch(commands, x, y, 1);
             }
             Ok(())
         }));
 
-    let what = "seen splats";
+    let what = "unhidden splats";
     let mut bits = create_bits(graph, inputs, what);
-    let (kept_id, seen_id, blocks_id) = (kept.bits.id(), bits.id(), kept.blocks.id());
-    let mark = pipelines(inputs, |draw| hidden_key(&draw.variant))?;
+    let mark = pipelines(inputs, &shaders::MARK_UNHIDDEN_COMP)?;
+    let bound = [
+        (BIND_LIST_BITS, visible.bits.id()),
+        (BIND_LIST_UNHIDDEN_BITS, bits.id()),
+        (BIND_LIST_CELLS, cells.id()),
+        (BIND_LIST_BLOCKS, visible.blocks.id()),
+    ];
     graph
-        .pass("mark seen splats")
-        .read(&kept.bits, Access::StorageReadCompute)
-        .read(&kept.blocks, Access::StorageReadCompute)
+        .pass("mark unhidden splats")
+        .read(&visible.bits, Access::StorageReadCompute)
+        .read(&visible.blocks, Access::StorageReadCompute)
         .read(&cells, Access::StorageReadCompute)
         .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| {
-            for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                let buffers = [
-                    (BIND_LIST_BITS, kept_id),
-                    (BIND_LIST_SEEN_BITS, seen_id),
-                    (BIND_LIST_CELLS, cells_id),
-                    (BIND_LIST_BLOCKS, blocks_id),
-                ];
-                dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
-            }
-            Ok(())
-        }));
-    list_marked(graph, inputs, what, (bits, kept.blocks))
+        .finish(Box::new(move |context| dispatch_words(context, inputs, &mark, &bound)));
+    list_marked(graph, inputs, what, (bits, visible.blocks))
 }

@@ -2,9 +2,9 @@
 
 use crate::passes::{
     cull::{
-        hidden::list_seen,
+        hidden::list_unhidden,
         large::{LargeIds, LargeList, list_large},
-        visible::{Kept, KeptIds, list_kept},
+        visible::{VisibleIds, VisibleList, list_visible},
     },
     inputs::Inputs,
 };
@@ -21,22 +21,22 @@ use crate::{
 /// What the draws of a part read.
 pub(crate) struct Lists {
     large: Vec<Option<LargeList>>,
-    kept: Option<Kept>,
+    visible: Option<VisibleList>,
 }
 
-/// The same for passes that are recorded.
+/// What bodies of passes need of it.
 #[derive(Clone)]
 pub(crate) struct ListIds {
     large: Vec<Option<LargeIds>>,
-    pub kept: Option<KeptIds>,
+    pub visible: Option<VisibleIds>,
 }
 
 impl Lists {
     /// Declares the passes that make them. `kind`, in front of the names, tells those of several parts apart.
     pub fn make<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Self> {
         let large = list_large(graph, inputs, kind)?;
-        let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
-        Ok(Self { large, kept })
+        let visible = inputs.listed.map(|listed| list_visible(graph, inputs, kind, listed)).transpose()?;
+        Ok(Self { large, visible })
     }
 
     /// Declares the passes that leave out of the list what this depth hides, where that is wanted.
@@ -46,29 +46,26 @@ impl Lists {
         inputs: Inputs<'a>,
         depth: &Handle<Image>,
     ) -> Result<Self> {
-        let kept = match self.kept {
-            Some(kept) if inputs.leaves_hidden_out => Some(list_seen(graph, inputs, kept, depth)?),
-            kept => kept,
+        let visible = match self.visible {
+            Some(visible) if inputs.culls_hidden => Some(list_unhidden(graph, inputs, visible, depth)?),
+            visible => visible,
         };
-        Ok(Self { kept, ..self })
+        Ok(Self { visible, ..self })
     }
 
     /// Declares that a pass draws with them.
     pub fn read<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        if let Some(kept) = &self.kept {
-            pass = kept.read_by_points(pass);
+        if let Some(visible) = &self.visible {
+            pass = visible.read_by_points(pass);
         }
-        for list in self.large.iter().flatten() {
-            pass = list.read_by_draws(pass);
-        }
-        pass
+        self.large.iter().flatten().fold(pass, |pass, list| list.read_by_draws(pass))
     }
 
     /// For the body of the pass.
     pub fn ids(&self) -> ListIds {
         ListIds {
             large: self.large.iter().map(|list| list.as_ref().map(LargeList::ids)).collect(),
-            kept: self.kept.as_ref().map(Kept::ids),
+            visible: self.visible.as_ref().map(VisibleList::ids),
         }
     }
 }
@@ -81,11 +78,10 @@ impl ListIds {
 
     /// What set 1 of the draws of a chunk holds; nothing where they read nothing.
     pub fn descriptors(&self, context: &PassContext<'_>, chunk: usize) -> Result<Vec<(u32, Descriptor)>> {
-        let mut given = Vec::new();
-        if let Some(large) = self.large(chunk) {
-            given.push((BIND_LIST_BITS, context.descriptor(large.bits)?));
-            given.push((BIND_LIST_ITEMS, context.descriptor(large.list)?));
-        }
-        Ok(given)
+        let Some(large) = self.large(chunk) else { return Ok(Vec::new()) };
+        Ok(vec![
+            (BIND_LIST_BITS, context.descriptor(large.bits)?),
+            (BIND_LIST_ITEMS, context.descriptor(large.list)?),
+        ])
     }
 }

@@ -1,18 +1,18 @@
-//! The splats that may be seen ("kept"), found and listed before any is set up, in input order: a bit each, how many come
-//! before each word of bits, their indices. No atomics, so that the list is the same in every run.
+//! The splats that may be seen, found and listed before any is projected, in input order: a bit each, how many come before each
+//! word of bits, their numbers. No atomics, so that the list is the same in every run.
 
 use std::sync::Arc;
 
 use ash::vk;
 
 use crate::passes::{
-    cull::dispatch::dispatch,
+    cull::dispatch::{dispatch, list_set},
     inputs::Inputs,
     pipeline::{
         cache::{ComputeKey, Layout},
         variant::{Constants, culls},
     },
-    plan::{block_list::Listed, draws::Draw},
+    plan::{block_list::ListedBlocks, draws::Draw},
     tiles::pass::rows_of,
 };
 use crate::{
@@ -21,105 +21,64 @@ use crate::{
         Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
         execute::{Body, PassContext},
     },
-    prepare::BLOCK_SPLATS,
     shaders::{self, Shader, config::*},
     vk::ComputePipeline,
 };
 
-/// Splats of a word of bits, as in `glsl/inc/kept.glsl`.
-const WORD: u32 = 32;
+/// Splats of a word of bits.
+pub(crate) const WORD: u32 = u32::BITS;
 
-/// Invocations of a workgroup, one a word, as in `glsl/cull_mark.comp.glsl`.
-const GROUP: u32 = 64;
-
-/// Where [`VkDispatchIndirectCommand`](vk::DispatchIndirectCommand) is in the arguments of a chunk, in bytes; before it is the draw.
-const DISPATCH: u64 = 20;
+/// The dispatch in the arguments of a chunk, in bytes; before it is the draw.
+const DISPATCH_OFFSET: u64 = 20;
 
 fn words_of(draws: &[Draw<'_>]) -> u64 {
     let blocks: u64 = draws.iter().map(|draw| u64::from(draw.constants.listed_blocks)).sum();
     blocks * u64::from(BLOCK_SPLATS / WORD)
 }
 
-/// The kept splats of a part.
-pub(crate) struct Kept {
+/// The visible splats of all chunks.
+pub(crate) struct VisibleList {
     /// A bit a splat.
     pub bits: Handle<Buffer>,
     /// Where they are looked for.
     pub blocks: Handle<Buffer>,
-    /// How many are kept before each word of bits, then in all.
-    starts: Handle<Buffer>,
-    /// Their indices within their chunks.
-    list: Handle<Buffer>,
+    /// How many come before each word of bits, then in all.
+    pub starts: Handle<Buffer>,
+    /// Their numbers within their chunks.
+    pub list: Handle<Buffer>,
     /// Of each chunk, `VkDrawIndexedIndirectCommand` of points, the list being the index buffer, and
-    /// `VkDispatchIndirectCommand` of workgroups of 64.
+    /// `VkDispatchIndirectCommand` of workgroups of [`PROJECT_GROUP_SIZE`].
     arguments: Vec<Handle<Buffer>>,
 }
 
-/// What passes need of it when they are recorded.
+/// What bodies of passes need of it.
 #[derive(Clone)]
-pub(crate) struct KeptIds {
-    pub starts: ResourceId,
-    pub list: ResourceId,
-    pub blocks: ResourceId,
+pub(crate) struct VisibleIds {
+    list: ResourceId,
     arguments: Vec<ResourceId>,
 }
 
-impl Kept {
-    fn create(
-        graph: &mut Graph<Body<'_>>,
-        what: &str,
-        (bits, blocks): (Handle<Buffer>, Handle<Buffer>),
-        draws: &[Draw<'_>],
-    ) -> Self {
-        let words = words_of(draws);
-        let mut buffer = |part: &str, words: u64| {
-            graph.create_buffer(&format!("{part} of {what}"), BufferDesc::of_bytes(4 * words))
-        };
-        Self {
-            bits,
-            blocks,
-            starts: buffer("starts", words + 1),
-            list: buffer("list", words * u64::from(WORD)),
-            arguments: (0..draws.len())
-                .map(|number| buffer(&format!("arguments in chunk {number}"), 8))
-                .collect(),
-        }
+impl VisibleList {
+    pub fn ids(&self) -> VisibleIds {
+        VisibleIds { list: self.list.id(), arguments: self.arguments.iter().map(Handle::id).collect() }
     }
 
-    pub fn ids(&self) -> KeptIds {
-        KeptIds {
-            starts: self.starts.id(),
-            list: self.list.id(),
-            blocks: self.blocks.id(),
-            arguments: self.arguments.iter().map(Handle::id).collect(),
-        }
-    }
-
-    /// Declares that a pass dispatches one invocation a kept splat.
+    /// Declares that a pass dispatches one invocation a visible splat.
     pub fn read_by_compute<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
         let lists = [&self.starts, &self.list, &self.blocks];
         let pass = lists.into_iter().fold(pass, |pass, list| pass.read(list, Access::StorageReadCompute));
         self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
     }
 
-    /// Declares that a pass draws the kept splats as points.
+    /// Declares that a pass draws the visible splats as points.
     pub fn read_by_points<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
         let pass = pass.read(&self.list, Access::IndexRead);
         self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
     }
-
-    /// How many there are is in the last word of this, for a pass that walks over all of them.
-    pub fn starts(&self) -> &Handle<Buffer> {
-        &self.starts
-    }
-
-    pub fn list(&self) -> &Handle<Buffer> {
-        &self.list
-    }
 }
 
-impl KeptIds {
-    /// Records a draw of points, one a kept splat of a chunk, inside of rendering with all bound but the indices.
+impl VisibleIds {
+    /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
     pub fn draw_points(&self, context: &PassContext<'_>, chunk: usize) -> Result<()> {
         let (list, arguments) = (context.buffer(self.list)?, context.buffer(self.arguments[chunk])?);
         let (device, commands) = (context.device(), context.commands());
@@ -132,48 +91,37 @@ impl KeptIds {
         Ok(())
     }
 
-    /// Records a dispatch of one invocation a kept splat of a chunk, 64 a workgroup, with all bound.
+    /// Records a dispatch of one invocation a visible splat of a chunk with all bound.
     pub fn dispatch(&self, context: &PassContext<'_>, chunk: usize) -> Result<()> {
         let arguments = context.buffer(self.arguments[chunk])?;
         // SAFETY: as the caller has it; the arguments were declared to be read, and are within the buffer.
-        unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, DISPATCH) };
+        unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, DISPATCH_OFFSET) };
         Ok(())
     }
 }
 
-/// What the pipelines of the three passes are, in their order. Only the first looks at splats.
-fn keys(variant: &Constants) -> Vec<ComputeKey> {
-    let key = |shader: &'static Shader, constants| ComputeKey { shader, layout: Layout::List, constants };
-    vec![
-        key(&shaders::CULL_MARK_COMP, variant.clone()),
-        key(&shaders::CULL_SCAN_COMP, Vec::new()),
-        key(&shaders::CULL_LIST_COMP, Vec::new()),
-    ]
+/// A pipeline that marks, scans or lists.
+pub(crate) fn list_key(shader: &'static Shader, constants: Constants) -> ComputeKey {
+    ComputeKey { shader, layout: Layout::List, constants }
 }
 
 /// Declares the passes. `kind`, in front of the names, tells several such lists of a frame apart.
-pub(crate) fn list_kept<'a>(
+pub(crate) fn list_visible<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
-    listed: &'a Listed,
-) -> Result<Kept> {
-    let what = format!("kept {kind}splats");
+    listed: &'a ListedBlocks,
+) -> Result<VisibleList> {
+    let what = format!("visible {kind}splats");
     let blocks = listed.upload(graph, &what);
     let mut bits = create_bits(graph, inputs, &what);
-    let (id, blocks_id) = (bits.id(), blocks.id());
-    let mark = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(0))?;
+    let mark = pipelines(inputs, &shaders::MARK_VISIBLE_COMP)?;
+    let bound = [(BIND_LIST_BITS, bits.id()), (BIND_LIST_BLOCKS, blocks.id())];
     graph
         .pass(&format!("mark {what}"))
         .read(&blocks, Access::StorageReadCompute)
         .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| {
-            for (draw, pipeline) in inputs.draws.iter().zip(&mark) {
-                let buffers = [(BIND_LIST_BITS, id), (BIND_LIST_BLOCKS, blocks_id)];
-                dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
-            }
-            Ok(())
-        }));
+        .finish(Box::new(move |context| dispatch_words(context, inputs, &mark, &bound)));
     list_marked(graph, inputs, &what, (bits, blocks))
 }
 
@@ -182,12 +130,32 @@ pub(crate) fn create_bits(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>, what:
     graph.create_buffer(&format!("bits of {what}"), BufferDesc::of_bytes(4 * words_of(inputs.draws)))
 }
 
-/// The pipeline of each chunk.
-pub(crate) fn pipelines(
+/// The pipelines of a shader that looks at splats, one a chunk.
+pub(crate) fn pipelines(inputs: Inputs<'_>, shader: &'static Shader) -> Result<Vec<Arc<ComputePipeline>>> {
+    let of = |draw: &Draw<'_>| inputs.shaders.compute(list_key(shader, draw.variant.clone()));
+    inputs.draws.iter().map(of).collect()
+}
+
+/// Records, for each chunk, a dispatch of one invocation a word of its bits, with these buffers.
+pub(crate) fn dispatch_words(
+    context: &PassContext<'_>,
     inputs: Inputs<'_>,
-    key: impl Fn(&Draw<'_>) -> ComputeKey,
-) -> Result<Vec<Arc<ComputePipeline>>> {
-    inputs.draws.iter().map(|draw| inputs.shaders.compute(key(draw))).collect()
+    pipelines: &[Arc<ComputePipeline>],
+    bound: &[(u32, ResourceId)],
+) -> Result<()> {
+    let set = list_set(context, inputs, bound)?;
+    for (draw, pipeline) in inputs.draws.iter().zip(pipelines) {
+        dispatch(
+            context,
+            inputs,
+            draw,
+            &draw.constants,
+            pipeline,
+            set,
+            groups_of(draw.constants.listed_blocks),
+        );
+    }
+    Ok(())
 }
 
 /// Declares the two passes that list what is marked.
@@ -195,60 +163,73 @@ pub(crate) fn list_marked<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     what: &str,
-    bits_of_blocks: (Handle<Buffer>, Handle<Buffer>),
-) -> Result<Kept> {
-    let mut kept = Kept::create(graph, what, bits_of_blocks, inputs.draws);
-    let KeptIds { starts, list, blocks, arguments } = kept.ids();
-    let bits = kept.bits.id();
-    let scan = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(1))?;
+    (bits, blocks): (Handle<Buffer>, Handle<Buffer>),
+) -> Result<VisibleList> {
+    let words = words_of(inputs.draws);
+    let mut buffer = |part: &str, words: u64| {
+        graph.create_buffer(&format!("{part} of {what}"), BufferDesc::of_bytes(4 * words))
+    };
+    let mut starts = buffer("starts", words + 1);
+    let mut list = buffer("list", words * u64::from(WORD));
+    let chunks = 0..inputs.draws.len();
+    let mut arguments: Vec<_> =
+        chunks.map(|number| buffer(&format!("arguments in chunk {number}"), 8)).collect();
+
+    let scan = inputs.shaders.compute(list_key(&shaders::LIST_SCAN_COMP, Vec::new()))?;
+    let bound = [(BIND_LIST_BITS, bits.id()), (BIND_LIST_STARTS, starts.id())];
     graph
         .pass(&format!("scan {what}"))
-        .read(&kept.bits, Access::StorageReadCompute)
-        .write(&mut kept.starts, Access::StorageWriteCompute, Start::Discard)
+        .read(&bits, Access::StorageReadCompute)
+        .write(&mut starts, Access::StorageWriteCompute, Start::Discard)
         .finish(Box::new(move |context| {
+            let set = list_set(context, inputs, &bound)?;
             // One for all chunks; the set of any will do.
-            match inputs.draws.iter().zip(&scan).next() {
-                Some((draw, pipeline)) => {
-                    let buffers = [(BIND_LIST_BITS, bits), (BIND_LIST_STARTS, starts)];
-                    dispatch(context, inputs, draw, pipeline, &buffers, [1, 1])
-                }
-                None => Ok(()),
+            if let Some(draw) = inputs.draws.first() {
+                dispatch(context, inputs, draw, &draw.constants, &scan, set, [1, 1]);
             }
+            Ok(())
         }));
 
-    let place = pipelines(inputs, |draw| keys(&draw.variant).swap_remove(2))?;
+    let write = inputs.shaders.compute(list_key(&shaders::LIST_WRITE_COMP, Vec::new()))?;
+    let bound = [
+        (BIND_LIST_BITS, bits.id()),
+        (BIND_LIST_STARTS, starts.id()),
+        (BIND_LIST_ITEMS, list.id()),
+        (BIND_LIST_BLOCKS, blocks.id()),
+    ];
     let mut pass = graph
         .pass(&format!("list {what}"))
-        .read(&kept.bits, Access::StorageReadCompute)
-        .read(&kept.starts, Access::StorageReadCompute)
-        .read(&kept.blocks, Access::StorageReadCompute)
-        .write(&mut kept.list, Access::StorageWriteCompute, Start::Discard);
-    for arguments in &mut kept.arguments {
+        .read(&bits, Access::StorageReadCompute)
+        .read(&starts, Access::StorageReadCompute)
+        .read(&blocks, Access::StorageReadCompute)
+        .write(&mut list, Access::StorageWriteCompute, Start::Discard);
+    for arguments in &mut arguments {
         pass = pass.write(arguments, Access::StorageWriteCompute, Start::Discard);
     }
+    let ids: Vec<_> = arguments.iter().map(Handle::id).collect();
     pass.finish(Box::new(move |context| {
-        for ((draw, pipeline), arguments) in inputs.draws.iter().zip(&place).zip(&arguments) {
-            let buffers = [
-                (BIND_LIST_BITS, bits),
-                (BIND_LIST_STARTS, starts),
-                (BIND_LIST_ITEMS, list),
-                (BIND_LIST_ARGUMENTS, *arguments),
-                (BIND_LIST_BLOCKS, blocks),
-            ];
-            dispatch(context, inputs, draw, pipeline, &buffers, groups_of(draw))?;
+        for (draw, arguments) in inputs.draws.iter().zip(ids) {
+            let bound = [&bound[..], &[(BIND_LIST_ARGUMENTS, arguments)]].concat();
+            let set = list_set(context, inputs, &bound)?;
+            let groups = groups_of(draw.constants.listed_blocks);
+            dispatch(context, inputs, draw, &draw.constants, &write, set, groups);
         }
         Ok(())
     }));
-    Ok(kept)
+    Ok(VisibleList { bits, blocks, starts, list, arguments })
 }
 
-/// Workgroups of one invocation a word of bits.
-pub(crate) fn groups_of(draw: &Draw<'_>) -> [u32; 2] {
-    rows_of((draw.constants.listed_blocks * (BLOCK_SPLATS / WORD)).div_ceil(GROUP))
+/// Workgroups of one invocation a word of bits of so many blocks.
+pub(crate) fn groups_of(blocks: u32) -> [u32; 2] {
+    rows_of((blocks * (BLOCK_SPLATS / WORD)).div_ceil(LIST_GROUP_SIZE))
 }
 
 /// The three passes, where there are splats of a variant to leave out.
 pub(crate) fn recipes(variant: &Constants) -> Vec<(&'static str, ComputeKey)> {
-    let passes = ["mark kept splats", "scan kept splats", "list kept splats"];
-    passes.into_iter().zip(keys(variant)).filter(|_| culls(variant)).collect()
+    let passes = [
+        ("mark visible splats", list_key(&shaders::MARK_VISIBLE_COMP, variant.clone())),
+        ("scan visible splats", list_key(&shaders::LIST_SCAN_COMP, Vec::new())),
+        ("list visible splats", list_key(&shaders::LIST_WRITE_COMP, Vec::new())),
+    ];
+    passes.into_iter().filter(|_| culls(variant)).collect()
 }

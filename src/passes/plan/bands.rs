@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::passes::plan::{block_list::Listed, draws::Draw, seen::SeenSplats, tiles::TilePlan};
+use crate::passes::plan::{block_list::ListedBlocks, draws::Draw, seen::SeenSplats, tiles::TilePlan};
 use crate::{
     prepare::Chunk,
     scene::{Settings, TileMemory},
@@ -27,7 +27,7 @@ pub struct Band<'a> {
     /// The chunks.
     pub splats: Vec<Draw<'a>>,
     /// Where splats that may be seen are looked for, if only those are set up.
-    pub visible: Option<Listed>,
+    pub visible: Option<ListedBlocks>,
     /// How they are drawn.
     pub plan: TilePlan,
 }
@@ -36,7 +36,7 @@ impl<'a> Band<'a> {
     /// A band of splats that are listed first: of the blocks that may touch its rows.
     pub fn new(splats: &[Draw<'a>], seen: &SeenSplats, plan: TilePlan) -> Self {
         let mut splats = splats.to_vec();
-        let visible = Some(Listed::of(&mut splats, &seen.chunks, plan.rows.clone()));
+        let visible = Some(ListedBlocks::of(&mut splats, &seen.chunks, plan.rows.clone()));
         Self { splats, visible, plan }
     }
 }

@@ -5,11 +5,8 @@ use std::ops::Range;
 use crate::passes::plan::{draws::Draw, seen::SeenBlock};
 use crate::{
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
-    prepare::BLOCK_SPLATS,
+    shaders::config::{ALL_VISIBLE, BLOCK_SPLATS},
 };
-
-/// Beside a block's number: none of its splats is left out, as in `glsl/inc/kept_blocks.glsl`.
-const ALL_KEPT: u32 = 1 << 31;
 
 /// Words in front of the blocks: the rows.
 const ROW_WORDS: usize = 2;
@@ -17,11 +14,11 @@ const ROW_WORDS: usize = 2;
 /// Bytes of a buffer that one command updates at most.
 const MOST_UPDATED: usize = 65_536;
 
-/// The blocks of all chunks in which splats are looked for, as `glsl/inc/kept_blocks.glsl` has them: the rows of tiles, then the
+/// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, then the
 /// chunks' blocks one behind the other.
-pub struct Listed(Vec<u32>);
+pub struct ListedBlocks(Vec<u32>);
 
-impl Listed {
+impl ListedBlocks {
     /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk the number of its first splat among
     /// those that are looked at.
     pub fn of(draws: &mut [Draw<'_>], seen: &[Vec<SeenBlock>], rows: Range<u32>) -> Self {
@@ -31,11 +28,11 @@ impl Listed {
             draw.constants.first_record = (before - ROW_WORDS) as u32 * BLOCK_SPLATS;
             let touching = blocks.iter().filter(|block| block.touches(&rows));
             words.extend(touching.map(|block| {
-                let all_kept = if block.is_within(&rows) { ALL_KEPT } else { 0 };
-                block.number | all_kept
+                let all_visible = if block.is_within(&rows) { ALL_VISIBLE } else { 0 };
+                block.number | all_visible
             }));
             if words.len() == before {
-                // There is one in any case, for whoever counts what is kept: behind all splats.
+                // There is one in any case, for whoever counts what is listed: behind all splats.
                 words.push(u32::MAX / BLOCK_SPLATS);
             }
             draw.constants.listed_blocks = (words.len() - before) as u32;

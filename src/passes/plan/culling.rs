@@ -5,8 +5,8 @@ use crate::passes::{
     plan::{draws::Draw, few::are_few},
 };
 use crate::{
-    prepare::BLOCK_SPLATS,
     scene::{Cull, Rasterizer, Settings, Transition},
+    shaders::config::BLOCK_SPLATS,
     vk::Limits,
 };
 

@@ -8,7 +8,7 @@ use crate::passes::plan::{
 use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS,
     plan::{
-        SplatMethod, bands::Band, block_list::Listed, culling, draws::Draw, invocations::Invocations,
+        SplatMethod, bands::Band, block_list::ListedBlocks, culling, draws::Draw, invocations::Invocations,
         seen::SeenSplats, tiles::TilePlan,
     },
 };
@@ -59,7 +59,7 @@ pub(crate) fn primitives<'a>(
     let rows = rows_of_image(settings);
     let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
     SplatMethod::Primitives {
-        visible: Some(Listed::of(splats, &seen.chunks, rows)),
+        visible: Some(ListedBlocks::of(splats, &seen.chunks, rows)),
         culls_hidden: culling::primitives_cull_hidden(polygons, settings),
     }
 }

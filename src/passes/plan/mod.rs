@@ -19,7 +19,7 @@ use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     plan::{
         bands::Band,
-        block_list::Listed,
+        block_list::ListedBlocks,
         draws::{Draw, draws},
         mesh_draws::{MeshDraw, mesh_draws},
         tiles::TilePlan,
@@ -61,7 +61,7 @@ pub enum SplatMethod<'a> {
     /// By the graphics pipeline, as points, quads or triangles.
     Primitives {
         /// Where splats that may be seen are looked for, if only those are drawn.
-        visible: Option<Listed>,
+        visible: Option<ListedBlocks>,
         /// Splats that visible ones hide are left out of the sums.
         culls_hidden: bool,
     },
@@ -130,7 +130,7 @@ impl<'a> SurfacePlan<'a> {
     }
 
     /// Where the graphics pipeline's splats are looked for, if only those that may be seen are drawn.
-    pub(crate) fn visible(&self) -> Option<&Listed> {
+    pub(crate) fn visible(&self) -> Option<&ListedBlocks> {
         match &self.method {
             SplatMethod::Primitives { visible, .. } => visible.as_ref(),
             SplatMethod::Tiles(_) => None,

@@ -10,6 +10,7 @@ use crate::passes::{
     inputs::Inputs,
     pipeline::{
         cache::{GraphicsKey, Layout},
+        constants::FrameConstants,
         splat_shaders::{Drawn, Primitive, Stages},
         variant::Constants,
     },
@@ -125,12 +126,14 @@ pub(crate) fn draw_splats(
         // order what the draws read.
         unsafe {
             device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-            let constants = bytemuck::bytes_of(&draw.constants);
+            // Lists of large splats have numbers within their chunks.
+            let constants = FrameConstants { first_record: 0, ..draw.constants };
+            let constants = bytemuck::bytes_of(&constants);
             device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
             device.cmd_bind_pipeline(commands, bind_point, pipelines.own.raw());
-            match (gate, &lists.kept) {
+            match (gate, &lists.visible) {
                 (Some(gate), _) => gate.draw_splats(context, number)?,
-                (None, Some(kept)) => kept.draw_points(context, number)?,
+                (None, Some(visible)) => visible.draw_points(context, number)?,
                 (None, None) => {
                     let [vertices, instances] = primitive.counts(draw.chunk.count);
                     device.cmd_draw(commands, vertices, instances, 0, 0);

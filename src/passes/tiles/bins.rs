@@ -5,7 +5,7 @@ use ash::vk;
 
 use crate::passes::tiles::place_bits;
 use crate::passes::{
-    cull::visible::{Kept, list_kept},
+    cull::visible::list_visible,
     inputs::Inputs,
     pipeline::{cache::ComputeKey, constants::TileConstants},
     plan::tiles::TilePlan,
@@ -21,14 +21,14 @@ use crate::{
     shaders::{self, Shader, config::*},
 };
 
-/// The pipelines of what counts, adds up, finds where lists start, and fills. `kept`: records are those of a list.
-pub(crate) fn keys(plan: &TilePlan, kept: bool) -> [ComputeKey; 4] {
+/// The pipelines of what counts, adds up, finds where lists start, and fills. `visible`: records are those of a list.
+pub(crate) fn keys(plan: &TilePlan, visible: bool) -> [ComputeKey; 4] {
     let walk = |shader: &'static Shader| {
         let texels = u32::from(plan.invocations.fetch_texels());
         let large = u32::from(plan.may_be_large);
         let constants = [
             place_bits(plan),
-            (SPEC_KEPT, u32::from(kept)),
+            (SPEC_LISTED, u32::from(visible)),
             (SPEC_TEXELS, texels),
             (SPEC_MAY_BE_LARGE, large),
         ];
@@ -50,10 +50,10 @@ pub(crate) fn list<'a>(
     kind: &str,
     plan: &'a TilePlan,
 ) -> Result<Tiles<'a>> {
-    let kept = inputs.kept.map(|listed| list_kept(graph, inputs, kind, listed)).transpose()?;
-    let kept_starts = kept.as_ref().map(Kept::starts);
+    let visible = inputs.listed.map(|listed| list_visible(graph, inputs, kind, listed)).transpose()?;
+    let visible_starts = visible.as_ref().map(|list| &list.starts);
     let mut tiles = Tiles::create(graph, kind, plan);
-    record(graph, inputs, kind, &mut tiles, kept.as_ref())?;
+    record(graph, inputs, kind, &mut tiles, visible.as_ref())?;
 
     let cleared = tiles.counts.id();
     graph
@@ -68,12 +68,12 @@ pub(crate) fn list<'a>(
 
     let (read, write, update) =
         (Access::StorageReadCompute, Access::StorageWriteCompute, Access::StorageUpdateCompute);
-    let [count, total, start, fill] = keys(plan, kept.is_some());
+    let [count, total, start, fill] = keys(plan, visible.is_some());
     let rects = [BIND_RECTS, BIND_RECT_TEXELS];
     let pass = TilePass::new(graph, &format!("count {kind}tiles"));
     tiles
         .read_as_texels(pass, rects, &tiles.spans)
-        .read_if(BIND_KEPT_STARTS, kept_starts, read)
+        .read_if(BIND_VISIBLE_STARTS, visible_starts, read)
         .write(BIND_COUNTS, &mut tiles.counts, update, Start::Load)
         .finish(inputs, (plan, count), walk)?;
 
@@ -98,12 +98,12 @@ pub(crate) fn list<'a>(
         })?;
 
     // Where the graphics pipeline draws some, it wants the splats' own numbers.
-    let numbers = kept.as_ref().filter(|_| plan.may_be_large).map(Kept::list);
+    let numbers = visible.as_ref().filter(|_| plan.may_be_large).map(|list| &list.list);
     let pass = TilePass::new(graph, &format!("fill {kind}tiles"));
     tiles
         .read_as_texels(pass, rects, &tiles.spans)
-        .read_if(BIND_KEPT_STARTS, kept_starts, read)
-        .read_if(BIND_KEPT_LIST, numbers, read)
+        .read_if(BIND_VISIBLE_STARTS, visible_starts, read)
+        .read_if(BIND_VISIBLE_LIST, numbers, read)
         .read(BIND_STARTS, &tiles.starts, read)
         .write(BIND_COUNTS, &mut tiles.counts, update, Start::Load)
         .write(BIND_ENTRIES, &mut tiles.entries, write, Start::Discard)

@@ -115,7 +115,7 @@ impl<'a> LargeDraws<'a> {
         for ((number, draw), pipeline) in (0..).zip(self.inputs.draws).zip(&self.pipelines) {
             let constants = FrameConstants {
                 // Of listed splats the lists have indices within their chunks.
-                first_record: if self.inputs.kept.is_some() { 0 } else { draw.constants.first_record },
+                first_record: if self.inputs.listed.is_some() { 0 } else { draw.constants.first_record },
                 ..draw.constants
             };
             let constants = bytemuck::bytes_of(&constants);

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use crate::passes::{
-    cull::visible::Kept,
+    cull::visible::VisibleList,
     inputs::Inputs,
     pipeline::{
         cache::{ComputeKey, Layout},
@@ -19,13 +19,13 @@ use crate::{
 };
 
 /// What the pipeline is, for one chunk, of which perhaps a list is set up.
-pub(crate) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, kept: bool) -> ComputeKey {
+pub(crate) fn key(variant: &Constants, plan: &TilePlan, chunk: u32, visible: bool) -> ComputeKey {
     let mut constants = variant.clone();
     constants.extend([
         place_bits(plan),
         (SPEC_MOST_TILES, plan.most_tiles),
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
-        (SPEC_KEPT, u32::from(kept)),
+        (SPEC_LISTED, u32::from(visible)),
     ]);
     if plan.may_be_large {
         constants.extend([(SPEC_MAY_BE_LARGE, 1), (SPEC_CHUNK, chunk)]);
@@ -39,25 +39,26 @@ pub(crate) fn record<'a>(
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
-    kept: Option<&Kept>,
+    visible: Option<&VisibleList>,
 ) -> Result<()> {
     let mut chunks = Vec::new();
     for (number, draw) in (0..).zip(inputs.draws) {
-        chunks.push((draw, inputs.shaders.compute(key(&draw.variant, tiles.plan, number, kept.is_some()))?));
+        chunks
+            .push((draw, inputs.shaders.compute(key(&draw.variant, tiles.plan, number, visible.is_some()))?));
     }
     let mut pass = TilePass::new(graph, &format!("set up {kind}splats"));
-    if let Some(kept) = kept {
+    if let Some(visible) = visible {
         pass = pass
-            .declare(|pass| kept.read_by_compute(pass))
-            .bind(BIND_KEPT_STARTS, kept.starts())
-            .bind(BIND_KEPT_LIST, kept.list())
-            .bind(BIND_KEPT_BLOCKS, &kept.blocks);
+            .declare(|pass| visible.read_by_compute(pass))
+            .bind(BIND_VISIBLE_STARTS, &visible.starts)
+            .bind(BIND_VISIBLE_LIST, &visible.list)
+            .bind(BIND_VISIBLE_BLOCKS, &visible.blocks);
     }
     let quarters = (BIND_RECORDS..).zip(&mut tiles.records);
     for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.spans)]) {
         pass = pass.write(binding, buffer, Access::StorageWriteCompute, Start::Discard);
     }
-    let kept = kept.map(Kept::ids);
+    let visible = visible.map(VisibleList::ids);
     pass.finish_with_set(inputs, move |context, set| {
         let layout = &inputs.shaders.tiles()?.record;
         let bind_point = vk::PipelineBindPoint::COMPUTE;
@@ -71,8 +72,8 @@ pub(crate) fn record<'a>(
                 device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
                 device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
             }
-            match &kept {
-                Some(kept) => kept.dispatch(context, number)?,
+            match &visible {
+                Some(visible) => visible.dispatch(context, number)?,
                 None => {
                     let [x, y] =
                         crate::passes::tiles::pass::rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE));

@@ -82,7 +82,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         |shader: &'static shaders::Shader| Stage { name: shader.name, spirv: shader.spirv(), constants: &[] };
     let desc = ComputePipelineDesc {
         name: "compute",
-        stage: stage(&shaders::LARGE_SCAN_COMP),
+        stage: stage(&shaders::LIST_SCAN_COMP),
         layout: &compute_layout,
     };
     keep(Box::new(ComputePipeline::new(&device, &cache, &desc).unwrap()));

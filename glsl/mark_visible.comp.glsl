@@ -1,21 +1,18 @@
 // Marks the splats that may be seen: not those that face away where such are not drawn, nor those outside of the view, told by
-// a sphere around them. One invocation a word of bits, so that nothing has to be handed on.
+// a sphere around them (inc/list.glsl).
 //
-// Whoever sets a kept splat up decides anew, and exactly: what is left out here must be what all of them leave out. Facing is the
+// Whoever projects a marked splat decides anew, and exactly: what is left out here must be what all of them leave out. Facing is the
 // same expression as theirs (mapping.glsl), which nothing may contract. Outside: all points of a splat are within r = sqrt(2) R
 // of its center (R the larger radius; the root for skew axes). Where 2 R <= p_z / 4, its image reaches at most
 // r (1 + |c|) / (p_z - r) < 2 R (1 + |c|) / p_z from its center's image c, an affine image less, and a filter adds up to
-// 1.2 of its radius; but that of adjust_paper.glsl may add any depth. Any other splat is kept. So is NaN, which no comparison
+// 1.2 of its radius; but that of adjust_paper.glsl may add any depth. Any other splat is marked. So is NaN, which no comparison
 // leaves out.
 #version 460
 #include "inc/setup.glsl"
-#include "inc/kept.glsl"
-#define KEPT_BLOCKS 4
-#include "inc/kept_blocks.glsl"
-#include "inc/groups.glsl"
+#include "inc/list.glsl"
 
-layout(local_size_x = 64) in;
-layout(set = 1, binding = 0, std430) writeonly buffer KeptBits { uint kept_bits[]; };
+layout(local_size_x = LIST_GROUP_SIZE) in;
+layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint visible_bits[]; };
 
 bool is_outside(vec3 p, float radius)
 {
@@ -28,8 +25,8 @@ bool is_outside(vec3 p, float radius)
     }
     vec2 c = p.xy / p.z;
     vec2 away = reach / p.z * (1.0 + abs(c)) + 2.0 * frame.filter_radius;
-    vec2 low_px = vec2(0.0, BAND_ROW * kept_rows.x);
-    vec2 high_px = vec2(frame.size_px.x, min(frame.size_px.y, BAND_ROW * kept_rows.y));
+    vec2 low_px = vec2(0.0, BAND_ROW * visible_rows.x);
+    vec2 high_px = vec2(frame.size_px.x, min(frame.size_px.y, BAND_ROW * visible_rows.y));
     vec2 low = (low_px - 0.5 * frame.size_px) / frame.focal_px;
     vec2 high = (high_px - 0.5 * frame.size_px) / frame.focal_px;
     return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
@@ -44,17 +41,17 @@ bool may_be_seen(uint index)
 
 void main()
 {
-    uint word = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
+    uint word = LIST_INVOCATION;
     if (word >= words_of_chunk()) {
         return;
     }
     uint first = first_splat_of(word);
     uint end = min(first + WORD, frame.splat_count);
-    bool all_kept = is_all_kept(word);
-    uint bits = all_kept && first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
+    bool all_visible = is_all_visible(word);
+    uint bits = all_visible && first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
     // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
-    for (uint index = all_kept ? end : first; index < end; index++) {
+    for (uint index = all_visible ? end : first; index < end; index++) {
         bits |= may_be_seen(index) ? 1u << (index - first) : 0u;
     }
-    kept_bits[first_word_of_chunk() + word] = bits;
+    visible_bits[first_word_of_chunk() + word] = bits;
 }

@@ -11,12 +11,25 @@
 //
 // Limits, all of them the paper's: no splat may reach the eye plane; products that cancel are left to f32 (edge-on disks, small
 // and far ones); points that are larger than the device's are cut; rounding of a point's borders can lose a pixel.
+//
+// VISIBILITY: moved along the ray by epsilon. They do not say whether it is filtered; their table 1 has 12 instructions more for the
+// attribute pass (ACCUMULATE), about what the filter takes, so that it is not.
+// Permutations: visibility accumulate
+#version 460
+#include "inc/config.glsl"
 
-#define VARYING out
-#include "inc/paper_varyings.glsl"
+layout(location = 0) flat out vec4 per_x; // the three columns of N, with a fourth row for the depth
+layout(location = 1) flat out vec4 per_y;
+layout(location = 2) flat out vec4 at_corner; // pixel (0, 0)
+#if defined(ACCUMULATE)
+layout(location = 3) flat out vec3 normal;
+layout(location = 4) flat out vec3 color;
+#else
+layout(constant_id = SPEC_FILTERED) const bool FILTERED = false; // to see what of the error is the missing filter
+#endif
 
-layout(set = 0, binding = 0, std430) readonly buffer Shapes { vec4 shapes[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
+layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Shapes { vec4 shapes[]; };
+layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
 
 // The host's mirror is `PaperConstants` in src/passes/pipeline/constants.rs; the build compares the offsets.
 struct PaperConstants {
@@ -103,4 +116,28 @@ void emit(vec3 p, vec3 s, vec3 t, float depth_factor)
     per_x = vec4(u.x, v.x, w.x, depth.x);
     per_y = vec4(u.y, v.y, w.y, depth.y);
     at_corner = vec4(u.z, v.z, w.z, depth.z) - per_x * push.middle_px.x - per_y * push.middle_px.y;
+}
+
+void main()
+{
+    vec3 p;
+    vec3 n;
+    float radius;
+    load_disk(p, n, radius);
+    vec3 s;
+    vec3 t;
+    basis(p, n, radius, s, t);
+#if defined(ACCUMULATE)
+    adjust(p, s, t);
+    emit(p, s, t, 1.0);
+    normal = n;
+    uvec2 packed = colors[gl_VertexIndex];
+    color = vec3(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y).x);
+#else
+    if (FILTERED) {
+        adjust(p, s, t);
+    }
+    // The same image, depth b / (z + epsilon).
+    emit(p, s, t, p.z / (p.z + push.epsilon_radii * radius));
+#endif
 }

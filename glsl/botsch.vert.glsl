@@ -4,9 +4,15 @@
 // A splat is its center, two tangent vectors and the normal; what its fragments need is handed over: the center, the normal
 // and the tangent vectors over their squared lengths. The point's size is the larger radius as it appears at the center's
 // depth; splats end where that does.
+//
+// VISIBILITY: moved along the ray by epsilon. ACCUMULATE: the point is as large as the low-pass filter at least; the normal looks to the
+// eye, for shading.
+// Permutations: visibility accumulate
+#version 460
+#include "inc/config.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer Shapes { vec4 shapes[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Colors { uvec2 colors[]; };
+layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Shapes { vec4 shapes[]; };
+layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
 
 struct BotschConstants {
     vec4 view_from_local_x; // row of the rotation, then the translation, local unit
@@ -22,8 +28,15 @@ struct BotschConstants {
 };
 layout(push_constant, std430) uniform Push { BotschConstants push; };
 
-#define VARYING out
-#include "inc/botsch_varyings.glsl"
+layout(location = 0) flat out vec3 center; // view space
+layout(location = 1) flat out vec3 plane;  // n / (n . p)
+layout(location = 2) flat out vec3 u_axis; // s / s.s
+layout(location = 3) flat out vec3 v_axis; // t / t.t
+#if defined(ACCUMULATE)
+layout(location = 4) flat out vec2 center_px; // in radii of the low-pass filter
+layout(location = 5) flat out vec3 normal;
+layout(location = 6) flat out vec3 color;
+#endif
 
 vec3 view_center()
 {
@@ -61,4 +74,21 @@ vec3 set_up(vec3 p, out float size_px)
         dot(push.clip_from_view_z, position),
         dot(push.clip_from_view_w, position));
     return n;
+}
+
+void main()
+{
+    vec3 p = view_center();
+#if defined(ACCUMULATE)
+    float size_px;
+    vec3 n = set_up(p, size_px);
+    gl_PointSize = max(size_px, push.least_size_px);
+    center_px = p.xy / p.z * push.size_px;
+    normal = dot(n, p) > 0.0 ? -n : n;
+    uvec2 packed = colors[gl_VertexIndex];
+    color = vec3(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y).x);
+#else
+    p += push.epsilon * inversesqrt(dot(p, p)) * p;
+    set_up(p, gl_PointSize);
+#endif
 }

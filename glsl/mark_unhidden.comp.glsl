@@ -1,26 +1,23 @@
-// Of the kept splats, marks those that may belong to the visible surface: the second pass of Guennebaud, Barthe, Paulin,
+// Of the visible splats, marks those that may belong to the visible surface: the second pass of Guennebaud, Barthe, Paulin,
 // "Deferred Splatting", Eurographics 2004, with a hierarchy of the visible depth in place of each splat's pixel. A splat is hidden
 // where its nearest point is behind the farthest visible depth of all cells that its box touches. That is what accumulation's depth
 // test does to each fragment, so that the picture is the same to the bit. (A bound of f32 for what f32 has digits for: of an unfiltered
 // splat seen nearly edge-on, (u, v) are noise, and so is the depth of its few fragments.)
 //
-// Kept in any case: what is not regular, what is not found to hold a pixel's center here (a vertex stage may round it otherwise), and boxes of more
-// than MOST_CELLS blocks along a side. The box is taken a pixel larger, for the same rounding. One invocation a word of bits.
+// Marked in any case: what is not regular, what is not found to hold a pixel's center here (a vertex stage may round it otherwise), and boxes of more
+// than MOST_CELLS blocks along a side. The box is taken a pixel larger, for the same rounding.
 #version 460
 #include "inc/setup.glsl"
 #include "inc/depth_bound.glsl"
-#include "inc/groups.glsl"
-#include "inc/kept.glsl"
-#define KEPT_BLOCKS 4
-#include "inc/kept_blocks.glsl"
+#include "inc/list.glsl"
 #include "inc/depth_cells.glsl"
 
 #define MOST_CELLS 5
 
-layout(local_size_x = 64) in;
-layout(set = 1, binding = 0, std430) readonly buffer KeptBits { uint kept_bits[]; };
-layout(set = 1, binding = 1, std430) writeonly buffer SeenBits { uint seen_bits[]; };
-layout(set = 1, binding = 2, std430) readonly buffer DepthCells { float depth_cells[]; };
+layout(local_size_x = LIST_GROUP_SIZE) in;
+layout(set = 1, binding = BIND_LIST_BITS, std430) readonly buffer Bits { uint visible_bits[]; };
+layout(set = 1, binding = BIND_LIST_UNHIDDEN_BITS, std430) writeonly buffer UnhiddenBits { uint unhidden_bits[]; };
+layout(set = 1, binding = BIND_LIST_CELLS, std430) readonly buffer DepthCells { float depth_cells[]; };
 
 bool is_hidden(uint index)
 {
@@ -33,11 +30,11 @@ bool is_hidden(uint index)
         return false;
     }
     ivec2 size = ivec2(frame.size_px);
-    ivec2 first = max(px.first - 1, ivec2(0)) / SIDE;
-    ivec2 last = min(px.last + 1, size - 1) / SIDE;
+    ivec2 first = max(px.first - 1, ivec2(0)) / DEPTH_CELLS_SIDE;
+    ivec2 last = min(px.last + 1, size - 1) / DEPTH_CELLS_SIDE;
     bool by_blocks = any(greaterThanEqual(last - first, ivec2(MOST_CELLS)));
-    first = by_blocks ? first / SIDE : first;
-    last = by_blocks ? last / SIDE : last;
+    first = by_blocks ? first / DEPTH_CELLS_SIDE : first;
+    last = by_blocks ? last / DEPTH_CELLS_SIDE : last;
     if (any(greaterThanEqual(last - first, ivec2(MOST_CELLS)))) {
         return false;
     }
@@ -54,15 +51,15 @@ bool is_hidden(uint index)
 
 void main()
 {
-    uint word = GROUP_NUMBER * 64 + gl_LocalInvocationID.x;
+    uint word = LIST_INVOCATION;
     if (word >= words_of_chunk()) {
         return;
     }
     uint place = first_word_of_chunk() + word;
-    uint seen = kept_bits[place];
-    for (uint bits = seen; bits != 0; bits &= bits - 1) {
+    uint unhidden = visible_bits[place];
+    for (uint bits = unhidden; bits != 0; bits &= bits - 1) {
         uint i = findLSB(bits);
-        seen &= is_hidden(first_splat_of(word) + i) ? ~(1u << i) : 0xffffffffu;
+        unhidden &= is_hidden(first_splat_of(word) + i) ? ~(1u << i) : 0xffffffffu;
     }
-    seen_bits[place] = seen;
+    unhidden_bits[place] = unhidden;
 }

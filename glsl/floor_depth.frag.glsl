@@ -1,6 +1,0 @@
-// For the floor benchmark: depth alone.
-#version 460
-
-void main()
-{
-}
