@@ -13,7 +13,7 @@ use crate::{
     frame::{FrameSlot, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
-        execute::{Body, FrameProfile, PassProfile, Physical, Profile, VisibleList},
+        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
     },
     passes::{self, Needs},
     report::ThroughputProbe,
@@ -245,7 +245,7 @@ fn copy_buffers(headless: &Headless) -> Result<[Buffer; 2]> {
     limit_passes::limit_fill(&mut graph, &mut from);
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
-        unsafe { VisibleList::default().execute(device, commands, graph, &imports, None) }.map(drop)
+        unsafe { Kept::default().execute(device, commands, graph, &imports, None) }.map(drop)
     })?;
     Ok(buffers)
 }
