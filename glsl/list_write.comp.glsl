@@ -9,8 +9,8 @@ layout(set = 1, binding = BIND_LIST_BITS, std430) readonly buffer Bits { uint ma
 layout(set = 1, binding = BIND_LIST_STARTS, std430) readonly buffer Starts { uint starts[]; };
 layout(set = 1, binding = BIND_LIST_ITEMS, std430) writeonly buffer Items { uint items[]; };
 // VkDrawIndexedIndirectCommand: the list is the index buffer. VkDispatchIndirectCommand of workgroups of PROJECT_GROUP_SIZE. Of large
-// ones VkDrawIndirectCommand.
-layout(set = 1, binding = BIND_LIST_ARGUMENTS, std430) writeonly buffer Arguments { uvec4 list_arguments[2]; };
+// ones VkDrawIndirectCommand. Eight words a chunk.
+layout(set = 1, binding = BIND_LIST_ARGUMENTS, std430) writeonly buffer Arguments { uvec4 list_arguments[]; };
 
 void main()
 {
@@ -30,7 +30,7 @@ void main()
         uint start = starts[first];
         uint count = starts[first + words] - start;
         uvec2 groups = rows_of_groups((count + PROJECT_GROUP_SIZE - 1) / PROJECT_GROUP_SIZE);
-        list_arguments[0] = LARGE_LIST ? uvec4(4, count, 0, 0) : uvec4(count, 1, start, 0);
-        list_arguments[1] = LARGE_LIST ? uvec4(0) : uvec4(0, groups, 1);
+        list_arguments[2 * CHUNK] = LARGE_LIST ? uvec4(4, count, 0, 0) : uvec4(count, 1, start, 0);
+        list_arguments[2 * CHUNK + 1] = LARGE_LIST ? uvec4(0) : uvec4(0, groups, 1);
     }
 }

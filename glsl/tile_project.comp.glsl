@@ -11,7 +11,6 @@
 layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
 layout(constant_id = SPEC_MAY_BE_LARGE) const bool MAY_BE_LARGE = false;
-layout(constant_id = SPEC_CHUNK) const uint CHUNK = 0;
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // of inc/list.glsl, records of which lie one behind the other
 
 layout(local_size_x = PROJECT_GROUP_SIZE) in;
@@ -42,7 +41,7 @@ bool find_splat(out uint index, out uint place)
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
 uint rect_of(Mapping m, ImageMap map)
 {
-    const uint large = MAY_BE_LARGE ? RECT_CHUNK + CHUNK : RECT_NONE;
+    uint large = MAY_BE_LARGE ? RECT_CHUNK + CHUNK : RECT_NONE;
     if (!m.regular) {
         return large;
     }
@@ -97,11 +96,11 @@ void main()
     float share = share_of(m);
     vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
     uvec2 color;
-    if (PACKED && frame.uniform_color == 0) {
+    if (PACKED && !UNIFORM_COLOR) {
         vec4 rgba = load_packed_color(index);
         color = uvec2(packUnorm2x16(rgba.rg), packUnorm2x16(rgba.ba));
     } else {
-        color = colors[frame.uniform_color != 0 ? 0 : index];
+        color = colors[UNIFORM_COLOR ? 0 : index];
     }
     records0[place] = vec4(map.x0_px, w0, m.inverse_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);

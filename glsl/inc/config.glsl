@@ -117,7 +117,6 @@
 
 // Specialization constants of tiles.
 #define SPEC_MAY_BE_LARGE 16    // Constant: some splats are left to the graphics pipeline.
-#define SPEC_CHUNK 17           // Constant: the number of the chunk that is projected, where some are.
 #define SPEC_SHIFTED_FOR_ALL 18 // Constant: beside polygons, all splats pass that the polygons' own test lets pass.
 #define SPEC_PART_LENGTH 19     // Constant: entries of a tile that one dispatch takes; tiles with more are overflow tiles.
 #define SPEC_STACKED 20         // Constant: the last layer counts as several surfaces.

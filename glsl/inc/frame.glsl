@@ -18,7 +18,7 @@ struct FrameConstants {
     float point_cap_px;     // the largest point of the device
     float point_step_px;    // the step of point sizes
     uint splat_count;       // of this chunk
-    uint uniform_color;     // 1: all splats of this chunk have color 0
+    uint chunk_color;       // twice the chunk's number in the frame's part; plus 1 where all its splats have color 0
     float view_from_local_scale; // what local lengths are multiplied by: a power of two
     float origin_from_eye[6]; // local origin seen from the eye, local axes, view unit: x, y, z in f32; what f32 left of each
     uint first_record;      // the number of the chunk's first splat among all of the frame's part (kept.glsl: that are looked at)
@@ -26,3 +26,6 @@ struct FrameConstants {
 };
 
 layout(push_constant, std430) uniform Frame { FrameConstants frame; };
+
+#define CHUNK (frame.chunk_color >> 1)
+#define UNIFORM_COLOR ((frame.chunk_color & 1) != 0)

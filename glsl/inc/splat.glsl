@@ -133,19 +133,19 @@ vec4 load_packed_color(uint index)
 // Linear albedo of a splat.
 vec3 load_color(uint index)
 {
-    if (PACKED && frame.uniform_color == 0) {
+    if (PACKED && !UNIFORM_COLOR) {
         return FORMULA(FORMULA_COLOR, load_packed_color(index).rgb);
     }
-    uvec2 packed = colors[frame.uniform_color != 0 ? 0 : index];
+    uvec2 packed = colors[UNIFORM_COLOR ? 0 : index];
     return FORMULA(FORMULA_COLOR, vec3(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y).x));
 }
 
 // Its alpha.
 float load_alpha(uint index)
 {
-    if (PACKED && frame.uniform_color == 0) {
+    if (PACKED && !UNIFORM_COLOR) {
         return FORMULA(FORMULA_ALPHA, load_packed_color(index).a);
     }
-    uvec2 packed = colors[frame.uniform_color != 0 ? 0 : index];
+    uvec2 packed = colors[UNIFORM_COLOR ? 0 : index];
     return FORMULA(FORMULA_ALPHA, unpackUnorm2x16(packed.y).y);
 }

@@ -44,6 +44,7 @@ pub(super) struct Resource {
 #[derive(Debug)]
 pub(super) struct Pass {
     pub(super) name: String,
+    pub(super) why: &'static str,
     pub(super) uses: Vec<Use>,
     pub(super) side_effect: bool,
     /// The name of the first handle that is another graph's.
@@ -141,7 +142,8 @@ impl<Body> Graph<Body> {
 
     /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
     pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
-        let pass = Pass { name: name.to_owned(), uses: Vec::new(), side_effect: false, foreign: None };
+        let pass =
+            Pass { name: name.to_owned(), why: "", uses: Vec::new(), side_effect: false, foreign: None };
         PassBuilder { graph: self, pass }
     }
 }
@@ -181,6 +183,17 @@ impl<Body> PassBuilder<'_, Body> {
         self.declare(handle, access, Some(start));
         handle.version += 1;
         self
+    }
+
+    /// Says why the frame has the pass, for whoever explains it.
+    pub fn why(mut self, why: &'static str) -> Self {
+        self.pass.why = why;
+        self
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.pass.name
     }
 
     /// Keeps the pass even if nobody reads what it writes.

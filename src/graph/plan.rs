@@ -50,6 +50,8 @@ pub struct PlannedResource {
 pub struct PlannedPass {
     /// Its name: debug label and key of its time.
     pub name: String,
+    /// Why the frame has it; empty where it did not say.
+    pub why: &'static str,
     /// Its place among the declared passes.
     pub declared: usize,
     /// What it records.

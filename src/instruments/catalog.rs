@@ -1,27 +1,25 @@
-//! Every pipeline that a frame would be drawn with, without a scene: the passes' own recipes, for whoever counts them or
-//! compiles them ahead.
+//! Every pipeline that a frame would be drawn with, without a device: the frame of a small scene is declared, and its passes list them.
 
-pub(crate) mod layers;
-pub(crate) mod opaque;
+use std::{cell::RefCell, collections::HashSet};
 
 use ash::vk;
+use glam::{DVec3, Vec3};
 
-use crate::instruments::{floor_passes as floor, paper_passes as paper};
-use crate::passes::{
-    pipeline::{
-        cache::GraphicsKey,
-        recipe::{Key, PipelineRecipe, compute, graphics},
-        splat_shaders::Primitive,
-        variant::{Constants, splat_constants},
-    },
-    polygons::draw as polygons,
-    resolve::{export, finalize},
-    splats::draw::{Portion, SplatPass},
+use crate::instruments::{
+    floor_passes::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points},
+    paper_passes::paper_frame,
 };
+use crate::passes::{self, FramePlan, Inputs, PipelineRecipe, Source, pipeline::recipe::Key};
 use crate::{
     error::Result,
-    scene::{Rasterizer, Settings, Transition},
+    graph::{BufferDesc, Graph, Handle, Image, execute::Body},
+    prepare::prepare_without_device,
+    scene::{
+        Camera, Colors, Light, LightKind, Mesh, MeshColors, MeshObject, Object, Scene, Settings, Shapes,
+        Splats, Storage,
+    },
     shaders,
+    vk::Limits,
 };
 
 /// What scene and caller decide about a frame's pipelines.
@@ -61,114 +59,111 @@ impl Default for Traits {
     }
 }
 
-impl Traits {
-    /// How many lights of its own a scene has that has some.
-    fn lights(self) -> u32 {
-        if self.lit { 2 } else { 0 }
-    }
-
-    /// More than opaque things of which splats fit into tiles, so that these are not shaded at once.
-    fn leaves_sums(self, settings: &Settings) -> bool {
-        let of_both = self.polygons && settings.transition == Transition::Attributes;
-        of_both || self.transparent || self.may_be_large || self.export
-    }
-}
-
 /// The pipelines of the papers' own programs: perspective splatting as Guennebaud et al. 2006 publish it, and the ray
 /// casting of Botsch et al. 2005, with which they compare it.
-pub fn papers_pipelines() -> Vec<PipelineRecipe> {
-    let [visibility, accumulate] = paper::keys(&Settings::default(), false);
-    let rays = |vertex, fragment| Key::Counted((vertex, fragment));
-    [
-        ("paper visibility", Key::Graphics(visibility)),
-        ("paper accumulate", Key::Graphics(accumulate)),
-        ("botsch visibility", rays(&shaders::BOTSCH_VISIBILITY_VERT, &shaders::BOTSCH_VISIBILITY_FRAG)),
-        ("botsch accumulate", rays(&shaders::BOTSCH_ACCUMULATE_VERT, &shaders::BOTSCH_ACCUMULATE_FRAG)),
-    ]
-    .map(|(pass, key)| PipelineRecipe { pass, draws: "points", key })
-    .to_vec()
+///
+/// # Errors
+/// None today.
+pub fn papers_pipelines() -> Result<Vec<PipelineRecipe>> {
+    let mut all = listed(&Settings::default(), Traits::default(), |graph, inputs, _, target| {
+        paper_frame(graph, inputs, target, TARGET, false)
+    })?;
+    all.retain(|recipe| recipe.pass.starts_with("paper"));
+    let botsch = [
+        ("botsch visibility", (&shaders::BOTSCH_VISIBILITY_VERT, &shaders::BOTSCH_VISIBILITY_FRAG)),
+        ("botsch accumulate", (&shaders::BOTSCH_ACCUMULATE_VERT, &shaders::BOTSCH_ACCUMULATE_FRAG)),
+    ];
+    all.extend(
+        botsch.map(|(pass, stages)| PipelineRecipe { pass: pass.to_owned(), key: Key::Counted(stages) }),
+    );
+    Ok(all)
 }
 
-/// The pipelines of a frame, pass by pass.
+/// The format of the target.
+const TARGET: vk::Format = vk::Format::R8G8B8A8_SRGB;
+
+/// The pipelines of a frame, each with the first pass that has it, in the frame's order.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] for settings that have no picture.
 pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
     settings.validate()?;
-    let target = vk::Format::R8G8B8A8_SRGB;
-    let variant = splat_constants(settings, traits.ellipses, traits.closed);
-    let mut all = Vec::new();
-    let by_tiles = settings.rasterizer == Rasterizer::Compute;
-    let has_list = traits.may_be_large && !by_tiles && Primitive::of(settings.rasterizer) != Primitive::Quad;
-    if by_tiles {
-        all.extend(opaque::by_tiles(settings, traits, &variant)?);
-    } else {
-        all.extend(opaque::drawn(settings, traits, &variant, has_list)?);
-    }
-    if traits.polygons {
-        let drawn = match by_tiles && !traits.leaves_sums(settings) {
-            true => polygons::shaded_mesh_pass(settings, settings.accumulate, traits.lights()),
-            false => polygons::mesh_pass(settings),
-        };
-        all.push(graphics("polygons", "triangles", drawn.key(traits.closed, false)));
-    }
-    if traits.transparent {
-        let tiles = by_tiles && !traits.polygons && !traits.may_be_large;
-        all.extend(if tiles {
-            layers::by_tiles(settings, traits)?
-        } else {
-            layers::drawn(settings, traits)?
-        });
-    }
-    let shown = finalize::Traits {
-        splats: true,
-        polygons: traits.polygons,
-        layered: traits.transparent,
-        lights: traits.lights(),
-    };
-    let at_once = by_tiles && !traits.leaves_sums(settings);
-    if !at_once {
-        all.extend(finalize::key(settings, target, shown).map(|key| graphics("finalize", "", key)));
-    }
-    if at_once && traits.polygons {
-        all.push(graphics("finalize", "", finalize::polygon_resolve_key(target)));
-    }
-    if at_once {
-        let draws = if traits.polygons { "tiles beside polygons" } else { "tiles" };
-        all.push(graphics("finalize", draws, finalize::tile_resolve_key(target, traits.polygons)));
-    }
-    if traits.export {
-        all.push(graphics("export", "", export::key()));
-    }
+    let mut all = listed(settings, traits, |graph, inputs, plan, target| {
+        passes::frame(graph, inputs, plan, target, TARGET, traits.export).map(drop)
+    })?;
     if traits.floor {
-        let [depth, add, fill] = floor::keys(settings, target);
-        all.push(compute("floor points", floor::points_key(&variant)));
-        all.push(graphics("floor depth", "points", depth));
-        all.push(graphics("floor add", "points", add));
-        all.push(graphics("floor fill", "", fill));
+        all.extend(listed(settings, traits, |graph, inputs, plan, target| {
+            let mut points = graph.create_buffer("floor points", BufferDesc::of_bytes(FLOOR_POINT_BYTES));
+            for draw in &plan.opaque.splats {
+                floor_points(graph, inputs, draw, 0, &mut points)?;
+            }
+            let points = [FloorPoints { buffer: &points, count: 1 }];
+            floor_frame(graph, inputs, &points, target, TARGET)
+        })?);
     }
+    let mut seen = HashSet::new();
+    all.retain(|recipe| seen.insert(recipe.clone()));
     Ok(all)
 }
-
-/// The pipelines of a splat pass, each with what it draws.
-fn splat_keys(
-    pass: &SplatPass,
+/// The pipelines of the passes that `declare` adds to the frame of a scene with these traits.
+fn listed(
     settings: &Settings,
-    variant: &Constants,
-    has_list: bool,
-) -> Vec<(&'static str, GraphicsKey)> {
-    let own = Primitive::of(settings.rasterizer);
-    let (all, small) = match own {
-        Primitive::Point => ("points", "small points"),
-        Primitive::Quad => ("quads", "quads"),
-        Primitive::Triangle => ("triangles", "small triangles"),
+    traits: Traits,
+    declare: impl for<'a> FnOnce(
+        &mut Graph<Body<'a>>,
+        Inputs<'a>,
+        &'a FramePlan<'a>,
+        &mut Handle<Image>,
+    ) -> Result<()>,
+) -> Result<Vec<PipelineRecipe>> {
+    // A CPU's, whose tiles are drawn by columns unless asked otherwise.
+    let limits = Limits { is_cpu: true, shuffles: true, max_texels: 1 << 27, ..Limits::promised() };
+    let (scene, eye) = (scene_of(traits), DVec3::new(0.0, 0.0, 10.0));
+    let camera =
+        Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: Camera::DEFAULT_FOV_Y_RAD, near: None };
+    let prepared = prepare_without_device(&limits, &scene)?;
+    let plan = FramePlan::new(&prepared, &camera, settings, &limits);
+    let list = RefCell::default();
+    {
+        let mut graph = Graph::new();
+        let inputs = Inputs::new(&camera, settings, Source::List(&list));
+        let mut target = graph.create_image("target", inputs.image(TARGET));
+        declare(&mut graph, inputs, &plan, &mut target)?;
+    }
+    Ok(list.into_inner())
+}
+
+/// A splat, and what else there is, in front of the eye.
+fn scene_of(traits: Traits) -> Scene {
+    let object = |alpha: f32| {
+        // So large that it reaches behind the eye, or a hundredth of the view.
+        let radius = if traits.may_be_large { 100.0 } else { 0.1 };
+        let shapes = match traits.ellipses {
+            true => Shapes::Ellipses { s: vec![radius * Vec3::X], t: vec![0.5 * radius * Vec3::Y] },
+            false => Shapes::Disks { normals: vec![Vec3::Z], radii: vec![radius] },
+        };
+        let colors = Colors::Uniform([0.5, 0.5, 0.5, alpha]);
+        let splats = Splats { positions: vec![DVec3::ZERO], shapes, colors };
+        Object { name: String::new(), splats, closed: traits.closed }
     };
-    match has_list {
-        false => vec![(all, pass.key(Portion::All, variant))],
-        true => vec![
-            (small, pass.key(Portion::Small, variant)),
-            ("listed quads", pass.key(Portion::Large, variant)),
-        ],
+    let mesh = |alpha: f32| MeshObject {
+        name: String::new(),
+        mesh: Mesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            normals: Some(vec![Vec3::Z; 3]),
+            colors: MeshColors::Uniform([0.5, 0.5, 0.5, alpha]),
+            triangles: vec![[0, 1, 2]],
+        },
+        closed: traits.closed,
+    };
+    let alphas: &[f32] = if traits.transparent { &[1.0, 0.5] } else { &[1.0] };
+    let polygons: &[f32] = if traits.polygons { alphas } else { &[] };
+    let light = Light { kind: LightKind::Eye, ..Light::DEFAULT };
+    Scene {
+        objects: alphas.iter().map(|alpha| object(*alpha)).collect(),
+        meshes: polygons.iter().map(|alpha| mesh(*alpha)).collect(),
+        lights: if traits.lit { vec![light; 2] } else { Vec::new() },
+        storage: Storage::default(),
     }
 }
 
@@ -181,7 +176,7 @@ mod tests {
     fn a_frame_has_the_pipelines_of_its_passes() {
         let of = |settings: &Settings, traits| -> Vec<String> {
             let all = frame_pipelines(settings, traits).unwrap();
-            all.iter().map(|recipe| format!("{} {}", recipe.pass, recipe.draws)).collect()
+            all.iter().map(|recipe| format!("{} {}", recipe.pass, recipe.draws())).collect()
         };
         let settings = Settings::default();
         assert_eq!(of(&settings, Traits::default()), ["visibility points", "accumulate points", "finalize "]);

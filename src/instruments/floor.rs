@@ -11,7 +11,7 @@ use crate::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
         execute::{FrameProfile, Physical, Profile},
     },
-    passes::{self, Inputs, Needs},
+    passes::{self, Inputs, Needs, Source},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, Staging},
@@ -122,9 +122,8 @@ impl<'a> Floor<'a> {
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, profile) }?;
         let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
-        let shaders = &headless.renderer.shaders;
-        let inputs =
-            Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, shaders, descriptors) };
+        let source = Source::Device(&headless.renderer.shaders, descriptors);
+        let inputs = Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, source) };
         let mut graph = Graph::new();
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut imports = Vec::new();

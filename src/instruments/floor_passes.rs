@@ -10,7 +10,9 @@ use ash::vk;
 
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
+    cull::dispatch::dispatch,
     inputs::Inputs,
+    pass::{Pass, Place, lists},
     pipeline::{
         cache::{ComputeKey, GraphicsKey, Layout},
         variant::Constants,
@@ -25,6 +27,9 @@ use crate::{
     vk::Blend,
 };
 
+/// Why there are its passes.
+const WHY: &str = "bench floor: the same pixels with nothing computed";
+
 /// Bytes of a point: its place in clip space, its reversed depth, its size in pixels; four floats.
 pub const FLOOR_POINT_BYTES: u64 = 16;
 
@@ -32,12 +37,12 @@ pub const FLOOR_POINT_BYTES: u64 = 16;
 const GROUP: u32 = 256;
 
 /// What the pipeline is that precomputes the points.
-pub(crate) fn points_key(variant: &Constants) -> ComputeKey {
+fn points_key(variant: &Constants) -> ComputeKey {
     ComputeKey { shader: &shaders::FLOOR_POINTS_COMP, layout: Layout::List, constants: variant.clone() }
 }
 
 /// What the pipelines of the three passes are, in their order.
-pub(crate) fn keys(settings: &Settings, target_format: vk::Format) -> [GraphicsKey; 3] {
+fn keys(settings: &Settings, target_format: vk::Format) -> [GraphicsKey; 3] {
     let key = |fragment| {
         let stages = (&shaders::FLOOR_POINTS_VERT, fragment);
         GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, Vec::new())
@@ -77,27 +82,17 @@ pub fn floor_points<'a>(
     number: usize,
     points: &mut Handle<Buffer>,
 ) -> Result<()> {
-    let layout = &inputs.shaders.list_layout;
-    let pipeline = inputs.shaders.compute(points_key(&draw.variant))?;
-    let id = points.id();
-    graph
-        .pass(&format!("floor points {number}"))
-        .write(points, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| {
-            let given = [(BIND_LIST_POINTS, context.descriptor(id)?)];
-            let sets = [draw.chunk.set(), inputs.descriptors.set(&inputs.shaders.list_set, &given)?];
-            let (device, commands) = (context.device(), context.commands());
-            let bind_point = vk::PipelineBindPoint::COMPUTE;
-            // SAFETY: pipeline, sets and push constants have one layout.
-            unsafe {
-                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-                let constants = bytemuck::bytes_of(&draw.constants);
-                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-                device.cmd_dispatch(commands, draw.chunk.count.div_ceil(GROUP), 1, 1);
-            }
-            Ok(())
-        }));
+    let pass = Pass::new(graph, inputs.source, &format!("floor points {number}"), WHY).write(
+        lists(BIND_LIST_POINTS),
+        points,
+        Access::StorageWriteCompute,
+        Start::Discard,
+    );
+    let pipeline = pass.compute(points_key(&draw.variant))?;
+    pass.finish(move |pass| {
+        let groups = [draw.chunk.count.div_ceil(GROUP), 1];
+        dispatch(pass, draw, &draw.constants, pipeline, pass.set(Place::Lists(0))?, groups)
+    });
     Ok(())
 }
 
@@ -118,61 +113,46 @@ pub fn floor_frame<'a>(
     let mut color = graph.create_image("floor color sums", inputs.image(sums));
     let mut normal = graph.create_image("floor normal sums", inputs.image(sums));
 
-    let body = draw_points(inputs, depth_key, points)?;
-    let pass = graph.pass("floor depth").write(
-        &mut depth,
-        Access::DepthAttachment,
-        Start::Clear(ClearValue::Depth(0.0)),
-    );
-    points.iter().fold(pass, |pass, chunk| pass.read(chunk.buffer, Access::StorageReadVertex)).finish(body);
+    let far = Start::Clear(ClearValue::Depth(0.0));
+    let pass = Pass::new(graph, inputs.source, "floor depth", WHY);
+    draw_points(pass.attach(&mut depth, Access::DepthAttachment, far), depth_key, points)?;
 
-    let body = draw_points(inputs, add_key, points)?;
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    let pass = graph
-        .pass("floor add")
-        .write(&mut color, Access::ColorAttachment, zero)
-        .write(&mut normal, Access::ColorAttachment, zero)
-        .read(&depth, Access::DepthTest);
-    points.iter().fold(pass, |pass, chunk| pass.read(chunk.buffer, Access::StorageReadVertex)).finish(body);
+    let pass = Pass::new(graph, inputs.source, "floor add", WHY)
+        .attach(&mut color, Access::ColorAttachment, zero)
+        .attach(&mut normal, Access::ColorAttachment, zero)
+        .uses(&depth, Access::DepthTest);
+    draw_points(pass, add_key, points)?;
 
-    let pipeline = inputs.shaders.graphics(fill_key)?;
-    graph
-        .pass("floor fill")
-        // Reads the sums, though the shader doesn't: so that nothing is culled and they are stored.
-        .read(&color, Access::SampledFragment)
-        .read(&normal, Access::SampledFragment)
-        .write(target, Access::ColorAttachment, Start::Discard)
-        .finish(Box::new(move |context| {
-            let (device, commands) = (context.device(), context.commands());
-            // SAFETY: inside of rendering; the shaders use neither sets nor push constants.
-            unsafe {
-                device.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline.raw());
-                device.cmd_draw(commands, 3, 1, 0, 0);
-            }
-            Ok(())
-        }));
+    // Reads the sums, though the shader doesn't: so that nothing is culled and they are stored.
+    let pass = Pass::new(graph, inputs.source, "floor fill", WHY)
+        .uses(&color, Access::SampledFragment)
+        .uses(&normal, Access::SampledFragment)
+        .attach(target, Access::ColorAttachment, Start::Discard);
+    let pipeline = pass.graphics(fill_key)?;
+    pass.finish(move |pass| {
+        pass.bind(pipeline);
+        pass.draw([3, 1]);
+        Ok(())
+    });
     Ok(())
 }
 
-/// The body that draws the points.
-fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, points: &[FloorPoints<'_>]) -> Result<Body<'a>> {
-    let layout = &inputs.shaders.splat_layout;
-    let pipeline = inputs.shaders.graphics(key)?;
-    let chunks: Vec<_> = points.iter().map(|chunk| (chunk.buffer.id(), chunk.count)).collect();
-    Ok(Box::new(move |context| {
-        let (device, commands) = (context.device(), context.commands());
-        let bind_point = vk::PipelineBindPoint::GRAPHICS;
-        // SAFETY: inside of rendering.
-        unsafe { device.cmd_bind_pipeline(commands, bind_point, pipeline.raw()) };
-        for &(id, count) in &chunks {
-            let given = [(BIND_LIST_POINTS, context.descriptor(id)?)];
-            let set = inputs.descriptors.set(&inputs.shaders.list_set, &given)?;
-            // SAFETY: inside of rendering; pipeline and set have one layout.
-            unsafe {
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 1, &[set], &[]);
-                device.cmd_draw(commands, count, 1, 0, 0);
-            }
+/// Declares the pass that draws the points.
+fn draw_points(mut pass: Pass<'_, '_>, key: GraphicsKey, points: &[FloorPoints<'_>]) -> Result<()> {
+    for (chunk, points) in (0..).zip(points) {
+        let at = Place::Lists(chunk).at(BIND_LIST_POINTS);
+        pass = pass.read(at, points.buffer, Access::StorageReadVertex);
+    }
+    let pipeline = pass.graphics(key)?;
+    let counts: Vec<_> = points.iter().map(|chunk| chunk.count).collect();
+    pass.finish(move |pass| {
+        pass.bind(pipeline);
+        for (chunk, count) in (0..).zip(counts) {
+            pass.bind_sets(pipeline.layout, 1, &[pass.set(Place::Lists(chunk))?])?;
+            pass.draw([count, 1]);
         }
         Ok(())
-    }))
+    });
+    Ok(())
 }

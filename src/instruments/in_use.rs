@@ -10,7 +10,7 @@ use crate::{
     error::Result,
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
-    passes::{self, Inputs},
+    passes::{self, Inputs, Source},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
@@ -35,7 +35,8 @@ impl Headless {
         // SAFETY: nothing was recorded in it.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
-        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &renderer.shaders, descriptors) };
+        let source = Source::Device(&renderer.shaders, descriptors);
+        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, source) };
         let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
@@ -50,7 +51,14 @@ impl Headless {
             let desc = GraphBufferDesc::of_bytes(size);
             let mut to = graph.import_buffer(&copy, desc, BufferState::default(), Some(host));
             imports.push((to.id(), Physical::Buffer(buffer.raw())));
-            passes::readback_buffer(&mut graph, &format!("read back {name}"), &content, &mut to, size);
+            passes::readback_buffer(
+                &mut graph,
+                source,
+                &format!("read back {name}"),
+                &content,
+                &mut to,
+                size,
+            );
             buffers.push((name, buffer));
         }
         let mut names = Vec::new();

@@ -15,7 +15,7 @@ use crate::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
         execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
     },
-    passes::{self, Needs},
+    passes::{self, Needs, Source},
     report::ThroughputProbe,
     scene::{Accumulate, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
@@ -198,8 +198,8 @@ impl Probe {
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, Some(profile)) }?;
         let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
-        let shaders = &headless.renderer.shaders;
-        let inputs = LimitInputs { settings, shaders, descriptors, repeats: self.repeats };
+        let source = Source::Device(&headless.renderer.shaders, descriptors);
+        let inputs = LimitInputs { settings, source, repeats: self.repeats };
         let mut graph = Graph::new();
         let (mut handles, mut imports) = (Vec::new(), Vec::new());
         for (number, buffer) in self.buffers.iter().enumerate() {
@@ -211,6 +211,7 @@ impl Probe {
             (ThroughputProbe::Bytes, [from, to]) => {
                 passes::readback_buffer(
                     &mut graph,
+                    inputs.source,
                     ThroughputProbe::Bytes.name(),
                     from,
                     to,

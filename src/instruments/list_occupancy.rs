@@ -8,7 +8,7 @@ use crate::passes::{
         FramePlan,
         tiles::{RECORD_BYTES, SPAN_CHUNK, TilePlan},
     },
-    tiles::RECORD_QUARTERS,
+    tiles::lists::RECORD_QUARTERS,
 };
 use crate::shaders::config::*;
 

@@ -12,7 +12,6 @@ mod limits;
 mod list_occupancy;
 mod paper;
 mod paper_passes;
-mod tile_recipes;
 
 pub use catalog::{Traits, frame_pipelines, papers_pipelines};
 pub use floor::Floor;

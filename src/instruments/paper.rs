@@ -8,7 +8,7 @@ use crate::{
     error::{Error, Result},
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{Graph, ImageDesc, execute::Physical},
-    passes::{self, Inputs, Needs},
+    passes::{self, Inputs, Needs, Source},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
@@ -52,7 +52,8 @@ pub fn draw_as_published(
     unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
     let SlotParts { descriptors, execution, .. } = slot.parts()?;
     let shaders = &headless.renderer.shaders;
-    let inputs = Inputs { draws: &draws, ..Inputs::new(camera, settings, shaders, descriptors) };
+    let inputs =
+        Inputs { draws: &draws, ..Inputs::new(camera, settings, Source::Device(shaders, descriptors)) };
     let mut graph = Graph::new();
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };
@@ -63,7 +64,14 @@ pub fn draw_as_published(
         (image.id(), Physical::Image(target.image, target.view)),
         (buffer.id(), Physical::Buffer(pixels.raw())),
     ];
-    passes::readback(&mut graph, "read back target", &image, format, target.extent, &mut buffer);
+    passes::readback(
+        &mut graph,
+        inputs.source,
+        "read back target",
+        &image,
+        (format, target.extent),
+        &mut buffer,
+    );
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
         unsafe {

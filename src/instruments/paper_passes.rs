@@ -6,24 +6,28 @@ use ash::vk;
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
     inputs::Inputs,
+    pass::{Pass, read},
     pipeline::{
         cache::{GraphicsKey, Layout},
         constants::PaperConstants,
     },
     plan::draws::Draw,
     resolve::finalize::{Opaque, finalize},
-    splats::{accumulate::Sums, kernel_texture},
+    splats::{accumulate::Sums, draw::bind_read, kernel_texture},
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::Settings,
     shaders::{self, config::*},
     vk::Blend,
 };
 
+/// Why there are its passes.
+const WHY: &str = "the splat passes as Guennebaud et al. 2006 publish them";
+
 /// What the pipelines of visibility and accumulation are. `filtered`: visibility too.
-pub(crate) fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
+fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
     let points = vk::PrimitiveTopology::POINT_LIST;
     let visibility = (&shaders::PAPER_VISIBILITY_VERT, &shaders::PAPER_VISIBILITY_FRAG);
     let accumulate = (&shaders::PAPER_ACCUMULATE_VERT, &shaders::PAPER_ACCUMULATE_FRAG);
@@ -56,61 +60,43 @@ pub fn paper_frame<'a>(
     let kernel = kernel_texture::kernel_texture(graph, inputs, true)?;
     let [visibility_key, accumulate_key] = keys(inputs.settings, filtered);
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
-    let body = draw_points(inputs, visibility_key, kernel.id())?;
-    graph
-        .pass("paper visibility")
-        .write(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
-        .read(&kernel, Access::SampledFragment)
-        .finish(body);
+    let clear = Start::Clear(ClearValue::Depth(0.0));
+    let pass = Pass::new(graph, inputs.source, "paper visibility", WHY)
+        .attach(&mut depth, Access::DepthAttachment, clear)
+        .read(read(BIND_READ_KERNEL), &kernel, Access::SampledFragment);
+    draw_points(pass, inputs, visibility_key)?;
 
     let format = sum_format(inputs.settings.accumulate);
     let mut sums = Sums {
         color: graph.create_image("color sums", inputs.image(format)),
         normal: graph.create_image("normal sums", inputs.image(format)),
     };
-    let body = draw_points(inputs, accumulate_key, kernel.id())?;
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    graph
-        .pass("paper accumulate")
-        .write(&mut sums.color, Access::ColorAttachment, zero)
-        .write(&mut sums.normal, Access::ColorAttachment, zero)
-        .read(&depth, Access::DepthTest)
-        .read(&kernel, Access::SampledFragment)
-        .finish(body);
+    let pass = Pass::new(graph, inputs.source, "paper accumulate", WHY)
+        .attach(&mut sums.color, Access::ColorAttachment, zero)
+        .attach(&mut sums.normal, Access::ColorAttachment, zero)
+        .uses(&depth, Access::DepthTest)
+        .read(read(BIND_READ_KERNEL), &kernel, Access::SampledFragment);
+    draw_points(pass, inputs, accumulate_key)?;
     let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::default() };
     finalize(graph, inputs, &opaque, None, None, target, target_format)
 }
 
-/// The body that draws all chunks.
-fn draw_points<'a>(inputs: Inputs<'a>, key: GraphicsKey, kernel: ResourceId) -> Result<Body<'a>> {
-    let layout = &inputs.shaders.splat_layout;
-    let pipeline = inputs.shaders.graphics(key)?;
-    Ok(Box::new(move |context| {
-        let texture = context.descriptor(kernel)?;
-        let texture = inputs.descriptors.set(&inputs.shaders.read_set, &[(BIND_READ_KERNEL, texture)])?;
-        let (device, commands) = (context.device(), context.commands());
-        let bind_point = vk::PipelineBindPoint::GRAPHICS;
+/// Declares the pass that draws all chunks.
+fn draw_points<'a>(pass: Pass<'_, 'a>, inputs: Inputs<'a>, key: GraphicsKey) -> Result<()> {
+    let pipeline = pass.graphics(key)?;
+    pass.finish(move |pass| {
+        pass.bind(pipeline);
+        // The shaders use no set 1.
+        bind_read(pass)?;
         for draw in inputs.draws {
-            let constants = paper_constants(draw);
-            // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the shaders use no set 1.
-            unsafe {
-                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_bind_descriptor_sets(
-                    commands,
-                    bind_point,
-                    layout.raw(),
-                    0,
-                    &[draw.chunk.set()],
-                    &[],
-                );
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 2, &[texture], &[]);
-                let bytes = bytemuck::bytes_of(&constants);
-                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, bytes);
-                device.cmd_draw(commands, draw.chunk.count, 1, 0, 0);
-            }
+            pass.bind_sets(pipeline.layout, 0, &[draw.chunk.set()])?;
+            pass.push(pipeline.layout, &paper_constants(draw))?;
+            pass.draw([draw.chunk.count, 1]);
         }
         Ok(())
-    }))
+    });
+    Ok(())
 }
 
 /// In the chunk's own unit, so that lengths need no scale.

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use crate::passes::{
-    pipeline::cache::Shaders,
+    pass::Source,
     plan::{
         SplatMethod, SurfacePlan, bands::Band, block_list::ListedBlocks, draws::Draw, mesh_draws::MeshDraw,
         tiles::TilePlan,
@@ -12,7 +12,7 @@ use crate::passes::{
 use crate::{
     graph::ImageDesc,
     scene::{Camera, Settings},
-    vk::{DescriptorPool, Occlusion},
+    vk::Occlusion,
 };
 
 /// What all passes of a frame are given.
@@ -34,22 +34,15 @@ pub struct Inputs<'a> {
     pub camera: &'a Camera,
     /// How.
     pub settings: &'a Settings,
-    /// Pipelines and their layouts.
-    pub shaders: &'a Shaders,
-    /// Descriptor sets that live as long as the frame; room for [`crate::passes::needs`].
-    pub descriptors: &'a DescriptorPool,
+    /// Where pipelines and sets come from; the pool of sets lives as long as the frame and has room for [`crate::passes::needs`].
+    pub source: Source<'a>,
     /// The queries of [`crate::passes::needs`], where it has any.
     pub occlusion: Option<&'a Occlusion>,
 }
 
 impl<'a> Inputs<'a> {
     /// Those of a frame in which nothing is drawn yet.
-    pub fn new(
-        camera: &'a Camera,
-        settings: &'a Settings,
-        shaders: &'a Shaders,
-        descriptors: &'a DescriptorPool,
-    ) -> Self {
+    pub fn new(camera: &'a Camera, settings: &'a Settings, source: Source<'a>) -> Self {
         let (draws, meshes): (&[Draw<'_>], &[MeshDraw<'_>]) = (&[], &[]);
         Self {
             draws,
@@ -60,8 +53,7 @@ impl<'a> Inputs<'a> {
             lights: 0,
             camera,
             settings,
-            shaders,
-            descriptors,
+            source,
             occlusion: None,
         }
     }

@@ -3,9 +3,12 @@
 pub(crate) mod cull;
 pub(crate) mod inputs;
 pub(crate) mod layers;
+pub(crate) mod pass;
 pub(crate) mod pipeline;
 pub(crate) mod plan;
 pub(crate) mod polygons;
+pub(crate) mod predicate;
+pub(crate) mod recording;
 pub(crate) mod resolve;
 pub(crate) mod splats;
 pub(crate) mod tiles;
@@ -15,6 +18,7 @@ use ash::vk;
 use crate::passes::pipeline::formats::sum_format;
 
 pub use crate::passes::inputs::Inputs;
+pub use crate::passes::pass::Source;
 pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
     FinalizeConstants, FrameConstants, PaperConstants, TileConstants,
@@ -58,7 +62,7 @@ pub fn frame<'a>(
         true => None,
         false => splats::accumulate::kernel_of(graph, inputs)?,
     };
-    let lights = resolve::lights::lights(graph, &plan.lights);
+    let lights = resolve::lights::lights(graph, inputs.source, &plan.lights);
     let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
     let outputs = Outputs { surface: export, layers: !plan.transparent.is_empty(), target_format };
 
@@ -93,11 +97,8 @@ pub fn frame<'a>(
         target,
         target_format,
     )?;
-    match (export, &opaque.splats, &opaque.splat_depth) {
-        (false, ..) => Ok(None),
-        (true, Some(sums), Some(depth)) => resolve::export::export(graph, inputs, sums, depth).map(Some),
-        (true, ..) => Ok(Some(resolve::export::export_nothing(graph, inputs))),
-    }
+    let surface = opaque.splats.as_ref().zip(opaque.splat_depth.as_ref());
+    export.then(|| resolve::export::export(graph, inputs, surface)).transpose()
 }
 
 /// Opaque things by the graphics pipeline: visibility of splats; polygons upon it; accumulation of the splats that neither hides.

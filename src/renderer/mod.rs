@@ -18,7 +18,7 @@ use crate::{
         Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan, ResourceId,
         execute::{Body, Physical, Profile},
     },
-    passes::{self, Exported, FramePlan, Inputs, Shaders},
+    passes::{self, Exported, FramePlan, Inputs, Shaders, Source},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Scene, Settings},
     vk::{Device, Limits, Staging},
@@ -160,7 +160,8 @@ impl Renderer {
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
-        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, &self.shaders, descriptors) };
+        let inputs =
+            Inputs { occlusion, ..Inputs::new(camera, settings, Source::Device(&self.shaders, descriptors)) };
         let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
         // SAFETY: this function's contract.
         unsafe {
@@ -191,14 +192,8 @@ pub(crate) fn declare<'a>(
     let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
         let mut destination = import_readback(graph, what, format, target.extent);
         imports.push((destination.id(), Physical::Buffer(buffer)));
-        passes::readback(
-            graph,
-            &format!("read back {what}"),
-            source,
-            format,
-            target.extent,
-            &mut destination,
-        );
+        let (name, of) = (format!("read back {what}"), (format, target.extent));
+        passes::readback(graph, inputs.source, &name, source, of, &mut destination);
     };
     if let Some(buffer) = readbacks.target {
         copy(&mut graph, "target", &image, target.format, buffer);

@@ -81,10 +81,9 @@ pub struct Limits {
     pub is_cpu: bool,
 }
 
-#[cfg(test)]
 impl Limits {
-    /// Those of a device that has what Vulkan promises and no more, for tests.
-    pub fn for_tests() -> Self {
+    /// Those of a device that has what Vulkan promises and no more, where there is none.
+    pub fn promised() -> Self {
         Self {
             max_storage_buffer_range: 1 << 27,
             max_texels: 1 << 16,
@@ -192,7 +191,7 @@ mod tests {
             pipeline_statistics: true,
             draw_indirect_count: true,
             blend_f32: true,
-            limits: Limits::for_tests(),
+            limits: Limits::promised(),
         }
     }
 

@@ -8,23 +8,24 @@ use ash::vk;
 
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
+    pass::{Pass, Place, Source, lists},
     pipeline::{
-        cache::{ComputeKey, GraphicsKey, Layout, Shaders},
+        cache::{ComputeKey, GraphicsKey, Layout},
         variant::splat_constants,
     },
     plan::invocations::Invocations,
 };
 use crate::{
     error::{ErrorKind, Result},
-    graph::{
-        Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, ResourceId, Start,
-        execute::{Body, PassContext},
-    },
+    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, Start, execute::Body},
     report::ThroughputProbe,
     scene::{Settings, TileInvocations},
     shaders::{self, Shader, config::*},
-    vk::{Blend, DescriptorPool, Limits},
+    vk::{Blend, Limits},
 };
+
+/// Why there are its passes.
+const WHY: &str = "bench floor: what the device can do at most";
 
 /// Splats of each invocation of the kernels' limit.
 const KERNEL_SPLATS: u32 = 64;
@@ -89,10 +90,8 @@ impl LimitDispatch {
 pub struct LimitInputs<'a> {
     /// Size of the image and format of the sums.
     pub settings: &'a Settings,
-    /// Pipelines and their layouts.
-    pub shaders: &'a Shaders,
-    /// Room for a set of lists.
-    pub descriptors: &'a DescriptorPool,
+    /// Where pipelines and sets come from: room for a set of lists.
+    pub source: Source<'a>,
     /// How often the work is done in the pass.
     pub repeats: u32,
 }
@@ -147,36 +146,30 @@ pub fn limit_draws<'a>(
         }
     };
     let has_depth = key.depth.is_some();
-    let pipeline = inputs.shaders.graphics(GraphicsKey { color_formats: colors.clone(), ..key })?;
     let mut images: Vec<_> = (0..)
-        .zip(colors)
-        .map(|(i, format)| inputs.image(graph, &format!("limit color {i}"), format))
+        .zip(&colors)
+        .map(|(i, format)| inputs.image(graph, &format!("limit color {i}"), *format))
         .collect();
     let mut depth = has_depth.then(|| inputs.image(graph, "limit depth", DEPTH_FORMAT));
     // Nobody reads what is drawn.
-    let mut pass = graph.pass(limit.name()).read(points, Access::StorageReadVertex).side_effect();
+    let mut pass = Pass::new(graph, inputs.source, limit.name(), WHY)
+        .read(lists(BIND_LIST_POINTS), points, Access::StorageReadVertex)
+        .side_effect();
     for image in &mut images {
-        pass = pass.write(image, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])));
+        pass = pass.attach(image, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])));
     }
     if let Some(depth) = &mut depth {
-        pass = pass.write(depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(far)));
+        pass = pass.attach(depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(far)));
     }
-    let id = points.id();
-    pass.finish(Box::new(move |context| {
-        let (device, commands) = (context.device(), context.commands());
-        let bind_point = vk::PipelineBindPoint::GRAPHICS;
-        let layout = inputs.shaders.splat_layout.raw();
-        let set = set_of(context, inputs, id)?;
-        // SAFETY: inside of rendering; pipeline and set have one layout.
-        unsafe {
-            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-            device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
-            for _ in 0..inputs.repeats {
-                device.cmd_draw(commands, count, 1, 0, 0);
-            }
+    let pipeline = pass.graphics(GraphicsKey { color_formats: colors, ..key })?;
+    pass.finish(move |pass| {
+        pass.bind(pipeline);
+        pass.bind_sets(pipeline.layout, 1, &[pass.set(Place::Lists(0))?])?;
+        for _ in 0..inputs.repeats {
+            pass.draw([count, 1]);
         }
         Ok(())
-    }));
+    });
     Ok(())
 }
 
@@ -210,32 +203,19 @@ pub fn limit_dispatch<'a>(
     // Those that are not the shader's own have no effect.
     let mut constants = splat_constants(inputs.settings, false, false);
     constants.extend([(SPEC_LIMIT_SPLATS, KERNEL_SPLATS), (SPEC_ATOMICS, atomics.into())]);
-    let pipeline = inputs.shaders.compute(ComputeKey { shader, layout: Layout::List, constants })?;
-    let id = words.id();
-    graph.pass(limit.name()).write(words, Access::StorageReadWriteCompute, Start::Load).finish(Box::new(
-        move |context| {
-            let (device, commands) = (context.device(), context.commands());
-            let bind_point = vk::PipelineBindPoint::COMPUTE;
-            let layout = inputs.shaders.list_layout.raw();
-            let set = set_of(context, inputs, id)?;
-            // SAFETY: pipeline and set have one layout, whose push constants the shader does not use.
-            unsafe {
-                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout, 1, &[set], &[]);
-                device.cmd_dispatch(commands, groups, inputs.repeats, 1);
-            }
-            Ok(())
-        },
-    ));
+    let pass = Pass::new(graph, inputs.source, limit.name(), WHY).write(
+        lists(BIND_LIST_POINTS),
+        words,
+        Access::StorageReadWriteCompute,
+        Start::Load,
+    );
+    let pipeline = pass.compute(ComputeKey { shader, layout: Layout::List, constants })?;
+    pass.finish(move |pass| {
+        // The shader uses no push constants.
+        pass.bind(pipeline);
+        pass.bind_sets(pipeline.layout, 1, &[pass.set(Place::Lists(0))?])?;
+        pass.dispatch([groups, inputs.repeats]);
+        Ok(())
+    });
     Ok(())
-}
-
-/// Set 1 with one buffer.
-fn set_of(
-    context: &PassContext<'_>,
-    inputs: LimitInputs<'_>,
-    buffer: ResourceId,
-) -> Result<vk::DescriptorSet> {
-    let given = [(BIND_LIST_POINTS, context.descriptor(buffer)?)];
-    inputs.descriptors.set(&inputs.shaders.list_set, &given)
 }

@@ -1,25 +1,29 @@
 //! The splats that are drawn as quads, because they exceed the device's largest point, come near the eye plane or are
 //! too thin for a triangle: found and listed on the GPU, in input order, chunk by chunk.
 
-use std::sync::Arc;
-
 use crate::passes::{
     cull::{
-        dispatch::{dispatch, list_set},
+        dispatch::dispatch,
         visible::{WORD, groups_of, list_key},
     },
     inputs::Inputs,
-    pipeline::{cache::ComputeKey, constants::FrameConstants, variant::Constants},
+    pass::{Pass, Place, arguments},
+    pipeline::{cache::ComputeKey, constants::FrameConstants},
     plan::draws::Draw,
 };
 use crate::{
     error::Result,
-    graph::{Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start, execute::Body},
+    graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
     shaders::{self, config::*},
 };
 
+/// Why a frame lists them.
+const WHY: &str = "a splat may exceed the device's largest point, or come near the eye plane";
+
 /// The large splats of one chunk.
 pub(crate) struct LargeList {
+    /// The chunk's number among the draws.
+    chunk: u32,
     /// A bit a splat: it is large.
     bits: Handle<Buffer>,
     /// How many large splats come before each word of bits, then in all.
@@ -30,23 +34,15 @@ pub(crate) struct LargeList {
     arguments: Handle<Buffer>,
 }
 
-/// The resources of a [`LargeList`].
-#[derive(Clone, Copy)]
-pub(crate) struct LargeIds {
-    pub bits: ResourceId,
-    pub starts: ResourceId,
-    pub list: ResourceId,
-    pub arguments: ResourceId,
-}
-
 impl LargeList {
-    fn create(graph: &mut Graph<Body<'_>>, kind: &str, number: usize, draw: &Draw<'_>) -> Self {
+    fn create(graph: &mut Graph<Body<'_>>, kind: &str, chunk: u32, draw: &Draw<'_>) -> Self {
         let words = u64::from(blocks_of(draw)) * u64::from(BLOCK_SPLATS / WORD);
         let mut buffer = |what: &str, words: u64| {
             let desc = BufferDesc::of_bytes(4 * words);
-            graph.create_buffer(&format!("large {what} of {kind}chunk {number}"), desc)
+            graph.create_buffer(&format!("large {what} of {kind}chunk {chunk}"), desc)
         };
         Self {
+            chunk,
             bits: buffer("bits", words),
             starts: buffer("starts", words + 1),
             list: buffer("list", u64::from(draw.chunk.count)),
@@ -54,90 +50,74 @@ impl LargeList {
         }
     }
 
-    /// Declares that a pass draws with it.
-    pub fn read_by_draws<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        pass.read(&self.bits, Access::StorageReadVertex)
-            .read(&self.list, Access::StorageReadVertex)
-            .read(&self.arguments, Access::IndirectRead)
-    }
-
-    pub fn ids(&self) -> LargeIds {
-        let Self { bits, starts, list, arguments } = self;
-        LargeIds { bits: bits.id(), starts: starts.id(), list: list.id(), arguments: arguments.id() }
-    }
-}
-
-impl LargeIds {
-    /// The bindings of its set of lists.
-    pub fn bindings(&self) -> [(u32, ResourceId); 4] {
-        [
-            (BIND_LIST_BITS, self.bits),
-            (BIND_LIST_STARTS, self.starts),
-            (BIND_LIST_ITEMS, self.list),
-            (BIND_LIST_ARGUMENTS, self.arguments),
-        ]
+    /// Adds to a pass what its draws of the chunk read.
+    pub fn read<'g, 'a>(&self, pass: Pass<'g, 'a>) -> Pass<'g, 'a> {
+        let lists = Place::Lists(self.chunk);
+        pass.read(lists.at(BIND_LIST_BITS), &self.bits, Access::StorageReadVertex)
+            .read(lists.at(BIND_LIST_ITEMS), &self.list, Access::StorageReadVertex)
+            .read(arguments(self.chunk), &self.arguments, Access::IndirectRead)
     }
 }
 
 /// What the pipelines of the three passes are, in their order. Only the first projects splats and so has the variants of the splat
 /// passes.
-pub(crate) fn keys(variant: &Constants) -> [ComputeKey; 3] {
+fn key(step: usize, draw: &Draw<'_>) -> ComputeKey {
     let large = (SPEC_LARGE_LIST, 1);
-    [
-        list_key(&shaders::MARK_LARGE_COMP, [variant.as_slice(), &[large]].concat()),
-        list_key(&shaders::LIST_SCAN_COMP, Vec::new()),
-        list_key(&shaders::LIST_WRITE_COMP, vec![large]),
-    ]
+    match step {
+        0 => list_key(&shaders::MARK_LARGE_COMP, [draw.variant.as_slice(), &[large]].concat()),
+        1 => list_key(&shaders::LIST_SCAN_COMP, Vec::new()),
+        _ => list_key(&shaders::LIST_WRITE_COMP, vec![large]),
+    }
 }
 
-/// Declares the three passes that list large splats; none where no chunk may have any. One list (or none) a draw. `kind`, in
-/// front of the names, tells several such lists of a frame apart.
+/// Declares the three passes that list large splats; none where no chunk may have any. `kind`, in front of the names, tells several
+/// such lists of a frame apart.
 pub(crate) fn list_large<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
-) -> Result<Vec<Option<LargeList>>> {
-    let mut lists = Vec::new();
-    let mut chunks = Vec::new();
-    for (number, draw) in inputs.draws.iter().enumerate() {
-        let list = draw.may_be_large.then(|| LargeList::create(graph, kind, number, draw));
-        if let Some(list) = &list {
-            let [mark, scan, write] = keys(&draw.variant).map(|key| inputs.shaders.compute(key));
-            chunks.push((draw, list.ids(), [mark?, scan?, write?]));
-        }
-        lists.push(list);
-    }
-    if chunks.is_empty() {
+) -> Result<Vec<LargeList>> {
+    let may_be_large = (0..).zip(inputs.draws).filter(|(_, draw)| draw.may_be_large);
+    let mut lists: Vec<_> =
+        may_be_large.map(|(chunk, draw)| LargeList::create(graph, kind, chunk, draw)).collect();
+    if lists.is_empty() {
         return Ok(lists);
     }
-    let chunks = Arc::new(chunks);
     let (read, write) = (Access::StorageReadCompute, Access::StorageWriteCompute);
     for (step, what) in ["mark", "scan", "list"].into_iter().enumerate() {
-        let mut pass = graph.pass(&format!("{what} large {kind}splats"));
-        for LargeList { bits, starts, list, arguments } in lists.iter_mut().flatten() {
+        let mut pass = Pass::new(graph, inputs.source, &format!("{what} large {kind}splats"), WHY);
+        let mut chunks = Vec::new();
+        for LargeList { chunk, bits, starts, list, arguments } in &mut lists {
+            let [at_bits, at_starts, at_list, at_arguments] =
+                [BIND_LIST_BITS, BIND_LIST_STARTS, BIND_LIST_ITEMS, BIND_LIST_ARGUMENTS]
+                    .map(|binding| Place::Lists(*chunk).at(binding));
             pass = match step {
-                0 => pass.write(bits, write, Start::Discard),
-                1 => pass.read(bits, read).write(starts, write, Start::Discard),
-                _ => pass.read(bits, read).read(starts, read).write(list, write, Start::Discard).write(
-                    arguments,
-                    write,
-                    Start::Discard,
-                ),
+                0 => pass.write(at_bits, bits, write, Start::Discard),
+                1 => pass.read(at_bits, bits, read).write(at_starts, starts, write, Start::Discard),
+                _ => pass
+                    .read(at_bits, bits, read)
+                    .read(at_starts, starts, read)
+                    .write(at_list, list, write, Start::Discard)
+                    .write(at_arguments, arguments, write, Start::Discard),
             };
+            let draw = &inputs.draws[*chunk as usize];
+            chunks.push((*chunk, draw, pass.compute(key(step, draw))?));
         }
-        let chunks = Arc::clone(&chunks);
-        pass.finish(Box::new(move |context| {
-            // What each step declares.
-            let bound = [0..1, 0..2, 0..4][step].clone();
-            for (draw, ids, pipelines) in chunks.iter() {
-                let set = list_set(context, inputs, &ids.bindings()[bound.clone()])?;
+        pass.finish(move |pass| {
+            for (chunk, draw, pipeline) in chunks {
                 let blocks = blocks_of(draw);
-                let constants = FrameConstants { first_record: 0, listed_blocks: blocks, ..draw.constants };
+                // Its lists are its own.
+                let constants = FrameConstants {
+                    first_record: 0,
+                    listed_blocks: blocks,
+                    chunk_color: 0,
+                    ..draw.constants
+                };
                 let groups = if step == 1 { [1, 1] } else { groups_of(blocks) };
-                dispatch(context, inputs, draw, &constants, &pipelines[step], set, groups);
+                dispatch(pass, draw, &constants, pipeline, pass.set(Place::Lists(chunk))?, groups)?;
             }
             Ok(())
-        }));
+        });
     }
     Ok(lists)
 }

@@ -3,32 +3,21 @@
 use crate::passes::{
     cull::{
         hidden::list_unhidden,
-        large::{LargeIds, LargeList, list_large},
-        visible::{VisibleIds, VisibleList, list_visible},
+        large::{LargeList, list_large},
+        visible::{VisibleList, list_visible},
     },
     inputs::Inputs,
+    pass::Pass,
 };
 use crate::{
     error::Result,
-    graph::{
-        Graph, Handle, Image, PassBuilder,
-        execute::{Body, PassContext},
-    },
-    shaders::config::*,
-    vk::Descriptor,
+    graph::{Graph, Handle, Image, execute::Body},
 };
 
 /// What the draws of a part read.
 pub(crate) struct Lists {
-    large: Vec<Option<LargeList>>,
+    large: Vec<LargeList>,
     visible: Option<VisibleList>,
-}
-
-/// What bodies of passes need of it.
-#[derive(Clone)]
-pub(crate) struct ListIds {
-    large: Vec<Option<LargeIds>>,
-    pub visible: Option<VisibleIds>,
 }
 
 impl Lists {
@@ -53,35 +42,11 @@ impl Lists {
         Ok(Self { visible, ..self })
     }
 
-    /// Declares that a pass draws with them.
-    pub fn read<'g, B>(&self, mut pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
+    /// Adds them to a pass that draws with them.
+    pub fn read<'g, 'a>(&self, mut pass: Pass<'g, 'a>) -> Pass<'g, 'a> {
         if let Some(visible) = &self.visible {
-            pass = visible.read_by_points(pass);
+            pass = visible.read(pass);
         }
-        self.large.iter().flatten().fold(pass, |pass, list| list.read_by_draws(pass))
-    }
-
-    /// For the body of the pass.
-    pub fn ids(&self) -> ListIds {
-        ListIds {
-            large: self.large.iter().map(|list| list.as_ref().map(LargeList::ids)).collect(),
-            visible: self.visible.as_ref().map(VisibleList::ids),
-        }
-    }
-}
-
-impl ListIds {
-    /// The large splats of a chunk, where it may have any.
-    pub fn large(&self, chunk: usize) -> Option<&LargeIds> {
-        self.large[chunk].as_ref()
-    }
-
-    /// What set 1 of the draws of a chunk holds; nothing where they read nothing.
-    pub fn descriptors(&self, context: &PassContext<'_>, chunk: usize) -> Result<Vec<(u32, Descriptor)>> {
-        let Some(large) = self.large(chunk) else { return Ok(Vec::new()) };
-        Ok(vec![
-            (BIND_LIST_BITS, context.descriptor(large.bits)?),
-            (BIND_LIST_ITEMS, context.descriptor(large.list)?),
-        ])
+        self.large.iter().fold(pass, |pass, list| list.read(pass))
     }
 }

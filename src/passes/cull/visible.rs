@@ -1,34 +1,34 @@
 //! The splats that may be seen, found and listed before any is projected, in input order: a bit each, how many come before each
 //! word of bits, their numbers. No atomics, so that the list is the same in every run.
 
-use std::sync::Arc;
-
 use ash::vk;
 
 use crate::passes::{
-    cull::dispatch::{dispatch, list_set},
+    cull::dispatch::dispatch,
     inputs::Inputs,
+    pass::{INDICES, Pass, Pipeline, Place, arguments, lists},
     pipeline::{
         cache::{ComputeKey, Layout},
-        variant::{Constants, culls},
+        variant::Constants,
     },
-    plan::{block_list::ListedBlocks, draws::Draw},
+    plan::{
+        block_list::{ListedBlocks, WHY},
+        draws::Draw,
+    },
+    recording::Recording,
     tiles::pass::rows_of,
 };
 use crate::{
     error::Result,
-    graph::{
-        Access, Buffer, BufferDesc, Graph, Handle, PassBuilder, ResourceId, Start,
-        execute::{Body, PassContext},
-    },
+    graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
     shaders::{self, Shader, config::*},
-    vk::ComputePipeline,
 };
 
 /// Splats of a word of bits.
 pub(crate) const WORD: u32 = u32::BITS;
 
-/// The dispatch in the arguments of a chunk, in bytes; before it is the draw.
+/// Words of the arguments of a chunk, and where the dispatch is in them, in bytes; before it is the draw.
+const ARGUMENT_WORDS: u64 = 8;
 const DISPATCH_OFFSET: u64 = 20;
 
 fn words_of(draws: &[Draw<'_>]) -> u64 {
@@ -48,56 +48,39 @@ pub(crate) struct VisibleList {
     pub list: Handle<Buffer>,
     /// Of each chunk, `VkDrawIndexedIndirectCommand` of points, the list being the index buffer, and
     /// `VkDispatchIndirectCommand` of workgroups of [`PROJECT_GROUP_SIZE`].
-    arguments: Vec<Handle<Buffer>>,
-}
-
-/// What bodies of passes need of it.
-#[derive(Clone)]
-pub(crate) struct VisibleIds {
-    list: ResourceId,
-    arguments: Vec<ResourceId>,
+    pub arguments: Handle<Buffer>,
 }
 
 impl VisibleList {
-    pub fn ids(&self) -> VisibleIds {
-        VisibleIds { list: self.list.id(), arguments: self.arguments.iter().map(Handle::id).collect() }
-    }
-
-    /// Declares that a pass dispatches one invocation a visible splat.
-    pub fn read_by_compute<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        let lists = [&self.starts, &self.list, &self.blocks];
-        let pass = lists.into_iter().fold(pass, |pass, list| pass.read(list, Access::StorageReadCompute));
-        self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
-    }
-
-    /// Declares that a pass draws the visible splats as points.
-    pub fn read_by_points<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        let pass = pass.read(&self.list, Access::IndexRead);
-        self.arguments.iter().fold(pass, |pass, arguments| pass.read(arguments, Access::IndirectRead))
+    /// Adds to a pass what its draws of visible splats as points read.
+    pub fn read<'g, 'a>(&self, pass: Pass<'g, 'a>) -> Pass<'g, 'a> {
+        pass.read(INDICES, &self.list, Access::IndexRead).read(
+            VISIBLE_ARGUMENTS,
+            &self.arguments,
+            Access::IndirectRead,
+        )
     }
 }
 
-impl VisibleIds {
-    /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
-    pub fn draw_points(&self, context: &PassContext<'_>, chunk: usize) -> Result<()> {
-        let (list, arguments) = (context.buffer(self.list)?, context.buffer(self.arguments[chunk])?);
-        let (device, commands) = (context.device(), context.commands());
-        // SAFETY: as the caller has it; both buffers were declared to be read so, and hold indices within the chunk and
-        // one command.
-        unsafe {
-            device.cmd_bind_index_buffer(commands, list, 0, vk::IndexType::UINT32);
-            device.cmd_draw_indexed_indirect(commands, arguments, 0, 1, 20);
-        }
-        Ok(())
-    }
+/// The arguments of the visible splats of all chunks; those with a chunk's number are of its large splats.
+pub(crate) const VISIBLE_ARGUMENTS: crate::passes::pass::At = arguments(u32::MAX);
 
-    /// Records a dispatch of one invocation a visible splat of a chunk with all bound.
-    pub fn dispatch(&self, context: &PassContext<'_>, chunk: usize) -> Result<()> {
-        let arguments = context.buffer(self.arguments[chunk])?;
-        // SAFETY: as the caller has it; the arguments were declared to be read, and are within the buffer.
-        unsafe { context.device().cmd_dispatch_indirect(context.commands(), arguments, DISPATCH_OFFSET) };
-        Ok(())
+/// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
+pub(crate) fn draw_visible(pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
+    let (list, arguments) = (pass.buffer(INDICES)?, pass.buffer(VISIBLE_ARGUMENTS)?);
+    let offset = 4 * ARGUMENT_WORDS * chunk as u64;
+    // SAFETY: as the caller has it; both buffers were declared to be read so, and hold indices within the chunk and
+    // a command a chunk.
+    unsafe {
+        pass.device().cmd_bind_index_buffer(pass.commands(), list, 0, vk::IndexType::UINT32);
+        pass.device().cmd_draw_indexed_indirect(pass.commands(), arguments, offset, 1, 20);
     }
+    Ok(())
+}
+
+/// Records a dispatch of one invocation a visible splat of a chunk with all bound.
+pub(crate) fn dispatch_visible(pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
+    pass.dispatch_indirect(VISIBLE_ARGUMENTS, 4 * ARGUMENT_WORDS * chunk as u64 + DISPATCH_OFFSET)
 }
 
 /// A pipeline that marks, scans or lists.
@@ -113,16 +96,13 @@ pub(crate) fn list_visible<'a>(
     listed: &'a ListedBlocks,
 ) -> Result<VisibleList> {
     let what = format!("visible {kind}splats");
-    let blocks = listed.upload(graph, &what);
+    let blocks = listed.upload(graph, inputs.source, &what);
     let mut bits = create_bits(graph, inputs, &what);
-    let mark = pipelines(inputs, &shaders::MARK_VISIBLE_COMP)?;
-    let bound = [(BIND_LIST_BITS, bits.id()), (BIND_LIST_BLOCKS, blocks.id())];
-    graph
-        .pass(&format!("mark {what}"))
-        .read(&blocks, Access::StorageReadCompute)
-        .write(&mut bits, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| dispatch_words(context, inputs, &mark, &bound)));
-    list_marked(graph, inputs, &what, (bits, blocks))
+    let pass = Pass::new(graph, inputs.source, &format!("mark {what}"), WHY)
+        .read(lists(BIND_LIST_BLOCKS), &blocks, Access::StorageReadCompute)
+        .write(lists(BIND_LIST_BITS), &mut bits, Access::StorageWriteCompute, Start::Discard);
+    dispatch_words(pass, inputs, &shaders::MARK_VISIBLE_COMP)?;
+    list_marked(graph, inputs, &what, WHY, (bits, blocks))
 }
 
 /// A bit a splat, which some pass is to set.
@@ -130,30 +110,28 @@ pub(crate) fn create_bits(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>, what:
     graph.create_buffer(&format!("bits of {what}"), BufferDesc::of_bytes(4 * words_of(inputs.draws)))
 }
 
-/// The pipelines of a shader that looks at splats, one a chunk.
-pub(crate) fn pipelines(inputs: Inputs<'_>, shader: &'static Shader) -> Result<Vec<Arc<ComputePipeline>>> {
-    let of = |draw: &Draw<'_>| inputs.shaders.compute(list_key(shader, draw.variant.clone()));
-    inputs.draws.iter().map(of).collect()
+/// Declares a pass of a dispatch a chunk, of one invocation a word of its bits, by a shader that looks at splats.
+pub(crate) fn dispatch_words<'a>(
+    pass: Pass<'_, 'a>,
+    inputs: Inputs<'a>,
+    shader: &'static Shader,
+) -> Result<()> {
+    let of = |draw: &Draw<'_>| pass.compute(list_key(shader, draw.variant.clone()));
+    let pipelines = inputs.draws.iter().map(of).collect::<Result<Vec<_>>>()?;
+    pass.finish(move |pass| dispatch_chunks(pass, inputs, |chunk| pipelines[chunk]));
+    Ok(())
 }
 
-/// Records, for each chunk, a dispatch of one invocation a word of its bits, with these buffers.
-pub(crate) fn dispatch_words(
-    context: &PassContext<'_>,
+/// Records a dispatch a chunk, of one invocation a word of its bits.
+fn dispatch_chunks(
+    pass: &Recording<'_, '_>,
     inputs: Inputs<'_>,
-    pipelines: &[Arc<ComputePipeline>],
-    bound: &[(u32, ResourceId)],
+    pipeline: impl Fn(usize) -> Pipeline,
 ) -> Result<()> {
-    let set = list_set(context, inputs, bound)?;
-    for (draw, pipeline) in inputs.draws.iter().zip(pipelines) {
-        dispatch(
-            context,
-            inputs,
-            draw,
-            &draw.constants,
-            pipeline,
-            set,
-            groups_of(draw.constants.listed_blocks),
-        );
+    let set = pass.set(Place::Lists(0))?;
+    for (chunk, draw) in inputs.draws.iter().enumerate() {
+        let groups = groups_of(draw.constants.listed_blocks);
+        dispatch(pass, draw, &draw.constants, pipeline(chunk), set, groups)?;
     }
     Ok(())
 }
@@ -163,6 +141,7 @@ pub(crate) fn list_marked<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     what: &str,
+    why: &'static str,
     (bits, blocks): (Handle<Buffer>, Handle<Buffer>),
 ) -> Result<VisibleList> {
     let words = words_of(inputs.draws);
@@ -171,65 +150,34 @@ pub(crate) fn list_marked<'a>(
     };
     let mut starts = buffer("starts", words + 1);
     let mut list = buffer("list", words * u64::from(WORD));
-    let chunks = 0..inputs.draws.len();
-    let mut arguments: Vec<_> =
-        chunks.map(|number| buffer(&format!("arguments in chunk {number}"), 8)).collect();
+    let mut arguments = buffer("arguments", ARGUMENT_WORDS * inputs.draws.len() as u64);
+    let (read, write) = (Access::StorageReadCompute, Access::StorageWriteCompute);
 
-    let scan = inputs.shaders.compute(list_key(&shaders::LIST_SCAN_COMP, Vec::new()))?;
-    let bound = [(BIND_LIST_BITS, bits.id()), (BIND_LIST_STARTS, starts.id())];
-    graph
-        .pass(&format!("scan {what}"))
-        .read(&bits, Access::StorageReadCompute)
-        .write(&mut starts, Access::StorageWriteCompute, Start::Discard)
-        .finish(Box::new(move |context| {
-            let set = list_set(context, inputs, &bound)?;
-            // One for all chunks; the set of any will do.
-            if let Some(draw) = inputs.draws.first() {
-                dispatch(context, inputs, draw, &draw.constants, &scan, set, [1, 1]);
-            }
-            Ok(())
-        }));
-
-    let write = inputs.shaders.compute(list_key(&shaders::LIST_WRITE_COMP, Vec::new()))?;
-    let bound = [
-        (BIND_LIST_BITS, bits.id()),
-        (BIND_LIST_STARTS, starts.id()),
-        (BIND_LIST_ITEMS, list.id()),
-        (BIND_LIST_BLOCKS, blocks.id()),
-    ];
-    let mut pass = graph
-        .pass(&format!("list {what}"))
-        .read(&bits, Access::StorageReadCompute)
-        .read(&starts, Access::StorageReadCompute)
-        .read(&blocks, Access::StorageReadCompute)
-        .write(&mut list, Access::StorageWriteCompute, Start::Discard);
-    for arguments in &mut arguments {
-        pass = pass.write(arguments, Access::StorageWriteCompute, Start::Discard);
-    }
-    let ids: Vec<_> = arguments.iter().map(Handle::id).collect();
-    pass.finish(Box::new(move |context| {
-        for (draw, arguments) in inputs.draws.iter().zip(ids) {
-            let bound = [&bound[..], &[(BIND_LIST_ARGUMENTS, arguments)]].concat();
-            let set = list_set(context, inputs, &bound)?;
-            let groups = groups_of(draw.constants.listed_blocks);
-            dispatch(context, inputs, draw, &draw.constants, &write, set, groups);
+    let pass = Pass::new(graph, inputs.source, &format!("scan {what}"), why)
+        .read(lists(BIND_LIST_BITS), &bits, read)
+        .write(lists(BIND_LIST_STARTS), &mut starts, write, Start::Discard);
+    let scan = pass.compute(list_key(&shaders::LIST_SCAN_COMP, Vec::new()))?;
+    pass.finish(move |pass| {
+        let set = pass.set(Place::Lists(0))?;
+        // One for all chunks; the set of any will do.
+        match inputs.draws.first() {
+            Some(draw) => dispatch(pass, draw, &draw.constants, scan, set, [1, 1]),
+            None => Ok(()),
         }
-        Ok(())
-    }));
+    });
+
+    let pass = Pass::new(graph, inputs.source, &format!("list {what}"), why)
+        .read(lists(BIND_LIST_BITS), &bits, read)
+        .read(lists(BIND_LIST_STARTS), &starts, read)
+        .read(lists(BIND_LIST_BLOCKS), &blocks, read)
+        .write(lists(BIND_LIST_ITEMS), &mut list, write, Start::Discard)
+        .write(lists(BIND_LIST_ARGUMENTS), &mut arguments, write, Start::Discard);
+    let write = pass.compute(list_key(&shaders::LIST_WRITE_COMP, Vec::new()))?;
+    pass.finish(move |pass| dispatch_chunks(pass, inputs, |_| write));
     Ok(VisibleList { bits, blocks, starts, list, arguments })
 }
 
 /// Workgroups of one invocation a word of bits of so many blocks.
 pub(crate) fn groups_of(blocks: u32) -> [u32; 2] {
     rows_of((blocks * (BLOCK_SPLATS / WORD)).div_ceil(LIST_GROUP_SIZE))
-}
-
-/// The three passes, where there are splats of a variant to leave out.
-pub(crate) fn recipes(variant: &Constants) -> Vec<(&'static str, ComputeKey)> {
-    let passes = [
-        ("mark visible splats", list_key(&shaders::MARK_VISIBLE_COMP, variant.clone())),
-        ("scan visible splats", list_key(&shaders::LIST_SCAN_COMP, Vec::new())),
-        ("list visible splats", list_key(&shaders::LIST_WRITE_COMP, Vec::new())),
-    ];
-    passes.into_iter().filter(|_| culls(variant)).collect()
 }

@@ -3,14 +3,14 @@
 
 use ash::vk;
 
-use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     layers::layer::Layer,
-    pipeline::splat_shaders::Summed,
+    pass::{Pass, read},
+    pipeline::{formats::sum_format, splat_shaders::Summed},
     polygons::mesh_pass::{MeshPass, draw_meshes},
     splats::{
-        accumulate::{Sums, bind_read, summed_constants},
-        draw::{SplatPass, draw_splats},
+        accumulate::{Sums, summed_constants},
+        draw::{SplatPass, bind_read, draw_splats},
     },
 };
 use crate::{
@@ -25,7 +25,7 @@ use crate::{
 const IN_LAYER: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER_OR_EQUAL, false));
 
 /// What the pass over splats is made of. `peeled`: only what is behind a layer.
-pub(crate) fn splat_pass(settings: &Settings, peeled: bool) -> SplatPass {
+fn splat_pass(settings: &Settings, peeled: bool) -> SplatPass {
     SplatPass {
         color_formats: vec![sum_format(settings.accumulate); 2],
         depth: IN_LAYER,
@@ -35,7 +35,7 @@ pub(crate) fn splat_pass(settings: &Settings, peeled: bool) -> SplatPass {
 }
 
 /// What the pass over polygons is made of. `peeled`: only what is behind a layer.
-pub(crate) fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
+fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_TRANSPARENT_FRAG,
         color_formats: vec![sum_format(settings.accumulate); 2],
@@ -52,13 +52,16 @@ pub(crate) fn layer_accumulate<'a>(
     depth: &Handle<Image>,
 ) -> Result<Sums> {
     let inputs = layer.inputs;
-    let pipelines = splat_pass(inputs.settings, layer.before.is_some()).pipelines(inputs)?;
-    let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
-    let (lists, gate) = (layer.list_ids(), layer.gate());
-    declare(graph, layer, depth, ["color sums", "normal sums", "accumulate"], layer.kernel, move |context| {
-        bind_read(context, inputs, sampled, None)?;
-        draw_splats(context, inputs, &pipelines, &lists, gate)
-    })
+    let mut sums = create(graph, layer, ["color sums", "normal sums"]);
+    let why = "transparent things: sums of weights, colors, normals and alphas of the layer";
+    let pass = begin(layer.pass(graph, "accumulate", why), layer, depth, &mut sums);
+    let pass = pass.read_if(read(BIND_READ_KERNEL), layer.kernel, Access::SampledFragment);
+    let pipelines = splat_pass(inputs.settings, layer.before.is_some()).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_splats(pass, inputs, &pipelines)
+    });
+    Ok(sums)
 }
 
 /// Declares the pass over the polygons of a layer of this depth.
@@ -68,38 +71,34 @@ pub(crate) fn layer_polygons<'a>(
     depth: &Handle<Image>,
 ) -> Result<Sums> {
     let inputs = layer.inputs;
-    let pipelines = mesh_pass(inputs.settings, layer.before.is_some()).pipelines(inputs)?;
-    let sampled = [layer.before.map(Handle::id), None, None];
-    let gate = layer.gate();
-    declare(graph, layer, depth, ["polygon colors", "polygon normals", "polygons"], None, move |context| {
-        bind_read(context, inputs, sampled, None)?;
-        draw_meshes(context, inputs, &pipelines, gate)
-    })
+    let mut sums = create(graph, layer, ["polygon colors", "polygon normals"]);
+    let why = "transparent polygons: their sums in the layer";
+    let pass = begin(layer.pass(graph, "polygons", why), layer, depth, &mut sums);
+    let pipelines = mesh_pass(inputs.settings, layer.before.is_some()).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_meshes(pass, inputs, &pipelines)
+    });
+    Ok(sums)
 }
 
-/// Declares one of the passes; the names are those of both images and of the pass.
-fn declare<'a>(
-    graph: &mut Graph<Body<'a>>,
+fn create(graph: &mut Graph<Body<'_>>, layer: &Layer<'_, '_>, names: [&str; 2]) -> Sums {
+    let desc = layer.inputs.image(sum_format(layer.inputs.settings.accumulate));
+    let [color, normal] = names.map(|name| graph.create_image(&layer.name(name), desc));
+    Sums { color, normal }
+}
+
+/// Adds what both passes write and compare with.
+fn begin<'g, 'a>(
+    pass: Pass<'g, 'a>,
     layer: &Layer<'a, '_>,
     depth: &Handle<Image>,
-    [color, normal, pass]: [&str; 3],
-    kernel: Option<&Handle<Image>>,
-    body: impl FnOnce(&crate::graph::execute::PassContext<'_>) -> Result<()> + 'a,
-) -> Result<Sums> {
-    let desc = layer.inputs.image(sum_format(layer.inputs.settings.accumulate));
-    let mut sums = Sums {
-        color: graph.create_image(&layer.name(color), desc),
-        normal: graph.create_image(&layer.name(normal), desc),
-    };
+    sums: &mut Sums,
+) -> Pass<'g, 'a> {
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    let mut pass = graph
-        .pass(&layer.name(pass))
-        .write(&mut sums.color, Access::ColorAttachment, zero)
-        .write(&mut sums.normal, Access::ColorAttachment, zero)
-        .read(depth, Access::DepthTest);
-    if let Some(kernel) = kernel {
-        pass = pass.read(kernel, Access::SampledFragment);
-    }
-    layer.read(pass).finish(Box::new(body));
-    Ok(sums)
+    let pass = pass
+        .attach(&mut sums.color, Access::ColorAttachment, zero)
+        .attach(&mut sums.normal, Access::ColorAttachment, zero)
+        .uses(depth, Access::DepthTest);
+    layer.read(pass)
 }

@@ -3,11 +3,13 @@
 use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     layers::layer::Layer,
-    pipeline::{
-        cache::{GraphicsKey, Layout},
+    pass::sums,
+    pipeline::cache::{GraphicsKey, Layout},
+    predicate::{self, is_predicated},
+    resolve::{
+        finalize::{constants, resolve_constants},
         fullscreen::bind_fullscreen,
     },
-    resolve::finalize::{constants, resolve_constants},
     splats::accumulate::Sums,
 };
 use crate::{
@@ -32,12 +34,7 @@ pub(crate) struct LayerSums {
 
 /// What its pipeline is. `rest`: of the last layer, else of a surface; of what: splats, polygons or both (of the last one: the layer
 /// before, where that counts surfaces). `lights`: the scene's own.
-pub(crate) fn key(
-    settings: &Settings,
-    rest: bool,
-    [splats, polygons]: [bool; 2],
-    lights: u32,
-) -> GraphicsKey {
+fn key(settings: &Settings, rest: bool, [splats, polygons]: [bool; 2], lights: u32) -> GraphicsKey {
     let fragment = if rest { &shaders::LAYER_REST_FRAG } else { &shaders::LAYER_FRAG };
     // The last one is lit already.
     let lights = if rest { 0 } else { lights };
@@ -49,38 +46,37 @@ pub(crate) fn key(
     }
 }
 
-/// The images that it reads, by their bindings.
+/// The images that it reads, and where.
 fn images_of(sums: &LayerSums) -> Vec<(u32, &Handle<Image>)> {
     let LayerSums { rest, splats, polygons } = sums;
+    let splat_sums = [BIND_SUMS_COLORS, BIND_SUMS_NORMALS];
     let mut images = Vec::new();
     if let Some(rest) = rest {
-        images.extend([(BIND_SUMS_COLORS, &rest.color), (BIND_SUMS_NORMALS, &rest.normal)]);
+        images.extend(both(rest, splat_sums));
         images.extend(splats.iter().map(|sums| (BIND_SUMS_SPLATS_BEFORE, &sums.color)));
         images.extend(polygons.iter().map(|sums| (BIND_SUMS_POLYGONS_BEFORE, &sums.color)));
         return images;
     }
-    if let Some(sums) = splats {
-        images.extend([(BIND_SUMS_COLORS, &sums.color), (BIND_SUMS_NORMALS, &sums.normal)]);
-    }
-    if let Some(sums) = polygons {
-        images.extend([(BIND_SUMS_POLYGON_COLORS, &sums.color), (BIND_SUMS_POLYGON_NORMALS, &sums.normal)]);
-    }
+    images.extend(splats.iter().flat_map(|sums| both(sums, splat_sums)));
+    let polygon_sums = [BIND_SUMS_POLYGON_COLORS, BIND_SUMS_POLYGON_NORMALS];
+    images.extend(polygons.iter().flat_map(|sums| both(sums, polygon_sums)));
     images
+}
+
+fn both(sums: &Sums, [color, normal]: [u32; 2]) -> [(u32, &Handle<Image>); 2] {
+    [(color, &sums.color), (normal, &sums.normal)]
 }
 
 /// Declares the pass. `composed`: the layers before; `None` for the first.
 pub(crate) fn layer_compose<'a>(
     graph: &mut Graph<Body<'a>>,
     layer: &Layer<'a, '_>,
-    sums: &LayerSums,
+    layer_sums: &LayerSums,
     composed: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
     let inputs = layer.inputs;
     let settings = inputs.settings;
-    let images = images_of(sums);
-    let of = [sums.splats.is_some(), sums.polygons.is_some()];
-    let pipeline = inputs.shaders.graphics(key(settings, sums.rest.is_some(), of, inputs.lights))?;
-    let push = constants(inputs);
+    let of = [layer_sums.splats.is_some(), layer_sums.polygons.is_some()];
     let (mut target, start) = match composed {
         Some(composed) => (composed, Start::Load),
         None => {
@@ -88,34 +84,31 @@ pub(crate) fn layer_compose<'a>(
             (image, Start::Clear(ClearValue::Color([0.0; 4])))
         }
     };
-    let mut pass = graph.pass(&layer.name("compose")).write(&mut target, Access::ColorAttachment, start);
-    for (_, image) in &images {
-        pass = pass.read(image, Access::SampledFragment);
+    let why = "transparent things: shades the layer, under those before";
+    let lights = layer.lights.filter(|_| layer_sums.rest.is_none());
+    let mut pass = layer
+        .pass(graph, "compose", why)
+        .attach(&mut target, Access::ColorAttachment, start)
+        .read_if(sums(BIND_SUMS_LIGHTS), lights, Access::UniformReadFragment);
+    for (binding, image) in images_of(layer_sums) {
+        pass = pass.read(sums(binding), image, Access::SampledFragment);
     }
-    let lights = layer.lights.filter(|_| sums.rest.is_none());
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadFragment);
-    }
-    let lights = lights.map(Handle::id);
-    let ids: Vec<_> = images.iter().map(|(binding, image)| (*binding, image.id())).collect();
-    let (gate, query) = (layer.gate(), layer.query());
-    let pass = layer.read_gate(pass);
-    pass.finish(Box::new(move |context| {
-        bind_fullscreen(context, inputs, &pipeline, (&ids, lights), &push)?;
-        let (device, commands) = (context.device(), context.commands());
-        // SAFETY: inside of rendering, with all bound; the query was reset at the frame's begin, and begins once.
-        unsafe {
-            query.inspect(|(queries, index)| queries.begin(commands, *index));
-            let drawn = match gate {
-                None => {
-                    device.cmd_draw(commands, 3, 1, 0, 0);
-                    Ok(())
-                }
-                Some(gate) => gate.draw_fullscreen(context),
-            };
-            query.inspect(|(queries, index)| queries.end(commands, *index));
-            drawn
-        }
-    }));
+    let pipeline = pass.graphics(key(settings, layer_sums.rest.is_some(), of, inputs.lights))?;
+    let (push, query) = (constants(inputs), layer.query());
+    pass.finish(move |pass| {
+        bind_fullscreen(pass, pipeline, &push)?;
+        // SAFETY: inside of rendering; the query was reset at the frame's begin, and begins once.
+        query.inspect(|(queries, index)| unsafe { queries.begin(pass.commands(), *index) });
+        let drawn = match is_predicated(pass) {
+            true => predicate::draw_fullscreen(pass),
+            false => {
+                pass.draw([3, 1]);
+                Ok(())
+            }
+        };
+        // SAFETY: it began above, in the same pass.
+        query.inspect(|(queries, index)| unsafe { queries.end(pass.commands(), *index) });
+        drawn
+    });
     Ok(target)
 }

@@ -7,7 +7,6 @@
 
 use crate::passes::layers::layer::Layer;
 use crate::passes::{
-    cull::gate::Gates,
     cull::lists::Lists,
     inputs::Inputs,
     layers::{
@@ -16,6 +15,7 @@ use crate::passes::{
         rest::layer_rest,
         visibility::layer_visibility,
     },
+    predicate::LayerPredicates,
 };
 use crate::{
     error::Result,
@@ -41,7 +41,7 @@ pub(crate) fn layers<'a>(
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Option<Handle<Image>>> {
     let lists = Lists::make(graph, inputs, "transparent ")?;
-    let mut gates = inputs.occlusion.map(|queries| Gates::new(graph, inputs, queries));
+    let mut predicates = inputs.occlusion.map(|queries| LayerPredicates::new(graph, inputs, queries));
     let count = inputs.settings.layers.most();
     let (mut before, mut sums_before, mut composed) = (None, None, None);
     for number in 0..count {
@@ -54,7 +54,7 @@ pub(crate) fn layers<'a>(
             kernel,
             lights,
             lists: &lists,
-            gates: gates.as_ref(),
+            predicates: predicates.as_ref(),
             counted,
         };
         let (depth, sums) = if inputs.settings.last_layer != LastLayer::Drop && !counted {
@@ -75,8 +75,8 @@ pub(crate) fn layers<'a>(
         };
         composed = Some(layer_compose(graph, &layer, &sums, composed)?);
         (before, sums_before) = (depth, Some(sums));
-        if let Some(gates) = gates.as_mut().filter(|_| counted) {
-            gates.count(graph, number);
+        if let Some(predicates) = predicates.as_mut().filter(|_| counted) {
+            predicates.count(graph, inputs, number);
         }
     }
     Ok(composed)

@@ -1,14 +1,14 @@
 //! One transparent layer, as its passes see it.
 
 use crate::passes::{
-    cull::{
-        gate::{Gate, Gates},
-        lists::{ListIds, Lists},
-    },
+    cull::lists::Lists,
     inputs::Inputs,
+    pass::{Pass, read},
+    predicate::LayerPredicates,
 };
 use crate::{
-    graph::{Buffer, Handle, Image, PassBuilder},
+    graph::{Access, Buffer, Graph, Handle, Image, execute::Body},
+    shaders::config::*,
     vk::Occlusion,
 };
 
@@ -27,7 +27,7 @@ pub(crate) struct Layer<'a, 'f> {
     /// Those of the scene's own.
     pub lights: Option<&'f Handle<Buffer>>,
     pub lists: &'f Lists,
-    pub gates: Option<&'f Gates<'a>>,
+    pub predicates: Option<&'f LayerPredicates<'a>>,
     /// Another layer follows, and wants to know whether this one is empty.
     pub counted: bool,
 }
@@ -38,35 +38,22 @@ impl<'a> Layer<'a, '_> {
         format!("{what} of layer {}", self.number + 1)
     }
 
-    /// Declares that a pass draws its splats and polygons.
-    pub fn read<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        let pass = match self.before {
-            Some(before) => pass.read(before, crate::graph::Access::SampledFragment),
-            None => pass,
-        };
-        self.read_gate(self.lists.read(pass))
-    }
-
-    /// Declares that a pass draws something where the layer before is not empty.
-    pub fn read_gate<'g, B>(&self, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-        match self.gates {
-            Some(gates) => gates.read(pass),
+    /// A pass of it, which draws where the layer before is not empty.
+    pub fn pass<'g>(&self, graph: &'g mut Graph<Body<'a>>, what: &str, why: &'static str) -> Pass<'g, 'a> {
+        let pass = Pass::new(graph, self.inputs.source, &self.name(what), why);
+        match self.predicates {
+            Some(predicates) => predicates.predicate(pass),
             None => pass,
         }
     }
 
-    /// What its draws depend on.
-    pub fn gate(&self) -> Option<Gate> {
-        self.gates.and_then(Gates::gate)
-    }
-
-    /// What its draws read beside splats.
-    pub fn list_ids(&self) -> ListIds {
-        self.lists.ids()
+    /// Adds what fragments behind the layer before compare with, and the lists of its splats.
+    pub fn read<'g>(&self, pass: Pass<'g, 'a>) -> Pass<'g, 'a> {
+        self.lists.read(pass).read_if(read(BIND_READ_DEPTH), self.before, Access::SampledFragment)
     }
 
     /// The query that counts its pixels.
     pub fn query(&self) -> Option<(&'a Occlusion, u32)> {
-        self.gates.filter(|_| self.counted).map(|gates| (gates.queries(), self.number))
+        self.predicates.filter(|_| self.counted).map(|predicates| (predicates.queries, self.number))
     }
 }

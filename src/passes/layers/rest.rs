@@ -4,19 +4,19 @@
 
 use ash::vk;
 
-use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     layers::layer::Layer,
-    pipeline::{splat_shaders::Summed, variant::shading_constants},
+    pass::read,
+    pipeline::{formats::sum_format, splat_shaders::Summed, variant::shading_constants},
     polygons::mesh_pass::{MeshPass, draw_meshes},
     splats::{
-        accumulate::{Sums, bind_read, summed_constants},
-        draw::{SplatPass, draw_splats},
+        accumulate::{Sums, summed_constants},
+        draw::{SplatPass, bind_read, draw_splats},
     },
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
     vk::Blend,
@@ -37,7 +37,7 @@ fn depth_test(opaque: bool) -> Option<(vk::CompareOp, bool)> {
 
 /// What the pass is made of for splats. `peeled`: behind a layer; `opaque`: in front of opaque things; `lights`:
 /// the scene's own.
-pub(crate) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> SplatPass {
+fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> SplatPass {
     let mut constants = summed_constants(settings, Summed::Rest, peeled);
     constants.extend(shading_constants(settings.shading, lights));
     SplatPass {
@@ -49,7 +49,7 @@ pub(crate) fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights
 }
 
 /// What it is made of for polygons.
-pub(crate) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> MeshPass {
+fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> MeshPass {
     let mut constants = shading_constants(settings.shading, lights);
     constants.extend([(SPEC_SUMMED, SUMMED_REST), (SPEC_PEELED, peeled.into())]);
     MeshPass {
@@ -65,35 +65,36 @@ pub(crate) fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights:
 pub(crate) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>) -> Result<Sums> {
     let inputs = layer.inputs;
     let settings = inputs.settings;
-    let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
-    let splats = splat_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
-    let meshes = mesh_pass(settings, peeled, opaque, inputs.lights).pipelines(inputs)?;
     let mut sums = Sums {
         color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),
         normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    let mut pass = graph
-        .pass(&layer.name("accumulate"))
-        .write(&mut sums.color, Access::ColorAttachment, zero)
-        .write(&mut sums.normal, Access::ColorAttachment, zero);
+    let why = "transparent things: lit colors and weights of all that is left";
+    let mut pass = layer
+        .pass(graph, "accumulate", why)
+        .attach(&mut sums.color, Access::ColorAttachment, zero)
+        .attach(&mut sums.normal, Access::ColorAttachment, zero)
+        .read_if(read(BIND_READ_KERNEL), layer.kernel, Access::SampledFragment);
     if let Some(opaque) = layer.opaque {
-        pass = pass.read(opaque, Access::DepthTest);
-    }
-    if let Some(kernel) = layer.kernel {
-        pass = pass.read(kernel, Access::SampledFragment);
+        pass = pass.uses(opaque, Access::DepthTest);
     }
     if let Some(lights) = layer.lights {
         // Splats are lit in the vertex stage, polygons in the fragment stage.
-        pass = pass.read(lights, Access::UniformReadVertex).read(lights, Access::UniformReadFragment);
+        pass = pass.uses(lights, Access::UniformReadVertex).read(
+            read(BIND_READ_LIGHTS),
+            lights,
+            Access::UniformReadFragment,
+        );
     }
-    let lights = layer.lights.map(Handle::id);
-    let sampled = [layer.before.map(Handle::id), layer.kernel.map(Handle::id), None];
-    let (lists, gate) = (layer.list_ids(), layer.gate());
-    layer.read(pass).finish(Box::new(move |context| {
-        bind_read(context, inputs, sampled, lights)?;
-        draw_splats(context, inputs, &splats, &lists, gate)?;
-        draw_meshes(context, inputs, &meshes, gate)
-    }));
+    let pass = layer.read(pass);
+    let (peeled, opaque) = (layer.before.is_some(), layer.opaque.is_some());
+    let splats = splat_pass(settings, peeled, opaque, inputs.lights).pipelines(&pass, inputs)?;
+    let meshes = mesh_pass(settings, peeled, opaque, inputs.lights).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_splats(pass, inputs, &splats)?;
+        draw_meshes(pass, inputs, &meshes)
+    });
     Ok(sums)
 }

@@ -3,22 +3,26 @@
 
 use ash::vk;
 
-use crate::passes::pipeline::formats::DEPTH_FORMAT;
 use crate::passes::{
     layers::layer::Layer,
-    polygons::copy_depth::copy_depth,
-    polygons::mesh_pass::{MeshPass, draw_meshes},
-    splats::{accumulate::bind_read, draw::draw_splats, visibility},
+    polygons::{
+        copy_depth::depth_from,
+        mesh_pass::{MeshPass, draw_meshes},
+    },
+    splats::{
+        draw::{bind_read, draw_splats},
+        visibility,
+    },
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, Graph, Handle, Image, execute::Body},
     shaders::{self, config::*},
     vk::Blend,
 };
 
 /// What it is made of for polygons. `peeled`: only what is behind a layer.
-pub(crate) fn mesh_pass(peeled: bool) -> MeshPass {
+fn mesh_pass(peeled: bool) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_DEPTH_FRAG,
         color_formats: Vec::new(),
@@ -34,21 +38,19 @@ pub(crate) fn layer_visibility<'a>(
     layer: &Layer<'a, '_>,
 ) -> Result<Handle<Image>> {
     let inputs = layer.inputs;
+    let why = "opaque things hide transparent ones behind them";
+    let (mut depth, start) = depth_from(graph, inputs, &layer.name("depth"), why, layer.opaque);
+    let why =
+        "transparent things: the depth of the nearest surface behind the layer before, shifted by epsilon";
+    let pass = layer.pass(graph, "visibility", why).attach(&mut depth, Access::DepthAttachment, start);
+    let pass = layer.read(pass);
     let peeled = layer.before.is_some();
-    let splats = visibility::splat_pass(inputs.settings, Some(peeled)).pipelines(inputs)?;
-    let meshes = mesh_pass(peeled).pipelines(inputs)?;
-    let name = layer.name("depth");
-    let (mut depth, start) = match layer.opaque {
-        Some(opaque) => (copy_depth(graph, inputs, &name, opaque), Start::Load),
-        None => (graph.create_image(&name, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0))),
-    };
-    let sampled = [layer.before.map(Handle::id), None, None];
-    let (lists, gate) = (layer.list_ids(), layer.gate());
-    let pass = graph.pass(&layer.name("visibility")).write(&mut depth, Access::DepthAttachment, start);
-    layer.read(pass).finish(Box::new(move |context| {
-        bind_read(context, inputs, sampled, None)?;
-        draw_splats(context, inputs, &splats, &lists, gate)?;
-        draw_meshes(context, inputs, &meshes, gate)
-    }));
+    let splats = visibility::splat_pass(inputs.settings, Some(peeled)).pipelines(&pass, inputs)?;
+    let meshes = mesh_pass(peeled).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_splats(pass, inputs, &splats)?;
+        draw_meshes(pass, inputs, &meshes)
+    });
     Ok(depth)
 }

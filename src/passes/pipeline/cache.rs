@@ -33,8 +33,8 @@ pub fn room_of_lists(sets: u32) -> PoolRoom {
 /// The layouts of all passes and the pipelines made so far.
 pub struct Shaders {
     device: Device,
-    graphics: Mutex<HashMap<GraphicsKey, Arc<GraphicsPipeline>>>,
-    compute: Mutex<HashMap<ComputeKey, Arc<ComputePipeline>>>,
+    graphics: Mutex<HashMap<GraphicsKey, GraphicsPipeline>>,
+    compute: Mutex<HashMap<ComputeKey, ComputePipeline>>,
     cache: PipelineCache,
     stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
@@ -213,11 +213,12 @@ impl Shaders {
         })
     }
 
-    pub(crate) fn graphics(&self, mut key: GraphicsKey) -> Result<Arc<GraphicsPipeline>> {
+    /// A pipeline, alive as long as this, made where it was not made yet.
+    pub(crate) fn graphics(&self, mut key: GraphicsKey) -> Result<vk::Pipeline> {
         self.perturb(&mut key.constants);
         let mut made = lock(&self.graphics);
         if let Some(pipeline) = made.get(&key) {
-            return Ok(Arc::clone(pipeline));
+            return Ok(pipeline.raw());
         }
         let constants = &key.constants;
         let desc = GraphicsPipelineDesc {
@@ -235,25 +236,24 @@ impl Shaders {
             }),
             layout: self.layout(key.layout)?,
         };
-        let pipeline = Arc::new(GraphicsPipeline::new(&self.device, &self.cache, &desc)?);
-        made.insert(key, Arc::clone(&pipeline));
-        Ok(pipeline)
+        let pipeline = GraphicsPipeline::new(&self.device, &self.cache, &desc)?;
+        Ok(made.entry(key).or_insert(pipeline).raw())
     }
 
-    pub(crate) fn compute(&self, mut key: ComputeKey) -> Result<Arc<ComputePipeline>> {
+    /// As [`Self::graphics`].
+    pub(crate) fn compute(&self, mut key: ComputeKey) -> Result<vk::Pipeline> {
         self.perturb(&mut key.constants);
         let mut made = lock(&self.compute);
         if let Some(pipeline) = made.get(&key) {
-            return Ok(Arc::clone(pipeline));
+            return Ok(pipeline.raw());
         }
         let desc = ComputePipelineDesc {
             name: key.shader.name,
             stage: key.shader.stage(&key.constants),
             layout: self.layout(key.layout)?,
         };
-        let pipeline = Arc::new(ComputePipeline::new(&self.device, &self.cache, &desc)?);
-        made.insert(key, Arc::clone(&pipeline));
-        Ok(pipeline)
+        let pipeline = ComputePipeline::new(&self.device, &self.cache, &desc)?;
+        Ok(made.entry(key).or_insert(pipeline).raw())
     }
 
     #[cfg(feature = "test-formulas")]

@@ -30,8 +30,8 @@ pub struct FrameConstants {
     pub point_step_px: f32,
     /// Splats of the chunk.
     pub splat_count: u32,
-    /// 1: all splats of the chunk have color 0.
-    pub uniform_color: u32,
+    /// Twice the chunk's number in its part of the frame; plus 1 where all its splats have color 0.
+    pub chunk_color: u32,
     /// What local lengths are multiplied by in view space: a power of two.
     pub view_from_local_scale: f32,
     /// The local origin seen from the eye, in local space's axes and the view unit: x, y, z in f32, then what f32 left of
@@ -41,6 +41,13 @@ pub struct FrameConstants {
     pub first_record: u32,
     /// Blocks of the chunk that are looked at for splats that may be seen.
     pub listed_blocks: u32,
+}
+
+impl FrameConstants {
+    /// Gives the chunk its number in its part of the frame.
+    pub(crate) fn number_chunk(&mut self, number: u32) {
+        self.chunk_color = 2 * number + self.chunk_color % 2;
+    }
 }
 
 /// What the paper's own programs are told; see `glsl/inc/paper.glsl`.

@@ -5,7 +5,6 @@ pub(crate) mod constants;
 pub(crate) mod formats;
 #[cfg(feature = "test-formulas")]
 pub(crate) mod formula;
-pub(crate) mod fullscreen;
 pub(crate) mod recipe;
 pub(crate) mod splat_shaders;
 pub(crate) mod tile_layouts;

@@ -1,9 +1,11 @@
 //! A pipeline of a pass, without a scene: what it is made of, and how it is made.
 
+use std::hash::{Hash, Hasher};
+
 use ash::vk;
 
 use crate::passes::pipeline::{
-    cache::{ComputeKey, GraphicsKey, Shaders},
+    cache::{ComputeKey, GraphicsKey, Layout, Shaders},
     splat_shaders::Stages,
 };
 use crate::{
@@ -11,13 +13,11 @@ use crate::{
     shaders::{Shader, config::*},
 };
 
-/// A pipeline of a pass.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+/// A pipeline, and the first pass that has it. Those of two passes are equal where one pipeline serves both.
+#[derive(Clone, Debug)]
 pub struct PipelineRecipe {
     /// The pass.
-    pub pass: &'static str,
-    /// What it draws: `points`, `small points`, `listed quads` and so on; empty where that is the whole target.
-    pub draws: &'static str,
+    pub pass: String,
     pub(crate) key: Key,
 }
 
@@ -27,6 +27,20 @@ pub(crate) enum Key {
     Compute(ComputeKey),
     /// Never drawn, only counted.
     Counted(Stages),
+}
+
+impl PartialEq for PipelineRecipe {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl Eq for PipelineRecipe {}
+
+impl Hash for PipelineRecipe {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key.hash(state);
+    }
 }
 
 /// The shaders of a pipeline.
@@ -57,18 +71,39 @@ impl PipelineRecipe {
         }
     }
 
-    /// Whether it sets splats up or draws them, and so depends on rasterizer and filter.
+    /// Whether it has this specialization constant.
+    pub fn has(&self, constant: u32) -> bool {
+        self.constants().iter().any(|(number, _)| *number == constant)
+    }
+
+    /// Whether it projects splats or draws them, and so depends on rasterizer and filter.
     pub fn sets_splats_up(&self) -> bool {
-        self.constants().iter().any(|(number, _)| *number == SPEC_RASTERIZER)
+        self.has(SPEC_RASTERIZER)
+    }
+
+    /// What it draws: `points`, `small points`, `listed quads` and so on; empty for compute, and where that is the whole target.
+    pub fn draws(&self) -> &'static str {
+        let Key::Graphics(key) = &self.key else { return "" };
+        let some_large = key.constants.contains(&(SPEC_SOME_LARGE, 1));
+        match (key.layout, key.topology) {
+            (Layout::TileQuads, _) => "tiles",
+            (Layout::Splat, vk::PrimitiveTopology::POINT_LIST) if some_large => "small points",
+            (Layout::Splat, vk::PrimitiveTopology::POINT_LIST) => "points",
+            (Layout::Splat, vk::PrimitiveTopology::TRIANGLE_STRIP) if some_large => "listed quads",
+            (Layout::Splat, vk::PrimitiveTopology::TRIANGLE_STRIP) => "quads",
+            (Layout::Splat, _) if some_large => "small triangles",
+            (Layout::Splat, _) => "triangles",
+            _ => "",
+        }
     }
 
     /// What table 1 of Guennebaud et al. 2006 has for it: instructions of the vertex and the fragment program.
     pub fn published(&self) -> Option<[u32; 2]> {
-        match (self.pass, self.draws) {
-            ("paper visibility", _) => Some([46, 3]),
-            ("paper accumulate", _) => Some([58, 3]),
-            ("botsch visibility", _) => Some([34, 9]),
-            ("botsch accumulate", _) => Some([35, 13]),
+        match self.pass.as_str() {
+            "paper visibility" => Some([46, 3]),
+            "paper accumulate" => Some([58, 3]),
+            "botsch visibility" => Some([34, 9]),
+            "botsch accumulate" => Some([35, 13]),
             _ => None,
         }
     }
@@ -78,18 +113,10 @@ impl PipelineRecipe {
     /// # Errors
     /// Whatever the driver answers.
     pub fn make(&self, shaders: &Shaders) -> Result<Option<vk::Pipeline>> {
-        Ok(match &self.key {
-            Key::Graphics(key) => Some(shaders.graphics(key.clone())?.raw()),
-            Key::Compute(key) => Some(shaders.compute(key.clone())?.raw()),
-            Key::Counted(_) => None,
-        })
+        match &self.key {
+            Key::Graphics(key) => shaders.graphics(key.clone()).map(Some),
+            Key::Compute(key) => shaders.compute(key.clone()).map(Some),
+            Key::Counted(_) => Ok(None),
+        }
     }
-}
-
-pub(crate) fn graphics(pass: &'static str, draws: &'static str, key: GraphicsKey) -> PipelineRecipe {
-    PipelineRecipe { pass, draws, key: Key::Graphics(key) }
-}
-
-pub(crate) fn compute(pass: &'static str, key: ComputeKey) -> PipelineRecipe {
-    PipelineRecipe { pass, draws: "", key: Key::Compute(key) }
 }

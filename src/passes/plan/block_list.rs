@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use crate::passes::plan::{draws::Draw, seen::SeenBlock};
+use crate::passes::{
+    pass::{Pass, Source, transfer},
+    plan::{draws::Draw, seen::SeenBlock},
+};
 use crate::{
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
     shaders::config::{ALL_VISIBLE, BLOCK_SPLATS},
@@ -11,20 +14,21 @@ use crate::{
 /// Words in front of the blocks: the rows.
 const ROW_WORDS: usize = 2;
 
-/// Bytes of a buffer that one command updates at most.
-const MOST_UPDATED: usize = 65_536;
+/// Why a frame has lists of what may be seen.
+pub(crate) const WHY: &str = "some splats face away or may lie outside of the view: the others are listed";
 
 /// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, then the
 /// chunks' blocks one behind the other.
 pub struct ListedBlocks(Vec<u32>);
 
 impl ListedBlocks {
-    /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk the number of its first splat among
-    /// those that are looked at.
+    /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk its number, and that of its first splat
+    /// among those that are looked at.
     pub fn of(draws: &mut [Draw<'_>], seen: &[Vec<SeenBlock>], rows: Range<u32>) -> Self {
         let mut words = vec![rows.start, rows.end];
-        for (draw, blocks) in draws.iter_mut().zip(seen) {
+        for (number, (draw, blocks)) in (0..).zip(draws.iter_mut().zip(seen)) {
             let before = words.len();
+            draw.constants.number_chunk(number);
             draw.constants.first_record = (before - ROW_WORDS) as u32 * BLOCK_SPLATS;
             let touching = blocks.iter().filter(|block| block.touches(&rows));
             words.extend(touching.map(|block| {
@@ -41,21 +45,18 @@ impl ListedBlocks {
     }
 
     /// Declares the pass that brings them to the device.
-    pub(crate) fn upload<'a>(&'a self, graph: &mut Graph<Body<'a>>, what: &str) -> Handle<Buffer> {
+    pub(crate) fn upload<'a>(
+        &'a self,
+        graph: &mut Graph<Body<'a>>,
+        source: Source<'a>,
+        what: &str,
+    ) -> Handle<Buffer> {
         let bytes: &[u8] = bytemuck::cast_slice(&self.0);
         let name = format!("blocks of {what}");
         let mut buffer = graph.create_buffer(&name, BufferDesc::of_bytes(bytes.len() as u64));
-        let id = buffer.id();
-        graph.pass(&name).write(&mut buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
-            move |context| {
-                for (piece, offset) in bytes.chunks(MOST_UPDATED).zip((0..).step_by(MOST_UPDATED)) {
-                    let buffer = context.buffer(id)?;
-                    // SAFETY: outside of rendering; within the buffer, a multiple of 4 and not above 65 536 bytes.
-                    unsafe { context.device().cmd_update_buffer(context.commands(), buffer, offset, piece) };
-                }
-                Ok(())
-            },
-        ));
+        Pass::new(graph, source, &name, WHY)
+            .write(transfer(0), &mut buffer, Access::TransferWrite, Start::Discard)
+            .finish(move |pass| pass.update_buffer(transfer(0), bytes));
         buffer
     }
 }

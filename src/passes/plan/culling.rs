@@ -63,10 +63,11 @@ pub(crate) fn primitives_cull_hidden(polygons: bool, settings: &Settings) -> boo
     settings.cull == Cull::Hidden && !shifted_twice
 }
 
-/// Gives each chunk the number of its first splat among all.
+/// Gives each chunk its number, and that of its first splat among all.
 pub(crate) fn number_splats(splats: &mut [Draw<'_>]) {
     let mut next = 0_u32;
-    for draw in splats {
+    for (number, draw) in (0..).zip(splats) {
+        draw.constants.number_chunk(number);
         draw.constants.first_record = next;
         // Where 32 bits are too few, nobody looks at it.
         next = next.wrapping_add(draw.chunk.count);

@@ -94,7 +94,7 @@ pub fn draws<'a>(
             chunk,
             constants: FrameConstants {
                 splat_count: chunk.count,
-                uniform_color: u32::from(chunk.uniform_color),
+                chunk_color: u32::from(chunk.uniform_color),
                 ..frame_constants(&view, camera, settings, limits, epsilon)
             },
             largest_box_px,
@@ -153,7 +153,7 @@ pub(crate) fn frame_constants(
         point_cap_px: limits.point_size_range[1],
         point_step_px: point_step_px(limits.point_size_granularity),
         splat_count: 0,
-        uniform_color: 0,
+        chunk_color: 0,
         view_from_local_scale: view.view_from_local_scale as f32,
         origin_from_eye: in_two_parts(view.origin_from_eye),
         first_record: 0,

@@ -33,7 +33,7 @@ pub fn mesh_draws<'a>(
         MeshDraw {
             chunk,
             constants: FrameConstants {
-                uniform_color: u32::from(chunk.uniform_color),
+                chunk_color: u32::from(chunk.uniform_color),
                 ..frame_constants(&view, camera, settings, limits, (0.0, epsilon))
             },
             cull: match settings.backfaces {

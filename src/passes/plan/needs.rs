@@ -2,9 +2,8 @@
 
 use crate::passes::{
     layers::frame as layers,
-    pipeline::cache::room_of_lists,
-    plan::{FramePlan, SurfacePlan},
-    tiles,
+    pipeline::{cache::room_of_lists, tile_layouts::STORAGE_BUFFERS},
+    plan::{FramePlan, SurfacePlan, tiles::TilePlan},
 };
 use crate::{
     scene::{Layers, Settings},
@@ -44,7 +43,7 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     let sums = 3 + bands + layers;
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
     let tiles = bands_of_all
-        .map(|band| tiles::room(&band.plan))
+        .map(|band| room_of_tiles(&band.plan))
         .fold(PoolRoom::default(), |sum, room| sum.plus(&room));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
@@ -58,5 +57,19 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
         .plus(&room_of_lists(lists))
         .plus(&tiles),
         occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
+    }
+}
+
+/// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
+fn room_of_tiles(plan: &TilePlan) -> PoolRoom {
+    let sets = plan.chunk_count * 3 + 12;
+    PoolRoom {
+        sets,
+        buffers: STORAGE_BUFFERS * sets,
+        uniform_buffers: sets,
+        texel_buffers: 6 * sets,
+        images: 6 * sets,
+        storage_images: 6 * sets,
+        ..PoolRoom::default()
     }
 }

@@ -197,31 +197,6 @@ impl TilePlan {
         [TILE_WIDTH, self.invocations.tile_height()]
     }
 
-    /// A plan of no scene, for pipelines alone: a thousand splats on a device that has what tiles like.
-    pub(crate) fn for_recipes(may_be_large: bool) -> Self {
-        Self {
-            tiles_x: 1,
-            rows: 0..1,
-            tile_count: 1,
-            record_count: 1000,
-            record_room: 1000,
-            chunk_count: 1,
-            segments: SEGMENTS,
-            segment_length: SEGMENTS,
-            round_length: SEGMENTS,
-            place_bits: PLACE_BITS[0],
-            most_tiles: most_tiles_a_side(PLACE_BITS[0]).pow(2),
-            entry_room: LEAST_ENTRIES,
-            walk_length: 4 * MOST_ITERATIONS,
-            part_length: 4 * MOST_ITERATIONS,
-            layers_at_once: 1,
-            may_be_large,
-            overfull_somewhere: false,
-            hidden: false,
-            invocations: Invocations::Columns,
-        }
-    }
-
     /// The plan for so many layers at most, each of which walks twice, under so many lights: up to 16 layers in one dispatch, or of
     /// more 4 in each. Every step of the last layer's walk is a loop over the lights, too; so is every pixel of a layer, for which
     /// there is the reserve.

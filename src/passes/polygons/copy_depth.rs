@@ -2,43 +2,39 @@
 
 use ash::vk;
 
-use crate::graph::{Access, Graph, Handle, Image, Start, execute::Body};
-use crate::passes::inputs::Inputs;
-use crate::passes::pipeline::formats::DEPTH_FORMAT;
+use crate::graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body};
+use crate::passes::{
+    inputs::Inputs,
+    pass::{Pass, transfer},
+    pipeline::formats::DEPTH_FORMAT,
+};
 
-/// Declares the pass; returns the new image.
-pub(crate) fn copy_depth<'a>(
+/// A depth, and how the pass begins that draws into it: with a copy of `source`, which a pass before it makes, or infinitely far.
+pub(crate) fn depth_from<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     name: &str,
-    source: &Handle<Image>,
-) -> Handle<Image> {
-    let mut target = graph.create_image(name, inputs.image(DEPTH_FORMAT));
-    let (from, to) = (source.id(), target.id());
+    why: &'static str,
+    source: Option<&Handle<Image>>,
+) -> (Handle<Image>, Start) {
+    let mut depth = graph.create_image(name, inputs.image(DEPTH_FORMAT));
+    let Some(source) = source else { return (depth, Start::Clear(ClearValue::Depth(0.0))) };
     let extent = inputs.extent();
-    graph
-        .pass(&format!("begin {name}"))
-        .read(source, Access::TransferRead)
-        .write(&mut target, Access::TransferWrite, Start::Discard)
-        .finish(Box::new(move |context| {
+    Pass::new(graph, inputs.source, &format!("begin {name}"), why)
+        .read(transfer(0), source, Access::TransferRead)
+        .write(transfer(1), &mut depth, Access::TransferWrite, Start::Discard)
+        .finish(move |pass| {
             let layers =
                 vk::ImageSubresourceLayers::default().aspect_mask(vk::ImageAspectFlags::DEPTH).layer_count(1);
             let region = vk::ImageCopy::default()
                 .src_subresource(layers)
                 .dst_subresource(layers)
                 .extent(extent.into());
+            let ((from, from_layout), (to, to_layout)) = (pass.image(transfer(0))?, pass.image(transfer(1))?);
+            let (device, commands) = (pass.device(), pass.commands());
             // SAFETY: outside of rendering; both images have this format and extent, and are in the layouts named.
-            unsafe {
-                context.device().cmd_copy_image(
-                    context.commands(),
-                    context.image(from)?.0,
-                    context.layout(from),
-                    context.image(to)?.0,
-                    context.layout(to),
-                    &[region],
-                );
-            }
+            unsafe { device.cmd_copy_image(commands, from, from_layout, to, to_layout, &[region]) };
             Ok(())
-        }));
-    target
+        });
+    (depth, Start::Load)
 }

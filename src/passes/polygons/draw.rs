@@ -7,10 +7,13 @@ use ash::vk;
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
     inputs::Inputs,
+    pass::{Pass, read},
     pipeline::variant::shading_constants,
-    polygons::copy_depth::copy_depth,
-    polygons::mesh_pass::{MeshPass, draw_meshes},
-    splats::accumulate::{Sums, bind_read},
+    polygons::{
+        copy_depth::depth_from,
+        mesh_pass::{MeshPass, draw_meshes},
+    },
+    splats::{accumulate::Sums, draw::bind_read},
 };
 use crate::{
     error::Result,
@@ -21,7 +24,7 @@ use crate::{
 };
 
 /// What the pass is made of.
-pub(crate) fn mesh_pass(settings: &Settings) -> MeshPass {
+fn mesh_pass(settings: &Settings) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_OPAQUE_FRAG,
         color_formats: vec![sum_format(settings.accumulate); 2],
@@ -32,7 +35,7 @@ pub(crate) fn mesh_pass(settings: &Settings) -> MeshPass {
 }
 
 /// What the pass is made of that shades them; `precision`: of what it leaves.
-pub(crate) fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
+fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> MeshPass {
     let mut constants = shading_constants(settings.shading, lights);
     constants.push((SPEC_HALF_FLOATS, u32::from(precision == Accumulate::F16)));
     MeshPass {
@@ -50,20 +53,21 @@ pub(crate) fn shaded<'a>(
     (shown, precision): (&mut Handle<Image>, Accumulate),
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Handle<Image>> {
-    let pipelines = shaded_mesh_pass(inputs.settings, precision, inputs.lights).pipelines(inputs)?;
     let mut depth = graph.create_image("depth of polygons", inputs.image(DEPTH_FORMAT));
-    let mut pass = graph
-        .pass("polygons")
-        .write(shown, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])))
-        .write(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)));
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadFragment);
-    }
-    let lights = lights.map(Handle::id);
-    pass.finish(Box::new(move |context| {
-        bind_read(context, inputs, [None; 3], lights)?;
-        draw_meshes(context, inputs, &pipelines, None)
-    }));
+    let pass = Pass::new(
+        graph,
+        inputs.source,
+        "polygons",
+        "opaque polygons, where they are nearest: what they show beside tiles",
+    )
+    .attach(shown, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])))
+    .attach(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
+    .read_if(read(BIND_READ_LIGHTS), lights, Access::UniformReadFragment);
+    let pipelines = shaded_mesh_pass(inputs.settings, precision, inputs.lights).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_meshes(pass, inputs, &pipelines)
+    });
     Ok(depth)
 }
 
@@ -74,23 +78,24 @@ pub(crate) fn polygons<'a>(
     inputs: Inputs<'a>,
     splats: Option<&Handle<Image>>,
 ) -> Result<(Sums, Handle<Image>)> {
-    const NAME: &str = "depth with polygons";
-    let pipelines = mesh_pass(inputs.settings).pipelines(inputs)?;
     let format = sum_format(inputs.settings.accumulate);
     let mut seen = Sums {
         color: graph.create_image("polygon colors", inputs.image(format)),
         normal: graph.create_image("polygon normals", inputs.image(format)),
     };
-    let (mut depth, start) = match splats {
-        Some(splats) => (copy_depth(graph, inputs, NAME, splats), Start::Load),
-        None => (graph.create_image(NAME, inputs.image(DEPTH_FORMAT)), Start::Clear(ClearValue::Depth(0.0))),
-    };
+    let why = "splats beside polygons: accumulation needs the depth of both";
+    let (mut depth, start) = depth_from(graph, inputs, "depth with polygons", why, splats);
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    graph
-        .pass("polygons")
-        .write(&mut seen.color, Access::ColorAttachment, zero)
-        .write(&mut seen.normal, Access::ColorAttachment, zero)
-        .write(&mut depth, Access::DepthAttachment, start)
-        .finish(Box::new(move |context| draw_meshes(context, inputs, &pipelines, None)));
+    let pass = Pass::new(
+        graph,
+        inputs.source,
+        "polygons",
+        "opaque polygons, where they are nearest: what shades them later",
+    )
+    .attach(&mut seen.color, Access::ColorAttachment, zero)
+    .attach(&mut seen.normal, Access::ColorAttachment, zero)
+    .attach(&mut depth, Access::DepthAttachment, start);
+    let pipelines = mesh_pass(inputs.settings).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| draw_meshes(pass, inputs, &pipelines));
     Ok((seen, depth))
 }

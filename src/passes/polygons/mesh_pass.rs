@@ -1,23 +1,22 @@
 //! Polygons by the graphics pipeline: pipelines and draws of the passes over them.
 
-use std::sync::Arc;
-
 use ash::vk;
 
 use crate::passes::{
-    cull::gate::Gate,
     inputs::Inputs,
+    pass::{Pass, Pipeline},
     pipeline::{
         cache::{GraphicsKey, Layout},
         variant::Constants,
     },
     plan::mesh_draws::MeshDraw,
+    predicate::{self, is_predicated},
+    recording::Recording,
 };
 use crate::{
     error::Result,
-    graph::execute::PassContext,
     shaders::{self, Shader, config::*},
-    vk::{Blend, GraphicsPipeline},
+    vk::Blend,
 };
 
 /// What a pass over polygons is made of: its fragment stage, and what it writes.
@@ -31,51 +30,43 @@ pub(crate) struct MeshPass {
 }
 
 impl MeshPass {
-    /// What its pipeline is. `cull`: without triangles that face away; `outward`: normals of layers stay as they are.
-    pub fn key(&self, cull: bool, outward: bool) -> GraphicsKey {
+    /// What the pipeline of a piece is; normals of layers of a closed surface stay as they are.
+    fn key(&self, draw: &MeshDraw<'_>) -> GraphicsKey {
         let topology = vk::PrimitiveTopology::TRIANGLE_LIST;
         let mut constants = self.constants.clone();
-        constants.push((SPEC_OUTWARD, u32::from(outward)));
-        let stages = (&shaders::POLYGONS_VERT, self.fragment);
+        constants.push((SPEC_OUTWARD, u32::from(draw.chunk.closed && draw.chunk.transparent)));
         GraphicsKey {
             color_formats: self.color_formats.clone(),
             blend: self.blend,
             depth: self.depth,
-            cull_clockwise: cull,
-            ..GraphicsKey::new(stages, Layout::Splat, topology, constants)
+            cull_clockwise: draw.cull,
+            ..GraphicsKey::new((&shaders::POLYGONS_VERT, self.fragment), Layout::Splat, topology, constants)
         }
     }
 
     /// The pipelines of every draw, in their order.
-    pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<Arc<GraphicsPipeline>>> {
-        let outward = |draw: &MeshDraw<'_>| draw.chunk.closed && draw.chunk.transparent;
-        inputs.meshes.iter().map(|draw| inputs.shaders.graphics(self.key(draw.cull, outward(draw)))).collect()
+    pub fn pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<Pipeline>> {
+        inputs.meshes.iter().map(|draw| pass.graphics(self.key(draw))).collect()
     }
 }
 
-/// Records the draws of all pieces; behind a gate, the device leaves them out where it is closed.
+/// Records the draws of all pieces.
 pub(crate) fn draw_meshes(
-    context: &PassContext<'_>,
+    pass: &Recording<'_, '_>,
     inputs: Inputs<'_>,
-    pipelines: &[Arc<GraphicsPipeline>],
-    gate: Option<Gate>,
+    pipelines: &[Pipeline],
 ) -> Result<()> {
-    let (device, commands) = (context.device(), context.commands());
-    let layout = &inputs.shaders.splat_layout;
-    let bind_point = vk::PipelineBindPoint::GRAPHICS;
+    let (device, commands) = (pass.device(), pass.commands());
     for ((number, draw), pipeline) in inputs.meshes.iter().enumerate().zip(pipelines) {
-        let constants = bytemuck::bytes_of(&draw.constants);
-        // SAFETY: inside of rendering, with pipeline, set and push constants of one layout, and three indices a triangle,
-        // each below the number of vertices.
-        unsafe {
-            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &[draw.chunk.set()], &[]);
-            device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-            device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-            device.cmd_bind_index_buffer(commands, draw.chunk.indices(), 0, vk::IndexType::UINT32);
-            match gate {
-                None => device.cmd_draw_indexed(commands, 3 * draw.chunk.triangles, 1, 0, 0, 0),
-                Some(gate) => gate.draw_mesh(context, number)?,
-            }
+        pass.bind(*pipeline);
+        pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set()])?;
+        pass.push(Layout::Splat, &draw.constants)?;
+        // SAFETY: the piece's indices are alive as long as the scene.
+        unsafe { device.cmd_bind_index_buffer(commands, draw.chunk.indices(), 0, vk::IndexType::UINT32) };
+        match is_predicated(pass) {
+            true => predicate::draw_mesh(pass, inputs, number)?,
+            // SAFETY: inside of rendering with all bound, and three indices a triangle, each below the number of vertices.
+            false => unsafe { device.cmd_draw_indexed(commands, 3 * draw.chunk.triangles, 1, 0, 0, 0) },
         }
     }
     Ok(())

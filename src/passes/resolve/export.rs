@@ -4,11 +4,9 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
-    pipeline::{
-        cache::{GraphicsKey, Layout},
-        fullscreen::draw_fullscreen,
-    },
-    resolve::finalize,
+    pass::{Pass, sums},
+    pipeline::cache::{GraphicsKey, Layout},
+    resolve::{finalize, fullscreen::draw_fullscreen},
     splats::accumulate::Sums,
 };
 use crate::{
@@ -40,7 +38,7 @@ impl Exported {
 }
 
 /// What its pipeline is.
-pub(crate) fn key() -> GraphicsKey {
+fn key() -> GraphicsKey {
     GraphicsKey {
         color_formats: Exported::FORMATS.to_vec(),
         ..GraphicsKey::fullscreen(&shaders::EXPORT_FRAG, Layout::Finalize, Vec::new())
@@ -58,47 +56,30 @@ fn images(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>) -> Exported {
     }
 }
 
-/// Declares the pass of a scene without opaque splats: their surface is empty.
-pub(crate) fn export_nothing<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Exported {
-    let mut exported = images(graph, inputs);
-    let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    let far = Start::Clear(ClearValue::Color([f32::INFINITY; 4]));
-    graph
-        .pass("export")
-        .write(&mut exported.weight, Access::ColorAttachment, zero)
-        .write(&mut exported.albedo, Access::ColorAttachment, zero)
-        .write(&mut exported.normal, Access::ColorAttachment, zero)
-        .write(&mut exported.depth, Access::ColorAttachment, far)
-        .finish(Box::new(|_| Ok(())));
-    exported
-}
-
-/// Declares the pass.
+/// Declares the pass, of a scene without opaque splats that their surface is empty. `surface`: their sums and depth.
 pub(crate) fn export<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
-    sums: &Sums,
-    depth: &Handle<Image>,
+    surface: Option<(&Sums, &Handle<Image>)>,
 ) -> Result<Exported> {
-    let pipeline = inputs.shaders.graphics(key())?;
-    let constants = finalize::constants(inputs);
-    let read = [
-        (BIND_SUMS_COLORS, sums.color.id()),
-        (BIND_SUMS_NORMALS, sums.normal.id()),
-        (BIND_SUMS_DEPTH, depth.id()),
-    ];
     let mut exported = images(graph, inputs);
-    graph
-        .pass("export")
-        .read(&sums.color, Access::SampledFragment)
-        .read(&sums.normal, Access::SampledFragment)
-        .read(depth, Access::SampledFragment)
-        .write(&mut exported.weight, Access::ColorAttachment, Start::Discard)
-        .write(&mut exported.albedo, Access::ColorAttachment, Start::Discard)
-        .write(&mut exported.normal, Access::ColorAttachment, Start::Discard)
-        .write(&mut exported.depth, Access::ColorAttachment, Start::Discard)
-        .finish(Box::new(move |context| {
-            draw_fullscreen(context, inputs, &pipeline, (&read, None), &constants)
-        }));
+    let clear =
+        |value| if surface.is_some() { Start::Discard } else { Start::Clear(ClearValue::Color([value; 4])) };
+    let Exported { weight, albedo, normal, depth } = &mut exported;
+    let mut pass = Pass::new(graph, inputs.source, "export", "the surface itself was asked for")
+        .attach(weight, Access::ColorAttachment, clear(0.0))
+        .attach(albedo, Access::ColorAttachment, clear(0.0))
+        .attach(normal, Access::ColorAttachment, clear(0.0))
+        .attach(depth, Access::ColorAttachment, clear(f32::INFINITY));
+    let Some((of_splats, visible)) = surface else {
+        pass.finish(|_| Ok(()));
+        return Ok(exported);
+    };
+    pass = pass
+        .read(sums(BIND_SUMS_COLORS), &of_splats.color, Access::SampledFragment)
+        .read(sums(BIND_SUMS_NORMALS), &of_splats.normal, Access::SampledFragment)
+        .read(sums(BIND_SUMS_DEPTH), visible, Access::SampledFragment);
+    let (pipeline, constants) = (pass.graphics(key())?, finalize::constants(inputs));
+    pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));
     Ok(exported)
 }

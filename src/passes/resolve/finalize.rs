@@ -8,25 +8,30 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
+    pass::{Pass, Place, sums},
     pipeline::{
         cache::{GraphicsKey, Layout},
         constants::FinalizeConstants,
-        fullscreen::{draw_fullscreen, read_set},
         variant::{Constants, shading_constants, transition_constant},
     },
+    resolve::fullscreen::draw_fullscreen,
     splats::accumulate::Sums,
     tiles::{
         Tiles,
-        quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
+        runs::{draw_runs, read_runs, runs_key},
     },
 };
 use crate::{
     error::Result,
-    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, ResourceId, Start, execute::Body},
+    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     math::srgb::linear_from_srgb,
     scene::Settings,
     shaders::{self, config::*},
 };
+
+/// Why every frame has it.
+const WHY: &str =
+    "every scene: normalizes and shades the sums, unless tiles did, and puts transparent layers over them";
 
 /// What the opaque passes leave.
 #[derive(Default)]
@@ -54,7 +59,7 @@ impl Opaque<'_> {
 
 /// What is opaque in a scene, for the pipeline alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Traits {
+struct Traits {
     pub splats: bool,
     pub polygons: bool,
     /// There are transparent layers.
@@ -64,7 +69,7 @@ pub(crate) struct Traits {
 }
 
 /// What its pipeline is; none where the background is all that is seen.
-pub(crate) fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option<GraphicsKey> {
+fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option<GraphicsKey> {
     let Traits { splats, polygons, layered, lights } = traits;
     if !splats && !polygons && !layered {
         return None;
@@ -104,19 +109,6 @@ pub(crate) fn constants(inputs: Inputs<'_>) -> FinalizeConstants {
     }
 }
 
-/// The images of set 0 by their bindings.
-pub(crate) fn sums_descriptors(
-    splats: Option<&Sums>,
-    polygons: Option<&Sums>,
-    layers: Option<&Handle<Image>>,
-) -> Vec<(u32, ResourceId)> {
-    let of = |sums: &Sums, [color, normal]: [u32; 2]| [(color, sums.color.id()), (normal, sums.normal.id())];
-    let splats = splats.map(|sums| of(sums, [BIND_SUMS_COLORS, BIND_SUMS_NORMALS]));
-    let polygons = polygons.map(|sums| of(sums, [BIND_SUMS_POLYGON_COLORS, BIND_SUMS_POLYGON_NORMALS]));
-    let sums = splats.into_iter().chain(polygons).flatten();
-    sums.chain(layers.map(|layers| (BIND_SUMS_LAYERS, layers.id()))).collect()
-}
-
 /// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept. `layers`:
 /// what transparent layers add up to.
 pub(crate) fn finalize<'a>(
@@ -128,128 +120,99 @@ pub(crate) fn finalize<'a>(
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
+    let constants = constants(inputs);
+    let background = Start::Clear(ClearValue::Color(constants.background));
+    let pass =
+        Pass::new(graph, inputs.source, "finalize", WHY).attach(target, Access::ColorAttachment, background);
+    if let Some(shown) = &opaque.shown {
+        let pass = pass.read(sums(BIND_SUMS_COLORS), shown, Access::SampledFragment);
+        return finalize_shown(pass, opaque, target_format, constants);
+    }
     let (splats, polygons) = (opaque.splats.as_ref(), opaque.polygons.as_ref());
     let lights = lights.filter(|_| splats.is_some() || polygons.is_some());
+    let mut pass = pass.read_if(sums(BIND_SUMS_LIGHTS), lights, Access::UniformReadFragment);
+    let splat_sums = [BIND_SUMS_COLORS, BIND_SUMS_NORMALS];
+    let polygon_sums = [BIND_SUMS_POLYGON_COLORS, BIND_SUMS_POLYGON_NORMALS];
+    for (of, [color, normal]) in [(splats, splat_sums), (polygons, polygon_sums)] {
+        pass = pass.read_if(sums(color), of.map(|sums| &sums.color), Access::SampledFragment).read_if(
+            sums(normal),
+            of.map(|sums| &sums.normal),
+            Access::SampledFragment,
+        );
+    }
     let traits = Traits {
         splats: splats.is_some(),
         polygons: polygons.is_some(),
         layered: layers.is_some(),
         lights: inputs.lights,
     };
-    if let Some(shown) = &opaque.shown {
-        let key = tile_resolve_key(target_format, opaque.polygon_depth.is_some());
-        return match &opaque.polygon_depth {
-            Some(depth) => {
-                let keys = [polygon_resolve_key(target_format), key];
-                finalize_polygons_and_tiles(graph, inputs, (shown, depth), &opaque.tiles, keys, target)
-            }
-            None => finalize_tiles(graph, inputs, &opaque.tiles, (&[shown], None), key, target),
-        };
-    }
     let key = key(inputs.settings, target_format, traits);
-    if let (false, Some(key), Some(Sums { color, normal })) = (opaque.tiles.is_empty(), &key, splats) {
-        let key = key_of_tiles(key);
-        return finalize_tiles(graph, inputs, &opaque.tiles, (&[color, normal], lights), key, target);
+    if let (false, Some(key)) = (opaque.tiles.is_empty(), &key) {
+        let (pass, runs) = read_runs(pass, &opaque.tiles);
+        let pipeline = pass.graphics(key_of_tiles(key))?;
+        pass.finish(move |pass| draw_runs(pass, pipeline, runs, Place::Sums, constants));
+        return Ok(());
     }
-    let pipeline = key.map(|key| inputs.shaders.graphics(key)).transpose()?;
-    let constants = constants(inputs);
-    let ids = sums_descriptors(splats, polygons, layers);
-    let mut pass = graph.pass("finalize");
-    for image in [splats, polygons].into_iter().flatten().flat_map(|sums| [&sums.color, &sums.normal]) {
-        pass = pass.read(image, Access::SampledFragment);
-    }
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadFragment);
-    }
-    let lights = lights.map(Handle::id);
-    match (layers, opaque.depth()) {
-        (Some(layers), _) => pass = pass.read(layers, Access::SampledFragment),
-        (None, Some(depth)) => pass = pass.read(depth, Access::DepthTest),
-        (None, None) => {}
-    }
-    pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
-        .finish(Box::new(move |context| match &pipeline {
-            Some(pipeline) => draw_fullscreen(context, inputs, pipeline, (&ids, lights), &constants),
-            None => Ok(()),
-        }));
+    pass = match (layers, opaque.depth()) {
+        (Some(layers), _) => pass.read(sums(BIND_SUMS_LAYERS), layers, Access::SampledFragment),
+        (None, Some(depth)) => pass.uses(depth, Access::DepthTest),
+        (None, None) => pass,
+    };
+    let pipeline = key.map(|key| pass.graphics(key)).transpose()?;
+    pass.finish(move |pass| match pipeline {
+        Some(pipeline) => draw_fullscreen(pass, pipeline, &constants),
+        None => Ok(()),
+    });
+    Ok(())
+}
+
+/// Brings to the target what tiles show, and before it, where they are nearer than nothing, polygons.
+fn finalize_shown<'a>(
+    pass: Pass<'_, 'a>,
+    opaque: &Opaque<'a>,
+    target_format: vk::Format,
+    constants: FinalizeConstants,
+) -> Result<()> {
+    let (mut pass, runs) = read_runs(pass, &opaque.tiles);
+    let of_polygons = match &opaque.polygon_depth {
+        None => None,
+        Some(depth) => {
+            pass = pass.uses(depth, Access::DepthTest);
+            Some(pass.graphics(polygon_resolve_key(target_format))?)
+        }
+    };
+    let of_tiles = pass.graphics(tile_resolve_key(target_format, of_polygons.is_some()))?;
+    pass.finish(move |pass| {
+        if let Some(pipeline) = of_polygons {
+            draw_fullscreen(pass, pipeline, &constants)?;
+        }
+        draw_runs(pass, of_tiles, runs, Place::Sums, constants)
+    });
     Ok(())
 }
 
 /// The pipeline that finalizes tiles, from that of the whole target.
-pub(crate) fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
+fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
     GraphicsKey {
         color_formats: whole.color_formats.clone(),
-        ..quads_of_tiles(whole.fragment, whole.constants.clone())
+        ..runs_key(whole.fragment, whole.constants.clone())
     }
 }
 
 /// What the pipeline is that brings to the target what tiles show; `beside`: in a pass that has the depth of polygons.
-pub(crate) fn tile_resolve_key(target_format: vk::Format, beside: bool) -> GraphicsKey {
+fn tile_resolve_key(target_format: vk::Format, beside: bool) -> GraphicsKey {
     GraphicsKey {
         color_formats: vec![target_format],
         depth: beside.then_some((vk::CompareOp::ALWAYS, false)),
-        ..quads_of_tiles(&shaders::FINALIZE_FRAG, vec![(SPEC_SHADED, 1)])
+        ..runs_key(&shaders::FINALIZE_FRAG, vec![(SPEC_SHADED, 1)])
     }
 }
 
 /// What it is where there are polygons alone.
-pub(crate) fn polygon_resolve_key(target_format: vk::Format) -> GraphicsKey {
+fn polygon_resolve_key(target_format: vk::Format) -> GraphicsKey {
     GraphicsKey {
         color_formats: vec![target_format],
         depth: Some((vk::CompareOp::LESS, false)),
         ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, vec![(SPEC_SHADED, 1)])
     }
-}
-
-/// The pass over the tiles that have splats alone. It reads images, of which the first is binding 0, and lights.
-fn finalize_tiles<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    tiles: &[Tiles<'a>],
-    (images, lights): (&[&Handle<Image>], Option<&Handle<Buffer>>),
-    key: GraphicsKey,
-    target: &mut Handle<Image>,
-) -> Result<()> {
-    let pipeline = inputs.shaders.graphics(key)?;
-    let constants = constants(inputs);
-    let ids: Vec<_> = (0..).zip(images).map(|(binding, image)| (binding, image.id())).collect();
-    let seen = SeenTiles::of(tiles);
-    let mut pass = read_seen(tiles, graph.pass("finalize"));
-    for image in images {
-        pass = pass.read(image, Access::SampledFragment);
-    }
-    if let Some(lights) = lights {
-        pass = pass.read(lights, Access::UniformReadFragment);
-    }
-    let lights = lights.map(Handle::id);
-    pass.write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
-        .finish(Box::new(move |context| {
-            let set = read_set(context, inputs, (&ids, lights))?;
-            draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, constants)
-        }));
-    Ok(())
-}
-
-/// The pass over polygons, where they are nearer than nothing, and over the tiles that have splats.
-fn finalize_polygons_and_tiles<'a>(
-    graph: &mut Graph<Body<'a>>,
-    inputs: Inputs<'a>,
-    (shown, depth): (&Handle<Image>, &Handle<Image>),
-    tiles: &[Tiles<'a>],
-    [of_polygons, of_tiles]: [GraphicsKey; 2],
-    target: &mut Handle<Image>,
-) -> Result<()> {
-    let [of_polygons, of_tiles] = [inputs.shaders.graphics(of_polygons)?, inputs.shaders.graphics(of_tiles)?];
-    let constants = constants(inputs);
-    let (images, seen) = ([(0, shown.id())], SeenTiles::of(tiles));
-    read_seen(tiles, graph.pass("finalize"))
-        .read(shown, Access::SampledFragment)
-        .read(depth, Access::DepthTest)
-        .write(target, Access::ColorAttachment, Start::Clear(ClearValue::Color(constants.background)))
-        .finish(Box::new(move |context| {
-            draw_fullscreen(context, inputs, &of_polygons, (&images, None), &constants)?;
-            let set = read_set(context, inputs, (&images, None))?;
-            draw_quads_of_tiles(context, inputs, &of_tiles, &seen, set, constants)
-        }));
-    Ok(())
 }

@@ -1,6 +1,7 @@
 //! The lights of a scene that has its own: a small buffer that each frame fills, for whoever shades. A scene without has
 //! one at the eye, which is in the shaders and takes nothing.
 
+use crate::passes::pass::{Pass, Source, transfer};
 use crate::{
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
     scene::{Camera, Light, LightKind, MOST_LIGHTS},
@@ -27,21 +28,19 @@ pub(crate) fn shader_lights(lights: &[Light], camera: &Camera) -> Vec<ShaderLigh
 }
 
 /// Declares the pass that fills the buffer; none where there are no lights.
-pub(crate) fn lights<'a>(graph: &mut Graph<Body<'a>>, lights: &'a [ShaderLight]) -> Option<Handle<Buffer>> {
+pub(crate) fn lights<'a>(
+    graph: &mut Graph<Body<'a>>,
+    source: Source<'a>,
+    lights: &'a [ShaderLight],
+) -> Option<Handle<Buffer>> {
     if lights.is_empty() {
         return None;
     }
-    let bytes: &[u8] = bytemuck::cast_slice(lights);
     // Shaders declare room for the most.
     let room = BufferDesc::of_bytes((MOST_LIGHTS * size_of::<ShaderLight>()) as u64);
     let mut buffer = graph.create_buffer("lights", room);
-    let id = buffer.id();
-    graph.pass("lights").write(&mut buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
-        move |context| {
-            // SAFETY: outside of rendering; the buffer has room; below 65 536 bytes and a multiple of 4.
-            unsafe { context.device().cmd_update_buffer(context.commands(), context.buffer(id)?, 0, bytes) };
-            Ok(())
-        },
-    ));
+    Pass::new(graph, source, "lights", "the scene has lights of its own")
+        .write(transfer(0), &mut buffer, Access::TransferWrite, Start::Discard)
+        .finish(move |pass| pass.update_buffer(transfer(0), bytemuck::cast_slice(lights)));
     Some(buffer)
 }

@@ -2,5 +2,6 @@
 
 pub(crate) mod export;
 pub(crate) mod finalize;
+pub(crate) mod fullscreen;
 pub(crate) mod lights;
 pub(crate) mod readback;

@@ -6,21 +6,22 @@ use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     cull::lists::Lists,
     inputs::Inputs,
+    pass::{Pass, read},
     pipeline::{splat_shaders::Summed, variant::Constants},
     splats::{
-        draw::{SplatPass, draw_splats},
+        draw::{SplatPass, bind_read, draw_splats},
         kernel_texture::kernel_texture,
     },
 };
 use crate::{
     error::Result,
-    graph::{
-        Access, ClearValue, Graph, Handle, Image, ResourceId, Start,
-        execute::{Body, PassContext},
-    },
+    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::{KernelEval, Settings, Transition},
     shaders::config::*,
 };
+
+/// Why a frame has it.
+const WHY: &str = "opaque splats: sums of weights, colors and normals of the nearest surface";
 
 /// What accumulation leaves.
 pub(crate) struct Sums {
@@ -86,56 +87,35 @@ pub(crate) fn accumulate<'a>(
     with_depth: bool,
 ) -> Result<Sums> {
     let format = sum_format(inputs.settings.accumulate);
-    let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
-    let pipelines = splat_pass(inputs.settings, summed).pipelines(inputs)?;
-    let sampled = [with_depth.then(|| depth.id()), kernel.map(Handle::id), polygons.map(Handle::id)];
-
     let mut sums = Sums {
         color: graph.create_image("color sums", inputs.image(format)),
         normal: graph.create_image("normal sums", inputs.image(format)),
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
-    let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
-    let mut pass = graph
-        .pass("accumulate")
-        .write(&mut sums.color, Access::ColorAttachment, zero)
-        .write(&mut sums.normal, Access::ColorAttachment, zero)
-        .read(depth, access);
-    for image in [kernel, polygons].into_iter().flatten() {
-        pass = pass.read(image, Access::SampledFragment);
-    }
-    let ids = lists.ids();
-    lists.read(pass).finish(Box::new(move |context| {
-        bind_read(context, inputs, sampled, None)?;
-        draw_splats(context, inputs, &pipelines, &ids, None)
-    }));
+    let pass = Pass::new(graph, inputs.source, "accumulate", WHY)
+        .attach(&mut sums.color, Access::ColorAttachment, zero)
+        .attach(&mut sums.normal, Access::ColorAttachment, zero)
+        .read_if(read(BIND_READ_KERNEL), kernel, Access::SampledFragment);
+    let pass = lists.read(read_depths(pass, depth, polygons, with_depth));
+    let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
+    let pipelines = splat_pass(inputs.settings, summed).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_splats(pass, inputs, &pipelines)
+    });
     Ok(sums)
 }
 
-/// Binds what the fragments of splats or polygons read, and lights: set 2 of their layout, which stays bound while the sets below
-/// it change. The images are those of `BIND_READ_DEPTH`, `BIND_READ_KERNEL`, `BIND_READ_POLYGON_DEPTH`.
-pub(crate) fn bind_read(
-    context: &PassContext<'_>,
-    inputs: Inputs<'_>,
-    images: [Option<ResourceId>; 3],
-    lights: Option<ResourceId>,
-) -> Result<()> {
-    let mut given = Vec::new();
-    if let Some(lights) = lights {
-        given.push((BIND_READ_LIGHTS, context.descriptor(lights)?));
+/// Adds the depths that accumulation compares with: tested, and read where it is summed or there are polygons.
+pub(crate) fn read_depths<'g, 'a>(
+    pass: Pass<'g, 'a>,
+    depth: &Handle<Image>,
+    polygons: Option<&Handle<Image>>,
+    with_depth: bool,
+) -> Pass<'g, 'a> {
+    let pass = pass.read_if(read(BIND_READ_POLYGON_DEPTH), polygons, Access::SampledFragment);
+    match with_depth {
+        true => pass.read(read(BIND_READ_DEPTH), depth, Access::DepthTestAndSampled),
+        false => pass.uses(depth, Access::DepthTest),
     }
-    let bindings = [BIND_READ_DEPTH, BIND_READ_KERNEL, BIND_READ_POLYGON_DEPTH];
-    for (number, id) in bindings.into_iter().zip(images) {
-        if let Some(id) = id {
-            given.push((number, context.descriptor(id)?));
-        }
-    }
-    let set = inputs.descriptors.set(&inputs.shaders.read_set, &given)?;
-    let layout = inputs.shaders.splat_layout.raw();
-    let bind_point = vk::PipelineBindPoint::GRAPHICS;
-    // SAFETY: set 2 of the splat passes' layout.
-    unsafe {
-        context.device().cmd_bind_descriptor_sets(context.commands(), bind_point, layout, 2, &[set], &[]);
-    }
-    Ok(())
 }

@@ -1,28 +1,21 @@
 //! What the passes of splats are made of, and how they are recorded: their pipelines, draws and dispatches.
 
-use std::sync::Arc;
-
 use ash::vk;
 
 use crate::passes::{
-    cull::gate::Gate,
-    cull::lists::ListIds,
+    cull::visible::{VISIBLE_ARGUMENTS, draw_visible},
     inputs::Inputs,
+    pass::{Pass, Pipeline, Place, arguments},
     pipeline::{
         cache::{GraphicsKey, Layout},
-        constants::FrameConstants,
         splat_shaders::{Drawn, Primitive, Stages},
         variant::Constants,
     },
     plan::draws::Draw,
+    predicate::{self, is_predicated},
+    recording::Recording,
 };
-use crate::{
-    error::Result,
-    graph::execute::PassContext,
-    scene::Settings,
-    shaders::config::*,
-    vk::{Blend, GraphicsPipeline},
-};
+use crate::{error::Result, scene::Settings, shaders::config::*, vk::Blend};
 
 /// What a splat pass is made of: its shaders, and what it writes.
 pub(crate) struct SplatPass {
@@ -38,7 +31,7 @@ pub(crate) struct SplatPass {
 
 /// Which splats of a chunk a draw is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Portion {
+enum Portion {
     /// All, as the rasterizer's own primitive.
     All,
     /// Those that are not listed as large, as the same.
@@ -49,8 +42,8 @@ pub(crate) enum Portion {
 
 /// The pipelines for one draw: of the rasterizer's own primitive, and quads where there may be large splats.
 pub(crate) struct DrawPipelines {
-    own: Arc<GraphicsPipeline>,
-    quads: Option<Arc<GraphicsPipeline>>,
+    own: Pipeline,
+    quads: Option<Pipeline>,
 }
 
 impl SplatPass {
@@ -68,7 +61,7 @@ impl SplatPass {
     }
 
     /// What the pipeline is that draws a portion of the splats of a variant.
-    pub fn key(&self, portion: Portion, variant: &Constants) -> GraphicsKey {
+    fn key(&self, portion: Portion, variant: &Constants) -> GraphicsKey {
         let (primitive, stages) = match portion {
             Portion::Large => (Primitive::Quad, self.stages_of_quads),
             Portion::All | Portion::Small => (self.primitive, self.stages),
@@ -84,15 +77,15 @@ impl SplatPass {
     }
 
     /// The pipelines that draw listed splats as quads, one a draw.
-    pub fn quad_pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<Arc<GraphicsPipeline>>> {
+    pub fn quad_pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<Pipeline>> {
         let key = |draw: &Draw<'_>| self.key(Portion::Large, &draw.variant);
-        inputs.draws.iter().map(|draw| inputs.shaders.graphics(key(draw))).collect()
+        inputs.draws.iter().map(|draw| pass.graphics(key(draw))).collect()
     }
 
     /// The pipelines of every draw, in their order.
-    pub fn pipelines(&self, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
+    pub fn pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
         let both = |draw: &Draw<'_>| {
-            let make = |portion| inputs.shaders.graphics(self.key(portion, &draw.variant));
+            let make = |portion| pass.graphics(self.key(portion, &draw.variant));
             let own = if draw.may_be_large { Portion::Small } else { Portion::All };
             let quads = draw.may_be_large.then(|| make(Portion::Large)).transpose()?;
             Ok(DrawPipelines { own: make(own)?, quads })
@@ -101,52 +94,43 @@ impl SplatPass {
     }
 }
 
-/// Records the draws of all chunks; where there is a gate, the device leaves them out while it is closed.
+/// Binds what the fragments of splats or polygons read, and lights: set 2 of their layout, which stays bound while the sets below
+/// it change.
+pub(crate) fn bind_read(pass: &Recording<'_, '_>) -> Result<()> {
+    pass.bind_sets(Layout::Splat, 2, &[pass.set(Place::Read)?])
+}
+
+/// Records the draws of all chunks: of a layer, where the layer before is not empty; of visible splats, where those are listed.
 pub(crate) fn draw_splats(
-    context: &PassContext<'_>,
+    pass: &Recording<'_, '_>,
     inputs: Inputs<'_>,
     pipelines: &[DrawPipelines],
-    lists: &ListIds,
-    gate: Option<Gate>,
 ) -> Result<()> {
-    let (device, commands) = (context.device(), context.commands());
-    let layout = &inputs.shaders.splat_layout;
-    let bind_point = vk::PipelineBindPoint::GRAPHICS;
     let primitive = Primitive::of(inputs.settings.rasterizer);
+    let (predicated, listed) = (is_predicated(pass), pass.has(VISIBLE_ARGUMENTS));
     // Chunks without lists share a set of stand-ins.
-    let unlisted = inputs.descriptors.set(&inputs.shaders.list_set, &[])?;
-    for ((number, draw), pipelines) in inputs.draws.iter().enumerate().zip(pipelines) {
-        let list = match lists.descriptors(context, number)? {
-            given if given.is_empty() => unlisted,
-            given => inputs.descriptors.set(&inputs.shaders.list_set, &given)?,
-        };
-        let sets = [draw.chunk.set(), list];
-        let arguments = lists.large(number).map(|large| context.buffer(large.arguments)).transpose()?;
-        // SAFETY: inside of rendering, with pipelines, sets and push constants of one layout; the graph's barriers
-        // order what the draws read.
-        unsafe {
-            device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-            // Lists of large splats have numbers within their chunks.
-            let constants = FrameConstants { first_record: 0, ..draw.constants };
-            let constants = bytemuck::bytes_of(&constants);
-            device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-            device.cmd_bind_pipeline(commands, bind_point, pipelines.own.raw());
-            match (gate, &lists.visible) {
-                (Some(gate), _) => gate.draw_splats(context, number)?,
-                (None, Some(visible)) => visible.draw_points(context, number)?,
-                (None, None) => {
-                    let [vertices, instances] = primitive.counts(draw.chunk.count);
-                    device.cmd_draw(commands, vertices, instances, 0, 0);
-                }
-            }
-            if let (Some(quads), Some(arguments)) = (&pipelines.quads, arguments) {
-                device.cmd_bind_pipeline(commands, bind_point, quads.raw());
-                match gate {
-                    Some(gate) => gate.draw_listed(context, arguments)?,
-                    None => device.cmd_draw_indirect(commands, arguments, 0, 1, 16),
-                }
+    let unlisted = pass.set(Place::Lists(UNLISTED))?;
+    for (number, (draw, pipelines)) in inputs.draws.iter().zip(pipelines).enumerate() {
+        let large = arguments(number as u32);
+        let lists = if pass.has(large) { pass.set(Place::Lists(number as u32))? } else { unlisted };
+        pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set(), lists])?;
+        pass.push(Layout::Splat, &draw.constants)?;
+        pass.bind(pipelines.own);
+        match (predicated, listed) {
+            (true, _) => predicate::draw_splats(pass, number)?,
+            (false, true) => draw_visible(pass, number)?,
+            (false, false) => pass.draw(primitive.counts(draw.chunk.count)),
+        }
+        if let Some(quads) = pipelines.quads {
+            pass.bind(quads);
+            match predicated {
+                true => predicate::draw_listed(pass, large)?,
+                false => pass.draw_indirect(large, 0)?,
             }
         }
     }
     Ok(())
 }
+
+/// No chunk has this number.
+const UNLISTED: u32 = u32::MAX;

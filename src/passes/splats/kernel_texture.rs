@@ -5,6 +5,7 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
+    pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
         variant::kernel_constants,
@@ -22,7 +23,7 @@ const FORMAT: vk::Format = vk::Format::R16_SFLOAT;
 
 /// What its pipeline is; `cut_off`: it is 0 outside of the disk, for the paper's programs. It reads no set and no push constants: any
 /// layout will do.
-pub(crate) fn key(kernel: Kernel, cut_off: bool) -> GraphicsKey {
+fn key(kernel: Kernel, cut_off: bool) -> GraphicsKey {
     let mut constants = kernel_constants(kernel);
     constants.push((SPEC_CUT_OFF, cut_off.into()));
     GraphicsKey {
@@ -37,19 +38,18 @@ pub(crate) fn kernel_texture<'a>(
     inputs: Inputs<'a>,
     cut_off: bool,
 ) -> Result<Handle<Image>> {
-    let pipeline = inputs.shaders.graphics(key(inputs.settings.kernel, cut_off))?;
     let extent = vk::Extent2D { width: KERNEL_TEXTURE_SIDE, height: KERNEL_TEXTURE_SIDE };
     let mut texture = graph.create_image("kernel", ImageDesc { format: FORMAT, extent });
-    graph.pass("kernel texture").write(&mut texture, Access::ColorAttachment, Start::Discard).finish(
-        Box::new(move |context| {
-            let (device, commands) = (context.device(), context.commands());
-            // SAFETY: inside of rendering; the pipeline needs no set, no push constants and no vertices.
-            unsafe {
-                device.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline.raw());
-                device.cmd_draw(commands, 3, 1, 0, 0);
-            }
-            Ok(())
-        }),
+    let pass = Pass::new(graph, inputs.source, "kernel texture", "the kernel is read from a texture").attach(
+        &mut texture,
+        Access::ColorAttachment,
+        Start::Discard,
     );
+    let pipeline = pass.graphics(key(inputs.settings.kernel, cut_off))?;
+    pass.finish(move |pass| {
+        pass.bind(pipeline);
+        pass.draw([3, 1]);
+        Ok(())
+    });
     Ok(texture)
 }

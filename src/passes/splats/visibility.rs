@@ -6,10 +6,8 @@ use crate::passes::pipeline::formats::DEPTH_FORMAT;
 use crate::passes::{
     cull::lists::Lists,
     inputs::Inputs,
-    splats::{
-        accumulate::bind_read,
-        draw::{SplatPass, draw_splats},
-    },
+    pass::Pass,
+    splats::draw::{SplatPass, bind_read, draw_splats},
 };
 use crate::{
     error::Result,
@@ -33,18 +31,15 @@ pub(crate) fn visibility<'a>(
     inputs: Inputs<'a>,
     lists: &Lists,
 ) -> Result<Handle<Image>> {
-    let pipelines = splat_pass(inputs.settings, None).pipelines(inputs)?;
-
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
-    let pass = graph.pass("visibility").write(
-        &mut depth,
-        Access::DepthAttachment,
-        Start::Clear(ClearValue::Depth(0.0)),
-    );
-    let ids = lists.ids();
-    lists.read(pass).finish(Box::new(move |context| {
-        bind_read(context, inputs, [None; 3], None)?;
-        draw_splats(context, inputs, &pipelines, &ids, None)
-    }));
+    let clear = Start::Clear(ClearValue::Depth(0.0));
+    let why = "opaque splats: the depth of the nearest surface, shifted by epsilon";
+    let pass = Pass::new(graph, inputs.source, "visibility", why);
+    let pass = lists.read(pass.attach(&mut depth, Access::DepthAttachment, clear));
+    let pipelines = splat_pass(inputs.settings, None).pipelines(&pass, inputs)?;
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_splats(pass, inputs, &pipelines)
+    });
     Ok(depth)
 }

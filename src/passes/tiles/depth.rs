@@ -4,31 +4,40 @@ use std::slice;
 
 use ash::vk;
 
-use crate::passes::pipeline::formats::DEPTH_FORMAT;
+use crate::passes::pipeline::cache::GraphicsKey;
 use crate::passes::{
     inputs::Inputs,
-    pipeline::{cache::GraphicsKey, fullscreen::read_set},
+    pass::{Pass, Place, sums},
+    pipeline::formats::DEPTH_FORMAT,
     resolve::finalize,
     tiles::{
         Tiles,
-        quads::{SeenTiles, draw_quads_of_tiles, quads_of_tiles, read_seen},
+        runs::{draw_runs, read_runs, runs_key},
     },
 };
 use crate::{
     error::Result,
     graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    shaders,
+    shaders::{self, config::BIND_SUMS_COLORS},
 };
 
-/// What the pipeline is.
-pub(crate) fn key() -> GraphicsKey {
-    GraphicsKey {
-        depth: Some((vk::CompareOp::ALWAYS, true)),
-        ..quads_of_tiles(&shaders::TILE_DEPTH_FRAG, Vec::new())
+/// The depth buffer of opaque splats, and how a pass begins that draws into it: `before`, or infinitely far.
+pub(crate) fn depth_after<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    before: Option<Handle<Image>>,
+) -> (Handle<Image>, Start) {
+    match before {
+        Some(before) => (before, Start::Load),
+        None => {
+            let depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
+            (depth, Start::Clear(ClearValue::Depth(0.0)))
+        }
     }
 }
 
-/// Declares the pass. `kind`, in front of the tiles, tells those of several bands apart; `before`: the depth buffer that `visible` begins from; else it is 0 where there are no splats.
+/// Declares the pass. `kind`, in front of the tiles, tells those of several bands apart; `before`: the depth buffer that `visible`
+/// begins from; else it is 0 where there are no splats.
 pub(crate) fn depth_buffer<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -37,24 +46,17 @@ pub(crate) fn depth_buffer<'a>(
     visible: &Handle<Image>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
-    let pipeline = inputs.shaders.graphics(key())?;
+    let (mut depth, start) = depth_after(graph, inputs, before);
+    let why = "more than splats in tiles: others are compared with their depth";
+    let pass = Pass::new(graph, inputs.source, &format!("depth of {kind}tiles"), why)
+        .read(sums(BIND_SUMS_COLORS), visible, Access::SampledFragment)
+        .attach(&mut depth, Access::DepthAttachment, start);
+    let (pass, runs) = read_runs(pass, slice::from_ref(tiles));
+    let pipeline = pass.graphics(GraphicsKey {
+        depth: Some((vk::CompareOp::ALWAYS, true)),
+        ..runs_key(&shaders::TILE_DEPTH_FRAG, Vec::new())
+    })?;
     let constants = finalize::constants(inputs);
-    let (id, seen) = (visible.id(), SeenTiles::of(slice::from_ref(tiles)));
-    let (mut depth, start) = match before {
-        Some(before) => (before, Start::Load),
-        None => {
-            let depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
-            (depth, Start::Clear(ClearValue::Depth(0.0)))
-        }
-    };
-    let pass = graph.pass(&format!("depth of {kind}tiles")).read(visible, Access::SampledFragment).write(
-        &mut depth,
-        Access::DepthAttachment,
-        start,
-    );
-    read_seen(slice::from_ref(tiles), pass).finish(Box::new(move |context| {
-        let set = read_set(context, inputs, (&[(0, id)], None))?;
-        draw_quads_of_tiles(context, inputs, &pipeline, &seen, set, constants)
-    }));
+    pass.finish(move |pass| draw_runs(pass, pipeline, runs, Place::Sums, constants));
     Ok(depth)
 }

@@ -1,25 +1,24 @@
 //! The splats that are too large for tiles, or not regular: drawn as quads by the graphics pipeline, from the lists of chunks.
 
-use ash::vk;
-
 use crate::passes::{
     inputs::Inputs,
-    pipeline::{constants::FrameConstants, splat_shaders::Summed},
+    pass::{Pass, Place, arguments, lists},
+    pipeline::{cache::Layout, constants::FrameConstants, splat_shaders::Summed},
     splats::{
-        accumulate::{self, bind_read},
-        draw::SplatPass,
+        accumulate::{self, read_depths},
+        draw::{SplatPass, bind_read},
         visibility,
     },
-    tiles::{Tiles, splat::TileImages},
+    tiles::{Tiles, depth::depth_after, splat::TileImages},
 };
 use crate::{
     error::Result,
-    graph::{
-        Access, ClearValue, Graph, Handle, Image, PassBuilder, ResourceId, Start,
-        execute::{Body, PassContext},
-    },
+    graph::{Access, Graph, Handle, Image, Start, execute::Body},
     shaders::config::*,
 };
+
+/// Why a frame draws them so.
+const WHY: &str = "a splat may be too large for tiles, or come near the eye plane";
 
 /// Declares their visibility; returns the depth, as that of all splats is. `kind`, in front of the splats, tells those of several bands
 /// apart; `before`: the depth of other bands.
@@ -30,21 +29,13 @@ pub(crate) fn see_large<'a>(
     tiles: &Tiles<'a>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
-    let draws = LargeDraws::new(inputs, tiles, &visibility::splat_pass(inputs.settings, None))?;
-    let (mut depth, start) = match before {
-        Some(before) => (before, Start::Load),
-        None => {
-            let depth =
-                graph.create_image("depth", inputs.image(crate::passes::pipeline::formats::DEPTH_FORMAT));
-            (depth, Start::Clear(ClearValue::Depth(0.0)))
-        }
-    };
-    let pass = graph.pass(&format!("see {kind}large splats"));
-    let pass = pass.write(&mut depth, Access::DepthAttachment, start);
-    read_list(tiles, pass).finish(Box::new(move |context| {
-        bind_read(context, inputs, [None; 3], None)?;
-        draws.record(context)
-    }));
+    let (mut depth, start) = depth_after(graph, inputs, before);
+    let pass = Pass::new(graph, inputs.source, &format!("see {kind}large splats"), WHY).attach(
+        &mut depth,
+        Access::DepthAttachment,
+        start,
+    );
+    finish(pass, inputs, tiles, &visibility::splat_pass(inputs.settings, None))?;
     Ok(depth)
 }
 
@@ -58,83 +49,38 @@ pub(crate) fn sum_large<'a>(
     (depth, polygons): (&Handle<Image>, Option<&Handle<Image>>),
     with_depth: bool,
 ) -> Result<()> {
+    let pass = Pass::new(graph, inputs.source, &format!("sum {kind}large splats"), WHY)
+        .attach(&mut images.sums.color, Access::ColorAttachment, Start::Load)
+        .attach(&mut images.sums.normal, Access::ColorAttachment, Start::Load);
+    let pass = read_depths(pass, depth, polygons, with_depth);
     let summed = Summed::Opaque { with_depth, beside_polygons: polygons.is_some() };
-    let draws = LargeDraws::new(inputs, tiles, &accumulate::splat_pass(inputs.settings, summed))?;
-    let sampled = [with_depth.then(|| depth.id()), None, polygons.map(Handle::id)];
-    let access = if with_depth { Access::DepthTestAndSampled } else { Access::DepthTest };
-    let mut pass = graph
-        .pass(&format!("sum {kind}large splats"))
-        .write(&mut images.sums.color, Access::ColorAttachment, Start::Load)
-        .write(&mut images.sums.normal, Access::ColorAttachment, Start::Load)
-        .read(depth, access);
-    if let Some(polygons) = polygons {
-        pass = pass.read(polygons, Access::SampledFragment);
-    }
-    read_list(tiles, pass).finish(Box::new(move |context| {
-        bind_read(context, inputs, sampled, None)?;
-        draws.record(context)
-    }));
-    Ok(())
+    finish(pass, inputs, tiles, &accumulate::splat_pass(inputs.settings, summed))
 }
 
-fn read_list<'g, B>(tiles: &Tiles<'_>, pass: PassBuilder<'g, B>) -> PassBuilder<'g, B> {
-    pass.read(&tiles.entries, Access::StorageReadVertex).read(&tiles.arguments, Access::IndirectRead)
-}
-
-/// The draws of one pass: one a chunk.
-struct LargeDraws<'a> {
-    inputs: Inputs<'a>,
-    pipelines: Vec<std::sync::Arc<crate::vk::GraphicsPipeline>>,
-    entries: ResourceId,
-    arguments: ResourceId,
-    /// The rows of the band.
-    area: vk::Rect2D,
-}
-
-impl<'a> LargeDraws<'a> {
-    fn new(inputs: Inputs<'a>, tiles: &Tiles<'a>, pass: &SplatPass) -> Result<Self> {
-        Ok(Self {
-            inputs,
-            pipelines: pass.quad_pipelines(inputs)?,
-            entries: tiles.entries.id(),
-            arguments: tiles.arguments.id(),
-            area: tiles.plan.area(inputs.extent()),
-        })
-    }
-
-    fn record(&self, context: &PassContext<'_>) -> Result<()> {
-        let shaders = self.inputs.shaders;
-        let list = [(BIND_LIST_ITEMS, context.descriptor(self.entries)?)];
-        let list = self.inputs.descriptors.set(&shaders.list_set, &list)?;
-        let arguments = context.buffer(self.arguments)?;
-        let layout = &shaders.splat_layout;
-        let bind_point = vk::PipelineBindPoint::GRAPHICS;
-        let (device, commands) = (context.device(), context.commands());
+/// Adds the lists of chunks, and declares the pass that draws them.
+fn finish<'a>(pass: Pass<'_, 'a>, inputs: Inputs<'a>, tiles: &Tiles<'a>, splats: &SplatPass) -> Result<()> {
+    let pass = pass.read(lists(BIND_LIST_ITEMS), &tiles.entries, Access::StorageReadVertex).read(
+        arguments(0),
+        &tiles.arguments,
+        Access::IndirectRead,
+    );
+    let pipelines = splats.quad_pipelines(&pass, inputs)?;
+    let area = tiles.plan.area(inputs.extent());
+    pass.finish(move |pass| {
+        bind_read(pass)?;
         // SAFETY: inside of rendering; within the image. A splat that touches several bands is listed in each.
-        unsafe { device.cmd_set_scissor(commands, 0, &[self.area]) };
-        for ((number, draw), pipeline) in (0..).zip(self.inputs.draws).zip(&self.pipelines) {
-            let constants = FrameConstants {
-                // Of listed splats the lists have indices within their chunks.
-                first_record: if self.inputs.listed.is_some() { 0 } else { draw.constants.first_record },
-                ..draw.constants
-            };
-            let constants = bytemuck::bytes_of(&constants);
-            let sets = [draw.chunk.set(), list];
-            // SAFETY: inside of rendering; pipeline, sets and push constants have one layout; the graph's barriers order
-            // what is read; the arguments are within the buffer, and begin at any instance, as the device can.
-            unsafe {
-                device.cmd_bind_descriptor_sets(commands, bind_point, layout.raw(), 0, &sets, &[]);
-                device.cmd_push_constants(commands, layout.raw(), layout.push_stages(), 0, constants);
-                device.cmd_bind_pipeline(commands, bind_point, pipeline.raw());
-                device.cmd_draw_indirect(
-                    commands,
-                    arguments,
-                    4 * u64::from(ARGUMENTS_CHUNKS) + 16 * number,
-                    1,
-                    16,
-                );
-            }
+        unsafe { pass.device().cmd_set_scissor(pass.commands(), 0, &[area]) };
+        let lists = pass.set(Place::Lists(0))?;
+        for ((number, draw), pipeline) in (0..).zip(inputs.draws).zip(pipelines) {
+            // Of listed splats the lists have indices within their chunks.
+            let first_record = if inputs.listed.is_some() { 0 } else { draw.constants.first_record };
+            pass.bind(pipeline);
+            pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set(), lists])?;
+            pass.push(Layout::Splat, &FrameConstants { first_record, ..draw.constants })?;
+            // They begin at any instance, as the device can.
+            pass.draw_indirect(arguments(0), 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * number)?;
         }
         Ok(())
-    }
+    });
+    Ok(())
 }

@@ -5,13 +5,15 @@ use ash::vk;
 use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     inputs::Inputs,
+    pass::{Pass, tiles as at},
     pipeline::{cache::ComputeKey, variant::shading_constants},
     plan::tiles::TilePlan,
     tiles::{
-        TilePass, Tiles,
         bins::list,
+        clear::clear,
         layer_work::{Work, dispatches},
-        pass, splat,
+        lists::Tiles,
+        overfull, pass, splat,
     },
 };
 use crate::{
@@ -29,15 +31,15 @@ const PEELED_FORMAT: vk::Format = vk::Format::R32G32_SFLOAT;
 
 /// What depends on the scene beside the splats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Beside {
+struct Beside {
     /// There are opaque things.
-    pub opaque: bool,
+    opaque: bool,
     /// The scene's own lights.
-    pub lights: u32,
+    lights: u32,
 }
 
 /// The pipeline.
-pub(crate) fn key(settings: &Settings, plan: &TilePlan, beside: Beside, work: Work) -> ComputeKey {
+fn key(settings: &Settings, plan: &TilePlan, beside: Beside, work: Work) -> ComputeKey {
     let shader = plan.invocations.shader(match work {
         Work::Whole | Work::Several => [&shaders::TILE_LAYERS_COLUMN_COMP, &shaders::TILE_LAYERS_PIXEL_COMP],
         Work::Parts => {
@@ -69,7 +71,8 @@ pub(crate) fn layers<'a>(
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Handle<Image>> {
     let mut layers = graph.create_image("layers", inputs.image(sum_format(inputs.settings.accumulate)));
-    crate::passes::tiles::clear(graph, "clear layers", &mut [&mut layers]);
+    let why = "transparent splats: tiles without any have no layer";
+    clear(graph, inputs.source, "clear layers", why, &mut [&mut layers]);
     let around = (opaque, lights);
     for (band, inputs, plan) in inputs.of_bands() {
         let tiles = list(graph, inputs, &format!("transparent {band}"), plan)?;
@@ -95,9 +98,12 @@ fn declare<'a>(
     work: Work,
 ) -> Result<()> {
     let (settings, plan) = (inputs.settings, tiles.plan);
-    let (name, first_word) = match work {
-        Work::Whole | Work::Several => (format!("layers of {band}tiles"), ARGUMENTS_TILES),
-        Work::Parts => (format!("layers of {band}overfull tiles"), ARGUMENTS_OVERFLOW),
+    let (name, why, first_word) = match work {
+        Work::Whole | Work::Several => {
+            let why = "transparent splats: all layers of one tile after the other";
+            (format!("layers of {band}tiles"), why, ARGUMENTS_TILES)
+        }
+        Work::Parts => (format!("layers of {band}overfull tiles"), overfull::WHY, ARGUMENTS_OVERFLOW),
     };
     let mut peeled = (work == Work::Several)
         .then(|| graph.create_image(&format!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT)));
@@ -108,25 +114,21 @@ fn declare<'a>(
     let update =
         if peeled.is_some() { Access::SampledAndStoredCompute } else { Access::StorageReadWriteCompute };
     let mut pass = tiles
-        .read_lists(TilePass::new(graph, &name))
-        .write(BIND_COLORS, layers, update, Start::Load)
-        .read_if(BIND_DEPTH_BEFORE, opaque, Access::SampledCompute)
-        .read_if(BIND_LIGHTS, lights, Access::UniformReadCompute);
-    pass = match &mut peeled {
-        Some(peeled) => pass
-            .bind(BIND_COLORS_BEFORE, layers)
-            .write(BIND_NORMALS, peeled, update, Start::Discard)
-            .bind(BIND_NORMALS_BEFORE, peeled),
-        // An image that is not written has to be there.
-        None => pass.bind(BIND_NORMALS, layers),
-    };
+        .read_lists(Pass::new(graph, inputs.source, &name, why))
+        .read_if(at(BIND_DEPTH_BEFORE), opaque, Access::SampledCompute)
+        .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
+        .write(at(BIND_COLORS), layers, update, Start::Load);
+    if let Some(peeled) = &mut peeled {
+        pass = pass
+            .also(at(BIND_COLORS_BEFORE))
+            .write(at(BIND_NORMALS), peeled, update, Start::Discard)
+            .also(at(BIND_NORMALS_BEFORE));
+    }
     if let Some(state) = &mut state {
-        pass = pass.write(BIND_LAYER_STATE, state, Access::StorageReadWriteCompute, Start::Discard);
+        pass = pass.write(at(BIND_LAYER_STATE), state, Access::StorageReadWriteCompute, Start::Discard);
     }
     let key = key(settings, plan, Beside { opaque: opaque.is_some(), lights: inputs.lights }, work);
-    let arguments = tiles.arguments.id();
-    pass.finish(inputs, (plan, key), move |pass| {
-        let dispatches = dispatches(settings, plan, work, pass.constants);
-        pass.indirect_in_turn(dispatches, arguments, first_word)
+    pass::finish(pass, inputs, (plan, key), move |pass| {
+        pass.indirect_in_turn(dispatches(settings, plan, work, pass.constants), first_word)
     })
 }

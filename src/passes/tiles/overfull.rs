@@ -7,7 +7,10 @@
 use ash::vk;
 
 use crate::passes::{pipeline::constants::TileConstants, tiles::pass::TileDispatch};
-use crate::{error::Result, graph::ResourceId, shaders::config::*};
+use crate::{error::Result, shaders::config::*};
+
+/// Why a frame has passes for them.
+pub(crate) const WHY: &str = "a tile may have more splats than one dispatch takes";
 
 /// Pixels of an image that has room for so many tiles.
 pub(crate) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -> vk::Extent2D {
@@ -18,17 +21,12 @@ pub(crate) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -
 }
 
 /// Records the dispatches of a pass: perhaps of whole tiles, then of all parts of overfull ones.
-pub(crate) fn in_parts(
-    pass: &TileDispatch<'_, '_>,
-    arguments: ResourceId,
-    whole: bool,
-    parts: u32,
-) -> Result<()> {
+pub(crate) fn in_parts(pass: &TileDispatch<'_, '_>, whole: bool, parts: u32) -> Result<()> {
     if whole {
-        pass.indirect(pass.constants, arguments, ARGUMENTS_TILES)?;
+        pass.indirect(pass.constants, ARGUMENTS_TILES)?;
     }
     let part = |part| TileConstants { part, ..pass.constants };
-    pass.indirect_in_turn((0..parts).map(part), arguments, ARGUMENTS_OVERFLOW)
+    pass.indirect_in_turn((0..parts).map(part), ARGUMENTS_OVERFLOW)
 }
 
 #[cfg(test)]

@@ -4,11 +4,13 @@
 
 use crate::passes::{
     inputs::Inputs,
+    pass::{Pass, tiles as at},
     pipeline::{cache::ComputeKey, variant::shading_constants},
     plan::tiles::TilePlan,
     resolve::finalize::resolve_constants,
     tiles::{
-        TilePass, Tiles, pass,
+        lists::Tiles,
+        overfull, pass,
         splat::{self, TileImages, TileStart, beside_polygons},
     },
 };
@@ -28,14 +30,14 @@ pub(crate) struct Shown {
 
 /// Beside what tiles are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Beside {
-    pub polygons: bool,
+struct Beside {
+    polygons: bool,
     /// The scene's own lights.
-    pub lights: u32,
+    lights: u32,
 }
 
 /// The pipeline. `precision`: of what is shown.
-pub(crate) fn key(
+fn key(
     settings: &Settings,
     plan: &TilePlan,
     precision: Accumulate,
@@ -72,19 +74,20 @@ pub(crate) fn shaded<'a>(
     let plan = tiles.plan;
     let beside = Beside { polygons: polygons.is_some(), lights: inputs.lights };
     let (access, content) = start.access();
-    let pass = TilePass::new(graph, &format!("see, sum and shade {kind}tiles"));
+    let why = "opaque splats: visibility, sums and shading of one tile after the other";
+    let pass = Pass::new(graph, inputs.source, &format!("see, sum and shade {kind}tiles"), why);
     let mut pass = match leaves_hidden_out(plan, beside.polygons) {
         true => tiles.shorten_lists(pass),
         false => tiles.read_lists(pass),
     }
-    .read_if(BIND_LIGHTS, lights, Access::UniformReadCompute)
-    .read_if(BIND_POLYGON_DEPTH, polygons, Access::SampledCompute)
-    .write(BIND_COLORS, &mut shown.image, access, content);
+    .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
+    .read_if(at(BIND_POLYGON_DEPTH), polygons, Access::SampledCompute)
+    .write(at(BIND_COLORS), &mut shown.image, access, content);
     if beside.polygons {
-        pass = pass.bind(BIND_COLORS_BEFORE, &shown.image);
+        pass = pass.also(at(BIND_COLORS_BEFORE));
     }
     let key = key(inputs.settings, plan, shown.precision, beside);
-    pass.finish_indirect(inputs, (plan, key), (&tiles.arguments, ARGUMENTS_TILES))?;
+    pass::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
     match plan.may_be_overfull() {
         true => shade_overfull(graph, inputs, kind, tiles, shown, lights),
         false => Ok(()),
@@ -108,15 +111,13 @@ fn shade_overfull<'a>(
     let mut constants = shading_constants(inputs.settings.shading, inputs.lights);
     constants.extend(splat::constants(inputs.settings, plan, shown.precision));
     let (access, content) = TileStart::Bands.access(); // the other tiles
-    tiles
-        .read_lists(TilePass::new(graph, &format!("shade {kind}overfull tiles")))
-        .read(BIND_COLORS_BEFORE, &images.sums.color, Access::SampledCompute)
-        .read(BIND_NORMALS_BEFORE, &images.sums.normal, Access::SampledCompute)
-        .read_if(BIND_LIGHTS, lights, Access::UniformReadCompute)
-        .write(BIND_COLORS, &mut shown.image, access, content)
-        .finish_indirect(
-            inputs,
-            (plan, pass::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants)),
-            (&tiles.arguments, ARGUMENTS_OVERFLOW),
-        )
+    let pass = Pass::new(graph, inputs.source, &format!("shade {kind}overfull tiles"), overfull::WHY);
+    let pass = tiles
+        .read_lists(pass)
+        .read(at(BIND_COLORS_BEFORE), &images.sums.color, Access::SampledCompute)
+        .read(at(BIND_NORMALS_BEFORE), &images.sums.normal, Access::SampledCompute)
+        .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
+        .write(at(BIND_COLORS), &mut shown.image, access, content);
+    let key = pass::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants);
+    pass::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_OVERFLOW)
 }

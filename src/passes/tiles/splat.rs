@@ -6,6 +6,7 @@ use ash::vk;
 use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     inputs::Inputs,
+    pass::{Pass, tiles as at},
     pipeline::{
         cache::ComputeKey,
         variant::{Constants, splat_constants},
@@ -13,8 +14,9 @@ use crate::passes::{
     plan::tiles::TilePlan,
     splats::accumulate::Sums,
     tiles::{
-        TilePass, Tiles,
-        overfull::{extent_of_slots, in_parts},
+        clear::clear,
+        lists::Tiles,
+        overfull::{self, extent_of_slots, in_parts},
         pass,
     },
 };
@@ -53,7 +55,8 @@ impl TileImages {
         };
         if cleared {
             let TileImages { sums: Sums { color, normal }, depth, .. } = &mut images;
-            crate::passes::tiles::clear(graph, "clear sums", &mut [color, normal, depth]);
+            let why = "more than splats in tiles: the images are read as a whole";
+            clear(graph, inputs.source, "clear sums", why, &mut [color, normal, depth]);
         }
         images
     }
@@ -118,24 +121,24 @@ impl TileStart {
 
 /// What one pass does, and beside what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Step {
-    pub sees: bool,
-    pub sums: bool,
+struct Step {
+    sees: bool,
+    sums: bool,
     /// What is hidden is left out of sums.
-    pub hidden: bool,
+    hidden: bool,
     /// Depth is summed, too.
-    pub with_depth: bool,
+    with_depth: bool,
     /// The graphics pipeline has drawn visible splats before.
-    pub preloaded: bool,
-    pub polygons: bool,
+    preloaded: bool,
+    polygons: bool,
 }
 
 impl Step {
     /// Visibility and accumulation of splats alone.
-    pub const FUSED: Self =
+    const FUSED: Self =
         Self { sees: true, sums: true, hidden: false, with_depth: false, preloaded: false, polygons: false };
-    pub const VISIBLE: Self = Self { sums: false, ..Self::FUSED };
-    pub const SUMMED: Self = Self { sees: false, ..Self::FUSED };
+    const VISIBLE: Self = Self { sums: false, ..Self::FUSED };
+    const SUMMED: Self = Self { sees: false, ..Self::FUSED };
 }
 
 /// The constants of what draws from the lists. What differs between chunks is in their records.
@@ -156,7 +159,7 @@ pub(crate) fn beside_polygons(settings: &Settings) -> Constants {
 }
 
 /// The pipeline of a step.
-pub(crate) fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
+fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
     let shader = plan.invocations.shader(match step.hidden {
         false => [&shaders::TILE_ACCUMULATE_COLUMN_COMP, &shaders::TILE_ACCUMULATE_PIXEL_COMP],
         true => [&shaders::TILE_ACCUMULATE_COLUMN_HIDDEN_COMP, &shaders::TILE_ACCUMULATE_PIXEL_HIDDEN_COMP],
@@ -190,14 +193,16 @@ pub(crate) fn fused<'a>(
     let step = Step { hidden: plan.hidden, with_depth, preloaded: before.is_some(), ..Step::FUSED };
     let mut key = key(inputs.settings, plan, step);
     key.constants.push((SPEC_KEEPS_DEPTH, u32::from(start == TileStart::Cleared)));
-    let pass = TilePass::new(graph, &format!("see and sum {kind}tiles"));
+    let why = "opaque splats: visibility and sums of one tile after the other";
+    let pass = Pass::new(graph, inputs.source, &format!("see and sum {kind}tiles"), why);
     let pass = if plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     let (access, content) = start.access();
-    pass.write(BIND_COLORS, &mut images.sums.color, access, content)
-        .write(BIND_NORMALS, &mut images.sums.normal, access, content)
-        .write(BIND_VISIBLE_DEPTH, &mut images.depth, access, content)
-        .read_if(BIND_DEPTH_BEFORE, before, Access::SampledCompute)
-        .finish_indirect(inputs, (plan, key), (&tiles.arguments, ARGUMENTS_TILES))?;
+    let pass = pass
+        .write(at(BIND_COLORS), &mut images.sums.color, access, content)
+        .write(at(BIND_NORMALS), &mut images.sums.normal, access, content)
+        .write(at(BIND_VISIBLE_DEPTH), &mut images.depth, access, content)
+        .read_if(at(BIND_DEPTH_BEFORE), before, Access::SampledCompute);
+    pass::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
     if plan.may_be_overfull() {
         see(graph, inputs, kind, tiles, images, before, false)?;
         sum(graph, inputs, kind, tiles, images, (None, with_depth), false)?;
@@ -217,15 +222,13 @@ pub(crate) fn see<'a>(
 ) -> Result<()> {
     let step = Step { preloaded: before.is_some(), ..Step::VISIBLE };
     let start = images.start();
-    let pass = TilePass::new(graph, &format!("see {kind}{}", if all { "tiles" } else { "overfull tiles" }));
+    let why = "opaque splats beside polygons: the depth of the nearest surface of each tile";
+    let pass = begin(graph, inputs, "see", (kind, why), all);
     let pass = tiles
         .read_lists(pass)
-        .write(BIND_VISIBLE_DEPTH, &mut images.depth, Access::SampledAndStoredCompute, start)
-        .bind(BIND_VISIBLE_BEFORE, &images.depth)
-        // An image that the step does not write has to be there.
-        .bind(BIND_COLORS, &images.depth)
-        .bind(BIND_NORMALS, &images.depth)
-        .read_if(BIND_DEPTH_BEFORE, before, Access::SampledCompute);
+        .write(at(BIND_VISIBLE_DEPTH), &mut images.depth, Access::SampledAndStoredCompute, start)
+        .also(at(BIND_VISIBLE_BEFORE))
+        .read_if(at(BIND_DEPTH_BEFORE), before, Access::SampledCompute);
     finish(pass, inputs, tiles, images, step, all)
 }
 
@@ -242,21 +245,33 @@ pub(crate) fn sum<'a>(
 ) -> Result<()> {
     let step = Step { polygons: polygons.is_some(), with_depth, ..Step::SUMMED };
     let (update, start) = (Access::SampledAndStoredCompute, images.start());
-    let pass = TilePass::new(graph, &format!("sum {kind}{}", if all { "tiles" } else { "overfull tiles" }));
+    let why = "opaque splats beside polygons: sums of the nearest surface of each tile";
+    let pass = begin(graph, inputs, "sum", (kind, why), all);
     let pass = tiles
         .read_lists(pass)
-        .read(BIND_VISIBLE_BEFORE, &images.depth, Access::SampledCompute)
-        .write(BIND_COLORS, &mut images.sums.color, update, start)
-        .write(BIND_NORMALS, &mut images.sums.normal, update, start)
-        .bind(BIND_COLORS_BEFORE, &images.sums.color)
-        .bind(BIND_NORMALS_BEFORE, &images.sums.normal)
-        .bind(BIND_VISIBLE_DEPTH, &images.sums.normal) // as above
-        .read_if(BIND_POLYGON_DEPTH, polygons, Access::SampledCompute);
+        .read(at(BIND_VISIBLE_BEFORE), &images.depth, Access::SampledCompute)
+        .write(at(BIND_COLORS), &mut images.sums.color, update, start)
+        .also(at(BIND_COLORS_BEFORE))
+        .write(at(BIND_NORMALS), &mut images.sums.normal, update, start)
+        .also(at(BIND_NORMALS_BEFORE))
+        .read_if(at(BIND_POLYGON_DEPTH), polygons, Access::SampledCompute);
     finish(pass, inputs, tiles, images, step, all)
 }
 
+/// A pass over `all` tiles, or over parts of overfull ones.
+fn begin<'g, 'a>(
+    graph: &'g mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    what: &str,
+    (kind, why): (&str, &'static str),
+    all: bool,
+) -> Pass<'g, 'a> {
+    let (of, why) = if all { ("tiles", why) } else { ("overfull tiles", overfull::WHY) };
+    Pass::new(graph, inputs.source, &format!("{what} {kind}{of}"), why)
+}
+
 fn finish<'a>(
-    pass: TilePass<'_, 'a>,
+    pass: Pass<'_, 'a>,
     inputs: Inputs<'a>,
     tiles: &Tiles<'a>,
     images: &TileImages,
@@ -265,6 +280,6 @@ fn finish<'a>(
 ) -> Result<()> {
     let mut key = key(inputs.settings, tiles.plan, step);
     key.constants.push((SPEC_IN_SLOTS, u32::from(images.in_slots)));
-    let (arguments, parts) = (tiles.arguments.id(), tiles.plan.parts_of_overfull());
-    pass.finish(inputs, (tiles.plan, key), move |pass| in_parts(pass, arguments, all, parts))
+    let parts = tiles.plan.parts_of_overfull();
+    pass::finish(pass, inputs, (tiles.plan, key), move |pass| in_parts(pass, all, parts))
 }

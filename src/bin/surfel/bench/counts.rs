@@ -4,6 +4,7 @@ mod isa;
 
 use std::collections::{HashMap, HashSet};
 
+use surfel::shaders::config::{SPEC_KERNEL, SPEC_SHADING, SPEC_TEXELS};
 use surfel::{
     Error, Progress as _, Result, Settings,
     instruments::{Counter, Traits, frame_pipelines, papers_pipelines},
@@ -77,9 +78,9 @@ pub fn gather(arguments: &BenchArguments, bars: &Bars) -> Result<InstructionRepo
 fn pipelines(all: bool) -> Result<Vec<(PipelineNames, PipelineRecipe)>> {
     let mut found = Vec::new();
     let mut seen = HashSet::new();
-    for recipe in papers_pipelines() {
+    for recipe in papers_pipelines()? {
         let names = PipelineNames {
-            pass: recipe.pass.to_owned(),
+            pass: recipe.pass.clone(),
             draws: "points".to_owned(),
             rasterizer: "as published".to_owned(),
             shaders: shaders(&recipe),
@@ -206,8 +207,8 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         (true, false) => "open ellipses",
     };
     let mut names = PipelineNames {
-        pass: recipe.pass.to_owned(),
-        draws: recipe.draws.to_owned(),
+        pass: recipe.pass.clone(),
+        draws: recipe.draws().to_owned(),
         shaders: shaders(recipe),
         ..PipelineNames::default()
     };
@@ -216,7 +217,7 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         Kernel::Gaussian { .. } => kernel_eval.to_owned(),
         Kernel::PsiE { .. } => format!("psi_e {kernel_eval}"),
     };
-    if recipe.pass == "kernel texture" && settings.kernel == PSI_E {
+    if recipe.has(SPEC_KERNEL) && !recipe.sets_splats_up() && settings.kernel == PSI_E {
         names.kernel_eval = kernel_eval.clone();
     }
     if recipe.sets_splats_up() {
@@ -226,26 +227,17 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.kernel_eval = kernel_eval;
         names.splats = splats.to_owned();
     }
-    let walks = ["count tiles", "fill tiles"].contains(&recipe.pass);
-    if walks && settings.tile_invocations == TileInvocations::Pixel {
+    if recipe.constants().contains(&(SPEC_TEXELS, 0)) {
         names.draws = format!("{} as words", names.draws).trim_start().to_owned();
     }
-    if recipe.draws == "triangles" && !recipe.sets_splats_up() {
+    if recipe.draws() == "triangles" && !recipe.sets_splats_up() {
         names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
-    let sums = [
-        "accumulate",
-        "floor add",
-        "see, sum and shade tiles",
-        "see and sum tiles",
-        "sum tiles",
-        "sum large splats",
-        "layers of tiles",
-    ];
-    if sums.contains(&recipe.pass) && settings.accumulate != Accumulate::default() {
+    // Each pipeline is named where it is found first: another precision finds those alone that depend on it.
+    if settings.accumulate != Accumulate::default() {
         names.accumulate = settings.accumulate.name().to_owned();
     }
-    if ["finalize", "see, sum and shade tiles"].contains(&recipe.pass) {
+    if recipe.has(SPEC_SHADING) {
         names.shading = settings.shading.name().to_owned();
     }
     names

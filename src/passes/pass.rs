@@ -1,0 +1,193 @@
+//! A pass in the making: each resource is named once, with its access and where the pass finds it; so are its pipelines, and why the
+//! frame has it.
+
+use std::cell::RefCell;
+
+use crate::passes::pipeline::{
+    cache::{ComputeKey, GraphicsKey, Layout, Shaders},
+    recipe::{Key, PipelineRecipe},
+};
+use crate::passes::recording::Recording;
+use crate::{
+    error::Result,
+    graph::{Access, Graph, Handle, PassBuilder, ResourceId, Start, execute::Body},
+    vk::DescriptorPool,
+};
+
+/// What passes take pipelines and descriptor sets from.
+#[derive(Clone, Copy)]
+pub enum Source<'a> {
+    /// A device, which is to record them.
+    Device(&'a Shaders, &'a DescriptorPool),
+    /// None: their pipelines are listed, and nothing is ever recorded.
+    List(&'a RefCell<Vec<PipelineRecipe>>),
+}
+
+/// Where a pass finds a resource.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct At {
+    pub place: Place,
+    pub binding: u32,
+}
+
+/// A set of descriptors, or where draws and copies look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Place {
+    /// `BIND_LIST_*`, of a chunk; of all chunks under number 0.
+    Lists(u32),
+    /// `BIND_READ_*`.
+    Read,
+    /// `BIND_SUMS_*`.
+    Sums,
+    /// `BIND_CELLS_*`.
+    Cells,
+    /// Those of tiles, of a band where a pass draws several.
+    Tiles(u32),
+    /// The arguments of draws and dispatches.
+    Arguments,
+    /// What is drawn by index.
+    Indices,
+    /// What is copied, cleared or filled.
+    Transfer,
+}
+
+impl Place {
+    /// A binding of it.
+    pub const fn at(self, binding: u32) -> At {
+        At { place: self, binding }
+    }
+}
+
+/// A binding of the lists of all chunks.
+pub(crate) const fn lists(binding: u32) -> At {
+    Place::Lists(0).at(binding)
+}
+
+/// A binding of what fragments read.
+pub(crate) const fn read(binding: u32) -> At {
+    Place::Read.at(binding)
+}
+
+/// A binding of the sums.
+pub(crate) const fn sums(binding: u32) -> At {
+    Place::Sums.at(binding)
+}
+
+/// A binding of the tiles.
+pub(crate) const fn tiles(binding: u32) -> At {
+    Place::Tiles(0).at(binding)
+}
+
+/// The arguments with this number, often a chunk's.
+pub(crate) const fn arguments(number: u32) -> At {
+    Place::Arguments.at(number)
+}
+
+/// The list that points are drawn by.
+pub(crate) const INDICES: At = Place::Indices.at(0);
+
+/// What a copy takes and what it gives, or the only one of a pass.
+pub(crate) const fn transfer(number: u32) -> At {
+    Place::Transfer.at(number)
+}
+
+/// A pipeline of a pass, with the layout that it was made for; a null handle in a frame that is only listed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pipeline {
+    pub raw: ash::vk::Pipeline,
+    pub layout: Layout,
+}
+
+/// A pass in the making.
+#[must_use = "a pass is declared by `finish`"]
+pub(crate) struct Pass<'g, 'a> {
+    declared: PassBuilder<'g, Body<'a>>,
+    source: Source<'a>,
+    bound: Vec<(At, ResourceId)>,
+}
+
+impl<'g, 'a> Pass<'g, 'a> {
+    /// A pass of this name, unique in its frame; `why` the frame has it.
+    pub fn new(graph: &'g mut Graph<Body<'a>>, source: Source<'a>, name: &str, why: &'static str) -> Self {
+        Self { declared: graph.pass(name).why(why), source, bound: Vec::new() }
+    }
+
+    /// A pipeline of compute, made where it was not made yet.
+    pub fn compute(&self, key: ComputeKey) -> Result<Pipeline> {
+        let layout = key.layout;
+        let raw = match self.source {
+            Source::Device(shaders, _) => shaders.compute(key)?,
+            Source::List(list) => self.list(list, Key::Compute(key)),
+        };
+        Ok(Pipeline { raw, layout })
+    }
+
+    /// A pipeline of graphics, made where it was not made yet.
+    pub fn graphics(&self, key: GraphicsKey) -> Result<Pipeline> {
+        let layout = key.layout;
+        let raw = match self.source {
+            Source::Device(shaders, _) => shaders.graphics(key)?,
+            Source::List(list) => self.list(list, Key::Graphics(key)),
+        };
+        Ok(Pipeline { raw, layout })
+    }
+
+    fn list(&self, list: &RefCell<Vec<PipelineRecipe>>, key: Key) -> ash::vk::Pipeline {
+        list.borrow_mut().push(PipelineRecipe { pass: self.declared.name().to_owned(), key });
+        ash::vk::Pipeline::null()
+    }
+
+    /// Reads a resource.
+    pub fn read<K>(mut self, at: At, handle: &Handle<K>, access: Access) -> Self {
+        self.bound.push((at, handle.id()));
+        self.uses(handle, access)
+    }
+
+    /// Reads what there may be.
+    pub fn read_if<K>(self, at: At, handle: Option<&Handle<K>>, access: Access) -> Self {
+        match handle {
+            Some(handle) => self.read(at, handle, access),
+            None => self,
+        }
+    }
+
+    /// Writes a resource.
+    pub fn write<K>(mut self, at: At, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
+        self.bound.push((at, handle.id()));
+        self.attach(handle, access, start)
+    }
+
+    /// Finds the resource that was named last at another place, too.
+    pub fn also(mut self, at: At) -> Self {
+        let last = self.bound.last().map(|(_, id)| *id);
+        self.bound.extend(last.map(|id| (at, id)));
+        self
+    }
+
+    /// Reads what neither sets nor draws name: a depth that is tested.
+    pub fn uses<K>(self, handle: &Handle<K>, access: Access) -> Self {
+        Self { declared: self.declared.read(handle, access), ..self }
+    }
+
+    /// Writes what they don't name: an attachment.
+    pub fn attach<K>(self, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
+        Self { declared: self.declared.write(handle, access, start), ..self }
+    }
+
+    /// Keeps the pass even if nobody reads what it writes.
+    pub fn side_effect(self) -> Self {
+        Self { declared: self.declared.side_effect(), ..self }
+    }
+
+    /// Declares the pass; `body` records it.
+    pub fn finish(self, body: impl FnOnce(&Recording<'_, 'a>) -> Result<()> + 'a) {
+        let Self { declared, source, mut bound } = self;
+        bound.sort_unstable();
+        declared.finish(Box::new(move |context| match source {
+            Source::Device(shaders, descriptors) => {
+                body(&Recording { context, shaders, descriptors, bound: &bound })
+            }
+            Source::List(_) => Ok(()),
+        }));
+    }
+}

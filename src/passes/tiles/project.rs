@@ -1,0 +1,74 @@
+//! Splats are projected once: culled, or made a projected splat and a rect of tiles.
+
+use crate::passes::{
+    cull::visible::{VISIBLE_ARGUMENTS, VisibleList, dispatch_visible},
+    inputs::Inputs,
+    pass::{Pass, Place, tiles as at},
+    pipeline::{
+        cache::{ComputeKey, Layout},
+        variant::Constants,
+    },
+    plan::tiles::TilePlan,
+    tiles::{lists::Tiles, pass::rows_of},
+};
+use crate::{
+    error::Result,
+    graph::{Access, Graph, Start, execute::Body},
+    shaders::{self, config::*},
+};
+
+/// What the pipeline is for a chunk, of which perhaps a list is projected.
+fn key(variant: &Constants, plan: &TilePlan, listed: bool) -> ComputeKey {
+    let mut constants = variant.clone();
+    constants.extend([
+        (SPEC_PLACE_BITS, plan.place_bits),
+        (SPEC_MOST_TILES, plan.most_tiles),
+        (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
+        (SPEC_LISTED, u32::from(listed)),
+        (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
+    ]);
+    ComputeKey { shader: &shaders::TILE_PROJECT_COMP, layout: Layout::Record, constants }
+}
+
+/// Declares the pass.
+pub(crate) fn project<'a>(
+    graph: &mut Graph<Body<'a>>,
+    inputs: Inputs<'a>,
+    kind: &str,
+    tiles: &mut Tiles<'a>,
+    visible: Option<&VisibleList>,
+) -> Result<()> {
+    let why = match inputs.draws.iter().any(|draw| draw.chunk.transparent) {
+        false => "opaque splats: each is culled, or made ready to be drawn by tiles",
+        true => "transparent splats: each is made ready to be drawn by tiles",
+    };
+    let mut pass = Pass::new(graph, inputs.source, &format!("set up {kind}splats"), why);
+    if let Some(visible) = visible {
+        pass = pass
+            .read(at(BIND_VISIBLE_STARTS), &visible.starts, Access::StorageReadCompute)
+            .read(at(BIND_VISIBLE_LIST), &visible.list, Access::StorageReadCompute)
+            .read(at(BIND_VISIBLE_BLOCKS), &visible.blocks, Access::StorageReadCompute)
+            .read(VISIBLE_ARGUMENTS, &visible.arguments, Access::IndirectRead);
+    }
+    let quarters = (BIND_RECORDS..).zip(&mut tiles.records);
+    for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.spans)]) {
+        pass = pass.write(at(binding), buffer, Access::StorageWriteCompute, Start::Discard);
+    }
+    let of = |draw: &crate::passes::Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
+    let pipelines = inputs.draws.iter().map(of).collect::<Result<Vec<_>>>()?;
+    pass.finish(move |pass| {
+        let set = pass.set(Place::Tiles(0))?;
+        // Chunks write places of their own.
+        for (number, (draw, pipeline)) in inputs.draws.iter().zip(pipelines).enumerate() {
+            pass.bind(pipeline);
+            pass.bind_sets(pipeline.layout, 0, &[draw.chunk.set(), set])?;
+            pass.push(pipeline.layout, &draw.constants)?;
+            match pass.has(VISIBLE_ARGUMENTS) {
+                true => dispatch_visible(pass, number)?,
+                false => pass.dispatch(rows_of(draw.chunk.count.div_ceil(PROJECT_GROUP_SIZE))),
+            }
+        }
+        Ok(())
+    });
+    Ok(())
+}
