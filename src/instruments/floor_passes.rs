@@ -12,11 +12,12 @@ use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
     cull::dispatch::dispatch,
     inputs::Inputs,
-    pass::{Pass, Place, lists},
+    pass::Pass,
     pipeline::{
         cache::{ComputeKey, GraphicsKey, Layout},
         variant::Constants,
     },
+    place::{Place, lists},
     plan::draws::Draw,
 };
 use crate::{

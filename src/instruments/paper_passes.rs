@@ -6,11 +6,12 @@ use ash::vk;
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, read},
+    pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
         constants::PaperConstants,
     },
+    place::read,
     plan::draws::Draw,
     resolve::finalize::{Opaque, finalize},
     splats::{accumulate::Sums, draw::bind_read, kernel_texture},

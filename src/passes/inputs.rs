@@ -4,6 +4,7 @@ use ash::vk;
 
 use crate::passes::{
     pass::Source,
+    pipeline::constants::FinalizeConstants,
     plan::{
         SplatMethod, SurfacePlan, bands::Band, block_list::ListedBlocks, draws::Draw, mesh_draws::MeshDraw,
         tiles::TilePlan,
@@ -11,6 +12,7 @@ use crate::passes::{
 };
 use crate::{
     graph::ImageDesc,
+    math::srgb::linear_from_srgb,
     scene::{Camera, Settings},
     vk::Occlusion,
 };
@@ -89,5 +91,20 @@ impl<'a> Inputs<'a> {
 
     pub(crate) fn image(&self, format: vk::Format) -> ImageDesc {
         ImageDesc { format, extent: self.extent() }
+    }
+
+    /// What passes over the whole image are told of it.
+    pub(crate) fn finalize_constants(&self) -> FinalizeConstants {
+        let [width, height] = self.settings.size_px;
+        FinalizeConstants {
+            background: self.settings.background.map_or([0.0; 4], |srgb| {
+                let [r, g, b] = srgb.map(linear_from_srgb);
+                [r, g, b, 1.0]
+            }),
+            half_size_px: [0.5 * width as f32, 0.5 * height as f32],
+            focal_px: self.camera.focal_px(height) as f32,
+            tile_height: 0, // quads of tiles bring their own
+            near: self.camera.near() as f32,
+        }
     }
 }

@@ -5,6 +5,7 @@ pub(crate) mod inputs;
 pub(crate) mod layers;
 pub(crate) mod pass;
 pub(crate) mod pipeline;
+pub(crate) mod place;
 pub(crate) mod plan;
 pub(crate) mod polygons;
 pub(crate) mod predicate;

@@ -6,8 +6,9 @@
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{At, Pass, arguments, transfer},
+    pass::Pass,
     pipeline::splat_shaders::Primitive,
+    place::{At, arguments, transfer},
     recording::Recording,
 };
 use crate::{

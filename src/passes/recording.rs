@@ -3,14 +3,22 @@
 use ash::vk;
 
 use crate::passes::{
-    pass::{At, Pipeline, Place},
     pipeline::cache::{Layout, Shaders},
+    place::{At, Place},
 };
 use crate::{
     error::{ErrorKind, Result},
     graph::{ResourceId, execute::PassContext},
+    shaders::config::MOST_GROUPS_IN_ROW,
     vk::{Descriptor, DescriptorPool},
 };
+
+/// A pipeline of a pass, with the layout that it was made for; a null handle in a frame that is only listed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pipeline {
+    pub raw: ash::vk::Pipeline,
+    pub layout: Layout,
+}
 
 /// A pass while it is recorded.
 ///
@@ -156,6 +164,26 @@ impl Layout {
         match self {
             Self::Splat | Self::Finalize | Self::TileQuads => vk::PipelineBindPoint::GRAPHICS,
             Self::List | Self::DepthCells | Self::Record | Self::Tile => vk::PipelineBindPoint::COMPUTE,
+        }
+    }
+}
+
+/// Workgroups along a row, and rows, as in `glsl/inc/groups.glsl`.
+pub(crate) fn rows_of(groups: u32) -> [u32; 2] {
+    let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);
+    [groups.div_ceil(rows.max(1)), rows]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rows_of;
+
+    #[test]
+    fn rows_hold_all_workgroups_and_few_more() {
+        for groups in [0, 1, 32_768, 32_769, 43_690, 65_536, 4_194_304, 1 << 30] {
+            let [x, y] = rows_of(groups);
+            assert!(x <= 32_768 && y <= 65_535, "{groups}: {x} {y}");
+            assert!((groups..groups + y.max(1)).contains(&(x * y)), "{groups}: {x} {y}");
         }
     }
 }

@@ -30,6 +30,22 @@ const LAYERS: &[&[&str]] = &[
     &["selftest"],
 ];
 
+/// The rooms and files of `passes/` alike; its `mod.rs`, the frame, may use all.
+const ROOMS: &[&[&str]] = &[
+    &["pipeline"],
+    &["place"],
+    &["recording"],
+    &["pass"],
+    &["plan"],
+    &["inputs"],
+    &["predicate"],
+    &["cull"],
+    &["splats"],
+    &["polygons", "tiles"],
+    &["resolve"],
+    &["layers"],
+];
+
 /// What a folder may not import although it stands above: (folder, import, why).
 const FORBIDDEN: &[(&str, &str, &str)] =
     &[("reference", "math", "the oracle shares no formula with the code it judges")];
@@ -39,6 +55,22 @@ const GRAPH_WITH_DEVICE: &str = "graph/execute/";
 
 fn layer(folder: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&folder))
+}
+
+/// Why a file of `passes/` may not use something of `passes/`.
+fn between_rooms(file: &str, used: &UsedPath) -> Option<&'static str> {
+    let own = file.strip_prefix("passes/")?.split('/').next()?.trim_end_matches(".rs");
+    let [root, folder, target] = used.segments.as_slice() else { return None };
+    if own == "mod" || root != "crate" || folder != "passes" || target == own {
+        return None;
+    }
+    let room = |name: &str| ROOMS.iter().position(|room| room.contains(&name));
+    match (room(own), room(target)) {
+        (None, _) => Some("not in the list of rooms"),
+        (_, None) => Some("no room of passes/; name the file itself"),
+        (Some(own), Some(other)) if other >= own => Some("imports point only to rooms above"),
+        _ => None,
+    }
 }
 
 /// Every illegal import of a file, as `src/<file>:<line>: <edge>: <why>`. `file` is relative to `src/`.
@@ -52,6 +84,10 @@ fn violations(file: &str, text: &str) -> Vec<String> {
         return vec![format!("src/{file}:1: {folder}: not in the list of layers")];
     };
     let judge = |used: &UsedPath| -> Option<String> {
+        if let [root, target, room] = used.segments.as_slice() {
+            let why = between_rooms(file, used)?;
+            return Some(format!("src/{file}:{}: {folder} -> {root}::{target}::{room}: {why}", used.line));
+        }
         let in_graph_core = folder == "graph" && !file.starts_with(GRAPH_WITH_DEVICE);
         let (root, target) =
             (used.segments.first()?.as_str(), used.segments.get(1).map_or("", String::as_str));
@@ -122,6 +158,7 @@ fn legal_imports_pass() {
             "passes/mod.rs",
             "use crate::{graph::Graph, shaders, vk::{self, Buffer}};\nfn f() { crate::math::f() }",
         ),
+        ("passes/layers/a.rs", "use crate::passes::{pass::Pass, splats::draw}; use super::b;"),
         ("reference/mod.rs", "use crate::scene::Scene; // use crate::math::x"),
         ("graph/execute/mod.rs", "use crate::vk::Queue; use ash::Device;"),
         ("graph/cull.rs", "use ash::vk;\n/// [`crate::passes`] \nconst A: &str = \"crate::passes\";"),
@@ -183,6 +220,21 @@ fn illegal_imports_are_found_with_line_and_edge() {
             "vk/a.rs",
             "const C: char = '\"'; use crate::graph::X; // \"",
             "src/vk/a.rs:1: vk -> crate::graph: ",
+        ),
+        (
+            "passes/cull/a.rs",
+            "use crate::passes::{pass::Pass, splats::draw};",
+            "src/passes/cull/a.rs:1: passes -> crate::passes::splats: imports point only to rooms above",
+        ),
+        (
+            "passes/tiles/a.rs",
+            "use super::super::layers::x;",
+            "src/passes/tiles/a.rs:1: passes -> crate::passes::layers: imports",
+        ),
+        (
+            "passes/tiles/a.rs",
+            "use crate::passes::Draw;",
+            "src/passes/tiles/a.rs:1: passes -> crate::passes::Draw: no room",
         ),
         ("vk/a.rs", "/* /* */ \" */ use crate::graph::X;", "src/vk/a.rs:1: vk -> crate::graph: "),
         ("vk/a.rs", "const R: &str = r#\"\\\"#; use crate::graph::X;", "src/vk/a.rs:1: vk -> crate::graph: "),

@@ -8,11 +8,12 @@ use ash::vk;
 
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
-    pass::{Pass, Place, Source, lists},
+    pass::{Pass, Source},
     pipeline::{
         cache::{ComputeKey, GraphicsKey, Layout},
         variant::splat_constants,
     },
+    place::{Place, lists},
     plan::invocations::Invocations,
 };
 use crate::{

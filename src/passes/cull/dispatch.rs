@@ -4,7 +4,11 @@ use ash::vk;
 
 use crate::{
     error::Result,
-    passes::{pass::Pipeline, pipeline::constants::FrameConstants, plan::draws::Draw, recording::Recording},
+    passes::{
+        pipeline::constants::FrameConstants,
+        plan::draws::Draw,
+        recording::{Pipeline, Recording},
+    },
 };
 
 /// Records a dispatch over the splats of a chunk, with this set of lists: so many workgroups in a row, and rows.

@@ -3,8 +3,9 @@
 use crate::passes::{
     cull::visible::{VisibleList, create_bits, dispatch_words, list_marked},
     inputs::Inputs,
-    pass::{Pass, Place, lists},
+    pass::Pass,
     pipeline::cache::{ComputeKey, Layout},
+    place::{Place, lists},
 };
 use crate::{
     error::Result,

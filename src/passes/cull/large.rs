@@ -7,8 +7,9 @@ use crate::passes::{
         visible::{WORD, groups_of, list_key},
     },
     inputs::Inputs,
-    pass::{Pass, Place, arguments},
+    pass::Pass,
     pipeline::{cache::ComputeKey, constants::FrameConstants},
+    place::{Place, arguments},
     plan::draws::Draw,
 };
 use crate::{

@@ -6,23 +6,23 @@ use ash::vk;
 use crate::passes::{
     cull::dispatch::dispatch,
     inputs::Inputs,
-    pass::{INDICES, Pass, Pipeline, Place, arguments, lists},
+    pass::Pass,
     pipeline::{
         cache::{ComputeKey, Layout},
         variant::Constants,
     },
-    plan::{
-        block_list::{ListedBlocks, WHY},
-        draws::Draw,
-    },
-    recording::Recording,
-    tiles::pass::rows_of,
+    place::{At, INDICES, Place, arguments, lists, transfer},
+    plan::{block_list::ListedBlocks, draws::Draw},
+    recording::{Pipeline, Recording, rows_of},
 };
 use crate::{
     error::Result,
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
     shaders::{self, Shader, config::*},
 };
+
+/// Why a frame lists them.
+const WHY: &str = "some splats face away or may lie outside of the view: the others are listed";
 
 /// Splats of a word of bits.
 pub(crate) const WORD: u32 = u32::BITS;
@@ -63,7 +63,7 @@ impl VisibleList {
 }
 
 /// The arguments of the visible splats of all chunks; those with a chunk's number are of its large splats.
-pub(crate) const VISIBLE_ARGUMENTS: crate::passes::pass::At = arguments(u32::MAX);
+pub(crate) const VISIBLE_ARGUMENTS: At = arguments(u32::MAX);
 
 /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
 pub(crate) fn draw_visible(pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
@@ -96,7 +96,12 @@ pub(crate) fn list_visible<'a>(
     listed: &'a ListedBlocks,
 ) -> Result<VisibleList> {
     let what = format!("visible {kind}splats");
-    let blocks = listed.upload(graph, inputs.source, &what);
+    let name = format!("blocks of {what}");
+    let bytes: &[u8] = bytemuck::cast_slice(listed.words());
+    let mut blocks = graph.create_buffer(&name, BufferDesc::of_bytes(bytes.len() as u64));
+    Pass::new(graph, inputs.source, &name, WHY)
+        .write(transfer(0), &mut blocks, Access::TransferWrite, Start::Discard)
+        .finish(move |pass| pass.update_buffer(transfer(0), bytes));
     let mut bits = create_bits(graph, inputs, &what);
     let pass = Pass::new(graph, inputs.source, &format!("mark {what}"), WHY)
         .read(lists(BIND_LIST_BLOCKS), &blocks, Access::StorageReadCompute)

@@ -5,8 +5,9 @@ use ash::vk;
 
 use crate::passes::{
     layers::layer::Layer,
-    pass::{Pass, read},
+    pass::Pass,
     pipeline::{formats::sum_format, splat_shaders::Summed},
+    place::read,
     polygons::mesh_pass::{MeshPass, draw_meshes},
     splats::{
         accumulate::{Sums, summed_constants},

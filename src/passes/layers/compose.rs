@@ -3,13 +3,13 @@
 use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     layers::layer::Layer,
-    pass::sums,
-    pipeline::cache::{GraphicsKey, Layout},
-    predicate::{self, is_predicated},
-    resolve::{
-        finalize::{constants, resolve_constants},
-        fullscreen::bind_fullscreen,
+    pipeline::{
+        cache::{GraphicsKey, Layout},
+        variant::resolve_constants,
     },
+    place::sums,
+    predicate::{self, is_predicated},
+    resolve::fullscreen::bind_fullscreen,
     splats::accumulate::Sums,
 };
 use crate::{
@@ -94,7 +94,7 @@ pub(crate) fn layer_compose<'a>(
         pass = pass.read(sums(binding), image, Access::SampledFragment);
     }
     let pipeline = pass.graphics(key(settings, layer_sums.rest.is_some(), of, inputs.lights))?;
-    let (push, query) = (constants(inputs), layer.query());
+    let (push, query) = (inputs.finalize_constants(), layer.query());
     pass.finish(move |pass| {
         bind_fullscreen(pass, pipeline, &push)?;
         // SAFETY: inside of rendering; the query was reset at the frame's begin, and begins once.

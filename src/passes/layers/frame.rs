@@ -20,16 +20,8 @@ use crate::passes::{
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
-    scene::{LastLayer, Layers, Settings},
+    scene::LastLayer,
 };
-
-/// How many queries the layers of these settings need, on a device that can make use of them.
-pub(crate) fn queries_needed(settings: &Settings) -> u32 {
-    match settings.layers {
-        Layers::Fixed(_) => 0,
-        Layers::Auto(most) => most - 1,
-    }
-}
 
 /// Declares the passes of all layers; returns what they add up to: linear light times alpha, and alpha. `opaque`: the depth
 /// of opaque things.

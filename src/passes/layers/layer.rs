@@ -1,10 +1,7 @@
 //! One transparent layer, as its passes see it.
 
 use crate::passes::{
-    cull::lists::Lists,
-    inputs::Inputs,
-    pass::{Pass, read},
-    predicate::LayerPredicates,
+    cull::lists::Lists, inputs::Inputs, pass::Pass, place::read, predicate::LayerPredicates,
 };
 use crate::{
     graph::{Access, Buffer, Graph, Handle, Image, execute::Body},

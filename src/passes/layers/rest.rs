@@ -6,8 +6,8 @@ use ash::vk;
 
 use crate::passes::{
     layers::layer::Layer,
-    pass::read,
     pipeline::{formats::sum_format, splat_shaders::Summed, variant::shading_constants},
+    place::read,
     polygons::mesh_pass::{MeshPass, draw_meshes},
     splats::{
         accumulate::{Sums, summed_constants},

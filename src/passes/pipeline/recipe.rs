@@ -86,6 +86,9 @@ impl PipelineRecipe {
         let Key::Graphics(key) = &self.key else { return "" };
         let some_large = key.constants.contains(&(SPEC_SOME_LARGE, 1));
         match (key.layout, key.topology) {
+            (Layout::TileQuads, _) if key.depth.is_some() && !key.color_formats.is_empty() => {
+                "tiles beside polygons"
+            }
             (Layout::TileQuads, _) => "tiles",
             (Layout::Splat, vk::PrimitiveTopology::POINT_LIST) if some_large => "small points",
             (Layout::Splat, vk::PrimitiveTopology::POINT_LIST) => "points",

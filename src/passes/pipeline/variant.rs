@@ -90,7 +90,7 @@ pub fn kernel_constants(kernel: Kernel) -> Constants {
 }
 
 /// The constant of where splats and polygons meet.
-pub fn transition_constant(transition: Transition) -> (u32, u32) {
+fn transition_constant(transition: Transition) -> (u32, u32) {
     let number = match transition {
         Transition::Color | Transition::Paper => TRANSITION_COLOR,
         Transition::Attributes => TRANSITION_ATTRIBUTES,
@@ -108,4 +108,15 @@ pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
         Shading::Albedo => SHADING_ALBEDO,
     };
     vec![(SPEC_SHADING, number), (SPEC_LIGHTS, lights)]
+}
+
+/// The specialization constants of what shades sums of splats, polygons, or both (`glsl/inc/resolve.glsl`).
+pub fn resolve_constants(settings: &Settings, splats: bool, polygons: bool, lights: u32) -> Constants {
+    let mut constants = shading_constants(settings.shading, lights);
+    constants.extend([
+        transition_constant(settings.transition),
+        (SPEC_SPLATS, splats.into()),
+        (SPEC_POLYGONS, polygons.into()),
+    ]);
+    constants
 }

@@ -1,21 +1,12 @@
-//! The blocks of splats in which those are looked for that may be seen (`blocks.rs`), brought to the device.
+//! The blocks of splats in which those are looked for that may be seen (`blocks.rs`).
 
 use std::ops::Range;
 
-use crate::passes::{
-    pass::{Pass, Source, transfer},
-    plan::{draws::Draw, seen::SeenBlock},
-};
-use crate::{
-    graph::{Access, Buffer, BufferDesc, Graph, Handle, Start, execute::Body},
-    shaders::config::{ALL_VISIBLE, BLOCK_SPLATS},
-};
+use crate::passes::plan::{draws::Draw, seen::SeenBlock};
+use crate::shaders::config::{ALL_VISIBLE, BLOCK_SPLATS};
 
 /// Words in front of the blocks: the rows.
 const ROW_WORDS: usize = 2;
-
-/// Why a frame has lists of what may be seen.
-pub(crate) const WHY: &str = "some splats face away or may lie outside of the view: the others are listed";
 
 /// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, then the
 /// chunks' blocks one behind the other.
@@ -44,19 +35,8 @@ impl ListedBlocks {
         Self(words)
     }
 
-    /// Declares the pass that brings them to the device.
-    pub(crate) fn upload<'a>(
-        &'a self,
-        graph: &mut Graph<Body<'a>>,
-        source: Source<'a>,
-        what: &str,
-    ) -> Handle<Buffer> {
-        let bytes: &[u8] = bytemuck::cast_slice(&self.0);
-        let name = format!("blocks of {what}");
-        let mut buffer = graph.create_buffer(&name, BufferDesc::of_bytes(bytes.len() as u64));
-        Pass::new(graph, source, &name, WHY)
-            .write(transfer(0), &mut buffer, Access::TransferWrite, Start::Discard)
-            .finish(move |pass| pass.update_buffer(transfer(0), bytes));
-        buffer
+    /// The words, in their order.
+    pub(crate) fn words(&self) -> &[u32] {
+        &self.0
     }
 }

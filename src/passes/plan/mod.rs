@@ -8,6 +8,7 @@ pub(crate) mod culling;
 pub(crate) mod draws;
 pub(crate) mod few;
 pub(crate) mod invocations;
+pub(crate) mod lights;
 pub(crate) mod mesh_draws;
 pub(crate) mod method;
 pub(crate) mod needs;
@@ -16,15 +17,12 @@ pub(crate) mod tiles;
 pub(crate) mod words;
 
 use crate::passes::pipeline::formats::sum_format;
-use crate::passes::{
-    plan::{
-        bands::Band,
-        block_list::ListedBlocks,
-        draws::{Draw, draws},
-        mesh_draws::{MeshDraw, mesh_draws},
-        tiles::TilePlan,
-    },
-    resolve::lights,
+use crate::passes::plan::{
+    bands::Band,
+    block_list::ListedBlocks,
+    draws::{Draw, draws},
+    mesh_draws::{MeshDraw, mesh_draws},
+    tiles::TilePlan,
 };
 use crate::{
     prepare::PreparedScene,

@@ -1,7 +1,6 @@
 //! What a frame takes from whoever records it: descriptor sets and queries.
 
 use crate::passes::{
-    layers::frame as layers,
     pipeline::{cache::room_of_lists, tile_layouts::STORAGE_BUFFERS},
     plan::{FramePlan, SurfacePlan, tiles::TilePlan},
 };
@@ -56,7 +55,7 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
         }
         .plus(&room_of_lists(lists))
         .plus(&tiles),
-        occlusion_queries: if counted { layers::queries_needed(settings) } else { 0 },
+        occlusion_queries: if counted { queries_of_layers(settings) } else { 0 },
     }
 }
 
@@ -71,5 +70,13 @@ fn room_of_tiles(plan: &TilePlan) -> PoolRoom {
         images: 6 * sets,
         storage_images: 6 * sets,
         ..PoolRoom::default()
+    }
+}
+
+/// How many queries the layers of these settings need, on a device that can make use of them.
+fn queries_of_layers(settings: &Settings) -> u32 {
+    match settings.layers {
+        Layers::Fixed(_) => 0,
+        Layers::Auto(most) => most - 1,
     }
 }

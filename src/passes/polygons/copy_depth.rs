@@ -3,11 +3,7 @@
 use ash::vk;
 
 use crate::graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body};
-use crate::passes::{
-    inputs::Inputs,
-    pass::{Pass, transfer},
-    pipeline::formats::DEPTH_FORMAT,
-};
+use crate::passes::{inputs::Inputs, pass::Pass, pipeline::formats::DEPTH_FORMAT, place::transfer};
 
 /// A depth, and how the pass begins that draws into it: with a copy of `source`, which a pass before it makes, or infinitely far.
 pub(crate) fn depth_from<'a>(

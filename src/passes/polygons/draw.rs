@@ -7,8 +7,9 @@ use ash::vk;
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, read},
+    pass::Pass,
     pipeline::variant::shading_constants,
+    place::read,
     polygons::{
         copy_depth::depth_from,
         mesh_pass::{MeshPass, draw_meshes},

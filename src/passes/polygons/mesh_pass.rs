@@ -4,14 +4,14 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, Pipeline},
+    pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
         variant::Constants,
     },
     plan::mesh_draws::MeshDraw,
     predicate::{self, is_predicated},
-    recording::Recording,
+    recording::{Pipeline, Recording},
 };
 use crate::{
     error::Result,

@@ -4,9 +4,10 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, sums},
+    pass::Pass,
     pipeline::cache::{GraphicsKey, Layout},
-    resolve::{finalize, fullscreen::draw_fullscreen},
+    place::sums,
+    resolve::fullscreen::draw_fullscreen,
     splats::accumulate::Sums,
 };
 use crate::{
@@ -79,7 +80,7 @@ pub(crate) fn export<'a>(
         .read(sums(BIND_SUMS_COLORS), &of_splats.color, Access::SampledFragment)
         .read(sums(BIND_SUMS_NORMALS), &of_splats.normal, Access::SampledFragment)
         .read(sums(BIND_SUMS_DEPTH), visible, Access::SampledFragment);
-    let (pipeline, constants) = (pass.graphics(key())?, finalize::constants(inputs));
+    let (pipeline, constants) = (pass.graphics(key())?, inputs.finalize_constants());
     pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));
     Ok(exported)
 }

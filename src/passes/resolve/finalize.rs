@@ -8,12 +8,13 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, Place, sums},
+    pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
         constants::FinalizeConstants,
-        variant::{Constants, shading_constants, transition_constant},
+        variant::resolve_constants,
     },
+    place::{Place, sums},
     resolve::fullscreen::draw_fullscreen,
     splats::accumulate::Sums,
     tiles::{
@@ -24,7 +25,6 @@ use crate::passes::{
 use crate::{
     error::Result,
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
-    math::srgb::linear_from_srgb,
     scene::Settings,
     shaders::{self, config::*},
 };
@@ -83,32 +83,6 @@ fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option
     })
 }
 
-/// The specialization constants of what shades sums of splats, polygons, or both (`glsl/inc/resolve.glsl`).
-pub(crate) fn resolve_constants(settings: &Settings, splats: bool, polygons: bool, lights: u32) -> Constants {
-    let mut constants = shading_constants(settings.shading, lights);
-    constants.extend([
-        transition_constant(settings.transition),
-        (SPEC_SPLATS, splats.into()),
-        (SPEC_POLYGONS, polygons.into()),
-    ]);
-    constants
-}
-
-/// What passes over the whole image are told of it.
-pub(crate) fn constants(inputs: Inputs<'_>) -> FinalizeConstants {
-    let [width, height] = inputs.settings.size_px;
-    FinalizeConstants {
-        background: inputs.settings.background.map_or([0.0; 4], |srgb| {
-            let [r, g, b] = srgb.map(linear_from_srgb);
-            [r, g, b, 1.0]
-        }),
-        half_size_px: [0.5 * width as f32, 0.5 * height as f32],
-        focal_px: inputs.camera.focal_px(height) as f32,
-        tile_height: 0, // quads of tiles bring their own
-        near: inputs.camera.near() as f32,
-    }
-}
-
 /// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept. `layers`:
 /// what transparent layers add up to.
 pub(crate) fn finalize<'a>(
@@ -120,7 +94,7 @@ pub(crate) fn finalize<'a>(
     target: &mut Handle<Image>,
     target_format: vk::Format,
 ) -> Result<()> {
-    let constants = constants(inputs);
+    let constants = inputs.finalize_constants();
     let background = Start::Clear(ClearValue::Color(constants.background));
     let pass =
         Pass::new(graph, inputs.source, "finalize", WHY).attach(target, Access::ColorAttachment, background);

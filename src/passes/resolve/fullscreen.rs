@@ -2,9 +2,9 @@
 
 use crate::error::Result;
 use crate::passes::{
-    pass::{Pipeline, Place},
     pipeline::constants::FinalizeConstants,
-    recording::Recording,
+    place::Place,
+    recording::{Pipeline, Recording},
 };
 
 /// Records the draw. The pipeline's vertex stage is `glsl/fullscreen.vert.glsl`, its layout finalization's.

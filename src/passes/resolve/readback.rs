@@ -3,7 +3,10 @@
 use ash::vk;
 
 use crate::graph::{Access, Buffer, Graph, Handle, Image, Start, aspect_of, execute::Body};
-use crate::passes::pass::{Pass, Source, transfer};
+use crate::passes::{
+    pass::{Pass, Source},
+    place::transfer,
+};
 
 /// Why a frame has it.
 const WHY: &str = "the host reads it";

@@ -6,8 +6,9 @@ use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     cull::lists::Lists,
     inputs::Inputs,
-    pass::{Pass, read},
+    pass::Pass,
     pipeline::{splat_shaders::Summed, variant::Constants},
+    place::read,
     splats::{
         draw::{SplatPass, bind_read, draw_splats},
         kernel_texture::kernel_texture,

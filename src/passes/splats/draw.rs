@@ -5,15 +5,16 @@ use ash::vk;
 use crate::passes::{
     cull::visible::{VISIBLE_ARGUMENTS, draw_visible},
     inputs::Inputs,
-    pass::{Pass, Pipeline, Place, arguments},
+    pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
         splat_shaders::{Drawn, Primitive, Stages},
         variant::Constants,
     },
+    place::{Place, arguments},
     plan::draws::Draw,
     predicate::{self, is_predicated},
-    recording::Recording,
+    recording::{Pipeline, Recording},
 };
 use crate::{error::Result, scene::Settings, shaders::config::*, vk::Blend};
 
@@ -87,8 +88,8 @@ impl SplatPass {
         let both = |draw: &Draw<'_>| {
             let make = |portion| pass.graphics(self.key(portion, &draw.variant));
             let own = if draw.may_be_large { Portion::Small } else { Portion::All };
-            let quads = draw.may_be_large.then(|| make(Portion::Large)).transpose()?;
-            Ok(DrawPipelines { own: make(own)?, quads })
+            let own = make(own)?;
+            Ok(DrawPipelines { own, quads: draw.may_be_large.then(|| make(Portion::Large)).transpose()? })
         };
         inputs.draws.iter().map(both).collect()
     }

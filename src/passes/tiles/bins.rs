@@ -6,12 +6,13 @@ use ash::vk;
 use crate::passes::{
     cull::visible::list_visible,
     inputs::Inputs,
-    pass::{Pass, tiles as at, transfer},
+    pass::Pass,
     pipeline::{cache::ComputeKey, constants::TileConstants},
+    place::{tiles as at, transfer},
     plan::tiles::TilePlan,
     tiles::{
+        dispatch::{TileDispatch, finish, key},
         lists::Tiles,
-        pass::{TileDispatch, finish, key},
         project::project,
     },
 };

@@ -3,7 +3,10 @@
 use ash::vk;
 
 use crate::graph::{Access, Graph, Handle, Image, Start, execute::Body};
-use crate::passes::pass::{Pass, Source, transfer};
+use crate::passes::{
+    pass::{Pass, Source},
+    place::transfer,
+};
 
 /// Declares the pass that sets images to 0.
 pub(crate) fn clear<'a>(

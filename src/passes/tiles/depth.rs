@@ -7,9 +7,9 @@ use ash::vk;
 use crate::passes::pipeline::cache::GraphicsKey;
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, Place, sums},
+    pass::Pass,
     pipeline::formats::DEPTH_FORMAT,
-    resolve::finalize,
+    place::{Place, sums},
     tiles::{
         Tiles,
         runs::{draw_runs, read_runs, runs_key},
@@ -56,7 +56,7 @@ pub(crate) fn depth_buffer<'a>(
         depth: Some((vk::CompareOp::ALWAYS, true)),
         ..runs_key(&shaders::TILE_DEPTH_FRAG, Vec::new())
     })?;
-    let constants = finalize::constants(inputs);
+    let constants = inputs.finalize_constants();
     pass.finish(move |pass| draw_runs(pass, pipeline, runs, Place::Sums, constants));
     Ok(depth)
 }

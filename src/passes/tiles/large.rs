@@ -2,8 +2,9 @@
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, Place, arguments, lists},
+    pass::Pass,
     pipeline::{cache::Layout, constants::FrameConstants, splat_shaders::Summed},
+    place::{Place, arguments, lists},
     splats::{
         accumulate::{self, read_depths},
         draw::{SplatPass, bind_read},

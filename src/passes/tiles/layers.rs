@@ -5,15 +5,17 @@ use ash::vk;
 use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, tiles as at},
+    pass::Pass,
     pipeline::{cache::ComputeKey, variant::shading_constants},
+    place::tiles as at,
     plan::tiles::TilePlan,
     tiles::{
         bins::list,
         clear::clear,
+        dispatch,
         layer_work::{Work, dispatches},
         lists::Tiles,
-        overfull, pass, splat,
+        overfull, splat,
     },
 };
 use crate::{
@@ -55,7 +57,7 @@ fn key(settings: &Settings, plan: &TilePlan, beside: Beside, work: Work) -> Comp
         (SPEC_DEPTH_PRELOADED, u32::from(beside.opaque)),
         (SPEC_SEVERAL, u32::from(work == Work::Several)),
     ]);
-    pass::key(shader, constants)
+    dispatch::key(shader, constants)
 }
 
 /// Whether the last layer counts as several surfaces: it does where there is a layer before it.
@@ -118,17 +120,19 @@ fn declare<'a>(
         .read_if(at(BIND_DEPTH_BEFORE), opaque, Access::SampledCompute)
         .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
         .write(at(BIND_COLORS), layers, update, Start::Load);
-    if let Some(peeled) = &mut peeled {
-        pass = pass
+    pass = match &mut peeled {
+        Some(peeled) => pass
             .also(at(BIND_COLORS_BEFORE))
             .write(at(BIND_NORMALS), peeled, update, Start::Discard)
-            .also(at(BIND_NORMALS_BEFORE));
-    }
+            .also(at(BIND_NORMALS_BEFORE)),
+        // An image that is not written has to be one that may be: a stand-in is only read.
+        None => pass.also(at(BIND_NORMALS)),
+    };
     if let Some(state) = &mut state {
         pass = pass.write(at(BIND_LAYER_STATE), state, Access::StorageReadWriteCompute, Start::Discard);
     }
     let key = key(settings, plan, Beside { opaque: opaque.is_some(), lights: inputs.lights }, work);
-    pass::finish(pass, inputs, (plan, key), move |pass| {
+    dispatch::finish(pass, inputs, (plan, key), move |pass| {
         pass.indirect_in_turn(dispatches(settings, plan, work, pass.constants), first_word)
     })
 }

@@ -3,7 +3,8 @@
 use ash::vk;
 
 use crate::passes::{
-    pass::{Pass, arguments, tiles},
+    pass::Pass,
+    place::{arguments, tiles},
     plan::tiles::{RECORD_BYTES, TilePlan},
 };
 use crate::{

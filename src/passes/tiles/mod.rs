@@ -6,12 +6,12 @@
 pub(crate) mod bins;
 pub(crate) mod clear;
 pub(crate) mod depth;
+pub(crate) mod dispatch;
 pub(crate) mod large;
 pub(crate) mod layer_work;
 pub(crate) mod layers;
 pub(crate) mod lists;
 pub(crate) mod overfull;
-pub(crate) mod pass;
 pub(crate) mod project;
 pub(crate) mod runs;
 pub(crate) mod shaded;

@@ -6,7 +6,7 @@
 
 use ash::vk;
 
-use crate::passes::{pipeline::constants::TileConstants, tiles::pass::TileDispatch};
+use crate::passes::{pipeline::constants::TileConstants, tiles::dispatch::TileDispatch};
 use crate::{error::Result, shaders::config::*};
 
 /// Why a frame has passes for them.

@@ -3,13 +3,15 @@
 use crate::passes::{
     cull::visible::{VISIBLE_ARGUMENTS, VisibleList, dispatch_visible},
     inputs::Inputs,
-    pass::{Pass, Place, tiles as at},
+    pass::Pass,
     pipeline::{
         cache::{ComputeKey, Layout},
         variant::Constants,
     },
-    plan::tiles::TilePlan,
-    tiles::{lists::Tiles, pass::rows_of},
+    place::{Place, tiles as at},
+    plan::{draws::Draw, tiles::TilePlan},
+    recording::rows_of,
+    tiles::lists::Tiles,
 };
 use crate::{
     error::Result,
@@ -54,7 +56,7 @@ pub(crate) fn project<'a>(
     for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.spans)]) {
         pass = pass.write(at(binding), buffer, Access::StorageWriteCompute, Start::Discard);
     }
-    let of = |draw: &crate::passes::Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
+    let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
     let pipelines = inputs.draws.iter().map(of).collect::<Result<Vec<_>>>()?;
     pass.finish(move |pass| {
         let set = pass.set(Place::Tiles(0))?;

@@ -1,13 +1,14 @@
 //! Draws of the graphics pipeline over the tiles that have splats: a quad for each run of them along a row.
 
 use crate::passes::{
-    pass::{Pass, Pipeline, Place, arguments},
+    pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
         constants::FinalizeConstants,
         variant::Constants,
     },
-    recording::Recording,
+    place::{Place, arguments},
+    recording::{Pipeline, Recording},
     tiles::Tiles,
 };
 use crate::{

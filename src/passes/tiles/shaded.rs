@@ -4,13 +4,15 @@
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, tiles as at},
+    pass::Pass,
+    pipeline::variant::resolve_constants,
     pipeline::{cache::ComputeKey, variant::shading_constants},
+    place::tiles as at,
     plan::tiles::TilePlan,
-    resolve::finalize::resolve_constants,
     tiles::{
+        dispatch,
         lists::Tiles,
-        overfull, pass,
+        overfull,
         splat::{self, TileImages, TileStart, beside_polygons},
     },
 };
@@ -52,7 +54,7 @@ fn key(
     if polygons {
         constants.extend(beside_polygons(settings));
     }
-    pass::key(shader, constants)
+    dispatch::key(shader, constants)
 }
 
 /// Beside polygons more than what visibility lets through may count (`--transition paper`).
@@ -87,7 +89,7 @@ pub(crate) fn shaded<'a>(
         pass = pass.also(at(BIND_COLORS_BEFORE));
     }
     let key = key(inputs.settings, plan, shown.precision, beside);
-    pass::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
+    dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
     match plan.may_be_overfull() {
         true => shade_overfull(graph, inputs, kind, tiles, shown, lights),
         false => Ok(()),
@@ -118,6 +120,6 @@ fn shade_overfull<'a>(
         .read(at(BIND_NORMALS_BEFORE), &images.sums.normal, Access::SampledCompute)
         .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
         .write(at(BIND_COLORS), &mut shown.image, access, content);
-    let key = pass::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants);
-    pass::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_OVERFLOW)
+    let key = dispatch::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants);
+    dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_OVERFLOW)
 }

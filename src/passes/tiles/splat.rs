@@ -6,18 +6,19 @@ use ash::vk;
 use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, tiles as at},
+    pass::Pass,
     pipeline::{
         cache::ComputeKey,
         variant::{Constants, splat_constants},
     },
+    place::tiles as at,
     plan::tiles::TilePlan,
     splats::accumulate::Sums,
     tiles::{
         clear::clear,
+        dispatch,
         lists::Tiles,
         overfull::{self, extent_of_slots, in_parts},
-        pass,
     },
 };
 use crate::{
@@ -174,7 +175,7 @@ fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
     if step.polygons {
         constants.extend(beside_polygons(settings));
     }
-    pass::key(shader, constants)
+    dispatch::key(shader, constants)
 }
 
 /// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
@@ -202,7 +203,7 @@ pub(crate) fn fused<'a>(
         .write(at(BIND_NORMALS), &mut images.sums.normal, access, content)
         .write(at(BIND_VISIBLE_DEPTH), &mut images.depth, access, content)
         .read_if(at(BIND_DEPTH_BEFORE), before, Access::SampledCompute);
-    pass::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
+    dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
     if plan.may_be_overfull() {
         see(graph, inputs, kind, tiles, images, before, false)?;
         sum(graph, inputs, kind, tiles, images, (None, with_depth), false)?;
@@ -228,6 +229,9 @@ pub(crate) fn see<'a>(
         .read_lists(pass)
         .write(at(BIND_VISIBLE_DEPTH), &mut images.depth, Access::SampledAndStoredCompute, start)
         .also(at(BIND_VISIBLE_BEFORE))
+        // An image that the step does not write has to be one that it may: a stand-in is only read.
+        .also(at(BIND_COLORS))
+        .also(at(BIND_NORMALS))
         .read_if(at(BIND_DEPTH_BEFORE), before, Access::SampledCompute);
     finish(pass, inputs, tiles, images, step, all)
 }
@@ -254,6 +258,7 @@ pub(crate) fn sum<'a>(
         .also(at(BIND_COLORS_BEFORE))
         .write(at(BIND_NORMALS), &mut images.sums.normal, update, start)
         .also(at(BIND_NORMALS_BEFORE))
+        .also(at(BIND_VISIBLE_DEPTH)) // as above
         .read_if(at(BIND_POLYGON_DEPTH), polygons, Access::SampledCompute);
     finish(pass, inputs, tiles, images, step, all)
 }
@@ -281,5 +286,5 @@ fn finish<'a>(
     let mut key = key(inputs.settings, tiles.plan, step);
     key.constants.push((SPEC_IN_SLOTS, u32::from(images.in_slots)));
     let parts = tiles.plan.parts_of_overfull();
-    pass::finish(pass, inputs, (tiles.plan, key), move |pass| in_parts(pass, all, parts))
+    dispatch::finish(pass, inputs, (tiles.plan, key), move |pass| in_parts(pass, all, parts))
 }

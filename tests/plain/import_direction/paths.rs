@@ -1,10 +1,10 @@
 //! The paths that Rust source text uses, found without a compiler: enough of the grammar to tell which modules a file
 //! names, in `use` trees and in expressions alike.
 
-/// A path from a root: `crate` (also where the text says `super` or `self`) or `ash`; then the next name, if any.
+/// A path from a root: `crate` (also where the text says `super` or `self`) or `ash`; then the next names, two at most.
 #[derive(Debug, PartialEq, Eq)]
 pub struct UsedPath {
-    /// `crate` or `ash`, and the name after it; `*` for a glob.
+    /// `crate` or `ash`, and the names after it; `*` for a glob.
     pub segments: Vec<String>,
     /// Of the name after the root, counted from 1.
     pub line: usize,
@@ -55,6 +55,8 @@ enum Start<'a> {
     Module(&'a [String]),
     /// Right after `ash`.
     Ash,
+    /// Right after a folder, which was already noted.
+    Folder(String),
     /// Nothing that counts: a name below one that was already noted.
     Noted,
 }
@@ -63,8 +65,9 @@ enum Start<'a> {
 fn tree(tokens: &[Token], mut at: usize, mut start: Start, found: &mut Vec<UsedPath>) -> usize {
     let mut is_first = true;
     while let Some(Token { text, line }) = tokens.get(at) {
-        let mut note = |root: &str| {
-            found.push(UsedPath { segments: vec![root.to_owned(), text.clone()], line: *line });
+        let mut note = |roots: &[&str]| {
+            let segments = roots.iter().copied().chain([text.as_str()]).map(str::to_owned).collect();
+            found.push(UsedPath { segments, line: *line });
         };
         at += 1;
         start = match (text.as_str(), start) {
@@ -82,13 +85,21 @@ fn tree(tokens: &[Token], mut at: usize, mut start: Start, found: &mut Vec<UsedP
             ("super", Start::Module(path)) => Start::Module(&path[..path.len().saturating_sub(1)]),
             ("ash", Start::Module(_)) if is_first => Start::Ash,
             (_, Start::Module([])) => {
-                note("crate");
+                note(&["crate"]);
+                Start::Folder(text.clone())
+            }
+            (_, Start::Folder(folder)) => {
+                note(&["crate", &folder]);
+                Start::Noted
+            }
+            (_, Start::Module([folder])) => {
+                note(&["crate", folder]);
                 Start::Noted
             }
             // A name within the own folder.
             (_, Start::Module(_)) => Start::Noted,
             (_, Start::Ash) => {
-                note("ash");
+                note(&["ash"]);
                 Start::Noted
             }
             (_, Start::Noted) => Start::Noted,

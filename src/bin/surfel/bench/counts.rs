@@ -4,7 +4,7 @@ mod isa;
 
 use std::collections::{HashMap, HashSet};
 
-use surfel::shaders::config::{SPEC_KERNEL, SPEC_SHADING, SPEC_TEXELS};
+use surfel::shaders::config::{SPEC_KERNEL, SPEC_SHADING, SPEC_SUMMED, SPEC_TEXELS, SUMMED_BESIDE};
 use surfel::{
     Error, Progress as _, Result, Settings,
     instruments::{Counter, Traits, frame_pipelines, papers_pipelines},
@@ -227,6 +227,9 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.kernel_eval = kernel_eval;
         names.splats = splats.to_owned();
     }
+    if recipe.constants().contains(&(SPEC_SUMMED, SUMMED_BESIDE)) {
+        names.draws += " beside polygons";
+    }
     if recipe.constants().contains(&(SPEC_TEXELS, 0)) {
         names.draws = format!("{} as words", names.draws).trim_start().to_owned();
     }
@@ -271,7 +274,11 @@ mod tests {
     fn sums_of_either_width_have_rows() {
         let all = pipelines(true).unwrap();
         let rows = |pass: &str, accumulate: &str| -> HashSet<PipelineNames> {
-            let of = all.iter().filter(|(names, _)| names.pass == pass && names.accumulate == accumulate);
+            // Beside polygons it is listed for the default settings alone.
+            let alone = |names: &PipelineNames| !names.draws.ends_with("beside polygons");
+            let of = all
+                .iter()
+                .filter(|(names, _)| names.pass == pass && names.accumulate == accumulate && alone(names));
             of.map(|(names, _)| PipelineNames { accumulate: String::new(), ..names.clone() }).collect()
         };
         for pass in ["accumulate", "floor add"] {

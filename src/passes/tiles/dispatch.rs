@@ -4,14 +4,15 @@ use ash::vk;
 
 use crate::passes::{
     inputs::Inputs,
-    pass::{Pass, Place, arguments},
+    pass::Pass,
     pipeline::{
         cache::{ComputeKey, Layout},
         constants::TileConstants,
         variant::Constants,
     },
+    place::{Place, arguments},
     plan::tiles::TilePlan,
-    recording::Recording,
+    recording::{Recording, rows_of},
 };
 use crate::{
     error::Result,
@@ -119,25 +120,5 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         blends_rest: 0,
         step: 0,
         ends: 0,
-    }
-}
-
-/// Workgroups along a row, and rows, as in `glsl/inc/groups.glsl`.
-pub(crate) fn rows_of(groups: u32) -> [u32; 2] {
-    let rows = groups.div_ceil(MOST_GROUPS_IN_ROW);
-    [groups.div_ceil(rows.max(1)), rows]
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::passes::tiles::pass::rows_of;
-
-    #[test]
-    fn rows_hold_all_workgroups_and_few_more() {
-        for groups in [0, 1, 32_768, 32_769, 43_690, 65_536, 4_194_304, 1 << 30] {
-            let [x, y] = rows_of(groups);
-            assert!(x <= 32_768 && y <= 65_535, "{groups}: {x} {y}");
-            assert!((groups..groups + y.max(1)).contains(&(x * y)), "{groups}: {x} {y}");
-        }
     }
 }
