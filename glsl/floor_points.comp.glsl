@@ -4,7 +4,7 @@
 #include "inc/setup.glsl"
 #include "inc/point.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = FLOOR_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_POINTS, std430) writeonly buffer FloorPoints { vec4 points[]; }; // x, y, depth, size
 
 void main()

@@ -7,8 +7,8 @@
 
 layout(constant_id = SPEC_ATOMICS) const bool ATOMICS = false;
 
-layout(local_size_x = 256) in;
-layout(set = 1, binding = 0, std430) buffer Words { uint words[]; };
+layout(local_size_x = LIMIT_GROUP_SIZE) in;
+layout(set = 1, binding = BIND_LIST_POINTS, std430) buffer Words { uint words[]; };
 
 void main()
 {

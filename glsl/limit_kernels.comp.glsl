@@ -21,8 +21,8 @@ vec2 top_px;
 
 layout(constant_id = SPEC_LIMIT_SPLATS) const uint SPLATS = 64; // a multiple of TILE_BATCH
 
-layout(local_size_x = 64) in;
-layout(set = 1, binding = 0, std430) writeonly buffer Words { uint words[]; };
+layout(local_size_x = KERNELS_GROUP_SIZE) in;
+layout(set = 1, binding = BIND_LIST_POINTS, std430) writeonly buffer Words { uint words[]; };
 
 Splat moved(Splat splat, uint by)
 {

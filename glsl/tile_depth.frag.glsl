@@ -2,7 +2,9 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 
-layout(set = 0, binding = 0) uniform texture2D visible_depth;
+#include "inc/config.glsl"
+
+layout(set = 0, binding = BIND_SUMS_COLORS) uniform texture2D visible_depth;
 
 void main()
 {

@@ -188,6 +188,9 @@
 #define KERNEL_TEXTURE_SIDE 256 // Texels along a side of the kernel's texture.
 #define BLOCK_SPLATS 256        // Splats of a chunk that have bounds of their own; the last block may have fewer.
 #define LIST_GROUP_SIZE 64      // Invocations of a workgroup, one a word of bits, that marks or lists splats.
+#define FLOOR_GROUP_SIZE 256    // Invocations of a workgroup that precomputes points of the floor.
+#define LIMIT_GROUP_SIZE 256    // Invocations of a workgroup that does next to nothing.
+#define KERNELS_GROUP_SIZE 64   // Invocations of a workgroup that evaluates kernels alone.
 #define ALL_VISIBLE 1073741824  // Beside a block's number: none of its splats is left out.
 #define DEPTH_CELLS_SIDE 8      // Pixels along a side of a cell of the depth's hierarchy, and cells along a side of a block of cells.
 

@@ -34,9 +34,6 @@ const WHY: &str = "bench floor: the same pixels with nothing computed";
 /// Bytes of a point: its place in clip space, its reversed depth, its size in pixels; four floats.
 pub const FLOOR_POINT_BYTES: u64 = 16;
 
-/// Invocations of a workgroup, as in `glsl/floor_points.comp.glsl`.
-const GROUP: u32 = 256;
-
 /// What the pipeline is that precomputes the points.
 fn points_key(variant: &Constants) -> ComputeKey {
     ComputeKey { shader: &shaders::FLOOR_POINTS_COMP, layout: Layout::List, constants: variant.clone() }
@@ -91,7 +88,7 @@ pub fn floor_points<'a>(
     );
     let pipeline = pass.compute(points_key(&draw.variant))?;
     pass.finish(move |pass| {
-        let groups = [draw.chunk.count.div_ceil(GROUP), 1];
+        let groups = [draw.chunk.count.div_ceil(FLOOR_GROUP_SIZE), 1];
         dispatch(pass, draw, &draw.constants, pipeline, pass.set(Place::Lists(0))?, groups)
     });
     Ok(())

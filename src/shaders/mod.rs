@@ -40,9 +40,4 @@ impl std::hash::Hash for Shader {
     }
 }
 
-/// The shader of that name.
-pub fn by_name(name: &str) -> Option<&'static Shader> {
-    ALL.binary_search_by(|shader| shader.name.cmp(name)).ok().map(|found| ALL[found])
-}
-
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));

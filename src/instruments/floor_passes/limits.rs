@@ -48,25 +48,21 @@ pub struct LimitDispatch {
 impl LimitDispatch {
     /// That of a limit as this device has it; `None` where it is not one of compute.
     pub fn of(limit: ThroughputProbe, limits: &Limits) -> Option<Self> {
-        // As in `glsl/limit_compute.comp.glsl`.
-        const GROUP: u64 = 256;
         const GROUPS: u32 = 4096;
-        // As in `glsl/limit_kernels.comp.glsl`.
-        const GROUP_OF_KERNELS: u64 = 64;
         const GROUPS_OF_KERNELS: u32 = 256;
         let nothing = Self {
             shader: &shaders::LIMIT_COMPUTE_COMP,
             atomics: false,
             groups: GROUPS,
-            invocations: GROUP * u64::from(GROUPS),
-            units: GROUP * u64::from(GROUPS),
+            invocations: u64::from(LIMIT_GROUP_SIZE) * u64::from(GROUPS),
+            units: u64::from(LIMIT_GROUP_SIZE) * u64::from(GROUPS),
             words: GROUPS.into(),
         };
         match limit {
             ThroughputProbe::Invocations => Some(nothing),
             ThroughputProbe::Atomics => Some(Self { atomics: true, words: nothing.invocations, ..nothing }),
             ThroughputProbe::Kernels => {
-                let invocations = GROUP_OF_KERNELS * u64::from(GROUPS_OF_KERNELS);
+                let invocations = u64::from(KERNELS_GROUP_SIZE) * u64::from(GROUPS_OF_KERNELS);
                 let (shader, pixels) = match Invocations::of(TileInvocations::Auto, limits, false) {
                     Invocations::Pixels => (&shaders::LIMIT_KERNELS_PIXELS_COMP, 1),
                     columns => (&shaders::LIMIT_KERNELS_COMP, columns.tile_height().into()),
