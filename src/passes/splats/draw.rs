@@ -8,6 +8,7 @@ use crate::passes::{
     pass::Pass,
     pipeline::{
         cache::{GraphicsKey, Layout},
+        constants::FrameConstants,
         splat_shaders::{Drawn, Primitive, Stages},
         variant::Constants,
     },
@@ -115,7 +116,8 @@ pub(crate) fn draw_splats(
         let large = arguments(number as u32);
         let lists = if pass.has(large) { pass.set(Place::Lists(number as u32))? } else { unlisted };
         pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set(), lists])?;
-        pass.push(Layout::Splat, &draw.constants)?;
+        // Lists of large splats have numbers within their chunks.
+        pass.push(Layout::Splat, &FrameConstants { first_record: 0, ..draw.constants })?;
         pass.bind(pipelines.own);
         match (predicated, listed) {
             (true, _) => predicate::draw_splats(pass, number)?,
