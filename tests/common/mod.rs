@@ -25,6 +25,7 @@ use scenes::Hard;
 use surfel::{
     reference::{self, Picture},
     renderer::{Frame, Headless, HeadlessOptions, Wanted},
+    scene::Settings,
     vk::{Limits, Validation, arm_validation_across_submits},
 };
 
@@ -100,16 +101,40 @@ impl Drop for Shared {
     }
 }
 
+/// The picture without the surface as data: tiles shade it themselves.
+pub const PICTURE: Wanted = Wanted { surface: false, ..ALL };
+
+/// The same scene, drawn in another way.
+pub fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
+    let mut hard = hard.clone();
+    change(&mut hard.settings);
+    hard
+}
+
 /// Uploads and renders one frame, with all that can be read back.
 pub fn render(headless: &mut Headless, hard: &Hard) -> Frame {
+    render_as(headless, hard, ALL)
+}
+
+/// Uploads and renders one frame.
+pub fn render_as(headless: &mut Headless, hard: &Hard, wanted: Wanted) -> Frame {
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    headless.render(&prepared, &hard.camera, &hard.settings, ALL).unwrap()
+    headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap()
+}
+
+/// The names of a frame's passes.
+pub fn passes(frame: &Frame) -> Vec<&str> {
+    frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
+}
+
+/// The exact picture.
+pub fn oracle_of(hard: &Hard) -> Picture {
+    reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap()
 }
 
 /// Renders on both sides, prints the row of errors.
 pub fn against_oracle(headless: &mut Headless, hard: &Hard) -> (Frame, Picture, Errors) {
-    let frame = render(headless, hard);
-    let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let (frame, oracle) = (render(headless, hard), oracle_of(hard));
     let errors = compare::compare(&frame, &oracle);
     println!("{}", errors.row(hard.name));
     (frame, oracle, errors)
