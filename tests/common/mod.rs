@@ -53,16 +53,6 @@ pub fn headless() -> Headless {
     headless
 }
 
-/// Fails if the validation layer said anything so far; prints how often the allow-list was hit.
-pub fn assert_validation_is_silent(headless: &Headless) {
-    let messages = headless.device().instance().messages();
-    for (vuid, hits) in messages.allowed_hits() {
-        println!("allowed: {vuid} {hits} times");
-    }
-    let said = messages.all();
-    assert!(said.is_empty(), "{} validation messages, the first: {:#?}", said.len(), said[0]);
-}
-
 /// The one renderer of a program, whose pipelines are made once, for one test at a time. What the validation layer says
 /// meanwhile fails that test.
 pub struct Shared(MutexGuard<'static, Headless>);
@@ -75,6 +65,8 @@ pub fn shared() -> Shared {
     let mut headless = headless.unwrap_or_else(PoisonError::into_inner);
     let own = headless.device().facts().limits;
     headless.renderer.lower_limits(&own);
+    #[cfg(feature = "test-formulas")]
+    (headless.renderer.shaders.perturbed = None);
     Shared(headless)
 }
 

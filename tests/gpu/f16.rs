@@ -1,30 +1,19 @@
 //! 16-bit accumulation: how far it is from the oracle beside 32 bits, how far it may be, and what many splats do to it.
 //!
 //! A sum S of `n` positive values in binary16 errs by at most `e = n (2·2⁻¹⁰ S + 2·2⁻²⁴)`, and a quotient of two such sums
-//! by about twice that, relative (`selftest::half::Rounding`): that bound is asserted at every pixel. It says nothing beyond some hundred fragments, where sums stall: a sum of equal
+//! by about twice that, relative (`selftest::half::Rounding`): the self-test holds every pixel to that. It says nothing beyond some hundred fragments, where sums stall: a sum of equal
 //! summands a stops in the first binade whose step is 2a or more (with truncation: more than a), between 2048 a and
 //! 4096 a (1024 a and 2048 a): a normalized color is then within a factor 2 of the input. On the way there a summand of
 //! 0.5 to 1.5 steps is taken as a whole step, so that a sum may grow by 2/3 to 2 times its rate: a factor 3.
 
 use crate::common::{
     builder::{Builder, camera, settings},
-    compare::compare,
     render,
     scenes::{self, Hard},
-    shared,
+    shared, with,
 };
 use glam::DVec3;
-use surfel::{
-    reference,
-    scene::{Accumulate, Filter, FilterWeight, Kernel, Settings},
-    selftest::half::Rounding,
-};
-
-fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
-    let mut hard = hard.clone();
-    change(&mut hard.settings);
-    hard
-}
+use surfel::scene::{Accumulate, Filter, Kernel, Settings};
 
 /// A filter takes all but a 16th of a small splat's weight, and a kernel may end at 2⁻²⁴: what covers must not vanish in
 /// 16 bits, or the background would show where visibility has hidden all else; nor may the color of dark splats.

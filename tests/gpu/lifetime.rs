@@ -193,6 +193,10 @@ fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
         assert_eq!(device.memory_in_use(), (0, 0), "{succeed}: {function}");
         assert_eq!(host.said(), [] as [String; 0], "{succeed}: {function}");
     }
-    println!("{} of {} calls failed one after the other", (0..calls.len()).filter(is_tried).count(), calls.len());
+    println!(
+        "{} of {} calls failed one after the other",
+        (0..calls.len()).filter(is_tried).count(),
+        calls.len()
+    );
     assert_eq!(host.destroy(), [] as [String; 0]);
 }

