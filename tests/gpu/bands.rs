@@ -1,9 +1,10 @@
 //! Pictures in bands of the image against the same all at once: the same splats in every pixel, in sums of another order.
 
-use crate::common::{ALL, assert_same_bits, compare::F32, scenes, shared, with_limits};
+use crate::common::{ALL, PICTURE, assert_same_bits, compare::F32, passes, scenes, shared, with_limits};
 use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
+    prepare::PreparedScene,
     renderer::{Frame, Headless, Wanted},
     scene::{
         Accumulate, Backfaces, Cull, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes, SplatFormat,
@@ -11,25 +12,27 @@ use surfel::{
     },
 };
 
-fn draw(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory) -> Frame {
-    draw_as(headless, hard, tile_memory, ALL)
+/// A scene by tiles, all at once or in as many bands as there can be, the surface as data or the picture alone.
+fn draw(headless: &mut Headless, hard: &Hard, most: u64, wanted: Wanted) -> Frame {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    draw_prepared(headless, &prepared, hard, most, wanted)
 }
 
-fn draw_as(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory, wanted: Wanted) -> Frame {
-    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    let rasterizer = Rasterizer::Compute;
+fn draw_prepared(
+    headless: &mut Headless,
+    prepared: &PreparedScene,
+    hard: &Hard,
+    most: u64,
+    wanted: Wanted,
+) -> Frame {
+    let (rasterizer, tile_memory) = (Rasterizer::Compute, TileMemory::Most(most));
     let settings = Settings { rasterizer, tile_memory, ..hard.settings.clone() };
-    headless.render(&prepared, &hard.camera, &settings, wanted).unwrap()
+    headless.render(prepared, &hard.camera, &settings, wanted).unwrap()
 }
 
 /// How many bands a frame has: 0 where all of it is drawn at once.
 fn bands(frame: &Frame) -> usize {
-    frame
-        .plan
-        .passes
-        .iter()
-        .filter(|pass| pass.name.starts_with("count ") && pass.name.contains("band-"))
-        .count()
+    passes(frame).iter().filter(|name| name.starts_with("count ") && name.contains("band-")).count()
 }
 
 fn hard(name: &'static str, objects: Vec<Object>, eye: [f64; 3]) -> Hard {
@@ -49,9 +52,9 @@ fn ellipses(mut object: Object) -> Object {
 
 /// Scenes large enough for bands: each in its own way hard for what is known of a block without looking at its splats.
 fn scenes_of_blocks() -> Vec<Hard> {
-    let ball = || sphere(100_000, DVec3::ZERO);
+    let ball = || sphere(24_000, DVec3::ZERO);
     let three =
-        || (0..3).map(|i| sphere(35_001 + 7 * i, DVec3::new(0.0, 1.5 * (i as f64 - 1.0), 0.0))).collect();
+        || (0..3).map(|i| sphere(8_001 + 7 * i, DVec3::new(0.0, 1.5 * (i as f64 - 1.0), 0.0))).collect();
     let mut all = vec![
         hard("a ball", vec![ball()], [0.0, 0.0, 3.2]),
         hard("seen askew", vec![ball()], [1.9, 2.1, 1.7]),
@@ -75,7 +78,7 @@ fn scenes_of_blocks() -> Vec<Hard> {
             let Shapes::Disks { radii, .. } = &mut hard.scene.objects[1].splats.shapes else {
                 unreachable!()
             };
-            radii.iter_mut().step_by(9000).for_each(|radius| *radius = 0.7);
+            radii.iter_mut().step_by(2500).for_each(|radius| *radius = 0.7);
         }),
         with("unfiltered", &|hard| hard.settings.filter = Filter::None),
         with("ewa", &|hard| hard.settings.filter = Filter::Ewa),
@@ -121,36 +124,27 @@ fn assert_same_surface(bands: &Frame, whole: &Frame, name: &str) {
     }
 }
 
+/// The surface as data, and the picture alone, which tiles of the opaque scenes shade themselves, each band its own into one
+/// image.
 #[test]
 fn bands_draw_the_same_splats_in_every_pixel() {
     let mut headless = shared();
-    for hard in scenes_of_blocks() {
-        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
-        println!("{}: {} bands", hard.name, bands(&cut));
-        assert_eq!(bands(&whole), 0, "{}", hard.name);
-        assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
-        assert_same_surface(&cut, &whole, hard.name);
-    }
-}
-
-/// The picture alone, which tiles of the opaque scenes shade themselves, each band its own into one image.
-#[test]
-fn bands_show_the_same_picture() {
-    let mut headless = shared();
-    let picture = Wanted { surface: false, ..ALL };
     let mut shaded = 0;
     for hard in scenes_of_blocks() {
-        let [whole, cut] =
-            [u64::MAX, 0].map(|most| draw_as(&mut headless, &hard, TileMemory::Most(most), picture));
-        assert!(bands(&whole) == 0 && bands(&cut) >= 2, "{}", hard.name);
-        assert_same_surface(&cut, &whole, hard.name);
-        let passes = &cut.plan.passes;
-        let count = passes.iter().filter(|pass| pass.name.starts_with("see, sum and shade band-")).count();
-        assert!([0, bands(&cut)].contains(&count), "{}: {count}", hard.name);
-        shaded += usize::from(count > 0);
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        for wanted in [ALL, PICTURE] {
+            let [whole, cut] =
+                [u64::MAX, 0].map(|most| draw_prepared(&mut headless, &prepared, &hard, most, wanted));
+            println!("{}: {} bands", hard.name, bands(&cut));
+            assert_eq!(bands(&whole), 0, "{}", hard.name);
+            assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
+            assert_same_surface(&cut, &whole, hard.name);
+            let is_shaded = |name: &&&str| name.starts_with("see, sum and shade band-");
+            let count = passes(&cut).iter().filter(is_shaded).count();
+            assert!([0, bands(&cut)].contains(&count), "{}: {count}", hard.name);
+            shaded += usize::from(count > 0);
+        }
     }
-    println!("{shaded} scenes are shaded at once");
     assert!(shaded >= 10, "{shaded}");
 }
 
@@ -165,9 +159,9 @@ fn layers_with_large_splats_have_no_bands() {
     let mut hard = hard("a ball", vec![ball], [0.0, 0.0, 3.2]);
     hard.settings.layers = surfel::scene::Layers::Fixed(2);
     let draw_both = |headless: &mut Headless| {
-        let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(headless, &hard, TileMemory::Most(0));
-        assert!(whole.plan.passes.iter().any(|pass| pass.name == "layers of tiles"));
+        let whole = draw(headless, &hard, u64::MAX, ALL);
+        let cut = draw(headless, &hard, 0, ALL);
+        assert!(passes(&whole).contains(&"layers of tiles"));
         assert_same_surface(&cut, &whole, hard.name);
         bands(&cut)
     };
@@ -181,9 +175,9 @@ fn layers_with_large_splats_have_no_bands() {
 fn no_hard_scene_is_another_where_memory_is_short() {
     let mut headless = shared();
     for mut hard in scenes::all().into_iter().chain(transparent::all()) {
-        hard.settings.accumulate = Accumulate::F32;
-        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
+        (hard.settings.accumulate, hard.settings.size_px) = (Accumulate::F32, [96, 64]);
+        let whole = draw(&mut headless, &hard, u64::MAX, ALL);
+        let cut = draw(&mut headless, &hard, 0, ALL);
         if bands(&cut) == 0 {
             assert_same_bits(&cut, &whole, hard.name);
         } else {
@@ -212,8 +206,8 @@ fn what_bands_do_not_help_has_none() {
     let mut paper = hard("the paper's filter", ball(), [0.0, 0.0, 3.2]);
     paper.settings.filter = Filter::AdjustPaper;
     for hard in [shuffled, hard("far away", ball(), [0.0, 0.0, 900.0]), paper] {
-        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
+        let whole = draw(&mut headless, &hard, u64::MAX, ALL);
+        let cut = draw(&mut headless, &hard, 0, ALL);
         assert_eq!(bands(&cut), 0, "{}", hard.name);
         assert_same_bits(&cut, &whole, hard.name);
     }

@@ -35,7 +35,8 @@ fn unpacked(scene: &Scene) -> Option<Scene> {
 fn what_the_shaders_unpack_is_what_was_packed() {
     let mut headless = shared();
     let mut checked = 0;
-    for hard in scenes::all() {
+    for mut hard in scenes::all() {
+        hard.settings.size_px = [128, 128];
         let Some(scene) = unpacked(&hard.scene) else { continue };
         let oracle = reference::render(&scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
         for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute] {

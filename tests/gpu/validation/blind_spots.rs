@@ -4,7 +4,7 @@
 use ash::vk;
 use surfel::vk::{Buffer, BufferDesc, Image, ImageDesc, MemoryUse};
 
-use crate::common::watched::{Record, TRANSFER_WRITE, Watched, barrier, fill};
+use crate::common::watched::{TRANSFER_WRITE, Watched, barrier, fill};
 
 /// The layer that the facts were found with, as it writes its own version.
 const KNOWN: [u32; 3] = [1, 3, 239];
@@ -108,93 +108,6 @@ fn attachments_of_dynamic_rendering() {
         }
     }]);
     fact("an attachment copied from without a barrier", &said, false);
-}
-
-#[test]
-fn accesses_of_the_host() {
-    let watched = Watched::new();
-    let desc = BufferDesc {
-        name: "host's buffer",
-        size: 4096,
-        usage: vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST,
-    };
-    let mut source = Buffer::new(&watched.device, desc, MemoryUse::Upload).unwrap();
-    let target = watched.buffer(vk::BufferUsageFlags::TRANSFER_DST);
-    let pool = surfel::vk::CommandPool::new(&watched.device, "program").unwrap();
-    // SAFETY: recorded, submitted and waited for; the host's write between is the defect, of bytes without a meaning.
-    unsafe {
-        let commands = pool.begin().unwrap();
-        let region = [vk::BufferCopy::default().size(4096)];
-        watched.device.raw().cmd_copy_buffer(commands, source.raw(), target.raw(), &region);
-        let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
-        source.bytes_mut().fill(1);
-        watched.queue.wait(epoch).unwrap();
-    }
-    fact("the host writes what the device reads", &watched.said(), false);
-}
-
-/// Two objects at the same place in memory, both written without a barrier.
-#[test]
-fn aliased_memory() {
-    let watched = Watched::new();
-    let device = watched.device.raw();
-    let make_buffer = || {
-        let info = vk::BufferCreateInfo::default().size(1 << 20).usage(vk::BufferUsageFlags::TRANSFER_DST);
-        // SAFETY: destroyed below.
-        unsafe { device.create_buffer(&info, None) }.unwrap()
-    };
-    let make_image = || {
-        let extent = vk::Extent2D { width: 512, height: 512 };
-        let usage = vk::ImageUsageFlags::TRANSFER_DST;
-        let desc = ImageDesc { name: "", format: vk::Format::R8G8B8A8_UNORM, extent, usage };
-        // SAFETY: destroyed below.
-        unsafe { device.create_image(&desc.create_info(), None) }.unwrap()
-    };
-    let (buffers, images) = ([make_buffer(), make_buffer()], [make_image(), make_image()]);
-    // SAFETY: all are alive; each is bound once, to memory that is large enough and of one of its types.
-    let memory = unsafe {
-        let needed = [
-            device.get_buffer_memory_requirements(buffers[0]),
-            device.get_image_memory_requirements(images[0]),
-        ];
-        needed.map(|needed| {
-            let info = vk::MemoryAllocateInfo::default()
-                .allocation_size(needed.size)
-                .memory_type_index(needed.memory_type_bits.trailing_zeros());
-            device.allocate_memory(&info, None).unwrap()
-        })
-    };
-    // SAFETY: as above.
-    unsafe {
-        for i in 0..2 {
-            device.bind_buffer_memory(buffers[i], memory[0], 0).unwrap();
-            device.bind_image_memory(images[i], memory[1], 0).unwrap();
-        }
-    }
-    watched.said();
-    let said = watched.run(&[&|d, c| {
-        for buffer in buffers {
-            // SAFETY: recording; the buffer is alive.
-            unsafe { d.cmd_fill_buffer(c, buffer, 0, vk::WHOLE_SIZE, 1) };
-        }
-    }]);
-    fact("two buffers in the same memory", &said, true);
-    let image_layouts: [Record<'_>; 2] = [&|d, c| begin(d, c, images[0]), &|d, c| begin(d, c, images[1])];
-    image_layouts.iter().for_each(|record| assert!(watched.run(&[*record]).is_empty()));
-    let said = watched.run(&[&|d, c| {
-        for image in images {
-            let black = vk::ClearColorValue { float32: [0.0; 4] };
-            // SAFETY: recording; the image is alive and in this layout.
-            unsafe { d.cmd_clear_color_image(c, image, vk::ImageLayout::GENERAL, &black, &[WHOLE]) };
-        }
-    }]);
-    fact("two images in the same memory", &said, true);
-    // SAFETY: all was waited for; each is destroyed once, memory last.
-    unsafe {
-        buffers.iter().for_each(|&buffer| device.destroy_buffer(buffer, None));
-        images.iter().for_each(|&image| device.destroy_image(image, None));
-        memory.iter().for_each(|&memory| device.free_memory(memory, None));
-    }
 }
 
 /// Submissions that a timeline semaphore orders, on the device and then through the host: no hazard at all.
