@@ -9,7 +9,10 @@ use crate::common::{
 };
 use surfel::{
     renderer::Frame,
-    scene::{Accumulate, Backfaces, Epsilon, Filter, Kernel, KernelEval, Order, Settings, Shading, Storage},
+    scene::{
+        Accumulate, Backfaces, Epsilon, Filter, Kernel, KernelEval, Order, Rasterizer, Settings, Shading,
+        Storage,
+    },
     selftest::tolerance,
 };
 
@@ -41,6 +44,16 @@ fn kernels_from_a_texture_are_read_from_it() {
     let (_, _, errors) = against_oracle(&mut headless, &hard);
     let beyond = errors.beyond(&tolerance::of(&hard));
     assert!(beyond.is_empty() && errors.weight > 1e-5, "{beyond:?}, {}", errors.weight);
+    // Tiles find kernels by arithmetic.
+    for (_, rasterizer) in Rasterizer::METHODS.iter().filter(|(_, r)| *r != Rasterizer::Compute) {
+        let [formula, texture] = [KernelEval::Analytic, KernelEval::Texture].map(|eval| {
+            let small = |s: &mut Settings| {
+                (s.kernel_eval, s.rasterizer, s.size_px) = (eval, *rasterizer, [64, 64]);
+            };
+            render(&mut headless, &with(hard.clone(), "a texture is read", small)).weight
+        });
+        assert_ne!(formula, texture, "{rasterizer:?}");
+    }
 }
 
 #[test]

@@ -48,10 +48,10 @@ fn random_transparent(epsilon: Epsilon) -> Hard {
 #[test]
 fn splats_in_no_order_agree_with_the_oracle() {
     let mut headless = shared();
-    for epsilon in [Epsilon::Radii(1.0), Epsilon::Length(0.0)] {
+    for epsilon in [Epsilon::Radii(1.0), Epsilon::Radii(0.1), Epsilon::Length(0.0)] {
         let errors = against_oracle(&mut headless, &random_transparent(epsilon));
         assert!(errors.worst <= LIGHT && errors.not_finite == 0, "{epsilon:?}: {errors:?}");
-        assert!(errors.seen > 3000 && errors.compared > 10_000, "{epsilon:?}: {errors:?}");
+        assert!(errors.seen >= 3000 && errors.compared >= 40_000, "{epsilon:?}: {errors:?}");
     }
 }
 
