@@ -155,6 +155,11 @@ pub fn with_limits<T>(
     result
 }
 
+/// Runs `f` on a device whose points are so large at most: larger ones are drawn as quads.
+pub fn with_points_up_to<T>(headless: &mut Headless, cap_px: f32, f: impl FnOnce(&mut Headless) -> T) -> T {
+    with_limits(headless, |limits| limits.point_size_range[1] = cap_px.min(limits.point_size_range[1]), f)
+}
+
 /// Whether two frames are the same bit by bit.
 pub fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
     let different = compare::different_values(a, b);

@@ -13,7 +13,7 @@ use glam::DVec3;
 use common::{
     ALL, PICTURE, oracle_of, passes, render_as,
     scenes::{self, Hard, transparent},
-    shared, with, with_limits,
+    shared, with, with_points_up_to,
 };
 use surfel::{
     passes::Formula,
@@ -106,8 +106,7 @@ fn every_formula_of_opaque_splats_is_seen_by_points_and_by_quads() {
     assert_seen(&mut headless, &scenes, &Formula::ALL, &points);
     // All as quads, which have formulas of their own in the same places.
     let quads = |headless: &mut Headless, hard: &Hard, oracle: &Picture| {
-        let lower = |limits: &mut surfel::vk::Limits| limits.point_size_range[1] = 0.0;
-        with_limits(headless, lower, |headless| points(headless, hard, oracle))
+        with_points_up_to(headless, 0.0, |headless| points(headless, hard, oracle))
     };
     let of_points = [Formula::PointCenter, Formula::PointSize];
     let of_quads: Vec<_> = Formula::ALL.into_iter().filter(|formula| !of_points.contains(formula)).collect();

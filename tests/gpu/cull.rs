@@ -29,8 +29,11 @@ fn views(hard: &Hard, rasterizer: Rasterizer) -> [Hard; 2] {
 #[test]
 fn points_of_a_list_are_the_same_bits_on_every_hard_scene_and_with_every_filter() {
     let mut headless = shared();
-    let ellipses = scenes::random_ellipses(Filter::None);
-    let filters = Filter::NAMES.iter().map(|(_, filter)| with(&ellipses, |s| s.filter = *filter));
+    let any_filter = [scenes::random_ellipses(Filter::None), scenes::subpixel_filtered()];
+    let filters = Filter::NAMES.iter().flat_map(|(_, filter)| {
+        any_filter.each_ref().map(|hard| with(hard, |settings| settings.filter = *filter))
+    });
+    let filters = filters.filter(|hard| hard.settings.check_scene(&hard.scene).is_ok());
     let mut listed = 0;
     for scene in scenes::all().into_iter().chain(filters).chain(transparent::all()) {
         for hard in views(&scene, Rasterizer::Perspective) {

@@ -4,7 +4,7 @@
 use crate::common::{
     assert_same_bits, builder, oracle_of, passes, render, render_as,
     scenes::{self, Hard, transparent},
-    shared, with, with_limits,
+    shared, with, with_points_up_to,
 };
 use glam::{DQuat, DVec3};
 use surfel::{
@@ -60,12 +60,8 @@ fn large_transparent_splats_are_listed_and_drawn_as_quads() {
     let mut headless = shared();
     let hard = with(&transparent::interpenetrating(), |settings| settings.layers = Layers::Auto(12));
     let plain = render(&mut headless, &hard);
-    let listed = with_limits(
-        &mut headless,
-        |limits| limits.point_size_range[1] = 12.0,
-        |headless| render(headless, &hard),
-    );
-    assert!(listed.plan.passes.iter().any(|pass| pass.name == "list large transparent splats"));
+    let listed = with_points_up_to(&mut headless, 12.0, |headless| render(headless, &hard));
+    assert!(passes(&listed).contains(&"list large transparent splats"));
     let errors = compare_light(&listed, &oracle_of(&hard));
     println!("{}", errors.row("interpenetrating shells, all large"));
     assert!(errors.worst <= LIGHT && errors.compared > 40_000, "{errors:?}");

@@ -1,7 +1,7 @@
 //! Silence means something: each mode of validation finds a defect that was put there for it, and is silent about the
 //! same program without the defect.
 //!
-//! **What layer 1.3.239 (Debian 12) does not see**, the first and the last pinned by tests in `validation/blind_spots.rs`:
+//! **What layer 1.3.239 (Debian 12) was found not to see**:
 //! - attachments: dynamic rendering takes no part in its synchronization checks, so that a missing barrier around a
 //!   render target goes unnoticed. Those barriers are held to the graph's own simulator (`src/graph/tests`);
 //! - accesses of the host: bytes written to a mapped buffer that the device reads, or read without a wait;
@@ -16,8 +16,6 @@
 //! Of the layer's known traps, two do not bite here, which tests below hold fast: with the settings given in
 //! `VkInstanceCreateInfo` and no settings file, repeated messages are all reported (the limit of 10 is the file's), and
 //! threads are checked.
-
-mod blind_spots;
 
 use std::{
     sync::atomic::{AtomicBool, Ordering},
