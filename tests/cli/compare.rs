@@ -65,7 +65,7 @@ fn methods_stand_side_by_side_with_times_and_both_errors() {
         let own = &method["implementation_error"];
         assert!(own["compared_px"].as_u64() > Some(500), "{own}");
         assert_eq!(own["coverage_px"], 0);
-        // The tolerances of tests/oracle.rs and tests/f16.rs: 1/1024 of the color with 32 bits, 1/100 with 16.
+        // The tolerances of the self-test: 1/1024 of the color with 32 bits, 1/100 with 16.
         let limit = if method["accumulate"] == "f32" { 1.0 / 1024.0 } else { 0.01 };
         assert!(own["color"]["max"].as_f64().unwrap() < limit, "{own}");
         let truth = &method["method_error"];

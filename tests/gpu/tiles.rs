@@ -95,8 +95,13 @@ fn an_invocation_a_pixel_or_a_short_column_draws_the_same_bits_as_one_a_column()
     let stacked = with(&hard(vec![near(), near()], stacked, [35, 67]), |s| s.accumulate = Accumulate::F16);
     let (own, short, pixel) = (TileInvocations::Column, TileInvocations::ShortColumn, TileInvocations::Pixel);
     let small = |hard: Hard| (with(&hard, |s| s.size_px = [64, 48]), vec![short]);
-    let all = scenes::all().into_iter().chain(transparent::all()).map(small);
-    for (hard, others) in all.chain([(cloud, vec![short, pixel]), (stacked, vec![short, pixel])]) {
+    // Every other scene is the self-test's.
+    let hybrid = transparent::hybrid(Transition::Color);
+    let scenes =
+        [scenes::random_ellipses(Filter::Adjust), transparent::interpenetrating(), hybrid].map(small);
+    for (hard, others) in
+        scenes.into_iter().chain([(cloud, vec![short, pixel]), (stacked, vec![short, pixel])])
+    {
         let columns = by_tiles(&mut headless, &by(&hard, own), ALL);
         for other in others {
             let drawn = by_tiles(&mut headless, &by(&hard, other), ALL);
