@@ -172,16 +172,20 @@ fn against_oracle(index: usize, hard: &Hard, method: Method) -> Option<Case> {
     };
     let group = method.group();
     let name = [group.as_str(), method.rasterizer.name(), method.filter.name(), &slug(hard.name)].join(".");
-    // Every method and every option once, the defaults everywhere.
+    // Every method and every option once, the defaults everywhere; every filter where splats are long, and where they are small.
+    let by_default = method.rasterizer == Rasterizer::Perspective;
     let quick = match group.as_str() {
-        "methods" => index == 0 || own_filter,
-        "sums-16" if own_filter && method.rasterizer == Rasterizer::Perspective => true,
+        "methods" => index == 0 || own_filter || by_default && WITH_EVERY_FILTER.contains(&hard.name),
+        "sums-16" if own_filter && by_default => true,
         _ => index == 0 && method.filter == Filter::default(),
     };
     let allowed = is_hard && can_draw(hard, &settings);
     let drawing = Some(Drawing { scene: index, settings, check: Check::Oracle });
     allowed.then_some(Case { name, quick, drawing })
 }
+
+/// Scenes that the quick form has with every filter, as the first one.
+const WITH_EVERY_FILTER: [&str; 2] = ["random ellipses of aspect up to 20", "subpixel disks"];
 
 /// The scenes of the groups `psi-e`.
 const WITH_PSI_E: [&str; 3] =

@@ -4,15 +4,11 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::program::{Folder, Run, surfel};
+use super::program::{Folder, Run, done, surfel};
 
 /// A run that is small: figures don't matter here.
 fn bench(folder: &Folder, words: &[&str]) -> Run {
     surfel(folder, &[&["bench"], words, &["--size", "96x96"]].concat())
-}
-
-fn json(folder: &Folder, name: &str) -> Value {
-    serde_json::from_slice(&fs::read(folder.path(name)).unwrap()).unwrap()
 }
 
 /// Frames come in pairs, and an interval takes 6 of them.
@@ -27,7 +23,7 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
     assert!(run.stdout.contains("x floor") && run.stdout.ends_with('\n'), "{}", run.stdout);
     // Of 3 frames no median is certain.
     assert!(run.stdout.contains("note: floor, frame: too few frames"), "{}", run.stdout);
-    let report = &json(&folder, "floor.json")["floor"];
+    let report = &folder.json("floor.json")["floor"];
     let rows = report["rows"].as_array().unwrap();
     let names: Vec<_> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["visibility", "accumulate", "finalize", "frame"]);
@@ -65,7 +61,7 @@ fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
     let words = ["floor", "--rasterizer", "compute", "--frames", "3", "--json", "floor.json", "--validate"];
     let run = bench(&folder, &words);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = json(&folder, "floor.json");
+    let report = folder.json("floor.json");
     assert_eq!(report["settings"]["rasterizer"], "compute", "{}", report["settings"]);
     let rows = report["floor"]["rows"].as_array().unwrap();
     let bounds = report["floor"]["limits"]["bounds"].as_array().unwrap();
@@ -110,14 +106,12 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 fn passes_that_do_an_unknown_part_of_lists_have_no_bound() {
     let folder = Folder::new();
     folder.write("cube.obj", CUBE);
-    let made = surfel(&folder, &["convert", "cube.obj", "cube.ply", "--resample", "1500000"]);
-    assert_eq!(made.code, 0, "{}", made.stderr);
+    done(&folder, &["convert", "cube.obj", "cube.ply", "--resample", "1500000"]);
     let floor = ["bench", "floor", "--rasterizer", "compute", "--frames", "1", "--json", "floor.json"];
     // Two tiles, and two hundred.
     for (size, is_known) in [("8x8", false), ("80x80", true)] {
-        let run = surfel(&folder, &[&floor[..], &["--model", "cube.ply", "--size", size]].concat());
-        assert_eq!(run.code, 0, "{}", run.stderr);
-        let report = json(&folder, "floor.json");
+        done(&folder, &[&floor[..], &["--model", "cube.ply", "--size", size]].concat());
+        let report = folder.json("floor.json");
         let bounds = report["floor"]["limits"]["bounds"].as_array().unwrap();
         let of = |what: &str| {
             let found = bounds.iter().find(|row| row["name"].as_str().unwrap().contains(what));
@@ -152,7 +146,7 @@ fn throughput_is_told_in_every_form_of_every_pass() {
     let files = ["--json", "t.json", "--markdown", "t.md", "--csv", "tables", "--plot", "t.svg"];
     let run = bench(&folder, &[&TABLE1[..], &files].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = json(&folder, "t.json");
+    let report = folder.json("t.json");
     let rows = report["table1"].as_array().unwrap();
     assert_eq!(rows.len(), 2);
     for row in rows {
@@ -193,7 +187,7 @@ fn a_gate_passes_what_is_the_same_and_stops_what_became_worse() {
     assert!(same.stdout.contains("against the baseline: 0 worse"), "{}", same.stdout);
 
     // As if fragments had been fewer, a pass faster, and one more been measured.
-    let mut before = json(&folder, "before.json");
+    let mut before = folder.json("before.json");
     let figures = before["gate"]["figures"].as_array_mut().unwrap();
     let of = |figures: &mut Vec<Value>, end: &str| {
         figures.iter().position(|figure| figure["name"].as_str().unwrap().ends_with(end)).unwrap()
@@ -240,7 +234,7 @@ fn layers_stand_beside_the_papers_and_cost_an_opaque_scene_nothing() {
     let files = ["--json", "l.json", "--markdown", "l.md", "--csv", "tables", "--validate"];
     let run = bench(&folder, &[&layers[..], &files].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = &json(&folder, "l.json")["layers"];
+    let report = &folder.json("l.json")["layers"];
     let contestants = report["contestants"].as_array().unwrap();
     let all = |key: &str| contestants.iter().map(|own| own[key].clone()).collect::<Vec<_>>();
     assert_eq!(
@@ -288,7 +282,7 @@ fn transitions_stand_beside_none_and_a_gate_judges_them() {
     let transition = ["transition", "--splats", "500", "--frames", "12"];
     let run = bench(&folder, &[&transition[..], &["--json", "t.json", "--csv", "tables"]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = json(&folder, "t.json");
+    let report = folder.json("t.json");
     let contestants = report["transition"]["contestants"].as_array().unwrap();
     let names: Vec<_> = contestants.iter().map(|own| own["name"].clone()).collect();
     assert_eq!(names, ["none", "color", "attributes", "paper", "all splats", "all polygons"]);

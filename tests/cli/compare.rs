@@ -2,11 +2,9 @@
 
 use std::fs;
 
-use serde_json::Value;
-
 use super::{
     files::png,
-    program::{Folder, Run, surfel},
+    program::{Folder, Run, done, surfel},
     splats,
 };
 
@@ -28,10 +26,6 @@ fn compare(folder: &Folder, words: &[&str]) -> Run {
     surfel(folder, &[&small[..], words].concat())
 }
 
-fn json(folder: &Folder, name: &str) -> Value {
-    serde_json::from_slice(&fs::read(folder.path(name)).unwrap()).unwrap()
-}
-
 #[test]
 fn methods_stand_side_by_side_with_times_and_both_errors() {
     let folder = folder();
@@ -50,7 +44,7 @@ fn methods_stand_side_by_side_with_times_and_both_errors() {
     ] {
         assert!(run.stdout.contains(text), "'{text}' is not in\n{}", run.stdout);
     }
-    let report = json(&folder, "c.json");
+    let report = folder.json("c.json");
     let methods = report["methods"].as_array().unwrap();
     let names: Vec<_> = methods
         .iter()
@@ -71,7 +65,7 @@ fn methods_stand_side_by_side_with_times_and_both_errors() {
         let own = &method["implementation_error"];
         assert!(own["compared_px"].as_u64() > Some(500), "{own}");
         assert_eq!(own["coverage_px"], 0);
-        // The tolerances of tests/oracle.rs and tests/f16.rs: 1/1024 of the color with 32 bits, 1/100 with 16.
+        // The tolerances of the self-test: 1/1024 of the color with 32 bits, 1/100 with 16.
         let limit = if method["accumulate"] == "f32" { 1.0 / 1024.0 } else { 0.01 };
         assert!(own["color"]["max"].as_f64().unwrap() < limit, "{own}");
         let truth = &method["method_error"];
@@ -100,7 +94,7 @@ fn two_runs_differ_in_times_alone() {
             ["a.ply", "--quick", "--rasterizer", "perspective", "--filter", "adjust,none", "--json", name];
         let run = compare(&folder, &words);
         assert_eq!(run.code, 0, "{}", run.stderr);
-        let mut report = json(&folder, name);
+        let mut report = folder.json(name);
         let methods = report["methods"].as_array_mut().unwrap();
         assert_eq!(methods.len(), 4, "the first, another filter, other sums, another evaluation");
         for method in methods {
@@ -124,7 +118,7 @@ fn what_does_not_exist_is_listed_with_its_reason_and_the_others_go_on() {
         ["a.ply", "--rasterizer", "perspective,triangle", "--filter", "adjust,max", "--accumulate", "f32"];
     let run = compare(&folder, &[&words[..], &["--kernel-eval", "analytic", "--json", "c.json"]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = json(&folder, "c.json");
+    let report = folder.json("c.json");
     assert_eq!(report["methods"].as_array().unwrap().len(), 3);
     let skipped = report["skipped"].as_array().unwrap();
     assert_eq!((skipped.len(), &skipped[0]["rasterizer"]), (1, &"triangle".into()));
@@ -140,9 +134,8 @@ fn the_claims_of_tangent_adjustment_hold_over_distance_at_two_tilts() {
     for tilt in ["75", "30"] {
         let words = ["compare", "--zoom", "--zoom-steps", "9", "--zoom-splats", "300", "--zoom-tilt", tilt];
         let small = ["--size", "64x64", "--samples", "8", "--filter", "adjust,adjust-paper,max,ewa"];
-        let run = surfel(&folder, &[&words[..], &small, &["--json", "z.json"]].concat());
-        assert_eq!(run.code, 0, "{}", run.stderr);
-        let report = json(&folder, "z.json");
+        done(&folder, &[&words[..], &small, &["--json", "z.json"]].concat());
+        let report = folder.json("z.json");
         for claim in report["claims"].as_array().unwrap() {
             let (text, worst) = (claim["claim"].as_str().unwrap(), claim["worst_ratio"].as_f64().unwrap());
             // In small pictures a single row of pixels at the board's border is a hundredth of the error.
@@ -175,9 +168,8 @@ fn a_zoom_compares_filters_at_each_distance() {
         "--samples",
         "2",
     ];
-    let run = surfel(&folder, &[&words[..], &["--json", "z.json", "--plot", "z.svg"]].concat());
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    let report = json(&folder, "z.json");
+    let run = done(&folder, &[&words[..], &["--json", "z.json", "--plot", "z.svg"]].concat());
+    let report = folder.json("z.json");
     let filters: Vec<_> = report["filters"]
         .as_array()
         .unwrap()

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::program::{Folder, surfel};
+use super::program::{Folder, done, surfel};
 
 /// A closed octahedron; coordinates that 32 bits have.
 const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n\
@@ -23,8 +23,7 @@ fn convert(folder: &Folder, arguments: &[&str]) -> String {
 }
 
 fn picture(folder: &Folder, model: &str, options: &[&str]) -> Vec<u8> {
-    let run = surfel(folder, &[&["render", model, "-o", "picture.png", "--size", "64x64"], options].concat());
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    done(folder, &[&["render", model, "-o", "picture.png", "--size", "64x64"], options].concat());
     fs::read(folder.path("picture.png")).unwrap()
 }
 

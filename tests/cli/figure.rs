@@ -4,7 +4,7 @@ use std::fs;
 
 use super::{
     files::{Png, png},
-    program::{Folder, surfel},
+    program::{Folder, done, surfel},
     splats,
 };
 
@@ -24,8 +24,7 @@ fn panels(name: &str, size: [u32; 2], more: &[&str]) -> Vec<Panel> {
     let folder = Folder::new();
     folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n1 0.3 0.2 0 0 1 1 0 0 255\n"));
     let side = format!("{}x{}", size[0], size[1]);
-    let run = surfel(&folder, &[&["figure", name, "--size", &side, "--validate"], more].concat());
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let run = done(&folder, &[&["figure", name, "--size", &side, "--validate"], more].concat());
     assert!(run.stderr.contains("validation: no message"), "{}", run.stderr);
     let mut names = [format!("{name}.png"), "model.ply".to_owned()];
     names.sort();
@@ -162,8 +161,7 @@ fn g5_the_seam_is_seen_unless_it_is_smoothed() {
 fn g5_shows_another_mesh() {
     let folder = Folder::new();
     folder.write("ridge.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 1\nf 1 2 3\nf 2 4 3\n");
-    let run = surfel(&folder, &["figure", "g5", "--size", "64x64", "--model", "ridge.obj"]);
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    done(&folder, &["figure", "g5", "--size", "64x64", "--model", "ridge.obj"]);
     assert_eq!(folder.names(), ["g5.png", "ridge.obj"]);
 }
 
@@ -217,8 +215,7 @@ fn p9_and_p10_are_curves_with_the_papers_values() {
         ("p10", "#0072B2", 0.5, (-8.0 / 3.0_f64).exp(), ["n = 2, a = 8", "n = 5, a = 4"]),
     ];
     for (name, color, r, weight, labels) in cases {
-        let run = surfel(&folder, &["figure", name, "-o", "a.svg", "--size", "900x600"]);
-        assert_eq!(run.code, 0, "{}", run.stderr);
+        done(&folder, &["figure", name, "-o", "a.svg", "--size", "900x600"]);
         let svg = fs::read_to_string(folder.path("a.svg")).unwrap();
         for label in labels {
             assert!(svg.contains(&format!("\n{label}\n")), "{label}");

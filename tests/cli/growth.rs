@@ -19,7 +19,7 @@ fn growth_is_told_over_splats_and_over_pixels_in_every_form() {
     let files = ["--json", "g.json", "--markdown", "g.md", "--csv", "tables", "--plot", "g.svg"];
     let run = growth(&folder, &[&what[..], &files].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let report: Value = serde_json::from_slice(&fs::read(folder.path("g.json")).unwrap()).unwrap();
+    let report = folder.json("g.json");
     let growth = &report["growth"];
     let points = |curve: &str| growth[curve].as_array().unwrap().clone();
     let place = |point: &Value| {

@@ -17,7 +17,7 @@ mod selftest;
 use std::fs;
 
 use files::{exr, png};
-use program::{Folder, surfel};
+use program::{Folder, done, surfel};
 use serde_json::Value;
 
 const SMALL: [&str; 2] = ["--size", "64x64"];
@@ -25,8 +25,7 @@ const SMALL: [&str; 2] = ["--size", "64x64"];
 #[test]
 fn the_built_in_model_becomes_a_picture() {
     let folder = Folder::new();
-    let run = surfel(&folder, &["render", "--size", "64x48"]);
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    done(&folder, &["render", "--size", "64x48"]);
     assert_eq!(folder.names(), ["surfel.png"]);
     let picture = png(&folder.path("surfel.png"));
     assert_eq!((picture.size, picture.channels), ([64, 48], 3));
@@ -43,11 +42,10 @@ fn x_is_to_the_right_and_y_is_up() {
         "a.ply",
         splats("0 0 0 0 0 1 1 0 0 255\n0 0.5 0.1 0 0 1 0.2 255 0 0\n0.5 0 0.1 0 0 1 0.2 0 255 0\n"),
     );
-    let run = surfel(
+    done(
         &folder,
         &["render", "a.ply", "-o", "a.png", "--shading", "albedo", "--epsilon", "0.01", SMALL[0], SMALL[1]],
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
     let picture = png(&folder.path("a.png"));
     let ball = 1.05 * 32.0;
     let (half, quarter) = (32, (32.0 * 0.5 * 32.0 / ball) as u32);
@@ -62,8 +60,7 @@ fn render_and_reference_agree() {
     let options = ["--size", "96x64", "--accumulate", "f32", "--eye", "0.5,1,2.5", "--fov", "40"];
     let run = |subcommand: &str, dump: &str| {
         let words = [&[subcommand, "-o", "a.png", "--dump", dump], &options[..]].concat();
-        let run = surfel(&folder, &words);
-        assert_eq!(run.code, 0, "{}", run.stderr);
+        done(&folder, &words);
         png(&folder.path("a.png"))
     };
     let pictures = [run("render", "gpu"), run("reference", "new/cpu")];
@@ -117,8 +114,7 @@ fn the_picture_is_the_same_with_and_without_a_dump_and_as_floats() {
     // A dump has the sums, of which those of 16 bits are rounded before they are shaded, not after.
     let f32 = ["--accumulate", "f32"];
     for words in [&["-o", "a.png"][..], &["-o", "b.png", "--dump", "d"], &["-o", "c.exr", "--frames", "1"]] {
-        let run = surfel(&folder, &[&["render", "--size", "64x64"], &f32[..], words].concat());
-        assert_eq!(run.code, 0, "{}", run.stderr);
+        done(&folder, &[&["render", "--size", "64x64"], &f32[..], words].concat());
     }
     assert_eq!(fs::read(folder.path("a.png")).unwrap(), fs::read(folder.path("b.png")).unwrap());
     let (whole, dumped) = (exr(&folder.path("c.exr")), exr(&folder.path("d/final.exr")));
@@ -137,8 +133,7 @@ fn several_inputs_are_one_scene() {
     folder.write("right.obj", "v 0.5 -0.5 0\nv 1.5 -0.5 0\nv 1 0.5 0\nf 1 2 3\n");
     let words =
         ["render", "left.ply", "right.obj", "-o", "a.png", "--shading", "albedo", "--background", "none"];
-    let run = surfel(&folder, &[&words[..], &SMALL].concat());
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let run = done(&folder, &[&words[..], &SMALL].concat());
     assert!(run.stderr.contains("left.ply: 1 disks\n"), "{}", run.stderr);
     assert!(run.stderr.contains("right.obj: 3 vertices, 1 triangles: open"), "{}", run.stderr);
     let picture = png(&folder.path("a.png"));
@@ -155,8 +150,7 @@ fn a_camera_file_says_the_same_as_the_options() {
     folder.write("cam.json", r#"{"eye":[1,2,3], "target":[0,0.25,0], "up":[0,0,1], "fov_deg":50}"#);
     let options = ["--eye", "1,2,3", "--target", "0,0.25,0", "--up", "0,0,1", "--fov", "50"];
     for (output, words) in [("a.png", &["--camera", "cam.json"][..]), ("b.png", &options)] {
-        let run = surfel(&folder, &[&["render", "-o", output, SMALL[0], SMALL[1]], words].concat());
-        assert_eq!(run.code, 0, "{}", run.stderr);
+        done(&folder, &[&["render", "-o", output, SMALL[0], SMALL[1]], words].concat());
     }
     let (a, b) = (png(&folder.path("a.png")), png(&folder.path("b.png")));
     assert_eq!(a.pixels, b.pixels);
@@ -169,9 +163,8 @@ fn timings_hold_all_that_explains_a_measurement() {
     let folder = Folder::new();
     let words =
         ["render", SMALL[0], SMALL[1], "--rasterizer", "perspective", "--frames", "3", "--timings", "t.json"];
-    let run = surfel(&folder, &[&words[..], &["--explain"]].concat());
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    let json: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
+    let run = done(&folder, &[&words[..], &["--explain"]].concat());
+    let json = folder.json("t.json");
     assert_eq!(json["surfel"], env!("CARGO_PKG_VERSION"));
     for field in ["name", "driver", "api_version"] {
         assert!(json["device"][field].as_str().is_some_and(|text| !text.is_empty()), "{field}");
@@ -222,8 +215,7 @@ fn timings_hold_all_that_explains_a_measurement() {
 #[test]
 fn info_names_the_device_that_renders() {
     let folder = Folder::new();
-    let run = surfel(&folder, &["info"]);
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let run = done(&folder, &["info"]);
     let json: Value = serde_json::from_str(&surfel(&folder, &["info", "--json"]).stdout).unwrap();
     let device = json["devices"].as_array().unwrap().iter().find(|device| device["default"] == true).unwrap();
     let name = device["name"].as_str().unwrap();
@@ -241,8 +233,7 @@ fn a_run_under_validation_is_silent() {
     let folder = Folder::new();
     let words =
         ["render", SMALL[0], SMALL[1], "--validate", "--timings", "t.json", "--dump", "d", "--explain"];
-    let run = surfel(&folder, &words);
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let run = done(&folder, &words);
     assert!(run.stderr.contains("validation: no message"), "{}", run.stderr);
 }
 
@@ -295,9 +286,8 @@ fn passes_without_draws_are_no_reason_for_a_flag() {
         "--frames",
         "2",
     ];
-    let run = surfel(&folder, &words);
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    let report: Value = serde_json::from_slice(&fs::read(folder.path("t.json")).unwrap()).unwrap();
+    done(&folder, &words);
+    let report = folder.json("t.json");
     let passes = report["frames"]["passes"].as_array().unwrap();
     assert!(passes.iter().any(|pass| pass["name"] == "mark large splats" && pass["fragments"].is_null()));
     assert!(!report["frames"]["flags"].to_string().contains("not counted"), "{}", report["frames"]["flags"]);

@@ -22,6 +22,10 @@ impl Folder {
         fs::write(self.path(name), content).unwrap();
     }
 
+    pub fn json(&self, name: &str) -> serde_json::Value {
+        serde_json::from_slice(&fs::read(self.path(name)).unwrap()).unwrap()
+    }
+
     /// All that is in it, hidden or not, in order.
     pub fn names(&self) -> Vec<String> {
         names(self.0.path())
@@ -48,6 +52,14 @@ pub struct Run {
 
 pub fn surfel(folder: &Folder, arguments: &[&str]) -> Run {
     surfel_with(folder, arguments, &[])
+}
+
+/// What has to work.
+#[track_caller]
+pub fn done(folder: &Folder, arguments: &[&str]) -> Run {
+    let run = surfel(folder, arguments);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    run
 }
 
 /// With these environment variables.

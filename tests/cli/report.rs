@@ -2,8 +2,6 @@
 
 use std::fs;
 
-use serde_json::Value;
-
 use super::{
     program::{Folder, Run, surfel},
     splats,
@@ -116,8 +114,7 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
     assert!(page.contains("the times are worthless"), "timed under validation");
     assert!(page.contains("surfel compare '&lt;b&gt;"), "how to repeat it");
 
-    let json: Value =
-        serde_json::from_slice(&fs::read(folder.path("new/folder/report.json")).unwrap()).unwrap();
+    let json = folder.json("new/folder/report.json");
     assert_eq!(json["head"]["surfel"], env!("CARGO_PKG_VERSION"));
     for part in ["methods", "bench", "layers"] {
         let flags = json["flags"][part].as_array().unwrap();

@@ -3,7 +3,6 @@
 use std::fs;
 
 use quick_junit::{Report, TestCaseStatus};
-use serde_json::Value;
 
 use super::program::{Folder, Run, surfel, surfel_with};
 
@@ -31,7 +30,7 @@ fn cases_pass_and_both_files_tell_of_each() {
         assert!(run.stdout.contains(text), "{}", run.stdout);
     }
 
-    let report: Value = serde_json::from_slice(&fs::read(folder.path("a.json")).unwrap()).unwrap();
+    let report = folder.json("a.json");
     let cases = report["cases"].as_array().unwrap();
     assert_eq!(cases.iter().map(|case| case["name"].as_str().unwrap()).collect::<Vec<_>>(), names);
     let counts = &report["counts"];
@@ -75,7 +74,7 @@ fn a_list_that_is_out_of_date_fails_the_run_and_the_files_say_so() {
     assert!(run.stderr.ends_with(&end), "{}", run.stderr);
     assert!(run.stdout.contains("skipped, 1 case(s): too hard (k.txt:3)\n"), "{}", run.stdout);
 
-    let report: Value = serde_json::from_slice(&fs::read(folder.path("a.json")).unwrap()).unwrap();
+    let report = folder.json("a.json");
     assert_eq!((&report["counts"]["fixed"], &report["counts"]["skip"]), (&1.into(), &1.into()));
     assert!(report["known_lists"].as_array().unwrap().contains(&"k.txt".into()));
     let report = Report::deserialize_from_str(&fs::read_to_string(folder.path("a.xml")).unwrap()).unwrap();

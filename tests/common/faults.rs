@@ -10,8 +10,8 @@ thread_local! {
     static LEFT: Cell<u32> = const { Cell::new(u32::MAX) };
     /// The function that failed.
     static FAILED: Cell<Option<&'static str>> = const { Cell::new(None) };
-    /// What was made since it was asked for last: the functions that were called, but for sets and recording.
-    static MADE: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
+    /// The functions that were called since that was asked for last.
+    static CALLED: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
     /// The device's own functions.
     static OWN: RefCell<Option<ash::DeviceFnV1_0>> = const { RefCell::new(None) };
 }
@@ -28,15 +28,20 @@ pub fn stop() -> Option<&'static str> {
     FAILED.take()
 }
 
-/// The functions that made objects or took memory since the last call.
+/// The functions that can fail, call by call since the last time that this was asked for.
+pub fn take_called() -> Vec<&'static str> {
+    CALLED.take()
+}
+
+/// Those of them that made objects or took memory.
 pub fn take_made() -> Vec<&'static str> {
-    MADE.take()
+    let mut called = take_called();
+    called.retain(|function| function.starts_with("create_") || *function == "allocate_memory");
+    called
 }
 
 fn fails(function: &'static str) -> bool {
-    if function.starts_with("create_") || function == "allocate_memory" {
-        MADE.with_borrow_mut(|made| made.push(function));
-    }
+    CALLED.with_borrow_mut(|called| called.push(function));
     match LEFT.get() {
         u32::MAX => false,
         0 => match FAILED.get() {

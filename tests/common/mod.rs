@@ -25,6 +25,7 @@ use scenes::Hard;
 use surfel::{
     reference::{self, Picture},
     renderer::{Frame, Headless, HeadlessOptions, Wanted},
+    scene::Settings,
     vk::{Limits, Validation, arm_validation_across_submits},
 };
 
@@ -52,16 +53,6 @@ pub fn headless() -> Headless {
     headless
 }
 
-/// Fails if the validation layer said anything so far; prints how often the allow-list was hit.
-pub fn assert_validation_is_silent(headless: &Headless) {
-    let messages = headless.device().instance().messages();
-    for (vuid, hits) in messages.allowed_hits() {
-        println!("allowed: {vuid} {hits} times");
-    }
-    let said = messages.all();
-    assert!(said.is_empty(), "{} validation messages, the first: {:#?}", said.len(), said[0]);
-}
-
 /// The one renderer of a program, whose pipelines are made once, for one test at a time. What the validation layer says
 /// meanwhile fails that test.
 pub struct Shared(MutexGuard<'static, Headless>);
@@ -74,6 +65,8 @@ pub fn shared() -> Shared {
     let mut headless = headless.unwrap_or_else(PoisonError::into_inner);
     let own = headless.device().facts().limits;
     headless.renderer.lower_limits(&own);
+    #[cfg(feature = "test-formulas")]
+    (headless.renderer.shaders.perturbed = None);
     Shared(headless)
 }
 
@@ -100,16 +93,40 @@ impl Drop for Shared {
     }
 }
 
+/// The picture without the surface as data: tiles shade it themselves.
+pub const PICTURE: Wanted = Wanted { surface: false, ..ALL };
+
+/// The same scene, drawn in another way.
+pub fn with(hard: &Hard, change: impl FnOnce(&mut Settings)) -> Hard {
+    let mut hard = hard.clone();
+    change(&mut hard.settings);
+    hard
+}
+
 /// Uploads and renders one frame, with all that can be read back.
 pub fn render(headless: &mut Headless, hard: &Hard) -> Frame {
+    render_as(headless, hard, ALL)
+}
+
+/// Uploads and renders one frame.
+pub fn render_as(headless: &mut Headless, hard: &Hard, wanted: Wanted) -> Frame {
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    headless.render(&prepared, &hard.camera, &hard.settings, ALL).unwrap()
+    headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap()
+}
+
+/// The names of a frame's passes.
+pub fn passes(frame: &Frame) -> Vec<&str> {
+    frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
+}
+
+/// The exact picture.
+pub fn oracle_of(hard: &Hard) -> Picture {
+    reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap()
 }
 
 /// Renders on both sides, prints the row of errors.
 pub fn against_oracle(headless: &mut Headless, hard: &Hard) -> (Frame, Picture, Errors) {
-    let frame = render(headless, hard);
-    let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let (frame, oracle) = (render(headless, hard), oracle_of(hard));
     let errors = compare::compare(&frame, &oracle);
     println!("{}", errors.row(hard.name));
     (frame, oracle, errors)
@@ -136,6 +153,11 @@ pub fn with_limits<T>(
     let result = f(headless);
     headless.renderer.lower_limits(&own);
     result
+}
+
+/// Runs `f` on a device whose points are so large at most: larger ones are drawn as quads.
+pub fn with_points_up_to<T>(headless: &mut Headless, cap_px: f32, f: impl FnOnce(&mut Headless) -> T) -> T {
+    with_limits(headless, |limits| limits.point_size_range[1] = cap_px.min(limits.point_size_range[1]), f)
 }
 
 /// Whether two frames are the same bit by bit.

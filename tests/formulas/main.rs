@@ -1,5 +1,8 @@
 //! Each formula of the GPU path, made wrong by 1%, must be seen by the comparison with the oracle: a comparison that
 //! lets one pass tests nothing of it. Levers: `glsl/inc/perturb.glsl`.
+//!
+//! `cargo test --release --features test-formulas --test formulas`: minutes, the build of the shaders with their levers among
+//! them. The nightly workflow runs it.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -8,65 +11,109 @@ mod selftest;
 use glam::DVec3;
 
 use common::{
-    assert_validation_is_silent,
-    compare::{Errors, F32, compare},
-    headless, render,
+    ALL, PICTURE, oracle_of, passes, render_as,
     scenes::{self, Hard, transparent},
-    with_limits,
+    shared, with, with_points_up_to,
 };
 use surfel::{
     passes::Formula,
-    reference::{self, Picture},
-    renderer::{Headless, Wanted},
-    scene::{Cull, Filter, Kernel, KernelEval, Rasterizer, Settings, TileInvocations, Transition},
-    selftest::light::{LightErrors, compare_light},
+    reference::Picture,
+    renderer::{Frame, Headless, Wanted},
+    scene::{Cull, Filter, Kernel, KernelEval, Rasterizer, Transition},
+    selftest::{agreement::compare, light::compare_light, tolerance},
 };
 
-/// The scenes of the comparison, those that see most formulas first.
-fn scenes() -> Vec<(Hard, Picture)> {
-    let sphere = scenes::sphere_of_disks();
-    let psi_e = Settings { kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }, ..sphere.settings.clone() };
-    let mut all = vec![
-        sphere.clone(),
-        Hard { name: "sphere of disks, psi_e", settings: psi_e, ..sphere },
-        scenes::random_ellipses(Filter::Adjust),
-        scenes::random_ellipses(Filter::None),
-        scenes::cut_by_the_near_plane(),
-    ];
-    // Each has a formula that no other does.
-    type Change = fn(&mut Settings);
-    let methods: [(&str, Hard, Change); 10] = [
-        ("ellipses, ewa", scenes::random_ellipses(Filter::None), |s| s.filter = Filter::Ewa),
-        ("ellipses, contour ewa", scenes::random_ellipses(Filter::None), |s| {
-            (s.rasterizer, s.filter) = (Rasterizer::AffineContour, Filter::Ewa);
-        }),
-        ("ellipses, affine-contour", scenes::random_ellipses(Filter::None), |s| {
-            s.rasterizer = Rasterizer::AffineContour;
-        }),
-        ("ellipses, raycast", scenes::random_ellipses(Filter::None), |s| s.rasterizer = Rasterizer::Raycast),
-        ("ellipses, raycast-approximate", scenes::random_ellipses(Filter::None), |s| {
-            s.rasterizer = Rasterizer::RaycastApproximate;
-        }),
-        ("ellipses, triangle", scenes::random_ellipses(Filter::None), |s| {
-            s.rasterizer = Rasterizer::Triangle
-        }),
-        ("ellipses, max", scenes::random_ellipses(Filter::None), |s| s.filter = Filter::Max),
-        ("subpixel disks, max", scenes::subpixel_filtered(), |s| s.filter = Filter::Max),
-        ("sphere, hidden splats left out", scenes::sphere_of_disks(), |s| s.cull = Cull::Hidden),
-        ("sphere, kernel texture", scenes::sphere_of_disks(), |s| s.kernel_eval = KernelEval::Texture),
-    ];
-    all.extend(methods.map(|(name, mut hard, change)| {
-        change(&mut hard.settings);
-        Hard { name, ..hard }
-    }));
-    let seen: Vec<_> = all.iter().map(|hard| hard.name).collect();
-    all.extend(scenes::all().into_iter().filter(|hard| !seen.contains(&hard.name)));
-    let oracle =
-        |hard: &Hard| reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
-    all.into_iter().map(|hard| (oracle(&hard), hard)).map(|(oracle, hard)| (hard, oracle)).collect()
+/// Fails unless each formula, if it is wrong, makes one of the pictures wrong, and none is if all are right.
+fn assert_seen(
+    headless: &mut Headless,
+    scenes: &[(Hard, Picture)],
+    formulas: &[Formula],
+    wrong: &dyn Fn(&mut Headless, &Hard, &Picture) -> Option<String>,
+) {
+    let mut is_wrong = |formula| {
+        headless.renderer.shaders.perturbed = formula;
+        scenes
+            .iter()
+            .find_map(|(hard, oracle)| Some(format!("{}: {}", hard.name, wrong(headless, hard, oracle)?)))
+    };
+    assert_eq!(is_wrong(None), None, "differs already");
+    let mut unseen = Vec::new();
+    for &formula in formulas {
+        let seen = is_wrong(Some(formula));
+        println!("{:20} {}", format!("{formula:?}"), seen.as_deref().unwrap_or("SEEN BY NOTHING"));
+        if seen.is_none() {
+            unseen.push(formula);
+        }
+    }
+    headless.renderer.shaders.perturbed = None;
+    assert!(unseen.is_empty(), "{unseen:?}");
 }
 
-/// Those that no scene by tiles has: of points, other rasterizers and filters.
+fn with_oracles(scenes: impl IntoIterator<Item = Hard>) -> Vec<(Hard, Picture)> {
+    scenes.into_iter().map(|hard| (oracle_of(&hard), hard)).map(|(oracle, hard)| (hard, oracle)).collect()
+}
+
+/// How the surface of a frame is wrong.
+fn surface(frame: &Frame, hard: &Hard, oracle: &Picture) -> Option<String> {
+    // Ray casting subtracts the center from a point of the plane: twice the error of an expansion about the center.
+    let is_cast = matches!(hard.settings.rasterizer, Rasterizer::Raycast | Rasterizer::RaycastApproximate);
+    let factor = if is_cast { 2.0 } else { 1.0 };
+    let beyond = compare(frame, oracle).beyond(&tolerance::of(hard).times(factor));
+    (!beyond.is_empty()).then(|| beyond.join(", "))
+}
+
+/// How its picture is wrong.
+fn light(frame: &Frame, _: &Hard, oracle: &Picture) -> Option<String> {
+    let errors = compare_light(frame, oracle);
+    (errors.worst > tolerance::LIGHT).then(|| errors.row(""))
+}
+
+/// Of opaque splats: those that see most formulas first, then those that see one that no other does.
+fn opaque() -> Vec<Hard> {
+    let (sphere, ellipses) = (scenes::sphere_of_disks(), scenes::random_ellipses(Filter::None));
+    let psi_e = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
+    let rasterizers = [
+        Rasterizer::AffineContour,
+        Rasterizer::Raycast,
+        Rasterizer::RaycastApproximate,
+        Rasterizer::Triangle,
+    ];
+    let mut all = vec![
+        sphere.clone(),
+        with(&sphere, |s| s.kernel = psi_e),
+        scenes::random_ellipses(Filter::Adjust),
+        ellipses.clone(),
+        scenes::cut_by_the_near_plane(),
+        with(&ellipses, |s| s.filter = Filter::Ewa),
+        with(&ellipses, |s| (s.rasterizer, s.filter) = (Rasterizer::AffineContour, Filter::Ewa)),
+        with(&ellipses, |s| s.filter = Filter::Max),
+        with(&scenes::subpixel_filtered(), |s| s.filter = Filter::Max),
+        with(&sphere, |s| s.cull = Cull::Hidden),
+        with(&sphere, |s| s.kernel_eval = KernelEval::Texture),
+    ];
+    all.extend(rasterizers.map(|rasterizer| with(&ellipses, |s| s.rasterizer = rasterizer)));
+    all.extend([scenes::edge_on(), scenes::ground(), scenes::larger_than_the_screen()]);
+    all
+}
+
+#[test]
+fn every_formula_of_opaque_splats_is_seen_by_points_and_by_quads() {
+    let mut headless = shared();
+    let scenes = with_oracles(opaque());
+    let points = |headless: &mut Headless, hard: &Hard, oracle: &Picture| {
+        surface(&render_as(headless, hard, ALL), hard, oracle)
+    };
+    assert_seen(&mut headless, &scenes, &Formula::ALL, &points);
+    // All as quads, which have formulas of their own in the same places.
+    let quads = |headless: &mut Headless, hard: &Hard, oracle: &Picture| {
+        with_points_up_to(headless, 0.0, |headless| points(headless, hard, oracle))
+    };
+    let of_points = [Formula::PointCenter, Formula::PointSize];
+    let of_quads: Vec<_> = Formula::ALL.into_iter().filter(|formula| !of_points.contains(formula)).collect();
+    assert_seen(&mut headless, &scenes, &of_quads, &quads);
+}
+
+/// Those of points, of other rasterizers and of filters that tiles don't have.
 const NOT_BY_TILES: [Formula; 11] = [
     Formula::PointCenter,
     Formula::PointSize,
@@ -81,89 +128,59 @@ const NOT_BY_TILES: [Formula; 11] = [
     Formula::NearestDepth,
 ];
 
-/// The same scenes by tiles, where they can be drawn so.
-fn by_tiles(scenes: &[(Hard, Picture)], tile_invocations: TileInvocations) -> Vec<(Hard, &Picture)> {
-    let own_map = |hard: &Hard| hard.settings.rasterizer != Rasterizer::Perspective;
-    let changed = scenes.iter().filter(|(hard, _)| !own_map(hard)).map(|(hard, oracle)| {
-        let settings =
-            Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..hard.settings.clone() };
-        (Hard { settings, ..hard.clone() }, oracle)
+/// That an invocation is a pixel changes no bit, which the self-test sees.
+#[test]
+fn every_formula_of_opaque_splats_is_seen_by_tiles() {
+    let mut headless = shared();
+    let is_own = |hard: &Hard| hard.settings.rasterizer == Rasterizer::Perspective;
+    let scenes =
+        opaque().into_iter().filter(is_own).map(|hard| with(&hard, |s| s.rasterizer = Rasterizer::Compute));
+    let scenes = with_oracles(scenes.filter(|hard| hard.settings.validate().is_ok()));
+    let formulas: Vec<_> =
+        Formula::ALL.into_iter().filter(|formula| !NOT_BY_TILES.contains(formula)).collect();
+    assert_seen(&mut headless, &scenes, &formulas, &|headless, hard, oracle| {
+        surface(&render_as(headless, hard, ALL), hard, oracle)
     });
-    changed.filter(|(hard, _)| hard.settings.validate().is_ok()).collect()
-}
-
-/// Ray casting subtracts the center from a point of the plane: twice the error of an expansion about the center.
-fn limit(hard: &Hard) -> Errors {
-    if hard.name.contains("raycast") { F32.times(2.0) } else { F32 }
 }
 
 #[test]
-fn every_formula_of_layers_that_is_wrong_by_one_percent_fails_the_comparison() {
-    let mut headless = headless();
-    let oracle =
-        |hard: &Hard| reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
-    let scenes = [
+fn every_formula_of_layers_is_seen() {
+    let scenes = with_oracles([
         transparent::transparent_hybrid(Transition::Color),
         transparent::meshes_only(),
         transparent::hybrid(Transition::Color),
         transparent::stacked(Transition::Color),
         transparent::crossing(),
         transparent::upon_the_opaque(),
-    ];
-    let scenes: Vec<_> = scenes.into_iter().map(|hard| (oracle(&hard), hard)).collect();
-    // The limit of tests/transparency.rs.
-    let is_beyond = |errors: &LightErrors| errors.worst > 1.0 / 1024.0;
-    for (oracle, hard) in &scenes {
-        let errors = compare_light(&render(&mut headless, hard), oracle);
-        assert!(!is_beyond(&errors), "{} differs already: {}", hard.name, errors.row(hard.name));
-    }
-    let mut unseen = Vec::new();
-    for formula in Formula::OF_LAYERS {
-        headless.renderer.shaders.perturbed = Some(formula);
-        let caught = scenes.iter().find_map(|(oracle, hard)| {
-            let errors = compare_light(&render(&mut headless, hard), oracle);
-            is_beyond(&errors).then(|| errors.row(hard.name))
-        });
-        println!("{:20} {}", format!("{formula:?}"), caught.as_deref().unwrap_or("SEEN BY NOTHING"));
-        if caught.is_none() {
-            unseen.push(formula);
-        }
-    }
-    assert_validation_is_silent(&headless);
-    assert!(unseen.is_empty(), "{unseen:?}");
+    ]);
+    assert_seen(&mut shared(), &scenes, &Formula::OF_LAYERS, &|headless, hard, oracle| {
+        light(&render_as(headless, hard, ALL), hard, oracle)
+    });
+}
+
+/// Draws by tiles, which a frame shows in a pass of this name.
+fn by_tiles(
+    headless: &mut Headless,
+    hard: &Hard,
+    oracle: &Picture,
+    wanted: Wanted,
+    pass: &str,
+) -> Option<String> {
+    let frame = render_as(headless, hard, wanted);
+    assert!(passes(&frame).contains(&pass), "{}: {:?}", hard.name, passes(&frame));
+    light(&frame, hard, oracle)
 }
 
 /// The same where a tile's layers are drawn at once.
 #[test]
-fn every_formula_of_layers_by_tiles_that_is_wrong_by_one_percent_fails_the_comparison() {
-    let mut headless = headless();
+fn every_formula_of_layers_is_seen_by_tiles() {
     // A layer with polygons is not drawn by tiles.
     let mut stacked = transparent::stacked(Transition::Color);
     stacked.scene.meshes.clear();
     let mut behind = transparent::interpenetrating();
     behind.scene.objects.push(scenes::sphere(1500, DVec3::new(0.0, -0.2, -0.3)));
-    let scenes = [stacked, behind, transparent::spheres()];
-    let mut scenes = scenes.map(|hard| {
-        let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
-        let settings = Settings { rasterizer: Rasterizer::Compute, ..hard.settings.clone() };
-        (Hard { settings, ..hard }, oracle)
-    });
-    for tile_invocations in [TileInvocations::Column, TileInvocations::Pixel] {
-        scenes.iter_mut().for_each(|(hard, _)| hard.settings.tile_invocations = tile_invocations);
-        assert_formulas_of_layers_are_seen(&mut headless, &scenes);
-    }
-}
-
-fn assert_formulas_of_layers_are_seen(headless: &mut Headless, scenes: &[(Hard, Picture)]) {
-    headless.renderer.shaders.perturbed = None;
-    let is_beyond = |errors: &LightErrors| errors.worst > 1.0 / 1024.0;
-    for (hard, oracle) in scenes {
-        let frame = render(headless, hard);
-        assert!(frame.plan.passes.iter().any(|pass| pass.name == "layers of tiles"), "{}", hard.name);
-        let errors = compare_light(&frame, oracle);
-        assert!(!is_beyond(&errors), "{} differs already: {}", hard.name, errors.row(hard.name));
-    }
-    for formula in [
+    let scenes = [stacked, behind].map(|hard| with(&hard, |s| s.rasterizer = Rasterizer::Compute));
+    let formulas = [
         Formula::Alpha,
         Formula::Color,
         Formula::Coverage,
@@ -175,109 +192,30 @@ fn assert_formulas_of_layers_are_seen(headless: &mut Headless, scenes: &[(Hard, 
         Formula::NormalizedColor,
         Formula::Peeled,
         Formula::Stacked,
-    ] {
-        headless.renderer.shaders.perturbed = Some(formula);
-        let caught = scenes.iter().find_map(|(hard, oracle)| {
-            let errors = compare_light(&render(headless, hard), oracle);
-            is_beyond(&errors).then(|| errors.row(hard.name))
-        });
-        println!("{:20} {}", format!("{formula:?}"), caught.as_deref().unwrap_or("SEEN BY NOTHING"));
-        assert!(caught.is_some(), "{formula:?}");
-    }
-    assert_validation_is_silent(headless);
+    ];
+    assert_seen(&mut shared(), &with_oracles(scenes), &formulas, &|headless, hard, oracle| {
+        by_tiles(headless, hard, oracle, ALL, "layers of tiles")
+    });
 }
 
 /// The same of opaque splats and polygons that tiles show without anyone else reading their sums.
 #[test]
-fn every_formula_of_tiles_that_are_shaded_at_once_fails_the_comparison() {
-    let mut headless = headless();
-    let picture = Wanted { surface: false, ..common::ALL };
+fn every_formula_of_shading_is_seen_by_tiles_that_are_shaded_at_once() {
     let lights = transparent::meshes_only().scene.lights;
-    let mut scenes: Vec<_> = [Vec::new(), lights]
-        .map(|lights| {
-            let mut hard = transparent::hybrid(Transition::Color);
-            hard.scene.lights = lights;
-            hard.settings.rasterizer = Rasterizer::Compute;
-            let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
-            (hard, oracle)
-        })
-        .into();
-    let mut draw = |hard: &Hard, perturbed| {
-        headless.renderer.shaders.perturbed = perturbed;
-        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-        headless.render(&prepared, &hard.camera, &hard.settings, picture).unwrap()
-    };
-    for tile_invocations in [TileInvocations::Column, TileInvocations::Pixel] {
-        scenes.iter_mut().for_each(|(hard, _)| hard.settings.tile_invocations = tile_invocations);
-        let mut is_caught = |formula| {
-            scenes.iter().any(|(hard, oracle)| {
-                let frame = draw(hard, formula);
-                assert!(frame.plan.passes.iter().any(|pass| pass.name == "see, sum and shade tiles"));
-                compare_light(&frame, oracle).worst > 1.0 / 1024.0
-            })
-        };
-        assert!(!is_caught(None), "differs already");
-        for formula in [
-            Formula::Diffuse,
-            Formula::LitDiffuse,
-            Formula::LitSpecular,
-            Formula::NormalizedColor,
-            Formula::Specular,
-            Formula::Transition,
-        ] {
-            assert!(is_caught(Some(formula)), "{formula:?}");
-        }
-    }
-    assert_validation_is_silent(&headless);
-}
-
-#[test]
-fn every_formula_that_is_wrong_by_one_percent_fails_the_comparison() {
-    let mut headless = headless();
-    let scenes = scenes();
-    for (hard, oracle) in &scenes {
-        let errors = compare(&render(&mut headless, hard), oracle);
-        assert!(
-            errors.beyond(&limit(hard)).is_empty(),
-            "{} differs already: {}",
-            hard.name,
-            errors.row(hard.name)
-        );
-    }
-    // As this device draws them, and all as quads, which have formulas of their own in the same places.
-    let own_px = headless.device().facts().limits.point_size_range[1];
-    let as_they_are = || scenes.iter().map(|(hard, oracle)| (hard.clone(), oracle)).collect::<Vec<_>>();
-    let ways = [
-        ("points", own_px, as_they_are()),
-        ("quads", 0.0, as_they_are()),
-        ("tiles", own_px, by_tiles(&scenes, TileInvocations::Column)),
-        ("tiles by pixels", own_px, by_tiles(&scenes, TileInvocations::Pixel)),
+    let scenes = [Vec::new(), lights].map(|lights| {
+        let mut hard = transparent::hybrid(Transition::Color);
+        (hard.scene.lights, hard.settings.rasterizer) = (lights, Rasterizer::Compute);
+        hard
+    });
+    let formulas = [
+        Formula::Diffuse,
+        Formula::LitDiffuse,
+        Formula::LitSpecular,
+        Formula::NormalizedColor,
+        Formula::Specular,
+        Formula::Transition,
     ];
-    let mut unseen = Vec::new();
-    for (way, cap_px, scenes) in ways {
-        for formula in Formula::ALL {
-            if way == "quads" && matches!(formula, Formula::PointCenter | Formula::PointSize)
-                || way.starts_with("tiles") && NOT_BY_TILES.contains(&formula)
-            {
-                continue;
-            }
-            headless.renderer.shaders.perturbed = Some(formula);
-            let caught = scenes.iter().find_map(|(hard, oracle)| {
-                let frame = with_limits(
-                    &mut headless,
-                    |limits| limits.point_size_range[1] = cap_px,
-                    |headless| render(headless, hard),
-                );
-                let beyond = compare(&frame, oracle).beyond(&limit(hard));
-                (!beyond.is_empty()).then(|| format!("{}: {}", hard.name, beyond.join(", ")))
-            });
-            let name = format!("{formula:?}");
-            println!("{way} {name:20} {}", caught.as_deref().unwrap_or("SEEN BY NOTHING"));
-            if caught.is_none() {
-                unseen.push((way, formula));
-            }
-        }
-    }
-    assert_validation_is_silent(&headless);
-    assert!(unseen.is_empty(), "{unseen:?}");
+    assert_seen(&mut shared(), &with_oracles(scenes), &formulas, &|headless, hard, oracle| {
+        by_tiles(headless, hard, oracle, PICTURE, "see, sum and shade tiles")
+    });
 }

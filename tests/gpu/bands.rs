@@ -1,9 +1,11 @@
 //! Pictures in bands of the image against the same all at once: the same splats in every pixel, in sums of another order.
 
-use crate::common::{ALL, assert_same_bits, compare::F32, scenes, shared, with_limits};
+use crate::common::{ALL, PICTURE, assert_same_bits, compare::F32, passes, scenes, shared, with_limits};
 use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
+    passes::FramePlan,
+    prepare::PreparedScene,
     renderer::{Frame, Headless, Wanted},
     scene::{
         Accumulate, Backfaces, Cull, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes, SplatFormat,
@@ -11,25 +13,30 @@ use surfel::{
     },
 };
 
-fn draw(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory) -> Frame {
-    draw_as(headless, hard, tile_memory, ALL)
+/// A scene by tiles, all at once or in as many bands as there can be, the surface as data or the picture alone.
+fn draw(headless: &mut Headless, hard: &Hard, most: u64, wanted: Wanted) -> Frame {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    draw_prepared(headless, &prepared, hard, most, wanted)
 }
 
-fn draw_as(headless: &mut Headless, hard: &Hard, tile_memory: TileMemory, wanted: Wanted) -> Frame {
-    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    let rasterizer = Rasterizer::Compute;
-    let settings = Settings { rasterizer, tile_memory, ..hard.settings.clone() };
-    headless.render(&prepared, &hard.camera, &settings, wanted).unwrap()
+fn draw_prepared(
+    headless: &mut Headless,
+    prepared: &PreparedScene,
+    hard: &Hard,
+    most: u64,
+    wanted: Wanted,
+) -> Frame {
+    headless.render(prepared, &hard.camera, &by_tiles(hard, most), wanted).unwrap()
+}
+
+fn by_tiles(hard: &Hard, most: u64) -> Settings {
+    let (rasterizer, tile_memory) = (Rasterizer::Compute, TileMemory::Most(most));
+    Settings { rasterizer, tile_memory, ..hard.settings.clone() }
 }
 
 /// How many bands a frame has: 0 where all of it is drawn at once.
 fn bands(frame: &Frame) -> usize {
-    frame
-        .plan
-        .passes
-        .iter()
-        .filter(|pass| pass.name.starts_with("count ") && pass.name.contains("band-"))
-        .count()
+    passes(frame).iter().filter(|name| name.starts_with("count ") && name.contains("band-")).count()
 }
 
 fn hard(name: &'static str, objects: Vec<Object>, eye: [f64; 3]) -> Hard {
@@ -83,7 +90,6 @@ fn scenes_of_blocks() -> Vec<Hard> {
         with("tiles half as high", &|hard| {
             hard.settings.tile_invocations = TileInvocations::ShortColumn;
         }),
-        with("an invocation a pixel", &|hard| hard.settings.tile_invocations = TileInvocations::Pixel),
         with("packed", &|hard| {
             hard.scene.storage = Storage { format: SplatFormat::Packed, ..Storage::default() };
         }),
@@ -108,12 +114,16 @@ fn scenes_of_blocks() -> Vec<Hard> {
     all
 }
 
-/// Of each sum's f32 additions 2⁻²⁴ each, at random.
+/// Of each sum's f32 additions 2⁻²⁴ each, at random: of some tens of splats a pixel.
 const WEIGHT_TOLERANCE: f32 = 1e-5;
 
 fn assert_same_surface(bands: &Frame, whole: &Frame, name: &str) {
+    assert_same_within(WEIGHT_TOLERANCE, bands, whole, name);
+}
+
+fn assert_same_within(weight_tolerance: f32, bands: &Frame, whole: &Frame, name: &str) {
     for (i, (a, b)) in bands.weight.iter().zip(&whole.weight).enumerate() {
-        assert!((a - b).abs() <= WEIGHT_TOLERANCE * b, "{name}, pixel {i}: {a}, all at once {b}");
+        assert!((a - b).abs() <= weight_tolerance * b, "{name}, pixel {i}: {a}, all at once {b}");
     }
     for (i, (a, b)) in bands.linear.iter().zip(&whole.linear).enumerate() {
         let far = a.iter().zip(b).any(|(a, b)| (a - b).abs() > F32.color as f32 || a.is_nan() != b.is_nan());
@@ -121,37 +131,52 @@ fn assert_same_surface(bands: &Frame, whole: &Frame, name: &str) {
     }
 }
 
+/// The surface as data, and the picture alone, which tiles of the opaque scenes shade themselves, each band its own into one
+/// image.
 #[test]
 fn bands_draw_the_same_splats_in_every_pixel() {
     let mut headless = shared();
-    for hard in scenes_of_blocks() {
-        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
-        println!("{}: {} bands", hard.name, bands(&cut));
-        assert_eq!(bands(&whole), 0, "{}", hard.name);
-        assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
-        assert_same_surface(&cut, &whole, hard.name);
-    }
-}
-
-/// The picture alone, which tiles of the opaque scenes shade themselves, each band its own into one image.
-#[test]
-fn bands_show_the_same_picture() {
-    let mut headless = shared();
-    let picture = Wanted { surface: false, ..ALL };
     let mut shaded = 0;
     for hard in scenes_of_blocks() {
-        let [whole, cut] =
-            [u64::MAX, 0].map(|most| draw_as(&mut headless, &hard, TileMemory::Most(most), picture));
-        assert!(bands(&whole) == 0 && bands(&cut) >= 2, "{}", hard.name);
-        assert_same_surface(&cut, &whole, hard.name);
-        let passes = &cut.plan.passes;
-        let count = passes.iter().filter(|pass| pass.name.starts_with("see, sum and shade band-")).count();
-        assert!([0, bands(&cut)].contains(&count), "{}: {count}", hard.name);
-        shaded += usize::from(count > 0);
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        for wanted in [ALL, PICTURE] {
+            let [whole, cut] =
+                [u64::MAX, 0].map(|most| draw_prepared(&mut headless, &prepared, &hard, most, wanted));
+            println!("{}: {} bands", hard.name, bands(&cut));
+            assert_eq!(bands(&whole), 0, "{}", hard.name);
+            assert!((2..=2 * 16).contains(&bands(&cut)), "{}", hard.name);
+            assert_same_surface(&cut, &whole, hard.name);
+            let is_shaded = |name: &&&str| name.starts_with("see, sum and shade band-");
+            let count = passes(&cut).iter().filter(is_shaded).count();
+            assert!([0, bands(&cut)].contains(&count), "{}: {count}", hard.name);
+            shaded += usize::from(count > 0);
+        }
     }
-    println!("{shaded} scenes are shaded at once");
     assert!(shaded >= 10, "{shaded}");
+}
+
+/// Where a tile of one band may have more splats than a dispatch takes, sums of all bands have 32 bits, which lie in one image.
+#[test]
+fn bands_with_and_without_overfull_tiles_are_one_image() {
+    let mut headless = shared();
+    // Within one tile at the lower border, beside a ball in other bands.
+    let mut speck = sphere(170_000, DVec3::ZERO);
+    let Shapes::Disks { radii, .. } = &mut speck.splats.shapes else { unreachable!() };
+    radii.iter_mut().for_each(|radius| *radius *= 0.02);
+    let position = |p: &mut DVec3| *p = 0.02 * *p + DVec3::new(0.03, -1.2, 0.0);
+    speck.splats.positions.iter_mut().for_each(position);
+    let objects = [sphere(120_000, DVec3::ZERO), speck];
+    let objects = objects.map(|object| Object { closed: false, ..object });
+    let mut hard = hard("a ball and a speck", objects.into(), [0.0, 0.0, 3.6]);
+    (hard.settings.accumulate, hard.settings.cull) = (Accumulate::F16, Cull::Hidden);
+    for wanted in [ALL, PICTURE] {
+        let [whole, cut] = [u64::MAX, 0].map(|most| draw(&mut headless, &hard, most, wanted));
+        let overfull = passes(&cut).iter().filter(|name| name.contains("overfull")).count();
+        println!("{} bands, {overfull} passes of overfull tiles", bands(&cut));
+        assert!(bands(&cut) > 1 && overfull >= bands(&cut), "{:?}", passes(&cut));
+        // A hundred thousand additions in another order.
+        assert_same_within(1e-3, &cut, &whole, hard.name);
+    }
 }
 
 /// Layers with large splats are the graphics pipeline's, in one piece: here the lists of all have room for large ones, but those of
@@ -165,9 +190,9 @@ fn layers_with_large_splats_have_no_bands() {
     let mut hard = hard("a ball", vec![ball], [0.0, 0.0, 3.2]);
     hard.settings.layers = surfel::scene::Layers::Fixed(2);
     let draw_both = |headless: &mut Headless| {
-        let whole = draw(headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(headless, &hard, TileMemory::Most(0));
-        assert!(whole.plan.passes.iter().any(|pass| pass.name == "layers of tiles"));
+        let whole = draw(headless, &hard, u64::MAX, ALL);
+        let cut = draw(headless, &hard, 0, ALL);
+        assert!(passes(&whole).contains(&"layers of tiles"));
         assert_same_surface(&cut, &whole, hard.name);
         bands(&cut)
     };
@@ -176,18 +201,25 @@ fn layers_with_large_splats_have_no_bands() {
     with_limits(&mut headless, few_entries, |headless| assert_eq!(draw_both(headless), 0));
 }
 
-/// Most of them are not cut: they have too few splats, large ones, or polygons.
+/// Most of them are not cut: they have too few splats, large ones, or polygons. Their plans are the same.
 #[test]
 fn no_hard_scene_is_another_where_memory_is_short() {
     let mut headless = shared();
+    let limits = headless.device().facts().limits;
     for mut hard in scenes::all().into_iter().chain(transparent::all()) {
         hard.settings.accumulate = Accumulate::F32;
-        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
-        if bands(&cut) == 0 {
-            assert_same_bits(&cut, &whole, hard.name);
-        } else {
-            println!("{}: {} bands", hard.name, bands(&cut));
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        let [whole, cut] = [u64::MAX, 0].map(|most| {
+            let plan = FramePlan::new(&prepared, &hard.camera, &by_tiles(&hard, most), &limits);
+            [plan.opaque, plan.transparent].map(|part| {
+                let bands = part.bands().iter().map(|band| band.plan.clone());
+                bands.collect::<Vec<_>>()
+            })
+        });
+        if cut != whole {
+            println!("{}: {} and {} bands", hard.name, cut[0].len(), cut[1].len());
+            let [whole, cut] =
+                [u64::MAX, 0].map(|most| draw_prepared(&mut headless, &prepared, &hard, most, ALL));
             assert_same_surface(&cut, &whole, hard.name);
         }
     }
@@ -212,8 +244,8 @@ fn what_bands_do_not_help_has_none() {
     let mut paper = hard("the paper's filter", ball(), [0.0, 0.0, 3.2]);
     paper.settings.filter = Filter::AdjustPaper;
     for hard in [shuffled, hard("far away", ball(), [0.0, 0.0, 900.0]), paper] {
-        let whole = draw(&mut headless, &hard, TileMemory::Most(u64::MAX));
-        let cut = draw(&mut headless, &hard, TileMemory::Most(0));
+        let whole = draw(&mut headless, &hard, u64::MAX, ALL);
+        let cut = draw(&mut headless, &hard, 0, ALL);
         assert_eq!(bands(&cut), 0, "{}", hard.name);
         assert_same_bits(&cut, &whole, hard.name);
     }

@@ -164,7 +164,7 @@ fn the_approximate_point_size_chops_what_reaches_beyond_the_radius_at_the_center
 }
 
 /// Splats that are nearly as deep as they are far have no affine image worth the name; those that reach the near plane have
-/// none at all. Those that are affine draw them as the others do (which `tests/methods.rs` compares).
+/// none at all. Those that are affine draw them as the others do (which the self-test compares).
 #[test]
 fn splats_without_an_affine_image_are_handed_over() {
     let mut headless = shared();

@@ -3,17 +3,17 @@
 //! | case | where it is tested, or why it cannot occur |
 //! |---|---|
 //! | N1 a splat seen edge-on, det → 0 | `shape.rs` |
-//! | N2 a splat that crosses the eye or near plane | `shape.rs`; `oracle.rs`: "ground", "cut by the near plane" |
+//! | N2 a splat that crosses the eye or near plane | `shape.rs`; the self-test: "ground", "cut by the near plane" |
 //! | N3 the center of the projection is not the projected center | `shape.rs` |
-//! | N4 radius 100 × distance | `shape.rs`; `oracle.rs`: "larger than the screen" |
-//! | N5 center off-screen, disk visible | `shape.rs`; `oracle.rs`: "centers off-screen" |
+//! | N4 radius 100 × distance | `shape.rs`; the self-test: "larger than the screen" |
+//! | N5 center off-screen, disk visible | `shape.rs`; the self-test: "centers off-screen" |
 //! | N6 points above the device's limit | `large.rs` |
 //! | N7 subpixel splats | `shape.rs` |
 //! | N8 depth range 1e7 | `depth.rs`; beyond f32's squares: `range.rs` |
 //! | N9 far from the origin | `depth.rs`; with a stray point: `range.rs` |
 //! | N10 no extent | `numbers.rs` |
 //! | N11 odd normals | `numbers.rs` |
-//! | N12 NaN and infinity | `numbers.rs`; `oracle.rs`: "degenerate" |
+//! | N12 NaN and infinity | `numbers.rs`; the self-test: "degenerate" |
 //! | N13 sums of 16 bits | `f16.rs` |
 //! | N14 pixels covered by rims alone | `numbers.rs` |
 //! | N15 ε: parallel sheets | `depth.rs`; below a step of f32: `range.rs` |

@@ -31,7 +31,7 @@ fn counted(headless: &mut Headless, hard: &Hard) -> FrameProfile {
 }
 
 /// Two ellipses in one place, whose box has 4x4 tiles and which do not reach into those in its corners, a smaller one inside of one
-/// tile, one between the pixels' centers, and one beside the image (see `tiles_in_the_corners_of_a_box_are_in_no_list` in tests/tiles.rs).
+/// tile, one between the pixels' centers, and one beside the image.
 #[test]
 fn lists_of_a_few_splats_hold_what_they_must() {
     let mut headless = shared();

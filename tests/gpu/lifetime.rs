@@ -16,8 +16,11 @@ use surfel::{
     Error,
     frame::{FrameSlot, HeadlessTarget},
     graph::execute::Profile,
+    prepare::PreparedScene,
     renderer::{Readbacks, Renderer},
-    vk::{Buffer, BufferDesc, CommandPool, EnabledFeatures, Image, ImageDesc, MemoryUse, Queue, Staging},
+    vk::{
+        Buffer, BufferDesc, CommandPool, Device, EnabledFeatures, Image, ImageDesc, MemoryUse, Queue, Staging,
+    },
 };
 
 /// Fisher and Yates.
@@ -29,7 +32,7 @@ fn shuffle<T>(things: &mut [T], random: &mut Random) {
 
 #[test]
 fn any_order_of_drops_with_a_frame_under_way_leaks_nothing_and_destroys_nothing_in_use() {
-    for seed in 0..12 {
+    for seed in 0..6 {
         let watched = Watched::new();
         let (messages, device) = (watched.messages.clone(), watched.device.clone());
         let profile = [Profile::Times, Profile::Counts, Profile::Frame][(seed % 3) as usize];
@@ -137,9 +140,9 @@ fn sizes_that_no_device_has_are_refused_and_leave_nothing() {
     assert_eq!(messages.all(), []);
 }
 
-/// Everything that a host does with us up to a recorded frame.
-fn set_up_and_record(device: &surfel::vk::Device) -> Result<(), Error> {
-    let commands = CommandPool::new(device, "frame")?;
+/// What a host makes of ours before its first frame.
+fn set_up(device: &Device) -> Result<(Renderer, PreparedScene), Error> {
+    let commands = CommandPool::new(device, "uploads")?;
     let renderer = Renderer::new(device, None)?;
     // SAFETY: new, and never submitted.
     let buffer = unsafe { commands.begin() }?;
@@ -149,6 +152,13 @@ fn set_up_and_record(device: &surfel::vk::Device) -> Result<(), Error> {
         Ok(())
     };
     let prepared = renderer.prepare(&scene(), &mut submit, &|_, _| {})?;
+    commands.end()?;
+    Ok((renderer, prepared))
+}
+
+/// The first frame of a host, whose pipelines the renderer keeps.
+fn record(device: &Device, (renderer, prepared): &(Renderer, PreparedScene)) -> Result<(), Error> {
+    let commands = CommandPool::new(device, "frame")?;
     let mut slot = FrameSlot::new(device);
     let target = HeadlessTarget::new(device, FORMAT, SIZE_PX)?;
     let picture = pixels(device, "picture", 4)?;
@@ -157,46 +167,73 @@ fn set_up_and_record(device: &surfel::vk::Device) -> Result<(), Error> {
     let (target, settings) = (target.target(), settings());
     // SAFETY: recording; never submitted.
     unsafe {
-        let profile = Some(Profile::Times);
-        renderer.record(buffer, &mut slot, &prepared, &camera, &settings, &target, readbacks, profile)
+        let (buffer, profile) = (commands.begin()?, Some(Profile::Times));
+        renderer.record(buffer, &mut slot, prepared, &camera, &settings, &target, readbacks, profile)
     }?;
-    commands.end()?;
-    Ok(())
+    commands.end().map(drop)
 }
 
-/// The n-th call that makes something fails, for every n that there is.
-#[test]
-fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
-    let host = Host::new(EnabledFeatures {
-        large_points: true,
-        pipeline_statistics: false,
-        draw_indirect_count: false,
-        first_instance: false,
-    });
-    let mut failed = Vec::new();
-    for succeed in 0.. {
-        assert!(succeed < 1000, "there is no end");
-        let device = host.lend(faults::device(&host.device));
-        faults::fail_after(succeed);
-        let result = set_up_and_record(&device);
-        let Some(function) = faults::stop() else {
-            result.unwrap();
-            break;
-        };
+/// Of what is done with a thing, these calls fail one after the other: each is named, and what was made before is gone.
+fn assert_fail<T>(
+    host: &Host,
+    device: &Device,
+    calls: impl IntoIterator<Item = usize>,
+    thing: &dyn Fn() -> T,
+    done: &dyn Fn(&T) -> Result<(), Error>,
+) {
+    let finish = || {
+        // SAFETY: nothing was ever submitted.
+        unsafe { device.epoch_done(device.end_epoch()) };
+        device.memory_in_use()
+    };
+    for succeed in calls {
+        let thing = thing();
+        let before = finish();
+        faults::fail_after(succeed as u32);
+        let result = done(&thing);
+        let function = faults::stop().expect("so many calls");
         let error = result.expect_err(function);
         assert_eq!(error.exit_code(), 2, "{function}: {error}");
         assert!(!error.to_string().contains("''"), "{function}: no object is named: {error}");
-        // SAFETY: nothing was ever submitted.
-        unsafe { device.epoch_done(device.end_epoch()) };
-        assert_eq!(device.memory_in_use(), (0, 0), "{succeed}: {function}");
+        assert_eq!(finish(), before, "{succeed}: {function}");
         assert_eq!(host.said(), [] as [String; 0], "{succeed}: {function}");
-        failed.push(function);
     }
-    println!("{} calls failed one after the other", failed.len());
-    assert!(failed.len() > 50, "{failed:?}");
+}
+
+#[test]
+fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
+    let host = Host::new(EnabledFeatures { large_points: true, ..EnabledFeatures::default() });
+    let device = host.lend(faults::device(&host.device));
+    faults::take_called();
+    let own = set_up(&device).unwrap();
+    let of_set_up = faults::take_called();
+    record(&device, &own).unwrap();
+    let of_first = faults::take_called();
+    record(&device, &own).unwrap();
+    let of_next = faults::take_called();
+    let all = [&of_set_up[..], &of_first, &of_next].concat();
     for function in ["allocate_memory", "create_image_view", "create_graphics_pipelines", "bind_image_memory"]
     {
-        assert!(failed.contains(&function), "{function} is among them: {failed:?}");
+        assert!(all.contains(&function), "{all:?}");
     }
+    assert_fail(&host, &device, 0..of_set_up.len(), &|| (), &|()| set_up(&device).map(drop));
+    // A renderer that has its pipelines.
+    assert_fail(&host, &device, 0..of_next.len(), &|| (), &|()| record(&device, &own));
+    // One that has none: the first and the last of each function that makes them, and every twentieth.
+    let is_tried = |i: &usize| {
+        let (function, is) = (of_first[*i], |call: &&str| *call == of_first[*i]);
+        let is_end = !of_first[..*i].iter().any(is) || !of_first[i + 1..].iter().any(is);
+        !of_next.contains(&function) && (is_end || i % 20 == 0)
+    };
+    let tried: Vec<_> = (0..of_first.len()).filter(is_tried).collect();
+    println!(
+        "{} calls, {} of a next frame, {tried:?} of {} before",
+        of_set_up.len(),
+        of_next.len(),
+        of_first.len()
+    );
+    assert!(tried.len() >= 4, "{tried:?} of {of_first:?}");
+    assert_fail(&host, &device, tried, &|| set_up(&device).unwrap(), &|own| record(&device, own));
+    drop((own, device));
     assert_eq!(host.destroy(), [] as [String; 0]);
 }

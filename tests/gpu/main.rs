@@ -15,7 +15,6 @@ mod hard_cases;
 mod in_use;
 mod lifetime;
 mod memory;
-mod methods;
 mod oracle;
 mod packed;
 mod paper_form;

@@ -4,14 +4,13 @@
 use crate::common::{
     builder,
     compare::{self, Errors, F32},
-    render,
+    oracle_of, render,
     scenes::{self, Hard, transparent},
     shared,
 };
 use glam::DVec3;
 use surfel::{
     prepare::{LARGEST_TURN_RAD, as_packed},
-    reference,
     scene::{Accumulate, Colors, Filter, Rasterizer, Scene, SplatFormat},
     selftest::{light::compare_light, tolerance},
 };
@@ -35,9 +34,10 @@ fn unpacked(scene: &Scene) -> Option<Scene> {
 fn what_the_shaders_unpack_is_what_was_packed() {
     let mut headless = shared();
     let mut checked = 0;
-    for hard in scenes::all() {
+    for mut hard in scenes::all() {
+        hard.settings.size_px = [128, 128];
         let Some(scene) = unpacked(&hard.scene) else { continue };
-        let oracle = reference::render(&scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+        let oracle = oracle_of(&Hard { scene, ..hard.clone() });
         for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute] {
             let mut packed = packed(&hard);
             packed.settings.rasterizer = rasterizer;
@@ -64,7 +64,7 @@ fn packed_alphas_agree_with_the_oracle() {
     }
     let scene = unpacked(&hard.scene).unwrap();
     let frame = render(&mut headless, &packed(&hard));
-    let oracle = reference::render(&scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let oracle = oracle_of(&Hard { scene, ..hard });
     let errors = compare_light(&frame, &oracle);
     println!("{errors:?}");
     assert!(errors.worst <= tolerance::LIGHT, "{errors:?}");
@@ -75,7 +75,7 @@ fn packing_takes_no_more_from_a_picture_than_its_bounds_tell() {
     let mut headless = shared();
     let mut hard = scenes::sphere_of_disks();
     hard.settings.accumulate = Accumulate::F32;
-    let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let oracle = oracle_of(&hard);
     let [exact, packed] = [hard.clone(), packed(&hard)].map(|hard| {
         let errors = compare::compare(&render(&mut headless, &hard), &oracle);
         println!("{}", errors.row(hard.name));

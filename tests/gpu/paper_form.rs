@@ -2,13 +2,14 @@
 //! are where ours, with the same filter, are exact. What our additional instructions buy; printed with `--nocapture`.
 
 use crate::common::{
+    PICTURE, oracle_of, render_as,
     scenes::{self, Hard},
     shared,
 };
 use surfel::{
     instruments::draw_as_published,
-    reference::{self, Picture},
-    renderer::{Headless, Wanted},
+    reference::Picture,
+    renderer::Headless,
     scene::{Accumulate, Filter, FilterWeight, Shading, Shapes},
 };
 
@@ -46,15 +47,14 @@ fn wrong(pixels: &[[f32; 4]], oracle: &Picture) -> Wrong {
 
 /// The errors of the published programs, of the same with the filter in visibility too, and of ours.
 fn errors(headless: &mut Headless, hard: &Hard) -> [Wrong; 3] {
-    let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+    let oracle = oracle_of(hard);
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
     let published = |headless: &mut Headless, filtered| {
         let pixels = draw_as_published(headless, &prepared, &hard.camera, &hard.settings, filtered);
         wrong(&pixels.unwrap(), &oracle)
     };
     let [plain, filtered] = [published(headless, false), published(headless, true)];
-    let wanted = Wanted { picture: true, linear: true, ..Wanted::default() };
-    let ours = headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap();
+    let ours = render_as(headless, hard, PICTURE);
     [plain, filtered, wrong(&ours.linear, &oracle)]
 }
 

@@ -1,11 +1,8 @@
-//! Pictures of real surfaces: closed, whole, the right way up and lit from the eye.
-
-use std::path::Path;
+//! Pictures of a real surface: whole, without a hole.
 
 use crate::common::shared;
 use surfel::{
-    geometry::{DEFAULT_OVERLAP, splats_from_mesh},
-    load::{Model, builtin, load},
+    load::builtin,
     renderer::{Frame, Wanted},
     scene::{Camera, Object, Scene, Settings},
 };
@@ -69,42 +66,4 @@ fn a_hole_would_be_found() {
     assert_eq!(holes(&frame), 0);
     frame.weight[64 * 128 + 64] = 0.0;
     assert_eq!(holes(&frame), 1);
-}
-
-#[test]
-fn igea_is_whole_upright_and_lit_from_the_eye() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/igea.ply");
-    if !path.exists() {
-        println!("SKIPPED: {} is not there", path.display());
-        return;
-    }
-    let Model::Mesh(mesh) = load(&path, &()).unwrap() else { panic!("igea.ply is a mesh") };
-    let (splats, report) = splats_from_mesh(&mesh, DEFAULT_OVERLAP, &());
-    assert!(report.closed);
-    let frame = draw(Object { name: "igea".to_owned(), splats, closed: report.closed }, [1024, 1024]);
-    println!("igea: {} pixels covered, {} holes", covered(&frame), holes(&frame));
-    assert_eq!(holes(&frame), 0);
-
-    // The neck is narrower than the head, and below it: widths at a quarter and near the bottom of what is covered.
-    let rows: Vec<usize> = (0..1024)
-        .map(|y| frame.weight[y * 1024..(y + 1) * 1024].iter().filter(|weight| **weight > 0.0).count())
-        .collect();
-    let (first, last) =
-        (rows.iter().position(|w| *w > 0).unwrap(), rows.iter().rposition(|w| *w > 0).unwrap());
-    let at = |part: f64| rows[first + (part * (last - first) as f64) as usize];
-    assert!(at(0.97) < at(0.4), "upside down: {} {}", at(0.97), at(0.4));
-
-    // Light at the eye: pixels that face it are brighter than those at a slant.
-    let mean = |facing: std::ops::Range<f32>| {
-        let mut sum = (0.0_f64, 0_usize);
-        for (normal, color) in frame.normal.iter().zip(&frame.srgb) {
-            if normal[3] > 0.0 && facing.contains(&-normal[2]) {
-                sum = (sum.0 + f64::from(color[1]), sum.1 + 1);
-            }
-        }
-        sum.0 / sum.1 as f64
-    };
-    let (front, slant) = (mean(0.9..1.1), mean(0.2..0.4));
-    println!("mean green of what faces the eye {front:.0}, at a slant {slant:.0}");
-    assert!(front > slant + 40.0);
 }

@@ -10,11 +10,41 @@ use crate::common::{
 use ash::vk;
 use surfel::{
     scene::{Filter, Rasterizer},
-    selftest::{Case, Status, Suite},
+    selftest::{Case, CaseResult, Known, Status, Suite, run},
     vk::{Buffer, BufferDesc, CommandPool, Device, MemoryUse},
 };
 
 const SPHERE: &str = "methods.perspective.adjust.sphere-of-disks";
+
+/// Every method and every option once, the default ones on every hard scene: GPU against oracle, pixel by pixel.
+#[test]
+fn every_quick_case_passes() {
+    assert_all_pass(&|case| case.quick);
+}
+
+#[test]
+#[ignore = "every method with every option on every hard scene: half an hour"]
+fn every_case_passes() {
+    assert_all_pass(&|_| true);
+}
+
+fn assert_all_pass(is_run: &dyn Fn(&Case) -> bool) {
+    let headless = headless();
+    let driver = headless.device().facts().driver.clone();
+    let suite = Suite::new();
+    let names = suite.cases.iter().map(|case| case.name.as_str());
+    let known = Known::of_driver(Known::built_in().unwrap(), &driver, names).unwrap();
+    let cases: Vec<_> = suite.cases.iter().filter(|case| is_run(case)).collect();
+    let outcome = run(headless, &suite, &cases, &known, 0, &mut |_| {});
+    let wrong = outcome.results.iter().filter(|result| result.status.fails_the_run());
+    let wrong: Vec<String> = wrong.map(CaseResult::line).collect();
+    assert!(
+        wrong.is_empty() && outcome.results.len() == cases.len(),
+        "{} of {}: {wrong:#?}",
+        wrong.len(),
+        cases.len()
+    );
+}
 
 #[test]
 fn a_list_knows_what_fails_and_what_passes_against_it_is_told() {

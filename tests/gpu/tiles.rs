@@ -1,31 +1,32 @@
 //! Splats by tiles in compute against the graphics pipeline's path: the same pixels within rounding, whatever a tile holds.
 
 use crate::common::{
-    ALL, assert_same_bits, assert_validation_is_silent, compare::F32, headless, scenes, shared, with_limits,
+    ALL, PICTURE, assert_same_bits, compare::F32, headless, passes, render, render_as, scenes, shared, with,
+    with_limits,
 };
 use glam::DVec3;
 use surfel::{
-    graph::execute::Profile,
     hard_scenes::{Hard, sphere, transparent},
     passes::FramePlan,
     renderer::{Frame, Headless, Wanted},
     scene::{
         Accumulate, Camera, Colors, Cull, Epsilon, Filter, FilterWeight, LastLayer, Layers, Light, LightKind,
-        Object, Order, Rasterizer, Scene, Settings, Shading, TileInvocations, Transition,
+        Object, Order, Rasterizer, Scene, Settings, Shading, TileInvocations, TileMemory, Transition,
     },
     vk::Limits,
 };
 
-const PICTURE: Wanted = Wanted { picture: true, linear: true, surface: false, profile: None };
-
-fn with(hard: &Hard, rasterizer: Rasterizer) -> Hard {
-    Hard { settings: Settings { rasterizer, ..hard.settings.clone() }, ..hard.clone() }
+fn by_points(headless: &mut Headless, hard: &Hard, wanted: Wanted) -> Frame {
+    render_as(headless, &with(hard, |s| s.rasterizer = Rasterizer::Perspective), wanted)
 }
 
-fn picture(headless: &mut Headless, hard: &Hard, rasterizer: Rasterizer, wanted: Wanted) -> Frame {
-    let hard = with(hard, rasterizer);
-    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap()
+fn by_tiles(headless: &mut Headless, hard: &Hard, wanted: Wanted) -> Frame {
+    render_as(headless, &with(hard, |s| s.rasterizer = Rasterizer::Compute), wanted)
+}
+
+/// The same by tiles, drawn so.
+fn by(hard: &Hard, invocations: TileInvocations) -> Hard {
+    with(hard, |s| s.tile_invocations = invocations)
 }
 
 /// Of all colors, how many differ by more than 1e-3: rounding may turn the coverage of a pixel at a rim, or which of two
@@ -36,25 +37,6 @@ fn different(a: &Frame, b: &Frame) -> usize {
     };
     assert_eq!(a.linear.len(), b.linear.len());
     a.linear.iter().zip(&b.linear).filter(|pair| far(*pair)).count()
-}
-
-/// How many pixels are not as the first, which is background.
-fn shown(frame: &Frame) -> usize {
-    frame.linear.iter().filter(|color| **color != frame.linear[0]).count()
-}
-
-fn passes(frame: &Frame) -> Vec<&str> {
-    frame.plan.passes.iter().map(|pass| pass.name.as_ref()).collect()
-}
-
-/// The same by tiles, drawn so.
-fn by(hard: &Hard, tile_invocations: TileInvocations) -> Hard {
-    let settings = Settings { tile_invocations, ..hard.settings.clone() };
-    Hard { settings, ..hard.clone() }
-}
-
-fn by_pixels(hard: &Hard) -> Hard {
-    by(hard, TileInvocations::Pixel)
 }
 
 fn hard(objects: Vec<Object>, camera: Camera, size_px: [u32; 2]) -> Hard {
@@ -71,8 +53,8 @@ fn images_of_odd_sizes_and_many_chunks_are_the_same_as_by_points() {
     let camera = scenes::builder::camera([0.0, 0.0, 9.0], [0.0; 3]);
     for size_px in [[1, 1], [7, 9], [131, 67], [64, 257]] {
         let hard = hard(objects().collect(), camera, size_px);
-        let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
-        let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+        let tiles = by_tiles(&mut headless, &hard, PICTURE);
+        let points = by_points(&mut headless, &hard, PICTURE);
         let pixels = tiles.linear.len();
         assert!(different(&tiles, &points) <= pixels / 1000, "{size_px:?}: {}", different(&tiles, &points));
         let names = passes(&tiles);
@@ -81,62 +63,94 @@ fn images_of_odd_sizes_and_many_chunks_are_the_same_as_by_points() {
     }
 }
 
-/// llvmpipe ends a shader's loops after 65 535 iterations without a word: here a tile has ten times as many splats.
+/// llvmpipe ends a shader's loops after 65 535 iterations of eight splats without a word: here a tile has more.
 #[test]
 fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
     let mut headless = shared();
     let camera = scenes::builder::camera([0.0, 0.0, 900.0], [0.0; 3]);
-    let hard = hard(vec![sphere(700_000, DVec3::ZERO)], camera, [16, 16]);
-    let points = picture(&mut headless, &hard, Rasterizer::Perspective, ALL);
+    let hard = hard(vec![sphere(560_000, DVec3::ZERO)], camera, [16, 16]);
+    let points = by_points(&mut headless, &hard, ALL);
     let seen = points.weight.iter().filter(|weight| **weight > 0.0).count();
     assert!((4..=64).contains(&seen), "{seen}");
-    let check = |headless: &mut Headless| {
-        let tiles = picture(headless, &hard, Rasterizer::Compute, ALL);
-        assert!(passes(&tiles).contains(&"sum overfull tiles"));
-        let pixels = picture(headless, &by_pixels(&hard), Rasterizer::Compute, ALL);
-        assert_same_bits(&tiles, &pixels, "an invocation a pixel");
-        let short = picture(headless, &by(&hard, TileInvocations::ShortColumn), Rasterizer::Compute, ALL);
-        assert_same_bits(&tiles, &short, "tiles half as high");
-        // Half a million weights are added in another order: 2^-24 of the sum each, at random.
-        for (a, b) in tiles.weight.iter().zip(&points.weight) {
-            assert!((a - b).abs() <= 1e-3 * b, "{a} {b}");
-        }
-        assert_eq!(different(&tiles, &points), 0);
-    };
-    check(&mut headless);
+    let tiles = by_tiles(&mut headless, &hard, ALL);
+    assert!(passes(&tiles).contains(&"sum overfull tiles"));
+    let short = by_tiles(&mut headless, &by(&hard, TileInvocations::ShortColumn), ALL);
+    assert_same_bits(&tiles, &short, "tiles half as high");
+    // Half a million weights are added in another order: 2^-24 of the sum each, at random.
+    for (a, b) in tiles.weight.iter().zip(&points.weight) {
+        assert!((a - b).abs() <= 1e-3 * b, "{a} {b}");
+    }
+    assert_eq!(different(&tiles, &points), 0);
 }
 
-/// Filtered and not, images of odd sizes, sums of 16 bits, data; splats that the graphics pipeline draws before, polygons beside,
-/// layers. All filters are in `tests/methods.rs`.
+/// Images of odd sizes, sums of 16 bits, data; splats that the graphics pipeline draws before, polygons beside, layers. An
+/// invocation a pixel, which takes twenty times as long on a CPU, draws two of them.
 #[test]
 fn an_invocation_a_pixel_or_a_short_column_draws_the_same_bits_as_one_a_column() {
     let mut headless = shared();
     let near = || sphere(4000, DVec3::ZERO);
-    let with_large = scenes::builder::camera([0.0, 0.0, 0.98], [0.3, 0.1, -1.0]);
-    let cloud = Hard { name: "large splats", ..hard(vec![near()], with_large, [131, 67]) };
-    let mut stacked =
-        hard(vec![near(), near()], scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]), [67, 131]);
-    stacked.settings.accumulate = Accumulate::F16;
-    let opaque = scenes::all().into_iter().chain([cloud, stacked]);
-    for mut hard in opaque.chain(transparent::all()) {
-        hard.settings.size_px = hard.settings.size_px.map(|side| side.min(131));
-        let columns = by(&hard, TileInvocations::Column);
-        let columns = picture(&mut headless, &columns, Rasterizer::Compute, ALL);
-        for other in [TileInvocations::Pixel, TileInvocations::ShortColumn] {
-            let drawn = picture(&mut headless, &by(&hard, other), Rasterizer::Compute, ALL);
+    let cloud = scenes::builder::camera([0.0, 0.0, 0.98], [0.3, 0.1, -1.0]);
+    let cloud = Hard { name: "large splats", ..hard(vec![near()], cloud, [67, 35]) };
+    let stacked = scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
+    let stacked = with(&hard(vec![near(), near()], stacked, [35, 67]), |s| s.accumulate = Accumulate::F16);
+    let (own, short, pixel) = (TileInvocations::Column, TileInvocations::ShortColumn, TileInvocations::Pixel);
+    let small = |hard: Hard| (with(&hard, |s| s.size_px = [64, 48]), vec![short]);
+    // Every other scene is the self-test's.
+    let hybrid = transparent::hybrid(Transition::Color);
+    let scenes =
+        [scenes::random_ellipses(Filter::Adjust), transparent::interpenetrating(), hybrid].map(small);
+    for (hard, others) in
+        scenes.into_iter().chain([(cloud, vec![short, pixel]), (stacked, vec![short, pixel])])
+    {
+        let columns = by_tiles(&mut headless, &by(&hard, own), ALL);
+        for other in others {
+            let drawn = by_tiles(&mut headless, &by(&hard, other), ALL);
             assert_same_bits(&columns, &drawn, &format!("{} {other:?}", hard.name));
         }
     }
 }
 
+#[test]
+#[ignore = "an invocation a pixel in every pass that has two forms: minutes on a CPU"]
+fn an_invocation_a_pixel_draws_the_same_bits_in_every_pass() {
+    let mut headless = shared();
+    let eye = |x, z| scenes::builder::camera([x, 0.0, z], [0.0; 3]);
+    let balls = |x| vec![sphere(8000, DVec3::ZERO), sphere(8000, DVec3::new(x, 0.0, 0.0))];
+    let overfull = hard(vec![sphere(560_000, DVec3::ZERO)], eye(0.0, 900.0), [16, 16]);
+    let hidden = with(&hard(balls(-2.5), eye(6.0, 0.0), [64, 48]), |s| s.cull = Cull::Hidden);
+    let bands = |s: &mut Settings| s.tile_memory = TileMemory::Most(0);
+    let bands = with(&hard(vec![sphere(24_000, DVec3::ZERO)], eye(0.0, 3.2), [64, 96]), bands);
+    let mut lit = hidden.clone();
+    (lit.scene.meshes, lit.scene.lights) = {
+        let Scene { meshes, lights, .. } = transparent::meshes_only().scene;
+        (meshes, lights)
+    };
+    let mut layers = hidden.clone();
+    layers.settings.layers = Layers::Fixed(5);
+    for ball in &mut layers.scene.objects {
+        ball.splats.colors = Colors::Uniform([0.9, 0.1, 0.1, 0.4]);
+    }
+    let all =
+        [("overfull", overfull), ("hidden", hidden), ("bands", bands), ("lit", lit), ("layers", layers)];
+    for (name, hard) in all {
+        for wanted in [ALL, PICTURE] {
+            let [columns, pixels] = [TileInvocations::Column, TileInvocations::Pixel]
+                .map(|own| by_tiles(&mut headless, &by(&hard, own), wanted));
+            assert_same_bits(&columns, &pixels, name);
+        }
+    }
+    let pipelines = headless.renderer.shaders.pipeline_names();
+    assert!(pipelines.iter().any(|name| name.ends_with("pixel_hidden.comp")), "{pipelines:?}");
+}
+
 /// Whether tiles are shaded at once; then they are as they are by their sums.
 fn is_shaded_as_by_sums(headless: &mut Headless, hard: &Hard) -> bool {
-    let at_once = picture(headless, hard, Rasterizer::Compute, PICTURE);
+    let at_once = by_tiles(headless, hard, PICTURE);
     if !passes(&at_once).contains(&"see, sum and shade tiles") {
         return false;
     }
     assert!(hard.scene.meshes.is_empty() || hard.settings.transition != Transition::Attributes);
-    let by_sums = picture(headless, hard, Rasterizer::Compute, ALL);
+    let by_sums = by_tiles(headless, hard, ALL);
     assert!(!passes(&by_sums).contains(&"see, sum and shade tiles"));
     // Some ten operations, whose order each stage's compiler decides. By their sums, normals of polygons are normalized twice: of what
     // that rounds a highlight, the 32nd power of a cosine of twice the angle, makes 64 times as much, of which 0.2 is seen.
@@ -148,8 +162,9 @@ fn is_shaded_as_by_sums(headless: &mut Headless, hard: &Hard) -> bool {
     true
 }
 
-/// Opaque splats, alone or beside polygons, are shaded in the dispatch that sums them, unless someone else reads the sums, as what exports the surface
-/// does: the same formulas of the same sums, in two stages of the device. Each shading, under the scene's own lights and without.
+/// Opaque splats, alone or beside polygons, are shaded in the dispatch that sums them, unless someone else reads the sums, as what
+/// exports the surface does: the same formulas of the same sums, in two stages of the device. Each shading, under the scene's own
+/// lights and without.
 #[test]
 fn tiles_that_are_shaded_at_once_are_the_same_picture_as_by_their_sums() {
     let mut headless = shared();
@@ -164,6 +179,7 @@ fn tiles_that_are_shaded_at_once_are_the_same_picture_as_by_their_sums() {
         .map(transparent::hybrid);
     let (mut shaded, mut shaded_beside) = (0, 0);
     for (i, mut hard) in scenes::all().into_iter().chain(halves).enumerate() {
+        hard.settings.size_px = [96, 64];
         hard.settings.shading = shadings[i % 4];
         hard.settings.accumulate = Accumulate::F32;
         hard.settings.cull = if i % 3 == 2 { Cull::Hidden } else { Cull::Auto };
@@ -174,14 +190,16 @@ fn tiles_that_are_shaded_at_once_are_the_same_picture_as_by_their_sums() {
             let scene = Scene { lights: lights.clone(), ..hard.scene.clone() };
             Hard { scene, ..hard.clone() }
         };
-        for hard in [lit(&hard), lit(&cut), by_pixels(&lit(&cut)), by_pixels(&hard), hard, cut] {
+        for hard in [lit(&hard), lit(&cut), hard, cut] {
             let is_shaded = is_shaded_as_by_sums(&mut headless, &hard);
             shaded += usize::from(is_shaded);
             shaded_beside += usize::from(is_shaded && !hard.scene.meshes.is_empty());
         }
     }
-    println!("{shaded} pictures, {shaded_beside} of them beside polygons");
-    assert!(shaded >= 50 && shaded_beside >= 25, "{shaded} {shaded_beside}");
+    assert!(
+        shaded >= 34 && shaded_beside >= 18,
+        "{shaded} pictures, {shaded_beside} of them beside polygons"
+    );
 }
 
 /// Tiles in the corners of a splat's box are left out where it covers nothing there, but nowhere else: ellipses up to 40 times as long
@@ -202,9 +220,9 @@ fn splats_lose_no_pixel_in_the_corners_of_their_boxes() {
         hard(vec![builder.object(false)], scenes::builder::camera([0.0, 0.0, 2.6], [0.0; 3]), [203, 157]);
     for filter in [Filter::None, Filter::Adjust, Filter::Ewa] {
         hard.settings.filter = filter;
-        let points = picture(&mut headless, &hard, Rasterizer::Perspective, ALL);
+        let points = by_points(&mut headless, &hard, ALL);
         for tile_invocations in [TileInvocations::Column, TileInvocations::ShortColumn] {
-            let tiles = picture(&mut headless, &by(&hard, tile_invocations), Rasterizer::Compute, ALL);
+            let tiles = by_tiles(&mut headless, &by(&hard, tile_invocations), ALL);
             let lost =
                 tiles.weight.iter().zip(&points.weight).filter(|(a, b)| (**a > 0.0) != (**b > 0.0)).count();
             let covered = points.weight.iter().filter(|weight| **weight > 0.0).count();
@@ -221,41 +239,6 @@ fn splats_lose_no_pixel_in_the_corners_of_their_boxes() {
     }
 }
 
-/// And they are left out: an ellipse that faces the eye in the middle of the image has tiles in the corners of its box without a pixel
-/// of it, and only tiles of lists are drawn.
-#[test]
-fn tiles_in_the_corners_of_a_box_are_in_no_list() {
-    let mut headless = shared();
-    if !headless.device().facts().pipeline_statistics {
-        println!("NOT TESTED: the device has no pipeline statistics");
-        return;
-    }
-    let camera = scenes::builder::camera([0.0, 0.0, 5.0], [0.0; 3]);
-    // World units a pixel of 128 along a side.
-    let unit = 2.0 * 5.0 * (0.5 * camera.fov_y_rad).tan() / 128.0;
-    let counted = Wanted { profile: Some(Profile::Counts), ..PICTURE };
-    // Its half axes in pixels, and the invocations of a tile. The box has 4x4 tiles. Of the first, the pixel nearest to the ellipse's
-    // center is 8.5 pixels from it along both sides, 12.0 in all; of the first of tiles half as high 8.5 and 4.5 pixels, which is
-    // (8.5/11.5)^2 + (4.5/5.5)^2 = 1.2.
-    for (half_axes_px, tile_invocations, a_tile) in [
-        ([11.5, 11.5], TileInvocations::Column, 8),
-        ([11.5, 11.5], TileInvocations::Pixel, 64),
-        ([11.5, 5.5], TileInvocations::ShortColumn, 8),
-    ] {
-        let [s, t] = [DVec3::X * half_axes_px[0] * unit, DVec3::Y * half_axes_px[1] * unit];
-        let mut builder = scenes::builder::Builder::default();
-        builder.ellipse(DVec3::ZERO, s, t, [0.5, 0.5, 0.5, 1.0]);
-        let mut hard = by(&hard(vec![builder.object(false)], camera, [128, 128]), tile_invocations);
-        hard.settings.filter = Filter::None;
-        let frame = picture(&mut headless, &hard, Rasterizer::Compute, counted);
-        let area_px = std::f64::consts::PI * half_axes_px[0] * half_axes_px[1];
-        assert!((shown(&frame) as f64 / area_px - 1.0).abs() < 0.05, "{} of {area_px} px", shown(&frame));
-        let passes = frame.profile.unwrap().passes;
-        let tiles = passes.iter().find(|pass| pass.name == "see, sum and shade tiles").unwrap();
-        assert_eq!(tiles.invocations, Some(a_tile * (4 * 4 - 4)), "{tile_invocations:?}");
-    }
-}
-
 /// Tiles with more splats than one dispatch takes are shaded after the others: here a ball in the middle of one, beside a tile
 /// with few, and another ball where four tiles meet.
 #[test]
@@ -268,24 +251,22 @@ fn overfull_tiles_are_shaded_as_by_their_sums() {
         ball.splats.colors = Colors::Uniform(color);
         ball
     };
-    let balls = |count| {
-        let alone = colored(count, -8.0, 8.0, [0.8, 0.1, 0.1, 1.0]);
-        let few = colored(1000, 8.0, -8.0, [0.1, 0.8, 0.1, 1.0]);
-        vec![alone, few, colored(count, 4.0, 4.0, [0.1, 0.1, 0.8, 1.0])]
-    };
-    let lights = [Light { kind: LightKind::Eye, color: [0.5, 0.3, 0.4] }];
-    let check = |headless: &mut Headless, count, tile_invocations, lights: &[Light]| {
-        let mut hard = by(&hard(balls(count), camera, [24, 24]), tile_invocations);
-        hard.scene.lights = lights.to_vec();
-        assert!(is_shaded_as_by_sums(headless, &hard), "{tile_invocations:?}");
-        let frame = picture(headless, &hard, Rasterizer::Compute, PICTURE);
-        assert!(passes(&frame).contains(&"shade overfull tiles"), "{tile_invocations:?}");
-        let points = picture(headless, &hard, Rasterizer::Perspective, PICTURE);
-        assert_eq!(different(&frame, &points), 0, "{tile_invocations:?}");
-        assert!(shown(&frame) >= 3, "{}", shown(&frame));
-    };
-    check(&mut headless, 260_000, TileInvocations::ShortColumn, &[]);
-    check(&mut headless, 260_000, TileInvocations::Pixel, &lights);
+    for (invocations, color) in
+        [(TileInvocations::Column, None), (TileInvocations::ShortColumn, Some([0.5, 0.3, 0.4]))]
+    {
+        let balls = vec![
+            colored(260_000, -8.0, 8.0, [0.8, 0.1, 0.1, 1.0]),
+            colored(1000, 8.0, -8.0, [0.1, 0.8, 0.1, 1.0]),
+            colored(260_000, 4.0, 4.0, [0.1, 0.1, 0.8, 1.0]),
+        ];
+        let mut hard = by(&hard(balls, camera, [24, 24]), invocations);
+        hard.scene.lights = color.map(|color| Light { kind: LightKind::Eye, color }).into_iter().collect();
+        assert!(is_shaded_as_by_sums(&mut headless, &hard), "{invocations:?}");
+        let frame = by_tiles(&mut headless, &hard, PICTURE);
+        assert!(passes(&frame).contains(&"shade overfull tiles"), "{invocations:?}");
+        assert_eq!(different(&frame, &by_points(&mut headless, &hard, PICTURE)), 0, "{invocations:?}");
+        assert!(frame.linear.iter().filter(|color| **color != frame.linear[0]).count() >= 3);
+    }
 }
 
 /// What tiles show is rounded to 16 bits where the target has fewer, and light ends with half floats: neither is seen there. A target
@@ -301,7 +282,7 @@ fn tiles_show_as_many_bits_as_the_target_has() {
         let [half, single] = [Accumulate::F16, Accumulate::F32].map(|accumulate| {
             hard.settings.accumulate = accumulate;
             [srgb, PICTURE].map(|wanted| {
-                let frame = picture(&mut headless, &hard, Rasterizer::Compute, wanted);
+                let frame = by_tiles(&mut headless, &hard, wanted);
                 assert!(passes(&frame).contains(&"see, sum and shade tiles"));
                 frame
             })
@@ -324,8 +305,8 @@ fn what_draws_columns_has_no_pipeline_of_pixels() {
     let mut headless = headless();
     let camera = scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
     let hard = hard(vec![sphere(500, DVec3::ZERO)], camera, [64, 64]);
-    for (hard, has_pixels) in [(hard.clone(), false), (by_pixels(&hard), true)] {
-        picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+    for (invocations, has_pixels) in [(TileInvocations::Column, false), (TileInvocations::Pixel, true)] {
+        by_tiles(&mut headless, &by(&hard, invocations), PICTURE);
         let names = headless.renderer.shaders.pipeline_names();
         assert_eq!(names.iter().any(|name| name.contains("_pixel")), has_pixels, "{names:?}");
     }
@@ -334,40 +315,33 @@ fn what_draws_columns_has_no_pipeline_of_pixels() {
 /// Counts of twice as many tiles take twice the room.
 #[test]
 fn images_without_room_for_tiles_half_as_high_have_full_ones() {
-    let mut headless = headless();
+    let mut headless = shared();
     let camera = scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
     let hard = by(&hard(vec![sphere(1000, DVec3::ZERO)], camera, [512, 512]), TileInvocations::ShortColumn);
-    let hard = with(&hard, Rasterizer::Compute);
+    let hard = with(&hard, |s| s.rasterizer = Rasterizer::Compute);
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
     let own = headless.device().facts().limits;
-    let tile_height = |limits: &Limits| {
-        let plan = FramePlan::new(&prepared, &hard.camera, &hard.settings, limits);
-        plan.opaque.bands()[0].plan.invocations.tile_height()
-    };
     let little = Limits { max_storage_buffer_range: 200_000, ..own };
-    assert_eq!([tile_height(&little), tile_height(&own)], [8, 4]);
-    let full = with_limits(
-        &mut headless,
-        |limits| *limits = little,
-        |headless| picture(headless, &hard, Rasterizer::Compute, ALL),
-    );
+    let tile_heights = [little, own].map(|limits| {
+        let plan = FramePlan::new(&prepared, &hard.camera, &hard.settings, &limits);
+        plan.opaque.bands()[0].plan.invocations.tile_height()
+    });
+    assert_eq!(tile_heights, [8, 4]);
+    let full = with_limits(&mut headless, |limits| *limits = little, |headless| render(headless, &hard));
     assert!(passes(&full).contains(&"see and sum tiles"), "{:?}", passes(&full));
-    let short = picture(&mut headless, &hard, Rasterizer::Compute, ALL);
     // There is room for fewer segments then, so that lists have another order.
-    assert_eq!(different(&full, &short), 0);
-    assert_validation_is_silent(&headless);
+    assert_eq!(different(&full, &render(&mut headless, &hard)), 0);
 }
 
 /// Lists are in input order, whichever core walks over a segment first.
 #[test]
-fn twenty_frames_are_the_same_bits() {
+fn ten_frames_are_the_same_bits() {
     let mut headless = shared();
-    let objects = vec![sphere(60_000, DVec3::ZERO), sphere(20_000, DVec3::new(0.5, 0.0, 0.4))];
+    let objects = vec![sphere(30_000, DVec3::ZERO), sphere(10_000, DVec3::new(0.5, 0.0, 0.4))];
     let hard = hard(objects, scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]), [200, 200]);
-    let first = picture(&mut headless, &hard, Rasterizer::Compute, ALL);
-    for run in 1..20 {
-        let again = picture(&mut headless, &hard, Rasterizer::Compute, ALL);
-        assert_same_bits(&first, &again, &format!("run {run}"));
+    let first = by_tiles(&mut headless, &hard, ALL);
+    for run in 1..10 {
+        assert_same_bits(&first, &by_tiles(&mut headless, &hard, ALL), &format!("run {run}"));
     }
 }
 
@@ -379,8 +353,8 @@ fn large_splats_and_small_ones_are_one_picture() {
     near.closed = false;
     let camera = scenes::builder::camera([0.0, 0.0, 0.98], [0.3, 0.1, -1.0]);
     let hard = hard(vec![near, sphere(3000, DVec3::new(0.0, 0.0, -3.0))], camera, [256, 256]);
-    let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
-    let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+    let tiles = by_tiles(&mut headless, &hard, PICTURE);
+    let points = by_points(&mut headless, &hard, PICTURE);
     assert!(passes(&tiles).contains(&"sum large splats"), "{:?}", passes(&tiles));
     assert!(different(&tiles, &points) <= 10, "{}", different(&tiles, &points));
 }
@@ -389,16 +363,16 @@ fn large_splats_and_small_ones_are_one_picture() {
 fn what_else_a_scene_has_is_drawn_around_it() {
     let mut headless = shared();
     for hard in transparent::all() {
-        let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
-        let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
-        let pixels = tiles.linear.len();
+        let hard = with(&hard, |s| s.size_px = [128, 96]);
+        let [tiles, points] = [by_tiles, by_points].map(|draw| draw(&mut headless, &hard, PICTURE));
         // Where surfaces are peeled off each other, rounding may turn which of them a pixel's last layer has.
-        assert!(different(&tiles, &points) <= pixels / 200, "{}: {}", hard.name, different(&tiles, &points));
+        let off = different(&tiles, &points);
+        assert!(off <= tiles.linear.len() / 200, "{}: {off}", hard.name);
     }
 }
 
-/// As above, in layers: the first tiles do all of them at once, others go on from dispatch to dispatch, and what has too many
-/// splats for that goes step by step and part by part. Lights are a loop within a loop.
+/// In layers the first tiles do all of them at once, others go on from dispatch to dispatch, and what has too many splats for that
+/// goes step by step and part by part. Lights are a loop within a loop.
 #[test]
 fn layers_of_overfull_tiles_lose_none() {
     let mut headless = shared();
@@ -411,57 +385,39 @@ fn layers_of_overfull_tiles_lose_none() {
     };
     let near = scenes::builder::camera([0.0, 0.0, 4.0], [0.0; 3]);
     let far = scenes::builder::camera([0.0, 0.0, 600.0], [0.0; 3]);
-    for (name, count, camera, size_px, layers, lights) in [
-        ("one dispatch", 3000, &near, [96, 96], 5, 0),
-        ("several dispatches", 3000, &near, [96, 96], 40, 2),
-        ("parts", 600_000, &far, [16, 16], 3, 0),
-        ("parts under lights", 100_000, &far, [16, 16], 2, 16),
+    for (name, count, camera, size_px, layers, lights, last_layer) in [
+        ("one dispatch", 3000, near, [96, 96], 5, 0, LastLayer::Stack),
+        ("several dispatches", 3000, near, [64, 64], 40, 2, LastLayer::Drop),
+        ("parts", 560_000, far, [16, 16], 3, 0, LastLayer::Drop),
+        ("parts under lights", 100_000, far, [16, 16], 2, 16, LastLayer::Stack),
     ] {
-        let mut hard = hard(vec![clear(count)], *camera, size_px);
+        let mut hard = hard(vec![clear(count)], camera, size_px);
         hard.scene.storage.order = Order::Input;
-        let light = |i| Light {
-            kind: LightKind::Directional(DVec3::new(f64::from(i), 1.0, -2.0)),
-            color: [0.1, 0.1, 0.1],
-        };
+        let direction = |i| LightKind::Directional(DVec3::new(f64::from(i), 1.0, -2.0));
+        let light = |i| Light { kind: direction(i), color: [0.1, 0.1, 0.1] };
         hard.scene.lights = (0..lights).map(light).collect();
-        hard.settings.layers = Layers::Fixed(layers);
-        for last_layer in [LastLayer::Stack, LastLayer::Drop] {
-            hard.settings.last_layer = last_layer;
-            let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
-            let check = |headless: &mut Headless| {
-                let tiles = picture(headless, &hard, Rasterizer::Compute, PICTURE);
-                assert!(passes(&tiles).contains(&"layers of tiles"), "{:?}", passes(&tiles));
-                let off = different(&tiles, &points);
-                let may_be_off = if camera.eye == near.eye { tiles.linear.len() / 200 } else { 0 };
-                assert!(off <= may_be_off, "{name}, {last_layer:?}: {off}");
-                tiles.linear
-            };
-            let columns = check(&mut headless);
-            // A minute each on lavapipe, which has the other way for that reason.
-            if count <= 100_000 {
-                let pixels = picture(&mut headless, &by_pixels(&hard), Rasterizer::Compute, PICTURE);
-                assert!(pixels.linear == columns, "{name}, {last_layer:?}: an invocation a pixel");
-            }
-        }
+        (hard.settings.layers, hard.settings.last_layer) = (Layers::Fixed(layers), last_layer);
+        let [tiles, points] = [by_tiles, by_points].map(|draw| draw(&mut headless, &hard, PICTURE));
+        assert!(passes(&tiles).contains(&"layers of tiles"), "{:?}", passes(&tiles));
+        let may_be_off = if count == 3000 { tiles.linear.len() / 200 } else { 0 };
+        assert!(different(&tiles, &points) <= may_be_off, "{name}: {}", different(&tiles, &points));
     }
 }
 
-/// Half floats end at 65504: more than that many splats of weight 1 in a pixel.
+/// Half floats end at 65504: more than that many splats of weight 1 in a pixel, in one dispatch, in parts, and beside large splats.
 #[test]
 fn sums_beyond_half_floats_keep_their_ratios() {
     let mut headless = shared();
-    for (count, large) in [(700_000, false), (200_000, false), (200_000, true)] {
+    for (count, large) in [(560_000, false), (150_000, false), (150_000, true)] {
         let mut objects = vec![sphere(count, DVec3::ZERO)];
         if large {
             // Cut by the near plane, far beside what is seen.
             objects.push(sphere(500, DVec3::new(0.0, 0.0, 900.0)));
         }
         let mut hard = hard(objects, scenes::builder::camera([0.0, 0.0, 900.0], [0.0; 3]), [16, 16]);
-        hard.settings.filter_weight = FilterWeight::Unit;
-        hard.settings.epsilon = Epsilon::Radii(1e6);
-        let exact = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
-        hard.settings.accumulate = Accumulate::F16;
-        let half = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+        (hard.settings.filter_weight, hard.settings.epsilon) = (FilterWeight::Unit, Epsilon::Radii(1e6));
+        let [exact, half] = [Accumulate::F32, Accumulate::F16]
+            .map(|sums| by_tiles(&mut headless, &with(&hard, |s| s.accumulate = sums), PICTURE));
         for (a, b) in exact.linear.iter().flatten().zip(half.linear.iter().flatten()) {
             assert!(b.is_finite() && (a - b).abs() <= 0.01, "{count}, {large}: {a} {b}");
         }
@@ -472,13 +428,9 @@ fn sums_beyond_half_floats_keep_their_ratios() {
 #[test]
 fn an_image_of_more_tiles_than_a_row_of_workgroups_is_valid() {
     let mut headless = shared();
-    let hard = hard(
-        vec![sphere(2000, DVec3::ZERO)],
-        scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]),
-        [2200, 2200],
-    );
-    let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
-    let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
+    let camera = scenes::builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
+    let hard = hard(vec![sphere(2000, DVec3::ZERO)], camera, [2060, 2060]);
+    let [tiles, points] = [by_tiles, by_points].map(|draw| draw(&mut headless, &hard, PICTURE));
     assert!(different(&tiles, &points) <= 50, "{}", different(&tiles, &points));
 }
 
@@ -497,8 +449,8 @@ fn images_too_wide_for_the_spans_of_others_are_the_same_as_by_points() {
     let mut camera = scenes::builder::camera([0.0, 0.0, 1.0], [0.0; 3]);
     camera.fov_y_rad = 2.0 * (12.0 / 8000.0_f64).atan();
     let hard = hard(splats.scene(false).objects, camera, wide);
-    let points = picture(&mut headless, &hard, Rasterizer::Perspective, PICTURE);
-    let tiles = picture(&mut headless, &hard, Rasterizer::Compute, PICTURE);
+    let points = by_points(&mut headless, &hard, PICTURE);
+    let tiles = by_tiles(&mut headless, &hard, PICTURE);
     assert!(passes(&tiles).contains(&"fill tiles"), "{:?}", passes(&tiles));
     let covered = points.linear.iter().filter(|color| color[..3] != [1.0; 3]).count();
     assert!(covered > 200_000, "{covered}");
@@ -521,7 +473,7 @@ fn auto_keeps_few_splats_to_points_only_where_they_are_opaque_and_alone() {
     let mut layered = alone.clone();
     layered.scene.objects[0].splats.colors = Colors::Uniform([0.5, 0.5, 0.5, 0.5]);
     for (hard, by_tiles) in [(alone, false), (beside, true), (layered, true)] {
-        let frame = picture(&mut headless, &hard, Rasterizer::Auto, PICTURE);
+        let frame = render_as(&mut headless, &with(&hard, |s| s.rasterizer = Rasterizer::Auto), PICTURE);
         let fills = passes(&frame).iter().any(|pass| pass.starts_with("fill"));
         assert_eq!(fills, by_tiles, "{:?}", passes(&frame));
     }

@@ -1,24 +1,21 @@
 //! Silence means something: each mode of validation finds a defect that was put there for it, and is silent about the
 //! same program without the defect.
 //!
-//! **What layer 1.3.239 (Debian 12) does not see**, each pinned by a test in `validation/blind_spots.rs`:
+//! **What layer 1.3.239 (Debian 12) was found not to see**:
 //! - attachments: dynamic rendering takes no part in its synchronization checks, so that a missing barrier around a
 //!   render target goes unnoticed. Those barriers are held to the graph's own simulator (`src/graph/tests`);
 //! - accesses of the host: bytes written to a mapped buffer that the device reads, or read without a wait;
 //! - the host's wait for a timeline semaphore, the other way round: it takes what comes after for a hazard. Hence
 //!   `vkQueueWaitIdle` in `Queue::wait` where validation is on.
 //!
-//! What it does see, pinned as well: two buffers, or two images, in the same memory; a timeline semaphore that one
-//! submission waits for.
+//! What it does see: two buffers, or two images, in the same memory; a timeline semaphore that one submission waits for.
 //!
-//! Not pinned, for it follows from lavapipe: one queue and one coherent memory type never show a missing flush or a
-//! missing transfer of ownership.
+//! From lavapipe follows that one queue and one coherent memory type never show a missing flush or a missing transfer of
+//! ownership.
 //!
 //! Of the layer's known traps, two do not bite here, which tests below hold fast: with the settings given in
 //! `VkInstanceCreateInfo` and no settings file, repeated messages are all reported (the limit of 10 is the file's), and
 //! threads are checked.
-
-mod blind_spots;
 
 use std::{
     sync::atomic::{AtomicBool, Ordering},

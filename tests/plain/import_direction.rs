@@ -173,78 +173,39 @@ fn legal_imports_pass() {
 
 #[test]
 fn illegal_imports_are_found_with_line_and_edge() {
-    let cases = [
-        ("scene/mod.rs", "\nuse crate::passes::Frame;", "src/scene/mod.rs:2: scene -> crate::passes: "),
-        (
-            "scene/mod.rs",
-            "use crate::{error::Error,\n vk::Buffer};",
-            "src/scene/mod.rs:2: scene -> crate::vk: ",
-        ),
-        ("scene/mod.rs", "fn f() -> crate::vk::X {}", "src/scene/mod.rs:1: scene -> crate::vk: "),
-        ("scene/mod.rs", "use super::vk;", "src/scene/mod.rs:1: scene -> crate::vk: "),
-        ("scene/a/b.rs", "use super::super::super::vk;", "src/scene/a/b.rs:1: scene -> crate::vk: "),
-        ("scene/a.rs", "use super::{Mesh, super::vk::X};", "src/scene/a.rs:1: scene -> crate::vk: "),
-        ("scene/a.rs", "mod t { use super::super::super::vk; }", "src/scene/a.rs:1: scene -> crate::vk: "),
-        (
-            "math/mod.rs",
-            "macro_rules! m { () => { $crate::vk::f() } }",
-            "src/math/mod.rs:1: math -> crate::vk: ",
-        ),
-        ("load/ply.rs", "use crate::save::x;", "src/load/ply.rs:1: load -> crate::save: "),
-        (
-            "reference/mod.rs",
-            "use crate::math::x;",
-            "src/reference/mod.rs:1: reference -> crate::math: the oracle",
-        ),
-        (
-            "scene/mod.rs",
-            "use crate::utils::x;",
-            "src/scene/mod.rs:1: scene -> crate::utils: not in the list",
-        ),
-        ("scene/mod.rs", "use crate::Error;", "src/scene/mod.rs:1: scene -> crate::Error: not in the list"),
-        ("scene/mod.rs", "use crate::*;", "src/scene/mod.rs:1: scene -> crate::*: not in the list"),
-        ("utils/mod.rs", "", "src/utils/mod.rs:1: utils: not in the list"),
-        ("graph/cull.rs", "use crate::vk::X;", "src/graph/cull.rs:1: graph -> crate::vk: the graph's core"),
-        (
-            "graph/cull.rs",
-            "fn f(d: &ash::Device) {}",
-            "src/graph/cull.rs:1: graph -> ash::Device: the graph's core",
-        ),
-        (
-            "graph/cull.rs",
-            "use ash::{vk, Device};",
-            "src/graph/cull.rs:1: graph -> ash::Device: the graph's core",
-        ),
-        ("renderer.rs", "use crate::bin::x;", "src/renderer.rs:1: renderer -> crate::bin: not in the list"),
-        (
-            "vk/a.rs",
-            "const C: char = '\"'; use crate::graph::X; // \"",
-            "src/vk/a.rs:1: vk -> crate::graph: ",
-        ),
-        (
-            "passes/cull/a.rs",
-            "use crate::passes::{pass::Pass, splats::draw};",
-            "src/passes/cull/a.rs:1: passes -> crate::passes::splats: imports point only to rooms above",
-        ),
-        (
-            "passes/tiles/a.rs",
-            "use super::super::layers::x;",
-            "src/passes/tiles/a.rs:1: passes -> crate::passes::layers: imports",
-        ),
-        (
-            "passes/tiles/a.rs",
-            "use crate::passes::Draw;",
-            "src/passes/tiles/a.rs:1: passes -> crate::passes::Draw: no room",
-        ),
-        ("vk/a.rs", "/* /* */ \" */ use crate::graph::X;", "src/vk/a.rs:1: vk -> crate::graph: "),
-        ("vk/a.rs", "const R: &str = r#\"\\\"#; use crate::graph::X;", "src/vk/a.rs:1: vk -> crate::graph: "),
-        ("vk/a.rs", "fn f<'a>(x: &'a str) -> crate::graph::X<'a> {}", "src/vk/a.rs:1: vk -> crate::graph: "),
-    ];
-    for (file, text, start) in cases {
-        let found = violations(file, text);
+    // A file, its text (`↵` stands for the end of a line), and how what is said begins behind the file's name.
+    let cases = r###"
+scene/mod.rs $ ↵use crate::passes::Frame; $ 2: scene -> crate::passes
+scene/mod.rs $ use crate::{error::Error,↵ vk::Buffer}; $ 2: scene -> crate::vk
+scene/mod.rs $ fn f() -> crate::vk::X {} $ 1: scene -> crate::vk
+scene/mod.rs $ use super::vk; $ 1: scene -> crate::vk
+scene/a/b.rs $ use super::super::super::vk; $ 1: scene -> crate::vk
+scene/a.rs $ use super::{Mesh, super::vk::X}; $ 1: scene -> crate::vk
+scene/a.rs $ mod t { use super::super::super::vk; } $ 1: scene -> crate::vk
+math/mod.rs $ macro_rules! m { () => { $crate::vk::f() } } $ 1: math -> crate::vk
+load/ply.rs $ use crate::save::x; $ 1: load -> crate::save
+reference/mod.rs $ use crate::math::x; $ 1: reference -> crate::math: the oracle
+scene/mod.rs $ use crate::utils::x; $ 1: scene -> crate::utils: not in the list
+scene/mod.rs $ use crate::Error; $ 1: scene -> crate::Error: not in the list
+scene/mod.rs $ use crate::*; $ 1: scene -> crate::*: not in the list
+utils/mod.rs $  $ 1: utils: not in the list
+graph/cull.rs $ use crate::vk::X; $ 1: graph -> crate::vk: the graph's core
+graph/cull.rs $ fn f(d: &ash::Device) {} $ 1: graph -> ash::Device: the graph's core
+graph/cull.rs $ use ash::{vk, Device}; $ 1: graph -> ash::Device: the graph's core
+renderer.rs $ use crate::bin::x; $ 1: renderer -> crate::bin: not in the list
+vk/a.rs $ const C: char = '"'; use crate::graph::X; // " $ 1: vk -> crate::graph
+passes/cull/a.rs $ use crate::passes::{pass::Pass, splats::draw}; $ 1: passes -> crate::passes::splats: imports point only to rooms
+passes/tiles/a.rs $ use super::super::layers::x; $ 1: passes -> crate::passes::layers: imports
+passes/tiles/a.rs $ use crate::passes::Draw; $ 1: passes -> crate::passes::Draw: no room
+vk/a.rs $ /* /* */ " */ use crate::graph::X; $ 1: vk -> crate::graph
+vk/a.rs $ const R: &str = r#"\"#; use crate::graph::X; $ 1: vk -> crate::graph
+vk/a.rs $ fn f<'a>(x: &'a str) -> crate::graph::X<'a> {} $ 1: vk -> crate::graph"###;
+    for case in cases.lines().skip(1) {
+        let [file, text, start] = case.split(" $ ").collect::<Vec<_>>()[..] else { panic!("{case}") };
+        let found = violations(file, &text.replace('↵', "\n"));
         assert!(
-            found.len() == 1 && found[0].starts_with(start),
-            "{file}: {text}\n  expected {start}\n  {found:?}"
+            found.len() == 1 && found[0].starts_with(&format!("src/{file}:{start}")),
+            "{case}: {found:?}"
         );
     }
 }

@@ -5,5 +5,6 @@ mod shader_build;
 
 mod import_direction;
 mod instructions;
+mod report;
 mod shaders;
 mod splat_file;

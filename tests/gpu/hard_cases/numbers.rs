@@ -10,7 +10,7 @@ use super::{GRAY, hard, of_size};
 use crate::common::{
     assert_agrees, assert_same_bits,
     builder::{Builder, Random, camera, settings},
-    render,
+    oracle_of, render, render_as,
     scenes::Hard,
     shared,
 };
@@ -154,10 +154,8 @@ fn n26_scenes_and_splats_at_the_ends_of_f32_agree() {
         let mut hard = Hard { camera, ..hard(name, builder, settings()) };
         hard.settings.filter = Filter::Adjust;
         // Depth is written in world units, which f32 may not hold there.
-        let (frame, oracle) = (render(&mut headless, &hard), hard);
+        let (frame, oracle) = (render(&mut headless, &hard), oracle_of(&hard));
         assert!(frame.albedo.iter().flatten().all(|value| value.is_finite()), "{name}");
-        let oracle =
-            surfel::reference::render(&oracle.scene, &oracle.camera, &oracle.settings, &|_, _| {}).unwrap();
         let mut compared = 0;
         for (i, expected) in oracle.pixels.iter().enumerate() {
             if expected.rim || expected.epsilon_margin < 1e-4 {
@@ -211,8 +209,7 @@ fn n30_colors_at_the_ends_of_their_range_come_back() {
             if uniform {
                 hard.scene.objects[0].splats.colors = Colors::Uniform([value, 1.0 - value, value, 1.0]);
             }
-            let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-            let frame = headless.render(&prepared, &hard.camera, &hard.settings, wanted).unwrap();
+            let frame = render_as(&mut headless, &hard, wanted);
             for (albedo, srgb) in frame.albedo.iter().zip(&frame.srgb) {
                 for (c, expected) in [value, 1.0 - value, value].into_iter().enumerate() {
                     // 16-bit fractions: half a step, and f32.

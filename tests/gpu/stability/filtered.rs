@@ -2,13 +2,12 @@
 //! pixel's center within rounding.
 
 use surfel::{
-    reference,
     renderer::Wanted,
     scene::{Accumulate, Filter, Settings},
 };
 
 use super::sweep;
-use crate::common::{scenes::Hard, shared, with_limits};
+use crate::common::{oracle_of, scenes::Hard, shared, with_points_up_to};
 
 /// Wider pictures take the oracle minutes.
 const WIDEST_PX: u32 = 1024;
@@ -26,19 +25,13 @@ fn no_fragment_is_missed_or_surplus_under_a_filter() {
         for filter in [Filter::Adjust, Filter::Ewa] {
             let settings = Settings { filter, accumulate: Accumulate::F32, ..case.hard.settings.clone() };
             let hard = Hard { settings, ..case.hard.clone() };
-            let oracle = reference::render(&hard.scene, &hard.camera, &hard.settings, &|_, _| {}).unwrap();
+            let oracle = oracle_of(&hard);
             let scene = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-            for as_quads in [false, true] {
+            for cap_px in [f32::INFINITY, 0.0] {
                 let wanted = Wanted { surface: true, ..Wanted::default() };
-                let frame = with_limits(
-                    &mut headless,
-                    |limits| {
-                        if as_quads {
-                            limits.point_size_range[1] = 0.0;
-                        }
-                    },
-                    |headless| headless.render(&scene, &hard.camera, &hard.settings, wanted).unwrap(),
-                );
+                let frame = with_points_up_to(&mut headless, cap_px, |headless| {
+                    headless.render(&scene, &hard.camera, &hard.settings, wanted).unwrap()
+                });
                 let decided = oracle.pixels.iter().zip(&frame.weight).filter(|(pixel, _)| !pixel.rim);
                 let (mut missed, mut surplus) = (0, 0);
                 for (pixel, weight) in decided {
@@ -47,7 +40,7 @@ fn no_fragment_is_missed_or_surplus_under_a_filter() {
                     surplus += usize::from(!pixel.is_covered() && *weight > 0.0);
                 }
                 let what = format!(
-                    "{filter:?}, tilt {}, offset {:e}, depth {:e}, {:?}, quads {as_quads}",
+                    "{filter:?}, tilt {}, offset {:e}, depth {:e}, {:?}, points up to {cap_px}",
                     case.tilt_deg, case.offset, case.depth, case.place
                 );
                 assert_eq!((missed, surplus), (0, 0), "{what}");

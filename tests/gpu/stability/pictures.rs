@@ -10,7 +10,7 @@ use super::{
     sweep::Case,
     truth::{Coverage, Truth},
 };
-use crate::common::with_limits;
+use crate::common::with_points_up_to;
 
 /// Pixels whose coverage is decided: what the oracle has, and where the device differs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,17 +29,11 @@ pub fn count(headless: &mut Headless, scene: &PreparedScene, case: &Case, truth:
         .map(|at_px| truth.coverage(at_px - middle))
         .collect();
     let mut fragments = Fragments::default();
-    for as_quads in [false, true] {
+    for cap_px in [f32::INFINITY, 0.0] {
         let wanted = Wanted { surface: true, ..Wanted::default() };
-        let frame = with_limits(
-            headless,
-            |limits| {
-                if as_quads {
-                    limits.point_size_range[1] = 0.0;
-                }
-            },
-            |headless| headless.render(scene, &case.hard.camera, &case.hard.settings, wanted).unwrap(),
-        );
+        let frame = with_points_up_to(headless, cap_px, |headless| {
+            headless.render(scene, &case.hard.camera, &case.hard.settings, wanted).unwrap()
+        });
         for (expected, weight) in expected.iter().zip(&frame.weight) {
             let covered = *weight > 0.0;
             fragments.inside += usize::from(*expected == Coverage::Inside);

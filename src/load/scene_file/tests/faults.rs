@@ -75,53 +75,37 @@ fn unknown_keys_are_told_with_the_nearest_known_one() {
     }
 }
 
+/// Lines of a text and what is said of it; `↵` stands for the end of a line.
+fn table(cases: &str) -> impl Iterator<Item = (String, &str)> {
+    let cases = cases.lines().skip(1).map(|line| line.split_once(" => ").unwrap());
+    cases.map(|(text, said)| (text.replace('↵', "\n"), said))
+}
+
 #[test]
 fn cameras_and_lights_that_cannot_be() {
-    let cases = [
-        ("camera = 1", "line 1, camera: 1: expected a table"),
-        ("[camera]\neye = [0, 1]", "line 2, camera, eye: [0, 1]: expected three numbers"),
-        ("[camera]\neye = [0, 1, nan]", "line 2, camera, eye: [0, 1, nan]: expected three numbers"),
-        ("[camera]\nup = \"y\"", "line 2, camera, up: \"y\": expected three numbers"),
-        ("[camera]\nfov_deg = 180", "line 2, camera, fov_deg: 180: expected degrees between 1e-10 and 180"),
-        ("[camera]\nfov_deg = 0", "line 2, camera, fov_deg: 0: expected degrees"),
-        ("[camera]\nnear = 0", "line 2, camera, near: 0: expected a number above 0"),
-        ("[camera]\nnear = 1e400", "line 2, camera, near: 1e400: expected a number above 0"),
-        (
-            "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3.0]",
-            "line 1, camera: eye and target are the same; expected two different points",
-        ),
-        ("light = 1", "line 1, light: 1: expected tables, each headed [[light]]"),
-        ("[light]\nkind = \"eye\"", "line 1, light: a table: expected tables, each headed [[light]]"),
-        ("light = [1]", "line 1, light 1: 1: expected a table"),
-        ("[[light]]", "line 1, light 1: no kind; expected 'eye' or 'directional'"),
-        ("[[light]]\nkind = \"sun\"", "line 2, light 1, kind: \"sun\": expected 'eye' or 'directional'"),
-        ("[[light]]\nkind = \"direct\"", "line 2, light 1, kind: \"direct\": expected 'directional'"),
-        (
-            "[[light]]\nkind = \"directional\"",
-            "line 1, light 1: no direction; expected in which direction the light travels",
-        ),
-        (
-            "[[light]]\nkind = \"directional\"\ndirection = [0, 0.0, 0]",
-            "line 3, light 1, direction: [0, 0.0, 0]: expected in which direction the light travels, three numbers",
-        ),
-        (
-            "[[light]]\nkind = \"eye\"\ndirection = [0, 0, 1]",
-            "line 3, light 1, direction: has no meaning for a light at the eye; expected kind = \"directional\"",
-        ),
-        (
-            "[[light]]\nkind = \"eye\"\ncolor = [0, 0, 2]",
-            "line 3, light 1, color: [0, 0, 2]: expected three numbers from 0 to 1 (sRGB)",
-        ),
-        (
-            "[[light]]\nkind = \"eye\"\nintensity = -1",
-            "line 3, light 1, intensity: -1: expected a number, at least 0",
-        ),
-        (
-            "[[light]]\nkind = \"eye\"\nintensity = 1e39",
-            "line 3, light 1, intensity: 1e39: expected a number",
-        ),
-    ];
-    for (text, expected) in cases {
+    let cases = r#"
+camera = 1 => line 1, camera: 1: expected a table
+[camera]↵eye = [0, 1] => line 2, camera, eye: [0, 1]: expected three numbers
+[camera]↵eye = [0, 1, nan] => line 2, camera, eye: [0, 1, nan]: expected three numbers
+[camera]↵up = "y" => line 2, camera, up: "y": expected three numbers
+[camera]↵fov_deg = 180 => line 2, camera, fov_deg: 180: expected degrees between 1e-10 and 180
+[camera]↵fov_deg = 0 => line 2, camera, fov_deg: 0: expected degrees
+[camera]↵near = 0 => line 2, camera, near: 0: expected a number above 0
+[camera]↵near = 1e400 => line 2, camera, near: 1e400: expected a number above 0
+[camera]↵eye = [1, 2, 3]↵target = [1, 2, 3.0] => line 1, camera: eye and target are the same; expected two different points
+light = 1 => line 1, light: 1: expected tables, each headed [[light]]
+[light]↵kind = "eye" => line 1, light: a table: expected tables, each headed [[light]]
+light = [1] => line 1, light 1: 1: expected a table
+[[light]] => line 1, light 1: no kind; expected 'eye' or 'directional'
+[[light]]↵kind = "sun" => line 2, light 1, kind: "sun": expected 'eye' or 'directional'
+[[light]]↵kind = "direct" => line 2, light 1, kind: "direct": expected 'directional'
+[[light]]↵kind = "directional" => line 1, light 1: no direction; expected in which direction the light travels
+[[light]]↵kind = "directional"↵direction = [0, 0.0, 0] => line 3, light 1, direction: [0, 0.0, 0]: expected in which direction the light travels, three numbers
+[[light]]↵kind = "eye"↵direction = [0, 0, 1] => line 3, light 1, direction: has no meaning for a light at the eye; expected kind = "directional"
+[[light]]↵kind = "eye"↵color = [0, 0, 2] => line 3, light 1, color: [0, 0, 2]: expected three numbers from 0 to 1 (sRGB)
+[[light]]↵kind = "eye"↵intensity = -1 => line 3, light 1, intensity: -1: expected a number, at least 0
+[[light]]↵kind = "eye"↵intensity = 1e39 => line 3, light 1, intensity: 1e39: expected a number"#;
+    for (text, expected) in table(cases) {
         let error = read(&format!("{text}\n[[object]]\nbuiltin = \"sphere\"\n")).unwrap_err();
         assert!(error.starts_with(&format!("scene.toml: {expected}")), "{error}");
     }
@@ -129,111 +113,56 @@ fn cameras_and_lights_that_cannot_be() {
 
 #[test]
 fn objects_that_cannot_be() {
-    let cases = [
-        ("alpha = 1.5", "line 3, object 1, alpha: 1.5: expected a number from 0 to 1"),
-        ("alpha = -0.1", "line 3, object 1, alpha: -0.1: expected a number from 0 to 1"),
-        ("alpha = nan", "line 3, object 1, alpha: nan: expected a number from 0 to 1"),
-        ("alpha = true", "line 3, object 1, alpha: true: expected a number from 0 to 1"),
-        ("color = [0, 0, 256]", "line 3, object 1, color: [0, 0, 256]: expected three numbers from 0 to 1"),
-        ("color = \"red\"", "line 3, object 1, color: \"red\": expected three numbers from 0 to 1"),
-        ("name = \"\"", "line 3, object 1, name: \"\": expected 1 to 100 letters on one line"),
-        ("name = \"a\\nb\"", "line 3, object 1, name: \"a\\nb\": expected 1 to 100 letters"),
-        ("name = 1", "line 3, object 1, name: 1: expected a name"),
-        ("scale = 0", "line 3, object 1, scale: 0: expected a number or three numbers, none of them 0"),
-        ("scale = [1, 0, 1]", "line 3, object 1, scale: [1, 0, 1]: expected a number or three"),
-        ("scale = inf", "line 3, object 1, scale: inf: expected a number"),
-        ("scale = [1, 1]", "line 3, object 1, scale: [1, 1]: expected a number or three numbers"),
-        ("translate = 1", "line 3, object 1, translate: 1: expected three numbers"),
-        ("rotate_deg = [1, 2, nan]", "line 3, object 1, rotate_deg: [1, 2, nan]: expected three numbers"),
-        (
-            "matrix = 1",
-            "line 3, object 1, matrix: 1: expected three rows of four numbers, or four rows of three",
-        ),
-        ("matrix = [1, 2, 3]", "line 3, object 1, matrix: 1: expected four numbers, as three rows have"),
-        (
-            "matrix = [[1,0,0],[0,1,0],\n[0,0,1]]",
-            "line 3, object 1, matrix: [1,0,0]: expected four numbers, as three rows have",
-        ),
-        (
-            "matrix = [[1,0,0,0],[0,1,0,0],[0,0,0,0]]",
-            "line 3, object 1, matrix: it flattens the object; expected a matrix that can be inverted",
-        ),
-        (
-            "matrix = [[1,0,0],[0,1,0],[0,0,1],[0,0,0]]\nscale = 1",
-            "line 4, object 1, scale: has no meaning beside matrix; expected one or the other",
-        ),
-        ("splats = 0", "line 3, object 1, splats: 0: expected a whole number, 1 to 4294967295"),
-        ("splats = 1.5", "line 3, object 1, splats: 1.5: expected a whole number"),
-        ("splats = -1", "line 3, object 1, splats: -1: expected a whole number"),
-        ("splats = 99999999999999999999", "line 3, object 1, splats: 99999999999999999999: expected a whole"),
-        ("resample = 9", "line 3, object 1, resample: has no meaning for a built-in model; expected splats"),
-        ("triangles = 9", "line 3, object 1, triangles: has no meaning for a model drawn as splats"),
-        (
-            "representation = \"points\"",
-            "line 3, object 1, representation: \"points\": expected 'splats', 'mesh' or",
-        ),
-        ("representation = \"Mesh\"", "line 3, object 1, representation: \"Mesh\": expected 'mesh'"),
-        (
-            "polygons.longer_than = 1",
-            "line 3, object 1, polygons: has no meaning without representation = \"hybrid\"",
-        ),
-        (
-            "sample_edges = true",
-            "line 3, object 1, sample_edges: has no meaning without representation = \"hybrid\"",
-        ),
-        (
-            "representation = \"hybrid\"\npolygons.longer_than = 1\nsample_edges = 1",
-            "line 5, object 1, sample_edges: 1: expected true or false",
-        ),
-        (
-            "representation = \"mesh\"\nsplats = 9",
-            "line 4, object 1, splats: has no meaning for a model drawn as triangles",
-        ),
-        (
-            "representation = \"hybrid\"",
-            "line 1, object 1: hybrid without polygons; expected which triangles stay polygons",
-        ),
-        (
-            "representation = \"hybrid\"\npolygons = {}",
-            "line 4, object 1, polygons: expected plane or longer_than, and not both",
-        ),
-        (
-            "representation = \"hybrid\"\npolygons = { plane = [0, 0, 0, 1] }",
-            "line 4, object 1, polygons, plane: [0, 0, 0, 1]: expected nx, ny, nz and d, the normal not zero",
-        ),
-        (
-            "representation = \"hybrid\"\npolygons = { longer_than = -1 }",
-            "line 4, object 1, polygons, longer_than: -1: expected a length, at least 0",
-        ),
-        ("builtin = \"spehre\"", "line 2, object 1, builtin: \"spehre\": expected 'sphere'"),
-        (
-            "builtin = \"relief\"\nrepresentation = \"mesh\"",
-            "line 3, object 1, representation: \"mesh\": expected 'splats': this built-in model has no triangles",
-        ),
-        ("name = \"a file\"", "line 1, object 1: neither file nor builtin; expected one of them"),
-        (
-            "file = \"a.ply\"\nbuiltin = \"sphere\"",
-            "line 2, object 1, file: beside builtin; expected one or the other",
-        ),
-        ("file = 1", "line 2, object 1, file: 1: expected the name of a PLY or OBJ file"),
-        (
-            "file = \"a.ply\"\nsplats = 9",
-            "line 3, object 1, splats: has no meaning for a file; expected resample, which spreads splats over a mesh",
-        ),
-        ("file = \"a.ply\"\ntriangles = 9", "line 3, object 1, triangles: has no meaning for a file"),
-        ("file = \"a.ply\"\nseed = 9", "line 3, object 1, seed: has no meaning without resample"),
-        ("file = \"a.ply\"\nresample = 9\nseed = -9", "line 4, object 1, seed: -9: expected a whole number"),
-        (
-            "file = \"a.ply\"\nresample = 4294967296",
-            "line 3, object 1, resample: 4294967296: expected a whole number, 1 to 4294967295",
-        ),
-        (
-            "file = \"a.ply\"\nrepresentation = \"mesh\"\nresample = 9",
-            "line 4, object 1, resample: has no meaning for a model drawn as triangles",
-        ),
-    ];
-    for (keys, expected) in cases {
-        let error = object(keys).unwrap_err();
+    let cases = r#"
+alpha = 1.5 => line 3, object 1, alpha: 1.5: expected a number from 0 to 1
+alpha = -0.1 => line 3, object 1, alpha: -0.1: expected a number from 0 to 1
+alpha = nan => line 3, object 1, alpha: nan: expected a number from 0 to 1
+alpha = true => line 3, object 1, alpha: true: expected a number from 0 to 1
+color = [0, 0, 256] => line 3, object 1, color: [0, 0, 256]: expected three numbers from 0 to 1
+color = "red" => line 3, object 1, color: "red": expected three numbers from 0 to 1
+name = "" => line 3, object 1, name: "": expected 1 to 100 letters on one line
+name = "a\nb" => line 3, object 1, name: "a\nb": expected 1 to 100 letters
+name = 1 => line 3, object 1, name: 1: expected a name
+scale = 0 => line 3, object 1, scale: 0: expected a number or three numbers, none of them 0
+scale = [1, 0, 1] => line 3, object 1, scale: [1, 0, 1]: expected a number or three
+scale = inf => line 3, object 1, scale: inf: expected a number
+scale = [1, 1] => line 3, object 1, scale: [1, 1]: expected a number or three numbers
+translate = 1 => line 3, object 1, translate: 1: expected three numbers
+rotate_deg = [1, 2, nan] => line 3, object 1, rotate_deg: [1, 2, nan]: expected three numbers
+matrix = 1 => line 3, object 1, matrix: 1: expected three rows of four numbers, or four rows of three
+matrix = [1, 2, 3] => line 3, object 1, matrix: 1: expected four numbers, as three rows have
+matrix = [[1,0,0],[0,1,0],↵[0,0,1]] => line 3, object 1, matrix: [1,0,0]: expected four numbers, as three rows have
+matrix = [[1,0,0,0],[0,1,0,0],[0,0,0,0]] => line 3, object 1, matrix: it flattens the object; expected a matrix that can be inverted
+matrix = [[1,0,0],[0,1,0],[0,0,1],[0,0,0]]↵scale = 1 => line 4, object 1, scale: has no meaning beside matrix; expected one or the other
+splats = 0 => line 3, object 1, splats: 0: expected a whole number, 1 to 4294967295
+splats = 1.5 => line 3, object 1, splats: 1.5: expected a whole number
+splats = -1 => line 3, object 1, splats: -1: expected a whole number
+splats = 99999999999999999999 => line 3, object 1, splats: 99999999999999999999: expected a whole
+resample = 9 => line 3, object 1, resample: has no meaning for a built-in model; expected splats
+triangles = 9 => line 3, object 1, triangles: has no meaning for a model drawn as splats
+representation = "points" => line 3, object 1, representation: "points": expected 'splats', 'mesh' or
+representation = "Mesh" => line 3, object 1, representation: "Mesh": expected 'mesh'
+polygons.longer_than = 1 => line 3, object 1, polygons: has no meaning without representation = "hybrid"
+sample_edges = true => line 3, object 1, sample_edges: has no meaning without representation = "hybrid"
+representation = "hybrid"↵polygons.longer_than = 1↵sample_edges = 1 => line 5, object 1, sample_edges: 1: expected true or false
+representation = "mesh"↵splats = 9 => line 4, object 1, splats: has no meaning for a model drawn as triangles
+representation = "hybrid" => line 1, object 1: hybrid without polygons; expected which triangles stay polygons
+representation = "hybrid"↵polygons = {} => line 4, object 1, polygons: expected plane or longer_than, and not both
+representation = "hybrid"↵polygons = { plane = [0, 0, 0, 1] } => line 4, object 1, polygons, plane: [0, 0, 0, 1]: expected nx, ny, nz and d, the normal not zero
+representation = "hybrid"↵polygons = { longer_than = -1 } => line 4, object 1, polygons, longer_than: -1: expected a length, at least 0
+builtin = "spehre" => line 2, object 1, builtin: "spehre": expected 'sphere'
+builtin = "relief"↵representation = "mesh" => line 3, object 1, representation: "mesh": expected 'splats': this built-in model has no triangles
+name = "a file" => line 1, object 1: neither file nor builtin; expected one of them
+file = "a.ply"↵builtin = "sphere" => line 2, object 1, file: beside builtin; expected one or the other
+file = 1 => line 2, object 1, file: 1: expected the name of a PLY or OBJ file
+file = "a.ply"↵splats = 9 => line 3, object 1, splats: has no meaning for a file; expected resample, which spreads splats over a mesh
+file = "a.ply"↵triangles = 9 => line 3, object 1, triangles: has no meaning for a file
+file = "a.ply"↵seed = 9 => line 3, object 1, seed: has no meaning without resample
+file = "a.ply"↵resample = 9↵seed = -9 => line 4, object 1, seed: -9: expected a whole number
+file = "a.ply"↵resample = 4294967296 => line 3, object 1, resample: 4294967296: expected a whole number, 1 to 4294967295
+file = "a.ply"↵representation = "mesh"↵resample = 9 => line 4, object 1, resample: has no meaning for a model drawn as triangles"#;
+    for (keys, expected) in table(cases) {
+        let error = object(&keys).unwrap_err();
         assert!(error.starts_with(&format!("scene.toml: {expected}")), "{error}");
     }
     assert!(read("object = 1").unwrap_err().contains("object: 1: expected tables, each headed [[object]]"));
