@@ -90,14 +90,17 @@ pub struct Selection {
     pub kernel_evals: Vec<KernelEval>,
 }
 
-/// Each of the settings with each of the values.
-fn with_each<T: Copy>(all: Vec<Settings>, values: &[T], set: fn(&mut Settings, T)) -> Vec<Settings> {
-    let with = |settings: &Settings, value: T| {
-        let mut settings = settings.clone();
-        set(&mut settings, value);
-        settings
-    };
-    all.iter().flat_map(|settings| values.iter().map(move |value| with(settings, *value))).collect()
+/// Each of the things with each of the values, the values of one thing after the other.
+pub fn with_each<T: Clone, V: Copy>(all: Vec<T>, values: &[V], set: fn(&mut T, V)) -> Vec<T> {
+    let mut product = Vec::new();
+    for thing in all {
+        product.extend(values.iter().map(|value| {
+            let mut thing = thing.clone();
+            set(&mut thing, *value);
+            thing
+        }));
+    }
+    product
 }
 
 impl Selection {

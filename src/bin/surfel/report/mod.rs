@@ -11,7 +11,6 @@ mod comparison;
 mod distance;
 mod figures;
 mod head;
-mod markdown;
 mod methods;
 mod page;
 mod part;
