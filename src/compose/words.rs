@@ -3,7 +3,7 @@
 use crate::{
     geometry::{HybridReport, MeshReport},
     report::InputReport,
-    scene::{Colors, DefectCounts, MeshColors, MeshObject, Object, Opacity, Shapes, Splats},
+    scene::{Colors, DefectCounts, MeshObject, Object, Opacity, Shapes, Splats},
 };
 
 /// Drops splats that can't be drawn and puts all in words. `head` is what a mesh was and how it became splats, empty for
@@ -42,7 +42,7 @@ pub(super) fn finish_splats(
 pub(super) fn finish_triangles(object: &MeshObject, head: &str, counts: [usize; 2]) -> InputReport {
     let colors = &object.mesh.colors;
     let triangles = object.mesh.triangles.len();
-    let opacity = opacity(colors.opacity(), mesh_alphas(colors));
+    let opacity = opacity(colors.opacity(), alphas(colors));
     InputReport {
         name: object.name.clone(),
         vertices: Some(counts[0]),
@@ -114,15 +114,7 @@ fn opacity(opacity: Opacity, alphas: [f32; 2]) -> String {
 fn alphas(colors: &Colors) -> [f32; 2] {
     match colors {
         Colors::Uniform(color) => [color[3]; 2],
-        Colors::PerSplat(colors) => range(colors),
-    }
-}
-
-fn mesh_alphas(colors: &MeshColors) -> [f32; 2] {
-    match colors {
-        MeshColors::None => [1.0; 2],
-        MeshColors::Uniform(color) => [color[3]; 2],
-        MeshColors::PerVertex(colors) => range(colors),
+        Colors::Each(colors) => range(colors),
     }
 }
 

@@ -29,7 +29,7 @@ use super::{
 use crate::{
     error::{Error, Result},
     progress::Progress,
-    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+    scene::{Colors, Mesh, Shapes, Splats},
 };
 use border::Border;
 use chains::{Chains, Place};
@@ -180,7 +180,7 @@ fn collect(mesh: &Mesh, samples: Samples, radii: Vec<f32>) -> Splats {
     Splats {
         positions: samples.positions,
         shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::PerSplat),
+        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::Each),
     }
 }
 
@@ -196,7 +196,7 @@ fn add(splats: &mut Splats, places: &[Place], radius: f32) {
         normals.extend(places.iter().map(|place| place.normal.as_vec3()));
         radii.resize(splats.positions.len(), radius);
     }
-    if let Colors::PerSplat(colors) = &mut splats.colors {
+    if let Colors::Each(colors) = &mut splats.colors {
         #[expect(clippy::cast_possible_truncation, reason = "0–1")]
         colors.extend(places.iter().map(|place| place.color.map(|channel| channel as f32)));
     }
@@ -216,7 +216,7 @@ fn polygon_part(mut mesh: Mesh, polygon: &[bool]) -> Mesh {
     };
     let numbers: Vec<u32> = used.iter().map(number).collect();
     mesh.triangles.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
-    if let MeshColors::PerVertex(colors) = &mut mesh.colors {
+    if let Colors::Each(colors) = &mut mesh.colors {
         keep(colors, &used);
     }
     if let Some(normals) = &mut mesh.normals {

@@ -29,7 +29,7 @@ use crate::{
     error::{Error, Result},
     math::random::{SplitMix, unit_from_bits},
     progress::Progress,
-    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+    scene::{Colors, Mesh, Shapes, Splats},
 };
 
 pub use radii::RADIUS_PER_DISTANCE;
@@ -66,7 +66,7 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     let splats = Splats {
         positions: samples.positions,
         shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::PerSplat),
+        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::Each),
     };
     Ok((splats, surface.report))
 }
@@ -80,8 +80,8 @@ pub(super) fn check_count(count: u64, option: &str) -> Result<usize> {
 /// The mesh's colors, where there is one for each vertex.
 pub(super) fn vertex_colors(mesh: &Mesh) -> Option<&[[f32; 4]]> {
     match &mesh.colors {
-        MeshColors::PerVertex(colors) if colors.len() == mesh.positions.len() => Some(colors),
-        MeshColors::PerVertex(_) | MeshColors::Uniform(_) | MeshColors::None => None,
+        Colors::Each(colors) if colors.len() == mesh.positions.len() => Some(colors),
+        Colors::Each(_) | Colors::Uniform(_) => None,
     }
 }
 

@@ -8,8 +8,8 @@ use super::{
     shapes::sphere,
 };
 use crate::scene::{
-    Backfaces, Colors, Epsilon, Filter, LastLayer, Layers, Light, LightKind, Mesh, MeshColors, MeshObject,
-    Object, Scene, Settings, Transition,
+    Backfaces, Colors, Epsilon, Filter, LastLayer, Layers, Light, LightKind, Mesh, MeshObject, Object, Scene,
+    Settings, Transition,
 };
 
 /// Layers enough for every pixel of these scenes: then the picture has no error of the method.
@@ -52,7 +52,7 @@ pub fn ball_of_polygons(center: DVec3, radius: f64, rings: u32, color: [f32; 4])
             }
         }
     }
-    let mesh = Mesh { positions, normals: Some(normals), colors: MeshColors::Uniform(color), triangles };
+    let mesh = Mesh { positions, normals: Some(normals), colors: Colors::Uniform(color), triangles };
     MeshObject { name: "ball of polygons".to_owned(), mesh, closed: true }
 }
 
@@ -62,7 +62,7 @@ pub fn rectangle(corners: [DVec3; 4], color: [f32; 4]) -> MeshObject {
     let mesh = Mesh {
         positions: corners.to_vec(),
         normals: Some(vec![normal; 4]),
-        colors: MeshColors::Uniform(color),
+        colors: Colors::Uniform(color),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     };
     MeshObject { name: "rectangle".to_owned(), mesh, closed: false }
@@ -140,9 +140,8 @@ fn sphere_and_sheets(sheets: &[(f64, [f32; 4])]) -> Scene {
 /// Alphas of 0 and 1 among others, in one object and in whole ones.
 pub fn alpha_0_and_1() -> Hard {
     let mut mixed = sheet(0.4 * DVec3::Z, DVec3::Z, 1.0, 24, [1.0; 4]);
-    mixed.splats.colors = Colors::PerSplat(
-        (0..mixed.splats.len()).map(|i| [0.8, 0.3, 0.2, [0.0, 1.0, 0.5][i / 96 % 3]]).collect(),
-    );
+    mixed.splats.colors =
+        Colors::Each((0..mixed.splats.len()).map(|i| [0.8, 0.3, 0.2, [0.0, 1.0, 0.5][i / 96 % 3]]).collect());
     let invisible = sheet(0.8 * DVec3::Z, DVec3::Z, 1.2, 16, [0.0, 1.0, 0.0, 0.0]);
     let full = sheet(-0.4 * DVec3::Z, DVec3::Z, 1.3, 24, [0.1, 0.3, 0.9, 1.0]);
     let scene = Scene { objects: vec![mixed, invisible, full], ..Scene::default() };
@@ -186,9 +185,8 @@ pub fn upon_the_opaque() -> Hard {
 pub fn camera_inside() -> Hard {
     let objects = vec![tinted(sphere(3000, DVec3::ZERO), [0.3, 0.6, 0.9, 0.4])];
     let mut ball = ball_of_polygons(DVec3::ZERO, 1.7, 24, [0.9, 0.4, 0.2, 0.5]);
-    ball.mesh.colors = MeshColors::PerVertex(
-        ball.mesh.positions.iter().map(|p| [0.5 + 0.2 * p.x as f32, 0.4, 0.3, 0.5]).collect(),
-    );
+    ball.mesh.colors =
+        Colors::Each(ball.mesh.positions.iter().map(|p| [0.5 + 0.2 * p.x as f32, 0.4, 0.3, 0.5]).collect());
     let scene = Scene { objects, meshes: vec![ball], ..Scene::default() };
     Hard {
         camera: camera([0.2, 0.1, 0.3], [0.9, 0.4, -0.8]),

@@ -133,9 +133,7 @@ pub fn as_packed(splats: &Splats) -> Option<Splats> {
     let world = |length: f64| length / survey.rebase.scale;
     let colors = match &splats.colors {
         Colors::Uniform(color) => Colors::Uniform(*color),
-        Colors::PerSplat(_) => {
-            Colors::PerSplat(packed.colors.iter().map(|word| unpacked_color(*word)).collect())
-        }
+        Colors::Each(_) => Colors::Each(packed.colors.iter().map(|word| unpacked_color(*word)).collect()),
     };
     let normals: Vec<Vec3> = disks().map(|(_, normal, _)| normal.as_vec3()).collect();
     let radii = disks().map(|(.., radius)| world(radius) as f32).collect();

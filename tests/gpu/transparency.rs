@@ -308,7 +308,7 @@ fn merged(scene: &Scene, shuffle: bool) -> Scene {
             normals: all.iter().map(|splat| splat.1).collect(),
             radii: all.iter().map(|splat| splat.2).collect(),
         },
-        colors: Colors::PerSplat(all.iter().map(|splat| splat.3).collect()),
+        colors: Colors::Each(all.iter().map(|splat| splat.3).collect()),
     };
     let closed = scene.objects.iter().all(|object| object.closed);
     let storage = Storage { order: Order::Input, ..Storage::default() };

@@ -19,7 +19,7 @@ pub struct InfoArguments {
     json: bool,
 }
 
-/// Everything that is told.
+/// The answer.
 #[derive(Serialize)]
 struct Info {
     surfel: &'static str,
@@ -48,9 +48,9 @@ struct DeviceInfo {
     max_storage_buffer_bytes: u64,
     timestamp_valid_bits: u32,
     timestamp_period_ns: f32,
-    /// Why it can't be used; empty where it can.
+    /// The reasons why it can't be used; empty where it can.
     refused: Vec<String>,
-    /// What it lacks though it can be used.
+    /// The features that it lacks though it can be used.
     lacks: Vec<&'static str>,
     /// It is used where `--device` is not given.
     default: bool,

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 use surfel::{Error, Result};
 
-/// As JSON, indented, with a line end. Numbers that are not finite become `null`.
+/// JSON, indented, with a line end. Numbers that are not finite become `null`.
 ///
 /// # Errors
 /// None for plain structures; a map whose keys are no texts.
@@ -15,7 +15,7 @@ pub fn to_json(value: &impl Serialize) -> Result<String> {
     text.map(|text| text + "\n").map_err(|e| Error::file("JSON", "write", io::Error::other(e)))
 }
 
-/// As a part of a larger JSON.
+/// A part of a larger JSON.
 ///
 /// # Errors
 /// As [`to_json`].

@@ -16,14 +16,14 @@ use crate::{steps::Steps, turns};
 /// Frames before those that are timed: the first makes pipelines and transients, the second finds them.
 const WARM_UP_FRAMES: u32 = 2;
 
-/// What is drawn, again and again.
+/// A scene as it is drawn, again and again.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
     /// The scene.
     pub scene: &'a PreparedScene,
-    /// From where.
+    /// The camera.
     pub camera: &'a Camera,
-    /// How.
+    /// The settings.
     pub settings: &'a Settings,
 }
 

@@ -40,7 +40,7 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let settings = picture.settings();
     settings.validate()?;
     let camera = CameraChoice::of(&picture.camera)?;
-    let format = outputs::check(picture, None)?;
+    let format = outputs::check(picture, &None)?;
     let bars = Bars::new();
     let loaded =
         load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut Steps::default())?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, Args};
+use clap::Args;
 use surfel::{
     Progress as _, Result,
     renderer::{Headless, Wanted},
@@ -52,7 +52,7 @@ pub struct RenderArguments {
     device: DeviceArguments,
 
     #[command(flatten)]
-    storage: Given<Stored>,
+    storage: Given<Storage>,
 
     /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
     /// --timings, else none]
@@ -68,15 +68,8 @@ pub struct RenderArguments {
     explain: bool,
 }
 
-/// How splats are kept: all of it.
-struct Stored;
-
-impl Taken for Stored {
-    type Table = Storage;
-
-    fn option(_name: &str, option: Arg) -> Option<Arg> {
-        Some(option)
-    }
+impl Taken for Storage {
+    type Table = Self;
 }
 
 /// Frames timed where only `--timings` is given.
@@ -90,7 +83,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let settings = arguments.picture.settings();
     settings.validate()?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
-    let format = outputs::check(&arguments.picture, arguments.timings.as_deref())?;
+    let format = outputs::check(&arguments.picture, &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {

@@ -1,4 +1,4 @@
-//! What reports say of devices and scenes.
+//! Devices and scenes in reports.
 
 use surfel::{
     prepare::PreparedScene,
@@ -6,7 +6,7 @@ use surfel::{
     vk::DeviceFacts,
 };
 
-/// What a report says of a device.
+/// A device in a report.
 pub fn device_report(facts: &DeviceFacts) -> DeviceReport {
     let [major, minor, patch] = facts.api_version;
     DeviceReport {
@@ -18,7 +18,7 @@ pub fn device_report(facts: &DeviceFacts) -> DeviceReport {
     }
 }
 
-/// What a report says of a scene.
+/// A scene in a report.
 pub fn scene_report(inputs: Vec<InputReport>, prepared: &PreparedScene, transient_bytes: u64) -> SceneReport {
     SceneReport {
         dropped: inputs.iter().map(|input| input.dropped as u64).sum(),

@@ -1,4 +1,4 @@
-//! From the inputs on the command line to a scene.
+//! The scene of the inputs on the command line.
 
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ pub struct InputArguments {
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 
-    /// As what inputs are drawn that are no scene files
+    /// The primitives of inputs that are no scene files
     #[arg(long, value_name = "WHAT", default_value = "splats")]
     representation: Primitives,
 }
@@ -44,7 +44,7 @@ enum Primitives {
 }
 
 impl InputArguments {
-    /// As what inputs are drawn that are no scene files.
+    /// The primitives of inputs that are no scene files.
     pub fn representation(&self) -> Representation {
         match self.representation {
             Primitives::Splats => Representation::Splats,
@@ -59,7 +59,7 @@ pub struct Loaded {
     pub scene: Scene,
     /// A ball around all disks and triangles.
     pub ball: Ball,
-    /// What a scene file says of the camera, and which one.
+    /// The scene file that has a camera, and that camera.
     pub camera: Option<(PathBuf, CameraParts)>,
     /// One an object.
     pub inputs: Vec<InputReport>,
@@ -125,7 +125,7 @@ pub fn resample_mesh(
     })
 }
 
-/// All that the inputs describe.
+/// The descriptions in the inputs.
 struct Described {
     objects: Vec<ObjectDescription>,
     lights: Vec<Light>,

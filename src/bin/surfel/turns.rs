@@ -17,7 +17,7 @@ const FRAMES_A_TURN: u32 = 2;
 
 /// One frame, measured.
 pub struct MeasuredFrame {
-    /// What was measured of it.
+    /// The measurement.
     pub profile: FrameProfile,
     /// Seconds from its submission to the end of the wait for it.
     pub wall_secs: f64,

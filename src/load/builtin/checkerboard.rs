@@ -31,7 +31,7 @@ pub fn checkerboard(side: usize) -> Object {
             normals: vec![Vec3::Z; side * side],
             radii: vec![CHECKERBOARD_RADIUS as f32; side * side],
         },
-        colors: Colors::PerSplat(indices().map(color).collect()),
+        colors: Colors::Each(indices().map(color).collect()),
     };
     Object { name: format!("built-in checkerboard of {side}x{side}"), splats, closed: false }
 }

@@ -13,7 +13,7 @@ use std::{num::NonZero, thread};
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Colors, Mesh, MeshColors, Object, Shapes, Splats};
+use crate::scene::{Colors, Mesh, Object, Shapes, Splats};
 use relief::{Relief, SurfacePoint};
 
 /// How many splats the built-in model has where nothing else is asked for.
@@ -51,7 +51,7 @@ pub fn relief(count: usize) -> Object {
             normals: points.iter().map(|p| p.normal.as_vec3()).collect::<Vec<Vec3>>(),
             radii: points.iter().map(|p| radius(p, count)).collect(),
         },
-        colors: Colors::PerSplat(points.iter().map(|p| p.color).collect()),
+        colors: Colors::Each(points.iter().map(|p| p.color).collect()),
     };
     Object { name: "built-in relief".to_owned(), splats, closed: true }
 }
@@ -65,7 +65,7 @@ pub fn relief_mesh(triangles: u64) -> Mesh {
     Mesh {
         positions: points.iter().map(|point| point.position).collect(),
         normals: Some(points.iter().map(|point| point.normal.as_vec3()).collect()),
-        colors: MeshColors::PerVertex(points.iter().map(|point| point.color).collect()),
+        colors: Colors::Each(points.iter().map(|point| point.color).collect()),
         triangles: ball.triangles,
     }
 }

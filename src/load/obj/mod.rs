@@ -14,7 +14,7 @@ use crate::{
     error::{Error, Result},
     math::srgb::linear_from_srgb,
     progress::Progress,
-    scene::{Mesh, MeshColors},
+    scene::{Colors, Mesh},
 };
 use rows::Rows;
 
@@ -40,9 +40,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
         progress.note(&format!("{}: {left_out} vertex(es) without a face left out", path.display()));
     }
     let colors = if rows.has_colors() {
-        MeshColors::PerVertex(mesh.vertex_color.chunks_exact(3).map(linear_color).collect())
+        Colors::Each(mesh.vertex_color.chunks_exact(3).map(linear_color).collect())
     } else {
-        MeshColors::None
+        Colors::unknown()
     };
     Ok(Mesh {
         normals: rows.all_corners_have_normals().then(|| vertex_normals(&mesh)),

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::{
     load::builtin::{DEFAULT_RELIEF_SPLATS, DEFAULT_SPHERE_SPLATS},
-    scene::{CameraParts, Light},
+    scene::{CameraParts, Light, named},
 };
 
 /// A scene file: what is drawn, under which light and from where.
@@ -58,34 +58,19 @@ pub enum Source {
     },
 }
 
-/// The built-in models, see [`crate::load::builtin`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BuiltIn {
-    /// A ball carved like agate; splats alone.
-    Relief,
-    /// A ball of radius 1, as splats or triangles.
-    Sphere,
-    /// A flat board of splats one unit apart: as many as fit a square of the number that is asked for.
-    Checkerboard,
+named! {
+    /// The built-in models by their names in scene files, see [`crate::load::builtin`].
+    BuiltIn {
+        /// A ball carved like agate; splats alone.
+        Relief = "relief",
+        /// A ball of radius 1, as splats or triangles.
+        Sphere = "sphere",
+        /// A flat board of splats one unit apart: as many as fit a square of the number that is asked for.
+        Checkerboard = "checkerboard",
+    }
 }
 
 impl BuiltIn {
-    /// All, by their names in scene files.
-    pub const NAMES: &'static [(&'static str, Self)] = &[
-        (Self::Relief.name(), Self::Relief),
-        (Self::Sphere.name(), Self::Sphere),
-        (Self::Checkerboard.name(), Self::Checkerboard),
-    ];
-
-    /// Its name in scene files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Relief => "relief",
-            Self::Sphere => "sphere",
-            Self::Checkerboard => "checkerboard",
-        }
-    }
-
     /// How many splats it has where no number is given.
     pub fn default_splats(self) -> u64 {
         let splats = match self {

@@ -32,7 +32,7 @@ impl ColorColumns {
         let colors: &[[f32; 4]] = match (&splats.colors, Colors::unknown()) {
             (Colors::Uniform(color), Colors::Uniform(unknown)) if *color == unknown => &[],
             (Colors::Uniform(color), _) => std::slice::from_ref(color),
-            (Colors::PerSplat(colors), _) => colors,
+            (Colors::Each(colors), _) => colors,
         };
         let mut columns = Self { rgb: None, alpha: None };
         for [red, green, blue, alpha] in colors {
@@ -124,7 +124,7 @@ mod tests {
     fn columns(colors: Vec<[f32; 4]>) -> (Option<Number>, Option<Number>) {
         let positions = vec![glam::DVec3::ZERO; colors.len()];
         let shapes = crate::scene::Shapes::Disks { normals: Vec::new(), radii: Vec::new() };
-        let columns = ColorColumns::of(&Splats { positions, shapes, colors: Colors::PerSplat(colors) });
+        let columns = ColorColumns::of(&Splats { positions, shapes, colors: Colors::Each(colors) });
         (columns.rgb, columns.alpha)
     }
 

@@ -7,11 +7,11 @@ mod methods;
 mod pictures;
 mod zoom;
 
-use std::{fmt::Display, path::Path};
+use std::fmt::Display;
 
 use serde::Serialize;
 use surfel::{
-    Error, Result,
+    Result,
     renderer::Headless,
     report::{PLOT_SIZE_PX, Plot},
     save,
@@ -46,16 +46,10 @@ pub fn run(arguments: &CompareArguments) -> Result<()> {
 }
 
 fn check_outputs(arguments: &CompareArguments) -> Result<()> {
-    if let Some(path) = &arguments.plot
-        && !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"))
-    {
-        return Err(Error::option("--plot", format!("{}: expected a name in .svg", path.display())));
-    }
-    let files: Vec<&Path> =
-        [&arguments.json, &arguments.plot].into_iter().flatten().map(|p| p.as_path()).collect();
-    let inputs: Vec<&Path> =
-        outputs::paths(&arguments.input.inputs).chain(arguments.camera.camera.as_deref()).collect();
-    outputs::check_places(&files, arguments.pictures.as_deref(), &[], &inputs)
+    let CompareArguments { input, camera, json, plot, pictures, .. } = arguments;
+    plot.iter().try_for_each(|path| outputs::check_name("--plot", path, &["svg"]))?;
+    let inputs = input.inputs.iter().chain(&camera.camera);
+    outputs::check_places([json, plot].into_iter().flatten(), pictures.as_deref(), &[], inputs)
 }
 
 fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {

@@ -13,7 +13,7 @@ use super::{
 struct Case {
     name: &'static str,
     splat: RoundSplat,
-    /// How much of the image a panel shows.
+    /// The part of the image that a panel shows.
     window_px: u16,
 }
 

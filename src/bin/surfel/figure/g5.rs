@@ -15,10 +15,10 @@ use super::{
     sheet::{Panel, Sheet},
 };
 
-/// Of the built-in model: so few that splats as large as they are blur the relief, and the seam is seen.
+/// Triangles of the built-in model: so few that splats as large as they are blur the relief, and the seam is seen.
 const FEW_TRIANGLES: u64 = 80_000;
 
-/// How much nearer the camera is than where all of the model is seen.
+/// The field of view over that in which all of the model is seen.
 const NEARER: f64 = 0.22;
 
 /// Polygons are on this side of the model's middle: to the right of an oblique line in the view.

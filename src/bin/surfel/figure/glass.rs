@@ -46,12 +46,12 @@ impl Glass {
         Ok(Self { scene, camera, epsilon, all })
     }
 
-    /// All layers.
+    /// The panel of all layers.
     fn all(&self, name: &str, caption: &str) -> Panel {
         Panel { name: name.to_owned(), caption: caption.to_owned(), picture: self.all.clone() }
     }
 
-    /// So many layers; the caption goes on with how far that is from all.
+    /// The panel of so many layers; the caption goes on with how far that is from all.
     fn few(
         &self,
         context: &mut FigureContext<'_>,
@@ -101,14 +101,14 @@ fn ball(splats: usize, center: DVec3, radius: f64, color: [f32; 3], alpha: f32) 
 /// Splats of each ball.
 const BALL_SPLATS: usize = 4000;
 const BALL_RADIUS: f64 = 0.5;
-/// Between the centers of neighbors. From less than 37° off the axis a ray that meets a ball passes its neighbors at the
+/// The distance between the centers of neighbors. From less than 37° off the axis a ray that meets a ball passes its neighbors at the
 /// side, so that it meets three at most: six surfaces.
 const BALL_SPACING: f64 = 1.25;
-/// From the back to the front. The blended layer takes the place of several surfaces with their mean opacity, so that it
+/// Alphas from the back to the front. The blended layer takes the place of several surfaces with their mean opacity, so that it
 /// is nearer to the truth than the third surface alone where what is behind is more opaque than that. With 0.4 for all
 /// balls its RMS was 12.6, without blending 12.9.
 const ALPHAS: [f32; 3] = [0.7, 0.5, 0.3];
-/// Less than from a ball to the next.
+/// The depth of a surface: less than from a ball to the next.
 const BALL_EPSILON: f64 = 0.15;
 
 /// Guennebaud et al. 2006, figure 6: 27 transparent balls in few layers.
@@ -170,7 +170,7 @@ fn balls() -> Vec<Object> {
 /// Splats of the glass relief.
 const RELIEF_SPLATS: usize = 60_000;
 const RELIEF_ALPHA: f32 = 0.45;
-/// Less than from a surface to the next.
+/// The depth of a surface: less than from one to the next.
 const RELIEF_EPSILON: f64 = 0.12;
 
 /// The slides of Guennebaud et al. 2006, "Approximate depth-peeling": results with 2 and with 3 layers.

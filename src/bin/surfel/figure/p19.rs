@@ -16,7 +16,7 @@ use crate::{scene::load_scene, steps::Steps};
 /// Splats of the built-in model: so few that single ones are seen.
 const FEW_SPLATS: usize = 12_000;
 
-/// How much nearer the camera is than where all of the model is seen.
+/// The field of view over that in which all of the model is seen.
 const NEARER: f64 = 0.5;
 
 /// Draws the figure.

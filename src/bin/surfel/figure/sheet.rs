@@ -8,7 +8,7 @@ use super::raster::{Raster, TextStyle};
 pub struct Panel {
     /// Which of the compared things it is.
     pub name: String,
-    /// What else is to be said of it, a line or more.
+    /// A remark, a line or more.
     pub caption: String,
     /// The picture; all panels of a sheet have the same size.
     pub picture: Raster,
@@ -98,7 +98,7 @@ impl Sheet {
     }
 }
 
-/// What is drawn on; without a picture only places are found.
+/// The picture that is drawn on; without one only places are found.
 struct Ink {
     raster: Option<Raster>,
 }

@@ -75,9 +75,7 @@ struct Data<'a> {
 /// # Errors
 /// Whatever goes wrong; a part that does not exist on this device or for this model says so on the page instead.
 pub fn run(arguments: &ReportArguments) -> Result<()> {
-    let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let in_the_way: Vec<_> = outputs::paths(&inputs).collect();
-    outputs::check_places(&[], Some(&arguments.output), &FILES, &in_the_way)?;
+    outputs::check_places([], Some(&arguments.output), &FILES, &arguments.model)?;
     arguments.device.watch(arguments.device.open()?, |headless| make(headless, arguments))
 }
 

@@ -3,7 +3,7 @@
 mod arguments;
 mod junit;
 
-use std::{collections::BTreeMap, fs, path::Path, time::Instant};
+use std::{collections::BTreeMap, fs, time::Instant};
 
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
@@ -37,7 +37,8 @@ pub fn run(arguments: &SelftestArguments) -> Result<()> {
         return console::print(&names.join("\n"));
     }
     let lists = lists(arguments)?;
-    check_outputs(arguments)?;
+    let files = [&arguments.junit, &arguments.json].into_iter().flatten();
+    outputs::check_places(files, None, &[], &arguments.known)?;
     let loader = loader_facts()?;
     let validation = validation(arguments, &loader)?;
     let start = Instant::now();
@@ -109,7 +110,7 @@ fn selected<'a>(suite: &'a Suite, arguments: &SelftestArguments) -> Result<Vec<&
     Ok(form.into_iter().filter(asked_for).collect())
 }
 
-/// What is known of drivers, of all of them: that which comes along first.
+/// The lists of known results, of all drivers: those that come along first.
 fn lists(arguments: &SelftestArguments) -> Result<Vec<KnownList>> {
     let mut lists = if arguments.no_known { Vec::new() } else { Known::built_in()? };
     for path in &arguments.known {
@@ -119,13 +120,6 @@ fn lists(arguments: &SelftestArguments) -> Result<Vec<KnownList>> {
         lists.push(KnownList::parse(&path.display().to_string(), &text)?);
     }
     Ok(lists)
-}
-
-fn check_outputs(arguments: &SelftestArguments) -> Result<()> {
-    let files: Vec<&Path> =
-        [&arguments.junit, &arguments.json].into_iter().flatten().map(|path| path.as_path()).collect();
-    let inputs: Vec<&Path> = outputs::paths(&arguments.known).collect();
-    outputs::check_places(&files, None, &[], &inputs)
 }
 
 /// The validation layer's version; `None` where it is not to watch.
@@ -140,7 +134,7 @@ fn validation(arguments: &SelftestArguments, loader: &LoaderFacts) -> Result<Opt
     }
 }
 
-/// Why cases were not run: once a reason.
+/// The reasons why cases were not run, each once.
 fn skips(report: &SelftestReport) -> String {
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
     for case in report.cases.iter().filter(|case| case.status == Status::Skip) {
