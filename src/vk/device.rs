@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use ash::{ext, khr, vk};
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, AllocatorCreateDesc};
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::{
     borrowed::{BorrowedDevice, EnabledFeatures},
@@ -252,16 +252,6 @@ impl Device {
     /// Frees the queue for another owner.
     pub(super) fn free_queue(&self) {
         self.0.queue_taken.store(false, Ordering::Release);
-    }
-
-    pub(super) fn allocate(&self, desc: &AllocationCreateDesc<'_>) -> Result<Allocation> {
-        let failed = |reason: String| -> Error {
-            ErrorKind::Memory { object: desc.name.to_owned(), bytes: desc.requirements.size, reason }.into()
-        };
-        match self.memory().as_mut() {
-            Some((allocator, _)) => allocator.allocate(desc).map_err(|error| failed(error.to_string())),
-            None => Err(failed("the device is gone".to_owned())),
-        }
     }
 
     /// Hands a raw object over, to be destroyed once the epoch that is being recorded now is done.

@@ -8,14 +8,14 @@ use crate::passes::{
 };
 use crate::{
     scene::{Layers, Settings},
-    vk::PoolRoom,
+    vk::PoolSizes,
 };
 
 /// What a frame takes for itself from whoever records it, at most.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Needs {
     /// Descriptor sets.
-    pub room: PoolRoom,
+    pub room: PoolSizes,
     /// Queries whether anything was drawn.
     pub occlusion_queries: u32,
 }
@@ -45,15 +45,15 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
     let tiles = bands_of_all
         .map(|band| tiles::room(&band.plan))
-        .fold(PoolRoom::default(), |sum, room| sum.plus(&room));
+        .fold(PoolSizes::default(), |sum, room| sum.plus(&room));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
-        room: PoolRoom {
+        room: PoolSizes {
             sets: reads + sums + 1,
             uniform_buffers: reads + sums,
             images: 2 * reads + 5 * sums + 1,
             filtered_images: reads,
-            ..PoolRoom::default()
+            ..PoolSizes::default()
         }
         .plus(&room_of_lists(lists))
         .plus(&tiles),

@@ -36,7 +36,7 @@ use crate::passes::{inputs::Inputs, pipeline::constants::TileConstants};
 use crate::{
     graph::{Access, Buffer, BufferDesc, Graph, Handle, Image, Start, execute::Body},
     shaders::config::*,
-    vk::PoolRoom,
+    vk::PoolSizes,
 };
 
 /// What the buffers of records are called.
@@ -147,16 +147,16 @@ pub(crate) fn place_bits(plan: &TilePlan) -> (u32, u32) {
 }
 
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
-pub(crate) fn room(plan: &TilePlan) -> PoolRoom {
+pub(crate) fn room(plan: &TilePlan) -> PoolSizes {
     let sets = plan.chunk_count * 3 + 12;
-    PoolRoom {
+    PoolSizes {
         sets,
         buffers: STORAGE_BUFFERS * sets,
         uniform_buffers: sets,
         texel_buffers: 6 * sets,
         images: 6 * sets,
         storage_images: 6 * sets,
-        ..PoolRoom::default()
+        ..PoolSizes::default()
     }
 }
 
