@@ -1,7 +1,5 @@
 //! One object: its model loaded or made, placed, colored, and turned into what is drawn.
 
-use std::path::Path;
-
 use super::{
     from_mesh,
     parts::{Parts, StepTimer},
@@ -12,7 +10,7 @@ use crate::{
     load::{
         BuiltIn, Model, ObjectDescription, Representation, Source,
         builtin::{checkerboard, relief, sphere, sphere_mesh},
-        load,
+        file_name, load,
     },
     progress::Progress,
     report::{InputReport, Step},
@@ -110,8 +108,4 @@ fn of_object(error: Error, object: &ObjectDescription) -> Error {
         Source::File(path) => Error::input(path, "", problem),
         Source::BuiltIn { model, .. } => Error::input(format!("built-in {}", model.name()), "", problem),
     }
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

@@ -165,7 +165,6 @@ fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bo
         );
         return Err(Error::option(SAMPLES, problem));
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of 32 bits")]
     check_memory(all as usize, colors, SAMPLES)?;
     Ok(if wanted { chains.places(EDGE_SPACING * radius) } else { Vec::new() })
 }
@@ -197,7 +196,6 @@ fn add(splats: &mut Splats, places: &[Place], radius: f32) {
         radii.resize(splats.positions.len(), radius);
     }
     if let Colors::Each(colors) = &mut splats.colors {
-        #[expect(clippy::cast_possible_truncation, reason = "0–1")]
         colors.extend(places.iter().map(|place| place.color.map(|channel| channel as f32)));
     }
 }

@@ -40,7 +40,6 @@ pub fn splats_from_mesh(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (
     (splats, report)
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "splats keep radii as f32")]
 fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap: f64) -> Splats {
     let kept = || used.iter().enumerate().filter(|(_, used)| **used).map(|(i, _)| i);
     let colors = match &mesh.colors {

@@ -169,7 +169,6 @@ fn halve(points: &mut [Point], axes: &mut [u8], threads: usize) {
         let along = a.position[axis].total_cmp(&b.position[axis]);
         along.then(a.number.cmp(&b.number))
     });
-    #[expect(clippy::cast_possible_truncation, reason = "0–2")]
     let of_middle = axis as u8;
     axes[middle] = of_middle;
     let parallel = threads > 1 && points.len() > 2 * POINTS_PER_THREAD;

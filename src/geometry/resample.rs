@@ -198,7 +198,6 @@ fn blend(weights: [f64; 3], values: [DVec3; 3]) -> DVec3 {
 }
 
 /// Linear light, each channel for itself; alpha is straight and so is blended alike.
-#[expect(clippy::cast_possible_truncation, reason = "0–1")]
 fn blend_colors(weights: [f64; 3], values: [[f32; 4]; 3]) -> [f32; 4] {
     std::array::from_fn(|channel| {
         let at = |corner: usize| weights[corner] * f64::from(values[corner][channel]);

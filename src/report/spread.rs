@@ -62,12 +62,6 @@ impl Spread {
 
 /// The largest rank, from 0, such that the true median lies below that order statistic with a probability of at most
 /// [`TAIL`]: fewer than `rank + 1` of `count` measurements are below the median then, each with a chance of a half.
-#[expect(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "counts of measurements are far below 2⁵³"
-)]
 fn rank(count: usize) -> Option<usize> {
     // The probability of exactly k, from k = 0 on: 2⁻ⁿ · n over k. It would underflow of more than 1000, where the normal
     // distribution is as good.

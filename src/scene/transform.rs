@@ -135,7 +135,6 @@ fn tangents(normal: Vec3, radius: f32) -> [DVec3; 2] {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "splats keep radii as f32")]
 fn scaled(radius: f32, scale: f64) -> f32 {
     (f64::from(radius) * scale) as f32
 }

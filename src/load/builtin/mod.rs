@@ -72,7 +72,6 @@ pub fn relief_mesh(triangles: u64) -> Mesh {
 
 /// Direction `i` of `count` on the unit sphere (González, "Measurement of areas on a sphere using Fibonacci and
 /// latitude–longitude lattices", 2010; offset ½, so that no direction is a pole).
-#[expect(clippy::cast_precision_loss, reason = "counts of splats are far below 2⁵³")]
 fn fibonacci_direction(i: usize, count: usize) -> DVec3 {
     let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
@@ -82,7 +81,6 @@ fn fibonacci_direction(i: usize, count: usize) -> DVec3 {
 }
 
 /// The lattice's spacing on the unit sphere, grown by the distance from the center, and along a slope by its steepness.
-#[expect(clippy::cast_possible_truncation, reason = "a radius kept as f32")]
 fn radius(point: &SurfacePoint, count: usize) -> f32 {
     let distance = point.position.length();
     let cos_slope = point.normal.dot(point.position) / distance;
@@ -90,13 +88,11 @@ fn radius(point: &SurfacePoint, count: usize) -> f32 {
 }
 
 /// The radius of `count` disks on the unit sphere.
-#[expect(clippy::cast_possible_truncation, reason = "a radius kept as f32")]
 fn radius_on_unit_sphere(count: usize) -> f32 {
     (RADIUS_PER_SPACING * spacing(count)) as f32
 }
 
 /// The square root of the share that each of `count` points has of the unit sphere's area.
-#[expect(clippy::cast_precision_loss, reason = "counts of splats are far below 2⁵³")]
 fn spacing(count: usize) -> f64 {
     (4.0 * std::f64::consts::PI / count as f64).sqrt()
 }

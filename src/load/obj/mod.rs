@@ -53,7 +53,6 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
 }
 
 /// Vertex colors are not part of the format; programs that write them write sRGB values 0–1.
-#[expect(clippy::cast_possible_truncation, reason = "0–1")]
 fn linear_color(srgb: &[f64]) -> [f32; 4] {
     let linear = |i: usize| linear_from_srgb(srgb[i].clamp(0.0, 1.0) as f32);
     [linear(0), linear(1), linear(2), 1.0]

@@ -99,7 +99,6 @@ impl Default for VertexRecord {
 
 impl VertexRecord {
     /// `full` is the value that means 1 in a color of the property's type.
-    #[expect(clippy::cast_possible_truncation, reason = "all but positions is kept as f32")]
     fn store(&mut self, name: &str, value: f64, full: f64) -> PropertyAccessResult {
         let single = value as f32;
         match name {
@@ -177,7 +176,6 @@ impl Vertices {
             radii: layout.radius.then(Vec::new),
             tangents: layout.tangents.then(|| (Vec::new(), Vec::new())),
             colors: (layout.rgb || layout.alpha).then(Vec::new),
-            #[expect(clippy::cast_precision_loss, reason = "0–255")]
             linear_of_byte: std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0)),
             side_from_normals: layout.normals && layout.tangents,
         }
@@ -225,7 +223,6 @@ impl Vertices {
 }
 
 /// Linear light of an sRGB value, clamped to 0–1; NaN stays NaN, so that the vertex is counted as defective.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0–255")]
 fn linear(of_byte: &[f32; 256], encoded: f32) -> f32 {
     let encoded = encoded.clamp(0.0, 1.0);
     let byte = (encoded * 255.0).round();

@@ -126,7 +126,6 @@ pub fn errors(
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "counts of pixels are far below 2⁵³")]
 fn share(part: u64, all: u64) -> f64 {
     if all == 0 { 0.0 } else { part as f64 / all as f64 }
 }

@@ -27,7 +27,6 @@ impl Surface {
     }
 
     /// Of a reference picture.
-    #[expect(clippy::cast_possible_truncation, reason = "compared with 32-bit pictures")]
     pub fn of(picture: &Picture) -> Self {
         let pixels = &picture.pixels;
         Self {
@@ -45,7 +44,6 @@ impl Surface {
     }
 
     /// Of the ground truth.
-    #[expect(clippy::cast_possible_truncation, reason = "compared with 32-bit pictures")]
     pub fn of_truth(truth: &GroundTruth) -> Self {
         let pixels = &truth.pixels;
         Self {

@@ -95,7 +95,6 @@ impl ZoomStep {
         Some(self.figures.get(filter)?.as_ref()?.error.color?.rms)
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "counts of fragments are far below 2⁵³")]
     fn fragments(&self, filter: usize) -> Option<f64> {
         Some(self.figures.get(filter)?.as_ref()?.fragments? as f64)
     }
@@ -103,11 +102,6 @@ impl ZoomStep {
 
 /// How many samples along a pixel's side the ground truth needs at this distance: two between neighboring splats where the
 /// tilt brings them together, or it would alias itself; from `least` to [`MOST_SAMPLES_PER_SIDE`].
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "at most 256, at least 0; `as` saturates"
-)]
 pub fn samples_per_side(pixels_per_splat: f64, tilt_deg: f64, least: u32) -> u32 {
     let between_px = pixels_per_splat * tilt_deg.to_radians().cos();
     ((2.0 / between_px).ceil() as u32).min(MOST_SAMPLES_PER_SIDE).max(least)

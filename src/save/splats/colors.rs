@@ -92,7 +92,6 @@ impl Number {
     }
 
     /// The value that is read back for one from 0 to 1.
-    #[expect(clippy::cast_possible_truncation, reason = "the reader keeps 32 bits")]
     fn rounded(self, value: f32) -> f32 {
         match self {
             Self::UChar => (f64::from(steps(value, 255.0)) / 255.0) as f32,
@@ -101,7 +100,6 @@ impl Number {
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "steps are within the type's range")]
     fn push(self, row: &mut Vec<u8>, value: f32) -> io::Result<()> {
         match self {
             Self::UChar => row.write_all(&[steps(value, 255.0) as u8]),
@@ -112,7 +110,6 @@ impl Number {
 }
 
 /// A value as an integer from 0 to `full`.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0–65 535")]
 fn steps(value: f32, full: f32) -> u32 {
     (value.clamp(0.0, 1.0) * full).round() as u32
 }
