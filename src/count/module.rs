@@ -137,45 +137,12 @@ impl Module {
             let number = spec_ids.get(&id)?;
             specialization.iter().find(|(constant, _)| constant == number).map(|(_, value)| *value)
         };
-        let of_ids = |module: &Self| -> Vec<Id> {
-            ids(instruction).filter(|id| module.types.contains_key(id)).collect()
-        };
+        if let Some(type_) = self.declared_type(instruction) {
+            self.types.insert(id, type_);
+            return Ok(());
+        }
         let mut literal = literals(instruction);
         let value = match instruction.class.opcode {
-            Op::TypeBool => return self.type_(id, Type::Bool),
-            Op::TypeInt => return self.type_(id, Type::Int),
-            Op::TypeFloat => return self.type_(id, Type::Float),
-            Op::TypeVector | Op::TypeMatrix => {
-                let (inner, count) = (of_ids(self)[0], literal.next().unwrap_or(1));
-                return self.type_(
-                    id,
-                    match instruction.class.opcode {
-                        Op::TypeVector => Type::Vector { component: inner, count },
-                        _ => Type::Matrix { column: inner, count },
-                    },
-                );
-            }
-            Op::TypeArray => {
-                let mut operands = ids(instruction);
-                let element = operands.next().unwrap_or_default();
-                let length = operands.next().and_then(|length| self.constants.get(&length)?.first().copied());
-                return self.type_(id, Type::Array { element, count: length.unwrap_or(1) });
-            }
-            Op::TypeRuntimeArray => {
-                let element = of_ids(self)[0];
-                return self.type_(id, Type::Array { element, count: 1 });
-            }
-            Op::TypeStruct => return self.type_(id, Type::Struct(ids(instruction).collect())),
-            Op::TypePointer => {
-                let pointee = ids(instruction).next().unwrap_or_default();
-                return self.type_(id, Type::Pointer { pointee });
-            }
-            Op::TypeImage if instruction.operands.contains(&Operand::Dim(Dim::DimBuffer)) => {
-                return self.type_(id, Type::Texels);
-            }
-            Op::TypeVoid | Op::TypeFunction | Op::TypeImage | Op::TypeSampler | Op::TypeSampledImage => {
-                return self.type_(id, Type::Opaque);
-            }
             Op::Variable => {
                 if let Some(Operand::StorageClass(class)) = instruction.operands.first() {
                     self.variables.insert(id, *class);
@@ -203,9 +170,31 @@ impl Module {
         Ok(())
     }
 
-    fn type_(&mut self, id: Id, type_: Type) -> Result<(), String> {
-        self.types.insert(id, type_);
-        Ok(())
+    /// The type that an instruction declares, if it declares one.
+    fn declared_type(&self, instruction: &Instruction) -> Option<Type> {
+        let mut operands = ids(instruction);
+        let mut operand = || operands.next().unwrap_or_default();
+        let count = literals(instruction).next().unwrap_or(1);
+        Some(match instruction.class.opcode {
+            Op::TypeBool => Type::Bool,
+            Op::TypeInt => Type::Int,
+            Op::TypeFloat => Type::Float,
+            Op::TypeVector => Type::Vector { component: operand(), count },
+            Op::TypeMatrix => Type::Matrix { column: operand(), count },
+            Op::TypeArray => {
+                let (element, length) = (operand(), operand());
+                let length = self.constants.get(&length).and_then(|length| length.first().copied());
+                Type::Array { element, count: length.unwrap_or(1) }
+            }
+            Op::TypeRuntimeArray => Type::Array { element: operand(), count: 1 },
+            Op::TypeStruct => Type::Struct(ids(instruction).collect()),
+            Op::TypePointer => Type::Pointer { pointee: operand() },
+            Op::TypeImage if instruction.operands.contains(&Operand::Dim(Dim::DimBuffer)) => Type::Texels,
+            Op::TypeVoid | Op::TypeFunction | Op::TypeImage | Op::TypeSampler | Op::TypeSampledImage => {
+                Type::Opaque
+            }
+            _ => return None,
+        })
     }
 
     fn function(&mut self, instructions: impl Iterator<Item = Instruction>) -> Result<(), String> {

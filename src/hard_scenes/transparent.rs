@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::{
     Hard,
-    builder::{Builder, camera, settings},
+    builder::{Builder, ball_of_polygons, camera, rectangle, settings},
     shapes::sphere,
 };
 use crate::scene::{
@@ -24,48 +24,6 @@ pub fn all_layers() -> Settings {
 pub fn tinted(mut object: Object, color: [f32; 4]) -> Object {
     object.splats.colors = Colors::Uniform(color);
     object
-}
-
-/// A ball of polygons: `rings` of twice as many quads each, with smooth normals.
-pub fn ball_of_polygons(center: DVec3, radius: f64, rings: u32, color: [f32; 4]) -> MeshObject {
-    let columns = 2 * rings;
-    let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-    for ring in 0..=rings {
-        let (sin, cos) = (std::f64::consts::PI * f64::from(ring) / f64::from(rings)).sin_cos();
-        for column in 0..columns {
-            let (y, x) = (std::f64::consts::TAU * f64::from(column) / f64::from(columns)).sin_cos();
-            let normal = DVec3::new(sin * x, cos, sin * y);
-            positions.push(center + radius * normal);
-            normals.push(normal.as_vec3());
-        }
-    }
-    for ring in 0..rings {
-        for column in 0..columns {
-            let at = |ring: u32, column: u32| ring * columns + column % columns;
-            let [a, b] = [at(ring, column), at(ring, column + 1)];
-            let [c, d] = [at(ring + 1, column), at(ring + 1, column + 1)];
-            if ring > 0 {
-                triangles.push([a, b, d]);
-            }
-            if ring + 1 < rings {
-                triangles.push([a, d, c]);
-            }
-        }
-    }
-    let mesh = Mesh { positions, normals: Some(normals), colors: Colors::Uniform(color), triangles };
-    MeshObject { name: "ball of polygons".to_owned(), mesh, closed: true }
-}
-
-/// A rectangle of two triangles, its corners counterclockwise.
-pub fn rectangle(corners: [DVec3; 4], color: [f32; 4]) -> MeshObject {
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero().as_vec3();
-    let mesh = Mesh {
-        positions: corners.to_vec(),
-        normals: Some(vec![normal; 4]),
-        colors: Colors::Uniform(color),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-    };
-    MeshObject { name: "rectangle".to_owned(), mesh, closed: false }
 }
 
 /// A square of disks, all of one normal.

@@ -34,7 +34,7 @@ pub use methods::{
 pub use opacity::Opacity;
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
-pub use settings::Settings;
+pub use settings::{Settings, with_each};
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};
 pub use tile_memory::TileMemory;

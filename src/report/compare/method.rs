@@ -4,7 +4,7 @@ use std::{collections::HashSet, fmt};
 
 use serde::Serialize;
 
-use crate::scene::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer, Settings};
+use crate::scene::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer, Settings, with_each};
 
 /// One way to draw: what the papers vary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -30,6 +30,9 @@ pub struct WeightedFilter {
 }
 
 impl Method {
+    /// The options that tell one method from another.
+    pub const OPTIONS: [&str; 5] = ["rasterizer", "filter", "filter-weight", "accumulate", "kernel-eval"];
+
     /// These settings, drawn with this method.
     pub fn settings(&self, base: &Settings) -> Settings {
         Settings {
@@ -88,19 +91,6 @@ pub struct Selection {
     pub accumulates: Vec<Accumulate>,
     /// Of `--kernel-eval`.
     pub kernel_evals: Vec<KernelEval>,
-}
-
-/// Each of the things with each of the values, the values of one thing after the other.
-pub fn with_each<T: Clone, V: Copy>(all: Vec<T>, values: &[V], set: fn(&mut T, V)) -> Vec<T> {
-    let mut product = Vec::new();
-    for thing in all {
-        product.extend(values.iter().map(|value| {
-            let mut thing = thing.clone();
-            set(&mut thing, *value);
-            thing
-        }));
-    }
-    product
 }
 
 impl Selection {
@@ -193,13 +183,8 @@ mod tests {
         let settings = method.settings(&Settings::default());
         let options = settings.as_options();
         let json = serde_json::to_value(method).unwrap();
-        for (option, name) in [
-            ("rasterizer", "rasterizer"),
-            ("filter", "filter"),
-            ("filter-weight", "filter_weight"),
-            ("accumulate", "accumulate"),
-            ("kernel-eval", "kernel_eval"),
-        ] {
+        for option in Method::OPTIONS {
+            let name = option.replace('-', "_");
             assert_eq!(json[name], options[option].as_str(), "{option}");
         }
     }

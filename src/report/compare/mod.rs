@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 pub use errors::{Deviation, ErrorFigures, errors};
-pub use method::{Method, Selection, WeightedFilter, with_each};
+pub use method::{Method, Selection, WeightedFilter};
 pub use pareto::pareto_front;
 pub use ssim::ssim;
 pub use surface::Surface;
