@@ -1,10 +1,10 @@
 //! JSON texts.
 
-use std::io;
+use std::{io, path::Path};
 
 use serde::Serialize;
 use serde_json::Value;
-use surfel::{Error, Result};
+use surfel::{Error, Result, save};
 
 /// JSON, indented, with a line end. Numbers that are not finite become `null`.
 ///
@@ -21,4 +21,12 @@ pub fn to_json(value: &impl Serialize) -> Result<String> {
 /// As [`to_json`].
 pub fn to_value(value: &impl Serialize) -> Result<Value> {
     serde_json::to_value(value).map_err(|e| Error::file("JSON", "write", io::Error::other(e)))
+}
+
+/// Writes it into a file, where one is asked for.
+///
+/// # Errors
+/// As [`to_json`] and [`save::text`].
+pub fn write_json(path: Option<&Path>, value: &impl Serialize) -> Result<()> {
+    path.map_or(Ok(()), |path| save::text(path, &to_json(value)?))
 }

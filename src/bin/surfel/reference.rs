@@ -57,7 +57,6 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "files hold 32-bit floats")]
 fn dump(picture: &Picture) -> Dump {
     let pixels = &picture.pixels;
     let one = |value: fn(&Pixel) -> f64| pixels.iter().map(|pixel| value(pixel) as f32).collect();

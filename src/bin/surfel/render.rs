@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use surfel::{
-    Progress as _, Result,
+    Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    save,
     scene::{Settings, Storage},
 };
 
@@ -16,14 +15,14 @@ use crate::{
     console::{self, Bars},
     device::DeviceArguments,
     explain,
-    json::to_json,
+    json::write_json,
     measure::{self, View},
     outputs::{self, PictureFormat},
     parse,
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
-    scene::{INPUTS, Loaded, load_scene},
+    scene::{INPUTS, Loaded, load_scene, upload},
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
@@ -93,7 +92,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
 }
 
 fn draw(
-    mut headless: Headless,
+    headless: &mut Headless,
     arguments: &RenderArguments,
     settings: &Settings,
     camera: &CameraChoice,
@@ -107,17 +106,14 @@ fn draw(
     let camera = camera.camera(&loaded, settings.size_px)?;
     let Loaded { mut scene, inputs, .. } = loaded;
     scene.storage = arguments.storage.over(Storage::default());
-    let prepared =
-        steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
-    bars.clear();
-    let prepared = prepared?;
+    let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };
 
     let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));
     if let Some(frames) = frames {
-        let (times, transient_bytes) = measure::frame_times(&mut headless, view, frames, &mut steps)?;
+        let (times, transient_bytes) = measure::frame_times(headless, view, frames, &mut steps)?;
         let report = RunReport {
             surfel: env!("CARGO_PKG_VERSION").to_owned(),
             device: device_report(headless.device().facts()),
@@ -128,15 +124,9 @@ fn draw(
             frames: times,
         };
         console::print(&report.to_string())?;
-        if let Some(path) = &arguments.timings {
-            save::text(path, &to_json(&report)?)?;
-        }
+        write_json(arguments.timings.as_deref(), &report)?;
     }
-
-    write(&mut headless, arguments, view, format)?;
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
+    write(headless, arguments, view, format)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.

@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use surfel::{
-    Error, ErrorKind, Result,
+    Error, ErrorKind, Progress as _, Result,
     compose::{build, make, resampled},
-    load::{BuiltIn, ObjectDescription, Representation, Samples, is_scene_file, load_scene_file},
+    load::{BuiltIn, ObjectDescription, Representation, Samples, file_name, is_scene_file, load_scene_file},
+    prepare::PreparedScene,
+    renderer::Headless,
     report::InputReport,
     scene::{Ball, CameraParts, Light, Mesh, Object, Scene},
 };
@@ -88,6 +90,16 @@ pub fn load_scene(
     Ok(Loaded { scene, ball, camera, inputs })
 }
 
+/// Brings a scene to the device.
+///
+/// # Errors
+/// As [`Headless::prepare`].
+pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<PreparedScene> {
+    let prepared = headless.prepare(scene, &|done, total| bars.step("upload", done, total));
+    bars.clear();
+    prepared
+}
+
 /// The splats of one input that is no scene file, without those that can't be drawn.
 ///
 /// # Errors
@@ -117,8 +129,7 @@ pub fn resample_mesh(
     seed: u64,
     bars: &Bars,
 ) -> Result<(Object, InputReport)> {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    resampled(mesh, name, Samples { count, seed }, bars).map_err(|error| match error.kind() {
+    resampled(mesh, file_name(path), Samples { count, seed }, bars).map_err(|error| match error.kind() {
         // The library knows no file.
         ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
         _ => error,

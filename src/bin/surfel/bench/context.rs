@@ -1,7 +1,7 @@
 //! What every table is measured with, and gathers on the way.
 
 use surfel::{
-    Progress as _, Result,
+    Result,
     prepare::PreparedScene,
     renderer::Headless,
     report::{InputReport, bench::TrustLimits},
@@ -9,7 +9,7 @@ use surfel::{
 };
 
 use super::arguments::BenchArguments;
-use crate::console::Bars;
+use crate::{console::Bars, scene::upload};
 
 /// What every table is given.
 pub struct BenchContext<'a> {
@@ -36,6 +36,6 @@ impl BenchContext<'_> {
     /// Settings that the scene rules out; whatever the allocator or the driver answers.
     pub fn prepare(&self, headless: &Headless, scene: &Scene) -> Result<PreparedScene> {
         self.settings.check_scene(scene)?;
-        headless.prepare(scene, &|done, total| self.bars.step("upload", done, total))
+        upload(headless, scene, &self.bars)
     }
 }

@@ -10,9 +10,11 @@ use surfel::{
     passes::{PipelineRecipe, PipelineStages},
     report::{
         bench::{InstructionReport, InstructionRow, PipelineNames},
-        compare::{WeightedFilter, with_each},
+        compare::WeightedFilter,
     },
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
+    scene::{
+        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations, with_each,
+    },
 };
 
 use super::arguments::{Bench, BenchArguments};

@@ -19,7 +19,7 @@ use crate::{
     camera::CameraChoice,
     machine::clock_mhz,
     reports::scene_report,
-    scene::{Loaded, load_scene},
+    scene::{Loaded, load_scene, upload},
     steps::Steps,
     turns,
 };
@@ -34,7 +34,7 @@ pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Resul
     let loaded = load_scene(&inputs, Representation::Splats, bars, &mut Steps::default())?;
     let camera = CameraChoice::none().camera(&loaded, settings.size_px)?;
     let Loaded { scene, inputs, .. } = loaded;
-    let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
+    let prepared = upload(headless, &scene, bars)?;
     drop(scene);
     let points = Settings { rasterizer: Rasterizer::Perspective, ..settings.clone() };
     let mut floor = Floor::new(headless, &prepared, &camera, &points, false)?;

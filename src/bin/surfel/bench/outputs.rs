@@ -10,7 +10,7 @@ use surfel::{
 };
 
 use super::arguments::{Bench, BenchArguments};
-use crate::{json::to_json, outputs};
+use crate::{json::write_json, outputs};
 
 /// Checks that all files that are asked for can be written.
 ///
@@ -32,9 +32,7 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
 /// # Errors
 /// Whatever the file system answers.
 pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(report)?)?;
-    }
+    write_json(arguments.json.as_deref(), report)?;
     if let Some(path) = &arguments.markdown {
         save::text(path, &report.markdown())?;
     }

@@ -25,7 +25,7 @@ pub use zoom::gather as gather_zoom;
 use crate::{
     camera::CameraChoice,
     console::{self, Bars},
-    json::to_json,
+    json::write_json,
     outputs,
     scene::load_scene,
     steps::Steps,
@@ -52,8 +52,8 @@ fn check_outputs(arguments: &CompareArguments) -> Result<()> {
     outputs::check_places([json, plot].into_iter().flatten(), pictures.as_deref(), &[], inputs)
 }
 
-fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
-    timed_settings(&headless, arguments)?; // before anything takes long
+fn compare(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> {
+    timed_settings(headless, arguments)?; // before anything takes long
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
     let loaded =
@@ -63,33 +63,24 @@ fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
         Some(folder) => pictures::write(folder, &shown),
         None => Ok(()),
     };
-    let report = gather(&mut headless, arguments, &loaded, &camera, &bars, &mut show)?;
-    tell(&headless, arguments, &report, &report.plot())
+    let report = gather(headless, arguments, &loaded, &camera, &bars, &mut show)?;
+    tell(arguments, &report, &report.plot())
 }
 
-fn over_distance(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
-    let report = gather_zoom(&mut headless, arguments, &Bars::new())?;
-    tell(&headless, arguments, &report, &report.plot())
+fn over_distance(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> {
+    let report = gather_zoom(headless, arguments, &Bars::new())?;
+    tell(arguments, &report, &report.plot())
 }
 
 /// Prints what was found, and writes what is asked for.
 ///
 /// # Errors
 /// Results that can't be written.
-fn tell<R: Display + Serialize>(
-    headless: &Headless,
-    arguments: &CompareArguments,
-    report: &R,
-    plot: &Plot,
-) -> Result<()> {
+fn tell<R: Display + Serialize>(arguments: &CompareArguments, report: &R, plot: &Plot) -> Result<()> {
     console::print(&report.to_string())?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(report)?)?;
+    write_json(arguments.json.as_deref(), report)?;
+    match &arguments.plot {
+        Some(path) => save::text(path, &plot.svg(PLOT_SIZE_PX)?),
+        None => Ok(()),
     }
-    if let Some(path) = &arguments.plot {
-        save::text(path, &plot.svg(PLOT_SIZE_PX)?)?;
-    }
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
 }

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use surfel::{
-    Progress as _, Result,
+    Result,
     prepare::PreparedScene,
     renderer::{Frame, Headless, Wanted},
     scene::{Camera, Scene, Settings},
 };
 
 use super::raster::Raster;
-use crate::console::Bars;
+use crate::{console::Bars, scene::upload};
 
 /// A device, and what the command line says.
 pub struct FigureContext<'a> {
@@ -30,9 +30,7 @@ impl FigureContext<'_> {
     /// # Errors
     /// As [`Headless::prepare`].
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene> {
-        let prepared = self.headless.prepare(scene, &|done, total| self.bars.step("upload", done, total));
-        self.bars.clear();
-        prepared
+        upload(self.headless, scene, self.bars)
     }
 
     /// Draws the picture.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use surfel::{
     Error, Result,
     geometry::{Hybrid, HybridOptions, hybrid},
-    load::{Model, builtin::relief_mesh, load},
+    load::{Model, builtin::relief_mesh, file_name, load},
     prepare::PreparedScene,
     scene::{Accumulate, Camera, Kernel, Mesh, MeshObject, Object, Scene, Settings, Transition},
 };
@@ -72,11 +72,10 @@ fn model(context: &FigureContext<'_>) -> Result<(Mesh, String)> {
     let Some(path) = context.model else {
         return Ok((relief_mesh(FEW_TRIANGLES), "The built-in relief".to_owned()));
     };
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let model = load(path, context.bars);
     context.bars.clear();
     match model? {
-        Model::Mesh(mesh) => Ok((mesh, name)),
+        Model::Mesh(mesh) => Ok((mesh, file_name(path))),
         Model::Splats { .. } => {
             Err(Error::input(path, "", "the file holds splats; expected a mesh, to draw its triangles"))
         }
@@ -135,7 +134,6 @@ fn settings_text() -> String {
     )
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0–255")]
 fn gray(weight: f32) -> [u8; 3] {
     [(255.0 * weight.clamp(0.0, 1.0)).round() as u8; 3]
 }

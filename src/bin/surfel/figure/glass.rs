@@ -158,7 +158,6 @@ fn balls() -> Vec<Object> {
         for y in -1..=1 {
             for x in -1..=1 {
                 let place = [x, y, z].map(f64::from);
-                #[expect(clippy::cast_possible_truncation, reason = "a color")]
                 let color = place.map(|along| linear_from_srgb(0.6 + 0.35 * along as f32));
                 balls.push(ball(BALL_SPLATS, BALL_SPACING * DVec3::from(place), BALL_RADIUS, color, alpha));
             }

@@ -50,15 +50,8 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     }
     outputs::check_places([&output], None, &[], &arguments.model)?;
     arguments.device.watch(arguments.device.open()?, |headless| {
-        write(&draw_once(headless, arguments, figure)?, &output, size_px)
+        write(&draw(headless, &Bars::new(), arguments, figure)?, &output, size_px)
     })
-}
-
-fn draw_once(mut headless: Headless, arguments: &FigureArguments, figure: Figure) -> Result<Drawing> {
-    let drawn = draw(&mut headless, &Bars::new(), arguments, figure);
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    drawn
 }
 
 /// Draws a figure.

@@ -2,8 +2,8 @@
 
 use surfel::{
     Error, Result,
-    load::{Representation, builtin::relief},
-    scene::{Accumulate, Camera, Filter, KernelEval, Object, Rasterizer, Scene, Settings},
+    load::{Representation, builtin::relief, file_name},
+    scene::{Accumulate, Camera, Filter, KernelEval, Rasterizer, Scene, Settings},
 };
 
 use super::{
@@ -26,20 +26,14 @@ const NEARER: f64 = 0.5;
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let (scene, what) = match context.model {
         Some(path) => {
-            let scene =
-                load_scene(&[path.to_owned()], Representation::Splats, context.bars, &mut Steps::default())?
-                    .scene;
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-            let what = format!("{name}, {} splats", scene.splat_count());
-            (scene, what)
+            let inputs = [path.to_owned()];
+            let loaded = load_scene(&inputs, Representation::Splats, context.bars, &mut Steps::default())?;
+            let what = format!("{}, {} splats", file_name(path), loaded.scene.splat_count());
+            (loaded.scene, what)
         }
         None => {
-            let Object { splats, .. } = relief(FEW_SPLATS);
-            let object = Object { name: "built-in relief".to_owned(), splats, closed: true };
-            (
-                Scene { objects: vec![object], ..Scene::default() },
-                format!("the built-in relief with {FEW_SPLATS} splats"),
-            )
+            let scene = Scene { objects: vec![relief(FEW_SPLATS)], ..Scene::default() };
+            (scene, format!("the built-in relief with {FEW_SPLATS} splats"))
         }
     };
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;

@@ -79,14 +79,14 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
     arguments.device.watch(arguments.device.open()?, |headless| make(headless, arguments))
 }
 
-fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
-    check_sizes(&headless, arguments)?;
+fn make(headless: &mut Headless, arguments: &ReportArguments) -> Result<()> {
+    check_sizes(headless, arguments)?;
     let bars = Bars::new();
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
     let loaded = load_scene(&inputs, Representation::Splats, &bars, &mut Steps::default())?;
     let camera = CameraChoice::none().camera(&loaded, arguments.size_px())?;
     let head = Head::of(headless.device().facts(), arguments, &loaded);
-    let (headless, loaded, camera, bars) = (&mut headless, &loaded, &camera, &bars);
+    let (loaded, camera, bars) = (&loaded, &camera, &bars);
     let mut session = Session { headless, arguments, loaded, camera, bars, comparison: None };
     let mut parts = Vec::new();
     for (number, (id, title, gather)) in CHAPTERS.iter().enumerate() {
@@ -103,10 +103,7 @@ fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
         };
         parts.push(Part { id, title, ..part });
     }
-    write(arguments, &head, &parts)?;
-    // A lost cache costs the next run some time, that is all.
-    let _ = session.headless.renderer.shaders.save_cache();
-    Ok(())
+    write(arguments, &head, &parts)
 }
 
 /// Refuses sizes that only a later part would find too large.

@@ -20,9 +20,9 @@ pub use arguments::SelftestArguments;
 
 use crate::{
     console::{self, Bars},
-    json::to_json,
+    json::write_json,
     outputs,
-    reports::device_report,
+    reports::{device_report, layer_version, version},
 };
 
 /// Runs the subcommand.
@@ -83,9 +83,7 @@ pub fn run(arguments: &SelftestArguments) -> Result<()> {
         cases: outcome.results,
     };
     console::print(&format!("{report}{}", skips(&report)))?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
-    }
+    write_json(arguments.json.as_deref(), &report)?;
     if let Some(path) = &arguments.junit {
         save::text(path, &junit::text(&report)?)?;
     }
@@ -124,9 +122,9 @@ fn lists(arguments: &SelftestArguments) -> Result<Vec<KnownList>> {
 
 /// The validation layer's version; `None` where it is not to watch.
 fn validation(arguments: &SelftestArguments, loader: &LoaderFacts) -> Result<Option<String>> {
-    match (arguments.no_validate, loader.validation_layer) {
+    match (arguments.no_validate, layer_version(loader)) {
         (true, _) => Ok(None),
-        (false, Some((spec, own))) => Ok(Some(format!("{} (version {own})", version(spec)))),
+        (false, Some(version)) => Ok(Some(version)),
         (false, None) => {
             let reason = "VK_LAYER_KHRONOS_validation is not installed; --no-validate goes without";
             Err(ErrorKind::NoDevice { reasons: vec![reason.to_owned()] }.into())
@@ -142,8 +140,4 @@ fn skips(report: &SelftestReport) -> String {
     }
     let line = |(reason, cases): (&str, usize)| format!("skipped, {cases} case(s): {reason}\n");
     reasons.into_iter().map(line).collect()
-}
-
-fn version([major, minor, patch]: [u32; 3]) -> String {
-    format!("{major}.{minor}.{patch}")
 }

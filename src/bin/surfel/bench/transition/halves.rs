@@ -8,6 +8,7 @@ use surfel::{
     load::{
         Samples,
         builtin::{self, DEFAULT_SPHERE_TRIANGLES},
+        file_name,
     },
     report::InputReport,
     scene::{Mesh, MeshObject, Object, Scene},
@@ -45,10 +46,7 @@ pub fn make(source: &Source, splats: u64, bars: &Bars) -> Result<Halves> {
     };
     let built_in;
     let (mesh, model) = match source {
-        Source::Mesh(mesh, path) => {
-            let name = path.file_name().unwrap_or(path.as_os_str());
-            (mesh, name.to_string_lossy().into_owned())
-        }
+        Source::Mesh(mesh, path) => (mesh, file_name(path)),
         Source::BuiltIn => {
             built_in = builtin::sphere_mesh(DEFAULT_SPHERE_TRIANGLES);
             (&built_in, "built-in sphere".to_owned())
