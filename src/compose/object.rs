@@ -17,14 +17,14 @@ use crate::{
     scene::{MeshObject, Object},
 };
 
-/// What an object became; at least one of the two has something to draw.
+/// The parts that an object became; at least one of the two has something to draw.
 #[derive(Clone, Debug)]
 pub struct BuiltObject {
-    /// What is drawn of it as splats; each can be drawn.
+    /// Its splats; each can be drawn.
     pub splats: Option<Object>,
-    /// What is drawn of it as triangles.
+    /// Its triangles.
     pub triangles: Option<MeshObject>,
-    /// The same in numbers and words.
+    /// Both in numbers and words.
     pub report: InputReport,
     /// How long each step took.
     pub steps: Vec<Step>,
@@ -101,7 +101,7 @@ fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts>
     Ok(Parts { splats: Some(splats), triangles: None, report })
 }
 
-/// What is wrong with an object's model, in the name of its file: what makes splats of it knows none.
+/// An error of an object's model, in the name of its file: what makes splats of it knows none.
 fn of_object(error: Error, object: &ObjectDescription) -> Error {
     let ErrorKind::Input { problem, .. } = error.kind() else { return error };
     match &object.source {

@@ -7,7 +7,7 @@ use rspirv::{
 
 use super::module::{Id, Module, ids, literals};
 
-/// What an `OpSpecConstantOp` evaluates to.
+/// The value of an `OpSpecConstantOp`.
 pub fn constant_operation(module: &Module, instruction: &Instruction) -> Option<Vec<u32>> {
     let Some(Operand::LiteralSpecConstantOpInteger(op)) = instruction.operands.first() else { return None };
     let operands: Vec<&[u32]> =
@@ -16,7 +16,7 @@ pub fn constant_operation(module: &Module, instruction: &Instruction) -> Option<
     operation(module, *op, instruction, first_operand, &operands)
 }
 
-/// What an instruction evaluates to where all of its operands are constants.
+/// The value of an instruction all of whose operands are constants.
 pub fn operation(
     module: &Module,
     op: Op,

@@ -1,4 +1,4 @@
-//! What is listed beside the count, and the longest path.
+//! The instructions listed beside the count, and the longest path.
 
 use std::collections::HashMap;
 

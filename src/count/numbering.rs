@@ -28,7 +28,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// What holds the whole vector: an instruction's result, or a place in a variable. `None` for a constant, which can be
+    /// The owner of the whole vector: an instruction's result, or a place in a variable. `None` for a constant, which can be
     /// in any register.
     pub fn register(self) -> Option<(Id, u32)> {
         match self {
@@ -184,7 +184,7 @@ enum Operand {
     Opaque(Id),
 }
 
-/// What is computed: the operation, its type, its literal numbers and its operands.
+/// A computation: the operation, its type, its literal numbers and its operands.
 type Computation = (Op, Option<Id>, Vec<u32>, Vec<Operand>);
 
 /// Makes each value that repeats an earlier one stand for it.

@@ -17,7 +17,7 @@ use super::{
     numbering,
 };
 
-/// What is known of a value.
+/// The knowledge of a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
     /// Any will do.
@@ -112,7 +112,7 @@ impl<'a> Specialized<'a> {
         self.places.get(&id).map(|(block, _)| self.module.blocks[*block].label)
     }
 
-    /// What a phi takes over the edges that exist.
+    /// The values that a phi takes over the edges that exist.
     pub fn incoming(&self, phi: &Instruction) -> Vec<Id> {
         let Some(label) = phi.result_id.and_then(|id| self.block_of(id)) else { return Vec::new() };
         let pairs: Vec<Id> = ids(phi).collect();
@@ -176,7 +176,7 @@ impl<'a> Specialized<'a> {
         }
     }
 
-    /// What is known of an instruction's value; `None` where nothing is yet.
+    /// The knowledge of an instruction's value; `None` where nothing is yet.
     fn evaluate(&self, instruction: &Instruction) -> Option<Value> {
         let operands: Vec<Id> = ids(instruction).map(|id| self.resolve(id)).collect();
         match instruction.class.opcode {

@@ -70,7 +70,7 @@ pub(super) struct Counted {
     pub at: Id,
 }
 
-/// What was counted so far.
+/// The instructions counted so far.
 pub(super) struct Tally<'s, 'a> {
     pub specialized: &'s Specialized<'a>,
     live: &'s Live<'a>,

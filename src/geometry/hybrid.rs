@@ -38,10 +38,10 @@ use near::{MARKS_PER_RADIUS, Near};
 /// How the splat part is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HybridOptions {
-    /// Of the splat part, spread evenly over its area as [`super::resample`] does; those on edges come on top, those
-    /// removed are missing. 1 to [`MOST_SAMPLES`].
+    /// The number of splats of the splat part, spread evenly over its area as [`super::resample`] does; those on edges
+    /// come on top, those removed are missing. 1 to [`MOST_SAMPLES`].
     pub samples: u64,
-    /// The same seed gives the same samples.
+    /// The seed: the same one gives the same samples.
     pub seed: u64,
     /// Splats on the transition edges, and none too close to them. Without, the seam is the paper's figure 5d.
     pub sample_edges: bool,
@@ -50,27 +50,27 @@ pub struct HybridOptions {
 /// A mesh in two parts.
 #[derive(Clone, Debug)]
 pub struct Hybrid {
-    /// Those of the splat part in the order of its triangles, then those on transition edges.
+    /// The splats of the splat part in the order of its triangles, then those on transition edges.
     pub splats: Splats,
     /// The other part, as [`shaded_mesh`] makes it; its normals, and the splats', are those of the whole mesh, so that
     /// both parts are shaded alike where they meet. Only vertices that it uses.
     pub polygons: Mesh,
     /// The whole mesh is closed, which neither part need be.
     pub closed: bool,
-    /// What was done.
+    /// The report.
     pub report: HybridReport,
 }
 
-/// What was done to make a [`Hybrid`].
+/// The facts on how a [`Hybrid`] was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HybridReport {
-    /// What was found in the whole mesh.
+    /// The facts found in the whole mesh.
     pub mesh: MeshReport,
     /// Triangles that stay polygons.
     pub polygons: usize,
     /// Edges that both parts have.
     pub transition_edges: usize,
-    /// Of all of them, in world units.
+    /// The length of all of them, in world units.
     pub transition_length: f64,
     /// The radius of the splats on them, which is the median inside; 0 where there is no splat part.
     pub edge_radius: f64,
@@ -153,7 +153,7 @@ fn splat_part(
     Ok(splats)
 }
 
-/// Those of the splats on the edges, none without `wanted`.
+/// The places of the splats on the edges, none without `wanted`.
 fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bool) -> Result<Vec<Place>> {
     let marks = chains.count(radius / MARKS_PER_RADIUS);
     // Those near the edges are there twice.

@@ -28,7 +28,7 @@ pub(super) struct Point {
     pub number: u32,
 }
 
-/// What [`Tree::nearest_to`] finds.
+/// The neighbors that [`Tree::nearest_to`] finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest {
     pub distance: f64,
@@ -46,7 +46,7 @@ impl Tree {
     /// Bytes that [`Tree::new`] needs for a point, its argument included.
     pub(super) const BYTES_PER_POINT: usize = size_of::<Point>() + 1;
 
-    /// Of finite points.
+    /// The tree of finite points.
     pub(super) fn new(mut points: Vec<Point>) -> Self {
         let mut axes = vec![0; points.len()];
         halve(&mut points, &mut axes, threads(usize::MAX));

@@ -109,12 +109,12 @@ pub fn check_memory_for(count: usize, bytes_each: usize) -> Result<(), String> {
 pub(super) struct Areas {
     /// Where each triangle's part ends; a degenerate one has none.
     ends: Vec<f64>,
-    /// Of all, above 0.
+    /// The area of all, above 0.
     pub(super) total: f64,
 }
 
 impl Areas {
-    /// Of those of the mesh's triangles that are `part` of what is sampled; the others are as if they had no area.
+    /// The areas of those of the mesh's triangles that are `part` of what is sampled; the others are as if they had no area.
     pub(super) fn of(mesh: &Mesh, part: &dyn Fn(usize) -> bool) -> Result<Self> {
         let mut total = 0.0;
         let mut ends = Vec::with_capacity(mesh.triangles.len());

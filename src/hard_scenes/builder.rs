@@ -1,4 +1,4 @@
-//! What scenes are made of: random numbers that repeat, splats one by one, camera and settings.
+//! Parts of scenes: random numbers that repeat, splats one by one, polygons, camera and settings.
 
 use std::f64::consts::TAU;
 
@@ -133,7 +133,7 @@ pub fn settings() -> Settings {
     Settings { size_px: [256, 256], rasterizer, accumulate: Accumulate::F32, ..Settings::default() }
 }
 
-/// The same without a filter.
+/// These settings without a filter.
 pub fn unfiltered() -> Settings {
     Settings { filter: Filter::None, ..settings() }
 }

@@ -16,7 +16,7 @@ use crate::scene::{Camera, Filter, Scene, Settings};
 /// A scene, its camera, and how it is to be rendered.
 #[derive(Clone)]
 pub struct Hard {
-    /// What is hard about it.
+    /// Its name: what is hard about it.
     pub name: &'static str,
     /// The splats.
     pub scene: Scene,

@@ -1,4 +1,4 @@
-//! What the splats are: an ordinary surface, ellipses any way round, many in one place, broken ones.
+//! Scenes that are hard by their splats: an ordinary surface, ellipses any way round, many in one place, broken ones.
 
 use std::f64::consts::PI;
 
@@ -34,7 +34,7 @@ pub fn sphere_of_disks() -> Hard {
     Hard { name: "sphere of disks", scene, camera: camera([0.0, 0.0, 3.2], [0.0; 3]), settings: settings() }
 }
 
-/// The same sphere where a step of f32 is half a unit.
+/// The sphere where a step of f32 is half a unit.
 pub fn far_from_the_origin() -> Hard {
     let offset = DVec3::new(500_000.0, 4_600_000.0, 300.0);
     let scene = Scene { objects: vec![sphere(3000, offset)], ..Scene::default() };

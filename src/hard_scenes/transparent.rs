@@ -20,7 +20,7 @@ pub fn all_layers() -> Settings {
     Settings { layers: ALL_LAYERS, last_layer: LastLayer::Drop, ..settings() }
 }
 
-/// The same splats in one color with an alpha.
+/// These splats in one color with an alpha.
 pub fn tinted(mut object: Object, color: [f32; 4]) -> Object {
     object.splats.colors = Colors::Uniform(color);
     object
@@ -197,7 +197,7 @@ pub fn hybrid(transition: Transition) -> Hard {
     half_and_half("splats and polygons of one surface", [1.0, 1.0], transition)
 }
 
-/// The same, transparent.
+/// The hybrid, transparent.
 pub fn transparent_hybrid(transition: Transition) -> Hard {
     half_and_half("transparent splats and polygons of one surface", [0.5, 0.6], transition)
 }
@@ -242,7 +242,7 @@ pub fn blended() -> Hard {
     Hard { name: "last layer blended", scene, camera, settings }
 }
 
-/// The same with the alpha of as many surfaces as the weights tell.
+/// The blended scene with the alpha of as many surfaces as the weights tell.
 pub fn stacked(transition: Transition) -> Hard {
     let mut hard = blended();
     hard.name = "last layer stacked";

@@ -22,7 +22,7 @@ pub use scene_file::{
     Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
 };
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Clone, Debug)]
 pub enum Model {
     /// Disks, ready to be drawn once [`Splats::drop_defective`] was called.

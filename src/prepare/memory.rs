@@ -1,4 +1,4 @@
-//! What a chunk has on the device: its buffers, and the descriptor set that shaders find the first two by.
+//! The memory of a chunk on the device: its buffers, and the descriptor set that shaders find the first two by.
 
 use ash::vk;
 

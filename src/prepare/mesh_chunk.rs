@@ -18,7 +18,7 @@ use crate::{
     vk::Staging,
 };
 
-/// What is uploaded at once.
+/// The most bytes that are uploaded at once.
 const BATCH_BYTES: usize = 1 << 22;
 
 /// Triangles of one object in buffers of their own.

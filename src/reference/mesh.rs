@@ -52,7 +52,7 @@ fn prepare_one(object: &MeshObject, i: usize, view: &View) -> Option<DrawnTriang
     DrawnTriangle::new(corners, [a?, b?, c?])
 }
 
-/// Of a vertex; without a normal where the mesh has none.
+/// The attributes of a vertex; without a normal where the mesh has none.
 fn attributes(object: &MeshObject, vertex: usize, view: &View) -> Option<Attributes> {
     let color = object.mesh.colors.get(vertex)?;
     let normal = match &object.mesh.normals {

@@ -20,7 +20,7 @@ pub struct Spread {
 const TAIL: f64 = 0.025;
 
 impl Spread {
-    /// Of these values; `None` where there is none, or one is not finite.
+    /// The spread of these values; `None` where there is none, or one is not finite.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = values.into_iter().collect();
         if !sorted.iter().all(|value| value.is_finite()) {
@@ -48,7 +48,7 @@ impl Spread {
         self.interval.map(|[low, high]| low <= value && value <= high)
     }
 
-    /// Of 1 over each value; `None` unless all are above 0.
+    /// The spread of 1 over each value; `None` unless all are above 0.
     pub fn inverse(&self) -> Option<Self> {
         let of = |value: f64| 1.0 / value;
         (self.min > 0.0).then(|| Self {

@@ -19,18 +19,18 @@ pub struct Case {
     pub name: String,
     /// Whether the quick form has it.
     pub quick: bool,
-    /// What it draws, and how.
+    /// Its drawing; `None` where it draws nothing.
     pub(super) drawing: Option<Drawing>,
 }
 
-/// What a case draws, and what it has to be like.
+/// The drawing of a case, and what it has to be like.
 #[derive(Clone, Debug)]
 pub(super) struct Drawing {
     /// The scene, by its index in the suite.
     pub scene: usize,
     /// The method.
     pub settings: Settings,
-    /// What is checked.
+    /// The check.
     pub check: Check,
 }
 

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::error::Result;
 
-/// What a compute pipeline is.
+/// The description of a compute pipeline.
 #[derive(Clone, Copy)]
 pub struct ComputePipelineDesc<'a> {
     /// Its debug name.

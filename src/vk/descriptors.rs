@@ -13,13 +13,13 @@ use crate::error::Result;
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
-    /// What it holds. `COMBINED_IMAGE_SAMPLER` comes with a bilinear sampler of the layout's own.
+    /// Its type. `COMBINED_IMAGE_SAMPLER` comes with a bilinear sampler of the layout's own.
     pub kind: vk::DescriptorType,
     /// The stages that see it.
     pub stages: vk::ShaderStageFlags,
 }
 
-/// What a binding is given.
+/// The resource that a binding is given.
 #[derive(Clone, Copy, Debug)]
 pub enum Descriptor {
     /// The first bytes of a buffer, so many, storage or uniform as its binding is.
@@ -59,7 +59,7 @@ pub struct SetLayout {
     kinds: Vec<vk::DescriptorType>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
-    /// What its sets have in place of what they are not given, and the bindings of texels that are unsigned integers.
+    /// The stand-ins for what its sets are not given, and the bindings of texels that are unsigned integers.
     stand_ins: Option<(Arc<StandIns>, Vec<u32>)>,
 }
 
@@ -92,7 +92,7 @@ impl SetLayout {
         Ok(Self { owned, kinds, _sampler: sampler, stand_ins: None })
     }
 
-    /// The same with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
+    /// This layout with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
     /// unsigned integers.
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
         self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));

@@ -32,7 +32,7 @@ pub struct DepthState {
     pub write: bool,
 }
 
-/// What a graphics pipeline is.
+/// The description of a graphics pipeline.
 #[derive(Clone, Copy)]
 pub struct GraphicsPipelineDesc<'a> {
     /// Its debug name.
@@ -41,7 +41,7 @@ pub struct GraphicsPipelineDesc<'a> {
     pub vertex: Stage<'a>,
     /// The fragment stage.
     pub fragment: Stage<'a>,
-    /// What the vertices form.
+    /// The primitives that the vertices form.
     pub topology: vk::PrimitiveTopology,
     /// Triangles whose corners are clockwise, as the picture shows them, are not drawn.
     pub cull_clockwise: bool,

@@ -76,7 +76,7 @@ impl Statistics {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, count: u32) -> Result<Option<Self>> {
-        if !device.features().pipeline_statistics {
+        if !device.facts().pipeline_statistics {
             return Ok(None);
         }
         let info = vk::QueryPoolCreateInfo::default()

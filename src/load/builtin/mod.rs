@@ -19,7 +19,7 @@ use relief::{Relief, SurfacePoint};
 /// How many splats the built-in model has where nothing else is asked for.
 pub const DEFAULT_RELIEF_SPLATS: usize = 150_000;
 
-/// What the built-in models take of memory for each splat while they are made: a point of the surface, and the splat.
+/// The memory that the built-in models take for each splat while they are made: a point of the surface, and the splat.
 pub const BYTES_PER_SPLAT: usize = 64 + 56;
 
 /// A radius in units of the square root of a splat's share of the area. The lattice leaves no hole down to 0.7 (measured
@@ -56,7 +56,7 @@ pub fn relief(count: usize) -> Object {
     Object { name: "built-in relief".to_owned(), splats, closed: true }
 }
 
-/// The same surface as a mesh: [`sphere_mesh`] of so many triangles with the relief's heights, normals and colors at its
+/// The surface as a mesh: [`sphere_mesh`] of so many triangles with the relief's heights, normals and colors at its
 /// vertices. Below some hundred thousand triangles the relief is finer than they are.
 pub fn relief_mesh(triangles: u64) -> Mesh {
     let relief = Relief::new();

@@ -125,33 +125,29 @@ impl VertexRecord {
     }
 }
 
+/// The setters of properties of each type, with the value that means 1 in a color of it.
+macro_rules! setters {
+    ($($setter:ident: $type:ty = $full:literal,)+) => {
+        $(fn $setter(&mut self, name: &str, value: $type) -> PropertyAccessResult {
+            self.store(name, value.into(), $full)
+        })+
+    };
+}
+
 impl PropertyAccess for VertexRecord {
     fn new() -> Self {
         Self::default()
     }
-    fn set_char(&mut self, name: &str, value: i8) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_uchar(&mut self, name: &str, value: u8) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 255.0)
-    }
-    fn set_short(&mut self, name: &str, value: i16) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_ushort(&mut self, name: &str, value: u16) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 65_535.0)
-    }
-    fn set_int(&mut self, name: &str, value: i32) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_uint(&mut self, name: &str, value: u32) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_double(&mut self, name: &str, value: f64) -> PropertyAccessResult {
-        self.store(name, value, 1.0)
+
+    setters! {
+        set_char: i8 = 1.0,
+        set_uchar: u8 = 255.0,
+        set_short: i16 = 1.0,
+        set_ushort: u16 = 65_535.0,
+        set_int: i32 = 1.0,
+        set_uint: u32 = 1.0,
+        set_float: f32 = 1.0,
+        set_double: f64 = 1.0,
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a scene file says, as plain data.
+//! The contents of a scene file, as plain data.
 
 use std::path::PathBuf;
 
@@ -110,14 +110,14 @@ pub enum Representation {
 /// Which triangles of a mesh stay polygons, in the mesh's own coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Polygons {
-    /// Those whose middle (the mean of the corners) `x` has `normal · x ≥ d`.
+    /// Triangles whose middle (the mean of the corners) `x` has `normal · x ≥ d`.
     Plane {
-        /// Of any length above 0.
+        /// The plane's normal, of any length above 0.
         normal: DVec3,
         /// In the normal's length times the model's unit.
         d: f64,
     },
-    /// Those with an edge longer than that, in the model's unit.
+    /// Triangles with an edge longer than that, in the model's unit.
     LongerThan(f64),
 }
 

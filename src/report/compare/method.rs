@@ -25,7 +25,7 @@ pub struct Method {
 pub struct WeightedFilter {
     /// The screen-space low-pass filter.
     pub filter: Filter,
-    /// What a splat weighs that the filter has enlarged.
+    /// The weight of a splat that the filter has enlarged.
     pub filter_weight: FilterWeight,
 }
 
@@ -52,7 +52,7 @@ impl Method {
         Self { rasterizer: self.rasterizer.family(), filter: self.filter, accumulate, kernel_eval }
     }
 
-    /// Of these settings.
+    /// The method of these settings.
     fn of(settings: &Settings) -> Self {
         let Settings { rasterizer, filter, filter_weight, accumulate, kernel_eval, .. } = *settings;
         Self { rasterizer, filter: WeightedFilter { filter, filter_weight }, accumulate, kernel_eval }
@@ -81,15 +81,15 @@ impl fmt::Display for WeightedFilter {
 /// The values that are compared, of each option.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
-    /// Of `--rasterizer`.
+    /// Values of `--rasterizer`.
     pub rasterizers: Vec<Rasterizer>,
-    /// Of `--filter`.
+    /// Values of `--filter`.
     pub filters: Vec<Filter>,
-    /// Of `--filter-weight`.
+    /// Values of `--filter-weight`.
     pub filter_weights: Vec<FilterWeight>,
-    /// Of `--accumulate`.
+    /// Values of `--accumulate`.
     pub accumulates: Vec<Accumulate>,
-    /// Of `--kernel-eval`.
+    /// Values of `--kernel-eval`.
     pub kernel_evals: Vec<KernelEval>,
 }
 

@@ -26,7 +26,7 @@ impl Surface {
         self.coverage[pixel] >= 0.5
     }
 
-    /// Of a reference picture.
+    /// The surface of a reference picture.
     pub fn of(picture: &Picture) -> Self {
         let pixels = &picture.pixels;
         Self {
@@ -43,7 +43,7 @@ impl Surface {
         }
     }
 
-    /// Of the ground truth.
+    /// The surface of the ground truth.
     pub fn of_truth(truth: &GroundTruth) -> Self {
         let pixels = &truth.pixels;
         Self {

@@ -31,9 +31,9 @@ const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
 pub struct ZoomReport {
     /// The version of surfel.
     pub surfel: String,
-    /// What it ran on.
+    /// The device.
     pub device: DeviceReport,
-    /// What all have in common, by the names of the options.
+    /// The settings that all have in common, by the names of the options.
     pub settings: BTreeMap<&'static str, String>,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -45,11 +45,11 @@ pub struct ZoomReport {
     pub filters: Vec<WeightedFilter>,
     /// From far to near.
     pub steps: Vec<ZoomStep>,
-    /// What the figures say about `adjust`.
+    /// The claims about `adjust`, judged by the figures.
     pub claims: Vec<Claim>,
 }
 
-/// What is looked at.
+/// The checkerboard.
 #[derive(Clone, Debug, Serialize)]
 pub struct Board {
     /// Splats along its side.

@@ -1,4 +1,4 @@
-//! What every table is measured with, and gathers on the way.
+//! The options that every table is measured with, and what it gathers on the way.
 
 use surfel::{
     Result,
@@ -11,7 +11,7 @@ use surfel::{
 use super::arguments::BenchArguments;
 use crate::{console::Bars, scene::upload};
 
-/// What every table is given.
+/// The context of every table.
 pub struct BenchContext<'a> {
     /// The command line.
     pub arguments: &'a BenchArguments,
@@ -23,7 +23,7 @@ pub struct BenchContext<'a> {
     pub limits: TrustLimits,
     /// The inputs of what was drawn so far.
     pub inputs: Vec<InputReport>,
-    /// What makes figures doubtful so far.
+    /// The reasons to doubt figures so far.
     pub flags: Vec<String>,
     /// The clock, whenever the device had just worked.
     pub clocks_mhz: Vec<f64>,

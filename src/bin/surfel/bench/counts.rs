@@ -23,7 +23,7 @@ use crate::{
     json::to_json,
 };
 
-/// What a process of ours does for one chip.
+/// Prints the rows of one chip: the work of a process of our own.
 ///
 /// # Errors
 /// As [`isa::rows_here`].
@@ -167,7 +167,7 @@ fn every_traits(all: bool) -> Vec<Traits> {
     every.into_iter().flat_map(with_more).collect()
 }
 
-/// The same with polygons, transparent things and lights.
+/// These traits with polygons, transparent things and lights.
 fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
     let polygons = Traits { polygons: true, ..traits };
     if traits.export {
@@ -184,7 +184,7 @@ fn is_listed(settings: &Settings, traits: Traits) -> bool {
     !beyond || *settings == Settings { rasterizer, filter, tile_invocations, ..Settings::default() }
 }
 
-/// What tells a pipeline from others.
+/// The names that tell a pipeline from others.
 fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> PipelineNames {
     let splats = match (traits.ellipses, traits.closed) {
         (false, true) => "disks",

@@ -12,7 +12,7 @@ use surfel::{
 use super::context::BenchContext;
 use crate::scene::{Loaded, not_a_mesh, resample_mesh};
 
-/// What a table draws.
+/// The source of a table's model.
 pub enum Source {
     /// The built-in model, which has as many splats as wanted.
     BuiltIn,

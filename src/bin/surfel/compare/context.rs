@@ -1,4 +1,4 @@
-//! What the methods are tried on, and what they are compared with.
+//! The scene that methods are tried on, and the pictures that they are compared with.
 
 use surfel::{
     Progress as _, Result,
@@ -15,7 +15,7 @@ use crate::console::Bars;
 pub struct CompareContext<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The same on the device.
+    /// The scene on the device.
     pub prepared: &'a PreparedScene,
     /// From where.
     pub camera: &'a Camera,

@@ -121,7 +121,7 @@ pub fn gather(
     Ok(report)
 }
 
-/// What a reader of the figures has to know.
+/// Notes for a reader of the figures.
 fn notes(arguments: &CompareArguments) -> Vec<String> {
     let mut notes = vec!["instructions: of disks on a closed surface, none of them large".to_owned()];
     if arguments.device.validate {

@@ -31,7 +31,7 @@ struct Board {
 struct Way {
     /// The panel's name.
     name: &'static str,
-    /// What else is to be said.
+    /// A remark.
     caption: String,
     /// All but the size.
     settings: Settings,
@@ -59,7 +59,7 @@ impl Board {
         Camera { eye: self.eye, target: self.eye + forward, up: DVec3::Z, fov_y_rad, near: None }
     }
 
-    /// What the board is, for a note.
+    /// A note on the board.
     fn text(&self) -> String {
         format!(
             "Board: {side}x{side} points, fields of {CHECKERBOARD_FIELD}x{CHECKERBOARD_FIELD} points, disks of radius \
@@ -85,7 +85,7 @@ fn unlit(filter: Filter) -> Settings {
     }
 }
 
-/// What all of [`unlit`] have in common, for a note.
+/// A note on what all settings of [`unlit`] have in common.
 const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; the \
     background is blue.";
 

@@ -1,4 +1,4 @@
-//! What all figures are drawn with.
+//! The device and the options that all figures are drawn with.
 
 use std::path::Path;
 

@@ -18,10 +18,10 @@ use super::{
 /// The most layers of "all": twice as many as the figures' scenes have surfaces behind each other.
 const ALL_LAYERS: u32 = 16;
 
-/// Of pixels in which nothing is seen.
+/// The color of pixels in which nothing is seen.
 const BACKGROUND: [u8; 3] = [255; 3];
 
-/// What the figures say of the differences in the captions.
+/// The note on the differences in the captions.
 const OFF_TEXT: &str = "RMS: the root of the mean squared difference to the picture in all layers, in sRGB values from 0 to \
     255, over the pixels in which something is seen.";
 

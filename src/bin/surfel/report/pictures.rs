@@ -22,7 +22,7 @@ const SHADINGS: [(&str, &str); 3] = [
     ("albedo", "the model's own colors, blended between splats, without light"),
 ];
 
-/// What the page says of the model.
+/// The model in the page's JSON.
 #[derive(Serialize)]
 struct Data<'a> {
     camera: CameraReport,

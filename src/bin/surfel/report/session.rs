@@ -1,4 +1,4 @@
-//! What all parts are gathered with.
+//! The device, scene and options that all parts are gathered with.
 
 use surfel::{Result, renderer::Headless, scene::Camera};
 

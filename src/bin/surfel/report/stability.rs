@@ -13,7 +13,7 @@ fn grids() -> Vec<Grid> {
     serde_json::from_str(include_str!("../../../../tests/gpu/stability/tables.json")).unwrap_or_default()
 }
 
-/// What its columns mean.
+/// The columns in words.
 const COLUMNS: [&str; 5] = [
     "A row is the worst of all splats with that value. `naive`: the textbook's formulas on the same numbers; `-`: they give no \
      number.",

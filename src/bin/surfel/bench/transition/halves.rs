@@ -19,7 +19,7 @@ use crate::console::Bars;
 
 /// The scenes.
 pub struct Halves {
-    /// What the model is called.
+    /// The model's name.
     pub model: String,
     /// Triangles to the right, splats to the left.
     pub hybrid: Scene,
@@ -27,11 +27,11 @@ pub struct Halves {
     pub splats: Scene,
     /// Triangles alone.
     pub polygons: Scene,
-    /// What the hybrid's splats are, and the whole's.
+    /// The hybrid's splats and the whole's.
     pub inputs: Vec<InputReport>,
 }
 
-/// The same places each time.
+/// The seed of the splats' places: the same each time.
 const SEED: u64 = 0;
 
 /// Makes the scenes. `splats`: of the whole.
