@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::case::group_of;
 use crate::{
     error::{Error, ErrorKind, Result},
-    report::DeviceReport,
+    report::{DeviceReport, Grid},
 };
 
 /// Everything that a self-test found out.
@@ -237,23 +237,23 @@ impl fmt::Display for SelftestReport {
             [] => writeln!(f, "; no known list")?,
             lists => writeln!(f, "; known lists: {}", lists.join(", "))?,
         }
-        writeln!(
-            f,
-            "{:36} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8}",
-            "", "cases", "pass", "fail", "known", "fixed", "flake", "skip", "seconds"
-        )?;
         let groups = self.groups();
-        let rows = groups.iter().map(|(name, cases)| {
+        let mut rows: Vec<(&str, Counts, f64)> = Vec::new();
+        for (name, cases) in &groups {
             let secs = cases.iter().map(|case| case.secs).sum();
-            (*name, Counts::of(cases.iter().copied()), secs)
-        });
-        for (name, counts, secs) in rows.chain([("all", self.counts, self.secs)]) {
-            let Counts { cases, pass, fail, known_fail, fixed, flake, skip } = counts;
-            writeln!(
-                f,
-                "{name:36} {cases:6} {pass:6} {fail:6} {known_fail:6} {fixed:6} {flake:6} {skip:6} {secs:8.1}"
-            )?;
+            rows.push((*name, Counts::of(cases.iter().copied()), secs));
         }
-        Ok(())
+        rows.push(("all", self.counts, self.secs));
+        let table = Grid::of("", &rows)
+            .column("", |(name, ..)| *name)
+            .column("cases", |(_, counts, _)| counts.cases)
+            .column("pass", |(_, counts, _)| counts.pass)
+            .column("fail", |(_, counts, _)| counts.fail)
+            .column("known", |(_, counts, _)| counts.known_fail)
+            .column("fixed", |(_, counts, _)| counts.fixed)
+            .column("flake", |(_, counts, _)| counts.flake)
+            .column("skip", |(_, counts, _)| counts.skip)
+            .column("seconds", |(.., secs)| format!("{secs:.1}"));
+        write!(f, "{}", table.grid())
     }
 }

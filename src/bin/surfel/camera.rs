@@ -201,6 +201,7 @@ mod tests {
             ball,
             camera: Some((PathBuf::from("a.toml"), parts)),
             inputs: Vec::new(),
+            steps: Vec::new(),
         };
         let eye = |x: f64| Some(DVec3::new(x, 1.0, 1.0));
         let parts = CameraParts { eye: eye(7.0), fov_y_rad: Some(0.5), ..CameraParts::default() };

@@ -25,9 +25,6 @@ pub struct DeviceArguments {
 
 impl DeviceArguments {
     /// A host on the device asked for, or the best, with what was compiled in runs before.
-    ///
-    /// # Errors
-    /// As [`Headless::new`].
     pub fn open(&self) -> Result<Headless> {
         Headless::new(&HeadlessOptions {
             validation: if self.validate { Validation::On } else { Validation::Off },

@@ -16,17 +16,11 @@ pub fn to_json(value: &impl Serialize) -> Result<String> {
 }
 
 /// A part of a larger JSON.
-///
-/// # Errors
-/// As [`to_json`].
 pub fn to_value(value: &impl Serialize) -> Result<Value> {
     serde_json::to_value(value).map_err(|e| Error::file("JSON", "write", io::Error::other(e)))
 }
 
 /// Writes it into a file, where one is asked for.
-///
-/// # Errors
-/// As [`to_json`] and [`save::text`].
 pub fn write_json(path: Option<&Path>, value: &impl Serialize) -> Result<()> {
     path.map_or(Ok(()), |path| save::text(path, &to_json(value)?))
 }

@@ -19,19 +19,13 @@ const WARM_UP_FRAMES: u32 = 2;
 /// A scene as it is drawn, again and again.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
-    /// The scene.
     pub scene: &'a PreparedScene,
-    /// The camera.
     pub camera: &'a Camera,
-    /// The settings.
     pub settings: &'a Settings,
 }
 
 /// Warms up, with the very first frame split into what host and device did, times `frames` frames and the passes of as many
 /// more, and counts vertices and fragments in one more, because timing passes and counting cost time.
-///
-/// # Errors
-/// As [`Headless::render`].
 pub fn frame_times(
     headless: &mut Headless,
     view: View<'_>,

@@ -13,7 +13,6 @@ use crate::{
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     scene::{INPUTS, load_scene},
-    steps::Steps,
 };
 
 const EXAMPLES: &str = "Examples:
@@ -42,8 +41,7 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let camera = CameraChoice::of(&picture.camera)?;
     let format = outputs::check(picture, &None)?;
     let bars = Bars::new();
-    let loaded =
-        load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut Steps::default())?;
+    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
     let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);

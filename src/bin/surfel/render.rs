@@ -101,10 +101,11 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut steps)?;
+    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
-    let Loaded { mut scene, inputs, .. } = loaded;
+    let Loaded { mut scene, inputs, steps: loading, .. } = loaded;
+    steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     // The device has it all: what the host had is free for what a software driver needs to draw.

@@ -9,14 +9,11 @@ use surfel::{
     load::{BuiltIn, ObjectDescription, Representation, Samples, file_name, is_scene_file, load_scene_file},
     prepare::PreparedScene,
     renderer::Headless,
-    report::InputReport,
+    report::{InputReport, Step},
     scene::{Ball, CameraParts, Light, Mesh, Object, Scene},
 };
 
-use crate::{
-    console::{self, Bars},
-    steps::Steps,
-};
+use crate::console::{self, Bars};
 
 /// The manual of inputs.
 pub const INPUTS: &str = "Inputs are PLY files (splats or meshes), OBJ files (meshes), and scene files (.toml: objects, each \
@@ -65,6 +62,8 @@ pub struct Loaded {
     pub camera: Option<(PathBuf, CameraParts)>,
     /// One an object.
     pub inputs: Vec<InputReport>,
+    /// The steps of loading.
+    pub steps: Vec<Step>,
 }
 
 /// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it. Meshes are
@@ -72,28 +71,21 @@ pub struct Loaded {
 ///
 /// # Errors
 /// As [`load_scene_file`] and [`build`]; two scene files that both have a camera.
-pub fn load_scene(
-    inputs: &[PathBuf],
-    meshes: Representation,
-    bars: &Bars,
-    steps: &mut Steps,
-) -> Result<Loaded> {
+pub fn load_scene(inputs: &[PathBuf], meshes: Representation, bars: &Bars) -> Result<Loaded> {
     let Described { objects, lights, camera } = describe(inputs, meshes)?;
+    let mut steps = Vec::new();
     let built = build(&objects, lights, bars, &mut |object| {
         bars.clear();
-        steps.0.extend(object.steps.iter().cloned());
+        steps.extend(object.steps.iter().cloned());
         console::say(&object.report.summary);
     });
     bars.clear();
     let (scene, inputs) = built?;
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
-    Ok(Loaded { scene, ball, camera, inputs })
+    Ok(Loaded { scene, ball, camera, inputs, steps })
 }
 
 /// Brings a scene to the device.
-///
-/// # Errors
-/// As [`Headless::prepare`].
 pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<PreparedScene> {
     let prepared = headless.prepare(scene, &|done, total| bars.step("upload", done, total));
     bars.clear();
@@ -101,9 +93,6 @@ pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<Prepare
 }
 
 /// The splats of one input that is no scene file, without those that can't be drawn.
-///
-/// # Errors
-/// As [`make`].
 pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport)> {
     let built = make(&ObjectDescription::of_file(path), bars);
     bars.clear();
@@ -119,9 +108,6 @@ pub fn not_a_mesh(path: &Path) -> Error {
 }
 
 /// Splats spread evenly over the mesh of the file at `path`.
-///
-/// # Errors
-/// As [`resampled`].
 pub fn resample_mesh(
     mesh: &Mesh,
     path: &Path,
@@ -181,7 +167,7 @@ mod tests {
         let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, text).unwrap();
-        let loaded = load_scene(&[path], Representation::Splats, &Bars::new(), &mut Steps::default());
+        let loaded = load_scene(&[path], Representation::Splats, &Bars::new());
         loaded.map(|mut loaded| loaded.inputs.remove(0)).map_err(|e| e.to_string())
     }
 

@@ -23,9 +23,7 @@ use crate::{
 pub struct Entry<'a, S> {
     /// Its name; unique in its table.
     pub name: String,
-    /// The scene.
     pub scene: &'a PreparedScene,
-    /// How.
     pub settings: Settings,
     /// The rest that its table tells of it.
     pub subject: S,

@@ -13,11 +13,9 @@ use crate::{console::Bars, scene::upload};
 
 /// The context of every table.
 pub struct BenchContext<'a> {
-    /// The command line.
     pub arguments: &'a BenchArguments,
     /// The settings that all methods have in common.
     pub settings: Settings,
-    /// Progress.
     pub bars: Bars,
     /// Beyond which figures are flagged.
     pub limits: TrustLimits,

@@ -24,9 +24,6 @@ use crate::{
 };
 
 /// Prints the rows of one chip: the work of a process of our own.
-///
-/// # Errors
-/// As [`isa::rows_here`].
 pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
     let rows = isa::rows_here(&pipelines(arguments.counts.all)?, arguments.device.asked.as_deref())?;
     console::print(&to_json(&rows)?)

@@ -20,7 +20,6 @@ use crate::{
     machine::clock_mhz,
     reports::scene_report,
     scene::{Loaded, load_scene, upload},
-    steps::Steps,
     turns,
 };
 
@@ -31,7 +30,7 @@ const WARM_UP_ROUNDS: u32 = 3;
 pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Result<FloorReport> {
     let (arguments, settings, bars) = (context.arguments, &context.settings, &context.bars);
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, Representation::Splats, bars, &mut Steps::default())?;
+    let loaded = load_scene(&inputs, Representation::Splats, bars)?;
     let camera = CameraChoice::none().camera(&loaded, settings.size_px)?;
     let Loaded { scene, inputs, .. } = loaded;
     let prepared = upload(headless, &scene, bars)?;

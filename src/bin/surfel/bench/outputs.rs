@@ -28,9 +28,6 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// Writes them.
-///
-/// # Errors
-/// Whatever the file system answers.
 pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
     write_json(arguments.json.as_deref(), report)?;
     if let Some(path) = &arguments.markdown {

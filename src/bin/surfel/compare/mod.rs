@@ -28,7 +28,6 @@ use crate::{
     json::write_json,
     outputs,
     scene::load_scene,
-    steps::Steps,
 };
 
 /// Runs the subcommand.
@@ -56,8 +55,7 @@ fn compare(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> 
     timed_settings(headless, arguments)?; // before anything takes long
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
-    let loaded =
-        load_scene(&arguments.input.inputs, arguments.input.representation(), &bars, &mut Steps::default())?;
+    let loaded = load_scene(&arguments.input.inputs, arguments.input.representation(), &bars)?;
     let camera = choice.camera(&loaded, arguments.settings().size_px)?;
     let mut show = |shown: Shown<'_>| match &arguments.pictures {
         Some(folder) => pictures::write(folder, &shown),
@@ -73,9 +71,6 @@ fn over_distance(headless: &mut Headless, arguments: &CompareArguments) -> Resul
 }
 
 /// Prints what was found, and writes what is asked for.
-///
-/// # Errors
-/// Results that can't be written.
 fn tell<R: Display + Serialize>(arguments: &CompareArguments, report: &R, plot: &Plot) -> Result<()> {
     console::print(&report.to_string())?;
     write_json(arguments.json.as_deref(), report)?;

@@ -65,7 +65,7 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
                 }
             };
             let picture = panel(&drawn, ewa, window_px.into(), context.size_px)?;
-            panels.push(Panel { name: name.to_owned(), caption, picture });
+            panels.push(Panel::new(name, caption, picture));
         }
     }
     Ok(Sheet {

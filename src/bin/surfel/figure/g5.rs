@@ -34,7 +34,7 @@ const SIGMA: f32 = 0.4;
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let (mesh, name) = model(context)?;
     let (sampled, plain) = (split(context, &mesh, true)?, split(context, &mesh, false)?);
-    let notes = vec![text(&name, &mesh, &sampled, &plain), settings_text()];
+    let notes = [text(&name, &mesh, &sampled, &plain), settings_text()];
     let (sampled, plain) = (scene(sampled), scene(plain));
     let ball = sampled.ball().ok_or_else(|| Error::input(&name, "", "has nothing to draw"))?;
     let fit = Camera::fit(&ball, context.size_px, Camera::DEFAULT_FOV_Y_RAD);
@@ -47,25 +47,16 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let mut panel =
         |name: &str, caption: &str, scene: &PreparedScene, settings: &Settings| -> Result<Panel> {
             let picture = context.picture(scene, &camera, settings)?;
-            Ok(Panel { name: name.to_owned(), caption: caption.to_owned(), picture })
+            Ok(Panel::new(name, caption, picture))
         };
     let panels = vec![
         panel("a) naive", "a seam where polygons and splats meet", &sampled, &naive)?,
         panel("b) smoothed", "splats fade into polygons by the sum of their weights", &sampled, &smoothed)?,
-        Panel {
-            name: "c) the weights".to_owned(),
-            caption: "their sum; white is 1 and above".to_owned(),
-            picture: weights,
-        },
+        Panel::new("c) the weights", "their sum; white is 1 and above", weights),
         panel("d) smoothed, edges not sampled", "no splats on the edges where both meet", &plain, &smoothed)?,
     ];
-    Ok(Sheet {
-        title: "Polygons and splats of one surface (Guennebaud et al. 2006, figure 5)".to_owned(),
-        columns: 2,
-        panels,
-        notes,
-        ..Sheet::default()
-    })
+    let title = "Polygons and splats of one surface (Guennebaud et al. 2006, figure 5)";
+    Ok(Sheet::new(title, 2, panels, &notes.each_ref().map(String::as_str)))
 }
 
 fn model(context: &FigureContext<'_>) -> Result<(Mesh, String)> {

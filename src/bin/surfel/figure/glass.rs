@@ -48,7 +48,7 @@ impl Glass {
 
     /// The panel of all layers.
     fn all(&self, name: &str, caption: &str) -> Panel {
-        Panel { name: name.to_owned(), caption: caption.to_owned(), picture: self.all.clone() }
+        Panel::new(name, caption, self.all.clone())
     }
 
     /// The panel of so many layers; the caption goes on with how far that is from all.
@@ -63,8 +63,13 @@ impl Glass {
         let settings = settings(context.size_px, self.epsilon, Layers::Fixed(layers), last_layer);
         let picture = context.picture(&self.scene, &self.camera, &settings)?;
         let caption = format!("{caption}; RMS {:.1}", off(&picture, &self.all));
-        Ok(Panel { name: name.to_owned(), caption, picture })
+        Ok(Panel::new(name, caption, picture))
     }
+}
+
+fn camera(eye: [f64; 3], target: [f64; 3], fov_y_deg: f64) -> Camera {
+    let fov_y_rad = fov_y_deg.to_radians();
+    Camera { eye: eye.into(), target: target.into(), up: DVec3::Y, fov_y_rad, near: None }
 }
 
 fn settings(size_px: [u32; 2], epsilon: f64, layers: Layers, last_layer: LastLayer) -> Settings {
@@ -114,13 +119,7 @@ const BALL_EPSILON: f64 = 0.15;
 /// Guennebaud et al. 2006, figure 6: 27 transparent balls in few layers.
 pub fn g6(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let scene = Scene { objects: balls(), ..Scene::default() };
-    let camera = Camera {
-        eye: DVec3::new(2.3, 1.7, 9.0),
-        target: DVec3::new(-0.08, -0.15, 0.0),
-        up: DVec3::Y,
-        fov_y_rad: 28_f64.to_radians(),
-        near: None,
-    };
+    let camera = camera([2.3, 1.7, 9.0], [-0.08, -0.15, 0.0], 28.0);
     let glass = Glass::new(context, &scene, camera, BALL_EPSILON)?;
     let [back, middle, front] = ALPHAS;
     let panels = vec![
@@ -135,20 +134,13 @@ pub fn g6(context: &mut FigureContext<'_>) -> Result<Sheet> {
         )?,
         glass.all("All layers, to judge by", "not in the paper's figure"),
     ];
-    Ok(Sheet {
-        title: "27 transparent balls (Guennebaud et al. 2006, figure 6)".to_owned(),
-        columns: 2,
-        panels,
-        notes: vec![
-            OFF_TEXT.to_owned(),
-            format!(
-                "Balls of {BALL_SPLATS} splats and radius {BALL_RADIUS}, three behind each other at most; alpha is {front} in the first \
-                 row, {middle} in the second, {back} in the last. Epsilon is {BALL_EPSILON}, so that what is seen at a rim is one \
-                 surface. Shaded with one light at the eye."
-            ),
-        ],
-        ..Sheet::default()
-    })
+    let text = format!(
+        "Balls of {BALL_SPLATS} splats and radius {BALL_RADIUS}, three behind each other at most; alpha is {front} in the first \
+         row, {middle} in the second, {back} in the last. Epsilon is {BALL_EPSILON}, so that what is seen at a rim is one \
+         surface. Shaded with one light at the eye."
+    );
+    let title = "27 transparent balls (Guennebaud et al. 2006, figure 6)";
+    Ok(Sheet::new(title, 2, panels, &[OFF_TEXT, &text]))
 }
 
 /// On a grid, in colors that follow the place.
@@ -174,13 +166,7 @@ const RELIEF_EPSILON: f64 = 0.12;
 
 /// The slides of Guennebaud et al. 2006, "Approximate depth-peeling": results with 2 and with 3 layers.
 pub fn slides(context: &mut FigureContext<'_>) -> Result<Sheet> {
-    let camera = Camera {
-        eye: DVec3::new(0.1, 0.1, 6.0),
-        target: DVec3::new(0.1, 0.1, 0.0),
-        up: DVec3::Y,
-        fov_y_rad: 24_f64.to_radians(),
-        near: None,
-    };
+    let camera = camera([0.1, 0.1, 6.0], [0.1, 0.1, 0.0], 24.0);
     let glass = Glass::new(context, &relief_and_balls(), camera, RELIEF_EPSILON)?;
     let mut panels = Vec::new();
     for (layers, first, plus) in [
@@ -191,20 +177,14 @@ pub fn slides(context: &mut FigureContext<'_>) -> Result<Sheet> {
         panels.push(glass.few(context, first, "what is behind is lost", layers - 1, LastLayer::Drop)?);
         panels.push(glass.few(context, plus, "it has all that is behind", layers, LastLayer::Blend)?);
     }
-    Ok(Sheet {
-        title: "Approximate depth peeling (Guennebaud et al. 2006, slides)".to_owned(),
-        headings: vec!["Results with 2 layers".to_owned(), "Results with 3 layers".to_owned()],
-        columns: 3,
-        panels,
-        notes: vec![
-            OFF_TEXT.to_owned(),
-            format!(
-                "The built-in relief as glass, {RELIEF_SPLATS} splats of alpha {RELIEF_ALPHA}, with two glass balls in it and one in front, \
-                 before an opaque board; not the slides' model. Epsilon is {RELIEF_EPSILON} of the \
-                 relief's radius. Shaded with one light at the eye."
-            ),
-        ],
-    })
+    let text = format!(
+        "The built-in relief as glass, {RELIEF_SPLATS} splats of alpha {RELIEF_ALPHA}, with two glass balls in it and one in front, \
+         before an opaque board; not the slides' model. Epsilon is {RELIEF_EPSILON} of the \
+         relief's radius. Shaded with one light at the eye."
+    );
+    let headings = ["Results with 2 layers", "Results with 3 layers"].map(str::to_owned).to_vec();
+    let title = "Approximate depth peeling (Guennebaud et al. 2006, slides)";
+    Ok(Sheet { headings, ..Sheet::new(title, 3, panels, &[OFF_TEXT, &text]) })
 }
 
 fn relief_and_balls() -> Scene {

@@ -11,7 +11,7 @@ use super::{
     kernels::PsiE,
     sheet::{Panel, Sheet},
 };
-use crate::{scene::load_scene, steps::Steps};
+use crate::scene::load_scene;
 
 /// Splats of the built-in model: so few that single ones are seen.
 const FEW_SPLATS: usize = 12_000;
@@ -27,7 +27,7 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let (scene, what) = match context.model {
         Some(path) => {
             let inputs = [path.to_owned()];
-            let loaded = load_scene(&inputs, Representation::Splats, context.bars, &mut Steps::default())?;
+            let loaded = load_scene(&inputs, Representation::Splats, context.bars)?;
             let what = format!("{}, {} splats", file_name(path), loaded.scene.splat_count());
             (loaded.scene, what)
         }
@@ -51,21 +51,15 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
             ..Settings::default()
         };
         let picture = context.picture(&prepared, &camera, &settings)?;
-        Ok(Panel { name: name.to_owned(), caption: kernel.text(), picture })
+        Ok(Panel::new(name, kernel.text(), picture))
     };
     let panels = vec![
         panel("a) round and narrow: looks faceted", PsiE { a: 6.0, b: 1.5, n: 3.0 })?,
         panel("b) a wide plateau: smooth and sharp", PsiE { a: 4.0, b: 1.5, n: 5.0 })?,
     ];
-    Ok(Sheet {
-        title: "Blending kernels on a model (Pajarola et al. 2003, figure 19)".to_owned(),
-        columns: 2,
-        panels,
-        notes: vec![
-            format!("Model: {what}; not the paper's. Shaded with one light at the eye."),
-            "As in the paper, a textured triangle for each splat, no screen-space filter, every point drawn (tau = 0)."
-                .to_owned(),
-        ],
-        ..Sheet::default()
-    })
+    let notes = [
+        &format!("Model: {what}; not the paper's. Shaded with one light at the eye."),
+        "As in the paper, a textured triangle for each splat, no screen-space filter, every point drawn (tau = 0).",
+    ];
+    Ok(Sheet::new("Blending kernels on a model (Pajarola et al. 2003, figure 19)", 2, panels, &notes))
 }

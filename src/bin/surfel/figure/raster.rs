@@ -73,9 +73,6 @@ impl TextStyle {
 
 impl Raster {
     /// A white one.
-    ///
-    /// # Errors
-    /// A size that memory can't hold.
     pub fn white(size_px: [u32; 2]) -> Result<Self> {
         let count = usize::try_from(u64::from(size_px[0]) * u64::from(size_px[1])).unwrap_or(usize::MAX);
         let mut pixels = Vec::new();

@@ -35,9 +35,6 @@ pub struct Comparison {
 }
 
 /// Compares the methods, with an eye on the machine.
-///
-/// # Errors
-/// As [`compare::gather`].
 pub fn gather(
     headless: &mut Headless,
     arguments: &ReportArguments,

@@ -35,7 +35,6 @@ use crate::{
     json::to_json,
     outputs,
     scene::load_scene,
-    steps::Steps,
 };
 use head::Head;
 use part::Part;
@@ -83,7 +82,7 @@ fn make(headless: &mut Headless, arguments: &ReportArguments) -> Result<()> {
     check_sizes(headless, arguments)?;
     let bars = Bars::new();
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, Representation::Splats, &bars, &mut Steps::default())?;
+    let loaded = load_scene(&inputs, Representation::Splats, &bars)?;
     let camera = CameraChoice::none().camera(&loaded, arguments.size_px())?;
     let head = Head::of(headless.device().facts(), arguments, &loaded);
     let (loaded, camera, bars) = (&loaded, &camera, &bars);

@@ -77,9 +77,6 @@ pub struct Panel {
 
 impl Panel {
     /// A panel of opaque sRGB bytes. Its alternative text is made of `about` and the name.
-    ///
-    /// # Errors
-    /// As [`save::png_bytes`].
     pub fn new(
         name: impl Into<String>,
         caption: impl Into<String>,
