@@ -28,13 +28,8 @@ pub fn operation(
     match op {
         Op::CompositeConstruct => return Some(operands.concat()),
         Op::CompositeExtract => {
-            let mut type_ = *module.type_of.get(&first_operand)?;
-            let mut first = 0;
-            for index in literals(instruction) {
-                let (part, offset) = module.part(type_, index)?;
-                (type_, first) = (part, first + offset);
-            }
-            return operands.first()?.get(first as usize..first as usize + width).map(<[u32]>::to_vec);
+            let first = module.offset(first_operand, literals(instruction))? as usize;
+            return operands.first()?.get(first..first + width).map(<[u32]>::to_vec);
         }
         Op::VectorShuffle => {
             let both = operands.concat();

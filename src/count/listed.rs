@@ -8,9 +8,10 @@ use rspirv::{
 };
 
 use super::{
-    module::{Id, Type, ids},
+    module::{Id, ids},
     numbering::Scalar,
     tally::Tally,
+    types::Type,
 };
 
 impl Tally<'_, '_> {

@@ -22,6 +22,7 @@ mod specialize;
 mod tally;
 #[cfg(test)]
 mod tests;
+mod types;
 
 use std::collections::BTreeMap;
 

@@ -231,16 +231,14 @@ impl<'a> Specialized<'a> {
             self.known(id).is_some_and(|scalars| scalars.iter().all(|scalar| *scalar == pattern))
         };
         let one = 1.0_f32.to_bits();
-        let falsehood =
-            || Value::Known(vec![0; self.module.width(instruction.result_type.unwrap_or_default()) as usize]);
-        let truth =
-            || Value::Known(vec![1; self.module.width(instruction.result_type.unwrap_or_default()) as usize]);
+        let width = self.module.width(instruction.result_type.unwrap_or_default()) as usize;
+        let constant = |value: u32| Value::Known(vec![value; width]);
         match (instruction.class.opcode, operands) {
             (Op::Select, [condition, yes, _]) if all(*condition, 1) => Some(Value::Same(*yes)),
             (Op::Select, [condition, _, no]) if all(*condition, 0) => Some(Value::Same(*no)),
             (Op::Select, [_, yes, no]) if self.is_equal(*yes, *no) => Some(Value::Same(*yes)),
-            (Op::LogicalAnd, [a, b]) if all(*a, 0) || all(*b, 0) => Some(falsehood()),
-            (Op::LogicalOr, [a, b]) if all(*a, 1) || all(*b, 1) => Some(truth()),
+            (Op::LogicalAnd, [a, b]) if all(*a, 0) || all(*b, 0) => Some(constant(0)),
+            (Op::LogicalOr, [a, b]) if all(*a, 1) || all(*b, 1) => Some(constant(1)),
             (Op::LogicalAnd, [a, b]) if all(*a, 1) => Some(Value::Same(*b)),
             (Op::LogicalAnd, [a, b]) if all(*b, 1) => Some(Value::Same(*a)),
             (Op::LogicalOr, [a, b]) if all(*a, 0) => Some(Value::Same(*b)),

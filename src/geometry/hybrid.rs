@@ -21,7 +21,7 @@ use super::{
     corners,
     mesh_splats::one_color,
     resample::{
-        Areas, MOST_SAMPLES, Samples, check_count, check_memory, no_area, radii::radii, sample, vertex_colors,
+        Areas, MOST_SAMPLES, check_count, check_memory, no_area, radii::radii, sample, vertex_colors,
     },
     shaded_mesh::shaded_mesh,
     surface::MeshReport,
@@ -138,7 +138,7 @@ fn splat_part(
     report.transition_edges = border.edges.len();
     report.transition_length = chains.length();
     report.edge_radius = f64::from(edge_radius);
-    let mut splats = collect(whole, samples, radii);
+    let mut splats = samples.splats(whole, radii);
     if border.edges.is_empty() {
         return Ok(splats);
     }
@@ -173,14 +173,6 @@ fn median(radii: &[f32]) -> f32 {
     let mut sorted = radii.to_vec();
     let middle = sorted.len() / 2;
     *sorted.select_nth_unstable_by(middle, f32::total_cmp).1
-}
-
-fn collect(mesh: &Mesh, samples: Samples, radii: Vec<f32>) -> Splats {
-    Splats {
-        positions: samples.positions,
-        shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::Each),
-    }
 }
 
 fn empty(mesh: &Mesh) -> Splats {

@@ -63,12 +63,7 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     let surface = Surface::of(mesh, || {});
     let samples = sample(mesh, colors, &surface.normals, &areas, count, seed, progress);
     let radii = radii::radii(&samples.positions, areas.total / count as f64, progress);
-    let splats = Splats {
-        positions: samples.positions,
-        shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::Each),
-    };
-    Ok((splats, surface.report))
+    Ok((samples.splats(mesh, radii), surface.report))
 }
 
 /// A number of samples that `option` may ask for.
@@ -147,6 +142,17 @@ pub(super) struct Samples {
     /// Unit.
     pub(super) normals: Vec<Vec3>,
     pub(super) colors: Option<Vec<[f32; 4]>>,
+}
+
+impl Samples {
+    /// Disks at the samples of a mesh.
+    pub(super) fn splats(self, mesh: &Mesh, radii: Vec<f32>) -> Splats {
+        Splats {
+            positions: self.positions,
+            shapes: Shapes::Disks { normals: self.normals, radii },
+            colors: self.colors.map_or_else(|| one_color(mesh), Colors::Each),
+        }
+    }
 }
 
 /// `count` samples of the triangles that have a part of `areas`, in their order. `normals` are the vertices'.

@@ -189,11 +189,6 @@ impl Rasterizer {
             | Self::Quad => Self::Perspective,
         }
     }
-
-    /// Whether its map from image to splat is affine.
-    pub fn is_affine(self) -> bool {
-        matches!(self, Self::AffineCenter | Self::AffineContour)
-    }
 }
 
 impl Filter {
