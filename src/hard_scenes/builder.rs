@@ -24,6 +24,12 @@ impl Random {
         DVec3::new(r * cos, r * sin, z)
     }
 
+    /// A point at most this far from the origin along each axis, on a grid of f32: the oracle and the GPU read the same.
+    pub fn point(&mut self, at_most: [f64; 3]) -> DVec3 {
+        let point = DVec3::from(at_most.map(|at_most| self.between(-at_most, at_most)));
+        point.as_vec3().as_dvec3()
+    }
+
     /// A color, opaque.
     pub fn color(&mut self) -> [f32; 4] {
         [self.unit() as f32, self.unit() as f32, self.unit() as f32, 1.0]

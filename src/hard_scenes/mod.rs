@@ -26,6 +26,13 @@ pub struct Hard {
     pub settings: Settings,
 }
 
+impl Hard {
+    /// This scene seen from `eye` toward the origin, drawn as hard scenes are.
+    pub fn seen_from(eye: [f64; 3], name: &'static str, scene: Scene) -> Self {
+        Self { name, scene, camera: builder::camera(eye, [0.0; 3]), settings: builder::settings() }
+    }
+}
+
 /// Every hard scene.
 pub fn all() -> Vec<Hard> {
     vec![

@@ -42,7 +42,7 @@ fn sheet(center: DVec3, normal: DVec3, half: f64, across: u32, color: [f32; 4]) 
 }
 
 fn hard(name: &'static str, scene: Scene, settings: Settings) -> Hard {
-    Hard { name, scene, camera: camera([0.4, 0.3, 4.0], [0.0; 3]), settings }
+    Hard { settings, ..Hard::seen_from([0.4, 0.3, 4.0], name, scene) }
 }
 
 /// 27 balls, as in figure 6 of Guennebaud et al. 2006.
