@@ -14,7 +14,7 @@ use crate::{
     scene::{Mesh, MeshObject, Object},
 };
 
-/// What is drawn of a mesh, given in its own coordinates. Errors know no file.
+/// The parts of a mesh that are drawn; it is given in its own coordinates. Errors know no file.
 pub(super) fn parts(
     own: Mesh,
     name: String,

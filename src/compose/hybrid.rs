@@ -43,13 +43,7 @@ fn splat_vertices(mesh: &Mesh, stays_polygon: &[bool]) -> u64 {
     used.into_iter().filter(|used| *used).count() as u64
 }
 
-/// What the splat part has of the splats of the whole, by its area.
-#[expect(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "rounded"
-)]
+/// The splat part's share of the splats of the whole, by its area.
 fn share(mesh: &Mesh, stays_polygon: &[bool], splats: u64) -> u64 {
     let area = |i: usize| mesh.corners(i).map_or(0.0, |[a, b, c]| (b - a).cross(c - a).length());
     let (mut part, mut all) = (0.0, 0.0);

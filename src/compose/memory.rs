@@ -7,10 +7,10 @@ use crate::{
     load::{ObjectDescription, Representation, Source, builtin::BYTES_PER_SPLAT},
 };
 
-/// What a splat takes that was taken from a mesh's surface, with what finds its neighbors.
+/// The bytes of a splat that was taken from a mesh's surface, with what finds its neighbors.
 const BYTES_PER_SAMPLE: u64 = 76;
 
-/// What a triangle of the built-in ball takes with its share of the vertices, while its surface is looked at.
+/// The bytes of a triangle of the built-in ball with its share of the vertices, while its surface is looked at.
 const BYTES_PER_TRIANGLE: u64 = 100;
 
 /// Asks for the memory of all objects at once, before any is made: a few lines may describe more than a machine has, and

@@ -30,9 +30,9 @@ use crate::{
 pub struct Composed {
     /// Its objects and lights; every splat can be drawn.
     pub scene: Scene,
-    /// What it says of the camera: [`CameraParts::camera`] makes one for [`Scene::ball`].
+    /// The parts of its camera: [`CameraParts::camera`] makes one for [`Scene::ball`].
     pub camera: CameraParts,
-    /// What was done, one an object of the file.
+    /// The reports of what was done, one an object of the file.
     pub reports: Vec<InputReport>,
 }
 

@@ -1,7 +1,5 @@
 //! One object: its model loaded or made, placed, colored, and turned into what is drawn.
 
-use std::path::Path;
-
 use super::{
     from_mesh,
     parts::{Parts, StepTimer},
@@ -12,21 +10,21 @@ use crate::{
     load::{
         BuiltIn, Model, ObjectDescription, Representation, Source,
         builtin::{checkerboard, relief, sphere, sphere_mesh},
-        load,
+        file_name, load,
     },
     progress::Progress,
     report::{InputReport, Step},
     scene::{MeshObject, Object},
 };
 
-/// What an object became; at least one of the two has something to draw.
+/// The parts that an object became; at least one of the two has something to draw.
 #[derive(Clone, Debug)]
 pub struct BuiltObject {
-    /// What is drawn of it as splats; each can be drawn.
+    /// Its splats; each can be drawn.
     pub splats: Option<Object>,
-    /// What is drawn of it as triangles.
+    /// Its triangles.
     pub triangles: Option<MeshObject>,
-    /// The same in numbers and words.
+    /// Both in numbers and words.
     pub report: InputReport,
     /// How long each step took.
     pub steps: Vec<Step>,
@@ -103,15 +101,11 @@ fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts>
     Ok(Parts { splats: Some(splats), triangles: None, report })
 }
 
-/// What is wrong with an object's model, in the name of its file: what makes splats of it knows none.
+/// An error of an object's model, in the name of its file: what makes splats of it knows none.
 fn of_object(error: Error, object: &ObjectDescription) -> Error {
     let ErrorKind::Input { problem, .. } = error.kind() else { return error };
     match &object.source {
         Source::File(path) => Error::input(path, "", problem),
         Source::BuiltIn { model, .. } => Error::input(format!("built-in {}", model.name()), "", problem),
     }
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

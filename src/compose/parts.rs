@@ -1,4 +1,4 @@
-//! What a model becomes on the way to an object, and how long each step takes.
+//! The parts that a model becomes on the way to an object, and how long each step takes.
 
 use std::time::Instant;
 

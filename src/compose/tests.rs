@@ -6,7 +6,7 @@ use super::*;
 use crate::{
     load::{BuiltIn, ObjectDescription, Polygons, Representation, Samples, Source},
     math::srgb::linear_from_srgb,
-    scene::{Colors, MeshColors, Shapes},
+    scene::{Colors, Shapes},
 };
 
 const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n\
@@ -100,7 +100,7 @@ fn the_built_in_ball_is_drawn_as_either() {
     let expected = "built-in sphere: 10242 vertices, 20480 triangles: closed; normals given; drawn as 20480 \
         triangles; invisible, alpha 0";
     assert_eq!(mesh.report.summary, expected);
-    let MeshColors::Uniform(color) = mesh.triangles.unwrap().mesh.colors else { panic!("one color") };
+    let Colors::Uniform(color) = mesh.triangles.unwrap().mesh.colors else { panic!("one color") };
     assert_eq!(color, [linear_from_srgb(0.5), 0.0, 1.0, 0.0]);
     let board = make(&ObjectDescription::of_built_in(BuiltIn::Checkerboard), &()).unwrap();
     assert_eq!(board.report.summary, "built-in checkerboard: 10000 disks");
@@ -127,7 +127,7 @@ fn a_hybrid_is_splats_and_triangles_of_one_name() {
     assert!(splats.splats.positions.iter().all(|position| position.x < 1.0 + 1e-9));
     assert!(triangles.mesh.positions.iter().all(|position| position.x > 1.0 - 1e-9));
     assert!(matches!(splats.splats.colors, Colors::Uniform([.., 0.5])));
-    assert!(matches!(triangles.mesh.colors, MeshColors::Uniform([.., 0.5]) | MeshColors::None));
+    assert!(matches!(triangles.mesh.colors, Colors::Uniform([.., 0.5])));
 
     // As many as vertices where nothing says how many, all of them where none is moved to an edge.
     let plain = make(&of_mesh(x_above(0.0), false), &()).unwrap();

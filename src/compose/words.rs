@@ -1,9 +1,9 @@
-//! What was done with an input, in words.
+//! The making of an object in words.
 
 use crate::{
     geometry::{HybridReport, MeshReport},
     report::InputReport,
-    scene::{Colors, DefectCounts, MeshColors, MeshObject, Object, Opacity, Shapes, Splats},
+    scene::{Colors, DefectCounts, MeshObject, Object, Opacity, Shapes, Splats},
 };
 
 /// Drops splats that can't be drawn and puts all in words. `head` is what a mesh was and how it became splats, empty for
@@ -42,7 +42,7 @@ pub(super) fn finish_splats(
 pub(super) fn finish_triangles(object: &MeshObject, head: &str, counts: [usize; 2]) -> InputReport {
     let colors = &object.mesh.colors;
     let triangles = object.mesh.triangles.len();
-    let opacity = opacity(colors.opacity(), mesh_alphas(colors));
+    let opacity = opacity(colors.opacity(), alphas(colors));
     InputReport {
         name: object.name.clone(),
         vertices: Some(counts[0]),
@@ -59,7 +59,7 @@ fn splats_head(object: &Object) -> String {
     format!("{} {}{closed}", object.splats.len(), splats_kind(&object.splats))
 }
 
-/// What splats are, in the plural.
+/// The kind of the splats, in the plural.
 pub fn splats_kind(splats: &Splats) -> &'static str {
     match splats.shapes {
         Shapes::Disks { .. } => "disks",
@@ -72,7 +72,7 @@ pub(super) fn mesh_head([vertices, triangles]: [usize; 2], report: &MeshReport) 
     format!("{vertices} vertices, {triangles} triangles: {report}")
 }
 
-/// What was missing in the file of a mesh that became `splats` splats.
+/// The attributes that were missing in the file of a mesh that became `splats` splats.
 pub(super) fn radii_computed(report: &MeshReport, splats: usize) -> String {
     match report.normals_from_file {
         0 => "normals and radii computed".to_owned(),
@@ -81,7 +81,7 @@ pub(super) fn radii_computed(report: &MeshReport, splats: usize) -> String {
     }
 }
 
-/// What a mesh that stays one was without.
+/// The normals that were missing in a mesh that stays one.
 pub(super) fn normals_computed(report: &MeshReport, vertices: usize) -> String {
     match vertices.saturating_sub(report.normals_from_file + report.vertices_without_faces) {
         0 => "normals given".to_owned(),
@@ -100,7 +100,7 @@ pub(super) fn split_into(report: &HybridReport, splats: usize) -> String {
     format!("{splats} splats and {} triangles{edges}", report.polygons)
 }
 
-/// What is seen through it; nothing is said of what is opaque.
+/// The opacity in words; nothing is said of what is opaque.
 fn opacity(opacity: Opacity, alphas: [f32; 2]) -> String {
     let [least, most] = alphas;
     match opacity {
@@ -114,15 +114,7 @@ fn opacity(opacity: Opacity, alphas: [f32; 2]) -> String {
 fn alphas(colors: &Colors) -> [f32; 2] {
     match colors {
         Colors::Uniform(color) => [color[3]; 2],
-        Colors::PerSplat(colors) => range(colors),
-    }
-}
-
-fn mesh_alphas(colors: &MeshColors) -> [f32; 2] {
-    match colors {
-        MeshColors::None => [1.0; 2],
-        MeshColors::Uniform(color) => [color[3]; 2],
-        MeshColors::PerVertex(colors) => range(colors),
+        Colors::Each(colors) => range(colors),
     }
 }
 

@@ -6,7 +6,7 @@
 //! attributes; section 3.2 leaves fragments to the alpha test and their sums to blending. So moves, loads, stores and the
 //! discards that stand for the alpha test are listed beside the count.
 //!
-//! What SPIR-V says in another way:
+//! Differences in how SPIR-V says the same:
 //! - a product that only one sum uses is its MAD, whatever may be contracted; a quotient's product too
 //! - a sum of products of components of two registers is DP3 or DP4, products crossed over as XPD wants them are XPD: the
 //!   renderer spells these out, because no compiler marks its own functions as exact
@@ -29,7 +29,7 @@ use rspirv::{
 
 use super::{module::literals, numbering::has_effect};
 
-/// What the operations take that need no look around. `width` is that of the result, `operand_width` that of the operand.
+/// The instructions of operations that need no look around. `width` is that of the result, `operand_width` that of the operand.
 pub fn simple(op: Op, width: u32, operand_width: u32) -> Option<Vec<&'static str>> {
     let each = |name: &'static str| vec![name; width as usize];
     Some(match op {

@@ -7,7 +7,7 @@ use rspirv::{
 
 use super::module::{Id, Module, ids, literals};
 
-/// What an `OpSpecConstantOp` evaluates to.
+/// The value of an `OpSpecConstantOp`.
 pub fn constant_operation(module: &Module, instruction: &Instruction) -> Option<Vec<u32>> {
     let Some(Operand::LiteralSpecConstantOpInteger(op)) = instruction.operands.first() else { return None };
     let operands: Vec<&[u32]> =
@@ -16,7 +16,7 @@ pub fn constant_operation(module: &Module, instruction: &Instruction) -> Option<
     operation(module, *op, instruction, first_operand, &operands)
 }
 
-/// What an instruction evaluates to where all of its operands are constants.
+/// The value of an instruction all of whose operands are constants.
 pub fn operation(
     module: &Module,
     op: Op,
@@ -28,13 +28,8 @@ pub fn operation(
     match op {
         Op::CompositeConstruct => return Some(operands.concat()),
         Op::CompositeExtract => {
-            let mut type_ = *module.type_of.get(&first_operand)?;
-            let mut first = 0;
-            for index in literals(instruction) {
-                let (part, offset) = module.part(type_, index)?;
-                (type_, first) = (part, first + offset);
-            }
-            return operands.first()?.get(first as usize..first as usize + width).map(<[u32]>::to_vec);
+            let first = module.offset(first_operand, literals(instruction))? as usize;
+            return operands.first()?.get(first..first + width).map(<[u32]>::to_vec);
         }
         Op::VectorShuffle => {
             let both = operands.concat();

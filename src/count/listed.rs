@@ -1,4 +1,4 @@
-//! What is listed beside the count, and the longest path.
+//! The instructions listed beside the count, and the longest path.
 
 use std::collections::HashMap;
 
@@ -8,9 +8,10 @@ use rspirv::{
 };
 
 use super::{
-    module::{Id, Type, ids},
+    module::{Id, ids},
     numbering::Scalar,
     tally::Tally,
+    types::Type,
 };
 
 impl Tally<'_, '_> {

@@ -1,4 +1,4 @@
-//! What a shader's outputs depend on: all else counts nothing.
+//! The instructions that a shader's outputs depend on: all else counts nothing.
 
 use std::collections::{HashMap, HashSet};
 

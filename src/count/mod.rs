@@ -1,4 +1,4 @@
-//! What a shader costs in instructions, counted on its SPIR-V, so that the same text gives the same figure everywhere.
+//! The cost of a shader in instructions, counted on its SPIR-V, so that the same text gives the same figure everywhere.
 //!
 //! Two rules. The **paper-comparable** count is that of the programs of 2006: vec4 operations of `ARB_vertex_program` and
 //! `ARB_fragment_program`, one each (`arb.rs` is the table). The **scalar** count is what a scalar processor executes: each
@@ -22,6 +22,7 @@ mod specialize;
 mod tally;
 #[cfg(test)]
 mod tests;
+mod types;
 
 use std::collections::BTreeMap;
 
@@ -36,17 +37,17 @@ use module::Module;
 pub struct Counts {
     /// Paper-comparable: instructions of an ARB program. `None` for compute shaders, which ARB has not.
     pub arb: Option<u32>,
-    /// Of them, those of the longest path.
+    /// ARB instructions of the longest path.
     pub arb_longest_path: Option<u32>,
     /// The ARB instructions by name.
     pub mnemonics: BTreeMap<&'static str, u32>,
     /// Scalar arithmetic: operations times components.
     pub scalar: u32,
-    /// What the paper-comparable count leaves out.
+    /// The instructions that the paper-comparable count leaves out.
     pub listed: Listed,
 }
 
-/// What is listed beside the paper-comparable count.
+/// The instructions that are listed beside the paper-comparable count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Listed {
     /// Registers loaded from storage buffers, attributes of a vertex there; and texels of buffers, which are fetches (TEX), too.
@@ -61,7 +62,7 @@ pub struct Listed {
     pub alpha_tests: u32,
     /// Integers that only address memory.
     pub addresses: u32,
-    /// Of the counted, operations on bits, which ARB has not.
+    /// Counted operations on bits, which ARB has not.
     pub bit_operations: u32,
     /// Loops that are left.
     pub loops: u32,
@@ -72,11 +73,11 @@ pub struct Listed {
 pub struct PassCounts {
     /// The pass.
     pub pass: String,
-    /// Of the vertex stage.
+    /// Counts of the vertex stage.
     pub vertex: Option<Counts>,
-    /// Of the fragment stage.
+    /// Counts of the fragment stage.
     pub fragment: Option<Counts>,
-    /// Of the compute stage.
+    /// Counts of the compute stage.
     pub compute: Option<Counts>,
 }
 

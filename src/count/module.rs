@@ -1,48 +1,21 @@
-//! A module as rspirv parses it, arranged for counting: types, constants with their values, the blocks of its one function.
+//! A module as rspirv parses it, arranged for counting: constants with their values, the blocks of its one function.
 
 use std::collections::{HashMap, HashSet};
 
 use rspirv::{
     dr::{Instruction, Operand},
-    spirv::{Dim, ExecutionModel, Op, StorageClass},
+    spirv::{ExecutionModel, Op, StorageClass},
 };
 
 use super::{
     fold,
     numbering::has_effect,
     reader::{instructions, spec_id},
+    types::Type,
 };
 
 /// An id of SPIR-V.
 pub type Id = u32;
-
-/// The types that matter here.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Type {
-    Bool,
-    Int,
-    Float,
-    Vector {
-        component: Id,
-        count: u32,
-    },
-    Matrix {
-        column: Id,
-        count: u32,
-    },
-    Array {
-        element: Id,
-        count: u32,
-    },
-    Struct(Vec<Id>),
-    Pointer {
-        pointee: Id,
-    },
-    /// Texels of a buffer.
-    Texels,
-    /// Images, samplers and the like.
-    Opaque,
-}
 
 /// A basic block.
 #[derive(Debug)]
@@ -137,45 +110,12 @@ impl Module {
             let number = spec_ids.get(&id)?;
             specialization.iter().find(|(constant, _)| constant == number).map(|(_, value)| *value)
         };
-        let of_ids = |module: &Self| -> Vec<Id> {
-            ids(instruction).filter(|id| module.types.contains_key(id)).collect()
-        };
+        if let Some(type_) = self.declared_type(instruction) {
+            self.types.insert(id, type_);
+            return Ok(());
+        }
         let mut literal = literals(instruction);
         let value = match instruction.class.opcode {
-            Op::TypeBool => return self.type_(id, Type::Bool),
-            Op::TypeInt => return self.type_(id, Type::Int),
-            Op::TypeFloat => return self.type_(id, Type::Float),
-            Op::TypeVector | Op::TypeMatrix => {
-                let (inner, count) = (of_ids(self)[0], literal.next().unwrap_or(1));
-                return self.type_(
-                    id,
-                    match instruction.class.opcode {
-                        Op::TypeVector => Type::Vector { component: inner, count },
-                        _ => Type::Matrix { column: inner, count },
-                    },
-                );
-            }
-            Op::TypeArray => {
-                let mut operands = ids(instruction);
-                let element = operands.next().unwrap_or_default();
-                let length = operands.next().and_then(|length| self.constants.get(&length)?.first().copied());
-                return self.type_(id, Type::Array { element, count: length.unwrap_or(1) });
-            }
-            Op::TypeRuntimeArray => {
-                let element = of_ids(self)[0];
-                return self.type_(id, Type::Array { element, count: 1 });
-            }
-            Op::TypeStruct => return self.type_(id, Type::Struct(ids(instruction).collect())),
-            Op::TypePointer => {
-                let pointee = ids(instruction).next().unwrap_or_default();
-                return self.type_(id, Type::Pointer { pointee });
-            }
-            Op::TypeImage if instruction.operands.contains(&Operand::Dim(Dim::DimBuffer)) => {
-                return self.type_(id, Type::Texels);
-            }
-            Op::TypeVoid | Op::TypeFunction | Op::TypeImage | Op::TypeSampler | Op::TypeSampledImage => {
-                return self.type_(id, Type::Opaque);
-            }
             Op::Variable => {
                 if let Some(Operand::StorageClass(class)) = instruction.operands.first() {
                     self.variables.insert(id, *class);
@@ -200,11 +140,6 @@ impl Module {
             _ => return Ok(()),
         };
         self.constants.insert(id, value);
-        Ok(())
-    }
-
-    fn type_(&mut self, id: Id, type_: Type) -> Result<(), String> {
-        self.types.insert(id, type_);
         Ok(())
     }
 
@@ -268,36 +203,5 @@ impl Module {
         };
         let writes = all().filter(|instruction| has_effect(instruction.class.opcode));
         self.written = writes.filter_map(|write| ids(write).next()).map(base).collect();
-    }
-
-    /// Scalars of a type; 1 for what has none.
-    pub fn width(&self, type_: Id) -> u32 {
-        match self.types.get(&type_) {
-            Some(Type::Vector { count, .. }) => *count,
-            Some(Type::Matrix { column, count }) => count * self.width(*column),
-            Some(Type::Array { element, count }) => count * self.width(*element),
-            Some(Type::Struct(members)) => members.iter().map(|member| self.width(*member)).sum(),
-            _ => 1,
-        }
-    }
-
-    /// Scalars of a value.
-    pub fn width_of(&self, id: Id) -> u32 {
-        self.type_of.get(&id).map_or(1, |type_| self.width(*type_))
-    }
-
-    /// The type of a part of a composite, and its first scalar.
-    pub fn part(&self, type_: Id, index: u32) -> Option<(Id, u32)> {
-        match self.types.get(&type_)? {
-            Type::Vector { component, .. } => Some((*component, index)),
-            Type::Matrix { column: part, .. } | Type::Array { element: part, .. } => {
-                Some((*part, index * self.width(*part)))
-            }
-            Type::Struct(members) => {
-                let before = members.iter().take(index as usize).map(|member| self.width(*member)).sum();
-                Some((*members.get(index as usize)?, before))
-            }
-            _ => None,
-        }
     }
 }

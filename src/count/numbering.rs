@@ -11,8 +11,9 @@ use rspirv::{
 };
 
 use super::{
-    module::{Id, Type, ids, literals},
+    module::{Id, ids, literals},
     specialize::Specialized,
+    types::Type,
 };
 
 /// A scalar.
@@ -28,7 +29,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// What holds the whole vector: an instruction's result, or a place in a variable. `None` for a constant, which can be
+    /// The owner of the whole vector: an instruction's result, or a place in a variable. `None` for a constant, which can be
     /// in any register.
     pub fn register(self) -> Option<(Id, u32)> {
         match self {
@@ -73,11 +74,11 @@ impl Specialized<'_> {
             }
             Op::CompositeExtract => {
                 let composite = *operands.first()?;
-                Some(self.scalar(composite, index + self.offset(composite, literals(instruction))?))
+                Some(self.scalar(composite, index + self.module.offset(composite, literals(instruction))?))
             }
             Op::CompositeInsert => {
                 let [part, composite] = operands[..] else { return None };
-                let first = self.offset(composite, literals(instruction))?;
+                let first = self.module.offset(composite, literals(instruction))?;
                 match index.checked_sub(first).filter(|i| *i < self.module.width_of(part)) {
                     Some(inside) => Some(self.scalar(part, inside)),
                     None => Some(self.scalar(composite, index)),
@@ -95,17 +96,6 @@ impl Specialized<'_> {
             }
             _ => None,
         }
-    }
-
-    /// The first scalar of the part of a composite that these indices name.
-    fn offset(&self, composite: Id, indices: impl Iterator<Item = u32>) -> Option<u32> {
-        let mut type_ = *self.module.type_of.get(&composite)?;
-        let mut first = 0;
-        for index in indices {
-            let (part, offset) = self.module.part(type_, index)?;
-            (type_, first) = (part, first + offset);
-        }
-        Some(first)
     }
 
     /// A scalar behind a pointer to an input or a uniform, where its place is constant.
@@ -184,7 +174,7 @@ enum Operand {
     Opaque(Id),
 }
 
-/// What is computed: the operation, its type, its literal numbers and its operands.
+/// A computation: the operation, its type, its literal numbers and its operands.
 type Computation = (Op, Option<Id>, Vec<u32>, Vec<Operand>);
 
 /// Makes each value that repeats an earlier one stand for it.

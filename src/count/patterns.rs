@@ -1,4 +1,4 @@
-//! What the renderer spells out and ARB has as one instruction: MAD, DP3, DP4 and XPD, found in the graph of values.
+//! Patterns that the renderer spells out and ARB has as one instruction: MAD, DP3, DP4 and XPD, found in the graph of values.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ use super::{
     specialize::Specialized,
 };
 
-/// What an instruction is in a pattern.
+/// The part of an instruction in a pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// All of the pattern's cost, under this name.

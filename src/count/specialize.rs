@@ -17,7 +17,7 @@ use super::{
     numbering,
 };
 
-/// What is known of a value.
+/// The knowledge of a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
     /// Any will do.
@@ -112,7 +112,7 @@ impl<'a> Specialized<'a> {
         self.places.get(&id).map(|(block, _)| self.module.blocks[*block].label)
     }
 
-    /// What a phi takes over the edges that exist.
+    /// The values that a phi takes over the edges that exist.
     pub fn incoming(&self, phi: &Instruction) -> Vec<Id> {
         let Some(label) = phi.result_id.and_then(|id| self.block_of(id)) else { return Vec::new() };
         let pairs: Vec<Id> = ids(phi).collect();
@@ -176,7 +176,7 @@ impl<'a> Specialized<'a> {
         }
     }
 
-    /// What is known of an instruction's value; `None` where nothing is yet.
+    /// The knowledge of an instruction's value; `None` where nothing is yet.
     fn evaluate(&self, instruction: &Instruction) -> Option<Value> {
         let operands: Vec<Id> = ids(instruction).map(|id| self.resolve(id)).collect();
         match instruction.class.opcode {
@@ -231,16 +231,14 @@ impl<'a> Specialized<'a> {
             self.known(id).is_some_and(|scalars| scalars.iter().all(|scalar| *scalar == pattern))
         };
         let one = 1.0_f32.to_bits();
-        let falsehood =
-            || Value::Known(vec![0; self.module.width(instruction.result_type.unwrap_or_default()) as usize]);
-        let truth =
-            || Value::Known(vec![1; self.module.width(instruction.result_type.unwrap_or_default()) as usize]);
+        let width = self.module.width(instruction.result_type.unwrap_or_default()) as usize;
+        let constant = |value: u32| Value::Known(vec![value; width]);
         match (instruction.class.opcode, operands) {
             (Op::Select, [condition, yes, _]) if all(*condition, 1) => Some(Value::Same(*yes)),
             (Op::Select, [condition, _, no]) if all(*condition, 0) => Some(Value::Same(*no)),
             (Op::Select, [_, yes, no]) if self.is_equal(*yes, *no) => Some(Value::Same(*yes)),
-            (Op::LogicalAnd, [a, b]) if all(*a, 0) || all(*b, 0) => Some(falsehood()),
-            (Op::LogicalOr, [a, b]) if all(*a, 1) || all(*b, 1) => Some(truth()),
+            (Op::LogicalAnd, [a, b]) if all(*a, 0) || all(*b, 0) => Some(constant(0)),
+            (Op::LogicalOr, [a, b]) if all(*a, 1) || all(*b, 1) => Some(constant(1)),
             (Op::LogicalAnd, [a, b]) if all(*a, 1) => Some(Value::Same(*b)),
             (Op::LogicalAnd, [a, b]) if all(*b, 1) => Some(Value::Same(*a)),
             (Op::LogicalOr, [a, b]) if all(*a, 0) => Some(Value::Same(*b)),

@@ -70,7 +70,7 @@ pub(super) struct Counted {
     pub at: Id,
 }
 
-/// What was counted so far.
+/// The instructions counted so far.
 pub(super) struct Tally<'s, 'a> {
     pub specialized: &'s Specialized<'a>,
     live: &'s Live<'a>,
@@ -119,6 +119,8 @@ impl Tally<'_, '_> {
         }
         let width = self.specialized.module.width_of(id);
         let first = ids(instruction).nth(usize::from(op == Op::ExtInst));
+        let source =
+            first.and_then(|operand| self.specialized.instruction(self.specialized.resolve(operand)));
         let operand_width = first.map_or(1, |operand| self.specialized.module.width_of(operand));
         match op {
             Op::Phi => {
@@ -147,16 +149,12 @@ impl Tally<'_, '_> {
                 self.add(label, ["MUL", "FLR", "MAD"]);
             }
             Op::LogicalNot => {
-                let turned =
-                    first.and_then(|operand| self.specialized.instruction(self.specialized.resolve(operand)));
-                if !turned.is_some_and(|turned| is_comparison(turned.class.opcode)) && !self.only_discards(id)
-                {
+                let turns = source.is_some_and(|source| is_comparison(source.class.opcode));
+                if !turns && !self.only_discards(id) {
                     self.add(label, ["SUB"]);
                 }
             }
             Op::ConvertFToS | Op::ConvertFToU => {
-                let source =
-                    first.and_then(|operand| self.specialized.instruction(self.specialized.resolve(operand)));
                 let is_whole = source.and_then(extended_op).is_some_and(|op| {
                     matches!(
                         op,

@@ -11,13 +11,13 @@ use crate::{
         execute::{Body, Kept, Physical, Profile, Profiler},
     },
     passes::Needs,
-    vk::{DescriptorPool, Device, Occlusion, PoolRoom},
+    vk::{DescriptorPool, Device, Occlusion, PoolSizes},
 };
 
 /// Descriptor sets, queries, plan and transients of one frame at a time.
 pub struct FrameSlot {
     device: Device,
-    descriptors: Option<(DescriptorPool, PoolRoom)>,
+    descriptors: Option<(DescriptorPool, PoolSizes)>,
     profiler: Option<(Profiler, Profile)>,
     occlusion: Option<Occlusion>,
     kept: Kept,

@@ -21,7 +21,7 @@ use super::{
     corners,
     mesh_splats::one_color,
     resample::{
-        Areas, MOST_SAMPLES, Samples, check_count, check_memory, no_area, radii::radii, sample, vertex_colors,
+        Areas, MOST_SAMPLES, check_count, check_memory, no_area, radii::radii, sample, vertex_colors,
     },
     shaded_mesh::shaded_mesh,
     surface::MeshReport,
@@ -29,7 +29,7 @@ use super::{
 use crate::{
     error::{Error, Result},
     progress::Progress,
-    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+    scene::{Colors, Mesh, Shapes, Splats},
 };
 use border::Border;
 use chains::{Chains, Place};
@@ -38,10 +38,10 @@ use near::{MARKS_PER_RADIUS, Near};
 /// How the splat part is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HybridOptions {
-    /// Of the splat part, spread evenly over its area as [`super::resample`] does; those on edges come on top, those
-    /// removed are missing. 1 to [`MOST_SAMPLES`].
+    /// The number of splats of the splat part, spread evenly over its area as [`super::resample`] does; those on edges
+    /// come on top, those removed are missing. 1 to [`MOST_SAMPLES`].
     pub samples: u64,
-    /// The same seed gives the same samples.
+    /// The seed: the same one gives the same samples.
     pub seed: u64,
     /// Splats on the transition edges, and none too close to them. Without, the seam is the paper's figure 5d.
     pub sample_edges: bool,
@@ -50,27 +50,27 @@ pub struct HybridOptions {
 /// A mesh in two parts.
 #[derive(Clone, Debug)]
 pub struct Hybrid {
-    /// Those of the splat part in the order of its triangles, then those on transition edges.
+    /// The splats of the splat part in the order of its triangles, then those on transition edges.
     pub splats: Splats,
     /// The other part, as [`shaded_mesh`] makes it; its normals, and the splats', are those of the whole mesh, so that
     /// both parts are shaded alike where they meet. Only vertices that it uses.
     pub polygons: Mesh,
     /// The whole mesh is closed, which neither part need be.
     pub closed: bool,
-    /// What was done.
+    /// The report.
     pub report: HybridReport,
 }
 
-/// What was done to make a [`Hybrid`].
+/// The facts on how a [`Hybrid`] was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HybridReport {
-    /// What was found in the whole mesh.
+    /// The facts found in the whole mesh.
     pub mesh: MeshReport,
     /// Triangles that stay polygons.
     pub polygons: usize,
     /// Edges that both parts have.
     pub transition_edges: usize,
-    /// Of all of them, in world units.
+    /// The length of all of them, in world units.
     pub transition_length: f64,
     /// The radius of the splats on them, which is the median inside; 0 where there is no splat part.
     pub edge_radius: f64,
@@ -138,7 +138,7 @@ fn splat_part(
     report.transition_edges = border.edges.len();
     report.transition_length = chains.length();
     report.edge_radius = f64::from(edge_radius);
-    let mut splats = collect(whole, samples, radii);
+    let mut splats = samples.splats(whole, radii);
     if border.edges.is_empty() {
         return Ok(splats);
     }
@@ -153,7 +153,7 @@ fn splat_part(
     Ok(splats)
 }
 
-/// Those of the splats on the edges, none without `wanted`.
+/// The places of the splats on the edges, none without `wanted`.
 fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bool) -> Result<Vec<Place>> {
     let marks = chains.count(radius / MARKS_PER_RADIUS);
     // Those near the edges are there twice.
@@ -165,7 +165,6 @@ fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bo
         );
         return Err(Error::option(SAMPLES, problem));
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of 32 bits")]
     check_memory(all as usize, colors, SAMPLES)?;
     Ok(if wanted { chains.places(EDGE_SPACING * radius) } else { Vec::new() })
 }
@@ -174,14 +173,6 @@ fn median(radii: &[f32]) -> f32 {
     let mut sorted = radii.to_vec();
     let middle = sorted.len() / 2;
     *sorted.select_nth_unstable_by(middle, f32::total_cmp).1
-}
-
-fn collect(mesh: &Mesh, samples: Samples, radii: Vec<f32>) -> Splats {
-    Splats {
-        positions: samples.positions,
-        shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::PerSplat),
-    }
 }
 
 fn empty(mesh: &Mesh) -> Splats {
@@ -196,8 +187,7 @@ fn add(splats: &mut Splats, places: &[Place], radius: f32) {
         normals.extend(places.iter().map(|place| place.normal.as_vec3()));
         radii.resize(splats.positions.len(), radius);
     }
-    if let Colors::PerSplat(colors) = &mut splats.colors {
-        #[expect(clippy::cast_possible_truncation, reason = "0–1")]
+    if let Colors::Each(colors) = &mut splats.colors {
         colors.extend(places.iter().map(|place| place.color.map(|channel| channel as f32)));
     }
 }
@@ -216,7 +206,7 @@ fn polygon_part(mut mesh: Mesh, polygon: &[bool]) -> Mesh {
     };
     let numbers: Vec<u32> = used.iter().map(number).collect();
     mesh.triangles.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex as usize]);
-    if let MeshColors::PerVertex(colors) = &mut mesh.colors {
+    if let Colors::Each(colors) = &mut mesh.colors {
         keep(colors, &used);
     }
     if let Some(normals) = &mut mesh.normals {

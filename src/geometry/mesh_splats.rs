@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     progress::Progress,
-    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+    scene::{Colors, Mesh, Shapes, Splats},
 };
 
 /// How much larger than the smallest hole-free radius disks are made: so that their kernels blend.
@@ -40,12 +40,11 @@ pub fn splats_from_mesh(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (
     (splats, report)
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "splats keep radii as f32")]
 fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap: f64) -> Splats {
     let kept = || used.iter().enumerate().filter(|(_, used)| **used).map(|(i, _)| i);
     let colors = match &mesh.colors {
-        MeshColors::PerVertex(colors) if colors.len() == used.len() => {
-            Colors::PerSplat(kept().map(|i| colors[i]).collect())
+        Colors::Each(colors) if colors.len() == used.len() => {
+            Colors::Each(kept().map(|i| colors[i]).collect())
         }
         _ => one_color(mesh),
     };
@@ -62,8 +61,8 @@ fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap
 /// The color of all splats of a mesh that has none at its vertices.
 pub(super) fn one_color(mesh: &Mesh) -> Colors {
     match mesh.colors {
-        MeshColors::Uniform(color) => Colors::Uniform(color),
-        MeshColors::PerVertex(_) | MeshColors::None => Colors::unknown(),
+        Colors::Uniform(color) => Colors::Uniform(color),
+        Colors::Each(_) => Colors::unknown(),
     }
 }
 

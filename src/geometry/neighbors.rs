@@ -28,7 +28,7 @@ pub(super) struct Point {
     pub number: u32,
 }
 
-/// What [`Tree::nearest_to`] finds.
+/// The neighbors that [`Tree::nearest_to`] finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest {
     pub distance: f64,
@@ -46,7 +46,7 @@ impl Tree {
     /// Bytes that [`Tree::new`] needs for a point, its argument included.
     pub(super) const BYTES_PER_POINT: usize = size_of::<Point>() + 1;
 
-    /// Of finite points.
+    /// The tree of finite points.
     pub(super) fn new(mut points: Vec<Point>) -> Self {
         let mut axes = vec![0; points.len()];
         halve(&mut points, &mut axes, threads(usize::MAX));
@@ -85,62 +85,50 @@ impl Tree {
     /// The nearest of the points that are less than `reach` away from a place that need not be one of them.
     pub(super) fn nearest_to(&self, target: DVec3, reach: f64) -> Option<Nearest> {
         let mut best = Nearest { distance: reach * reach, position: DVec3::NAN };
-        self.search_near(0..self.points.len(), target, &mut best);
+        self.search(0..self.points.len(), target, best.distance, &mut |place, squared| {
+            if squared < best.distance {
+                best = Nearest { distance: squared, position: self.points[place].position };
+            }
+            best.distance
+        });
         let found = !best.position.is_nan();
         found.then(|| Nearest { distance: best.distance.sqrt(), ..best })
     }
 
-    /// `best.distance` is squared.
-    fn search_near(&self, node: Range<usize>, target: DVec3, best: &mut Nearest) {
-        let mut take = |place: usize| {
-            let position = self.points[place].position;
-            let squared = target.distance_squared(position);
-            if squared < best.distance {
-                *best = Nearest { distance: squared, position };
-            }
-        };
-        if node.len() <= LEAF {
-            return node.for_each(take);
-        }
-        let middle = node.start + node.len() / 2;
-        take(middle);
-        let axis = usize::from(self.axes[middle]);
-        let beyond = target[axis] - self.points[middle].position[axis];
-        let (below, above) = (node.start..middle, middle + 1..node.end);
-        let (near, far) = if beyond < 0.0 { (below, above) } else { (above, below) };
-        self.search_near(near, target, best);
-        if beyond * beyond < best.distance {
-            self.search_near(far, target, best);
-        }
-    }
-
     fn nearest(&self, place: usize) -> [f64; NEIGHBORS] {
-        let mut squared = [f64::INFINITY; NEIGHBORS];
-        self.search(0..self.points.len(), place, &mut squared);
-        squared.map(f64::sqrt)
+        let mut nearest = [f64::INFINITY; NEIGHBORS];
+        let target = self.points[place].position;
+        self.search(0..self.points.len(), target, f64::INFINITY, &mut |other, squared| {
+            if other != place {
+                insert(&mut nearest, squared);
+            }
+            nearest[NEIGHBORS - 1]
+        });
+        nearest.map(f64::sqrt)
     }
 
-    fn search(&self, node: Range<usize>, place: usize, nearest: &mut [f64; NEIGHBORS]) {
-        let target = self.points[place].position;
+    /// Hands the places of points and their squared distances from `target` to `take`, those of the nearer side first; points
+    /// are left out that are not nearer than what `take` answered last, which is also the answer.
+    fn search(
+        &self,
+        node: Range<usize>,
+        target: DVec3,
+        bound: f64,
+        take: &mut impl FnMut(usize, f64) -> f64,
+    ) -> f64 {
+        let squared = |place: usize| target.distance_squared(self.points[place].position);
         if node.len() <= LEAF {
-            for other in node.filter(|&other| other != place) {
-                insert(nearest, target.distance_squared(self.points[other].position));
-            }
-            return;
+            return node.fold(bound, |_, place| take(place, squared(place)));
         }
         let middle = node.start + node.len() / 2;
-        if middle != place {
-            insert(nearest, target.distance_squared(self.points[middle].position));
-        }
+        let bound = take(middle, squared(middle));
         let axis = usize::from(self.axes[middle]);
         let beyond = target[axis] - self.points[middle].position[axis];
         let (below, above) = (node.start..middle, middle + 1..node.end);
         let (near, far) = if beyond < 0.0 { (below, above) } else { (above, below) };
-        self.search(near, place, nearest);
+        let bound = self.search(near, target, bound, take);
         // Not where it is equal: all of many equal points would be searched.
-        if beyond * beyond < nearest[NEIGHBORS - 1] {
-            self.search(far, place, nearest);
-        }
+        if beyond * beyond < bound { self.search(far, target, bound, take) } else { bound }
     }
 }
 
@@ -169,7 +157,6 @@ fn halve(points: &mut [Point], axes: &mut [u8], threads: usize) {
         let along = a.position[axis].total_cmp(&b.position[axis]);
         along.then(a.number.cmp(&b.number))
     });
-    #[expect(clippy::cast_possible_truncation, reason = "0–2")]
     let of_middle = axis as u8;
     axes[middle] = of_middle;
     let parallel = threads > 1 && points.len() > 2 * POINTS_PER_THREAD;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::corners;
 use crate::scene::Mesh;
 
-/// What the faces say about the vertices.
+/// The vertices' normals by their faces.
 pub(super) struct VertexNormals {
     /// Unit, or zero where the faces cancel or there are none.
     pub normals: Vec<DVec3>,

@@ -29,7 +29,7 @@ use crate::{
     error::{Error, Result},
     math::random::{SplitMix, unit_from_bits},
     progress::Progress,
-    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+    scene::{Colors, Mesh, Shapes, Splats},
 };
 
 pub use radii::RADIUS_PER_DISTANCE;
@@ -63,12 +63,7 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     let surface = Surface::of(mesh, || {});
     let samples = sample(mesh, colors, &surface.normals, &areas, count, seed, progress);
     let radii = radii::radii(&samples.positions, areas.total / count as f64, progress);
-    let splats = Splats {
-        positions: samples.positions,
-        shapes: Shapes::Disks { normals: samples.normals, radii },
-        colors: samples.colors.map_or_else(|| one_color(mesh), Colors::PerSplat),
-    };
-    Ok((splats, surface.report))
+    Ok((samples.splats(mesh, radii), surface.report))
 }
 
 /// A number of samples that `option` may ask for.
@@ -80,8 +75,8 @@ pub(super) fn check_count(count: u64, option: &str) -> Result<usize> {
 /// The mesh's colors, where there is one for each vertex.
 pub(super) fn vertex_colors(mesh: &Mesh) -> Option<&[[f32; 4]]> {
     match &mesh.colors {
-        MeshColors::PerVertex(colors) if colors.len() == mesh.positions.len() => Some(colors),
-        MeshColors::PerVertex(_) | MeshColors::Uniform(_) | MeshColors::None => None,
+        Colors::Each(colors) if colors.len() == mesh.positions.len() => Some(colors),
+        Colors::Each(_) | Colors::Uniform(_) => None,
     }
 }
 
@@ -109,12 +104,12 @@ pub fn check_memory_for(count: usize, bytes_each: usize) -> Result<(), String> {
 pub(super) struct Areas {
     /// Where each triangle's part ends; a degenerate one has none.
     ends: Vec<f64>,
-    /// Of all, above 0.
+    /// The area of all, above 0.
     pub(super) total: f64,
 }
 
 impl Areas {
-    /// Of those of the mesh's triangles that are `part` of what is sampled; the others are as if they had no area.
+    /// The areas of those of the mesh's triangles that are `part` of what is sampled; the others are as if they had no area.
     pub(super) fn of(mesh: &Mesh, part: &dyn Fn(usize) -> bool) -> Result<Self> {
         let mut total = 0.0;
         let mut ends = Vec::with_capacity(mesh.triangles.len());
@@ -147,6 +142,17 @@ pub(super) struct Samples {
     /// Unit.
     pub(super) normals: Vec<Vec3>,
     pub(super) colors: Option<Vec<[f32; 4]>>,
+}
+
+impl Samples {
+    /// Disks at the samples of a mesh.
+    pub(super) fn splats(self, mesh: &Mesh, radii: Vec<f32>) -> Splats {
+        Splats {
+            positions: self.positions,
+            shapes: Shapes::Disks { normals: self.normals, radii },
+            colors: self.colors.map_or_else(|| one_color(mesh), Colors::Each),
+        }
+    }
 }
 
 /// `count` samples of the triangles that have a part of `areas`, in their order. `normals` are the vertices'.
@@ -198,7 +204,6 @@ fn blend(weights: [f64; 3], values: [DVec3; 3]) -> DVec3 {
 }
 
 /// Linear light, each channel for itself; alpha is straight and so is blended alike.
-#[expect(clippy::cast_possible_truncation, reason = "0–1")]
 fn blend_colors(weights: [f64; 3], values: [[f32; 4]; 3]) -> [f32; 4] {
     std::array::from_fn(|channel| {
         let at = |corner: usize| weights[corner] * f64::from(values[corner][channel]);

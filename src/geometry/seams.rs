@@ -7,7 +7,7 @@ use crate::scene::Mesh;
 /// A mesh, and which of its triangles stay polygons.
 #[derive(Clone, Debug)]
 pub struct Seam {
-    /// What is hard about it.
+    /// Its name: what is hard about it.
     pub name: &'static str,
     /// No normals and no colors: whatever is seen at the seam is its own.
     pub mesh: Mesh,

@@ -1,4 +1,4 @@
-//! What is known of a mesh's surface at its vertices: normals, and whether it encloses something.
+//! A mesh's surface at its vertices: normals, and whether it encloses something.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::scene::Mesh;
 
-/// What was found in a mesh on the way to splats.
+/// The facts found in a mesh on the way to splats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshReport {
     /// Vertices without a usable face: they are no part of the surface.
@@ -37,12 +37,12 @@ pub(super) struct Surface {
     pub normals: Vec<DVec3>,
     /// Whether some non-degenerate face has this vertex.
     pub used: Vec<bool>,
-    /// What was found.
+    /// The facts found.
     pub report: MeshReport,
 }
 
 impl Surface {
-    /// Of a whole mesh. `step` is called after each of two steps.
+    /// The surface of a whole mesh. `step` is called after each of two steps.
     pub(super) fn of(mesh: &Mesh, mut step: impl FnMut()) -> Self {
         let VertexNormals { normals: mut face_normals, used, degenerate_faces } = vertex_normals(mesh);
         step();

@@ -1,9 +1,12 @@
-//! What scenes are made of: random numbers that repeat, splats one by one, camera and settings.
+//! Parts of scenes: random numbers that repeat, splats one by one, polygons, camera and settings.
 
 use std::f64::consts::TAU;
 
-use crate::scene::{Accumulate, Camera, Colors, Filter, Object, Rasterizer, Scene, Settings, Shapes, Splats};
 use glam::{DVec3, Vec3};
+
+use crate::scene::{
+    Accumulate, Camera, Colors, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Settings, Shapes, Splats,
+};
 
 pub use crate::math::random::SplitMix as Random;
 
@@ -19,6 +22,12 @@ impl Random {
         let (sin, cos) = self.between(0.0, TAU).sin_cos();
         let r = (1.0 - z * z).sqrt();
         DVec3::new(r * cos, r * sin, z)
+    }
+
+    /// A point at most this far from the origin along each axis, on a grid of f32: the oracle and the GPU read the same.
+    pub fn point(&mut self, at_most: [f64; 3]) -> DVec3 {
+        let point = DVec3::from(at_most.map(|at_most| self.between(-at_most, at_most)));
+        point.as_vec3().as_dvec3()
     }
 
     /// A color, opaque.
@@ -61,7 +70,7 @@ impl Builder {
             true => Shapes::Disks { normals: self.normals, radii: self.radii },
             false => Shapes::Ellipses { s: self.s, t: self.t },
         };
-        let splats = Splats { positions: self.positions, shapes, colors: Colors::PerSplat(self.colors) };
+        let splats = Splats { positions: self.positions, shapes, colors: Colors::Each(self.colors) };
         Object { name: "test".to_owned(), splats, closed }
     }
 
@@ -69,6 +78,48 @@ impl Builder {
     pub fn scene(self, closed: bool) -> Scene {
         Scene { objects: vec![self.object(closed)], ..Scene::default() }
     }
+}
+
+/// A ball of polygons: `rings` of twice as many quads each, with smooth normals.
+pub fn ball_of_polygons(center: DVec3, radius: f64, rings: u32, color: [f32; 4]) -> MeshObject {
+    let columns = 2 * rings;
+    let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for ring in 0..=rings {
+        let (sin, cos) = (std::f64::consts::PI * f64::from(ring) / f64::from(rings)).sin_cos();
+        for column in 0..columns {
+            let (y, x) = (std::f64::consts::TAU * f64::from(column) / f64::from(columns)).sin_cos();
+            let normal = DVec3::new(sin * x, cos, sin * y);
+            positions.push(center + radius * normal);
+            normals.push(normal.as_vec3());
+        }
+    }
+    for ring in 0..rings {
+        for column in 0..columns {
+            let at = |ring: u32, column: u32| ring * columns + column % columns;
+            let [a, b] = [at(ring, column), at(ring, column + 1)];
+            let [c, d] = [at(ring + 1, column), at(ring + 1, column + 1)];
+            if ring > 0 {
+                triangles.push([a, b, d]);
+            }
+            if ring + 1 < rings {
+                triangles.push([a, d, c]);
+            }
+        }
+    }
+    let mesh = Mesh { positions, normals: Some(normals), colors: Colors::Uniform(color), triangles };
+    MeshObject { name: "ball of polygons".to_owned(), mesh, closed: true }
+}
+
+/// A rectangle of two triangles, its corners counterclockwise.
+pub fn rectangle(corners: [DVec3; 4], color: [f32; 4]) -> MeshObject {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero().as_vec3();
+    let mesh = Mesh {
+        positions: corners.to_vec(),
+        normals: Some(vec![normal; 4]),
+        colors: Colors::Uniform(color),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    };
+    MeshObject { name: "rectangle".to_owned(), mesh, closed: false }
 }
 
 /// 45° of view, +y up.
@@ -88,7 +139,7 @@ pub fn settings() -> Settings {
     Settings { size_px: [256, 256], rasterizer, accumulate: Accumulate::F32, ..Settings::default() }
 }
 
-/// The same without a filter.
+/// These settings without a filter.
 pub fn unfiltered() -> Settings {
     Settings { filter: Filter::None, ..settings() }
 }

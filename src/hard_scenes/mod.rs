@@ -16,7 +16,7 @@ use crate::scene::{Camera, Filter, Scene, Settings};
 /// A scene, its camera, and how it is to be rendered.
 #[derive(Clone)]
 pub struct Hard {
-    /// What is hard about it.
+    /// Its name: what is hard about it.
     pub name: &'static str,
     /// The splats.
     pub scene: Scene,
@@ -24,6 +24,13 @@ pub struct Hard {
     pub camera: Camera,
     /// How, before a method changes it.
     pub settings: Settings,
+}
+
+impl Hard {
+    /// This scene seen from `eye` toward the origin, drawn as hard scenes are.
+    pub fn seen_from(eye: [f64; 3], name: &'static str, scene: Scene) -> Self {
+        Self { name, scene, camera: builder::camera(eye, [0.0; 3]), settings: builder::settings() }
+    }
 }
 
 /// Every hard scene.

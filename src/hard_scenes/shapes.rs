@@ -1,4 +1,4 @@
-//! What the splats are: an ordinary surface, ellipses any way round, many in one place, broken ones.
+//! Scenes that are hard by their splats: an ordinary surface, ellipses any way round, many in one place, broken ones.
 
 use std::f64::consts::PI;
 
@@ -6,9 +6,9 @@ use glam::{DQuat, DVec3};
 
 use super::{
     Hard,
-    builder::{Builder, Random, camera, settings},
+    builder::{Builder, Random},
 };
-use crate::scene::{Filter, Object, Scene, Settings};
+use crate::scene::{Filter, Object, Scene};
 
 /// A closed sphere of `count` disks around `center` (golden-angle spiral), colored by position.
 pub fn sphere(count: usize, center: DVec3) -> Object {
@@ -31,17 +31,17 @@ pub fn sphere(count: usize, center: DVec3) -> Object {
 /// A closed surface of disks that overlap: the ordinary case.
 pub fn sphere_of_disks() -> Hard {
     let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)], ..Scene::default() };
-    Hard { name: "sphere of disks", scene, camera: camera([0.0, 0.0, 3.2], [0.0; 3]), settings: settings() }
+    Hard::seen_from([0.0, 0.0, 3.2], "sphere of disks", scene)
 }
 
-/// The same sphere where a step of f32 is half a unit.
+/// The sphere where a step of f32 is half a unit.
 pub fn far_from_the_origin() -> Hard {
     let offset = DVec3::new(500_000.0, 4_600_000.0, 300.0);
     let scene = Scene { objects: vec![sphere(3000, offset)], ..Scene::default() };
-    let mut camera = camera([0.0, 0.0, 3.2], [0.0; 3]);
-    camera.eye += offset;
-    camera.target += offset;
-    Hard { name: "sphere far from the origin", scene, camera, settings: settings() }
+    let mut hard = Hard::seen_from([0.0, 0.0, 3.2], "sphere far from the origin", scene);
+    hard.camera.eye += offset;
+    hard.camera.target += offset;
+    hard
 }
 
 /// Ellipses of aspect up to 20, any way round; unfiltered ones get as thin as 0.1 px.
@@ -52,26 +52,17 @@ pub fn random_ellipses(filter: Filter) -> Hard {
         let rotation = DQuat::from_axis_angle(random.direction(), random.between(0.0, PI));
         let aspect = random.between(1.0, 20.0);
         let radius = random.between(0.02, 0.3);
-        let position =
-            DVec3::new(random.between(-1.3, 1.3), random.between(-1.3, 1.3), random.between(-1.0, 1.0));
-        let color = random.color();
-        builder.ellipse(
-            position.as_vec3().as_dvec3(),
-            rotation * DVec3::X * radius,
-            rotation * DVec3::Y * radius / aspect,
-            color,
-        );
+        let position = random.point([1.3, 1.3, 1.0]);
+        let [s, t] = [rotation * DVec3::X * radius, rotation * DVec3::Y * radius / aspect];
+        builder.ellipse(position, s, t, random.color());
     }
     let name = match filter {
         Filter::Adjust => "random ellipses of aspect up to 20",
         _ => "random ellipses, unfiltered",
     };
-    Hard {
-        name,
-        scene: builder.scene(false),
-        camera: camera([0.3, 0.2, 3.5], [0.0; 3]),
-        settings: Settings { filter, ..settings() },
-    }
+    let mut hard = Hard::seen_from([0.3, 0.2, 3.5], name, builder.scene(false));
+    hard.settings.filter = filter;
+    hard
 }
 
 /// Thousands of disks of different colors in one place.
@@ -79,15 +70,10 @@ pub fn coincident() -> Hard {
     let mut builder = Builder::default();
     let mut random = Random(6);
     for _ in 0..3000 {
-        let color = random.color();
-        builder.disk(DVec3::new(0.1, -0.05, 0.0), DVec3::new(0.2, 0.1, 1.0).normalize(), 0.5, color);
+        let normal = DVec3::new(0.2, 0.1, 1.0).normalize();
+        builder.disk(DVec3::new(0.1, -0.05, 0.0), normal, 0.5, random.color());
     }
-    Hard {
-        name: "3000 coincident disks",
-        scene: builder.scene(false),
-        camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
-        settings: settings(),
-    }
+    Hard::seen_from([0.0, 0.0, 3.0], "3000 coincident disks", builder.scene(false))
 }
 
 /// Every defect among good disks and good ellipses.
@@ -96,8 +82,7 @@ pub fn degenerate() -> Hard {
     let mut random = Random(7);
     let nan = f64::NAN;
     for i in 0..400 {
-        let p = DVec3::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), random.between(-0.2, 0.2));
-        let p = p.as_vec3().as_dvec3();
+        let p = random.point([0.8, 0.8, 0.2]);
         let n = (DVec3::Z + 0.5 * random.direction()).normalize();
         let color = random.color();
         match i % 8 {
@@ -111,8 +96,7 @@ pub fn degenerate() -> Hard {
     }
     let mut ellipses = Builder::default();
     for i in 0..200 {
-        let p = DVec3::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8), random.between(-0.2, 0.2));
-        let p = p.as_vec3().as_dvec3();
+        let p = random.point([0.8, 0.8, 0.2]);
         let s = 0.1 * random.direction();
         let t = 0.5 * s.cross(random.direction());
         let color = random.color();
@@ -125,10 +109,6 @@ pub fn degenerate() -> Hard {
             _ => ellipses.ellipse(p, s, t, color),
         }
     }
-    Hard {
-        name: "degenerate splats among good ones",
-        scene: Scene { objects: vec![builder.object(false), ellipses.object(false)], ..Scene::default() },
-        camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
-        settings: settings(),
-    }
+    let scene = Scene { objects: vec![builder.object(false), ellipses.object(false)], ..Scene::default() };
+    Hard::seen_from([0.0, 0.0, 3.0], "degenerate splats among good ones", scene)
 }

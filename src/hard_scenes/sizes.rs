@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{
     Hard,
-    builder::{Builder, Random, camera, settings, unfiltered},
+    builder::{Builder, Random, unfiltered},
 };
 
 /// Disks seen within 1° of grazing.
@@ -13,9 +13,7 @@ pub fn edge_on() -> Hard {
     let mut builder = Builder::default();
     let eye = DVec3::new(0.0, 0.0, 3.0);
     for _ in 0..1500 {
-        let position =
-            DVec3::new(random.between(-1.2, 1.2), random.between(-1.2, 1.2), random.between(-0.5, 0.5));
-        let position = position.as_vec3().as_dvec3();
+        let position = random.point([1.2, 1.2, 0.5]);
         let to_eye = (eye - position).normalize();
         let side = to_eye.cross(random.direction()).normalize();
         let grazing = random.between(0.05, 1.0).to_radians();
@@ -23,12 +21,7 @@ pub fn edge_on() -> Hard {
         let color = random.color();
         builder.disk(position, normal, random.between(0.1, 0.5), color);
     }
-    Hard {
-        name: "edge-on disks",
-        scene: builder.scene(false),
-        camera: camera(eye.into(), [0.0; 3]),
-        settings: settings(),
-    }
+    Hard::seen_from(eye.into(), "edge-on disks", builder.scene(false))
 }
 
 /// Disks of 0.25 to 0.7 pixels: a pixel sees one only if its center is hit.
@@ -47,19 +40,12 @@ fn subpixel(name: &'static str, from_px: f64, to_px: f64) -> Hard {
     let mut random = Random(5);
     let pixel = (45.0_f64 / 2.0).to_radians().tan() * 3.0 / 128.0;
     for _ in 0..8000 {
-        let position =
-            DVec3::new(random.between(-1.2, 1.2), random.between(-1.2, 1.2), random.between(-0.2, 0.2));
+        let position = random.point([1.2, 1.2, 0.2]);
         let normal = (DVec3::Z + 0.7 * random.direction()).normalize();
         let radius = pixel * from_px * (to_px / from_px).powf(random.unit());
-        let color = random.color();
-        builder.disk(position.as_vec3().as_dvec3(), normal, radius, color);
+        builder.disk(position, normal, radius, random.color());
     }
-    Hard {
-        name,
-        scene: builder.scene(false),
-        camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
-        settings: settings(),
-    }
+    Hard::seen_from([0.0, 0.0, 3.0], name, builder.scene(false))
 }
 
 /// Disks a hundred times as large as what the camera sees of them.
@@ -68,13 +54,7 @@ pub fn larger_than_the_screen() -> Hard {
     let mut random = Random(3);
     for i in 0..12 {
         let normal = (DVec3::Z + 0.6 * random.direction()).normalize();
-        let color = random.color();
-        builder.disk(DVec3::new(0.0, 0.0, -0.5 * f64::from(i)), normal, 300.0, color);
+        builder.disk(DVec3::new(0.0, 0.0, -0.5 * f64::from(i)), normal, 300.0, random.color());
     }
-    Hard {
-        name: "disks larger than the screen",
-        scene: builder.scene(false),
-        camera: camera([0.1, -0.2, 3.0], [0.0; 3]),
-        settings: settings(),
-    }
+    Hard::seen_from([0.1, -0.2, 3.0], "disks larger than the screen", builder.scene(false))
 }

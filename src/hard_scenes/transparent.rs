@@ -4,12 +4,12 @@ use glam::{DVec3, Vec3};
 
 use super::{
     Hard,
-    builder::{Builder, camera, settings},
+    builder::{Builder, ball_of_polygons, camera, rectangle, settings},
     shapes::sphere,
 };
 use crate::scene::{
-    Backfaces, Colors, Epsilon, Filter, LastLayer, Layers, Light, LightKind, Mesh, MeshColors, MeshObject,
-    Object, Scene, Settings, Transition,
+    Backfaces, Colors, Epsilon, Filter, LastLayer, Layers, Light, LightKind, Mesh, MeshObject, Object, Scene,
+    Settings, Transition,
 };
 
 /// Layers enough for every pixel of these scenes: then the picture has no error of the method.
@@ -20,52 +20,10 @@ pub fn all_layers() -> Settings {
     Settings { layers: ALL_LAYERS, last_layer: LastLayer::Drop, ..settings() }
 }
 
-/// The same splats in one color with an alpha.
+/// These splats in one color with an alpha.
 pub fn tinted(mut object: Object, color: [f32; 4]) -> Object {
     object.splats.colors = Colors::Uniform(color);
     object
-}
-
-/// A ball of polygons: `rings` of twice as many quads each, with smooth normals.
-pub fn ball_of_polygons(center: DVec3, radius: f64, rings: u32, color: [f32; 4]) -> MeshObject {
-    let columns = 2 * rings;
-    let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-    for ring in 0..=rings {
-        let (sin, cos) = (std::f64::consts::PI * f64::from(ring) / f64::from(rings)).sin_cos();
-        for column in 0..columns {
-            let (y, x) = (std::f64::consts::TAU * f64::from(column) / f64::from(columns)).sin_cos();
-            let normal = DVec3::new(sin * x, cos, sin * y);
-            positions.push(center + radius * normal);
-            normals.push(normal.as_vec3());
-        }
-    }
-    for ring in 0..rings {
-        for column in 0..columns {
-            let at = |ring: u32, column: u32| ring * columns + column % columns;
-            let [a, b] = [at(ring, column), at(ring, column + 1)];
-            let [c, d] = [at(ring + 1, column), at(ring + 1, column + 1)];
-            if ring > 0 {
-                triangles.push([a, b, d]);
-            }
-            if ring + 1 < rings {
-                triangles.push([a, d, c]);
-            }
-        }
-    }
-    let mesh = Mesh { positions, normals: Some(normals), colors: MeshColors::Uniform(color), triangles };
-    MeshObject { name: "ball of polygons".to_owned(), mesh, closed: true }
-}
-
-/// A rectangle of two triangles, its corners counterclockwise.
-pub fn rectangle(corners: [DVec3; 4], color: [f32; 4]) -> MeshObject {
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero().as_vec3();
-    let mesh = Mesh {
-        positions: corners.to_vec(),
-        normals: Some(vec![normal; 4]),
-        colors: MeshColors::Uniform(color),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-    };
-    MeshObject { name: "rectangle".to_owned(), mesh, closed: false }
 }
 
 /// A square of disks, all of one normal.
@@ -84,7 +42,7 @@ fn sheet(center: DVec3, normal: DVec3, half: f64, across: u32, color: [f32; 4]) 
 }
 
 fn hard(name: &'static str, scene: Scene, settings: Settings) -> Hard {
-    Hard { name, scene, camera: camera([0.4, 0.3, 4.0], [0.0; 3]), settings }
+    Hard { settings, ..Hard::seen_from([0.4, 0.3, 4.0], name, scene) }
 }
 
 /// 27 balls, as in figure 6 of Guennebaud et al. 2006.
@@ -140,9 +98,8 @@ fn sphere_and_sheets(sheets: &[(f64, [f32; 4])]) -> Scene {
 /// Alphas of 0 and 1 among others, in one object and in whole ones.
 pub fn alpha_0_and_1() -> Hard {
     let mut mixed = sheet(0.4 * DVec3::Z, DVec3::Z, 1.0, 24, [1.0; 4]);
-    mixed.splats.colors = Colors::PerSplat(
-        (0..mixed.splats.len()).map(|i| [0.8, 0.3, 0.2, [0.0, 1.0, 0.5][i / 96 % 3]]).collect(),
-    );
+    mixed.splats.colors =
+        Colors::Each((0..mixed.splats.len()).map(|i| [0.8, 0.3, 0.2, [0.0, 1.0, 0.5][i / 96 % 3]]).collect());
     let invisible = sheet(0.8 * DVec3::Z, DVec3::Z, 1.2, 16, [0.0, 1.0, 0.0, 0.0]);
     let full = sheet(-0.4 * DVec3::Z, DVec3::Z, 1.3, 24, [0.1, 0.3, 0.9, 1.0]);
     let scene = Scene { objects: vec![mixed, invisible, full], ..Scene::default() };
@@ -186,9 +143,8 @@ pub fn upon_the_opaque() -> Hard {
 pub fn camera_inside() -> Hard {
     let objects = vec![tinted(sphere(3000, DVec3::ZERO), [0.3, 0.6, 0.9, 0.4])];
     let mut ball = ball_of_polygons(DVec3::ZERO, 1.7, 24, [0.9, 0.4, 0.2, 0.5]);
-    ball.mesh.colors = MeshColors::PerVertex(
-        ball.mesh.positions.iter().map(|p| [0.5 + 0.2 * p.x as f32, 0.4, 0.3, 0.5]).collect(),
-    );
+    ball.mesh.colors =
+        Colors::Each(ball.mesh.positions.iter().map(|p| [0.5 + 0.2 * p.x as f32, 0.4, 0.3, 0.5]).collect());
     let scene = Scene { objects, meshes: vec![ball], ..Scene::default() };
     Hard {
         camera: camera([0.2, 0.1, 0.3], [0.9, 0.4, -0.8]),
@@ -241,7 +197,7 @@ pub fn hybrid(transition: Transition) -> Hard {
     half_and_half("splats and polygons of one surface", [1.0, 1.0], transition)
 }
 
-/// The same, transparent.
+/// The hybrid, transparent.
 pub fn transparent_hybrid(transition: Transition) -> Hard {
     half_and_half("transparent splats and polygons of one surface", [0.5, 0.6], transition)
 }
@@ -286,7 +242,7 @@ pub fn blended() -> Hard {
     Hard { name: "last layer blended", scene, camera, settings }
 }
 
-/// The same with the alpha of as many surfaces as the weights tell.
+/// The blended scene with the alpha of as many surfaces as the weights tell.
 pub fn stacked(transition: Transition) -> Hard {
     let mut hard = blended();
     hard.name = "last layer stacked";

@@ -40,9 +40,10 @@ pub fn cut_by_the_near_plane() -> Hard {
         let color = random.color();
         builder.disk(position.as_vec3().as_dvec3(), random.direction(), random.between(0.1, 0.6), color);
     }
-    let mut camera = camera([0.0, 0.0, 3.0], [0.0; 3]);
-    camera.near = Some(1.0);
-    Hard { name: "disks cut by the near plane", scene: builder.scene(false), camera, settings: unfiltered() }
+    let mut hard = Hard::seen_from([0.0, 0.0, 3.0], "disks cut by the near plane", builder.scene(false));
+    hard.camera.near = Some(1.0);
+    hard.settings = unfiltered();
+    hard
 }
 
 /// Centers from just outside to far outside of each side and corner, the disks reaching in.
@@ -61,10 +62,5 @@ pub fn centers_off_screen() -> Hard {
         let color = random.color();
         builder.disk(position.as_vec3().as_dvec3(), normal, beyond + random.between(0.2, 0.8), color);
     }
-    Hard {
-        name: "centers off-screen",
-        scene: builder.scene(false),
-        camera: camera([0.0, 0.0, 3.0], [0.0; 3]),
-        settings: settings(),
-    }
+    Hard::seen_from([0.0, 0.0, 3.0], "centers off-screen", builder.scene(false))
 }

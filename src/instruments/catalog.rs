@@ -15,8 +15,7 @@ use crate::{
     graph::{BufferDesc, Graph, Handle, Image, execute::Body},
     prepare::prepare_without_device,
     scene::{
-        Camera, Colors, Light, LightKind, Mesh, MeshColors, MeshObject, Object, Scene, Settings, Shapes,
-        Splats, Storage,
+        Camera, Colors, Light, LightKind, Mesh, MeshObject, Object, Scene, Settings, Shapes, Splats, Storage,
     },
     shaders,
     vk::Limits,
@@ -151,7 +150,7 @@ fn scene_of(traits: Traits) -> Scene {
         mesh: Mesh {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
             normals: Some(vec![Vec3::Z; 3]),
-            colors: MeshColors::Uniform([0.5, 0.5, 0.5, alpha]),
+            colors: Colors::Uniform([0.5, 0.5, 0.5, alpha]),
             triangles: vec![[0, 1, 2]],
         },
         closed: traits.closed,

@@ -31,7 +31,7 @@ impl Headless {
         let frame = renderer.frame_plan(scene, camera, settings)?;
         let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
         let mut slot = FrameSlot::new(device);
-        let counts_draws = device.features().draw_indirect_count;
+        let counts_draws = device.facts().draw_indirect_count;
         // SAFETY: nothing was recorded in it.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;

@@ -11,7 +11,7 @@ use crate::{
     passes::{self, Inputs, Needs, Source},
     prepare::PreparedScene,
     scene::{Camera, Settings},
-    vk::{Buffer, BufferDesc, MemoryUse, PoolRoom},
+    vk::{Buffer, BufferDesc, MemoryUse, PoolSizes},
 };
 
 /// The picture that the paper's own programs draw: RGBA, linear, row by row from the top. Of the settings that concern splats,
@@ -47,7 +47,7 @@ pub fn draw_as_published(
 
     let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
     // Two sets with the kernel, one with the sums.
-    let room = PoolRoom { sets: 3, images: 4, filtered_images: 2, ..PoolRoom::default() };
+    let room = PoolSizes { sets: 3, images: 4, filtered_images: 2, ..PoolSizes::default() };
     // SAFETY: the slot is new.
     unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
     let SlotParts { descriptors, execution, .. } = slot.parts()?;

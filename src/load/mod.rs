@@ -22,7 +22,7 @@ pub use scene_file::{
     Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
 };
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Clone, Debug)]
 pub enum Model {
     /// Disks, ready to be drawn once [`Splats::drop_defective`] was called.
@@ -61,7 +61,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>> {
     fs::read(path).map_err(|e| Error::file(path, "read", e))
 }
 
-/// The file's own name, for progress messages.
-fn file_name(path: &Path) -> String {
+/// The file's own name, without its folder.
+pub fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

@@ -3,12 +3,12 @@
 /// `−ln 2⁻²⁴`: a fragment whose weight is below 2⁻²⁴ does not cover.
 const CUTOFF_EXPONENT: f64 = 24.0 * std::f64::consts::LN_2;
 
-/// Of `exp(−r²/2σ²)`: `r²/2σ² = 24 ln 2`, or the disk's rim.
+/// The end of `exp(−r²/2σ²)`: `r²/2σ² = 24 ln 2`, or the disk's rim.
 pub fn gaussian_coverage_r2(sigma: f64) -> f64 {
     (CUTOFF_EXPONENT * 2.0 * sigma * sigma).min(1.0)
 }
 
-/// Of ψ_E, `exp(−a q/(1−q))` with `q = rⁿ`: `a q/(1−q) = 24 ln 2`, which is always inside the rim.
+/// The end of ψ_E, `exp(−a q/(1−q))` with `q = rⁿ`: `a q/(1−q) = 24 ln 2`, which is always inside the rim.
 pub fn psi_e_coverage_r2(a: f64, n: f64) -> f64 {
     let q = CUTOFF_EXPONENT / (a + CUTOFF_EXPONENT);
     q.powf(2.0 / n)

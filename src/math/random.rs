@@ -21,7 +21,6 @@ impl SplitMix {
 }
 
 /// The upper 53 bits as a fraction, from 0 to below 1.
-#[expect(clippy::cast_precision_loss, reason = "53 bits are kept")]
 pub fn unit_from_bits(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }

@@ -1,6 +1,6 @@
 //! How large a splat's image can get: the host's proof that no point exceeds the device's cap.
 
-/// What bounds the splats of a chunk, seen from a camera; lengths in one unit.
+/// The bounds of the splats of a chunk, seen from a camera; lengths in one unit.
 #[derive(Clone, Copy, Debug)]
 pub struct SizeBound {
     /// The smallest view-space depth of any point of any splat.
@@ -37,12 +37,12 @@ pub fn largest_box_px(bound: &SizeBound) -> f64 {
     box_px(bound, bound.largest_radius)
 }
 
-/// The same of splats with smaller radii among them.
+/// That bound for splats with smaller radii among them.
 pub fn box_px(bound: &SizeBound, radius: f64) -> f64 {
     box_within_px(bound, radius, f64::INFINITY)
 }
 
-/// The same of splats all of whose images lie within ±`most_x` of the image plane.
+/// That bound for splats all of whose images lie within ±`most_x` of the image plane.
 pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::shaders::config::BLOCK_SPLATS;
 
-/// What bounds the splats of a block, in the chunk's local space.
+/// The bounds of the splats of a block, in the chunk's local space.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     /// How many: [`BLOCK_SPLATS`], and fewer of the last one.
@@ -49,7 +49,7 @@ impl Block {
     }
 }
 
-/// Of tangent vectors with a smaller sine between them a device's normal, found in f32, may be 1e-4 rad from that found here, or more.
+/// The smallest sine between tangent vectors whose normal a device finds in f32 within 1e-4 rad of that found here.
 const LEAST_SINE: f64 = 1e-3;
 
 /// A splat as the device has it.
@@ -64,7 +64,7 @@ struct Sample {
 #[derive(Default)]
 pub(super) struct BlockMaker {
     done: Vec<Block>,
-    /// Those of the next one.
+    /// The next one's.
     next: Vec<Sample>,
 }
 

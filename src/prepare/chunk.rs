@@ -43,7 +43,7 @@ pub struct Chunk {
     pub largest_radius: f64,
     /// How many have which, roughly; local space.
     pub radii: Vec<RadiusStep>,
-    /// What its splats take in a scene ([`crate::scene::Splats::bytes`]).
+    /// The bytes of its splats in a scene ([`crate::scene::Splats::bytes`]).
     pub scene_bytes: u64,
     /// Its splats in runs of [`BLOCK_SPLATS`](crate::shaders::config::BLOCK_SPLATS).
     pub blocks: Vec<Block>,

@@ -1,11 +1,11 @@
-//! What a chunk has on the device: its buffers, and the descriptor set that shaders find the first two by.
+//! The memory of a chunk on the device: its buffers, and the descriptor set that shaders find the first two by.
 
 use ash::vk;
 
 use crate::{
     error::Result,
     vk::{
-        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolRoom, SealedPool,
+        Binding, Buffer, BufferDesc, Descriptor, DescriptorPool, Device, MemoryUse, PoolSizes, SealedPool,
         SetLayout, Staging,
     },
 };
@@ -56,7 +56,7 @@ impl Uploader<'_> {
 impl<const BUFFERS: usize> ChunkMemory<BUFFERS> {
     /// The set of two buffers or more. `name`: the chunk's.
     pub fn new(uploader: &Uploader<'_>, name: &str, buffers: [Buffer; BUFFERS]) -> Result<Self> {
-        let room = PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() };
+        let room = PoolSizes { sets: 1, buffers: 2, ..PoolSizes::default() };
         let pool = DescriptorPool::new(uploader.device, &format!("set of {name}"), room)?;
         let named = (0..).zip(&buffers).take(2);
         let given: Vec<_> =

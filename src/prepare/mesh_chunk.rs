@@ -14,11 +14,11 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{Colors, Mesh, MeshColors},
+    scene::{Colors, Mesh},
     vk::Staging,
 };
 
-/// What is uploaded at once.
+/// The most bytes that are uploaded at once.
 const BATCH_BYTES: usize = 1 << 22;
 
 /// Triangles of one object in buffers of their own.
@@ -51,12 +51,8 @@ impl PackedMesh {
     /// The triangles of a range of a mesh that can be drawn. Where one color is for all, it is packed once.
     fn of(mesh: &Mesh, range: Range<usize>, rebase: Rebase) -> Self {
         let uniform = match mesh.colors {
-            MeshColors::PerVertex(_) => None,
-            MeshColors::Uniform(color) => Some(color),
-            MeshColors::None => match Colors::unknown() {
-                Colors::Uniform(color) => Some(color),
-                Colors::PerSplat(_) => None,
-            },
+            Colors::Each(_) => None,
+            Colors::Uniform(color) => Some(color),
         };
         let mut packed = Self {
             rebase,
@@ -76,14 +72,8 @@ impl PackedMesh {
                     .normals
                     .as_ref()
                     .is_none_or(|of| of.get(vertex as usize).is_some_and(|n| n.is_finite()));
-                let color = match &mesh.colors {
-                    MeshColors::PerVertex(of) => {
-                        of.get(vertex as usize).is_some_and(|color| color.iter().all(|c| c.is_finite()))
-                    }
-                    MeshColors::Uniform(color) => color.iter().all(|c| c.is_finite()),
-                    MeshColors::None => true,
-                };
-                normal && color
+                let color = mesh.colors.get(vertex as usize);
+                normal && color.is_some_and(|color| color.iter().all(|c| c.is_finite()))
             };
             if !corners.iter().all(|corner| corner.is_finite()) || !mesh.triangles[i].into_iter().all(usable)
             {
@@ -97,10 +87,9 @@ impl PackedMesh {
                     let normal = normals.get(vertex as usize).copied().unwrap_or_default();
                     packed.vertices.push(corner.extend(0.0).into());
                     packed.vertices.push(normal.extend(0.0).into());
-                    if let MeshColors::PerVertex(colors) = &mesh.colors {
-                        packed
-                            .colors
-                            .push(packed_color(colors.get(vertex as usize).copied().unwrap_or_default()));
+                    if let Colors::Each(colors) = &mesh.colors {
+                        let color = colors.get(vertex as usize).copied().unwrap_or_default();
+                        packed.colors.push(packed_color(color));
                     }
                     u32::try_from(place).unwrap_or(u32::MAX)
                 });
@@ -230,7 +219,7 @@ mod tests {
         assert_eq!(whole(&mesh).indices.len(), 1);
         let mut colors = vec![[0.5; 4]; 6];
         colors[5][1] = f32::INFINITY;
-        mesh.colors = MeshColors::PerVertex(colors);
+        mesh.colors = Colors::Each(colors);
         assert!(whole(&mesh).is_empty());
     }
 

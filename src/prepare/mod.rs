@@ -48,7 +48,7 @@ pub struct PreparedScene {
     /// The mean of the major radii of all transparent splats, world space; 0 where there is none. So thick is a
     /// transparent polygon where ε is told in radii.
     pub mean_transparent_radius: f64,
-    /// What was left out, in all objects together.
+    /// The splats that were left out, in all objects together.
     pub defects: DefectCounts,
 }
 

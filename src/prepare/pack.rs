@@ -13,7 +13,7 @@ use super::{
 };
 use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
 
-/// What is known of some splats before any of them is packed: buffers get their exact size.
+/// The facts on some splats before any of them is packed: buffers get their exact size.
 pub struct Survey {
     /// Their local space.
     pub rebase: Rebase,
@@ -33,7 +33,7 @@ pub struct Survey {
     pub radii: Vec<RadiusStep>,
     /// The sum of the major radii, world space.
     pub sum_of_radii: f64,
-    /// What is left out.
+    /// The splats that are left out.
     pub defects: DefectCounts,
 }
 
@@ -48,7 +48,7 @@ impl Survey {
         if self.colors_are_packed() { packed::COLOR_BYTES } else { COLOR_BYTES }
     }
 
-    /// The same splats in 16 bytes each; `None` where they stay exact: ellipses, and what has something far off
+    /// The survey of these splats in 16 bytes each; `None` where they stay exact: ellipses, and what has something far off
     /// ([`packed::rebase`]).
     pub fn packed(&self) -> Option<Self> {
         let [lo, hi] = self.bounds;

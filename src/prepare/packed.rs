@@ -36,7 +36,7 @@ const STEPS: f64 = (1 << 24) as f64;
 /// One of them, of a half side of 1.
 pub const STEP: f64 = 1.0 / STEPS;
 
-/// What is added to a radius's code to make it the upper 25 bits of an f32: the largest code is the radius 1.
+/// The number that is added to a radius's code to make it the upper 25 bits of an f32: the largest code is the radius 1.
 const RADIUS_BASE: u32 = (1.0_f32.to_bits() >> 7) - RADIUS_MAX;
 
 /// The largest code of a radius.
@@ -133,9 +133,7 @@ pub fn as_packed(splats: &Splats) -> Option<Splats> {
     let world = |length: f64| length / survey.rebase.scale;
     let colors = match &splats.colors {
         Colors::Uniform(color) => Colors::Uniform(*color),
-        Colors::PerSplat(_) => {
-            Colors::PerSplat(packed.colors.iter().map(|word| unpacked_color(*word)).collect())
-        }
+        Colors::Each(_) => Colors::Each(packed.colors.iter().map(|word| unpacked_color(*word)).collect()),
     };
     let normals: Vec<Vec3> = disks().map(|(_, normal, _)| normal.as_vec3()).collect();
     let radii = disks().map(|(.., radius)| world(radius) as f32).collect();

@@ -26,7 +26,7 @@ impl RadiusCounts {
         self.0[(radius.abs().to_bits() >> SHIFT) as usize] += 1;
     }
 
-    /// What there is, the smallest first.
+    /// The steps that there are, the smallest first.
     pub fn steps(&self) -> Vec<RadiusStep> {
         let step = |(i, count): (usize, &u32)| {
             let radius = f64::from_bits((i as u64 + 1) << SHIFT);

@@ -24,9 +24,9 @@ pub struct Rebase {
 pub struct ViewFromLocal {
     /// The rows of the rotation, each with its component of the translation.
     pub rows: [[f32; 4]; 3],
-    /// What local lengths are multiplied by.
+    /// The factor of local lengths.
     pub view_from_local_scale: f64,
-    /// What world lengths are multiplied by.
+    /// The factor of world lengths.
     pub view_from_world_scale: f64,
     /// The local origin seen from the eye, not rotated, in the view's unit.
     pub origin_from_eye: DVec3,
@@ -53,7 +53,7 @@ impl Rebase {
         Self::of_balls(&sampled, |i| (points[i], 0.0))
     }
 
-    /// Of balls, each a center and a radius.
+    /// The local space of balls, each a center and a radius.
     fn of_balls(sampled: &[usize], ball: impl Fn(usize) -> (DVec3, f64)) -> Self {
         let median = |value: &dyn Fn(usize) -> f64| {
             let mut values: Vec<f64> = sampled.iter().map(|&i| value(i)).collect();

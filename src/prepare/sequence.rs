@@ -25,7 +25,7 @@ pub(super) struct Sequence {
 }
 
 impl Sequence {
-    /// Of an object's splats. Holds 12 bytes a splat on its way, and 4 then. What has no more than 2³² splats can be
+    /// The sequence of an object's splats. Holds 12 bytes a splat on its way, and 4 then. What has no more than 2³² splats can be
     /// ordered; more keep the order of input.
     pub fn of(splats: &Splats, order: Order) -> Self {
         let count = splats.len();
@@ -46,7 +46,7 @@ impl Sequence {
         numbers(self.listed.as_deref(), places)
     }
 
-    /// The same splats, in the order of input where they are all there are: memory is read in its own order, and what is
+    /// These splats, in the order of input where they are all there are: memory is read in its own order, and what is
     /// found is the same, bit by bit, whatever the sequence.
     pub fn in_any_order(&self, places: Range<usize>) -> impl ExactSizeIterator<Item = usize> + '_ {
         let all = places == (0..self.count);

@@ -61,7 +61,7 @@ impl Frame<'_> {
     }
 }
 
-/// What hides other things, in every pixel.
+/// The nearest opaque things, in every pixel.
 fn fronts(frame: &Frame, rows: &Range<u32>, pixels: &mut [Pixel]) -> Vec<Front> {
     let splats = nearest_surface(frame, rows, pixels.len());
     let polygons = polygons::nearest(frame, rows, pixels);

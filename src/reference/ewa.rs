@@ -17,7 +17,7 @@ const EDGE_ON: f64 = 2.4e-7;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretched {
     pub ellipse: ImageEllipse,
-    /// What its weight is multiplied by: the ratio of the areas, `√(det(V − σ²h²I) / det V)`, at least
+    /// The factor of its weight: the ratio of the areas, `√(det(V − σ²h²I) / det V)`, at least
     /// [`LEAST_SHARE`].
     pub share: f64,
     /// 1/z is `inverse_depth + per_uv · (u, v)`: that of the splat's plane at the point that has been stretched to

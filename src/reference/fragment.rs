@@ -1,4 +1,4 @@
-//! What a splat is in a pixel: its weight and depth, and how close that is to another outcome.
+//! A splat in a pixel: its weight and depth, and how close that is to another outcome.
 
 use glam::DVec3;
 

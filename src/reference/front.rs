@@ -11,7 +11,7 @@ pub(super) struct VisiblePolygon {
     pub triangle: usize,
 }
 
-/// What is in front.
+/// The things in front.
 #[derive(Clone, Copy)]
 pub(super) struct Front {
     pub splats: Nearest,

@@ -49,7 +49,7 @@ struct Field<'a> {
     shader: Shader,
     taps: &'a Taps,
     splats: Vec<DrawnSplat>,
-    /// Of `splats`, in samples.
+    /// The search boxes of `splats`, in samples.
     boxes: Vec<SearchBox>,
     /// The x of each sample column in the image plane.
     columns: Vec<f64>,

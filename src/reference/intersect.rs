@@ -15,7 +15,7 @@ pub(super) enum Map {
     Projective,
     /// An ellipse in the image; the depth is that of the plane.
     Affine(ImageEllipse),
-    /// The same with the low-pass filter added, and depths of its own.
+    /// An affine map with the low-pass filter added, and depths of its own.
     Stretched(Stretched),
 }
 

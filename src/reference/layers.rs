@@ -23,14 +23,14 @@ pub(super) struct Translucent {
     pub source: Source,
 }
 
-/// What a fragment is of, by its place in the list of all that is transparent.
+/// The thing that a fragment is of, by its place in the list of all that is transparent.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     Splat(usize),
     Triangle(usize),
 }
 
-/// What fragments are looked up in.
+/// The things that fragments are looked up in.
 pub(super) struct Transparent<'a> {
     pub splats: &'a [DrawnSplat],
     pub triangles: &'a [DrawnTriangle],

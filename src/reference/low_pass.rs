@@ -10,7 +10,7 @@ pub(super) struct LowPass {
     pub center: DVec2,
     /// √2 pixels, in the image plane.
     pub radius: f64,
-    /// Of the splat's center.
+    /// The depth of the splat's center.
     pub z: f64,
     /// The larger one of the filter's radius and the splat's own semi-minor axis, in pixels.
     pub minor_px: f64,
@@ -36,7 +36,7 @@ pub(super) struct Square {
 }
 
 impl Square {
-    /// Of a splat with these drawn tangent vectors, or of its low-pass filter, where that is larger.
+    /// The square of a splat with these drawn tangent vectors, or of its low-pass filter, where that is larger.
     pub fn around(center: DVec3, s: DVec3, t: DVec3, low_pass: Option<&LowPass>) -> Self {
         let half_side = s.length().max(t.length()) / center.z;
         Self {

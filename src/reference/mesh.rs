@@ -8,7 +8,7 @@ use super::splat::culls;
 use super::surface::Attributes;
 use super::triangle::DrawnTriangle;
 use super::view::View;
-use crate::scene::{Colors, MeshColors, MeshObject, Opacity, Scene, Settings};
+use crate::scene::{MeshObject, Opacity, Scene, Settings};
 
 /// The triangles of a scene, in its order.
 #[derive(Default)]
@@ -52,16 +52,9 @@ fn prepare_one(object: &MeshObject, i: usize, view: &View) -> Option<DrawnTriang
     DrawnTriangle::new(corners, [a?, b?, c?])
 }
 
-/// Of a vertex; without a normal where the mesh has none.
+/// The attributes of a vertex; without a normal where the mesh has none.
 fn attributes(object: &MeshObject, vertex: usize, view: &View) -> Option<Attributes> {
-    let color = match &object.mesh.colors {
-        MeshColors::None => match Colors::unknown() {
-            Colors::Uniform(color) => color,
-            Colors::PerSplat(colors) => *colors.first()?,
-        },
-        MeshColors::Uniform(color) => *color,
-        MeshColors::PerVertex(colors) => *colors.get(vertex)?,
-    };
+    let color = object.mesh.colors.get(vertex)?;
     let normal = match &object.mesh.normals {
         Some(normals) => *normals.get(vertex)?,
         None => Vec3::ZERO,

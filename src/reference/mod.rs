@@ -109,7 +109,7 @@ pub fn render(
     Ok(Picture { size_px: settings.size_px, pixels, defects })
 }
 
-/// What all bands read.
+/// The scene as all bands read it.
 fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<DrawnSplat>) -> Frame<'a> {
     // Without anything transparent nothing is moved.
     let (transparent, opaque) = match splats.iter().any(|splat| splat.transparent) {

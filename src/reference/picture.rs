@@ -1,4 +1,4 @@
-//! What the oracle hands out: one record a pixel.
+//! The oracle's picture: one record a pixel.
 
 use crate::scene::DefectCounts;
 
@@ -90,7 +90,7 @@ impl Pixel {
         }
     }
 
-    /// Of one more decision.
+    /// Takes the margin of one more decision into account.
     pub(super) fn note_margin(&mut self, margin: f64) {
         self.epsilon_margin = self.epsilon_margin.min(margin);
     }

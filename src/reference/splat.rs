@@ -44,11 +44,11 @@ pub(super) struct DrawnSplat {
     pub shift: f64,
     /// How the image is mapped onto it.
     pub map: Map,
-    /// What the kernel's value is multiplied by, above 0 and at most 1; coverage does not depend on it.
+    /// The factor of the kernel's value, above 0 and at most 1; coverage does not depend on it.
     pub share: f64,
     /// The low-pass filter beside it, for [`Filter::Max`].
     pub low_pass: Option<LowPass>,
-    /// What it is cut to, for [`Rasterizer::RaycastApproximate`].
+    /// The square to which it is cut, for [`Rasterizer::RaycastApproximate`].
     pub square: Option<Square>,
     /// Semi-minor axis in pixels: of the map's ellipse, or of the projection at the center; `None` where the disk
     /// reaches the near plane and the projection is no ellipse.

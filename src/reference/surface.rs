@@ -14,7 +14,7 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    /// Of a pixel without a splat.
+    /// The nearest thing of a pixel without a splat.
     pub const NONE: Self = Self { z_shifted: f64::INFINITY, splat: usize::MAX };
 }
 
@@ -29,13 +29,13 @@ pub(super) struct Sums {
     alpha: f64,
 }
 
-/// What a pixel sees.
+/// The surface that a pixel sees.
 pub(super) struct Surface {
     /// Linear.
     pub albedo: DVec3,
     /// Unit.
     pub normal: DVec3,
-    /// Of the mean of the normals.
+    /// The length of the mean of the normals.
     pub normal_length: f64,
     pub depth: f64,
     /// Straight.
@@ -44,7 +44,7 @@ pub(super) struct Surface {
     pub color: DVec3,
 }
 
-/// What of a surface point is shaded and blended.
+/// The attributes of a surface point that are shaded and blended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Attributes {
     /// Linear.

@@ -27,7 +27,7 @@ impl Premultiplied {
     pub const NONE: Self = Self { color: DVec3::ZERO, alpha: 0.0 };
 }
 
-/// What is seen of one surface: `polygon + s (splats − polygon)` with `s = min(Σw, 1)` where both are there. The colors
+/// The look of one surface: `polygon + s (splats − polygon)` with `s = min(Σw, 1)` where both are there. The colors
 /// are multiplied by alpha before they are blended, so that what is not seen has no color.
 pub(super) fn join(
     transition: Transition,

@@ -16,15 +16,15 @@ pub(super) const BORDER_REACH_PX: f64 = 1.0 / 16.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnTriangle {
     pub corners: [DVec3; 3],
-    /// Of the corners. Normals are unit or zero, toward the side of the triangle that is seen.
+    /// The attributes of the corners. Normals are unit or zero, toward the side of the triangle that is seen.
     attributes: [Attributes; 3],
     /// The cross product of the edges from the first corner: twice the area.
     plane_normal: DVec3,
-    /// Of a closed surface: in transparent layers its normals stay outward.
+    /// It is of a closed surface: in transparent layers its normals stay outward.
     pub outward: bool,
     /// Normals, toward the triangle, of the planes through the eye and the edge opposite to each corner.
     inward: [DVec3; 3],
-    /// Of the same edges, whether nothing of the object is drawn beyond it. True until told otherwise.
+    /// Tells of each edge whether nothing of the object is drawn beyond it. True until told otherwise.
     pub is_border: [bool; 3],
 }
 
@@ -104,7 +104,7 @@ impl DrawnTriangle {
         }
     }
 
-    /// The same with the normal that a transparent layer sums: outward of what is closed.
+    /// The attributes with the normal that a transparent layer sums: outward of what is closed.
     pub fn attributes_in_layer(&self, ray: DVec3, z: f64) -> Attributes {
         let attributes = self.attributes(ray, z);
         let turned = self.outward && self.faces_away();

@@ -1,4 +1,4 @@
-//! What the ground truth hands out, and what it sums for that.
+//! The pixels that the ground truth hands out, and the sums that they are made from.
 
 use glam::DVec3;
 
@@ -34,10 +34,10 @@ pub struct TruePixel {
     pub alpha: f64,
 }
 
-/// What is low-passed of a sample: whether it sees a surface, then albedo, normal, color, depth and alpha.
+/// The channels of a sample that are low-passed: whether it sees a surface, then albedo, normal, color, depth and alpha.
 pub(super) type Channels = [f64; 12];
 
-/// Of a sample that sees `surface`.
+/// The channels of a sample that sees `surface`.
 pub(super) fn channels(surface: &Surface) -> Channels {
     let (albedo, normal, color) = (surface.albedo, surface.normal, surface.color);
     let (depth, alpha) = (surface.depth, surface.alpha);
@@ -60,7 +60,7 @@ impl TruePixel {
         alpha: 0.0,
     };
 
-    /// Of the filter's sums.
+    /// The pixel of the filter's sums.
     pub(super) fn from_sums(sums: &Channels) -> Self {
         let coverage = sums[0];
         if coverage <= 0.0 {

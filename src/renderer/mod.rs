@@ -155,7 +155,7 @@ impl Renderer {
             let problem = format!("{w}x{h} pixels, but the settings say {width}x{height}");
             return Err(Error::option("target", problem));
         }
-        let counts_draws = self.device.features().draw_indirect_count;
+        let counts_draws = self.device.facts().draw_indirect_count;
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.

@@ -2,7 +2,7 @@
 
 use super::Spread;
 
-/// What stands for a figure that does not exist.
+/// The cell of a figure that does not exist.
 pub const NONE: &str = "-";
 
 /// A figure as it is, or [`NONE`].

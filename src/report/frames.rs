@@ -13,7 +13,7 @@ use super::{
 /// as a part of the latter.
 const TOLERANCE: f64 = 0.05;
 
-/// What one frame took.
+/// The times of one frame.
 #[derive(Clone, Debug)]
 pub struct FrameSample {
     /// Milliseconds of each pass, in the frame's order, in a frame of its own, since timing them may make it longer; `None`
@@ -37,7 +37,7 @@ impl FrameSample {
     }
 }
 
-/// What one pass costs.
+/// The cost of one pass.
 #[derive(Clone, Debug, Serialize)]
 pub struct PassFigures {
     /// The pass.
@@ -50,7 +50,7 @@ pub struct PassFigures {
     pub fragments: Option<u64>,
 }
 
-/// What a frame costs, over several frames.
+/// The cost of a frame, over several frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameTimes {
     /// Frames drawn before the timed ones, so that caches are warm.
@@ -68,12 +68,12 @@ pub struct FrameTimes {
     pub submit_to_wait_ms: Option<Spread>,
     /// In which the host recorded the frame, in milliseconds.
     pub record_ms: Option<Spread>,
-    /// What a reader of these figures has to know, a sentence each.
+    /// Notes for a reader of these figures, a sentence each.
     pub flags: Vec<String>,
 }
 
 impl FrameTimes {
-    /// Of frames with these passes. `counts` are vertices and fragments of each pass, where they were counted.
+    /// The cost of frames with these passes. `counts` are vertices and fragments of each pass, where they were counted.
     pub fn of(
         names: &[String],
         warm_up_frames: u32,
@@ -164,7 +164,7 @@ fn flags(samples: &[FrameSample], passes: &[PassFigures]) -> Vec<String> {
     flags
 }
 
-/// What to know where timing the passes costs something: of each frame their sum, and the time of one whose passes are not timed.
+/// A note where timing the passes costs something: of each frame their sum, and the time of one whose passes are not timed.
 pub fn passes_flag(sums_and_frames_ms: impl Iterator<Item = (f64, f64)>) -> Option<String> {
     let other = "the time of a frame whose passes are not timed";
     apart_flag("the sum of the passes", other, sums_and_frames_ms)

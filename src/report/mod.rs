@@ -1,4 +1,4 @@
-//! What a run was made of and what it cost, as plain data: serialized it is the JSON of `--timings`, printed it is a
+//! Measurements and what they are of, as plain data: serialized it is the JSON of `--timings`, printed it is a
 //! table for people.
 //!
 //! No figure is made up: what was not measured is `None` (`null` in JSON) and a sentence among the flags says why.

@@ -1,4 +1,4 @@
-//! What a device is asked for alone, to find how much of it it does in a second at most.
+//! Work that a device is given alone, to find how much of it it does in a second at most.
 
 use serde::Serialize;
 
@@ -27,7 +27,7 @@ pub enum ThroughputProbe {
 }
 
 impl ThroughputProbe {
-    /// What it is called: in tables, and as the pass that measures it.
+    /// Its name: in tables, and as the pass that measures it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Points => "points",

@@ -12,15 +12,15 @@ use crate::scene::Camera;
 pub struct RunReport {
     /// The version of surfel.
     pub surfel: String,
-    /// What it ran on.
+    /// The device.
     pub device: DeviceReport,
     /// The settings by the names of their options.
     pub settings: BTreeMap<&'static str, String>,
     /// The camera.
     pub camera: CameraReport,
-    /// What was drawn.
+    /// The scene.
     pub scene: SceneReport,
-    /// What came before the frames, in order of time.
+    /// The steps before the frames, in order of time.
     pub steps: Vec<Step>,
     /// The frames.
     pub frames: FrameTimes,
@@ -46,9 +46,9 @@ pub struct DeviceReport {
 pub struct CameraReport {
     /// Where the eye is, world space.
     pub eye: [f64; 3],
-    /// What it looks at, world space.
+    /// The point in the middle of the image, world space.
     pub target: [f64; 3],
-    /// What is up, world space.
+    /// The direction that is up, world space.
     pub up: [f64; 3],
     /// The vertical field of view in degrees.
     pub fov_deg: f64,
@@ -56,7 +56,7 @@ pub struct CameraReport {
     pub near: f64,
 }
 
-/// What was drawn.
+/// A scene that was drawn.
 #[derive(Clone, Debug, Serialize)]
 pub struct SceneReport {
     /// Where it came from.
@@ -90,14 +90,14 @@ pub struct InputReport {
     pub splats: usize,
     /// Splats that can't, and were left out.
     pub dropped: usize,
-    /// The same and what was done with it, in words.
+    /// The input and what was done with it, in words.
     pub summary: String,
 }
 
 /// Something that is done once before the frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Step {
-    /// What.
+    /// Its name.
     pub name: String,
     /// How long it took, in seconds of the wall clock.
     pub secs: f64,

@@ -20,7 +20,7 @@ pub struct Spread {
 const TAIL: f64 = 0.025;
 
 impl Spread {
-    /// Of these values; `None` where there is none, or one is not finite.
+    /// The spread of these values; `None` where there is none, or one is not finite.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = values.into_iter().collect();
         if !sorted.iter().all(|value| value.is_finite()) {
@@ -48,7 +48,7 @@ impl Spread {
         self.interval.map(|[low, high]| low <= value && value <= high)
     }
 
-    /// Of 1 over each value; `None` unless all are above 0.
+    /// The spread of 1 over each value; `None` unless all are above 0.
     pub fn inverse(&self) -> Option<Self> {
         let of = |value: f64| 1.0 / value;
         (self.min > 0.0).then(|| Self {
@@ -62,12 +62,6 @@ impl Spread {
 
 /// The largest rank, from 0, such that the true median lies below that order statistic with a probability of at most
 /// [`TAIL`]: fewer than `rank + 1` of `count` measurements are below the median then, each with a chance of a half.
-#[expect(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "counts of measurements are far below 2⁵³"
-)]
 fn rank(count: usize) -> Option<usize> {
     // The probability of exactly k, from k = 0 on: 2⁻ⁿ · n over k. It would underflow of more than 1000, where the normal
     // distribution is as good.

@@ -6,7 +6,7 @@ use super::{FrameSample, FrameTimes, Spread};
 /// for the first time after each change.
 pub const UNTIMED_A_TURN: u32 = 1;
 
-/// What one contestant's frames took.
+/// The frames of one contestant.
 #[derive(Clone, Debug, Default)]
 pub struct TimedFrames {
     /// Its passes, in the frame's order.

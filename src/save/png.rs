@@ -21,7 +21,7 @@ pub fn png(path: &Path, size_px: [u32; 2], channels: usize, pixels: &[u8]) -> Re
     whole::write(path, |file| file.write_all(&bytes))
 }
 
-/// The same as the bytes of a file, for a picture within something else.
+/// An 8-bit PNG as the bytes of a file, for a picture within something else.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Option`] for another number of channels or bytes.

@@ -33,7 +33,7 @@ const MOST_SHIFT: f64 = 1.0 / 1024.0;
 /// How many splats are written between two progress messages.
 const PROGRESS_SPLATS: usize = 1 << 16;
 
-/// What was written.
+/// The form of a file that was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WrittenSplats {
     /// Bytes of the whole file.

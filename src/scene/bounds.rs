@@ -1,4 +1,4 @@
-//! What lies around a scene: axis-aligned boxes and balls in world space.
+//! Bounds of a scene: axis-aligned boxes and balls in world space.
 
 use glam::DVec3;
 

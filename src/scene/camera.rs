@@ -8,11 +8,11 @@ use crate::error::{Error, Result};
 /// A pinhole camera in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where the eye is.
+    /// The eye.
     pub eye: DVec3,
-    /// What it looks at: the middle of the image.
+    /// The point in the middle of the image.
     pub target: DVec3,
-    /// What is up in the image; need not be orthogonal to the view. Where it is parallel to the view, the nearest
+    /// The direction that is up in the image; need not be orthogonal to the view. Where it is parallel to the view, the nearest
     /// other axis takes its place.
     pub up: DVec3,
     /// The vertical field of view in radians, between 1e-12 and π.
@@ -33,7 +33,7 @@ pub struct ViewFromWorld {
 /// Below that an image-plane unit has more pixels than f32 can tell apart.
 const SMALLEST_FOV_RAD: f64 = 1e-12;
 
-/// How much wider than the bounding sphere the fitted view is.
+/// The width of the fitted view over that of the bounding sphere.
 const FIT_MARGIN: f64 = 1.05;
 
 impl Camera {

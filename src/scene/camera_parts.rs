@@ -5,14 +5,14 @@ use glam::DVec3;
 use super::{Ball, Camera};
 use crate::error::Result;
 
-/// What is said of a camera, in world space. Each part may be missing.
+/// Parts of a camera, in world space. Each may be missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraParts {
-    /// Where the eye is; without, it looks along −z at the target from so far that the scene fits.
+    /// The eye; without, it looks along −z at the target from so far that the scene fits.
     pub eye: Option<DVec3>,
-    /// What the middle of the picture shows; without, the middle of the scene.
+    /// The point in the middle of the picture; without, the middle of the scene.
     pub target: Option<DVec3>,
-    /// What is up; without, +y.
+    /// The direction that is up; without, +y.
     pub up: Option<DVec3>,
     /// The vertical field of view in radians; without, [`Camera::DEFAULT_FOV_Y_RAD`].
     pub fov_y_rad: Option<f64>,

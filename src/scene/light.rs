@@ -1,4 +1,4 @@
-//! What shines on a scene.
+//! The lights of a scene.
 
 use glam::DVec3;
 
@@ -10,13 +10,13 @@ pub const MOST_LIGHTS: usize = 16;
 /// A light. There is no attenuation and no shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// From where.
+    /// Its place.
     pub kind: LightKind,
     /// Linear red, green and blue, each at least 0; 1 is white at full strength.
     pub color: [f32; 3],
 }
 
-/// Where a light is.
+/// The place of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
     /// At the eye, wherever that is.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Bounds;
+use super::{Bounds, Colors};
 
 /// Triangles over shared vertices, in world space.
 #[derive(Clone, Debug, Default)]
@@ -11,22 +11,10 @@ pub struct Mesh {
     pub positions: Vec<DVec3>,
     /// The file's vertex normals, of any length; `None` where it has none.
     pub normals: Option<Vec<glam::Vec3>>,
-    /// Vertex colors.
-    pub colors: MeshColors,
+    /// Colors of the vertices; [`Colors::unknown`] where the file has none.
+    pub colors: Colors,
     /// Vertex indices, counterclockwise seen from outside; each is below `positions.len()`.
     pub triangles: Vec<[u32; 3]>,
-}
-
-/// The colors of a mesh: linear albedo and straight alpha, each 0–1.
-#[derive(Clone, Debug, Default)]
-pub enum MeshColors {
-    /// None in the file.
-    #[default]
-    None,
-    /// One for all.
-    Uniform([f32; 4]),
-    /// One per vertex.
-    PerVertex(Vec<[f32; 4]>),
 }
 
 impl Mesh {

@@ -33,10 +33,10 @@ named! {
 named! {
     /// The place where splats are left out that face away or lie outside of the view.
     Cull {
-        /// What was measured to be faster: with `compute` `list`, and `hidden` where the splats are of several objects; `list` where
+        /// The one that was measured to be faster: with `compute` `list`, and `hidden` where the splats are of several objects; `list` where
         /// `--rasterizer auto` draws points on a CPU; else `setup`.
         Auto = "auto",
-        /// Whatever sets splats up: with points, the vertex stage of each pass.
+        /// The set-up of splats: with points, the vertex stage of each pass.
         Setup = "setup",
         /// Compute, before that: a list of the others is what is set up, and what is drawn as points. Where a chunk has nothing to
         /// leave out, there is no list.
@@ -95,9 +95,9 @@ named! {
 named! {
     /// How a fragment's weight is found.
     KernelEval {
-        /// By arithmetic.
+        /// Arithmetic.
         Analytic = "analytic",
-        /// From a texture that a projective fetch reads (Guennebaud et al. 2006, section 3.2). Not for `compute`.
+        /// A texture that a projective fetch reads (Guennebaud et al. 2006, section 3.2). Not for `compute`.
         Texture = "texture",
     }
 }
@@ -188,11 +188,6 @@ impl Rasterizer {
             | Self::Compute
             | Self::Quad => Self::Perspective,
         }
-    }
-
-    /// Whether its map from image to splat is affine.
-    pub fn is_affine(self) -> bool {
-        matches!(self, Self::AffineCenter | Self::AffineContour)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What is rendered, as plain data: splats, meshes, camera, settings. Nothing here knows a device or a file.
+//! The scene and its settings, as plain data: splats, meshes, camera, settings. Nothing here knows a device or a file.
 //!
 //! **World space** is the file's: any unit, `f64` positions (scans come in UTM metres), right-handed.
 //! **View space** has the eye at the origin, x to the right, y down, z forward. The image plane is `z = 1`.
@@ -6,6 +6,7 @@
 mod bounds;
 mod camera;
 mod camera_parts;
+mod colors;
 mod layers;
 mod light;
 mod mesh;
@@ -16,24 +17,25 @@ mod settings;
 mod splats;
 mod storage;
 mod tile_memory;
-mod tint;
 mod transform;
 mod values;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::CameraParts;
+pub use colors::{Colors, UNKNOWN_SRGB};
 pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
-pub use mesh::{Mesh, MeshColors};
+pub use mesh::Mesh;
 pub use methods::{
     Accumulate, Backfaces, Cull, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer,
     Rasterizer, Shading, TileInvocations, Transition,
 };
 pub use opacity::Opacity;
+pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
-pub use settings::Settings;
-pub use splats::{Colors, Defect, DefectCounts, Shapes, Splats, UNKNOWN_SRGB};
+pub use settings::{Settings, with_each};
+pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};
 pub use tile_memory::TileMemory;
 pub use transform::is_invertible;
@@ -64,12 +66,12 @@ pub struct MeshObject {
     pub closed: bool,
 }
 
-/// All that is rendered together.
+/// The things that are rendered together.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// What is drawn as splats, in the order in which they are drawn; the image does not depend on it but for rounding.
+    /// Splats, in the order in which they are drawn; the image does not depend on it but for rounding.
     pub objects: Vec<Object>,
-    /// What is drawn as triangles.
+    /// Triangles.
     pub meshes: Vec<MeshObject>,
     /// None: [`Light::DEFAULT`]. At most [`MOST_LIGHTS`].
     pub lights: Vec<Light>,

@@ -1,6 +1,4 @@
-//! What is seen of things that light passes through: nothing, in part, or all.
-
-use super::{Colors, MeshColors};
+//! How much of a thing is seen: nothing, in part, or all.
 
 /// How much an object hides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -14,12 +12,12 @@ pub enum Opacity {
 }
 
 impl Opacity {
-    /// Of many alphas. Those that are not finite belong to nothing that is drawn; without any other it is opaque.
-    fn of(alphas: impl Iterator<Item = f32>) -> Self {
+    /// The opacity of a thing of these colors. Alphas that are not finite belong to nothing that is drawn; without any other it is opaque.
+    pub(super) fn of(colors: &[[f32; 4]]) -> Self {
         let (mut visible, mut transparent) = (false, false);
-        for alpha in alphas.filter(|alpha| alpha.is_finite()) {
-            visible |= alpha > 0.0;
-            transparent |= alpha < 1.0;
+        for [.., alpha] in colors.iter().filter(|[.., alpha]| alpha.is_finite()) {
+            visible |= *alpha > 0.0;
+            transparent |= *alpha < 1.0;
         }
         match (visible, transparent) {
             (false, true) => Self::Invisible,
@@ -29,35 +27,15 @@ impl Opacity {
     }
 }
 
-impl Colors {
-    /// How much splats of these colors hide.
-    pub fn opacity(&self) -> Opacity {
-        match self {
-            Self::Uniform([.., alpha]) => Opacity::of(std::iter::once(*alpha)),
-            Self::PerSplat(colors) => Opacity::of(colors.iter().map(|color| color[3])),
-        }
-    }
-}
-
-impl MeshColors {
-    /// How much a mesh of these colors hides.
-    pub fn opacity(&self) -> Opacity {
-        match self {
-            Self::None => Opacity::Opaque,
-            Self::Uniform([.., alpha]) => Opacity::of(std::iter::once(*alpha)),
-            Self::PerVertex(colors) => Opacity::of(colors.iter().map(|color| color[3])),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Colors;
 
     #[test]
     fn one_alpha_below_1_makes_a_thing_transparent_and_all_0_make_it_nothing() {
         let of =
-            |alphas: &[f32]| Colors::PerSplat(alphas.iter().map(|a| [0.5, 0.5, 0.5, *a]).collect()).opacity();
+            |alphas: &[f32]| Colors::Each(alphas.iter().map(|a| [0.5, 0.5, 0.5, *a]).collect()).opacity();
         assert_eq!(of(&[1.0, 1.0]), Opacity::Opaque);
         assert_eq!(of(&[]), Opacity::Opaque);
         assert_eq!(of(&[2.0]), Opacity::Opaque);
@@ -68,7 +46,5 @@ mod tests {
         assert_eq!(of(&[f32::NAN, 1.0]), Opacity::Opaque);
         assert_eq!(of(&[f32::NAN, 0.0]), Opacity::Invisible);
         assert_eq!(Colors::Uniform([1.0, 1.0, 1.0, 0.5]).opacity(), Opacity::Transparent);
-        assert_eq!(MeshColors::None.opacity(), Opacity::Opaque);
-        assert_eq!(MeshColors::PerVertex(vec![[0.0; 4]]).opacity(), Opacity::Invisible);
     }
 }

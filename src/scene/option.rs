@@ -3,7 +3,7 @@
 
 /// The type of a setting: each value is a word of the command line.
 pub trait OptionValue: Sized {
-    /// All values where they can be listed, the default first.
+    /// The values where they can be listed, the default first.
     const CHOICES: &'static [Choice] = &[];
 
     /// The value as a word, from which [`Self::parse`] makes it again.
@@ -12,13 +12,13 @@ pub trait OptionValue: Sized {
     /// The value of a word.
     ///
     /// # Errors
-    /// What was expected in its place, as the end of a sentence.
+    /// A sentence that says what was expected.
     fn parse(word: &str) -> Result<Self, String>;
 
     /// Refuses a value out of range.
     ///
     /// # Errors
-    /// What was given and what was expected.
+    /// A sentence that says what was given and what was expected.
     fn check(&self) -> Result<(), String> {
         Ok(())
     }
@@ -46,7 +46,7 @@ pub struct Setting<S> {
     pub name: &'static str,
     /// The kind of its value, in a word or two.
     pub value_name: &'static str,
-    /// What it means, in Markdown.
+    /// Its meaning, in Markdown.
     pub help: &'static str,
     /// Its values, where they can be listed.
     pub choices: &'static [Choice],
@@ -156,4 +156,5 @@ macro_rules! settings {
     };
 }
 
-pub(super) use {named, settings};
+pub(crate) use named;
+pub(super) use settings;

@@ -112,6 +112,19 @@ impl Settings {
     }
 }
 
+/// Each of the things with each of the values, the values of one thing after the other.
+pub fn with_each<T: Clone, V: Copy>(all: Vec<T>, values: &[V], set: fn(&mut T, V)) -> Vec<T> {
+    let mut product = Vec::new();
+    for thing in all {
+        product.extend(values.iter().map(|value| {
+            let mut thing = thing.clone();
+            set(&mut thing, *value);
+            thing
+        }));
+    }
+    product
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

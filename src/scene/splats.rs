@@ -2,8 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::Bounds;
-use crate::math::srgb::linear_from_srgb;
+use super::{Bounds, Colors};
 
 /// Oriented elliptical disks in world space. All arrays have one entry a splat.
 #[derive(Clone, Debug)]
@@ -36,27 +35,7 @@ pub enum Shapes {
     },
 }
 
-/// Linear albedo (red, green, blue) and straight alpha, each 0–1.
-#[derive(Clone, Debug)]
-pub enum Colors {
-    /// One color for all.
-    Uniform([f32; 4]),
-    /// One each.
-    PerSplat(Vec<[f32; 4]>),
-}
-
-impl Colors {
-    /// Those of a surface that has none: the sRGB value 204/255, opaque.
-    pub fn unknown() -> Self {
-        let gray = linear_from_srgb(UNKNOWN_SRGB);
-        Self::Uniform([gray, gray, gray, 1.0])
-    }
-}
-
-/// The albedo of surfaces without colors, as an sRGB value.
-pub const UNKNOWN_SRGB: f32 = 204.0 / 255.0;
-
-/// Why a splat can't be drawn.
+/// The reason why a splat can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Defect {
     /// A coordinate of the center is NaN or infinite.
@@ -71,7 +50,7 @@ pub enum Defect {
     Color,
 }
 
-/// How many splats have which defect.
+/// The numbers of splats with each defect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DefectCounts {
     /// Indexed by [`Defect`].
@@ -79,7 +58,7 @@ pub struct DefectCounts {
 }
 
 impl Splats {
-    /// How many splats there are.
+    /// The number of splats.
     pub fn len(&self) -> usize {
         self.positions.len()
     }
@@ -98,17 +77,14 @@ impl Splats {
         };
         let color = match &self.colors {
             Colors::Uniform(_) => 0,
-            Colors::PerSplat(_) => size_of::<[f32; 4]>(),
+            Colors::Each(_) => size_of::<[f32; 4]>(),
         };
         self.len() as u64 * (size_of::<DVec3>() + shape + color) as u64
     }
 
     /// Color and alpha of splat `i`.
     pub fn color(&self, i: usize) -> [f32; 4] {
-        match &self.colors {
-            Colors::Uniform(color) => *color,
-            Colors::PerSplat(colors) => colors[i],
-        }
+        self.colors.get(i).unwrap_or_default()
     }
 
     /// The larger of the radii of splat `i`: for an ellipse its major semi-axis.
@@ -124,7 +100,7 @@ impl Splats {
         }
     }
 
-    /// What is wrong with splat `i`; `None` where it can be drawn.
+    /// The defect of splat `i`; `None` where it can be drawn.
     pub fn defect(&self, i: usize) -> Option<Defect> {
         if !self.positions[i].is_finite() {
             return Some(Defect::Position);
@@ -144,10 +120,7 @@ impl Splats {
                 }
             }
         }
-        if !self.color(i).iter().all(|c| c.is_finite()) {
-            return Some(Defect::Color);
-        }
-        None
+        (!self.color(i).iter().all(|c| c.is_finite())).then_some(Defect::Color)
     }
 
     /// Removes every splat that has a [`Defect`], keeps the order of the others, and tells what was removed.
@@ -183,7 +156,7 @@ impl Splats {
                 retain(t, keep);
             }
         }
-        if let Colors::PerSplat(colors) = &mut self.colors {
+        if let Colors::Each(colors) = &mut self.colors {
             retain(colors, keep);
         }
     }
@@ -199,12 +172,12 @@ impl Splats {
 }
 
 impl DefectCounts {
-    /// All splats with a defect.
+    /// The number of splats with a defect.
     pub fn total(&self) -> usize {
         self.counts.iter().sum()
     }
 
-    /// How many splats have this defect; a splat counts once, with the first one found.
+    /// The number of splats with this defect; a splat counts once, with the first one found.
     pub fn of(&self, defect: Defect) -> usize {
         self.counts[defect as usize]
     }
@@ -280,7 +253,7 @@ mod tests {
                 normals: cases.iter().map(|c| c.0.1).collect(),
                 radii: cases.iter().map(|c| c.0.2).collect(),
             },
-            colors: Colors::PerSplat(cases.iter().map(|c| c.0.3).collect()),
+            colors: Colors::Each(cases.iter().map(|c| c.0.3).collect()),
         };
         for (i, case) in cases.iter().enumerate() {
             assert_eq!(splats.defect(i), case.1, "case {i}");

@@ -19,7 +19,7 @@ pub fn is_invertible(map: &DAffine3) -> bool {
 }
 
 impl Splats {
-    /// The same splats under a map of world space, which must be [invertible](is_invertible): under another one those that
+    /// These splats under a map of world space, which must be [invertible](is_invertible): under another one those that
     /// become lines have a [`super::Defect`].
     ///
     /// Under a similarity (moved, turned, mirrored, scaled alike in all directions) disks stay disks. Else they become
@@ -47,7 +47,7 @@ impl Splats {
 }
 
 impl Mesh {
-    /// The same triangles under an [invertible](is_invertible) map of world space. Normals become unit, or stay zero. Where
+    /// These triangles under an [invertible](is_invertible) map of world space. Normals become unit, or stay zero. Where
     /// the map mirrors, triangles change their order of corners, so that they are still counterclockwise seen from outside.
     #[must_use]
     pub fn transformed(mut self, world_from_object: &DAffine3) -> Self {
@@ -135,7 +135,6 @@ fn tangents(normal: Vec3, radius: f32) -> [DVec3; 2] {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "splats keep radii as f32")]
 fn scaled(radius: f32, scale: f64) -> f32 {
     (f64::from(radius) * scale) as f32
 }

@@ -12,9 +12,9 @@ use crate::{
 pub struct Errors {
     /// Pixels covered in the oracle or on the GPU.
     pub covered: usize,
-    /// Of them: left out because a fragment lies within 1e-4 of the ε-threshold.
+    /// Covered pixels that are left out because a fragment lies within 1e-4 of the ε-threshold.
     pub exempt_epsilon: usize,
-    /// Of them: left out because a splat's rim passes through the pixel's center.
+    /// Covered pixels that are left out because a splat's rim passes through the pixel's center.
     pub exempt_rim: usize,
     /// Compared pixels.
     pub compared: usize,
@@ -28,7 +28,7 @@ pub struct Errors {
     pub depth: f64,
     /// Degrees between normals.
     pub normal_deg: f64,
-    /// The same times the length of the mean of the normals: where they nearly cancel, errors of weights turn it by so much
+    /// `normal_deg` times the length of the mean of the normals: where they nearly cancel, errors of weights turn it by so much
     /// more.
     pub normal_sum_deg: f64,
     /// Shaded color, linear, absolute, beyond what the error of the pixel's normal, which has a limit of its own, makes of it
@@ -164,12 +164,12 @@ impl Errors {
         }
     }
 
-    /// The same limits for a picture with fewer pixels to compare.
+    /// These limits for a picture with fewer pixels to compare.
     pub fn of_at_least(self, compared: usize) -> Self {
         Self { compared, ..self }
     }
 
-    /// What exceeds the tolerances, in words; empty where nothing does.
+    /// The errors that exceed the tolerances, in words; empty where nothing does.
     pub fn beyond(&self, limit: &Self) -> Vec<String> {
         let mut beyond = Vec::new();
         let mut check = |name: &str, value: f64, limit: f64| {

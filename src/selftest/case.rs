@@ -3,7 +3,10 @@
 use super::{check::Check, layers};
 use crate::{
     hard_scenes::{self, Hard, transparent},
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, TileInvocations},
+    scene::{
+        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Settings, TileInvocations,
+        with_each,
+    },
 };
 
 /// Width and height of every picture. A quarter of the pixels of the tests' pictures: there are many methods.
@@ -16,18 +19,18 @@ pub struct Case {
     pub name: String,
     /// Whether the quick form has it.
     pub quick: bool,
-    /// What it draws, and how.
+    /// Its drawing; `None` where it draws nothing.
     pub(super) drawing: Option<Drawing>,
 }
 
-/// What a case draws, and what it has to be like.
+/// The drawing of a case, and what it has to be like.
 #[derive(Clone, Debug)]
 pub(super) struct Drawing {
     /// The scene, by its index in the suite.
     pub scene: usize,
     /// The method.
     pub settings: Settings,
-    /// What is checked.
+    /// The check.
     pub check: Check,
 }
 
@@ -67,7 +70,7 @@ impl Suite {
         let mut cases = vec![Case { name: OPEN.to_owned(), quick: true, drawing: None }];
         for method in methods() {
             for (index, hard) in scenes.iter().enumerate() {
-                cases.extend(against_oracle(index, hard, method));
+                cases.extend(against_oracle(index, hard, &method));
             }
         }
         for (_, rasterizer) in Rasterizer::METHODS {
@@ -90,75 +93,51 @@ impl Default for Suite {
     }
 }
 
-/// What is varied of a method.
-#[derive(Clone, Copy)]
-struct Method {
-    kernel: Kernel,
-    weight: FilterWeight,
-    kernel_eval: KernelEval,
-    accumulate: Accumulate,
-    rasterizer: Rasterizer,
-    filter: Filter,
-}
-
 /// The kernel that is none of the default's kind: with a power, and steep at its end.
 const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
 
-/// Every combination, group after group; the plain one with exact sums first.
-fn methods() -> Vec<Method> {
-    let mut methods = Vec::new();
-    for accumulate in [Accumulate::F32, Accumulate::F16] {
-        for (_, kernel_eval) in KernelEval::NAMES {
-            for (kernel, weight) in [
-                (Kernel::default(), FilterWeight::Area),
-                (Kernel::default(), FilterWeight::Unit),
-                (PSI_E, FilterWeight::Area),
-            ] {
-                for (_, rasterizer) in Rasterizer::METHODS {
-                    for (_, filter) in Filter::NAMES {
-                        // Only tangent adjustment leaves a splat a weight to choose.
-                        if weight == FilterWeight::default() || filter.adjusts() {
-                            let (kernel_eval, rasterizer, filter) = (*kernel_eval, *rasterizer, *filter);
-                            methods.push(Method {
-                                kernel,
-                                weight,
-                                kernel_eval,
-                                accumulate,
-                                rasterizer,
-                                filter,
-                            });
-                        }
-                    }
-                }
-            }
-        }
-    }
-    methods
+/// Every combination of what is varied of a method, group after group; the plain one with exact sums first.
+fn methods() -> Vec<Settings> {
+    let weighted = [
+        (Kernel::default(), FilterWeight::Area),
+        (Kernel::default(), FilterWeight::Unit),
+        (PSI_E, FilterWeight::Area),
+    ];
+    let every = vec![Settings { size_px: SIZE_PX, ..Settings::default() }];
+    let every = with_each(every, &[Accumulate::F32, Accumulate::F16], |own, value| own.accumulate = value);
+    let every = with_each(every, KernelEval::NAMES, |own, (_, value)| own.kernel_eval = value);
+    let every = with_each(every, &weighted, |own, value| (own.kernel, own.filter_weight) = value);
+    let every = with_each(every, Rasterizer::METHODS, |own, (_, value)| own.rasterizer = value);
+    let mut every = with_each(every, Filter::NAMES, |own, (_, value)| own.filter = value);
+    // Only tangent adjustment leaves a splat a weight to choose.
+    every.retain(|own| own.filter_weight == FilterWeight::default() || own.filter.adjusts());
+    every
 }
 
-impl Method {
-    fn group(self) -> String {
-        let parts = [
-            (self.kernel == PSI_E).then_some("psi-e"),
-            (self.weight == FilterWeight::Unit).then_some("unit-weight"),
-            (self.kernel_eval == KernelEval::Texture).then_some("kernel-texture"),
-            (self.accumulate == Accumulate::F16).then_some("sums-16"),
-        ];
-        let parts: Vec<&str> = parts.into_iter().flatten().collect();
-        if parts.is_empty() { "methods".to_owned() } else { parts.join("-") }
-    }
+/// The group of a method's cases.
+fn group(method: &Settings) -> String {
+    let parts = [
+        (method.kernel == PSI_E).then_some("psi-e"),
+        (method.filter_weight == FilterWeight::Unit).then_some("unit-weight"),
+        (method.kernel_eval == KernelEval::Texture).then_some("kernel-texture"),
+        (method.accumulate == Accumulate::F16).then_some("sums-16"),
+    ];
+    let parts: Vec<&str> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { "methods".to_owned() } else { parts.join("-") }
 }
 
 /// `None` where the method can't draw the scene, or the scene is not hard with it.
-fn against_oracle(index: usize, hard: &Hard, method: Method) -> Option<Case> {
+fn against_oracle(index: usize, hard: &Hard, method: &Settings) -> Option<Case> {
+    let Settings { size_px, rasterizer, filter, filter_weight, kernel, kernel_eval, accumulate, .. } =
+        *method;
     let settings = Settings {
-        size_px: SIZE_PX,
-        rasterizer: method.rasterizer,
-        filter: method.filter,
-        filter_weight: method.weight,
-        kernel: method.kernel,
-        kernel_eval: method.kernel_eval,
-        accumulate: method.accumulate,
+        size_px,
+        rasterizer,
+        filter,
+        filter_weight,
+        kernel,
+        kernel_eval,
+        accumulate,
         ..hard.settings.clone()
     };
     let own_filter = method.filter == hard.settings.filter;
@@ -170,7 +149,7 @@ fn against_oracle(index: usize, hard: &Hard, method: Method) -> Option<Case> {
         PSI_E => own_filter && WITH_PSI_E.contains(&hard.name),
         _ => !(hard_without_filter && method.filter.adjusts()),
     };
-    let group = method.group();
+    let group = group(method);
     let name = [group.as_str(), method.rasterizer.name(), method.filter.name(), &slug(hard.name)].join(".");
     // Every method and every option once, the defaults everywhere; every filter where splats are long, and where they are small.
     let by_default = method.rasterizer == Rasterizer::Perspective;

@@ -17,7 +17,7 @@ use crate::{
     scene::{Accumulate, FilterWeight, KernelEval, Layers, Rasterizer, Settings, TileInvocations},
 };
 
-/// What is checked of a drawing.
+/// The check of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Check {
     /// It agrees with the oracle.
@@ -32,12 +32,12 @@ pub(super) enum Check {
     TileInvocations,
 }
 
-/// What came of one try.
+/// The result of one try.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
-    /// What is wrong, in words; empty where nothing is.
+    /// The problems in words; empty where there are none.
     pub problems: Vec<String>,
-    /// What was measured, by name.
+    /// The figures by their names.
     pub figures: BTreeMap<&'static str, f64>,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Stage<'a> {
     suite: &'a Suite,
     /// The scene of this index, uploaded.
     prepared: Option<(usize, PreparedScene)>,
-    /// Of the scene of this index, by their settings.
+    /// The exact pictures of the scene of this index, by their settings.
     oracles: (usize, Vec<(Settings, Rc<Picture>)>),
 }
 

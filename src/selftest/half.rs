@@ -8,7 +8,7 @@ use crate::{
     renderer::Frame,
 };
 
-/// What rounding does at most to a sum of positive values in binary16 (11 significant bits, least number 2⁻²⁴): each blend
+/// The most that rounding does to a sum of positive values in binary16 (11 significant bits, least number 2⁻²⁴): each blend
 /// rounds the source and the sum, each by at most 2⁻¹⁰ of the sum (drivers may truncate), or 2⁻²⁴ where it is subnormal.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounding {
@@ -17,7 +17,7 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Of a sum of so many values.
+    /// The rounding of a sum of so many values.
     pub fn of(count: f64) -> Self {
         Self { relative: count * 2.0 / 1024.0, absolute: count * 2.0 / 16_777_216.0 }
     }
@@ -50,7 +50,7 @@ impl Rounding {
 pub struct HalfErrors {
     /// Compared pixels.
     pub compared: usize,
-    /// Of them: pixels with so few fragments that the bound says something.
+    /// Compared pixels with so few fragments that the bound says something.
     pub bounded: usize,
     /// Compared pixels covered in one and empty in the other.
     pub coverage: usize,
@@ -111,7 +111,7 @@ impl HalfErrors {
         worst(&mut self.depth, frame.depth[i], expected.depth, of_depth);
     }
 
-    /// What exceeds its bound, in words; empty where nothing does. A picture of fewer pixels than `fewest_px` shows nothing.
+    /// The errors that exceed their bounds, in words; empty where nothing does. A picture of fewer pixels than `fewest_px` shows nothing.
     pub fn beyond(&self, fewest_px: usize) -> Vec<String> {
         let mut beyond = Vec::new();
         for (name, share) in [("weight", self.weight), ("albedo", self.albedo), ("depth", self.depth)] {

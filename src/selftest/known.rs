@@ -1,4 +1,4 @@
-//! What is known of drivers: cases that fail, that sometimes fail, and that must not be run.
+//! Known results of drivers: cases that fail, that sometimes fail, and that must not be run.
 //!
 //! A list is a text, one entry a line:
 //!
@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 /// The lists that come with the program, each with its name.
 pub const BUILT_IN: &[(&str, &str)] = &[("lavapipe.txt", include_str!("known_lists/lavapipe.txt"))];
 
-/// What is expected of a case.
+/// The result that is expected of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expectation {
     /// It fails. Should it pass, the list is out of date.
@@ -36,9 +36,9 @@ pub enum Expectation {
 /// One line of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// What is expected.
+    /// The expected result.
     pub expectation: Expectation,
-    /// Of which cases.
+    /// The cases.
     pub pattern: Pattern,
     /// Why.
     pub reason: String,
@@ -121,7 +121,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Those of the lists that are about this driver, the later ones above the earlier.
+    /// The lists that are about this driver, the later ones above the earlier.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Input`] for an entry, of whichever driver, that matches none of `cases`: a name that
@@ -147,7 +147,7 @@ impl Known {
         BUILT_IN.iter().map(|(name, text)| KnownList::parse(name, text)).collect()
     }
 
-    /// What is known of a case.
+    /// The entry of a case, if there is one.
     pub fn entry(&self, case: &str) -> Option<&Entry> {
         self.lists
             .iter()

@@ -11,7 +11,7 @@ use super::agreement::is_compared;
 pub struct LightErrors {
     /// Pixels in which something is seen that is not background.
     pub seen: usize,
-    /// Of them: left out because rounding alone may turn a decision, see [`crate::reference::Pixel::epsilon_margin`] and
+    /// Seen pixels that are left out because rounding alone may turn a decision, see [`crate::reference::Pixel::epsilon_margin`] and
     /// [`crate::reference::Pixel::rim`].
     pub exempt: usize,
     /// Compared pixels.
@@ -62,7 +62,7 @@ fn premultiplied([red, green, blue, alpha]: [f64; 4]) -> [f64; 4] {
 }
 
 impl LightErrors {
-    /// What exceeds the tolerances, in words; empty where nothing does. Of `seen` and `compared` the limits are the fewest.
+    /// The errors that exceed the tolerances, in words; empty where nothing does. Of `seen` and `compared` the limits are the fewest.
     pub fn beyond(&self, limit: &Self) -> Vec<String> {
         let mut beyond = Vec::new();
         let at_most = [

@@ -8,7 +8,7 @@ use std::fmt;
 pub struct Pattern(String);
 
 impl Pattern {
-    /// Of a text.
+    /// The pattern of a text.
     ///
     /// # Errors
     /// Why it can't match any name, in words.

@@ -1,4 +1,4 @@
-//! What came of a self-test, as plain data: serialized it is the JSON of `surfel selftest --json`, printed it is its
+//! The result of a self-test, as plain data: serialized it is the JSON of `surfel selftest --json`, printed it is its
 //! table.
 
 use std::{collections::BTreeMap, fmt};
@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::case::group_of;
 use crate::{
     error::{Error, ErrorKind, Result},
-    report::DeviceReport,
+    report::{DeviceReport, Grid},
 };
 
 /// Everything that a self-test found out.
@@ -18,9 +18,9 @@ pub struct SelftestReport {
     pub surfel: String,
     /// `quick` or `full`.
     pub form: &'static str,
-    /// What was asked for with `--case`; empty for all.
+    /// The patterns of `--case`; empty for all.
     pub selected: Vec<String>,
-    /// What it ran on.
+    /// The device.
     pub device: DeviceReport,
     /// The PCI vendor and device, and the driver's version number.
     pub ids: [u32; 3],
@@ -88,7 +88,7 @@ impl Status {
     }
 }
 
-/// What came of one case.
+/// The result of one case.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseResult {
     /// The case.
@@ -97,7 +97,7 @@ pub struct CaseResult {
     pub status: Status,
     /// Why it was skipped, or what is known of it and where that is written.
     pub reason: Option<String>,
-    /// What was wrong at the last try that failed, in words.
+    /// The problems of the last try that failed, in words.
     pub problems: Vec<String>,
     /// How often it was tried.
     pub attempts: u32,
@@ -135,7 +135,7 @@ impl CaseResult {
         group_of(&self.name)
     }
 
-    /// What happened, in a line: the problems, how many tries failed, and what is known.
+    /// The result in a line: the problems, how many tries failed, and what is known.
     pub fn line(&self) -> String {
         let mut parts = Vec::new();
         if !self.problems.is_empty() {
@@ -173,7 +173,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Of these cases.
+    /// The counts of these cases.
     pub fn of<'a>(cases: impl IntoIterator<Item = &'a CaseResult>) -> Self {
         let mut counts = Self::default();
         for case in cases {
@@ -237,23 +237,23 @@ impl fmt::Display for SelftestReport {
             [] => writeln!(f, "; no known list")?,
             lists => writeln!(f, "; known lists: {}", lists.join(", "))?,
         }
-        writeln!(
-            f,
-            "{:36} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8}",
-            "", "cases", "pass", "fail", "known", "fixed", "flake", "skip", "seconds"
-        )?;
         let groups = self.groups();
-        let rows = groups.iter().map(|(name, cases)| {
+        let mut rows: Vec<(&str, Counts, f64)> = Vec::new();
+        for (name, cases) in &groups {
             let secs = cases.iter().map(|case| case.secs).sum();
-            (*name, Counts::of(cases.iter().copied()), secs)
-        });
-        for (name, counts, secs) in rows.chain([("all", self.counts, self.secs)]) {
-            let Counts { cases, pass, fail, known_fail, fixed, flake, skip } = counts;
-            writeln!(
-                f,
-                "{name:36} {cases:6} {pass:6} {fail:6} {known_fail:6} {fixed:6} {flake:6} {skip:6} {secs:8.1}"
-            )?;
+            rows.push((*name, Counts::of(cases.iter().copied()), secs));
         }
-        Ok(())
+        rows.push(("all", self.counts, self.secs));
+        let table = Grid::of("", &rows)
+            .column("", |(name, ..)| *name)
+            .column("cases", |(_, counts, _)| counts.cases)
+            .column("pass", |(_, counts, _)| counts.pass)
+            .column("fail", |(_, counts, _)| counts.fail)
+            .column("known", |(_, counts, _)| counts.known_fail)
+            .column("fixed", |(_, counts, _)| counts.fixed)
+            .column("flake", |(_, counts, _)| counts.flake)
+            .column("skip", |(_, counts, _)| counts.skip)
+            .column("seconds", |(.., secs)| format!("{secs:.1}"));
+        write!(f, "{}", table.grid())
     }
 }

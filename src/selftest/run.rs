@@ -14,22 +14,22 @@ use crate::{
     vk::Messages,
 };
 
-/// What a caller is told while cases run.
+/// An event that a caller is told while cases run.
 pub enum Event<'a> {
     /// A case begins: should the driver crash, it is this one.
     Started(&'a Case),
     /// A case is done.
     Finished {
-        /// What came of it.
+        /// Its result.
         result: &'a CaseResult,
         /// How many are done.
         done: usize,
-        /// Of how many.
+        /// How many there are.
         total: usize,
     },
 }
 
-/// What came of a run.
+/// The result of a run.
 pub struct Outcome {
     /// The cases in the suite's order.
     pub results: Vec<CaseResult>,
@@ -155,7 +155,7 @@ impl Run<'_> {
     }
 }
 
-/// What a case's tries amount to. One that fails first and passes later has failed, unless it is listed as a flake: nobody
+/// The status that a case's tries amount to. One that fails first and passes later has failed, unless it is listed as a flake: nobody
 /// has looked at it yet.
 fn judge(expectation: Option<Expectation>, failed_attempts: u32) -> Status {
     match (expectation, failed_attempts) {

@@ -48,7 +48,7 @@ fn fewest_px(hard: &Hard) -> usize {
     if hard.name.starts_with("subpixel") { 100 } else { 300 }
 }
 
-/// The same for kernels from a texture.
+/// The tolerances for kernels from a texture.
 ///
 /// Bilinear interpolation between 256 texels over a diameter is wrong by at most `h²/8 · (|k_uu| + |k_vv|)`, h = 2/255, and
 /// half floats hold weights to 2⁻¹² of themselves. Second derivatives along u and v together: 2/σ² for a Gaussian (at the

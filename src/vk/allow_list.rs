@@ -5,7 +5,7 @@
 pub struct Allowed {
     /// Its VUID, or the layer's own identifier.
     pub vuid: &'static str,
-    /// What it must speak of: one of these words is in its text.
+    /// The subject that it must have: one of these words is in its text.
     pub about: &'static [&'static str],
     /// Why it is harmless here, and for which versions of the layer.
     pub reason: &'static str,

@@ -1,4 +1,4 @@
-//! What an embedding host lends.
+//! The device that an embedding host lends.
 
 use ash::vk;
 

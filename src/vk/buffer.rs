@@ -11,14 +11,14 @@ use super::{
 };
 use crate::error::{Error, Result};
 
-/// What a buffer is.
+/// The description of a buffer.
 #[derive(Clone, Copy, Debug)]
 pub struct BufferDesc<'a> {
     /// Its debug name.
     pub name: &'a str,
     /// Bytes, above 0.
     pub size: u64,
-    /// What it is used for.
+    /// Its uses.
     pub usage: vk::BufferUsageFlags,
 }
 
@@ -77,7 +77,7 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// The same, read by texels of a format, too; its usage is `UNIFORM_TEXEL_BUFFER` among others.
+    /// This buffer, read by texels of a format, too; its usage is `UNIFORM_TEXEL_BUFFER` among others.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] for another format than the few that are used so, and for more texels than the device has;

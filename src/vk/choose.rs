@@ -2,7 +2,7 @@
 
 use crate::error::{Error, ErrorKind, Result};
 
-/// What kind of hardware a device is, best first.
+/// The kind of a device's hardware, best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DeviceKind {
     /// A graphics card.
@@ -118,7 +118,7 @@ impl DeviceFacts {
         reasons
     }
 
-    /// What the device lacks though it can be used, each with what follows.
+    /// The features that the device lacks though it can be used, each with what follows.
     pub fn shortcomings(&self) -> Vec<&'static str> {
         let mut lacks = Vec::new();
         if !self.large_points {

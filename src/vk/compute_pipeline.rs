@@ -4,11 +4,11 @@ use ash::vk;
 
 use super::{
     Stage, device::Device, garbage::Retired, graphics_pipeline::CompiledStage, layout::PipelineLayout,
-    pipeline_cache::PipelineCache, result::VkResultExt,
+    owned::Owned, pipeline_cache::PipelineCache, result::VkResultExt,
 };
 use crate::error::Result;
 
-/// What a compute pipeline is.
+/// The description of a compute pipeline.
 #[derive(Clone, Copy)]
 pub struct ComputePipelineDesc<'a> {
     /// Its debug name.
@@ -20,10 +20,7 @@ pub struct ComputePipelineDesc<'a> {
 }
 
 /// A compute pipeline.
-pub struct ComputePipeline {
-    device: Device,
-    raw: vk::Pipeline,
-}
+pub struct ComputePipeline(Owned<vk::Pipeline>);
 
 impl ComputePipeline {
     /// Compiles a pipeline.
@@ -40,18 +37,11 @@ impl ComputePipeline {
         // SAFETY: everything the info points to lives until the call returns and belongs to this device.
         let made = unsafe { device.raw().create_compute_pipelines(cache.raw(), &[info], None) };
         let raw = made.map_err(|(_, result)| result).of_call("vkCreateComputePipelines", desc.name)?[0];
-        device.set_name(raw, desc.name);
-        Ok(Self { device: device.clone(), raw })
+        Ok(Self(device.own(raw, desc.name, Retired::Pipeline)))
     }
 
     /// The raw pipeline.
     pub fn raw(&self) -> vk::Pipeline {
-        self.raw
-    }
-}
-
-impl Drop for ComputePipeline {
-    fn drop(&mut self) {
-        self.device.retire(Retired::Pipeline(self.raw));
+        self.0.raw
     }
 }

@@ -4,19 +4,22 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::{device::Device, garbage::Retired, result::VkResultExt, sampler::Sampler, stand_ins::StandIns};
+use super::{
+    device::Device, garbage::Retired, owned::Owned, result::VkResultExt, sampler::Sampler,
+    stand_ins::StandIns,
+};
 use crate::error::Result;
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
-    /// What it holds. `COMBINED_IMAGE_SAMPLER` comes with a bilinear sampler of the layout's own.
+    /// Its type. `COMBINED_IMAGE_SAMPLER` comes with a bilinear sampler of the layout's own.
     pub kind: vk::DescriptorType,
     /// The stages that see it.
     pub stages: vk::ShaderStageFlags,
 }
 
-/// What a binding is given.
+/// The resource that a binding is given.
 #[derive(Clone, Copy, Debug)]
 pub enum Descriptor {
     /// The first bytes of a buffer, so many, storage or uniform as its binding is.
@@ -52,12 +55,11 @@ impl Info {
 
 /// The bindings of a set.
 pub struct SetLayout {
-    device: Device,
-    raw: vk::DescriptorSetLayout,
+    owned: Owned<vk::DescriptorSetLayout>,
     kinds: Vec<vk::DescriptorType>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
-    /// What its sets have in place of what they are not given, and the bindings of texels that are unsigned integers.
+    /// The stand-ins for what its sets are not given, and the bindings of texels that are unsigned integers.
     stand_ins: Option<(Arc<StandIns>, Vec<u32>)>,
 }
 
@@ -85,12 +87,12 @@ impl SetLayout {
         // SAFETY: the device is alive.
         let raw = unsafe { device.raw().create_descriptor_set_layout(&info, None) }
             .of_call("vkCreateDescriptorSetLayout", name)?;
-        device.set_name(raw, name);
+        let owned = device.own(raw, name, Retired::SetLayout);
         let kinds = bindings.iter().map(|binding| binding.kind).collect();
-        Ok(Self { device: device.clone(), raw, kinds, _sampler: sampler, stand_ins: None })
+        Ok(Self { owned, kinds, _sampler: sampler, stand_ins: None })
     }
 
-    /// The same with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
+    /// This layout with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
     /// unsigned integers.
     pub fn with_stand_ins(mut self, stand_ins: &Arc<StandIns>, integers: &[u32]) -> Self {
         self.stand_ins = Some((Arc::clone(stand_ins), integers.to_vec()));
@@ -109,19 +111,13 @@ impl SetLayout {
 
     /// The raw layout.
     pub fn raw(&self) -> vk::DescriptorSetLayout {
-        self.raw
+        self.owned.raw
     }
 }
 
-impl Drop for SetLayout {
-    fn drop(&mut self) {
-        self.device.retire(Retired::SetLayout(self.raw));
-    }
-}
-
-/// How much a pool holds.
+/// Room in a pool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PoolRoom {
+pub struct PoolSizes {
     /// Sets.
     pub sets: u32,
     /// Storage buffers in all sets.
@@ -138,7 +134,19 @@ pub struct PoolRoom {
     pub storage_images: u32,
 }
 
-impl PoolRoom {
+impl PoolSizes {
+    /// The descriptors of each kind.
+    fn kinds(&self) -> [(vk::DescriptorType, u32); 6] {
+        [
+            (vk::DescriptorType::STORAGE_BUFFER, self.buffers),
+            (vk::DescriptorType::UNIFORM_BUFFER, self.uniform_buffers),
+            (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, self.texel_buffers),
+            (vk::DescriptorType::SAMPLED_IMAGE, self.images),
+            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, self.filtered_images),
+            (vk::DescriptorType::STORAGE_IMAGE, self.storage_images),
+        ]
+    }
+
     /// Room for both.
     pub fn plus(&self, other: &Self) -> Self {
         Self {
@@ -154,56 +162,37 @@ impl PoolRoom {
 
     /// Whether a pool of this room has room for that.
     pub fn holds(&self, wanted: &Self) -> bool {
-        wanted.sets <= self.sets
-            && wanted.buffers <= self.buffers
-            && wanted.uniform_buffers <= self.uniform_buffers
-            && wanted.texel_buffers <= self.texel_buffers
-            && wanted.images <= self.images
-            && wanted.filtered_images <= self.filtered_images
-            && wanted.storage_images <= self.storage_images
+        let mut kinds = wanted.kinds().into_iter().zip(self.kinds());
+        wanted.sets <= self.sets && kinds.all(|((_, wanted), (_, own))| wanted <= own)
     }
 }
 
 /// A pool of sets that live and die together.
 pub struct DescriptorPool {
-    device: Device,
-    raw: vk::DescriptorPool,
+    owned: Owned<vk::DescriptorPool>,
     name: String,
     // Vulkan wants the pool's calls one at a time.
     _not_sync: std::marker::PhantomData<std::cell::Cell<()>>,
 }
 
 /// A pool from which no further set is taken: it only keeps its sets alive, and so may be shared between threads.
-pub struct SealedPool {
-    device: Device,
-    raw: vk::DescriptorPool,
-}
+pub struct SealedPool(#[expect(dead_code, reason = "kept for its drop")] Owned<vk::DescriptorPool>);
 
 impl DescriptorPool {
     /// A pool with this much room.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn new(device: &Device, name: &str, room: PoolRoom) -> Result<Self> {
-        let kinds = [
-            (vk::DescriptorType::STORAGE_BUFFER, room.buffers),
-            (vk::DescriptorType::UNIFORM_BUFFER, room.uniform_buffers),
-            (vk::DescriptorType::UNIFORM_TEXEL_BUFFER, room.texel_buffers),
-            (vk::DescriptorType::SAMPLED_IMAGE, room.images),
-            (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, room.filtered_images),
-            (vk::DescriptorType::STORAGE_IMAGE, room.storage_images),
-        ];
-        let sizes: Vec<_> = kinds
-            .into_iter()
-            .filter(|(_, count)| *count > 0)
-            .map(|(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count))
-            .collect();
-        let info = vk::DescriptorPoolCreateInfo::default().max_sets(room.sets).pool_sizes(&sizes);
+    pub fn new(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
+        let kinds = sizes.kinds().into_iter().filter(|(_, count)| *count > 0);
+        let size = |(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
+        let of_kinds: Vec<_> = kinds.map(size).collect();
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(sizes.sets).pool_sizes(&of_kinds);
         // SAFETY: the device is alive.
         let raw = unsafe { device.raw().create_descriptor_pool(&info, None) }
             .of_call("vkCreateDescriptorPool", name)?;
-        device.set_name(raw, name);
-        Ok(Self { device: device.clone(), raw, name: name.to_owned(), _not_sync: std::marker::PhantomData })
+        let owned = device.own(raw, name, Retired::DescriptorPool);
+        Ok(Self { owned, name: name.to_owned(), _not_sync: std::marker::PhantomData })
     }
 
     /// A set with some of its bindings given, by number; the others have the layout's stand-ins, if it has any.
@@ -211,12 +200,13 @@ impl DescriptorPool {
     /// # Errors
     /// Whatever the driver answers, such as an exhausted pool.
     pub fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
-        let layouts = [layout.raw];
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.raw).set_layouts(&layouts);
+        let Owned { device, raw, .. } = &self.owned;
+        let layouts = [layout.raw()];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(*raw).set_layouts(&layouts);
         // SAFETY: pool and layout are alive and of this device. The pool is not `Sync`, so nobody else allocates.
-        let set = unsafe { self.device.raw().allocate_descriptor_sets(&info) }
+        let set = unsafe { device.raw().allocate_descriptor_sets(&info) }
             .of_call("vkAllocateDescriptorSets", &self.name)?[0];
-        self.device.set_name(set, &self.name);
+        device.set_name(set, &self.name);
         let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
         let all = given.iter().copied().chain(layout.stand_ins(is_given)?);
         let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
@@ -231,7 +221,7 @@ impl DescriptorPool {
             }
         });
         // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
-        unsafe { self.device.raw().update_descriptor_sets(&writes.collect::<Vec<_>>(), &[]) };
+        unsafe { device.raw().update_descriptor_sets(&writes.collect::<Vec<_>>(), &[]) };
         Ok(set)
     }
 
@@ -243,27 +233,14 @@ impl DescriptorPool {
     /// # Errors
     /// Whatever the driver answers.
     pub unsafe fn reset(&self) -> Result<()> {
+        let Owned { device, raw, .. } = &self.owned;
         // SAFETY: this function's contract.
-        unsafe { self.device.raw().reset_descriptor_pool(self.raw, vk::DescriptorPoolResetFlags::empty()) }
+        unsafe { device.raw().reset_descriptor_pool(*raw, vk::DescriptorPoolResetFlags::empty()) }
             .of_call("vkResetDescriptorPool", &self.name)
     }
-}
 
-impl DescriptorPool {
     /// Takes no further set from the pool.
-    pub fn seal(mut self) -> SealedPool {
-        SealedPool { device: self.device.clone(), raw: std::mem::take(&mut self.raw) }
-    }
-}
-
-impl Drop for SealedPool {
-    fn drop(&mut self) {
-        self.device.retire(Retired::DescriptorPool(self.raw));
-    }
-}
-
-impl Drop for DescriptorPool {
-    fn drop(&mut self) {
-        self.device.retire(Retired::DescriptorPool(self.raw));
+    pub fn seal(self) -> SealedPool {
+        SealedPool(self.owned)
     }
 }

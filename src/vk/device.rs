@@ -6,10 +6,10 @@ use std::sync::{
 };
 
 use ash::{ext, khr, vk};
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Allocator, AllocatorCreateDesc};
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::{
-    borrowed::{BorrowedDevice, EnabledFeatures},
+    borrowed::BorrowedDevice,
     choose::{DeviceFacts, choose},
     executables::check_executables,
     facts::{all_facts, facts},
@@ -30,7 +30,6 @@ struct Shared {
     physical: vk::PhysicalDevice,
     facts: DeviceFacts,
     queue_family: u32,
-    features: EnabledFeatures,
     names: Option<ext::debug_utils::Device>,
     /// The epoch in which commands are being recorded now: one more than the last submission's.
     epoch: AtomicU64,
@@ -72,20 +71,14 @@ impl Device {
         if executables {
             check_executables(instance, physical, &facts)?;
         }
-        let features = EnabledFeatures {
-            large_points: facts.large_points,
-            pipeline_statistics: facts.pipeline_statistics,
-            draw_indirect_count: facts.draw_indirect_count,
-            first_instance: facts.limits.first_instance,
-        };
         let core = vk::PhysicalDeviceFeatures::default()
-            .large_points(features.large_points)
-            .draw_indirect_first_instance(features.first_instance)
-            .pipeline_statistics_query(features.pipeline_statistics);
+            .large_points(facts.large_points)
+            .draw_indirect_first_instance(facts.limits.first_instance)
+            .pipeline_statistics_query(facts.pipeline_statistics);
         let mut features10 = vk::PhysicalDeviceFeatures2::default().features(core);
         let mut features12 = vk::PhysicalDeviceVulkan12Features::default()
             .timeline_semaphore(true)
-            .draw_indirect_count(features.draw_indirect_count);
+            .draw_indirect_count(facts.draw_indirect_count);
         let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
             .synchronization2(true)
             .dynamic_rendering(true)
@@ -107,7 +100,7 @@ impl Device {
         // SAFETY: `physical` was enumerated from this instance and offers all that is enabled here.
         let raw = unsafe { instance.raw().create_device(physical, &info, None) }
             .of_call("vkCreateDevice", &facts.name)?;
-        Self::assemble(instance, physical, facts, raw, queue_family, features, Origin::Ours { executables })
+        Self::assemble(instance, physical, facts, raw, queue_family, Origin::Ours { executables })
     }
 
     /// Takes a host's device, which the host destroys after everything of ours is dropped.
@@ -131,19 +124,10 @@ impl Device {
         facts.pipeline_statistics = host.features.pipeline_statistics;
         facts.limits.first_instance = host.features.first_instance;
         facts.draw_indirect_count &= host.features.draw_indirect_count;
-        let draw_indirect_count = facts.draw_indirect_count;
         if !host.features.large_points {
             facts.limits.point_size_range = [1.0, 1.0];
         }
-        Self::assemble(
-            instance,
-            host.physical,
-            facts,
-            host.raw,
-            host.queue_family,
-            EnabledFeatures { draw_indirect_count, ..host.features },
-            Origin::Host,
-        )
+        Self::assemble(instance, host.physical, facts, host.raw, host.queue_family, Origin::Host)
     }
 
     fn assemble(
@@ -152,7 +136,6 @@ impl Device {
         facts: DeviceFacts,
         raw: ash::Device,
         queue_family: u32,
-        features: EnabledFeatures,
         origin: Origin,
     ) -> Result<Self> {
         let owned = origin != Origin::Host;
@@ -178,7 +161,6 @@ impl Device {
             physical,
             facts,
             queue_family,
-            features,
             names,
             epoch: AtomicU64::new(FIRST_EPOCH),
             memory: Mutex::new(Some((allocator, Garbage::default()))),
@@ -207,14 +189,9 @@ impl Device {
         self.0.physical
     }
 
-    /// What the device is and can do.
+    /// The device and what it can do: of optional features, those that are enabled.
     pub fn facts(&self) -> &DeviceFacts {
         &self.0.facts
-    }
-
-    /// The optional features that are enabled.
-    pub fn features(&self) -> EnabledFeatures {
-        self.0.features
     }
 
     /// The family of the one queue that is used.
@@ -252,16 +229,6 @@ impl Device {
     /// Frees the queue for another owner.
     pub(super) fn free_queue(&self) {
         self.0.queue_taken.store(false, Ordering::Release);
-    }
-
-    pub(super) fn allocate(&self, desc: &AllocationCreateDesc<'_>) -> Result<Allocation> {
-        let failed = |reason: String| -> Error {
-            ErrorKind::Memory { object: desc.name.to_owned(), bytes: desc.requirements.size, reason }.into()
-        };
-        match self.memory().as_mut() {
-            Some((allocator, _)) => allocator.allocate(desc).map_err(|error| failed(error.to_string())),
-            None => Err(failed("the device is gone".to_owned())),
-        }
     }
 
     /// Hands a raw object over, to be destroyed once the epoch that is being recorded now is done.

@@ -1,4 +1,4 @@
-//! What a driver's compiler made of a pipeline: `VK_KHR_pipeline_executable_properties`, where a device has it and was
+//! The programs that a driver's compiler made of a pipeline: `VK_KHR_pipeline_executable_properties`, where a device has it and was
 //! opened for it.
 
 use std::ffi::c_char;
@@ -40,7 +40,7 @@ impl Device {
         self.origin() == Origin::Ours { executables: true }
     }
 
-    /// What all pipelines are made with.
+    /// The flags that all pipelines are made with.
     pub(super) fn pipeline_flags(&self) -> vk::PipelineCreateFlags {
         match self.captures_executables() {
             true => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
@@ -68,7 +68,7 @@ pub(super) fn check_executables(
     }
 }
 
-/// What a pipeline became.
+/// The programs that a pipeline became.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] if the device was not opened with [`Device::with_executables`]; whatever the

@@ -7,6 +7,7 @@ use ash::{ext, vk};
 use super::{
     choose::{DeviceFacts, DeviceKind, Limits},
     instance::Instance,
+    loader::version_parts,
     result::VkResultExt,
 };
 use crate::error::Result;
@@ -43,8 +44,6 @@ pub(super) unsafe fn facts(
     // SAFETY: this function's contract, here and in the calls below.
     let properties = unsafe { instance.get_physical_device_properties(device) };
     let version = properties.api_version;
-    let api_version =
-        [vk::api_version_major(version), vk::api_version_minor(version), vk::api_version_patch(version)];
     let name = text(properties.device_name_as_c_str());
     // Before 1.2 the extended structures below don't exist; such a device is refused by its version alone.
     let modern = version >= vk::API_VERSION_1_2;
@@ -120,7 +119,7 @@ pub(super) unsafe fn facts(
         driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()))
             .trim()
             .to_owned(),
-        api_version,
+        api_version: version_parts(version),
         ids: [properties.vendor_id, properties.device_id, properties.driver_version],
         pci: tells_bus.then_some([bus.pci_domain, bus.pci_bus, bus.pci_device, bus.pci_function]),
         queue_family: queue_family.and_then(|index| u32::try_from(index).ok()),

@@ -3,8 +3,8 @@
 use ash::vk;
 
 use super::{
-    Stage, device::Device, garbage::Retired, layout::PipelineLayout, pipeline_cache::PipelineCache,
-    result::VkResultExt,
+    Stage, device::Device, garbage::Retired, layout::PipelineLayout, owned::Owned,
+    pipeline_cache::PipelineCache, result::VkResultExt,
 };
 use crate::error::Result;
 
@@ -32,7 +32,7 @@ pub struct DepthState {
     pub write: bool,
 }
 
-/// What a graphics pipeline is.
+/// The description of a graphics pipeline.
 #[derive(Clone, Copy)]
 pub struct GraphicsPipelineDesc<'a> {
     /// Its debug name.
@@ -41,7 +41,7 @@ pub struct GraphicsPipelineDesc<'a> {
     pub vertex: Stage<'a>,
     /// The fragment stage.
     pub fragment: Stage<'a>,
-    /// What the vertices form.
+    /// The primitives that the vertices form.
     pub topology: vk::PrimitiveTopology,
     /// Triangles whose corners are clockwise, as the picture shows them, are not drawn.
     pub cull_clockwise: bool,
@@ -56,10 +56,7 @@ pub struct GraphicsPipelineDesc<'a> {
 }
 
 /// A graphics pipeline.
-pub struct GraphicsPipeline {
-    device: Device,
-    raw: vk::Pipeline,
-}
+pub struct GraphicsPipeline(Owned<vk::Pipeline>);
 
 impl GraphicsPipeline {
     /// Compiles a pipeline.
@@ -129,19 +126,12 @@ impl GraphicsPipeline {
         // SAFETY: everything the info points to lives until the call returns and belongs to this device.
         let made = unsafe { device.raw().create_graphics_pipelines(cache.raw(), &[info], None) };
         let raw = made.map_err(|(_, result)| result).of_call("vkCreateGraphicsPipelines", desc.name)?[0];
-        device.set_name(raw, desc.name);
-        Ok(Self { device: device.clone(), raw })
+        Ok(Self(device.own(raw, desc.name, Retired::Pipeline)))
     }
 
     /// The raw pipeline.
     pub fn raw(&self) -> vk::Pipeline {
-        self.raw
-    }
-}
-
-impl Drop for GraphicsPipeline {
-    fn drop(&mut self) {
-        self.device.retire(Retired::Pipeline(self.raw));
+        self.0.raw
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 
-/// What an image is: two-dimensional, one mip level, one layer, one sample, optimal tiling.
+/// The description of an image: two-dimensional, one mip level, one layer, one sample, optimal tiling.
 #[derive(Clone, Copy, Debug)]
 pub struct ImageDesc<'a> {
     /// Its debug name.
@@ -20,7 +20,7 @@ pub struct ImageDesc<'a> {
     pub format: vk::Format,
     /// Width and height in pixels.
     pub extent: vk::Extent2D,
-    /// What it is used for.
+    /// Its uses.
     pub usage: vk::ImageUsageFlags,
 }
 

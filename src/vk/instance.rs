@@ -5,6 +5,7 @@ use std::{ffi::CStr, sync::Arc};
 use ash::{ext, vk};
 
 use super::{
+    loader::load_entry,
     messages::{Messages, on_message},
     result::VkResultExt,
     validation::{FEATURES, Through, VALIDATION_LAYER, Validation, settings},
@@ -34,14 +35,7 @@ impl Instance {
     /// not installed.
     pub fn new(validation: Validation) -> Result<Self> {
         let no_device = |reason: String| ErrorKind::NoDevice { reasons: vec![reason] };
-        // SAFETY: loading the system's Vulkan loader runs its initializers, which is what it is installed for.
-        let entry = unsafe { ash::Entry::load() }.map_err(|error| {
-            no_device(format!("the Vulkan loader (libvulkan) is not installed or can't be loaded: {error}"))
-        })?;
-        // SAFETY: no contract beyond a loaded entry, here and in the next call.
-        let version = unsafe { entry.try_enumerate_instance_version() }
-            .of_call("vkEnumerateInstanceVersion", "")?
-            .unwrap_or(vk::API_VERSION_1_0);
+        let (entry, version) = load_entry()?;
         if version < vk::API_VERSION_1_3 {
             let (major, minor) = (vk::api_version_major(version), vk::api_version_minor(version));
             return Err(no_device(format!("the Vulkan loader is {major}.{minor}, 1.3 is needed")).into());
@@ -125,7 +119,7 @@ impl Instance {
         self.0.messenger.is_some()
     }
 
-    /// What the validation layer said. Stays readable after the instance is gone.
+    /// The messages of the validation layer. They stay readable after the instance is gone.
     pub fn messages(&self) -> Arc<Messages> {
         Arc::clone(&self.0.messages)
     }

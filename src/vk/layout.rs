@@ -2,13 +2,12 @@
 
 use ash::vk;
 
-use super::{descriptors::SetLayout, device::Device, garbage::Retired, result::VkResultExt};
+use super::{descriptors::SetLayout, device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
 use crate::error::Result;
 
 /// The sets and push constants that pipelines share.
 pub struct PipelineLayout {
-    device: Device,
-    raw: vk::PipelineLayout,
+    owned: Owned<vk::PipelineLayout>,
     push_stages: vk::ShaderStageFlags,
 }
 
@@ -31,23 +30,16 @@ impl PipelineLayout {
         // SAFETY: the set layouts are alive and belong to this device.
         let raw = unsafe { device.raw().create_pipeline_layout(&info, None) }
             .of_call("vkCreatePipelineLayout", name)?;
-        device.set_name(raw, name);
-        Ok(Self { device: device.clone(), raw, push_stages })
+        Ok(Self { owned: device.own(raw, name, Retired::PipelineLayout), push_stages })
     }
 
     /// The raw layout.
     pub fn raw(&self) -> vk::PipelineLayout {
-        self.raw
+        self.owned.raw
     }
 
     /// The stages that see the push constants.
     pub fn push_stages(&self) -> vk::ShaderStageFlags {
         self.push_stages
-    }
-}
-
-impl Drop for PipelineLayout {
-    fn drop(&mut self) {
-        self.device.retire(Retired::PipelineLayout(self.raw));
     }
 }

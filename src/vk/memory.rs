@@ -7,7 +7,7 @@ use gpu_allocator::{
 };
 
 use super::{device::Device, garbage::Retired};
-use crate::error::{ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result};
 
 /// Who touches a piece of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,6 +97,17 @@ impl Drop for Memory {
 }
 
 impl Device {
+    /// Memory for an object.
+    pub(super) fn allocate(&self, desc: &AllocationCreateDesc<'_>) -> Result<Allocation> {
+        let failed = |reason: String| -> Error {
+            ErrorKind::Memory { object: desc.name.to_owned(), bytes: desc.requirements.size, reason }.into()
+        };
+        match self.memory().as_mut() {
+            Some((allocator, _)) => allocator.allocate(desc).map_err(|error| failed(error.to_string())),
+            None => Err(failed("the device is gone".to_owned())),
+        }
+    }
+
     /// Bytes of device memory that are allocated now, and how many allocations they are.
     pub fn memory_in_use(&self) -> (u64, usize) {
         self.memory().as_ref().map_or((0, 0), |(allocator, _)| {

@@ -8,13 +8,12 @@ use std::{
 
 use ash::vk;
 
-use super::{choose::DeviceFacts, device::Device, garbage::Retired, result::VkResultExt};
+use super::{choose::DeviceFacts, device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
 use crate::error::{Error, Result};
 
 /// Compiled pipelines, in memory and, where a folder was given, on disk.
 pub struct PipelineCache {
-    device: Device,
-    raw: vk::PipelineCache,
+    owned: Owned<vk::PipelineCache>,
     file: Option<PathBuf>,
 }
 
@@ -45,13 +44,12 @@ impl PipelineCache {
             other => other,
         };
         let raw = made.of_call("vkCreatePipelineCache", NAME)?;
-        device.set_name(raw, NAME);
-        Ok(Self { device: device.clone(), raw, file })
+        Ok(Self { owned: device.own(raw, NAME, Retired::PipelineCache), file })
     }
 
     /// The raw cache.
     pub fn raw(&self) -> vk::PipelineCache {
-        self.raw
+        self.owned.raw
     }
 
     /// Writes the cache to its file, whole or not at all; nothing to do without a folder.
@@ -60,8 +58,9 @@ impl PipelineCache {
     /// Whatever the driver or the file system answers. Losing the cache costs time only.
     pub fn save(&self) -> Result<()> {
         let Some(file) = &self.file else { return Ok(()) };
+        let Owned { device, raw, .. } = &self.owned;
         // SAFETY: the cache is alive.
-        let data = unsafe { self.device.raw().get_pipeline_cache_data(self.raw) }
+        let data = unsafe { device.raw().get_pipeline_cache_data(*raw) }
             .of_call("vkGetPipelineCacheData", "pipeline cache")?;
         let write = || -> std::io::Result<()> {
             if let Some(folder) = file.parent() {
@@ -80,12 +79,6 @@ impl PipelineCache {
             written
         };
         write().map_err(|error| Error::file(file.clone(), "write", error))
-    }
-}
-
-impl Drop for PipelineCache {
-    fn drop(&mut self) {
-        self.device.retire(Retired::PipelineCache(self.raw));
     }
 }
 

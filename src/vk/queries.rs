@@ -1,8 +1,10 @@
 //! Queries: timestamps and pipeline statistics, with the device's own limits honored.
 
+use std::ops::Deref;
+
 use ash::vk;
 
-use super::{device::Device, garbage::Retired, result::VkResultExt};
+use super::{device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
 use crate::error::Result;
 
 /// A pool of timestamps.
@@ -30,29 +32,16 @@ impl Timestamps {
         }))
     }
 
-    /// How many there are.
-    pub fn count(&self) -> u32 {
-        self.pool.count
-    }
-
-    /// Records the reset of all; comes before any write of a frame, outside of rendering.
-    ///
-    /// # Safety
-    /// `commands` must be recording, outside of rendering; no unfinished submission uses the pool.
-    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
-        // SAFETY: this function's contract.
-        unsafe { self.pool.reset(commands) };
-    }
-
     /// Records a timestamp that is taken once all earlier commands are complete.
     ///
     /// # Safety
-    /// `commands` must be recording; `index` is below [`Timestamps::count`] and was reset since its last write.
+    /// `commands` must be recording; `index` is below [`QueryPool::count`] and was reset since its last write.
     pub unsafe fn write(&self, commands: vk::CommandBuffer, index: u32) {
         // Means the same as ALL_COMMANDS here, which best-practices validation warns about.
         let stage = vk::PipelineStageFlags2::BOTTOM_OF_PIPE;
+        let Owned { device, raw, .. } = &self.pool.owned;
         // SAFETY: this function's contract.
-        unsafe { self.pool.device.raw().cmd_write_timestamp2(commands, stage, self.pool.raw, index) };
+        unsafe { device.raw().cmd_write_timestamp2(commands, stage, *raw, index) };
     }
 
     /// The first `count` timestamps in ticks, each `None` where it was not written.
@@ -87,7 +76,7 @@ impl Statistics {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, count: u32) -> Result<Option<Self>> {
-        if !device.features().pipeline_statistics {
+        if !device.facts().pipeline_statistics {
             return Ok(None);
         }
         let info = vk::QueryPoolCreateInfo::default()
@@ -99,35 +88,6 @@ impl Statistics {
                     | vk::QueryPipelineStatisticFlags::COMPUTE_SHADER_INVOCATIONS,
             );
         Ok(Some(Self { pool: QueryPool::new(device, name, info)? }))
-    }
-
-    /// Records the reset of all.
-    ///
-    /// # Safety
-    /// As [`Timestamps::reset`].
-    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
-        // SAFETY: this function's contract.
-        unsafe { self.pool.reset(commands) };
-    }
-
-    /// Records the begin of a count.
-    ///
-    /// # Safety
-    /// `commands` must be recording; the query was reset and is not active; begin and end come on the same side of
-    /// a rendering's begin and end.
-    pub unsafe fn begin(&self, commands: vk::CommandBuffer, index: u32) {
-        let flags = vk::QueryControlFlags::empty();
-        // SAFETY: this function's contract.
-        unsafe { self.pool.device.raw().cmd_begin_query(commands, self.pool.raw, index, flags) };
-    }
-
-    /// Records the end of a count.
-    ///
-    /// # Safety
-    /// As [`Statistics::begin`]; the query is active.
-    pub unsafe fn end(&self, commands: vk::CommandBuffer, index: u32) {
-        // SAFETY: this function's contract.
-        unsafe { self.pool.device.raw().cmd_end_query(commands, self.pool.raw, index) };
     }
 
     /// Vertex, fragment and compute invocations of the first `count` queries, each `None` where it was not written.
@@ -154,39 +114,6 @@ impl Occlusion {
         Ok(Self { pool: QueryPool::new(device, name, info)? })
     }
 
-    /// How many there are.
-    pub fn count(&self) -> u32 {
-        self.pool.count
-    }
-
-    /// Records the reset of all.
-    ///
-    /// # Safety
-    /// As [`Timestamps::reset`].
-    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
-        // SAFETY: this function's contract.
-        unsafe { self.pool.reset(commands) };
-    }
-
-    /// Records the begin of a query.
-    ///
-    /// # Safety
-    /// As [`Statistics::begin`].
-    pub unsafe fn begin(&self, commands: vk::CommandBuffer, index: u32) {
-        let flags = vk::QueryControlFlags::empty();
-        // SAFETY: this function's contract.
-        unsafe { self.pool.device.raw().cmd_begin_query(commands, self.pool.raw, index, flags) };
-    }
-
-    /// Records the end of a query.
-    ///
-    /// # Safety
-    /// As [`Occlusion::begin`]; the query is active.
-    pub unsafe fn end(&self, commands: vk::CommandBuffer, index: u32) {
-        // SAFETY: this function's contract.
-        unsafe { self.pool.device.raw().cmd_end_query(commands, self.pool.raw, index) };
-    }
-
     /// Records the copy of a result: 32 bits, 0 where nothing was drawn. The device waits for it, not the host.
     ///
     /// # Safety
@@ -194,15 +121,39 @@ impl Occlusion {
     /// `TRANSFER_DST`.
     pub unsafe fn copy(&self, commands: vk::CommandBuffer, index: u32, target: vk::Buffer) {
         let flags = vk::QueryResultFlags::WAIT;
-        let raw = self.pool.device.raw();
+        let Owned { device, raw, .. } = &self.pool.owned;
         // SAFETY: this function's contract.
-        unsafe { raw.cmd_copy_query_pool_results(commands, self.pool.raw, index, 1, target, 0, 4, flags) };
+        unsafe { device.raw().cmd_copy_query_pool_results(commands, *raw, index, 1, target, 0, 4, flags) };
     }
 }
 
-struct QueryPool {
-    device: Device,
-    raw: vk::QueryPool,
+impl Deref for Timestamps {
+    type Target = QueryPool;
+
+    fn deref(&self) -> &QueryPool {
+        &self.pool
+    }
+}
+
+impl Deref for Statistics {
+    type Target = QueryPool;
+
+    fn deref(&self) -> &QueryPool {
+        &self.pool
+    }
+}
+
+impl Deref for Occlusion {
+    type Target = QueryPool;
+
+    fn deref(&self) -> &QueryPool {
+        &self.pool
+    }
+}
+
+/// The queries of a pool, whatever they ask.
+pub struct QueryPool {
+    owned: Owned<vk::QueryPool>,
     count: u32,
     name: String,
 }
@@ -212,15 +163,44 @@ impl QueryPool {
         // SAFETY: the device is alive and has the feature, see the callers.
         let raw =
             unsafe { device.raw().create_query_pool(&info, None) }.of_call("vkCreateQueryPool", name)?;
-        device.set_name(raw, name);
-        Ok(Self { device: device.clone(), raw, count: info.query_count, name: name.to_owned() })
+        let owned = device.own(raw, name, Retired::QueryPool);
+        Ok(Self { owned, count: info.query_count, name: name.to_owned() })
     }
 
+    /// The number of queries.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Records the reset of all; comes before any write of a frame, outside of rendering.
+    ///
     /// # Safety
-    /// `commands` must be recording outside of rendering.
-    unsafe fn reset(&self, commands: vk::CommandBuffer) {
+    /// `commands` must be recording, outside of rendering; no unfinished submission uses the pool.
+    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
+        let Owned { device, raw, .. } = &self.owned;
         // SAFETY: this function's contract.
-        unsafe { self.device.raw().cmd_reset_query_pool(commands, self.raw, 0, self.count) };
+        unsafe { device.raw().cmd_reset_query_pool(commands, *raw, 0, self.count) };
+    }
+
+    /// Records the begin of a query.
+    ///
+    /// # Safety
+    /// `commands` must be recording; the query is none of timestamps, was reset and is not active; begin and end come on the same
+    /// side of a rendering's begin and end.
+    pub unsafe fn begin(&self, commands: vk::CommandBuffer, index: u32) {
+        let Owned { device, raw, .. } = &self.owned;
+        // SAFETY: this function's contract.
+        unsafe { device.raw().cmd_begin_query(commands, *raw, index, vk::QueryControlFlags::empty()) };
+    }
+
+    /// Records the end of a query.
+    ///
+    /// # Safety
+    /// As [`QueryPool::begin`]; the query is active.
+    pub unsafe fn end(&self, commands: vk::CommandBuffer, index: u32) {
+        let Owned { device, raw, .. } = &self.owned;
+        // SAFETY: this function's contract.
+        unsafe { device.raw().cmd_end_query(commands, *raw, index) };
     }
 
     /// The first `count` queries of `words` values each. Does not wait: what is not available is `None`.
@@ -233,13 +213,14 @@ impl QueryPool {
         let mut data = vec![0_u64; count * stride];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WITH_AVAILABILITY;
         let size = size_of_val(data.as_slice());
-        let get = self.device.raw().fp_v1_0().get_query_pool_results;
+        let Owned { device, raw, .. } = &self.owned;
+        let get = device.raw().fp_v1_0().get_query_pool_results;
         // SAFETY: `data` has room for `count` results of `stride` 64-bit values; the pool is alive. The raw function
         // is called because ash's wrapper takes one element a query.
         let result = unsafe {
             get(
-                self.device.raw().handle(),
-                self.raw,
+                device.raw().handle(),
+                *raw,
                 0,
                 count as u32,
                 size,
@@ -262,12 +243,6 @@ impl QueryPool {
                 })
             })
             .collect())
-    }
-}
-
-impl Drop for QueryPool {
-    fn drop(&mut self) {
-        self.device.retire(Retired::QueryPool(self.raw));
     }
 }
 

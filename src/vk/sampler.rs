@@ -2,14 +2,11 @@
 
 use ash::vk;
 
-use super::{device::Device, garbage::Retired, result::VkResultExt};
+use super::{device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
 use crate::error::Result;
 
 /// Bilinear, clamped to the edge, without mip levels.
-pub struct Sampler {
-    device: Device,
-    raw: vk::Sampler,
-}
+pub struct Sampler(Owned<vk::Sampler>);
 
 impl Sampler {
     /// A bilinear sampler.
@@ -26,18 +23,11 @@ impl Sampler {
             .address_mode_w(clamp);
         // SAFETY: the device is alive.
         let raw = unsafe { device.raw().create_sampler(&info, None) }.of_call("vkCreateSampler", name)?;
-        device.set_name(raw, name);
-        Ok(Self { device: device.clone(), raw })
+        Ok(Self(device.own(raw, name, Retired::Sampler)))
     }
 
     /// The raw sampler.
     pub fn raw(&self) -> vk::Sampler {
-        self.raw
-    }
-}
-
-impl Drop for Sampler {
-    fn drop(&mut self) {
-        self.device.retire(Retired::Sampler(self.raw));
+        self.0.raw
     }
 }

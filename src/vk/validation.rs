@@ -66,13 +66,13 @@ impl Through {
     }
 }
 
-/// What is checked beyond the layer's defaults, for [`Through::ValidationFeatures`].
+/// The checks beyond the layer's defaults, for [`Through::ValidationFeatures`].
 pub(super) const FEATURES: [vk::ValidationFeatureEnableEXT; 2] = [
     vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION,
     vk::ValidationFeatureEnableEXT::BEST_PRACTICES,
 ];
 
-/// The same for [`Through::LayerSettings`].
+/// Those checks for [`Through::LayerSettings`].
 pub(super) fn settings() -> [vk::LayerSettingEXT<'static>; 2] {
     static YES: vk::Bool32 = vk::TRUE;
     [c"validate_sync", c"validate_best_practices"].map(|name| {

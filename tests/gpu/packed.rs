@@ -60,7 +60,7 @@ fn packed_alphas_agree_with_the_oracle() {
         // One color for all is not packed. An odd one out, so that neighbors in a word differ.
         let mut colors: Vec<_> = (0..object.splats.len()).map(|i| object.splats.color(i)).collect();
         colors.iter_mut().step_by(3).for_each(|color| *color = [0.2, 0.9, 0.4, 0.3]);
-        object.splats.colors = Colors::PerSplat(colors);
+        object.splats.colors = Colors::Each(colors);
     }
     let scene = unpacked(&hard.scene).unwrap();
     let frame = render(&mut headless, &packed(&hard));

@@ -8,8 +8,8 @@ use surfel::{
     load::builtin::sphere_mesh,
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Camera, Colors, Filter, Kernel, Mesh, MeshColors, MeshObject, Object, Scene, Settings,
-        Shading, Transition,
+        Accumulate, Camera, Colors, Filter, Kernel, Mesh, MeshObject, Object, Scene, Settings, Shading,
+        Transition,
     },
 };
 
@@ -32,7 +32,7 @@ fn scene(ball: &Hybrid, alpha: f32) -> Scene {
     let faded = |[red, green, blue, _]: [f32; 4]| [red, green, blue, alpha];
     let mut splats = ball.splats.clone();
     splats.colors = Colors::Uniform(faded(SPLATS));
-    let mesh = Mesh { colors: MeshColors::Uniform(faded(POLYGONS)), ..ball.polygons.clone() };
+    let mesh = Mesh { colors: Colors::Uniform(faded(POLYGONS)), ..ball.polygons.clone() };
     Scene {
         objects: vec![Object { name: "splats".to_owned(), splats, closed: ball.closed }],
         meshes: vec![MeshObject { name: "polygons".to_owned(), mesh, closed: ball.closed }],

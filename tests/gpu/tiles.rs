@@ -380,7 +380,7 @@ fn layers_of_overfull_tiles_lose_none() {
     let clear = |count| {
         let mut object = sphere(count, DVec3::ZERO);
         let color = |i: usize| if i / 32 % 32 < 20 { [0.9, 0.1, 0.1, 0.4] } else { [0.1, 0.9, 0.2, 0.4] };
-        object.splats.colors = Colors::PerSplat((0..count).map(color).collect());
+        object.splats.colors = Colors::Each((0..count).map(color).collect());
         object
     };
     let near = scenes::builder::camera([0.0, 0.0, 4.0], [0.0; 3]);

@@ -103,7 +103,7 @@ fn a_ball_of_fine_splats_lets_as_much_light_through_as_one_of_polygons_from_near
         ..Scene::default()
     };
     let polygons = Scene {
-        meshes: vec![transparent::ball_of_polygons(DVec3::ZERO, 1.0, 60, color)],
+        meshes: vec![builder::ball_of_polygons(DVec3::ZERO, 1.0, 60, color)],
         ..Scene::default()
     };
     // The last layer's alpha of several surfaces must not make more of two.

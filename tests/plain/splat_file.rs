@@ -72,7 +72,7 @@ fn disks_come_back_bit_by_bit_with_colors_of_every_type() {
             let [red, green, blue] = [value(), value(), value()].map(|v| linear_from_srgb(v as f32));
             [red, green, blue, value() as f32]
         };
-        let colors = Colors::PerSplat((0..3000).map(&mut color).collect());
+        let colors = Colors::Each((0..3000).map(&mut color).collect());
         let splats = disks(near(3000), colors);
         let (read, written, header) = round_trip(&splats, false);
         assert!(!written.double_positions);
@@ -138,7 +138,7 @@ fn positions_are_64_bits_where_32_would_move_a_splat_and_only_there() {
 
 #[test]
 fn what_cannot_be_drawn_is_written_as_it_is() {
-    let mut splats = disks(near(4), Colors::PerSplat(vec![[f32::NAN, 0.0, 0.5, 1.0]; 4]));
+    let mut splats = disks(near(4), Colors::Each(vec![[f32::NAN, 0.0, 0.5, 1.0]; 4]));
     splats.positions[0].x = f64::NAN;
     splats.positions[1].y = f64::NEG_INFINITY;
     if let Shapes::Disks { normals, radii } = &mut splats.shapes {

@@ -46,7 +46,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// What was refused does not count.
+/// Counts memory that was given; refusals do not count.
 fn count(pointer: *mut u8, bytes: usize) {
     if !pointer.is_null() {
         let live = LIVE_BYTES.fetch_add(bytes, Ordering::Relaxed) + bytes;

@@ -47,9 +47,6 @@ pub enum Command {
 
 impl Command {
     /// Runs it.
-    ///
-    /// # Errors
-    /// Whatever goes wrong.
     pub fn run(&self) -> Result<()> {
         match self {
             Self::Render(arguments) => render::run(arguments),

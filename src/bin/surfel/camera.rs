@@ -23,15 +23,15 @@ pub struct CameraArguments {
     #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub camera: Option<PathBuf>,
 
-    /// Where the eye is [default: on +z from the target, so far that the scene fits]
+    /// The eye [default: on +z from the target, so far that the scene fits]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub eye: Option<[f64; 3]>,
 
-    /// What the middle of the picture shows [default: the middle of the scene]
+    /// The point in the middle of the picture [default: the middle of the scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub target: Option<[f64; 3]>,
 
-    /// What is up [default: 0,1,0]
+    /// The direction that is up [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub up: Option<[f64; 3]>,
 
@@ -54,16 +54,16 @@ struct CameraFile {
     near: Option<f64>,
 }
 
-/// What the command line says of the camera, before there is a scene.
+/// The camera as the command line has it, before there is a scene.
 pub enum CameraChoice {
-    /// All of it, from a file.
+    /// A whole camera, from a file.
     File(Camera),
-    /// What the options say; the rest comes from the scene.
+    /// The parts that options give; the rest comes from the scene.
     Options(CameraParts),
 }
 
 impl CameraChoice {
-    /// Nothing is said.
+    /// No options.
     pub fn none() -> Self {
         Self::Options(CameraParts::default())
     }
@@ -201,6 +201,7 @@ mod tests {
             ball,
             camera: Some((PathBuf::from("a.toml"), parts)),
             inputs: Vec::new(),
+            steps: Vec::new(),
         };
         let eye = |x: f64| Some(DVec3::new(x, 1.0, 1.0));
         let parts = CameraParts { eye: eye(7.0), fov_y_rad: Some(0.5), ..CameraParts::default() };

@@ -1,4 +1,4 @@
-//! What the program says: results to the standard output, all else to the standard error, and bars for long steps.
+//! The program's words: results to the standard output, all else to the standard error, and bars for long steps.
 
 use std::{
     io::{self, Write as _},

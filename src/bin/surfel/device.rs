@@ -25,9 +25,6 @@ pub struct DeviceArguments {
 
 impl DeviceArguments {
     /// A host on the device asked for, or the best, with what was compiled in runs before.
-    ///
-    /// # Errors
-    /// As [`Headless::new`].
     pub fn open(&self) -> Result<Headless> {
         Headless::new(&HeadlessOptions {
             validation: if self.validate { Validation::On } else { Validation::Off },
@@ -36,13 +33,20 @@ impl DeviceArguments {
         })
     }
 
-    /// Works with the host, which it takes, and prints what the validation layer said, if it watched.
+    /// Works with the host, keeps what was compiled, and prints what the validation layer said, if it watched.
     ///
     /// # Errors
     /// As `work`; messages of the layer.
-    pub fn watch(&self, headless: Headless, work: impl FnOnce(Headless) -> Result<()>) -> Result<()> {
+    pub fn watch(
+        &self,
+        mut headless: Headless,
+        work: impl FnOnce(&mut Headless) -> Result<()>,
+    ) -> Result<()> {
         let messages = headless.device().instance().messages();
-        let done = work(headless);
+        let done = work(&mut headless);
+        // A lost cache costs the next run some time, that is all.
+        let _ = headless.renderer.shaders.save_cache();
+        drop(headless);
         // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
         let said = if self.validate { conclude(&messages) } else { Ok(()) };
         done.and(said)

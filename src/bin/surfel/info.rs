@@ -9,7 +9,11 @@ use surfel::{
     vk::{DeviceFacts, DeviceKind, Instance, LoaderFacts, Validation, all_facts, choose, loader_facts},
 };
 
-use crate::{console, json::to_json};
+use crate::{
+    console,
+    json::to_json,
+    reports::{layer_version, version},
+};
 
 /// List devices, drivers and limits, and what a device lacks
 #[derive(Args)]
@@ -19,7 +23,7 @@ pub struct InfoArguments {
     json: bool,
 }
 
-/// Everything that is told.
+/// The answer.
 #[derive(Serialize)]
 struct Info {
     surfel: &'static str,
@@ -48,9 +52,9 @@ struct DeviceInfo {
     max_storage_buffer_bytes: u64,
     timestamp_valid_bits: u32,
     timestamp_period_ns: f32,
-    /// Why it can't be used; empty where it can.
+    /// The reasons why it can't be used; empty where it can.
     refused: Vec<String>,
-    /// What it lacks though it can be used.
+    /// The features that it lacks though it can be used.
     lacks: Vec<&'static str>,
     /// It is used where `--device` is not given.
     default: bool,
@@ -77,11 +81,10 @@ pub fn run(arguments: &InfoArguments) -> Result<()> {
 }
 
 fn info(loader: &LoaderFacts, facts: &[DeviceFacts], chosen: Option<usize>) -> Info {
-    let layer = loader.validation_layer.map(|(spec, own)| format!("{} (version {own})", version(spec)));
     Info {
         surfel: env!("CARGO_PKG_VERSION"),
         vulkan_loader: version(loader.version),
-        validation_layer: layer,
+        validation_layer: layer_version(loader),
         devices: facts.iter().enumerate().map(|(i, facts)| device(i, facts, chosen == Some(i))).collect(),
     }
 }
@@ -115,10 +118,6 @@ fn device(index: usize, facts: &DeviceFacts, default: bool) -> DeviceInfo {
         lacks: facts.shortcomings(),
         default,
     }
-}
-
-fn version([major, minor, patch]: [u32; 3]) -> String {
-    format!("{major}.{minor}.{patch}")
 }
 
 fn text(info: &Info) -> String {

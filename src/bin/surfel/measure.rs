@@ -16,22 +16,16 @@ use crate::{steps::Steps, turns};
 /// Frames before those that are timed: the first makes pipelines and transients, the second finds them.
 const WARM_UP_FRAMES: u32 = 2;
 
-/// What is drawn, again and again.
+/// A scene as it is drawn, again and again.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
-    /// The scene.
     pub scene: &'a PreparedScene,
-    /// From where.
     pub camera: &'a Camera,
-    /// How.
     pub settings: &'a Settings,
 }
 
 /// Warms up, with the very first frame split into what host and device did, times `frames` frames and the passes of as many
 /// more, and counts vertices and fragments in one more, because timing passes and counting cost time.
-///
-/// # Errors
-/// As [`Headless::render`].
 pub fn frame_times(
     headless: &mut Headless,
     view: View<'_>,

@@ -1,4 +1,4 @@
-//! Where results go: checked before the long work, so that it is not done in vain.
+//! The places of results: checked before the long work, so that it is not done in vain.
 
 use std::{
     ffi::OsStr,
@@ -30,45 +30,63 @@ pub const DUMPED: [&str; 5] = ["weight.exr", "albedo.exr", "normal.exr", "depth.
 /// Checks that everything asked for can be written, and gives the picture's format.
 ///
 /// # Errors
-/// A picture whose format is unknown; a folder that is missing or can't be written to; a folder in a file's place; a
-/// file that is also an input or written twice.
-pub fn check(arguments: &PictureArguments, timings: Option<&Path>) -> Result<PictureFormat> {
-    let format = picture_format(&arguments.output)?;
-    let files: Vec<&Path> = [Some(arguments.output.as_path()), timings].into_iter().flatten().collect();
-    let inputs: Vec<&Path> =
-        paths(&arguments.input.inputs).chain(arguments.camera.camera.as_deref()).collect();
-    check_places(&files, arguments.dump.as_deref(), &DUMPED, &inputs)?;
-    Ok(format)
+/// A picture whose format is unknown; as [`check_places`].
+pub fn check(arguments: &PictureArguments, timings: &Option<PathBuf>) -> Result<PictureFormat> {
+    let PictureArguments { input, camera, output, dump, .. } = arguments;
+    check_name("--output", output, &["png", "exr"])?;
+    let inputs = input.inputs.iter().chain(&camera.camera);
+    check_places([output].into_iter().chain(timings), dump.as_deref(), &DUMPED, inputs)?;
+    let is_exr = output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+    Ok(if is_exr { PictureFormat::Exr } else { PictureFormat::Png })
 }
 
-/// Paths as they are passed on.
-pub fn paths(owned: &[PathBuf]) -> impl Iterator<Item = &Path> {
-    owned.iter().map(PathBuf::as_path)
+/// Refuses a file whose name has none of these endings.
+///
+/// # Errors
+/// In the name of the option.
+pub fn check_name(option: &str, file: &Path, endings: &[&str]) -> Result<()> {
+    let has = |ending: &&str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
+    match endings.iter().any(has) {
+        true => Ok(()),
+        false => {
+            let expected = endings.join(" or .");
+            Err(Error::option(option, format!("{}: expected a name in .{expected}", file.display())))
+        }
+    }
 }
 
 /// Checks that `files`, and those of these names in `folder`, can be written, and that none of them is an input (a model
 /// of a scene file is one too) or written twice.
 ///
 /// # Errors
-/// As [`check`].
-pub fn check_places(files: &[&Path], folder: Option<&Path>, names: &[&str], inputs: &[&Path]) -> Result<()> {
-    for file in files {
-        check_file(file)?;
+/// A folder that is missing or can't be written to; a folder in a file's place; a file that is also an input or written
+/// twice.
+pub fn check_places<'a>(
+    files: impl IntoIterator<Item = &'a PathBuf>,
+    folder: Option<&Path>,
+    names: &[&str],
+    inputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<()> {
+    let mut files: Vec<PathBuf> = files.into_iter().cloned().collect();
+    files.iter().try_for_each(|file| check_file(file))?;
+    let mut taken: Vec<PathBuf> = Vec::new();
+    for input in inputs {
+        taken.extend(input.canonicalize());
+        if is_scene_file(input) {
+            taken.extend(models_of(input));
+        }
     }
     if let Some(folder) = folder {
         check_folder(folder)?;
-    }
-    let mut taken: Vec<PathBuf> = inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
-    taken.extend(inputs.iter().filter(|input| is_scene_file(input)).flat_map(|input| models_of(input)));
-    let in_folder: Vec<PathBuf> =
-        folder.iter().flat_map(|folder| names.iter().map(|name| folder.join(name))).collect();
-    for file in &in_folder {
-        if file.is_dir() {
-            return Err(Error::file(file, "write", io::ErrorKind::IsADirectory.into()));
+        for file in names.iter().map(|name| folder.join(name)) {
+            if file.is_dir() {
+                return Err(Error::file(file, "write", io::ErrorKind::IsADirectory.into()));
+            }
+            files.push(file);
         }
     }
-    for file in files.iter().copied().chain(paths(&in_folder)) {
-        let place = place_of(file);
+    for file in files {
+        let place = place_of(&file);
         if taken.contains(&place) {
             return Err(Error::option(file.display().to_string(), "is an input, or written twice"));
         }
@@ -92,23 +110,11 @@ fn models_of(scene_file: &Path) -> Vec<PathBuf> {
 /// # Errors
 /// A name that is not .ply; a place that can't be written to; the input's own.
 pub fn check_converted(input: &Path, output: &Path) -> Result<()> {
-    let extension = output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    if extension.as_deref() != Some("ply") {
-        return Err(Error::option("OUTPUT", format!("{}: expected a name in .ply", output.display())));
-    }
+    check_name("OUTPUT", output, &["ply"])?;
     check_file(output)?;
     match input.canonicalize().is_ok_and(|input| input == place_of(output)) {
         true => Err(Error::option(output.display().to_string(), "is the input")),
         false => Ok(()),
-    }
-}
-
-fn picture_format(path: &Path) -> Result<PictureFormat> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    match extension.as_deref() {
-        Some("png") => Ok(PictureFormat::Png),
-        Some("exr") => Ok(PictureFormat::Exr),
-        _ => Err(Error::option("--output", format!("{}: expected a name in .png or .exr", path.display()))),
     }
 }
 

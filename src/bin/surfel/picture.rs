@@ -30,14 +30,11 @@ pub struct PictureArguments {
     pub camera: CameraArguments,
 
     #[command(flatten)]
-    settings: Given<Picture>,
+    settings: Given<Settings>,
 }
 
-/// All settings.
-struct Picture;
-
-impl Taken for Picture {
-    type Table = Settings;
+impl Taken for Settings {
+    type Table = Self;
 
     fn option(name: &str, option: Arg) -> Option<Arg> {
         Some(option.help_heading((name != "size").then_some("Method")))

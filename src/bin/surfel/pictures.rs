@@ -15,9 +15,6 @@ pub enum Colors<'a> {
 }
 
 /// Writes the picture and says so. PNG has an alpha channel only where something can be transparent.
-///
-/// # Errors
-/// As [`save::png`] and [`save::exr`].
 pub fn write_picture(
     path: &Path,
     format: PictureFormat,

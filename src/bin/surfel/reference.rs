@@ -13,7 +13,6 @@ use crate::{
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     scene::{INPUTS, load_scene},
-    steps::Steps,
 };
 
 const EXAMPLES: &str = "Examples:
@@ -40,10 +39,9 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let settings = picture.settings();
     settings.validate()?;
     let camera = CameraChoice::of(&picture.camera)?;
-    let format = outputs::check(picture, None)?;
+    let format = outputs::check(picture, &None)?;
     let bars = Bars::new();
-    let loaded =
-        load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut Steps::default())?;
+    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
     let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);
@@ -57,7 +55,6 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "files hold 32-bit floats")]
 fn dump(picture: &Picture) -> Dump {
     let pixels = &picture.pixels;
     let one = |value: fn(&Pixel) -> f64| pixels.iter().map(|pixel| value(pixel) as f32).collect();

@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::{Arg, Args};
+use clap::Args;
 use surfel::{
-    Progress as _, Result,
+    Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    save,
     scene::{Settings, Storage},
 };
 
@@ -16,14 +15,14 @@ use crate::{
     console::{self, Bars},
     device::DeviceArguments,
     explain,
-    json::to_json,
+    json::write_json,
     measure::{self, View},
     outputs::{self, PictureFormat},
     parse,
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
-    scene::{INPUTS, Loaded, load_scene},
+    scene::{INPUTS, Loaded, load_scene, upload},
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
@@ -52,7 +51,7 @@ pub struct RenderArguments {
     device: DeviceArguments,
 
     #[command(flatten)]
-    storage: Given<Stored>,
+    storage: Given<Storage>,
 
     /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
     /// --timings, else none]
@@ -68,15 +67,8 @@ pub struct RenderArguments {
     explain: bool,
 }
 
-/// How splats are kept: all of it.
-struct Stored;
-
-impl Taken for Stored {
-    type Table = Storage;
-
-    fn option(_name: &str, option: Arg) -> Option<Arg> {
-        Some(option)
-    }
+impl Taken for Storage {
+    type Table = Self;
 }
 
 /// Frames timed where only `--timings` is given.
@@ -90,7 +82,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let settings = arguments.picture.settings();
     settings.validate()?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
-    let format = outputs::check(&arguments.picture, arguments.timings.as_deref())?;
+    let format = outputs::check(&arguments.picture, &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {
@@ -100,7 +92,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
 }
 
 fn draw(
-    mut headless: Headless,
+    headless: &mut Headless,
     arguments: &RenderArguments,
     settings: &Settings,
     camera: &CameraChoice,
@@ -109,22 +101,20 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars, &mut steps)?;
+    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
-    let Loaded { mut scene, inputs, .. } = loaded;
+    let Loaded { mut scene, inputs, steps: loading, .. } = loaded;
+    steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
-    let prepared =
-        steps.time("upload", || headless.prepare(&scene, &|done, total| bars.step("upload", done, total)));
-    bars.clear();
-    let prepared = prepared?;
+    let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };
 
     let frames = arguments.frames.or(arguments.timings.is_some().then_some(DEFAULT_TIMED_FRAMES));
     if let Some(frames) = frames {
-        let (times, transient_bytes) = measure::frame_times(&mut headless, view, frames, &mut steps)?;
+        let (times, transient_bytes) = measure::frame_times(headless, view, frames, &mut steps)?;
         let report = RunReport {
             surfel: env!("CARGO_PKG_VERSION").to_owned(),
             device: device_report(headless.device().facts()),
@@ -135,15 +125,9 @@ fn draw(
             frames: times,
         };
         console::print(&report.to_string())?;
-        if let Some(path) = &arguments.timings {
-            save::text(path, &to_json(&report)?)?;
-        }
+        write_json(arguments.timings.as_deref(), &report)?;
     }
-
-    write(&mut headless, arguments, view, format)?;
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
+    write(headless, arguments, view, format)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.

@@ -1,20 +1,19 @@
-//! From the inputs on the command line to a scene.
+//! The scene of the inputs on the command line.
 
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use surfel::{
-    Error, ErrorKind, Result,
+    Error, ErrorKind, Progress as _, Result,
     compose::{build, make, resampled},
-    load::{BuiltIn, ObjectDescription, Representation, Samples, is_scene_file, load_scene_file},
-    report::InputReport,
+    load::{BuiltIn, ObjectDescription, Representation, Samples, file_name, is_scene_file, load_scene_file},
+    prepare::PreparedScene,
+    renderer::Headless,
+    report::{InputReport, Step},
     scene::{Ball, CameraParts, Light, Mesh, Object, Scene},
 };
 
-use crate::{
-    console::{self, Bars},
-    steps::Steps,
-};
+use crate::console::{self, Bars};
 
 /// The manual of inputs.
 pub const INPUTS: &str = "Inputs are PLY files (splats or meshes), OBJ files (meshes), and scene files (.toml: objects, each \
@@ -29,7 +28,7 @@ pub struct InputArguments {
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 
-    /// As what inputs are drawn that are no scene files
+    /// The primitives of inputs that are no scene files
     #[arg(long, value_name = "WHAT", default_value = "splats")]
     representation: Primitives,
 }
@@ -44,7 +43,7 @@ enum Primitives {
 }
 
 impl InputArguments {
-    /// As what inputs are drawn that are no scene files.
+    /// The primitives of inputs that are no scene files.
     pub fn representation(&self) -> Representation {
         match self.representation {
             Primitives::Splats => Representation::Splats,
@@ -59,10 +58,12 @@ pub struct Loaded {
     pub scene: Scene,
     /// A ball around all disks and triangles.
     pub ball: Ball,
-    /// What a scene file says of the camera, and which one.
+    /// The scene file that has a camera, and that camera.
     pub camera: Option<(PathBuf, CameraParts)>,
     /// One an object.
     pub inputs: Vec<InputReport>,
+    /// The steps of loading.
+    pub steps: Vec<Step>,
 }
 
 /// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it. Meshes are
@@ -70,28 +71,28 @@ pub struct Loaded {
 ///
 /// # Errors
 /// As [`load_scene_file`] and [`build`]; two scene files that both have a camera.
-pub fn load_scene(
-    inputs: &[PathBuf],
-    meshes: Representation,
-    bars: &Bars,
-    steps: &mut Steps,
-) -> Result<Loaded> {
+pub fn load_scene(inputs: &[PathBuf], meshes: Representation, bars: &Bars) -> Result<Loaded> {
     let Described { objects, lights, camera } = describe(inputs, meshes)?;
+    let mut steps = Vec::new();
     let built = build(&objects, lights, bars, &mut |object| {
         bars.clear();
-        steps.0.extend(object.steps.iter().cloned());
+        steps.extend(object.steps.iter().cloned());
         console::say(&object.report.summary);
     });
     bars.clear();
     let (scene, inputs) = built?;
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
-    Ok(Loaded { scene, ball, camera, inputs })
+    Ok(Loaded { scene, ball, camera, inputs, steps })
+}
+
+/// Brings a scene to the device.
+pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<PreparedScene> {
+    let prepared = headless.prepare(scene, &|done, total| bars.step("upload", done, total));
+    bars.clear();
+    prepared
 }
 
 /// The splats of one input that is no scene file, without those that can't be drawn.
-///
-/// # Errors
-/// As [`make`].
 pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport)> {
     let built = make(&ObjectDescription::of_file(path), bars);
     bars.clear();
@@ -107,9 +108,6 @@ pub fn not_a_mesh(path: &Path) -> Error {
 }
 
 /// Splats spread evenly over the mesh of the file at `path`.
-///
-/// # Errors
-/// As [`resampled`].
 pub fn resample_mesh(
     mesh: &Mesh,
     path: &Path,
@@ -117,15 +115,14 @@ pub fn resample_mesh(
     seed: u64,
     bars: &Bars,
 ) -> Result<(Object, InputReport)> {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    resampled(mesh, name, Samples { count, seed }, bars).map_err(|error| match error.kind() {
+    resampled(mesh, file_name(path), Samples { count, seed }, bars).map_err(|error| match error.kind() {
         // The library knows no file.
         ErrorKind::Input { problem, .. } => Error::input(path, "", problem),
         _ => error,
     })
 }
 
-/// All that the inputs describe.
+/// The descriptions in the inputs.
 struct Described {
     objects: Vec<ObjectDescription>,
     lights: Vec<Light>,
@@ -170,7 +167,7 @@ mod tests {
         let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, text).unwrap();
-        let loaded = load_scene(&[path], Representation::Splats, &Bars::new(), &mut Steps::default());
+        let loaded = load_scene(&[path], Representation::Splats, &Bars::new());
         loaded.map(|mut loaded| loaded.inputs.remove(0)).map_err(|e| e.to_string())
     }
 

@@ -1,6 +1,6 @@
 //! The manual of scene files.
 
-/// All keys, in a table that fits the width at which help is wrapped.
+/// The keys, in a table that fits the width at which help is wrapped.
 pub const KEYS: &str = "\
 A scene file, in TOML, with all its keys and their defaults; an object needs a file or a builtin,
 a light its kind. Unknown keys are faults. Points and directions, such as [1, 2, 3], are in world

@@ -15,7 +15,9 @@ pub trait Taken {
     type Table: OptionTable;
 
     /// The option of this name as the subcommand has it; `None` where it has none.
-    fn option(name: &str, option: Arg) -> Option<Arg>;
+    fn option(_name: &str, option: Arg) -> Option<Arg> {
+        Some(option)
+    }
 }
 
 /// The settings that the command line gives, by itself or by a default.

@@ -17,7 +17,7 @@ const FRAMES_A_TURN: u32 = 2;
 
 /// One frame, measured.
 pub struct MeasuredFrame {
-    /// What was measured of it.
+    /// The measurement.
     pub profile: FrameProfile,
     /// Seconds from its submission to the end of the wait for it.
     pub wall_secs: f64,
@@ -45,9 +45,6 @@ pub fn frames<'a>(scene: &'a PreparedScene, camera: &'a Camera, settings: Settin
 }
 
 /// Adds a round: `frames` frames whose passes are not timed, then as many of which they are.
-///
-/// # Errors
-/// As `draw`.
 pub fn add_round(
     headless: &mut Headless,
     draw: &mut Draw<'_>,
@@ -76,9 +73,6 @@ pub fn add_round(
 }
 
 /// Counts vertices and fragments of each pass in a frame of their own, because counting costs time.
-///
-/// # Errors
-/// As `draw`.
 pub fn add_counts(headless: &mut Headless, draw: &mut Draw<'_>, timed: &mut TimedFrames) -> Result<()> {
     let passes = draw(headless, Profile::Counts)?.profile.passes.into_iter();
     timed.counts = passes.map(|pass| pass.counts.map(|counts| [counts.vertices, counts.fragments])).collect();

@@ -29,7 +29,7 @@ pub fn parse() -> Result<Arguments, ExitCode> {
     })
 }
 
-/// Where help is found for a command line that starts with this word.
+/// The command that prints help for a command line that starts with this word.
 fn manual(first: &str) -> String {
     match Arguments::command().find_subcommand(first) {
         Some(command) => format!("surfel {} --help", command.get_name()),

@@ -49,7 +49,7 @@ struct Side {
 }
 
 impl Border {
-    /// Of a mesh without degenerate triangles that has normals; `polygon[i]`: triangle i stays one.
+    /// The border of a mesh without degenerate triangles that has normals; `polygon[i]`: triangle i stays one.
     pub(super) fn of(mesh: &Mesh, polygon: &[bool]) -> Self {
         let first = first_at_place(&mesh.positions);
         let mut sides = sides(mesh, polygon, &first);

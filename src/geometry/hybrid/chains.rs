@@ -27,7 +27,7 @@ struct Stop {
     joint: usize,
     /// Along the chain.
     at: f64,
-    /// Of the edge that ends here.
+    /// The normal of the face of the edge that ends here.
     face: DVec3,
 }
 
@@ -67,7 +67,7 @@ impl<'a> Chains<'a> {
         Self { border, chains, ends }
     }
 
-    /// Of all edges, in world units.
+    /// The length of all edges, in world units.
     pub(super) fn length(&self) -> f64 {
         self.chains.iter().map(Chain::length).sum()
     }

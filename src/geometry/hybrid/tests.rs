@@ -68,7 +68,7 @@ fn the_same_input_gives_the_same_bytes_everywhere() {
 fn the_polygons_are_those_asked_for_with_the_normals_and_colors_of_the_whole_mesh() {
     let mut seam = named("sphere, the edge");
     let color = |p: DVec3| (0.5 * (p + DVec3::ONE)).as_vec3().extend(0.5).to_array();
-    seam.mesh.colors = MeshColors::PerVertex(seam.mesh.positions.iter().map(|&p| color(p)).collect());
+    seam.mesh.colors = Colors::Each(seam.mesh.positions.iter().map(|&p| color(p)).collect());
     let hybrid = of_seam(&seam, &options(2000, true));
     let (polygons, report) = (&hybrid.polygons, &hybrid.report);
     assert!(hybrid.closed);
@@ -76,7 +76,7 @@ fn the_polygons_are_those_asked_for_with_the_normals_and_colors_of_the_whole_mes
     assert_eq!(report.polygons, wanted.clone().count());
     let (whole, _) = shaded_mesh(seam.mesh.clone());
     let (normals, of_whole) = (polygons.normals.as_ref().unwrap(), whole.normals.unwrap());
-    let MeshColors::PerVertex(colors) = &polygons.colors else { panic!("colors") };
+    let Colors::Each(colors) = &polygons.colors else { panic!("colors") };
     for (found, wanted) in polygons.triangles.iter().zip(wanted) {
         for (found, wanted) in found.iter().zip(seam.mesh.triangles[wanted]) {
             let (found, wanted) = (*found as usize, wanted as usize);

@@ -200,12 +200,12 @@ fn the_files_normals_and_colors_are_taken_where_they_are_usable() {
     normals[4] = Vec3::NAN;
     mesh.normals = Some(normals);
     let colors: Vec<[f32; 4]> = (0..mesh.positions.len()).map(|i| [i as f32, 0.0, 0.0, 1.0]).collect();
-    mesh.colors = MeshColors::PerVertex(colors.clone());
+    mesh.colors = Colors::Each(colors.clone());
     // A vertex without a face shifts splats against vertices.
     mesh.positions.insert(0, DVec3::ZERO);
     mesh.triangles.iter_mut().flatten().for_each(|i| *i += 1);
     mesh.normals.as_mut().unwrap().insert(0, Vec3::X);
-    let MeshColors::PerVertex(list) = &mut mesh.colors else { panic!() };
+    let Colors::Each(list) = &mut mesh.colors else { panic!() };
     list.insert(0, [0.0; 4]);
     let (splats, report) = splats_from_mesh(&mesh, 1.0, &());
     assert_eq!(report.normals_from_file, splats.len() - 2);

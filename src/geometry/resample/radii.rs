@@ -20,7 +20,6 @@ const MEAN_DISTANCE_PER_SPACING: f64 = 0.977_539_062_5;
 const MOST_PER_EXPECTED: f64 = 3.0;
 
 /// For points that have `area_per_point` each, in world units squared.
-#[expect(clippy::cast_possible_truncation, reason = "splats keep radii as f32")]
 pub(in crate::geometry) fn radii(
     positions: &[DVec3],
     area_per_point: f64,

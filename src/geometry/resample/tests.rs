@@ -132,7 +132,7 @@ fn samples_lie_on_the_surface_with_its_normals_and_colors() {
     // Colors that are linear in the position: so are those interpolated in a triangle.
     let color =
         |p: DVec3| (0.5 * (p + DVec3::ONE)).as_vec3().extend(0.25 + 0.5 * p.x.abs() as f32).to_array();
-    mesh.colors = MeshColors::PerVertex(mesh.positions.iter().map(|&p| color(p)).collect());
+    mesh.colors = Colors::Each(mesh.positions.iter().map(|&p| color(p)).collect());
     mesh.normals = Some(mesh.positions.iter().map(|p| 3.0 * p.as_vec3()).collect());
     let (splats, report) = samples(&mesh, 5000, 0);
     assert!(report.closed);

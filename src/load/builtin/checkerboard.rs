@@ -12,11 +12,6 @@ pub const CHECKERBOARD_RADIUS: f64 = 1.0;
 
 /// A board of `side` × `side` disks around the origin in the plane z = 0, facing +z, one unit apart; fields of 5×5 of them
 /// are black or white (after figure 3 of Guennebaud et al. 2006, which has 600×600 points).
-#[expect(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    reason = "a board's side is a small number"
-)]
 pub fn checkerboard(side: usize) -> Object {
     let middle = 0.5 * (side as f64 - 1.0);
     let indices = || (0..side * side).map(|i| [i % side, i / side]);
@@ -31,7 +26,7 @@ pub fn checkerboard(side: usize) -> Object {
             normals: vec![Vec3::Z; side * side],
             radii: vec![CHECKERBOARD_RADIUS as f32; side * side],
         },
-        colors: Colors::PerSplat(indices().map(color).collect()),
+        colors: Colors::Each(indices().map(color).collect()),
     };
     Object { name: format!("built-in checkerboard of {side}x{side}"), splats, closed: false }
 }

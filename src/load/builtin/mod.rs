@@ -13,13 +13,13 @@ use std::{num::NonZero, thread};
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Colors, Mesh, MeshColors, Object, Shapes, Splats};
+use crate::scene::{Colors, Mesh, Object, Shapes, Splats};
 use relief::{Relief, SurfacePoint};
 
 /// How many splats the built-in model has where nothing else is asked for.
 pub const DEFAULT_RELIEF_SPLATS: usize = 150_000;
 
-/// What the built-in models take of memory for each splat while they are made: a point of the surface, and the splat.
+/// The memory that the built-in models take for each splat while they are made: a point of the surface, and the splat.
 pub const BYTES_PER_SPLAT: usize = 64 + 56;
 
 /// A radius in units of the square root of a splat's share of the area. The lattice leaves no hole down to 0.7 (measured
@@ -51,12 +51,12 @@ pub fn relief(count: usize) -> Object {
             normals: points.iter().map(|p| p.normal.as_vec3()).collect::<Vec<Vec3>>(),
             radii: points.iter().map(|p| radius(p, count)).collect(),
         },
-        colors: Colors::PerSplat(points.iter().map(|p| p.color).collect()),
+        colors: Colors::Each(points.iter().map(|p| p.color).collect()),
     };
     Object { name: "built-in relief".to_owned(), splats, closed: true }
 }
 
-/// The same surface as a mesh: [`sphere_mesh`] of so many triangles with the relief's heights, normals and colors at its
+/// The surface as a mesh: [`sphere_mesh`] of so many triangles with the relief's heights, normals and colors at its
 /// vertices. Below some hundred thousand triangles the relief is finer than they are.
 pub fn relief_mesh(triangles: u64) -> Mesh {
     let relief = Relief::new();
@@ -65,14 +65,13 @@ pub fn relief_mesh(triangles: u64) -> Mesh {
     Mesh {
         positions: points.iter().map(|point| point.position).collect(),
         normals: Some(points.iter().map(|point| point.normal.as_vec3()).collect()),
-        colors: MeshColors::PerVertex(points.iter().map(|point| point.color).collect()),
+        colors: Colors::Each(points.iter().map(|point| point.color).collect()),
         triangles: ball.triangles,
     }
 }
 
 /// Direction `i` of `count` on the unit sphere (González, "Measurement of areas on a sphere using Fibonacci and
 /// latitude–longitude lattices", 2010; offset ½, so that no direction is a pole).
-#[expect(clippy::cast_precision_loss, reason = "counts of splats are far below 2⁵³")]
 fn fibonacci_direction(i: usize, count: usize) -> DVec3 {
     let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
@@ -82,7 +81,6 @@ fn fibonacci_direction(i: usize, count: usize) -> DVec3 {
 }
 
 /// The lattice's spacing on the unit sphere, grown by the distance from the center, and along a slope by its steepness.
-#[expect(clippy::cast_possible_truncation, reason = "a radius kept as f32")]
 fn radius(point: &SurfacePoint, count: usize) -> f32 {
     let distance = point.position.length();
     let cos_slope = point.normal.dot(point.position) / distance;
@@ -90,13 +88,11 @@ fn radius(point: &SurfacePoint, count: usize) -> f32 {
 }
 
 /// The radius of `count` disks on the unit sphere.
-#[expect(clippy::cast_possible_truncation, reason = "a radius kept as f32")]
 fn radius_on_unit_sphere(count: usize) -> f32 {
     (RADIUS_PER_SPACING * spacing(count)) as f32
 }
 
 /// The square root of the share that each of `count` points has of the unit sphere's area.
-#[expect(clippy::cast_precision_loss, reason = "counts of splats are far below 2⁵³")]
 fn spacing(count: usize) -> f64 {
     (4.0 * std::f64::consts::PI / count as f64).sqrt()
 }

@@ -139,7 +139,6 @@ fn sum(waves: &[Wave], direction: DVec3) -> Field {
 
 /// Waves of random direction and phase whose sum has variance 1.
 fn waves(random: &mut SplitMix, count: usize, wavenumber: f64) -> Vec<Wave> {
-    #[expect(clippy::cast_precision_loss, reason = "some dozens")]
     let amplitude = (2.0 / count as f64).sqrt();
     let wave = |random: &mut SplitMix| {
         let z = 2.0 * random.unit() - 1.0;
@@ -161,7 +160,6 @@ fn color(ridge_number: f64, ridge: f64, bead: f64) -> [f32; 4] {
         DVec3::new(0.760, 0.200, 0.090),
         DVec3::new(0.850, 0.450, 0.100),
     ];
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0–3")]
     let top = RIDGES[ridge_number.rem_euclid(4.0) as usize % 4];
     let t = 0.5 * (ridge + 1.0);
     let color = GROOVE.lerp(top, t * t * (3.0 - 2.0 * t)) * (1.0 + 0.18 * bead);

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DVec3, Vec3};
 
 use super::fibonacci_direction;
-use crate::scene::{Colors, Mesh, MeshColors, Object, Shapes, Splats};
+use crate::scene::{Colors, Mesh, Object, Shapes, Splats};
 
 /// How many splats the ball has where nothing else is asked for.
 pub const DEFAULT_SPHERE_SPLATS: usize = 20_000;
@@ -92,7 +92,7 @@ pub fn sphere_mesh(triangles: u64) -> Mesh {
         }
     }
     let normals = ball.positions.iter().map(|position| position.as_vec3()).collect::<Vec<Vec3>>();
-    Mesh { positions: ball.positions, normals: Some(normals), colors: MeshColors::None, triangles: faces }
+    Mesh { positions: ball.positions, normals: Some(normals), colors: Colors::unknown(), triangles: faces }
 }
 
 /// 20 times its square is the first number above [`MOST_SPHERE_TRIANGLES`].

@@ -72,9 +72,7 @@ fn no_point_of_the_surface_is_in_a_hole() {
 fn the_mesh_is_the_same_surface() {
     let (mesh, surface) = (relief_mesh(2000), Relief::new());
     assert_eq!(mesh.triangles, sphere_mesh(2000).triangles);
-    let (normals, MeshColors::PerVertex(colors)) = (mesh.normals.unwrap(), mesh.colors) else {
-        panic!("one color")
-    };
+    let (normals, Colors::Each(colors)) = (mesh.normals.unwrap(), mesh.colors) else { panic!("one color") };
     for (i, position) in mesh.positions.iter().enumerate() {
         let point = surface.point(position.normalize());
         assert!(point.position.distance(*position) < 1e-12);

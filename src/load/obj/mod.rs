@@ -14,7 +14,7 @@ use crate::{
     error::{Error, Result},
     math::srgb::linear_from_srgb,
     progress::Progress,
-    scene::{Mesh, MeshColors},
+    scene::{Colors, Mesh},
 };
 use rows::Rows;
 
@@ -40,9 +40,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
         progress.note(&format!("{}: {left_out} vertex(es) without a face left out", path.display()));
     }
     let colors = if rows.has_colors() {
-        MeshColors::PerVertex(mesh.vertex_color.chunks_exact(3).map(linear_color).collect())
+        Colors::Each(mesh.vertex_color.chunks_exact(3).map(linear_color).collect())
     } else {
-        MeshColors::None
+        Colors::unknown()
     };
     Ok(Mesh {
         normals: rows.all_corners_have_normals().then(|| vertex_normals(&mesh)),
@@ -53,7 +53,6 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
 }
 
 /// Vertex colors are not part of the format; programs that write them write sRGB values 0–1.
-#[expect(clippy::cast_possible_truncation, reason = "0–1")]
 fn linear_color(srgb: &[f64]) -> [f32; 4] {
     let linear = |i: usize| linear_from_srgb(srgb[i].clamp(0.0, 1.0) as f32);
     [linear(0), linear(1), linear(2), 1.0]

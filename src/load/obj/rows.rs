@@ -1,6 +1,6 @@
 //! The rows of an OBJ file that make a mesh, checked one by one before `tobj` sees them.
 //!
-//! What `tobj` 4.0.5 leaves open is closed here: it reports no line; an index near 2⁶³ overflows its arithmetic; colors
+//! This closes what `tobj` 4.0.5 leaves open: it reports no line; an index near 2⁶³ overflows its arithmetic; colors
 //! that only some vertices have move to others; groups split the mesh and with it the shared vertices.
 
 use std::io::{self, BufRead, Read, Write as _};

@@ -23,7 +23,7 @@ fn polygons_are_fans_and_positions_stay_f64() {
     ));
     assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [2, 3, 4]]);
     assert_eq!(mesh.positions[4], DVec3::new(4_600_000.000_123_456, 2.0, 3.0));
-    assert!(mesh.normals.is_none() && matches!(mesh.colors, MeshColors::None));
+    assert!(mesh.normals.is_none() && matches!(mesh.colors, Colors::Uniform(_)));
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn groups_and_materials_do_not_split_the_vertices() {
 fn colors_stay_with_their_vertices_where_only_some_have_one_and_w_divides() {
     let mesh = mesh("v 0 0 0\nv 1 0 0 1 0 0.5\nv 2 4 6 2\nvt 0 0\nf 1/1 2/1 3/1\n");
     let gray = linear_from_srgb(0.8);
-    let MeshColors::PerVertex(colors) = mesh.colors else { panic!("colors") };
+    let Colors::Each(colors) = mesh.colors else { panic!("colors") };
     let gray = [gray, gray, gray, 1.0];
     assert_eq!(colors, [gray, [1.0, 0.0, linear_from_srgb(0.5), 1.0], gray]);
     assert_eq!(mesh.positions[2], DVec3::new(1.0, 2.0, 3.0));

@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 /// How many elements are read between two progress messages.
 const PROGRESS_ELEMENTS: usize = 1 << 16;
 
-/// What is left to read.
+/// The bytes that are left to read.
 pub(super) struct Body<'a> {
     path: &'a Path,
     encoding: Encoding,

@@ -51,25 +51,28 @@ impl FaceRecord {
     }
 }
 
+/// The setters of lists whose items all fit an `i32`.
+macro_rules! signed_setters {
+    ($($setter:ident: $type:ty,)+) => {
+        $(fn $setter(&mut self, name: &str, values: Vec<$type>) -> PropertyAccessResult {
+            self.keep(name, values)
+        })+
+    };
+}
+
 impl PropertyAccess for FaceRecord {
     fn new() -> Self {
         Self::default()
     }
-    fn set_list_char(&mut self, name: &str, values: Vec<i8>) -> PropertyAccessResult {
-        self.keep(name, values)
+
+    signed_setters! {
+        set_list_char: i8,
+        set_list_uchar: u8,
+        set_list_short: i16,
+        set_list_ushort: u16,
+        set_list_int: i32,
     }
-    fn set_list_uchar(&mut self, name: &str, values: Vec<u8>) -> PropertyAccessResult {
-        self.keep(name, values)
-    }
-    fn set_list_short(&mut self, name: &str, values: Vec<i16>) -> PropertyAccessResult {
-        self.keep(name, values)
-    }
-    fn set_list_ushort(&mut self, name: &str, values: Vec<u16>) -> PropertyAccessResult {
-        self.keep(name, values)
-    }
-    fn set_list_int(&mut self, name: &str, values: Vec<i32>) -> PropertyAccessResult {
-        self.keep(name, values)
-    }
+
     fn set_list_uint(&mut self, name: &str, values: Vec<u32>) -> PropertyAccessResult {
         if !is_index_list(name) {
             return PropertyAccessResult::Ignored;

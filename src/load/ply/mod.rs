@@ -19,7 +19,7 @@ use super::{Model, file_name};
 use crate::{
     error::{Error, Result},
     progress::Progress,
-    scene::{Colors, Mesh, MeshColors, Shapes, Splats},
+    scene::{Colors, Mesh, Shapes, Splats},
 };
 use body::Body;
 use faces::Triangles;
@@ -81,7 +81,7 @@ fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {
     Mesh {
         positions: vertices.positions,
         normals: vertices.normals,
-        colors: vertices.colors.map_or(MeshColors::None, MeshColors::PerVertex),
+        colors: vertices.colors.map_or_else(Colors::unknown, Colors::Each),
         triangles,
     }
 }
@@ -100,6 +100,6 @@ fn splats(path: &Path, vertices: Vertices) -> Result<Splats> {
         (None, Some(_), None) => return refuse("points with normals but no radius"),
         (None, None, Some(_)) => return refuse("points with a radius but no normals"),
     };
-    let colors = vertices.colors.map_or_else(Colors::unknown, Colors::PerSplat);
+    let colors = vertices.colors.map_or_else(Colors::unknown, Colors::Each);
     Ok(Splats { positions: vertices.positions, shapes, colors })
 }

@@ -99,7 +99,6 @@ impl Default for VertexRecord {
 
 impl VertexRecord {
     /// `full` is the value that means 1 in a color of the property's type.
-    #[expect(clippy::cast_possible_truncation, reason = "all but positions is kept as f32")]
     fn store(&mut self, name: &str, value: f64, full: f64) -> PropertyAccessResult {
         let single = value as f32;
         match name {
@@ -126,33 +125,29 @@ impl VertexRecord {
     }
 }
 
+/// The setters of properties of each type, with the value that means 1 in a color of it.
+macro_rules! setters {
+    ($($setter:ident: $type:ty = $full:literal,)+) => {
+        $(fn $setter(&mut self, name: &str, value: $type) -> PropertyAccessResult {
+            self.store(name, value.into(), $full)
+        })+
+    };
+}
+
 impl PropertyAccess for VertexRecord {
     fn new() -> Self {
         Self::default()
     }
-    fn set_char(&mut self, name: &str, value: i8) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_uchar(&mut self, name: &str, value: u8) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 255.0)
-    }
-    fn set_short(&mut self, name: &str, value: i16) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_ushort(&mut self, name: &str, value: u16) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 65_535.0)
-    }
-    fn set_int(&mut self, name: &str, value: i32) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_uint(&mut self, name: &str, value: u32) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        self.store(name, f64::from(value), 1.0)
-    }
-    fn set_double(&mut self, name: &str, value: f64) -> PropertyAccessResult {
-        self.store(name, value, 1.0)
+
+    setters! {
+        set_char: i8 = 1.0,
+        set_uchar: u8 = 255.0,
+        set_short: i16 = 1.0,
+        set_ushort: u16 = 65_535.0,
+        set_int: i32 = 1.0,
+        set_uint: u32 = 1.0,
+        set_float: f32 = 1.0,
+        set_double: f64 = 1.0,
     }
 }
 
@@ -177,7 +172,6 @@ impl Vertices {
             radii: layout.radius.then(Vec::new),
             tangents: layout.tangents.then(|| (Vec::new(), Vec::new())),
             colors: (layout.rgb || layout.alpha).then(Vec::new),
-            #[expect(clippy::cast_precision_loss, reason = "0–255")]
             linear_of_byte: std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0)),
             side_from_normals: layout.normals && layout.tangents,
         }
@@ -225,7 +219,6 @@ impl Vertices {
 }
 
 /// Linear light of an sRGB value, clamped to 0–1; NaN stays NaN, so that the vertex is counted as defective.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0–255")]
 fn linear(of_byte: &[f32; 256], encoded: f32) -> f32 {
     let encoded = encoded.clamp(0.0, 1.0);
     let byte = (encoded * 255.0).round();

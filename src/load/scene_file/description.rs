@@ -1,4 +1,4 @@
-//! What a scene file says, as plain data.
+//! The contents of a scene file, as plain data.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::{
     load::builtin::{DEFAULT_RELIEF_SPLATS, DEFAULT_SPHERE_SPLATS},
-    scene::{CameraParts, Light},
+    scene::{CameraParts, Light, named},
 };
 
 /// A scene file: what is drawn, under which light and from where.
@@ -58,34 +58,19 @@ pub enum Source {
     },
 }
 
-/// The built-in models, see [`crate::load::builtin`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BuiltIn {
-    /// A ball carved like agate; splats alone.
-    Relief,
-    /// A ball of radius 1, as splats or triangles.
-    Sphere,
-    /// A flat board of splats one unit apart: as many as fit a square of the number that is asked for.
-    Checkerboard,
+named! {
+    /// The built-in models by their names in scene files, see [`crate::load::builtin`].
+    BuiltIn {
+        /// A ball carved like agate; splats alone.
+        Relief = "relief",
+        /// A ball of radius 1, as splats or triangles.
+        Sphere = "sphere",
+        /// A flat board of splats one unit apart: as many as fit a square of the number that is asked for.
+        Checkerboard = "checkerboard",
+    }
 }
 
 impl BuiltIn {
-    /// All, by their names in scene files.
-    pub const NAMES: &'static [(&'static str, Self)] = &[
-        (Self::Relief.name(), Self::Relief),
-        (Self::Sphere.name(), Self::Sphere),
-        (Self::Checkerboard.name(), Self::Checkerboard),
-    ];
-
-    /// Its name in scene files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Relief => "relief",
-            Self::Sphere => "sphere",
-            Self::Checkerboard => "checkerboard",
-        }
-    }
-
     /// How many splats it has where no number is given.
     pub fn default_splats(self) -> u64 {
         let splats = match self {
@@ -125,14 +110,14 @@ pub enum Representation {
 /// Which triangles of a mesh stay polygons, in the mesh's own coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Polygons {
-    /// Those whose middle (the mean of the corners) `x` has `normal · x ≥ d`.
+    /// Triangles whose middle (the mean of the corners) `x` has `normal · x ≥ d`.
     Plane {
-        /// Of any length above 0.
+        /// The plane's normal, of any length above 0.
         normal: DVec3,
         /// In the normal's length times the model's unit.
         d: f64,
     },
-    /// Those with an edge longer than that, in the model's unit.
+    /// Triangles with an edge longer than that, in the model's unit.
     LongerThan(f64),
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Document<'a> {
 }
 
 impl Document<'_> {
-    /// What is wrong at this byte. `place` is an object and a key in words; it may be empty.
+    /// An error at this byte. `place` is an object and a key in words; it may be empty.
     pub(super) fn fault(&self, at: usize, place: &str, problem: &str) -> Error {
         let line = 1 + self.text.bytes().take(at).filter(|byte| *byte == b'\n').count();
         let comma = if place.is_empty() { "" } else { ", " };
@@ -61,7 +61,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// What is wrong with the table as a whole.
+    /// An error of the table as a whole.
     pub(super) fn fault(&self, problem: &str) -> Error {
         self.document.fault(self.at, &self.place, problem)
     }
@@ -130,7 +130,7 @@ pub(super) struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    /// What is wrong with it.
+    /// An error of this value.
     pub(super) fn fault(&self, problem: &str) -> Error {
         self.document.fault(self.value.span().start, &self.place, problem)
     }
@@ -184,7 +184,7 @@ impl<'a> Value<'a> {
         all.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| self.expected(what))
     }
 
-    /// What an array holds; `None` for anything else.
+    /// The elements of an array; `None` for anything else.
     pub(super) fn elements(&self) -> Option<Vec<Value<'a>>> {
         let array = self.value.get_ref().as_array()?;
         let element = |value| Value { document: self.document, value, place: self.place.clone() };

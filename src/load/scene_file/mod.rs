@@ -1,6 +1,6 @@
 //! Scene files: objects, lights and a camera in TOML. `surfel render --help` has the table of all keys.
 //!
-//! What is read here are descriptions, checked as far as they can be without opening a model; [`crate::compose`] makes
+//! Descriptions are read here, checked as far as they can be without opening a model; [`crate::compose`] makes
 //! a scene of them. An object's file lies in the scene file's folder or below it, links followed: a scene from elsewhere
 //! opens nothing else.
 

@@ -1,4 +1,4 @@
-//! What was probably meant.
+//! The name that was probably meant.
 
 /// The fewest letters that say how a name goes on.
 const SHORTEST_BEGINNING: usize = 3;

@@ -18,7 +18,7 @@ use crate::{
     shaders::{self, Shader, config::*},
     vk::{
         Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
-        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, StandIns,
+        GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolSizes, SetLayout, Stage, StandIns,
     },
 };
 
@@ -26,8 +26,8 @@ use crate::{
 const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
 
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
-pub fn room_of_lists(sets: u32) -> PoolRoom {
-    PoolRoom { sets, buffers: LIST_BINDINGS * sets, ..PoolRoom::default() }
+pub fn room_of_lists(sets: u32) -> PoolSizes {
+    PoolSizes { sets, buffers: LIST_BINDINGS * sets, ..PoolSizes::default() }
 }
 
 /// The layouts of all passes and the pipelines made so far.

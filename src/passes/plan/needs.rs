@@ -6,14 +6,14 @@ use crate::passes::{
 };
 use crate::{
     scene::{Layers, Settings},
-    vk::PoolRoom,
+    vk::PoolSizes,
 };
 
 /// What a frame takes for itself from whoever records it, at most.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Needs {
     /// Descriptor sets.
-    pub room: PoolRoom,
+    pub room: PoolSizes,
     /// Queries whether anything was drawn.
     pub occlusion_queries: u32,
 }
@@ -43,15 +43,15 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
     let tiles = bands_of_all
         .map(|band| room_of_tiles(&band.plan))
-        .fold(PoolRoom::default(), |sum, room| sum.plus(&room));
+        .fold(PoolSizes::default(), |sum, room| sum.plus(&room));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
-        room: PoolRoom {
+        room: PoolSizes {
             sets: reads + sums + 1,
             uniform_buffers: reads + sums,
             images: 2 * reads + 5 * sums + 1,
             filtered_images: reads,
-            ..PoolRoom::default()
+            ..PoolSizes::default()
         }
         .plus(&room_of_lists(lists))
         .plus(&tiles),
@@ -60,16 +60,16 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
 }
 
 /// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
-fn room_of_tiles(plan: &TilePlan) -> PoolRoom {
+fn room_of_tiles(plan: &TilePlan) -> PoolSizes {
     let sets = plan.chunk_count * 3 + 12;
-    PoolRoom {
+    PoolSizes {
         sets,
         buffers: STORAGE_BUFFERS * sets,
         uniform_buffers: sets,
         texel_buffers: 6 * sets,
         images: 6 * sets,
         storage_images: 6 * sets,
-        ..PoolRoom::default()
+        ..PoolSizes::default()
     }
 }
 

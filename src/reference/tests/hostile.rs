@@ -36,7 +36,7 @@ fn defective_splats_are_left_out_and_counted_over_all_objects() {
             normals: disks.iter().map(|d| d.1).collect(),
             radii: disks.iter().map(|d| d.2).collect(),
         },
-        colors: Colors::PerSplat(disks.iter().map(|d| d.3).collect()),
+        colors: Colors::Each(disks.iter().map(|d| d.3).collect()),
     };
     let mut scene = ellipses(&[(DVec3::Z, Vec3::X, Vec3::X, GRAY), (DVec3::Z, Vec3::ZERO, Vec3::X, GRAY)]);
     scene.objects.push(Object { name: "disks".into(), splats: disks, closed: false });

@@ -72,7 +72,7 @@ fn attributes_are_linear_on_the_surface_not_in_the_image() {
     object.mesh.positions = vec![at(-4.0, 1.0), at(-4.0, 9.0), at(4.0, 9.0), at(4.0, 1.0)];
     let color = |red: f32, green: f32| [red, green, 0.0, 0.25 + 0.5 * red];
     object.mesh.colors =
-        MeshColors::PerVertex(vec![color(0.0, 0.0), color(1.0, 0.0), color(1.0, 1.0), color(0.0, 1.0)]);
+        Colors::Each(vec![color(0.0, 0.0), color(1.0, 0.0), color(1.0, 1.0), color(0.0, 1.0)]);
     let settings = Settings { background: None, ..albedo(64) };
     let transparent = picture(&meshes(vec![object.clone()]), &settings);
     let mut inside = 0;
@@ -145,7 +145,7 @@ fn a_normal_that_vanishes_is_toward_the_eye_on_either_side() {
 #[test]
 fn what_has_no_color_is_gray_and_what_has_alpha_0_is_not_there() {
     let mut gray = square(2.0, 2.0, RED);
-    gray.mesh.colors = MeshColors::None;
+    gray.mesh.colors = Colors::unknown();
     // 204/255 = 0.8: ((0.8 + 0.055)/1.055)^2.4.
     let level = 0.603_827_338;
     assert_color(&middle(&meshes(vec![gray]), &albedo(9)), [level, level, level, 1.0]);
@@ -177,7 +177,7 @@ fn triangles_without_area_or_with_a_corner_that_is_none_are_left_out() {
     mesh.normals = Some(normals);
     let mut colors = vec![RED; count];
     colors[c as usize] = [f32::NAN, 0.0, 0.0, 1.0];
-    mesh.colors = MeshColors::PerVertex(colors);
+    mesh.colors = Colors::Each(colors);
     mesh.triangles.extend([
         [nan, a, b],
         [a, infinite, b],

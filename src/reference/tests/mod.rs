@@ -30,8 +30,8 @@ use super::splat::{DrawnSplat, prepare};
 use super::view::View;
 use super::{Picture, Pixel, render};
 use crate::scene::{
-    Camera, Colors, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshColors, MeshObject, Object, Rasterizer,
-    Scene, Settings, Shapes, Splats,
+    Camera, Colors, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Object, Rasterizer, Scene,
+    Settings, Shapes, Splats,
 };
 
 /// World space is view space; 90° in both directions for a square picture: the focal length is half its side.
@@ -63,7 +63,7 @@ pub(super) fn ellipses(list: &[Ellipse]) -> Scene {
             s: list.iter().map(|e| e.1).collect(),
             t: list.iter().map(|e| e.2).collect(),
         },
-        colors: Colors::PerSplat(list.iter().map(|e| e.3).collect()),
+        colors: Colors::Each(list.iter().map(|e| e.3).collect()),
     };
     Scene { objects: vec![Object { name: "test".into(), splats, closed: false }], ..Scene::default() }
 }
@@ -78,7 +78,7 @@ pub(super) fn mesh(vertices: &[(DVec3, Vec3)], triangles: &[[u32; 3]], color: [f
     let mesh = Mesh {
         positions: vertices.iter().map(|vertex| vertex.0).collect(),
         normals: Some(vertices.iter().map(|vertex| vertex.1).collect()),
-        colors: MeshColors::Uniform(color),
+        colors: Colors::Uniform(color),
         triangles: triangles.to_vec(),
     };
     MeshObject { name: "test".into(), mesh, closed: false }

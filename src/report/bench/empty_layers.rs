@@ -1,4 +1,4 @@
-//! What a layer costs in which nothing is (`--layers auto`): of frames in which the device left layers out, for the one
+//! The cost of a layer in which nothing is (`--layers auto`): of frames in which the device left layers out, for the one
 //! before them was empty.
 
 use serde::Serialize;
@@ -49,7 +49,7 @@ struct Kind<'a> {
 }
 
 impl EmptyLayers {
-    /// Of a contestant in layers; `None` for one without, or where nothing was counted.
+    /// The empty layers of a contestant in layers; `None` for one without, or where nothing was counted.
     pub fn of(timed: &TimedFrames) -> Option<Self> {
         let of_layer = |(i, name)| pass_and_layer(name).map(|(pass, layer)| (i, pass, layer));
         let of_layers: Vec<(usize, &str, u32)> =
@@ -101,7 +101,7 @@ impl EmptyLayers {
         }
     }
 
-    /// What one costs in which nothing is.
+    /// The table: the cost of a layer in which nothing is.
     pub(super) fn grid(&self) -> Grid {
         Grid::of("layers: what an empty one costs", &self.passes)
             .column("pass", |pass| pass.name.clone())

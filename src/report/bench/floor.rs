@@ -17,7 +17,7 @@ use crate::report::{
 pub struct FloorReport {
     /// The camera.
     pub camera: CameraReport,
-    /// What was drawn.
+    /// The scene.
     pub scene: SceneReport,
     /// Points of the floor: all splats, those that are not drawn outside of the clip volume.
     pub floor_points: u64,
@@ -55,9 +55,9 @@ pub struct FloorRow {
 /// Milliseconds of one round.
 #[derive(Clone, Debug, Default)]
 pub struct FloorRound {
-    /// Of the passes, in order: the frame's, its floor's, its strict floor's.
+    /// The times of the passes, in order: the frame's, its floor's, its strict floor's.
     pub passes_ms: [Vec<f64>; 3],
-    /// Of each limit's measurement.
+    /// The time of each limit's measurement.
     pub limits_ms: Vec<Option<f64>>,
 }
 
@@ -81,7 +81,7 @@ impl FloorRow {
         names.iter().enumerate().map(pass).chain([frame]).collect()
     }
 
-    /// Of the figures of a frame and its two floors.
+    /// A row of the figures of a frame and its two floors.
     fn of(
         name: &str,
         rounds: &[FloorRound],

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::report::Spread;
 
-/// What kind of figure it is: how it is judged.
+/// The kind of a figure: how it is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GateKind {
@@ -24,7 +24,7 @@ pub enum GateKind {
 /// A figure that is judged. Less is better.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GateFigure {
-    /// What it is of; unique in a report.
+    /// Its name; unique in a report.
     pub name: String,
     /// How it is judged.
     pub kind: GateKind,
@@ -34,12 +34,12 @@ pub struct GateFigure {
     pub interval: Option<[f64; 2]>,
 }
 
-/// What a report is judged by: the part of its JSON that `--baseline` reads.
+/// The figures that a report is judged by: the part of its JSON that `--baseline` reads.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Gate {
-    /// What must be equal for figures to compare: table, model, settings, size, by name.
+    /// The facts that must be equal for figures to compare: table, model, settings, size, by name.
     pub subject: BTreeMap<String, String>,
-    /// What may differ and is told then: device, driver, version.
+    /// The facts that may differ and are told then: device, driver, version.
     pub circumstances: BTreeMap<String, String>,
     /// The figures.
     pub figures: Vec<GateFigure>,
@@ -62,7 +62,7 @@ pub enum Verdict {
     NotJudged,
 }
 
-/// What a gate allows.
+/// The differences that a gate allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GateLimits {
     /// By which part times may grow, beside their intervals.

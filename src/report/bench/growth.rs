@@ -18,7 +18,7 @@ pub struct GrowthReport {
     pub over_splats: Vec<GrowthPoint>,
     /// From few pixels to many, each with the same splats.
     pub over_pixels: Vec<GrowthPoint>,
-    /// What was left out and why, a sentence each.
+    /// Points that were left out and why, a sentence each.
     pub left_out: Vec<String>,
 }
 
@@ -38,7 +38,7 @@ pub struct GrowthPoint {
     pub host_peak_bytes: u64,
 }
 
-/// What the tables tell of a rasterizer beside its frames.
+/// The figures of a rasterizer beside its frames.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct GrowthRate {
     /// Splats a second, drawn or culled, by the median of frames whose passes are not timed; `None` where not measured.
@@ -46,7 +46,7 @@ pub struct GrowthRate {
 }
 
 impl GrowthPoint {
-    /// Of rasterizers measured in turn.
+    /// The point of rasterizers measured in turn.
     pub fn of(
         (splats, size_px): (u64, [u32; 2]),
         mut methods: Vec<Measurement<GrowthRate>>,

@@ -1,4 +1,4 @@
-//! What the pipelines cost in instructions: one row a pipeline.
+//! The pipelines' costs in instructions: one row a pipeline.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ use crate::{
 pub struct InstructionReport {
     /// One row a pipeline.
     pub rows: Vec<InstructionRow>,
-    /// What a reader has to know, a sentence each.
+    /// Notes for a reader, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -22,7 +22,7 @@ pub struct InstructionReport {
 pub struct PipelineNames {
     /// The pass.
     pub pass: String,
-    /// What it draws, such as `points`; empty where that is the whole target.
+    /// Its primitives, such as `points`; empty where that is the whole target.
     pub draws: String,
     /// `--rasterizer`.
     pub rasterizer: String,
@@ -40,7 +40,7 @@ pub struct PipelineNames {
     pub shaders: String,
 }
 
-/// What tells pipelines apart: what CSV calls it, what tables do (nothing where it is not in them), and the name.
+/// A name of a pipeline: its column in CSV, its column in tables (nothing where it is not in them), and the name.
 type NameColumn = (&'static str, &'static str, fn(&PipelineNames) -> &str);
 
 const NAMES: [NameColumn; 9] = [
@@ -63,9 +63,9 @@ pub struct InstructionRow {
     pub names: PipelineNames,
     /// Counted by the two rules.
     pub counts: PassCounts,
-    /// What table 1 of Guennebaud et al. 2006 has for it: vertex and fragment program.
+    /// Its vertex and fragment program in table 1 of Guennebaud et al. 2006.
     pub published: Option<[u32; 2]>,
-    /// What drivers' compilers made of it.
+    /// The shaders that drivers' compilers made of it.
     pub isa: Vec<IsaRow>,
 }
 
@@ -78,7 +78,7 @@ pub struct IsaRow {
     pub executable: String,
     /// Invocations that run together.
     pub subgroup: u32,
-    /// What the driver tells, by its names.
+    /// The driver's statistics, by its names.
     pub statistics: Vec<(String, f64)>,
 }
 
@@ -110,7 +110,7 @@ const STAGE_FIGURES: [StageFigure; 11] = [
     ("loops", |counts| Some(counts.listed.loops)),
 ];
 
-/// What tables show of a driver's statistics, by RADV's names, which CSV and JSON have all of.
+/// The statistics of a driver in tables, by RADV's names; CSV and JSON have all of them.
 const SHOWN_STATISTICS: [&str; 6] =
     ["Instructions", "VGPRs", "SGPRs", "Code size", "Latency", "Inverse Throughput"];
 
@@ -192,7 +192,7 @@ impl InstructionReport {
             .with_notes(self.notes.iter().cloned())
     }
 
-    /// What drivers' compilers made of the pipelines; `None` where none was asked.
+    /// The table of what drivers' compilers made of the pipelines; `None` where none was asked.
     pub(super) fn isa_grid(&self) -> Option<Grid> {
         let of_row = |row| move |isa| (row, isa);
         let rows: Vec<(&InstructionRow, &IsaRow)> =

@@ -10,7 +10,7 @@ use crate::report::{Grid, cells::number};
 /// A figure then and now.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judged {
-    /// What it is of.
+    /// Its name.
     pub name: String,
     /// How it is judged.
     pub kind: GateKind,

@@ -1,4 +1,4 @@
-//! What transparent layers cost (Guennebaud, Barthe, Paulin 2006, figure 6): the paper's three ways to draw its scene
+//! The cost of transparent layers (Guennebaud, Barthe, Paulin 2006, figure 6): the paper's three ways to draw its scene
 //! beside as many layers as the view has, and the same splats opaque.
 
 use serde::Serialize;
@@ -24,9 +24,9 @@ pub struct LayersReport {
     pub contestants: Vec<Measurement<LayersDrawn>>,
     /// The floor's frames: the points of the opaque splats into the same formats with nothing computed.
     pub floor: FrameTimes,
-    /// Of the contestant that has as many layers as the view; `None` where nothing was counted.
+    /// Empty layers of the contestant that has as many as the view; `None` where nothing was counted.
     pub empty: Option<EmptyLayers>,
-    /// What layers cost where nothing is transparent.
+    /// The cost of layers where nothing is transparent.
     pub opaque: OpaqueClaim,
 }
 
@@ -60,7 +60,7 @@ pub struct Places {
 }
 
 impl LayersReport {
-    /// Of contestants measured in turn with a floor. `balls`: how many, and splats of each.
+    /// The report of contestants measured in turn with a floor. `balls`: how many, and splats of each.
     pub fn of(
         (balls, splats_per_ball): (u32, u64),
         contestants: Vec<Measurement<LayersDrawn>>,
@@ -107,7 +107,7 @@ impl LayersReport {
         frames.chain(others.into_iter().flatten()).collect()
     }
 
-    /// What each number of layers costs.
+    /// The table: the cost of each number of layers.
     pub(super) fn grid(&self) -> Grid {
         let speed = |own: &Measurement<LayersDrawn>| own.beside_first.and_then(|ratio| ratio.inverse());
         let title = format!("layers, {} balls of {} splats", self.balls, self.splats_per_ball);

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::FloorRound;
 use crate::report::{Spread, ThroughputProbe};
 
-/// What a limit was measured by.
+/// The work by which a limit was measured.
 #[derive(Clone, Copy, Debug)]
 pub struct LimitWork {
     /// The limit.
@@ -22,7 +22,7 @@ pub struct LimitWork {
     pub bytes_per_unit: Option<u64>,
 }
 
-/// What a pass of a frame has to do.
+/// The work of a pass of a frame.
 #[derive(Clone, Debug)]
 pub struct PassWork {
     /// The pass.
@@ -68,11 +68,11 @@ pub struct BoundRow {
 /// The device's limits, and how far from them each pass is.
 #[derive(Clone, Debug, Serialize)]
 pub struct LimitsReport {
-    /// What the device can do.
+    /// The device's limits.
     pub limits: Vec<LimitRow>,
     /// Each pass, then the frame.
     pub bounds: Vec<BoundRow>,
-    /// What could not be measured, a sentence each.
+    /// Limits that could not be measured, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -92,7 +92,7 @@ impl FloorRound {
 }
 
 impl LimitsReport {
-    /// Of rounds in which a frame and the limits were measured in turn.
+    /// The report of rounds in which a frame and the limits were measured in turn.
     pub fn of(works: &[LimitWork], passes: &[PassWork], rounds: &[FloorRound], notes: Vec<String>) -> Self {
         let of_pass = |(i, pass)| BoundRow::of_pass(works, pass, i, rounds);
         let frame = BoundRow::of_frame(works, passes, rounds);
@@ -119,7 +119,7 @@ fn limit_row(work: &LimitWork, i: usize, rounds: &[FloorRound]) -> LimitRow {
 type OfRound<'a> = &'a dyn Fn(&FloorRound) -> Option<f64>;
 
 impl BoundRow {
-    /// Of its time and its bound in each round.
+    /// A row of its time and its bound in each round.
     fn of(name: &str, rounds: &[FloorRound], [ms, bound_ms]: [OfRound<'_>; 2]) -> Self {
         let spread = |figure: OfRound<'_>| Spread::of(rounds.iter().filter_map(figure));
         Self {
@@ -133,7 +133,7 @@ impl BoundRow {
         }
     }
 
-    /// Of the pass at a place in the frame.
+    /// The row of the pass at a place in the frame.
     fn of_pass(works: &[LimitWork], pass: &PassWork, i: usize, rounds: &[FloorRound]) -> Self {
         let median_ms = |(limit, units): (&ThroughputProbe, &u64)| {
             let ms = rounds.iter().filter_map(|round| round.limit_ms(works, *limit, *units));

@@ -19,7 +19,7 @@ const COLUMNS: [ThroughputProbe; 8] = [
 ];
 
 impl LimitsReport {
-    /// What the device can do.
+    /// The table of what the device can do.
     pub(super) fn limits_grid(&self) -> Grid {
         Grid::of("limits: what the device does at most, one thing at a time", &self.limits)
             .column("limit", |row| row.limit.name())

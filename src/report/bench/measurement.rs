@@ -5,10 +5,10 @@ use serde::{Serialize, Serializer};
 use super::gate::{GateFigure, GateKind};
 use crate::report::{FrameTimes, PassFigures, Spread, TimedFrames, cells, grid::Table};
 
-/// What was measured of one way to draw.
+/// The measurement of one way to draw.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measurement<S> {
-    /// What it is in words; unique in its table.
+    /// Its name; unique in its table.
     pub name: String,
     /// Its frames, as they were taken.
     #[serde(skip)]
@@ -24,7 +24,7 @@ pub struct Measurement<S> {
     pub over_floor: Vec<Option<Spread>>,
     /// Bytes of device memory that a frame's own images and buffers share.
     pub transient_bytes: u64,
-    /// What was drawn, and what else its table tells of it.
+    /// The scene drawn, and the rest that its table tells of it.
     #[serde(flatten)]
     pub subject: S,
 }
@@ -37,7 +37,7 @@ fn one_or_all<S: Serializer>(ratios: &[Option<Spread>], serializer: S) -> Result
 }
 
 impl<S> Measurement<S> {
-    /// Of all contestants, measured in turn: what each is called, what was drawn, and its frames.
+    /// The measurements of all contestants, taken in turn: the name of each, what was drawn, and its frames.
     pub fn all(contestants: Vec<(String, S, TimedFrames)>, floor: Option<&TimedFrames>) -> Vec<Self> {
         let first = contestants.first().map(|(.., timed)| timed.clone());
         let of = |(name, subject, timed): (String, S, TimedFrames)| {

@@ -48,15 +48,15 @@ pub struct BenchReport {
     pub surfel: String,
     /// The commit that it was built from; `None` outside of a checkout.
     pub commit: Option<String>,
-    /// What it ran on; `None` where nothing was timed.
+    /// The device; `None` where nothing was timed.
     pub device: Option<DeviceReport>,
     /// The settings that all methods share, by the names of their options.
     pub settings: BTreeMap<&'static str, String>,
-    /// What was drawn.
+    /// The inputs drawn.
     pub inputs: Vec<InputReport>,
     /// Frames timed of each method.
     pub frames: u32,
-    /// What the machine did meanwhile; `None` where nothing was timed.
+    /// The machine meanwhile; `None` where nothing was timed.
     pub machine: Option<Machine>,
     /// Beyond which figures are flagged.
     pub limits: TrustLimits,
@@ -83,7 +83,7 @@ pub struct BenchReport {
     pub counts: Option<InstructionReport>,
     /// Why figures are doubtful, a sentence each; empty where they are not.
     pub flags: Vec<String>,
-    /// What a later run is judged by.
+    /// The figures that a later run is judged by.
     pub gate: Gate,
     /// Against an earlier run, where one was given.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -13,7 +13,7 @@ fn is_placed((_, ms): &Place) -> bool {
     *ms > 0.0 && ms.is_finite()
 }
 
-/// Of each line's name, color and width, and its points, those that are on the axes.
+/// A line of this name, color and width through those of its points that are on the axes.
 fn line(
     plot: &mut Plot,
     name: String,

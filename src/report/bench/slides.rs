@@ -7,7 +7,7 @@ use crate::report::{
     cells::{median, number},
 };
 
-/// What the slides say of a method.
+/// A method's row in the slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slide {
     /// Its paper.
@@ -36,7 +36,7 @@ const fn slide(paper: &'static str, says: [&'static str; 3], instructions: &'sta
     Slide { paper, perspective, ewa, incremental, instructions }
 }
 
-/// What the slides say beside what was measured. Methods are in the order of [`SLIDES`].
+/// The slides' table beside what was measured. Methods are in the order of [`SLIDES`].
 pub fn slides_grid(row: &ThroughputRow) -> Grid {
     let rows: Vec<(&Slide, &Measurement<Throughput>)> = SLIDES.iter().zip(&row.methods).collect();
     let ms = |own: &Measurement<Throughput>, name: &str| {

@@ -33,7 +33,7 @@ pub struct ThroughputRow {
     pub transient_bytes: u64,
 }
 
-/// What the table tells of a method beside its frames.
+/// The figures of a method beside its frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Throughput {
     /// Million splats a second, drawn or culled.
@@ -42,7 +42,7 @@ pub struct Throughput {
     pub instructions: Vec<PassCounts>,
     /// Which of the paper's methods it is.
     pub paper_method: Option<PaperMethod>,
-    /// What the paper has for it at this number of splats.
+    /// The paper's figures of it at this number of splats.
     pub paper: Option<PaperThroughput>,
 }
 
@@ -71,7 +71,7 @@ pub const PAPER_SPLATS: [u64; 5] = [154_000, 460_000, 1_400_000, 2_500_000, 5_00
 /// The paper's frames a second of perspective splatting and of ray casting, at its numbers of splats.
 const PAPER_FPS: [[f64; 2]; 5] = [[50.0, 33.0], [40.0, 26.0], [22.0, 13.0], [15.0, 9.2], [6.5, 5.0]];
 
-/// What the paper has for a method's passes: vertex and fragment program of visibility, then of accumulation.
+/// The paper's instructions of a method's passes: vertex and fragment program of visibility, then of accumulation.
 const PAPER_INSTRUCTIONS: [[&str; 2]; 2] = [["46/3", "58/3"], ["34/9", "35/13"]];
 
 /// The paper's figures of a method at a number of splats, where it has them.
@@ -81,7 +81,7 @@ pub fn paper_throughput(method: PaperMethod, splats: u64) -> Option<PaperThrough
 }
 
 impl Throughput {
-    /// Of a method whose frames are still to be measured.
+    /// The figures of a method whose frames are still to be measured.
     pub fn new(paper_method: Option<PaperMethod>, splats: u64, instructions: Vec<PassCounts>) -> Self {
         let paper = paper_method.and_then(|method| paper_throughput(method, splats));
         Self { million_splats_per_sec: None, instructions, paper_method, paper }
@@ -103,7 +103,7 @@ impl Throughput {
 }
 
 impl ThroughputRow {
-    /// Of methods and their floor, measured in turn.
+    /// The row of methods and their floor, measured in turn.
     pub fn of(
         splats: u64,
         mut methods: Vec<Measurement<Throughput>>,
@@ -165,7 +165,7 @@ struct PassRow<'a> {
     method: Option<&'a Throughput>,
 }
 
-/// Of every method, then of the floor.
+/// The passes of every method, then of the floor.
 fn passes(row: &ThroughputRow) -> Vec<PassRow<'_>> {
     let splats = row.splats;
     let mut passes = Vec::new();

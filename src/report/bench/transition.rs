@@ -1,4 +1,4 @@
-//! What the transition between splats and polygons costs (Guennebaud, Barthe, Paulin 2006, sections 5 and 7): the same half and
+//! The cost of the transition between splats and polygons (Guennebaud, Barthe, Paulin 2006, sections 5 and 7): the same half and
 //! half with each, beside the whole as splats and as polygons.
 
 use serde::Serialize;
@@ -24,7 +24,7 @@ pub struct TransitionReport {
     pub floor: FrameTimes,
 }
 
-/// What a contestant draws.
+/// The primitives that a contestant draws.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct HalfAndHalf {
     /// How many of both.

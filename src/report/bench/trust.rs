@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::report::Spread;
 
-/// What was seen of the machine during the measurement.
+/// The machine during the measurement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
     /// Threads that the processor runs at once.
     pub threads: usize,
     /// The part of the processor's time that other processes took; `None` where the system does not tell.
     pub taken_by_others: Option<f64>,
-    /// What was seen of the graphics card while we left it idle; `None` where the processor draws.
+    /// The graphics card while we left it idle; `None` where the processor draws.
     pub card: Option<CardUse>,
     /// The slowest and the fastest clock seen while the device worked, in megahertz: of the graphics, or of the processor
     /// where that draws; `None` where unknown.
@@ -24,12 +24,12 @@ pub struct Machine {
     pub peak_host_bytes: Option<u64>,
 }
 
-/// What others do with a graphics card, seen while we do nothing with it.
+/// The use that others make of a graphics card, seen while we do nothing with it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CardUse {
     /// The part of the time that the card was busy before our first frame; `None` where the system does not tell.
     pub busy_before: Option<f64>,
-    /// The same after our last.
+    /// That part after our last frame.
     pub busy_after: Option<f64>,
     /// Other processes that could compute on it, at the beginning; `None` where the system does not tell. They may be idle.
     pub other_processes: Option<usize>,
@@ -82,7 +82,7 @@ pub fn drift(slowness: &[f64]) -> Option<f64> {
 }
 
 impl Machine {
-    /// What makes all figures doubtful, a sentence each.
+    /// The reasons to doubt all figures, a sentence each.
     pub fn flags(&self, limits: &TrustLimits) -> Vec<String> {
         let mut flags = Vec::new();
         if let Some(taken) = self.taken_by_others.filter(|taken| *taken > limits.others) {

@@ -12,18 +12,18 @@ pub struct ErrorFigures {
     pub compared_px: u64,
     /// Pixels that one of them covers and that are left out, because rounding alone may turn them.
     pub left_out_px: u64,
-    /// The same as a share of all pixels that one of them covers.
+    /// `left_out_px` as a share of all pixels that one of them covers.
     pub left_out_share: f64,
     /// Pixels covered in one and empty in the other, without those left out.
     pub coverage_px: u64,
     /// Linear color, all three components; white is 1.
     pub color: Option<Deviation>,
-    /// Of the linear color over one background, over all pixels in which either picture has anything, save those that are
+    /// The error of the linear color over one background, over all pixels in which either picture has anything, save those that are
     /// left out: what wrong and missing coverage costs is in it.
     pub image: Option<Deviation>,
-    /// Of the linear color in the pixels that are left out and both cover.
+    /// The error of the linear color in the pixels that are left out and both cover.
     pub left_out_color: Option<Deviation>,
-    /// Of the linear color, in decibels below white: `−20 log10(rms)`. `None` where there is no difference.
+    /// The error of the linear color in decibels below white: `−20 log10(rms)`. `None` where there is no difference.
     pub psnr_db: Option<f64>,
     /// Structural similarity of the whole pictures over one background, in gray: the mean over windows of 8×8 pixels;
     /// 1 for equal ones.
@@ -126,7 +126,6 @@ pub fn errors(
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "counts of pixels are far below 2⁵³")]
 fn share(part: u64, all: u64) -> f64 {
     if all == 0 { 0.0 } else { part as f64 / all as f64 }
 }

@@ -4,7 +4,7 @@ use std::{collections::HashSet, fmt};
 
 use serde::Serialize;
 
-use crate::scene::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer, Settings};
+use crate::scene::{Accumulate, Filter, FilterWeight, KernelEval, Rasterizer, Settings, with_each};
 
 /// One way to draw: what the papers vary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -25,11 +25,14 @@ pub struct Method {
 pub struct WeightedFilter {
     /// The screen-space low-pass filter.
     pub filter: Filter,
-    /// What a splat weighs that the filter has enlarged.
+    /// The weight of a splat that the filter has enlarged.
     pub filter_weight: FilterWeight,
 }
 
 impl Method {
+    /// The options that tell one method from another.
+    pub const OPTIONS: [&str; 5] = ["rasterizer", "filter", "filter-weight", "accumulate", "kernel-eval"];
+
     /// These settings, drawn with this method.
     pub fn settings(&self, base: &Settings) -> Settings {
         Settings {
@@ -49,7 +52,7 @@ impl Method {
         Self { rasterizer: self.rasterizer.family(), filter: self.filter, accumulate, kernel_eval }
     }
 
-    /// Of these settings.
+    /// The method of these settings.
     fn of(settings: &Settings) -> Self {
         let Settings { rasterizer, filter, filter_weight, accumulate, kernel_eval, .. } = *settings;
         Self { rasterizer, filter: WeightedFilter { filter, filter_weight }, accumulate, kernel_eval }
@@ -78,26 +81,16 @@ impl fmt::Display for WeightedFilter {
 /// The values that are compared, of each option.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
-    /// Of `--rasterizer`.
+    /// Values of `--rasterizer`.
     pub rasterizers: Vec<Rasterizer>,
-    /// Of `--filter`.
+    /// Values of `--filter`.
     pub filters: Vec<Filter>,
-    /// Of `--filter-weight`.
+    /// Values of `--filter-weight`.
     pub filter_weights: Vec<FilterWeight>,
-    /// Of `--accumulate`.
+    /// Values of `--accumulate`.
     pub accumulates: Vec<Accumulate>,
-    /// Of `--kernel-eval`.
+    /// Values of `--kernel-eval`.
     pub kernel_evals: Vec<KernelEval>,
-}
-
-/// Each of the settings with each of the values.
-fn with_each<T: Copy>(all: Vec<Settings>, values: &[T], set: fn(&mut Settings, T)) -> Vec<Settings> {
-    let with = |settings: &Settings, value: T| {
-        let mut settings = settings.clone();
-        set(&mut settings, value);
-        settings
-    };
-    all.iter().flat_map(|settings| values.iter().map(move |value| with(settings, *value))).collect()
 }
 
 impl Selection {
@@ -190,13 +183,8 @@ mod tests {
         let settings = method.settings(&Settings::default());
         let options = settings.as_options();
         let json = serde_json::to_value(method).unwrap();
-        for (option, name) in [
-            ("rasterizer", "rasterizer"),
-            ("filter", "filter"),
-            ("filter-weight", "filter_weight"),
-            ("accumulate", "accumulate"),
-            ("kernel-eval", "kernel_eval"),
-        ] {
+        for option in Method::OPTIONS {
+            let name = option.replace('-', "_");
             assert_eq!(json[name], options[option].as_str(), "{option}");
         }
     }

@@ -29,9 +29,9 @@ use super::{CameraReport, DeviceReport, FrameTimes, InputReport, PassFigures, Sp
 pub struct CompareReport {
     /// The version of surfel.
     pub surfel: String,
-    /// What it ran on.
+    /// The device.
     pub device: DeviceReport,
-    /// What all methods have in common, by the names of the options; `size` is that of the errors.
+    /// The settings that all methods have in common, by the names of the options; `size` is that of the errors.
     pub settings: BTreeMap<&'static str, String>,
     /// The camera.
     pub camera: CameraReport,
@@ -51,7 +51,7 @@ pub struct CompareReport {
     pub methods: Vec<MethodRow>,
     /// The methods that could not be compared.
     pub skipped: Vec<Skipped>,
-    /// What a reader of these figures has to know, a sentence each.
+    /// Notes for a reader of these figures, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -69,7 +69,7 @@ pub struct MethodRow {
     pub implementation_error: ErrorFigures,
     /// Against the ground truth.
     pub method_error: ErrorFigures,
-    /// What is odd about its times, a sentence each.
+    /// Contradictions of its times, a sentence each.
     pub flags: Vec<String>,
     /// No other method is at least as good in the median of `frame_ms` and in the RMS of the method error's image and
     /// better in one of them.
@@ -79,12 +79,12 @@ pub struct MethodRow {
 /// One pass of a method.
 #[derive(Clone, Debug, Serialize)]
 pub struct PassRow {
-    /// What it costs.
+    /// Its cost.
     #[serde(flatten)]
     pub figures: PassFigures,
     /// Instructions of its vertex stage, paper-comparable ([`crate::instruments::counts_of`]); `None` where not counted.
     pub vertex_instructions: Option<u32>,
-    /// The same of its fragment stage.
+    /// Instructions of its fragment stage, likewise.
     pub fragment_instructions: Option<u32>,
 }
 
@@ -107,7 +107,7 @@ pub struct Skipped {
 }
 
 impl MethodRow {
-    /// Of a method's frames and errors; whether it is on the front is not known yet.
+    /// A row of a method's frames and errors; whether it is on the front is not known yet.
     pub fn new(
         method: Method,
         times: FrameTimes,

@@ -26,8 +26,7 @@ impl Surface {
         self.coverage[pixel] >= 0.5
     }
 
-    /// Of a reference picture.
-    #[expect(clippy::cast_possible_truncation, reason = "compared with 32-bit pictures")]
+    /// The surface of a reference picture.
     pub fn of(picture: &Picture) -> Self {
         let pixels = &picture.pixels;
         Self {
@@ -44,8 +43,7 @@ impl Surface {
         }
     }
 
-    /// Of the ground truth.
-    #[expect(clippy::cast_possible_truncation, reason = "compared with 32-bit pictures")]
+    /// The surface of the ground truth.
     pub fn of_truth(truth: &GroundTruth) -> Self {
         let pixels = &truth.pixels;
         Self {

@@ -13,7 +13,7 @@ use crate::report::{
 const COMMON_PASSES: [(&str, &str); 3] =
     [("visibility", "vis."), ("accumulate", "acc."), ("finalize", "fin.")];
 
-/// What the columns mean.
+/// The columns in words.
 const COSTS: &str = "\
 ms: milliseconds, medians, each with how far the smallest and the largest lie from it; other: all further passes together;
 frame: one whose passes are not timed, which may take less than they do together
@@ -76,7 +76,7 @@ impl CompareReport {
         reasons
     }
 
-    /// What the methods cost, and both of their errors. The rows are those of the methods.
+    /// The methods' costs, and both of their errors. The rows are those of the methods.
     pub fn grids(&self) -> [Grid; 3] {
         [self.costs(), self.implementation_errors(), self.method_errors()]
     }

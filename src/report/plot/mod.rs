@@ -42,7 +42,7 @@ pub(super) fn color(i: usize) -> RGBColor {
     COLORS[i % COLORS.len()]
 }
 
-/// What stands for areas.
+/// The style of areas.
 fn band() -> ShapeStyle {
     BLACK.mix(0.08).filled()
 }
@@ -69,7 +69,7 @@ pub struct Chart {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// What is drawn, in this order.
+    /// The marks, in the order in which they are drawn.
     pub(super) marks: Vec<Mark>,
 }
 
@@ -89,7 +89,7 @@ pub(super) enum Mark {
     Band { x: [f64; 2] },
 }
 
-/// What stands before a legend's text.
+/// The sign before a legend's text.
 #[derive(Clone, Debug)]
 pub(super) enum Sign {
     /// A circle, filled or not.
@@ -102,7 +102,7 @@ pub(super) enum Sign {
     Letters(&'static str),
 }
 
-/// What drawing ends with.
+/// The result of drawing.
 type Drawn<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl Plot {
@@ -117,7 +117,7 @@ impl Plot {
         Self { title, charts: vec![chart], legend, legend_inside: true }
     }
 
-    /// What its legend names.
+    /// The names in its legend.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.legend.iter().map(|(_, name)| name.as_str())
     }

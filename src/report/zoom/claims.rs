@@ -1,4 +1,4 @@
-//! What is claimed of `adjust`, and whether the figures bear it out.
+//! Claims about `adjust`, and whether the figures bear them out.
 
 use std::fmt;
 

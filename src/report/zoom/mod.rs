@@ -31,9 +31,9 @@ const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
 pub struct ZoomReport {
     /// The version of surfel.
     pub surfel: String,
-    /// What it ran on.
+    /// The device.
     pub device: DeviceReport,
-    /// What all have in common, by the names of the options.
+    /// The settings that all have in common, by the names of the options.
     pub settings: BTreeMap<&'static str, String>,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -45,11 +45,11 @@ pub struct ZoomReport {
     pub filters: Vec<WeightedFilter>,
     /// From far to near.
     pub steps: Vec<ZoomStep>,
-    /// What the figures say about `adjust`.
+    /// The claims about `adjust`, judged by the figures.
     pub claims: Vec<Claim>,
 }
 
-/// What is looked at.
+/// The checkerboard.
 #[derive(Clone, Debug, Serialize)]
 pub struct Board {
     /// Splats along its side.
@@ -95,7 +95,6 @@ impl ZoomStep {
         Some(self.figures.get(filter)?.as_ref()?.error.color?.rms)
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "counts of fragments are far below 2⁵³")]
     fn fragments(&self, filter: usize) -> Option<f64> {
         Some(self.figures.get(filter)?.as_ref()?.fragments? as f64)
     }
@@ -103,11 +102,6 @@ impl ZoomStep {
 
 /// How many samples along a pixel's side the ground truth needs at this distance: two between neighboring splats where the
 /// tilt brings them together, or it would alias itself; from `least` to [`MOST_SAMPLES_PER_SIDE`].
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "at most 256, at least 0; `as` saturates"
-)]
 pub fn samples_per_side(pixels_per_splat: f64, tilt_deg: f64, least: u32) -> u32 {
     let between_px = pixels_per_splat * tilt_deg.to_radians().cos();
     ((2.0 / between_px).ceil() as u32).min(MOST_SAMPLES_PER_SIDE).max(least)

@@ -9,7 +9,7 @@ use crate::report::{
 };
 
 impl ZoomReport {
-    /// What was looked at, and how.
+    /// The board and the view, in words.
     pub fn setting(&self) -> String {
         let ([width, height], board) = (self.size_px, &self.board);
         let samples = |side: u32| u64::from(side).pow(2);
@@ -55,7 +55,7 @@ impl ZoomReport {
             .grid()
     }
 
-    /// What the tables' marks mean.
+    /// The tables' marks in words.
     pub const NOTE: &str = "px: the spacing of the splats in the middle of the picture; mixed: there larger than the filter \
         (sqrt 2 px) along one axis and smaller along the other";
 }

@@ -32,7 +32,7 @@ impl ColorColumns {
         let colors: &[[f32; 4]] = match (&splats.colors, Colors::unknown()) {
             (Colors::Uniform(color), Colors::Uniform(unknown)) if *color == unknown => &[],
             (Colors::Uniform(color), _) => std::slice::from_ref(color),
-            (Colors::PerSplat(colors), _) => colors,
+            (Colors::Each(colors), _) => colors,
         };
         let mut columns = Self { rgb: None, alpha: None };
         for [red, green, blue, alpha] in colors {
@@ -92,7 +92,6 @@ impl Number {
     }
 
     /// The value that is read back for one from 0 to 1.
-    #[expect(clippy::cast_possible_truncation, reason = "the reader keeps 32 bits")]
     fn rounded(self, value: f32) -> f32 {
         match self {
             Self::UChar => (f64::from(steps(value, 255.0)) / 255.0) as f32,
@@ -101,7 +100,6 @@ impl Number {
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "steps are within the type's range")]
     fn push(self, row: &mut Vec<u8>, value: f32) -> io::Result<()> {
         match self {
             Self::UChar => row.write_all(&[steps(value, 255.0) as u8]),
@@ -112,7 +110,6 @@ impl Number {
 }
 
 /// A value as an integer from 0 to `full`.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0–65 535")]
 fn steps(value: f32, full: f32) -> u32 {
     (value.clamp(0.0, 1.0) * full).round() as u32
 }
@@ -124,7 +121,7 @@ mod tests {
     fn columns(colors: Vec<[f32; 4]>) -> (Option<Number>, Option<Number>) {
         let positions = vec![glam::DVec3::ZERO; colors.len()];
         let shapes = crate::scene::Shapes::Disks { normals: Vec::new(), radii: Vec::new() };
-        let columns = ColorColumns::of(&Splats { positions, shapes, colors: Colors::PerSplat(colors) });
+        let columns = ColorColumns::of(&Splats { positions, shapes, colors: Colors::Each(colors) });
         (columns.rgb, columns.alpha)
     }
 

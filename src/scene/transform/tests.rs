@@ -1,7 +1,7 @@
 use glam::EulerRot;
 
 use super::*;
-use crate::scene::{Colors, Defect, MeshColors};
+use crate::scene::{Colors, Defect};
 
 /// Normals along axes and diagonals, of several lengths, and a few between.
 fn normals() -> Vec<Vec3> {
@@ -154,7 +154,7 @@ fn a_meshs_triangles_and_normals_stay_on_the_outside() {
     let corner = Mesh {
         positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         normals: Some(vec![-Vec3::ONE, -Vec3::X, -2.0 * Vec3::Y, Vec3::ZERO]),
-        colors: MeshColors::None,
+        colors: Colors::unknown(),
         triangles: vec![[0, 2, 1], [0, 3, 2], [0, 1, 3]],
     };
     for (matrix, ..) in maps() {

@@ -102,7 +102,7 @@ fn n06_a_list_of_more_than_65536_large_splats_is_whole_and_in_order() {
     let listed = quads(&mut headless, &many);
     let splats = &mut many.scene.objects[0].splats;
     splats.positions.reverse();
-    let surfel::scene::Colors::PerSplat(colors) = &mut splats.colors else { panic!("built with colors") };
+    let surfel::scene::Colors::Each(colors) = &mut splats.colors else { panic!("built with colors") };
     colors.reverse();
     let reversed = render(&mut headless, &many);
     // Points and quads are set up by different shaders, whose last bits may differ and now and then turn a rounding to 16

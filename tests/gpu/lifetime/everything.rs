@@ -14,7 +14,7 @@ use surfel::{
     vk::{
         Binding, Blend, Buffer, BufferDesc, CommandPool, ComputePipeline, ComputePipelineDesc, Descriptor,
         DescriptorPool, GraphicsPipeline, GraphicsPipelineDesc, Image, ImageDesc, Memory, MemoryUse,
-        Occlusion, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage, Staging, Statistics,
+        Occlusion, PipelineCache, PipelineLayout, PoolSizes, SetLayout, Stage, Staging, Statistics,
         Timestamps,
     },
 };
@@ -98,8 +98,9 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         layout: &layout,
     };
     keep(Box::new(GraphicsPipeline::new(&device, &cache, &desc).unwrap()));
-    let pool = DescriptorPool::new(&device, "pool", PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() })
-        .unwrap();
+    let pool =
+        DescriptorPool::new(&device, "pool", PoolSizes { sets: 1, buffers: 2, ..PoolSizes::default() })
+            .unwrap();
     let storage = BufferDesc { name: "storage", size: 256, usage: vk::BufferUsageFlags::STORAGE_BUFFER };
     let storage = Buffer::new(&device, storage, MemoryUse::Device).unwrap();
     let bound = Descriptor::Buffer(storage.raw(), storage.size());

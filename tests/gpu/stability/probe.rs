@@ -13,7 +13,7 @@ use surfel::{
     scene::{Camera, Filter, Settings},
     vk::{
         Binding, Buffer, BufferDesc, ComputePipeline, ComputePipelineDesc, Descriptor, DescriptorPool,
-        MemoryUse, PipelineCache, PipelineLayout, PoolRoom, SetLayout, Stage,
+        MemoryUse, PipelineCache, PipelineLayout, PoolSizes, SetLayout, Stage,
     },
 };
 
@@ -98,8 +98,9 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
     let mut given = buffer("questions", size_of_val(&questions[..]) as u64, MemoryUse::Upload);
     given.bytes_mut().copy_from_slice(bytemuck::cast_slice(&questions));
     let answers = buffer("answers", (asked.len() * size_of::<Answer>()) as u64, MemoryUse::Readback);
-    let pool = DescriptorPool::new(device, "probe", PoolRoom { sets: 1, buffers: 2, ..PoolRoom::default() })
-        .unwrap();
+    let pool =
+        DescriptorPool::new(device, "probe", PoolSizes { sets: 1, buffers: 2, ..PoolSizes::default() })
+            .unwrap();
     let whole = |buffer: &Buffer| Descriptor::Buffer(buffer.raw(), buffer.size());
     let bound = [(0, whole(&given)), (1, whole(&answers))];
     let set = pool.set(&set_layout, &bound).unwrap();

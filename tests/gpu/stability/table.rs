@@ -1,6 +1,8 @@
-//! The sweep as tables: printed, held to bounds, and written into `README.md` beside this file.
+//! The sweep as tables: printed, held to bounds, and written into `README.md` and `tables.json` beside this file.
 
 use std::{env, fs, path::Path};
+
+use surfel::report::Grid;
 
 use super::{
     measure::{Errors, Measured, Prepared},
@@ -50,9 +52,11 @@ fn f32_against_f64_over_the_whole_sweep() {
     let mut measured = prepared.measure(&headless, &cases, None);
     prepared.count_fragments(&mut headless, &cases, &mut measured);
     let tables = tables(&cases, &measured);
-    let text = tables.iter().map(Table::markdown).collect::<Vec<_>>().join("\n");
-    println!("{text}");
-    keep(&text);
+    let grids: Vec<Grid> = tables.iter().map(Table::grid).collect();
+    for grid in &grids {
+        println!("{grid}");
+    }
+    keep(&grids);
 
     for table in &tables {
         for row in &table.rows {
@@ -161,31 +165,21 @@ impl Row {
 }
 
 impl Table {
-    fn markdown(&self) -> String {
-        let mut text = format!(
-            "| {} | splats | box too small, px | naive | box too large, px | naive | (u, v) | naive | of allowed \
-             | pixels | missed | surplus |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
-            self.axis
-        );
-        for row in &self.rows {
-            let (ours, naive) = (row.ours, row.naive);
-            text += &format!(
-                "| {} | {} | {} | {} | {} | {} | {} | {} | {:.2} | {} | {} | {} |\n",
-                row.label,
-                row.splats,
-                figure(ours.small_px),
-                figure(naive.small_px),
-                figure(ours.large_px),
-                figure(naive.large_px),
-                figure(ours.uv),
-                figure(naive.uv),
-                ours.uv_share,
-                row.fragments.inside,
-                row.fragments.missed,
-                row.fragments.surplus,
-            );
-        }
-        text
+    fn grid(&self) -> Grid {
+        Grid::of(format!("By {}", self.axis), &self.rows)
+            .column(self.axis, |row| row.label.clone())
+            .column("splats", |row| row.splats)
+            .column("box too small, px", |row| figure(row.ours.small_px))
+            .column("naive", |row| figure(row.naive.small_px))
+            .column("box too large, px", |row| figure(row.ours.large_px))
+            .column("naive", |row| figure(row.naive.large_px))
+            .column("(u, v)", |row| figure(row.ours.uv))
+            .column("naive", |row| figure(row.naive.uv))
+            .column("of allowed", |row| format!("{:.2}", row.ours.uv_share))
+            .column("pixels", |row| row.fragments.inside)
+            .column("missed", |row| row.fragments.missed)
+            .column("surplus", |row| row.fragments.surplus)
+            .grid()
     }
 }
 
@@ -199,19 +193,26 @@ fn figure(value: f64) -> String {
 }
 
 /// Holds the committed tables to these: the same tables and rows. The figures depend on the device.
-/// `SURFEL_UPDATE_TABLES=1` writes them anew.
-fn keep(text: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gpu/stability/README.md");
-    let (begin, end) = ("<!-- tables: begin -->\n", "<!-- tables: end -->\n");
-    let committed = fs::read_to_string(&path).unwrap().replace("\r\n", "\n");
-    let (before, rest) = committed.split_once(begin).expect("README.md has the mark of the tables' begin");
-    let (tables, after) = rest.split_once(end).expect("README.md has the mark of the tables' end");
+/// `SURFEL_UPDATE_TABLES=1` writes them anew: for people, and as `surfel report` shows them.
+fn keep(grids: &[Grid]) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gpu/stability");
+    let [page, json] = ["README.md", "tables.json"].map(|name| folder.join(name));
     if env::var_os("SURFEL_UPDATE_TABLES").is_some_and(|value| value == "1") {
-        fs::write(&path, format!("{before}{begin}{text}{end}{after}")).unwrap();
+        let (begin, end) = ("<!-- tables: begin -->\n", "<!-- tables: end -->\n");
+        let committed = fs::read_to_string(&page).unwrap().replace("\r\n", "\n");
+        let (before, rest) =
+            committed.split_once(begin).expect("README.md has the mark of the tables' begin");
+        let (_, after) = rest.split_once(end).expect("README.md has the mark of the tables' end");
+        let text = grids.iter().map(Grid::markdown).collect::<Vec<_>>().join("\n");
+        fs::write(&page, format!("{before}{begin}{text}{end}{after}")).unwrap();
+        fs::write(&json, serde_json::to_string(grids).unwrap() + "\n").unwrap();
         return;
     }
-    let firsts = |text: &str| -> Vec<String> {
-        text.lines().map(|line| line.split('|').nth(1).unwrap_or_default().trim().to_owned()).collect()
+    let committed: Vec<Grid> = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    let firsts = |grid: &Grid| {
+        let rows = grid.rows.iter().map(|row| row[0].clone());
+        (grid.title.clone(), grid.head.clone(), rows.collect::<Vec<_>>())
     };
-    assert_eq!(firsts(tables), firsts(text), "{}: SURFEL_UPDATE_TABLES=1 writes it anew", path.display());
+    let [then, now] = [&committed[..], grids].map(|grids| grids.iter().map(firsts).collect::<Vec<_>>());
+    assert_eq!(then, now, "{}: SURFEL_UPDATE_TABLES=1 writes it anew", json.display());
 }

@@ -44,7 +44,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Args)]
 #[command(long_about = HELP, after_help = EXAMPLES)]
 pub struct BenchArguments {
-    /// What is measured
+    /// The table
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
@@ -135,7 +135,7 @@ pub struct CountsArguments {
     pub isa_rows: bool,
 }
 
-/// What can be measured.
+/// A table, or all of them.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Bench {
     /// The passes against a floor, the same points and formats with nothing computed; and against the device's own limits
@@ -158,7 +158,7 @@ pub enum Bench {
 }
 
 impl Bench {
-    /// Whether this name stands for that table.
+    /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
         self == table || self == Self::All && table != Self::Growth
     }

@@ -21,13 +21,11 @@ use crate::{
 
 /// A way to draw.
 pub struct Entry<'a, S> {
-    /// What it is called; unique in its table.
+    /// Its name; unique in its table.
     pub name: String,
-    /// What is drawn.
     pub scene: &'a PreparedScene,
-    /// How.
     pub settings: Settings,
-    /// What else its table tells of it.
+    /// The rest that its table tells of it.
     pub subject: S,
 }
 

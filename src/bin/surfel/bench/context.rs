@@ -1,7 +1,7 @@
-//! What every table is measured with, and gathers on the way.
+//! The options that every table is measured with, and what it gathers on the way.
 
 use surfel::{
-    Progress as _, Result,
+    Result,
     prepare::PreparedScene,
     renderer::Headless,
     report::{InputReport, bench::TrustLimits},
@@ -9,21 +9,19 @@ use surfel::{
 };
 
 use super::arguments::BenchArguments;
-use crate::console::Bars;
+use crate::{console::Bars, scene::upload};
 
-/// What every table is given.
+/// The context of every table.
 pub struct BenchContext<'a> {
-    /// The command line.
     pub arguments: &'a BenchArguments,
     /// The settings that all methods have in common.
     pub settings: Settings,
-    /// Progress.
     pub bars: Bars,
     /// Beyond which figures are flagged.
     pub limits: TrustLimits,
     /// The inputs of what was drawn so far.
     pub inputs: Vec<InputReport>,
-    /// What makes figures doubtful so far.
+    /// The reasons to doubt figures so far.
     pub flags: Vec<String>,
     /// The clock, whenever the device had just worked.
     pub clocks_mhz: Vec<f64>,
@@ -36,6 +34,6 @@ impl BenchContext<'_> {
     /// Settings that the scene rules out; whatever the allocator or the driver answers.
     pub fn prepare(&self, headless: &Headless, scene: &Scene) -> Result<PreparedScene> {
         self.settings.check_scene(scene)?;
-        headless.prepare(scene, &|done, total| self.bars.step("upload", done, total))
+        upload(headless, scene, &self.bars)
     }
 }

@@ -13,7 +13,9 @@ use surfel::{
         bench::{InstructionReport, InstructionRow, PipelineNames},
         compare::WeightedFilter,
     },
-    scene::{Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations},
+    scene::{
+        Accumulate, Filter, FilterWeight, Kernel, KernelEval, Rasterizer, Shading, TileInvocations, with_each,
+    },
 };
 
 use super::arguments::{Bench, BenchArguments};
@@ -22,10 +24,7 @@ use crate::{
     json::to_json,
 };
 
-/// What a process of ours does for one chip.
-///
-/// # Errors
-/// As [`isa::rows_here`].
+/// Prints the rows of one chip: the work of a process of our own.
 pub fn print_isa_rows(arguments: &BenchArguments) -> Result<()> {
     let rows = isa::rows_here(&pipelines(arguments.counts.all)?, arguments.device.asked.as_deref())?;
     console::print(&to_json(&rows)?)
@@ -129,24 +128,12 @@ fn told_apart(mut pipelines: Vec<(PipelineNames, PipelineRecipe)>) -> Vec<(Pipel
 const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
 
 fn every_settings(all: bool) -> Vec<Settings> {
-    let mut every = Vec::new();
-    let weights: &[FilterWeight] =
-        if all { &[FilterWeight::Area, FilterWeight::Unit] } else { &[FilterWeight::Area] };
-    for (_, rasterizer) in Rasterizer::METHODS {
-        for (_, filter) in Filter::NAMES {
-            for (_, kernel_eval) in KernelEval::NAMES {
-                for filter_weight in weights {
-                    every.push(Settings {
-                        rasterizer: *rasterizer,
-                        filter: *filter,
-                        kernel_eval: *kernel_eval,
-                        filter_weight: *filter_weight,
-                        ..Settings::default()
-                    });
-                }
-            }
-        }
-    }
+    let every = vec![Settings::default()];
+    let every = with_each(every, Rasterizer::METHODS, |settings, (_, value)| settings.rasterizer = value);
+    let every = with_each(every, Filter::NAMES, |settings, (_, value)| settings.filter = value);
+    let every = with_each(every, KernelEval::NAMES, |settings, (_, value)| settings.kernel_eval = value);
+    let weights = if all { FilterWeight::NAMES } else { &FilterWeight::NAMES[..1] };
+    let mut every = with_each(every, weights, |settings, (_, value)| settings.filter_weight = value);
     let tile_invocations = TileInvocations::Pixel;
     every.push(Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() });
     if all {
@@ -166,22 +153,19 @@ fn every_traits(all: bool) -> Vec<Traits> {
     if !all {
         return vec![Traits::default()];
     }
-    let mut every = Vec::new();
-    for ellipses in [false, true] {
-        for may_be_large in [false, true] {
-            for export in [false, true] {
-                for closed in [true, false] {
-                    let traits = Traits { ellipses, closed, may_be_large, ..Traits::default() };
-                    every.push(Traits { export, floor: export, ..traits });
-                    every.extend(beyond_opaque_splats(Traits { export, ..traits }));
-                }
-            }
-        }
-    }
-    every
+    let every = with_each(vec![Traits::default()], &[false, true], |traits, value| traits.ellipses = value);
+    let every = with_each(every, &[false, true], |traits, value| traits.may_be_large = value);
+    let every = with_each(every, &[false, true], |traits, value| traits.export = value);
+    let every = with_each(every, &[true, false], |traits, value| traits.closed = value);
+    let with_more = |traits: Traits| {
+        let mut all = vec![Traits { floor: traits.export, ..traits }];
+        all.extend(beyond_opaque_splats(traits));
+        all
+    };
+    every.into_iter().flat_map(with_more).collect()
 }
 
-/// The same with polygons, transparent things and lights.
+/// These traits with polygons, transparent things and lights.
 fn beyond_opaque_splats(traits: Traits) -> Vec<Traits> {
     let polygons = Traits { polygons: true, ..traits };
     if traits.export {
@@ -198,7 +182,7 @@ fn is_listed(settings: &Settings, traits: Traits) -> bool {
     !beyond || *settings == Settings { rasterizer, filter, tile_invocations, ..Settings::default() }
 }
 
-/// What tells a pipeline from others.
+/// The names that tell a pipeline from others.
 fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> PipelineNames {
     let splats = match (traits.ellipses, traits.closed) {
         (false, true) => "disks",

@@ -19,8 +19,7 @@ use crate::{
     camera::CameraChoice,
     machine::clock_mhz,
     reports::scene_report,
-    scene::{Loaded, load_scene},
-    steps::Steps,
+    scene::{Loaded, load_scene, upload},
     turns,
 };
 
@@ -31,10 +30,10 @@ const WARM_UP_ROUNDS: u32 = 3;
 pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Result<FloorReport> {
     let (arguments, settings, bars) = (context.arguments, &context.settings, &context.bars);
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, Representation::Splats, bars, &mut Steps::default())?;
+    let loaded = load_scene(&inputs, Representation::Splats, bars)?;
     let camera = CameraChoice::none().camera(&loaded, settings.size_px)?;
     let Loaded { scene, inputs, .. } = loaded;
-    let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
+    let prepared = upload(headless, &scene, bars)?;
     drop(scene);
     let points = Settings { rasterizer: Rasterizer::Perspective, ..settings.clone() };
     let mut floor = Floor::new(headless, &prepared, &camera, &points, false)?;

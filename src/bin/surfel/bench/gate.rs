@@ -61,7 +61,7 @@ pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
     Ok(Some(report.gate))
 }
 
-/// What a later run is judged by.
+/// The figures that a later run is judged by.
 pub fn gate(arguments: &BenchArguments, report: &BenchReport) -> Gate {
     let device = |of: fn(&DeviceReport) -> &String| {
         report.device.as_ref().map_or_else(|| "none".to_owned(), |device| of(device).clone())
@@ -124,7 +124,7 @@ pub fn conclude(arguments: &BenchArguments, report: &BenchReport) -> Result<()> 
     }
 }
 
-/// What must be equal for two runs to compare; without a report, what the command line alone decides.
+/// The facts that must be equal for two runs to compare; without a report, those that the command line alone decides.
 fn subject(arguments: &BenchArguments, report: Option<&BenchReport>) -> BTreeMap<String, String> {
     let table = arguments.table;
     let options = arguments.settings().as_options().into_iter();

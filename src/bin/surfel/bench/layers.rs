@@ -1,4 +1,4 @@
-//! What transparent layers cost, on a scene like that of figure 6 of Guennebaud, Barthe, Paulin 2006: 27 transparent balls of
+//! The cost of transparent layers, on a scene like that of figure 6 of Guennebaud, Barthe, Paulin 2006: 27 transparent balls of
 //! splats.
 
 mod balls;
@@ -60,7 +60,7 @@ impl Contestant {
         }
     }
 
-    /// What the table tells of it.
+    /// Its cells of the table.
     fn drawn(&self) -> LayersDrawn {
         LayersDrawn {
             layers: (!self.opaque).then(|| self.layers.most()),

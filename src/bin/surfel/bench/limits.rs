@@ -118,7 +118,7 @@ impl<'a> FrameWork<'a> {
     }
 }
 
-/// What a pass does with a list of tiles.
+/// The use that a pass makes of a list of tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum OfTiles {
     /// Makes the records that are listed.
@@ -138,7 +138,7 @@ fn uses(pass: &PlannedPass, access: Access) -> bool {
 /// Bytes of a color in the buffers of a chunk.
 const COLOR_BYTES: u64 = 8;
 
-/// What a pass's fragments are: the plan has the attachments, but only the pass's name tells whether it blends.
+/// The kind of a pass's fragments: the plan has the attachments, but only the pass's name tells whether it blends.
 fn fragments_of(pass: &PlannedPass) -> ThroughputProbe {
     let has_colors = pass.rendering.as_ref().is_some_and(|rendering| !rendering.colors.is_empty());
     match () {

@@ -110,24 +110,15 @@ fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut
     report.device = Some(device_report(&facts));
     let watch = Watch::begin(&facts);
     let table = context.arguments.table;
-    if table.has(Bench::Floor) {
-        report.floor = Some(floor::measure(headless, context)?);
-    }
+    report.floor = table.has(Bench::Floor).then(|| floor::measure(headless, context)).transpose()?;
     if table.has(Bench::Table1) {
         report.table1 = table1::measure(headless, context)?;
     }
-    if table.has(Bench::Slides) {
-        report.slides = Some(slides::measure(headless, context)?);
-    }
-    if table.has(Bench::Layers) {
-        report.layers = Some(layers::measure(headless, context)?);
-    }
-    if table.has(Bench::Transition) {
-        report.transition = Some(transition::measure(headless, context)?);
-    }
-    if table.has(Bench::Growth) {
-        report.growth = Some(growth::measure(headless, context)?);
-    }
+    report.slides = table.has(Bench::Slides).then(|| slides::measure(headless, context)).transpose()?;
+    report.layers = table.has(Bench::Layers).then(|| layers::measure(headless, context)).transpose()?;
+    report.transition =
+        table.has(Bench::Transition).then(|| transition::measure(headless, context)).transpose()?;
+    report.growth = table.has(Bench::Growth).then(|| growth::measure(headless, context)).transpose()?;
     let machine = watch.end(&context.clocks_mhz);
     report.flags = machine.flags(&context.limits);
     report.flags.append(&mut context.flags);

@@ -12,7 +12,7 @@ use surfel::{
 use super::context::BenchContext;
 use crate::scene::{Loaded, not_a_mesh, resample_mesh};
 
-/// What a table draws.
+/// The source of a table's model.
 pub enum Source {
     /// The built-in model, which has as many splats as wanted.
     BuiltIn,
@@ -49,6 +49,6 @@ impl Source {
         };
         let scene = Scene { objects: vec![object], ..Scene::default() };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
-        Ok(Loaded { scene, ball, camera: None, inputs: vec![report] })
+        Ok(Loaded { scene, ball, camera: None, inputs: vec![report], steps: Vec::new() })
     }
 }

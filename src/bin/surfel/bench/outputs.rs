@@ -1,7 +1,5 @@
 //! The files of `surfel bench`.
 
-use std::path::{Path, PathBuf};
-
 use surfel::{
     Error, Result,
     report::{
@@ -12,7 +10,7 @@ use surfel::{
 };
 
 use super::arguments::{Bench, BenchArguments};
-use crate::{json::to_json, outputs};
+use crate::{json::write_json, outputs};
 
 /// Checks that all files that are asked for can be written.
 ///
@@ -23,20 +21,15 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
     if plot.is_some() && !table.has(Bench::Table1) && !table.has(Bench::Growth) {
         return Err(Error::option("--plot", format!("{} is not over numbers of splats", table.name())));
     }
-    let files: Vec<&Path> = [json, markdown, plot].into_iter().flatten().map(PathBuf::as_path).collect();
-    let inputs: Vec<&Path> = [model, baseline].into_iter().flatten().map(PathBuf::as_path).collect();
     let names = TABLES.map(|name| format!("{name}.csv"));
-    outputs::check_places(&files, csv.as_deref(), &names.each_ref().map(String::as_str), &inputs)
+    let (files, inputs) = ([json, markdown, plot], [model, baseline]);
+    let names = names.each_ref().map(String::as_str);
+    outputs::check_places(files.into_iter().flatten(), csv.as_deref(), &names, inputs.into_iter().flatten())
 }
 
 /// Writes them.
-///
-/// # Errors
-/// Whatever the file system answers.
 pub fn write(arguments: &BenchArguments, report: &BenchReport) -> Result<()> {
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(report)?)?;
-    }
+    write_json(arguments.json.as_deref(), report)?;
     if let Some(path) = &arguments.markdown {
         save::text(path, &report.markdown())?;
     }

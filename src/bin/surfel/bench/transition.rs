@@ -1,4 +1,4 @@
-//! What the transition between splats and polygons costs (Guennebaud, Barthe, Paulin 2006, sections 5 and 7): one mesh, half of
+//! The cost of the transition between splats and polygons (Guennebaud, Barthe, Paulin 2006, sections 5 and 7): one mesh, half of
 //! it polygons, half of it splats, with each transition and none, in turn; beside it the whole as splats, and as polygons.
 
 mod halves;

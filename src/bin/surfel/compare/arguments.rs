@@ -16,24 +16,9 @@ use crate::{
     settings::{Given, Listed, Taken, chosen, listed},
 };
 
-/// What `--zoom` decides by itself.
-const ZOOM_HAS_ITS_OWN: [&str; 15] = [
-    "inputs",
-    "representation",
-    "time_size",
-    "camera",
-    "eye",
-    "target",
-    "up",
-    "fov",
-    "rasterizer",
-    "accumulate",
-    "kernel_eval",
-    "quick",
-    "backfaces",
-    "frames",
-    "pictures",
-];
+/// The options that `--zoom` decides by itself.
+const ZOOM_HAS_ITS_OWN: &str = "inputs representation time_size camera eye target up fov rasterizer accumulate kernel_eval \
+    quick backfaces frames pictures";
 
 const HELP: &str = "\
 Every combination of rasterizer, filter, precision of the sums and kernel evaluation draws the same scene. What it costs is \
@@ -79,7 +64,7 @@ pub struct CompareArguments {
     pub samples: u32,
 
     /// In place of a scene: a checkerboard in perspective, each filter at distances from 0.05 to 50 pixels a splat
-    #[arg(long, conflicts_with_all = ZOOM_HAS_ITS_OWN)]
+    #[arg(long, conflicts_with_all = ZOOM_HAS_ITS_OWN.split(' '))]
     pub zoom: bool,
 
     /// Distances of --zoom [default: 25]

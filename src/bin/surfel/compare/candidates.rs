@@ -48,8 +48,6 @@ pub fn some_left(left: usize, skipped: &[Skipped]) -> Result<()> {
 
 /// The options that do not say which method it is.
 pub fn common_options(mut options: BTreeMap<&'static str, String>) -> BTreeMap<&'static str, String> {
-    for option in ["rasterizer", "filter", "filter-weight", "accumulate", "kernel-eval"] {
-        options.remove(option);
-    }
+    options.retain(|option, _| !Method::OPTIONS.contains(option));
     options
 }

@@ -1,4 +1,4 @@
-//! What the methods are tried on, and what they are compared with.
+//! The scene that methods are tried on, and the pictures that they are compared with.
 
 use surfel::{
     Progress as _, Result,
@@ -13,23 +13,17 @@ use crate::console::Bars;
 
 /// A scene and from where it is seen.
 pub struct CompareContext<'a> {
-    /// The scene.
     pub scene: &'a Scene,
-    /// The same on the device.
+    /// The scene on the device.
     pub prepared: &'a PreparedScene,
-    /// From where.
     pub camera: &'a Camera,
     /// The settings that all methods have in common.
     pub base: &'a Settings,
-    /// Progress.
     pub bars: &'a Bars,
 }
 
 impl CompareContext<'_> {
     /// The picture of a method by the device.
-    ///
-    /// # Errors
-    /// As [`Headless::render`].
     pub fn draw(&self, headless: &mut Headless, method: &Method) -> Result<Surface> {
         let wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
         let frame = headless.render(self.prepared, self.camera, &method.settings(self.base), wanted)?;
@@ -44,9 +38,6 @@ impl CompareContext<'_> {
     }
 
     /// The exact picture of a method, and which pixels rounding may turn.
-    ///
-    /// # Errors
-    /// As [`reference::render`].
     pub fn oracle(&self, method: &Method, task: &str) -> Result<(Surface, Vec<bool>)> {
         let progress = |done, total| self.bars.step(task, done, total);
         let picture = reference::render(self.scene, self.camera, &method.settings(self.base), &progress)?;
@@ -54,9 +45,6 @@ impl CompareContext<'_> {
     }
 
     /// The picture that every filter aims at.
-    ///
-    /// # Errors
-    /// As [`reference::ground_truth`].
     pub fn truth(&self, samples_per_side: u32, task: &str) -> Result<Surface> {
         let progress = |done, total| self.bars.step(task, done, total);
         reference::ground_truth(self.scene, self.camera, self.base, samples_per_side, &progress)

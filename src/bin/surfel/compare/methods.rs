@@ -1,7 +1,7 @@
 //! The methods on a scene: how wrong each is, then how long each takes, in turn.
 
 use surfel::{
-    Error, Progress as _, Result,
+    Error, Result,
     instruments::counts_of,
     renderer::Headless,
     report::{
@@ -20,7 +20,7 @@ use super::{
 use crate::{
     console::Bars,
     reports::device_report,
-    scene::Loaded,
+    scene::{Loaded, upload},
     turns::{self, Draw},
 };
 
@@ -72,9 +72,7 @@ pub fn gather(
     let base = &arguments.settings();
     let timed = timed_settings(headless, arguments)?;
     let Loaded { scene, inputs, .. } = loaded;
-    let prepared = headless.prepare(scene, &|done, total| bars.step("upload", done, total));
-    bars.clear();
-    let prepared = prepared?;
+    let prepared = upload(headless, scene, bars)?;
 
     let selection = arguments.selection();
     let wanted = if arguments.methods.quick { selection.one_at_a_time() } else { selection.product() };
@@ -123,7 +121,7 @@ pub fn gather(
     Ok(report)
 }
 
-/// What a reader of the figures has to know.
+/// Notes for a reader of the figures.
 fn notes(arguments: &CompareArguments) -> Vec<String> {
     let mut notes = vec!["instructions: of disks on a closed surface, none of them large".to_owned()];
     if arguments.device.validate {

@@ -7,11 +7,11 @@ mod methods;
 mod pictures;
 mod zoom;
 
-use std::{fmt::Display, path::Path};
+use std::fmt::Display;
 
 use serde::Serialize;
 use surfel::{
-    Error, Result,
+    Result,
     renderer::Headless,
     report::{PLOT_SIZE_PX, Plot},
     save,
@@ -25,10 +25,9 @@ pub use zoom::gather as gather_zoom;
 use crate::{
     camera::CameraChoice,
     console::{self, Bars},
-    json::to_json,
+    json::write_json,
     outputs,
     scene::load_scene,
-    steps::Steps,
 };
 
 /// Runs the subcommand.
@@ -46,56 +45,37 @@ pub fn run(arguments: &CompareArguments) -> Result<()> {
 }
 
 fn check_outputs(arguments: &CompareArguments) -> Result<()> {
-    if let Some(path) = &arguments.plot
-        && !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"))
-    {
-        return Err(Error::option("--plot", format!("{}: expected a name in .svg", path.display())));
-    }
-    let files: Vec<&Path> =
-        [&arguments.json, &arguments.plot].into_iter().flatten().map(|p| p.as_path()).collect();
-    let inputs: Vec<&Path> =
-        outputs::paths(&arguments.input.inputs).chain(arguments.camera.camera.as_deref()).collect();
-    outputs::check_places(&files, arguments.pictures.as_deref(), &[], &inputs)
+    let CompareArguments { input, camera, json, plot, pictures, .. } = arguments;
+    plot.iter().try_for_each(|path| outputs::check_name("--plot", path, &["svg"]))?;
+    let inputs = input.inputs.iter().chain(&camera.camera);
+    outputs::check_places([json, plot].into_iter().flatten(), pictures.as_deref(), &[], inputs)
 }
 
-fn compare(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
-    timed_settings(&headless, arguments)?; // before anything takes long
+fn compare(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> {
+    timed_settings(headless, arguments)?; // before anything takes long
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
-    let loaded =
-        load_scene(&arguments.input.inputs, arguments.input.representation(), &bars, &mut Steps::default())?;
+    let loaded = load_scene(&arguments.input.inputs, arguments.input.representation(), &bars)?;
     let camera = choice.camera(&loaded, arguments.settings().size_px)?;
     let mut show = |shown: Shown<'_>| match &arguments.pictures {
         Some(folder) => pictures::write(folder, &shown),
         None => Ok(()),
     };
-    let report = gather(&mut headless, arguments, &loaded, &camera, &bars, &mut show)?;
-    tell(&headless, arguments, &report, &report.plot())
+    let report = gather(headless, arguments, &loaded, &camera, &bars, &mut show)?;
+    tell(arguments, &report, &report.plot())
 }
 
-fn over_distance(mut headless: Headless, arguments: &CompareArguments) -> Result<()> {
-    let report = gather_zoom(&mut headless, arguments, &Bars::new())?;
-    tell(&headless, arguments, &report, &report.plot())
+fn over_distance(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> {
+    let report = gather_zoom(headless, arguments, &Bars::new())?;
+    tell(arguments, &report, &report.plot())
 }
 
 /// Prints what was found, and writes what is asked for.
-///
-/// # Errors
-/// Results that can't be written.
-fn tell<R: Display + Serialize>(
-    headless: &Headless,
-    arguments: &CompareArguments,
-    report: &R,
-    plot: &Plot,
-) -> Result<()> {
+fn tell<R: Display + Serialize>(arguments: &CompareArguments, report: &R, plot: &Plot) -> Result<()> {
     console::print(&report.to_string())?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(report)?)?;
+    write_json(arguments.json.as_deref(), report)?;
+    match &arguments.plot {
+        Some(path) => save::text(path, &plot.svg(PLOT_SIZE_PX)?),
+        None => Ok(()),
     }
-    if let Some(path) = &arguments.plot {
-        save::text(path, &plot.svg(PLOT_SIZE_PX)?)?;
-    }
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    Ok(())
 }

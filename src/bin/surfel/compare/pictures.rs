@@ -14,7 +14,7 @@ pub const BACKGROUND: [f32; 3] = [1.0; 3];
 /// How much differences are magnified, so that they are seen.
 pub const MAGNIFIED: u8 = 4;
 
-/// What there is to see while methods are compared.
+/// A picture that there is to see while methods are compared.
 pub enum Shown<'a> {
     /// The ground truth, once and first.
     Truth(&'a Surface),
@@ -22,11 +22,11 @@ pub enum Shown<'a> {
     Method {
         /// Which.
         method: &'a Method,
-        /// What the device has drawn.
+        /// The device's picture.
         drawn: &'a Surface,
-        /// The same, exact.
+        /// The exact picture.
         oracle: &'a Surface,
-        /// What it aims at.
+        /// The picture that it aims at.
         truth: &'a Surface,
     },
 }

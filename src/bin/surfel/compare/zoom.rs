@@ -14,7 +14,7 @@ use surfel::{
 };
 
 use super::{arguments::CompareArguments, candidates, context::CompareContext, pictures::BACKGROUND};
-use crate::{console::Bars, reports::device_report};
+use crate::{console::Bars, reports::device_report, scene::upload};
 
 /// Turns the board about its normal and shifts it, in degrees and spacings, so that no row of splats coincides with a row
 /// of pixels.
@@ -41,7 +41,7 @@ pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars
     for (number, pixels_per_splat) in path.iter().copied().enumerate() {
         let camera = camera(pixels_per_splat, tilt_deg, base.size_px);
         let scene = in_view(&board, &camera, base.size_px);
-        let prepared = headless.prepare(&scene, &|done, total| bars.step("upload", done, total))?;
+        let prepared = upload(headless, &scene, bars)?;
         let context = CompareContext { scene: &scene, prepared: &prepared, camera: &camera, base, bars };
         let task = format!("ground truth {} of {}", number + 1, path.len());
         let samples = samples_per_side(pixels_per_splat, tilt_deg, arguments.samples);

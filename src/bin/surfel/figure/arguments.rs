@@ -121,7 +121,7 @@ impl Figure {
 }
 
 impl FigureArguments {
-    /// Where the figure goes.
+    /// The figure's file.
     ///
     /// # Errors
     /// A name that does not say what the file will be.

@@ -31,7 +31,7 @@ struct Board {
 struct Way {
     /// The panel's name.
     name: &'static str,
-    /// What else is to be said.
+    /// A remark.
     caption: String,
     /// All but the size.
     settings: Settings,
@@ -46,7 +46,7 @@ impl Board {
             .map(|Way { name, caption, settings }| {
                 let settings = Settings { size_px, ..settings.clone() };
                 let picture = context.picture(&scene, &self.camera(), &settings)?.enlarged(enlarge);
-                Ok(Panel { name: (*name).to_owned(), caption: caption.clone(), picture })
+                Ok(Panel::new(*name, caption.clone(), picture))
             })
             .collect()
     }
@@ -59,7 +59,7 @@ impl Board {
         Camera { eye: self.eye, target: self.eye + forward, up: DVec3::Z, fov_y_rad, near: None }
     }
 
-    /// What the board is, for a note.
+    /// A note on the board.
     fn text(&self) -> String {
         format!(
             "Board: {side}x{side} points, fields of {CHECKERBOARD_FIELD}x{CHECKERBOARD_FIELD} points, disks of radius \
@@ -85,7 +85,7 @@ fn unlit(filter: Filter) -> Settings {
     }
 }
 
-/// What all of [`unlit`] have in common, for a note.
+/// A note on what all settings of [`unlit`] have in common.
 const UNLIT_TEXT: &str = "Epsilon is larger than the board, so that all points in a pixel are blended, none hidden; the \
     background is blue.";
 
@@ -125,14 +125,9 @@ pub fn g3(context: &mut FigureContext<'_>) -> Result<Sheet> {
             "ragged, where splats are wider than pixels but not higher",
         ),
     ];
-    let notes = vec![board.text(), GAUSSIAN_TEXT.to_owned(), UNLIT_TEXT.to_owned()];
-    Ok(Sheet {
-        title: "Filters on a checkerboard in perspective (Guennebaud et al. 2006, figure 3)".to_owned(),
-        columns: 1,
-        panels: board.panels(context, 1, &ways)?,
-        notes,
-        ..Sheet::default()
-    })
+    let title = "Filters on a checkerboard in perspective (Guennebaud et al. 2006, figure 3)";
+    let panels = board.panels(context, 1, &ways)?;
+    Ok(Sheet::new(title, 1, panels, &[&board.text(), GAUSSIAN_TEXT, UNLIT_TEXT]))
 }
 
 /// So that single pixels are seen.
@@ -152,17 +147,10 @@ pub fn g4(context: &mut FigureContext<'_>) -> Result<Sheet> {
         way("Tangent adjustment, surfel's adjust", Filter::Adjust, "edges are smooth"),
         way("Full EWA, to judge both by", Filter::Ewa, "not in the paper's figure"),
     ];
-    Ok(Sheet {
-        title: "A close view of a checkerboard (Guennebaud et al. 2006, figure 4)".to_owned(),
-        columns: 3,
-        panels: board.panels(context, ENLARGE, &ways)?,
-        notes: vec![
-            format!("{} Each pixel is {ENLARGE}x{ENLARGE} here.", board.text()),
-            GAUSSIAN_TEXT.to_owned(),
-            UNLIT_TEXT.to_owned(),
-        ],
-        ..Sheet::default()
-    })
+    let title = "A close view of a checkerboard (Guennebaud et al. 2006, figure 4)";
+    let text = format!("{} Each pixel is {ENLARGE}x{ENLARGE} here.", board.text());
+    let panels = board.panels(context, ENLARGE, &ways)?;
+    Ok(Sheet::new(title, 3, panels, &[&text, GAUSSIAN_TEXT, UNLIT_TEXT]))
 }
 
 /// Pajarola et al. 2003, figure 18: a round kernel and a more localized one on a checkerboard.
@@ -188,17 +176,9 @@ pub fn p18(context: &mut FigureContext<'_>) -> Result<Sheet> {
         way("a) a round kernel", PsiE { a: 1.0, b: 1.5, n: 2.0 }),
         way("b) a more localized kernel", PsiE { a: 6.0, b: 1.5, n: 3.0 }),
     ];
-    Ok(Sheet {
-        title: "Blending kernels on a checkerboard (Pajarola et al. 2003, figure 18)".to_owned(),
-        columns: 2,
-        panels: board.panels(context, 1, &ways)?,
-        notes: vec![
-            board.text(),
-            "As in the paper, a textured triangle for each splat and no screen-space filter. Unlike there, every point \
-             is drawn: no level of detail (the paper's tau is 0.02% of the window)."
-                .to_owned(),
-            UNLIT_TEXT.to_owned(),
-        ],
-        ..Sheet::default()
-    })
+    let title = "Blending kernels on a checkerboard (Pajarola et al. 2003, figure 18)";
+    let text = "As in the paper, a textured triangle for each splat and no screen-space filter. Unlike there, every point \
+                is drawn: no level of detail (the paper's tau is 0.02% of the window).";
+    let panels = board.panels(context, 1, &ways)?;
+    Ok(Sheet::new(title, 2, panels, &[&board.text(), text, UNLIT_TEXT]))
 }

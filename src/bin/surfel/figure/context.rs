@@ -1,22 +1,20 @@
-//! What all figures are drawn with.
+//! The device and the options that all figures are drawn with.
 
 use std::path::Path;
 
 use surfel::{
-    Progress as _, Result,
+    Result,
     prepare::PreparedScene,
     renderer::{Frame, Headless, Wanted},
     scene::{Camera, Scene, Settings},
 };
 
 use super::raster::Raster;
-use crate::console::Bars;
+use crate::{console::Bars, scene::upload};
 
 /// A device, and what the command line says.
 pub struct FigureContext<'a> {
-    /// The device.
     pub headless: &'a mut Headless,
-    /// Progress.
     pub bars: &'a Bars,
     /// Width and height of a panel or plot.
     pub size_px: [u32; 2],
@@ -26,19 +24,11 @@ pub struct FigureContext<'a> {
 
 impl FigureContext<'_> {
     /// Uploads a scene.
-    ///
-    /// # Errors
-    /// As [`Headless::prepare`].
     pub fn prepare(&self, scene: &Scene) -> Result<PreparedScene> {
-        let prepared = self.headless.prepare(scene, &|done, total| self.bars.step("upload", done, total));
-        self.bars.clear();
-        prepared
+        upload(self.headless, scene, self.bars)
     }
 
     /// Draws the picture.
-    ///
-    /// # Errors
-    /// As [`Headless::render`].
     pub fn picture(&mut self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<Raster> {
         let wanted = Wanted { picture: true, ..Wanted::default() };
         let Frame { size_px, srgb, .. } = self.headless.render(scene, camera, settings, wanted)?;
@@ -49,9 +39,6 @@ impl FigureContext<'_> {
     }
 
     /// Draws the sums of the weights, row by row from the top left.
-    ///
-    /// # Errors
-    /// As [`Headless::render`].
     pub fn weights(
         &mut self,
         scene: &PreparedScene,

@@ -19,7 +19,7 @@ const FOCAL_PX: f64 = 300.0;
 /// The splat's depth.
 const DEPTH: f64 = 1.0;
 
-/// Where the splat is: 45° to the right of the view, where the projection shears most within a 90° view.
+/// The splat's place: 45° to the right of the view, where the projection shears most within a 90° view.
 const CENTER: DVec3 = DVec3::new(DEPTH, 0.0, DEPTH);
 
 /// A round splat at [`CENTER`], in view space.
@@ -125,7 +125,7 @@ impl RoundSplat {
     }
 }
 
-/// How the projection moves, in pixels, when [`CENTER`] moves along `v`.
+/// The move of the projection, in pixels, when [`CENTER`] moves along `v`.
 fn projected_px(v: DVec3) -> DVec2 {
     FOCAL_PX * (v.truncate() - CENTER.truncate() / CENTER.z * v.z) / CENTER.z
 }
@@ -142,7 +142,7 @@ impl Footprint {
         self.weights.iter().map(|weight| if peak > 0.0 { weight / peak } else { 0.0 }).collect()
     }
 
-    /// How far this shape is from another: the sum of the absolute differences over the other's sum.
+    /// The distance of this shape from another: the sum of the absolute differences over the other's sum.
     pub fn shape_difference(&self, other: &Self) -> f64 {
         let (own, other) = (self.shape(), other.shape());
         let sum = |values: &mut dyn Iterator<Item = f32>| values.map(f64::from).sum::<f64>();

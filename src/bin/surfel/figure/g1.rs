@@ -13,7 +13,7 @@ use super::{
 struct Case {
     name: &'static str,
     splat: RoundSplat,
-    /// How much of the image a panel shows.
+    /// The part of the image that a panel shows.
     window_px: u16,
 }
 
@@ -65,7 +65,7 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
                 }
             };
             let picture = panel(&drawn, ewa, window_px.into(), context.size_px)?;
-            panels.push(Panel { name: name.to_owned(), caption, picture });
+            panels.push(Panel::new(name, caption, picture));
         }
     }
     Ok(Sheet {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use surfel::{
     Error, Result,
     geometry::{Hybrid, HybridOptions, hybrid},
-    load::{Model, builtin::relief_mesh, load},
+    load::{Model, builtin::relief_mesh, file_name, load},
     prepare::PreparedScene,
     scene::{Accumulate, Camera, Kernel, Mesh, MeshObject, Object, Scene, Settings, Transition},
 };
@@ -15,10 +15,10 @@ use super::{
     sheet::{Panel, Sheet},
 };
 
-/// Of the built-in model: so few that splats as large as they are blur the relief, and the seam is seen.
+/// Triangles of the built-in model: so few that splats as large as they are blur the relief, and the seam is seen.
 const FEW_TRIANGLES: u64 = 80_000;
 
-/// How much nearer the camera is than where all of the model is seen.
+/// The field of view over that in which all of the model is seen.
 const NEARER: f64 = 0.22;
 
 /// Polygons are on this side of the model's middle: to the right of an oblique line in the view.
@@ -34,7 +34,7 @@ const SIGMA: f32 = 0.4;
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let (mesh, name) = model(context)?;
     let (sampled, plain) = (split(context, &mesh, true)?, split(context, &mesh, false)?);
-    let notes = vec![text(&name, &mesh, &sampled, &plain), settings_text()];
+    let notes = [text(&name, &mesh, &sampled, &plain), settings_text()];
     let (sampled, plain) = (scene(sampled), scene(plain));
     let ball = sampled.ball().ok_or_else(|| Error::input(&name, "", "has nothing to draw"))?;
     let fit = Camera::fit(&ball, context.size_px, Camera::DEFAULT_FOV_Y_RAD);
@@ -47,36 +47,26 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let mut panel =
         |name: &str, caption: &str, scene: &PreparedScene, settings: &Settings| -> Result<Panel> {
             let picture = context.picture(scene, &camera, settings)?;
-            Ok(Panel { name: name.to_owned(), caption: caption.to_owned(), picture })
+            Ok(Panel::new(name, caption, picture))
         };
     let panels = vec![
         panel("a) naive", "a seam where polygons and splats meet", &sampled, &naive)?,
         panel("b) smoothed", "splats fade into polygons by the sum of their weights", &sampled, &smoothed)?,
-        Panel {
-            name: "c) the weights".to_owned(),
-            caption: "their sum; white is 1 and above".to_owned(),
-            picture: weights,
-        },
+        Panel::new("c) the weights", "their sum; white is 1 and above", weights),
         panel("d) smoothed, edges not sampled", "no splats on the edges where both meet", &plain, &smoothed)?,
     ];
-    Ok(Sheet {
-        title: "Polygons and splats of one surface (Guennebaud et al. 2006, figure 5)".to_owned(),
-        columns: 2,
-        panels,
-        notes,
-        ..Sheet::default()
-    })
+    let title = "Polygons and splats of one surface (Guennebaud et al. 2006, figure 5)";
+    Ok(Sheet::new(title, 2, panels, &notes.each_ref().map(String::as_str)))
 }
 
 fn model(context: &FigureContext<'_>) -> Result<(Mesh, String)> {
     let Some(path) = context.model else {
         return Ok((relief_mesh(FEW_TRIANGLES), "The built-in relief".to_owned()));
     };
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let model = load(path, context.bars);
     context.bars.clear();
     match model? {
-        Model::Mesh(mesh) => Ok((mesh, name)),
+        Model::Mesh(mesh) => Ok((mesh, file_name(path))),
         Model::Splats { .. } => {
             Err(Error::input(path, "", "the file holds splats; expected a mesh, to draw its triangles"))
         }
@@ -135,7 +125,6 @@ fn settings_text() -> String {
     )
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0–255")]
 fn gray(weight: f32) -> [u8; 3] {
     [(255.0 * weight.clamp(0.0, 1.0)).round() as u8; 3]
 }

@@ -18,10 +18,10 @@ use super::{
 /// The most layers of "all": twice as many as the figures' scenes have surfaces behind each other.
 const ALL_LAYERS: u32 = 16;
 
-/// Of pixels in which nothing is seen.
+/// The color of pixels in which nothing is seen.
 const BACKGROUND: [u8; 3] = [255; 3];
 
-/// What the figures say of the differences in the captions.
+/// The note on the differences in the captions.
 const OFF_TEXT: &str = "RMS: the root of the mean squared difference to the picture in all layers, in sRGB values from 0 to \
     255, over the pixels in which something is seen.";
 
@@ -46,12 +46,12 @@ impl Glass {
         Ok(Self { scene, camera, epsilon, all })
     }
 
-    /// All layers.
+    /// The panel of all layers.
     fn all(&self, name: &str, caption: &str) -> Panel {
-        Panel { name: name.to_owned(), caption: caption.to_owned(), picture: self.all.clone() }
+        Panel::new(name, caption, self.all.clone())
     }
 
-    /// So many layers; the caption goes on with how far that is from all.
+    /// The panel of so many layers; the caption goes on with how far that is from all.
     fn few(
         &self,
         context: &mut FigureContext<'_>,
@@ -63,8 +63,13 @@ impl Glass {
         let settings = settings(context.size_px, self.epsilon, Layers::Fixed(layers), last_layer);
         let picture = context.picture(&self.scene, &self.camera, &settings)?;
         let caption = format!("{caption}; RMS {:.1}", off(&picture, &self.all));
-        Ok(Panel { name: name.to_owned(), caption, picture })
+        Ok(Panel::new(name, caption, picture))
     }
+}
+
+fn camera(eye: [f64; 3], target: [f64; 3], fov_y_deg: f64) -> Camera {
+    let fov_y_rad = fov_y_deg.to_radians();
+    Camera { eye: eye.into(), target: target.into(), up: DVec3::Y, fov_y_rad, near: None }
 }
 
 fn settings(size_px: [u32; 2], epsilon: f64, layers: Layers, last_layer: LastLayer) -> Settings {
@@ -101,26 +106,20 @@ fn ball(splats: usize, center: DVec3, radius: f64, color: [f32; 3], alpha: f32) 
 /// Splats of each ball.
 const BALL_SPLATS: usize = 4000;
 const BALL_RADIUS: f64 = 0.5;
-/// Between the centers of neighbors. From less than 37° off the axis a ray that meets a ball passes its neighbors at the
+/// The distance between the centers of neighbors. From less than 37° off the axis a ray that meets a ball passes its neighbors at the
 /// side, so that it meets three at most: six surfaces.
 const BALL_SPACING: f64 = 1.25;
-/// From the back to the front. The blended layer takes the place of several surfaces with their mean opacity, so that it
+/// Alphas from the back to the front. The blended layer takes the place of several surfaces with their mean opacity, so that it
 /// is nearer to the truth than the third surface alone where what is behind is more opaque than that. With 0.4 for all
 /// balls its RMS was 12.6, without blending 12.9.
 const ALPHAS: [f32; 3] = [0.7, 0.5, 0.3];
-/// Less than from a ball to the next.
+/// The depth of a surface: less than from a ball to the next.
 const BALL_EPSILON: f64 = 0.15;
 
 /// Guennebaud et al. 2006, figure 6: 27 transparent balls in few layers.
 pub fn g6(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let scene = Scene { objects: balls(), ..Scene::default() };
-    let camera = Camera {
-        eye: DVec3::new(2.3, 1.7, 9.0),
-        target: DVec3::new(-0.08, -0.15, 0.0),
-        up: DVec3::Y,
-        fov_y_rad: 28_f64.to_radians(),
-        near: None,
-    };
+    let camera = camera([2.3, 1.7, 9.0], [-0.08, -0.15, 0.0], 28.0);
     let glass = Glass::new(context, &scene, camera, BALL_EPSILON)?;
     let [back, middle, front] = ALPHAS;
     let panels = vec![
@@ -135,20 +134,13 @@ pub fn g6(context: &mut FigureContext<'_>) -> Result<Sheet> {
         )?,
         glass.all("All layers, to judge by", "not in the paper's figure"),
     ];
-    Ok(Sheet {
-        title: "27 transparent balls (Guennebaud et al. 2006, figure 6)".to_owned(),
-        columns: 2,
-        panels,
-        notes: vec![
-            OFF_TEXT.to_owned(),
-            format!(
-                "Balls of {BALL_SPLATS} splats and radius {BALL_RADIUS}, three behind each other at most; alpha is {front} in the first \
-                 row, {middle} in the second, {back} in the last. Epsilon is {BALL_EPSILON}, so that what is seen at a rim is one \
-                 surface. Shaded with one light at the eye."
-            ),
-        ],
-        ..Sheet::default()
-    })
+    let text = format!(
+        "Balls of {BALL_SPLATS} splats and radius {BALL_RADIUS}, three behind each other at most; alpha is {front} in the first \
+         row, {middle} in the second, {back} in the last. Epsilon is {BALL_EPSILON}, so that what is seen at a rim is one \
+         surface. Shaded with one light at the eye."
+    );
+    let title = "27 transparent balls (Guennebaud et al. 2006, figure 6)";
+    Ok(Sheet::new(title, 2, panels, &[OFF_TEXT, &text]))
 }
 
 /// On a grid, in colors that follow the place.
@@ -158,7 +150,6 @@ fn balls() -> Vec<Object> {
         for y in -1..=1 {
             for x in -1..=1 {
                 let place = [x, y, z].map(f64::from);
-                #[expect(clippy::cast_possible_truncation, reason = "a color")]
                 let color = place.map(|along| linear_from_srgb(0.6 + 0.35 * along as f32));
                 balls.push(ball(BALL_SPLATS, BALL_SPACING * DVec3::from(place), BALL_RADIUS, color, alpha));
             }
@@ -170,18 +161,12 @@ fn balls() -> Vec<Object> {
 /// Splats of the glass relief.
 const RELIEF_SPLATS: usize = 60_000;
 const RELIEF_ALPHA: f32 = 0.45;
-/// Less than from a surface to the next.
+/// The depth of a surface: less than from one to the next.
 const RELIEF_EPSILON: f64 = 0.12;
 
 /// The slides of Guennebaud et al. 2006, "Approximate depth-peeling": results with 2 and with 3 layers.
 pub fn slides(context: &mut FigureContext<'_>) -> Result<Sheet> {
-    let camera = Camera {
-        eye: DVec3::new(0.1, 0.1, 6.0),
-        target: DVec3::new(0.1, 0.1, 0.0),
-        up: DVec3::Y,
-        fov_y_rad: 24_f64.to_radians(),
-        near: None,
-    };
+    let camera = camera([0.1, 0.1, 6.0], [0.1, 0.1, 0.0], 24.0);
     let glass = Glass::new(context, &relief_and_balls(), camera, RELIEF_EPSILON)?;
     let mut panels = Vec::new();
     for (layers, first, plus) in [
@@ -192,20 +177,14 @@ pub fn slides(context: &mut FigureContext<'_>) -> Result<Sheet> {
         panels.push(glass.few(context, first, "what is behind is lost", layers - 1, LastLayer::Drop)?);
         panels.push(glass.few(context, plus, "it has all that is behind", layers, LastLayer::Blend)?);
     }
-    Ok(Sheet {
-        title: "Approximate depth peeling (Guennebaud et al. 2006, slides)".to_owned(),
-        headings: vec!["Results with 2 layers".to_owned(), "Results with 3 layers".to_owned()],
-        columns: 3,
-        panels,
-        notes: vec![
-            OFF_TEXT.to_owned(),
-            format!(
-                "The built-in relief as glass, {RELIEF_SPLATS} splats of alpha {RELIEF_ALPHA}, with two glass balls in it and one in front, \
-                 before an opaque board; not the slides' model. Epsilon is {RELIEF_EPSILON} of the \
-                 relief's radius. Shaded with one light at the eye."
-            ),
-        ],
-    })
+    let text = format!(
+        "The built-in relief as glass, {RELIEF_SPLATS} splats of alpha {RELIEF_ALPHA}, with two glass balls in it and one in front, \
+         before an opaque board; not the slides' model. Epsilon is {RELIEF_EPSILON} of the \
+         relief's radius. Shaded with one light at the eye."
+    );
+    let headings = ["Results with 2 layers", "Results with 3 layers"].map(str::to_owned).to_vec();
+    let title = "Approximate depth peeling (Guennebaud et al. 2006, slides)";
+    Ok(Sheet { headings, ..Sheet::new(title, 3, panels, &[OFF_TEXT, &text]) })
 }
 
 fn relief_and_balls() -> Scene {

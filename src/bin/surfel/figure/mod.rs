@@ -28,7 +28,7 @@ use crate::{
 };
 use context::FigureContext;
 
-/// What a figure is before it is a file.
+/// A figure before it is a file.
 pub enum Drawing {
     /// Pictures side by side.
     Sheet(Sheet),
@@ -48,18 +48,10 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
         let problem = format!("{} has a scene of its own; expected g5 or p19", figure.name());
         return Err(Error::option("--model", problem));
     }
-    let inputs: Vec<&Path> = arguments.model.as_deref().into_iter().collect();
-    outputs::check_places(&[&output], None, &[], &inputs)?;
+    outputs::check_places([&output], None, &[], &arguments.model)?;
     arguments.device.watch(arguments.device.open()?, |headless| {
-        write(&draw_once(headless, arguments, figure)?, &output, size_px)
+        write(&draw(headless, &Bars::new(), arguments, figure)?, &output, size_px)
     })
-}
-
-fn draw_once(mut headless: Headless, arguments: &FigureArguments, figure: Figure) -> Result<Drawing> {
-    let drawn = draw(&mut headless, &Bars::new(), arguments, figure);
-    // A lost cache costs the next run some time, that is all.
-    let _ = headless.renderer.shaders.save_cache();
-    drawn
 }
 
 /// Draws a figure.

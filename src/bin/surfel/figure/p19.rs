@@ -2,8 +2,8 @@
 
 use surfel::{
     Error, Result,
-    load::{Representation, builtin::relief},
-    scene::{Accumulate, Camera, Filter, KernelEval, Object, Rasterizer, Scene, Settings},
+    load::{Representation, builtin::relief, file_name},
+    scene::{Accumulate, Camera, Filter, KernelEval, Rasterizer, Scene, Settings},
 };
 
 use super::{
@@ -11,12 +11,12 @@ use super::{
     kernels::PsiE,
     sheet::{Panel, Sheet},
 };
-use crate::{scene::load_scene, steps::Steps};
+use crate::scene::load_scene;
 
 /// Splats of the built-in model: so few that single ones are seen.
 const FEW_SPLATS: usize = 12_000;
 
-/// How much nearer the camera is than where all of the model is seen.
+/// The field of view over that in which all of the model is seen.
 const NEARER: f64 = 0.5;
 
 /// Draws the figure.
@@ -26,20 +26,14 @@ const NEARER: f64 = 0.5;
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let (scene, what) = match context.model {
         Some(path) => {
-            let scene =
-                load_scene(&[path.to_owned()], Representation::Splats, context.bars, &mut Steps::default())?
-                    .scene;
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-            let what = format!("{name}, {} splats", scene.splat_count());
-            (scene, what)
+            let inputs = [path.to_owned()];
+            let loaded = load_scene(&inputs, Representation::Splats, context.bars)?;
+            let what = format!("{}, {} splats", file_name(path), loaded.scene.splat_count());
+            (loaded.scene, what)
         }
         None => {
-            let Object { splats, .. } = relief(FEW_SPLATS);
-            let object = Object { name: "built-in relief".to_owned(), splats, closed: true };
-            (
-                Scene { objects: vec![object], ..Scene::default() },
-                format!("the built-in relief with {FEW_SPLATS} splats"),
-            )
+            let scene = Scene { objects: vec![relief(FEW_SPLATS)], ..Scene::default() };
+            (scene, format!("the built-in relief with {FEW_SPLATS} splats"))
         }
     };
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
@@ -57,21 +51,15 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
             ..Settings::default()
         };
         let picture = context.picture(&prepared, &camera, &settings)?;
-        Ok(Panel { name: name.to_owned(), caption: kernel.text(), picture })
+        Ok(Panel::new(name, kernel.text(), picture))
     };
     let panels = vec![
         panel("a) round and narrow: looks faceted", PsiE { a: 6.0, b: 1.5, n: 3.0 })?,
         panel("b) a wide plateau: smooth and sharp", PsiE { a: 4.0, b: 1.5, n: 5.0 })?,
     ];
-    Ok(Sheet {
-        title: "Blending kernels on a model (Pajarola et al. 2003, figure 19)".to_owned(),
-        columns: 2,
-        panels,
-        notes: vec![
-            format!("Model: {what}; not the paper's. Shaded with one light at the eye."),
-            "As in the paper, a textured triangle for each splat, no screen-space filter, every point drawn (tau = 0)."
-                .to_owned(),
-        ],
-        ..Sheet::default()
-    })
+    let notes = [
+        &format!("Model: {what}; not the paper's. Shaded with one light at the eye."),
+        "As in the paper, a textured triangle for each splat, no screen-space filter, every point drawn (tau = 0).",
+    ];
+    Ok(Sheet::new("Blending kernels on a model (Pajarola et al. 2003, figure 19)", 2, panels, &notes))
 }

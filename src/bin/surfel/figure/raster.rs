@@ -21,14 +21,14 @@ pub struct Raster {
     pub pixels: Vec<[u8; 3]>,
 }
 
-/// How text looks. The fonts hold the characters of ISO 8859-1; others show as question marks.
+/// The look of text. The fonts hold the characters of ISO 8859-1; others show as question marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextStyle {
     /// A title.
     Title,
     /// A heading or a panel's name.
     Heading,
-    /// All else.
+    /// Captions and notes.
     Plain,
 }
 
@@ -41,7 +41,7 @@ impl TextStyle {
         }
     }
 
-    /// From a line to the next.
+    /// The distance from a line to the next.
     pub fn line_px(self) -> u32 {
         self.font().character_size.height + 4
     }
@@ -73,9 +73,6 @@ impl TextStyle {
 
 impl Raster {
     /// A white one.
-    ///
-    /// # Errors
-    /// A size that memory can't hold.
     pub fn white(size_px: [u32; 2]) -> Result<Self> {
         let count = usize::try_from(u64::from(size_px[0]) * u64::from(size_px[1])).unwrap_or(usize::MAX);
         let mut pixels = Vec::new();

@@ -8,14 +8,13 @@ use super::raster::{Raster, TextStyle};
 pub struct Panel {
     /// Which of the compared things it is.
     pub name: String,
-    /// What else is to be said of it, a line or more.
+    /// A remark, a line or more.
     pub caption: String,
     /// The picture; all panels of a sheet have the same size.
     pub picture: Raster,
 }
 
 /// A figure.
-#[derive(Default)]
 pub struct Sheet {
     /// Over all.
     pub title: String,
@@ -40,11 +39,21 @@ const ROW_GAP_PX: u32 = 10;
 /// Text needs some width, however small the panels are.
 const NARROWEST_PX: u32 = 480;
 
+impl Panel {
+    /// A panel of this picture.
+    pub fn new(name: impl Into<String>, caption: impl Into<String>, picture: Raster) -> Self {
+        Self { name: name.into(), caption: caption.into(), picture }
+    }
+}
+
 impl Sheet {
+    /// A figure without headings.
+    pub fn new(title: &str, columns: usize, panels: Vec<Panel>, notes: &[&str]) -> Self {
+        let notes = notes.iter().map(|note| (*note).to_owned()).collect();
+        Self { title: title.to_owned(), columns, panels, notes, headings: Vec::new() }
+    }
+
     /// The sheet as one picture.
-    ///
-    /// # Errors
-    /// A size that memory can't hold.
     pub fn draw(&self) -> Result<Raster> {
         // Once to find the height, once to draw.
         let inner_px = self.inner_width_px();
@@ -98,7 +107,7 @@ impl Sheet {
     }
 }
 
-/// What is drawn on; without a picture only places are found.
+/// The picture that is drawn on; without one only places are found.
 struct Ink {
     raster: Option<Raster>,
 }

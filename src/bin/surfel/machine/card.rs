@@ -1,4 +1,4 @@
-//! Whether others are at work on a graphics card: how busy it is while we leave it idle. Where neither amdgpu's files nor
+//! Work of others on a graphics card: how busy it is while we leave it idle. Where neither amdgpu's files nor
 //! `nvidia-smi` tell, that is unknown, and said so.
 
 use std::{fs, path::Path, thread, time::Duration};
@@ -10,14 +10,14 @@ use surfel::{
 
 use super::{nvidia, pci};
 
-/// Where Linux lists graphics cards.
+/// The folder in which Linux lists graphics cards.
 const DRM: &str = "/sys/class/drm";
 
 /// Drivers tell the mean over up to a second: till then our own work, or the opening of the device, may be in it.
 const READINGS: usize = 8;
 const PAUSE: Duration = Duration::from_millis(250);
 
-/// What is seen before our first frame; `None` where the processor draws.
+/// The use before our first frame; `None` where the processor draws.
 pub fn before(facts: &DeviceFacts) -> Option<CardUse> {
     (facts.kind != DeviceKind::Cpu).then(|| CardUse {
         busy_before: quietest(|| busy(facts)),
@@ -28,7 +28,7 @@ pub fn before(facts: &DeviceFacts) -> Option<CardUse> {
     })
 }
 
-/// The same with what is seen after our last frame.
+/// `before`, with the use after our last frame.
 pub fn after(facts: &DeviceFacts, before: &CardUse) -> CardUse {
     // Where nothing was known before, nothing is now: a tool that hangs need not be waited for again.
     let busy_after = before.busy_before.and_then(|_| quietest(|| busy(facts)));

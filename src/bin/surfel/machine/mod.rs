@@ -1,4 +1,4 @@
-//! What the machine does while something is measured, as far as the system tells: Linux's `/proc` and `/sys`, and
+//! The state of the machine while something is measured, as far as the system tells: Linux's `/proc` and `/sys`, and
 //! `nvidia-smi` where it is installed. Elsewhere nothing is known, and said so.
 
 mod card;
@@ -37,7 +37,7 @@ impl<'a> Watch<'a> {
         Self { facts, times: Times::now(), card }
     }
 
-    /// What was seen till now. `clocks_mhz` were taken while the device worked: idle ones are slow, and tell nothing.
+    /// The state seen till now. `clocks_mhz` were taken while the device worked: idle ones are slow, and tell nothing.
     pub fn end(&self, clocks_mhz: &[f64]) -> Machine {
         // A graphics card may be shared whatever the processor does, and is not by what the processor does.
         let is_processor = self.facts.kind == DeviceKind::Cpu;
@@ -59,7 +59,7 @@ impl<'a> Watch<'a> {
 }
 
 impl Times {
-    /// Of `/proc/stat` and `/proc/self/stat`: both count in the same ticks (proc(5)).
+    /// The ticks of `/proc/stat` and `/proc/self/stat`: both count in the same ticks (proc(5)).
     fn now() -> Option<Self> {
         let system = fs::read_to_string("/proc/stat").ok()?;
         let own = fs::read_to_string("/proc/self/stat").ok()?;
@@ -104,7 +104,7 @@ fn processor_mhz(cpuinfo: &str) -> Option<f64> {
     (!mhz.is_empty()).then(|| mhz.iter().sum::<f64>() / mhz.len() as f64)
 }
 
-/// Of the card with this device's PCI numbers: amdgpu's list of levels, or i915's file.
+/// The clock of the card with this device's PCI numbers: amdgpu's list of levels, or i915's file.
 fn card_mhz(facts: &DeviceFacts) -> Option<f64> {
     let [vendor, device, _] = facts.ids;
     let number = |path: &Path| {

@@ -1,4 +1,4 @@
-//! What `nvidia-smi` tells, where it is installed. It is given little time: a driver in trouble makes it hang.
+//! Facts from `nvidia-smi`, where it is installed. It is given little time: a driver in trouble makes it hang.
 
 use std::{
     io::Read as _,
@@ -41,7 +41,7 @@ fn rows(text: &str) -> impl Iterator<Item = (Address, &str)> {
     })
 }
 
-/// What a program prints; `None` where it can't be run, fails, or takes longer than `time_out`, which ends it.
+/// The output of a program; `None` where it can't be run, fails, or takes longer than `time_out`, which ends it.
 fn answer(program: &str, arguments: &[&str], time_out: Duration) -> Option<String> {
     let mut child = Command::new(program)
         .args(arguments)

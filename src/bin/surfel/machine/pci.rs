@@ -8,7 +8,7 @@ use std::{
 /// Domain, bus, device, function.
 pub type Address = [u32; 4];
 
-/// Of `0000:65:00.0`, in hexadecimal.
+/// The address that `0000:65:00.0` stands for, in hexadecimal.
 pub fn address(text: &str) -> Option<Address> {
     let (rest, function) = text.trim().rsplit_once('.')?;
     let mut parts = rest.split(':').chain([function]).map(|part| u32::from_str_radix(part, 16));

@@ -61,10 +61,10 @@ pub struct ReportArguments {
     pub device: DeviceArguments,
 }
 
-/// How much larger the model is shown than its errors are found.
+/// The size at which the model is shown, over that at which its errors are found.
 const PICTURE_SCALE: u32 = 3;
 
-/// How much larger frames are timed than their errors are found, in the short form.
+/// The size at which frames are timed in the short form, over that at which their errors are found.
 const QUICK_TIME_SCALE: u32 = 2;
 
 impl ReportArguments {

@@ -18,7 +18,7 @@ use crate::{
     json::to_value,
 };
 
-/// What `surfel bench NAME` measures, and what follows from it; `finding` is `None` where the device tells no times.
+/// The part and the report of `surfel bench NAME`; `finding` is `None` where the device tells no times.
 fn of_bench(
     session: &mut Session<'_>,
     name: &str,
@@ -95,7 +95,7 @@ pub fn tables(session: &mut Session<'_>) -> Result<Part> {
     Ok(part)
 }
 
-/// What transparent layers cost: the paper's figure 6 beside this device. The paper's claim: half of the layers are drawn more
+/// The cost of transparent layers: the paper's figure 6 beside this device. The paper's claim: half of the layers are drawn more
 /// than twice as fast, and with the rest blended faster still.
 pub fn layers(session: &mut Session<'_>) -> Result<Part> {
     let (part, _) = of_bench(session, "layers", |report| {
@@ -116,7 +116,7 @@ pub fn layers(session: &mut Session<'_>) -> Result<Part> {
     Ok(part)
 }
 
-/// What it costs that splats and polygons of one surface meet smoothly. The paper's claim: nothing.
+/// The cost of a smooth transition between splats and polygons of one surface. The paper's claim: nothing.
 ///
 /// # Errors
 /// Whatever goes wrong; a model that is no mesh.

@@ -14,7 +14,7 @@ use surfel::{Error, Result};
 pub struct CommandLine(Vec<OsString>);
 
 impl CommandLine {
-    /// Of these words.
+    /// A line of these words.
     pub fn new(words: impl IntoIterator<Item = impl Into<OsString>>) -> Self {
         Self(words.into_iter().map(Into::into).collect())
     }

@@ -18,26 +18,23 @@ use crate::{
     scene::Loaded,
 };
 
-/// What was compared.
+/// The compared methods.
 pub struct Comparison {
-    /// What to type for the same.
+    /// The command line that gives the same.
     pub line: CommandLine,
     /// The figures.
     pub report: CompareReport,
     /// The machine meanwhile.
     pub machine: Machine,
-    /// What makes the times doubtful.
+    /// The reasons to doubt the times.
     pub flags: Vec<String>,
-    /// What all filters aim at.
+    /// The picture that all filters aim at.
     pub truth: Option<Panel>,
-    /// Of methods that differ from the default in filter or rasterizer: the picture, and how far it is from the truth.
+    /// The pictures of methods that differ from the default in filter or rasterizer, and their distances from the truth.
     pub pictures: Vec<[Panel; 2]>,
 }
 
 /// Compares the methods, with an eye on the machine.
-///
-/// # Errors
-/// As [`compare::gather`].
 pub fn gather(
     headless: &mut Headless,
     arguments: &ReportArguments,

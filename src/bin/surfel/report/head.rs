@@ -1,4 +1,4 @@
-//! What the page is about: device, model, settings, versions.
+//! The page's subject: device, model, settings, versions.
 
 use std::{collections::BTreeMap, env};
 
@@ -21,22 +21,22 @@ pub struct Head {
     pub commit: Option<&'static str>,
     /// Operating system and processor.
     pub platform: String,
-    /// What it ran on.
+    /// The device.
     pub device: DeviceReport,
     /// Whether the device is the processor itself.
     pub is_processor: bool,
     /// Where the scene came from.
     pub inputs: Vec<InputReport>,
-    /// What is the same everywhere but where a part says otherwise, by the names of the options.
+    /// The settings, by the names of the options; the same everywhere but where a part says otherwise.
     pub settings: BTreeMap<&'static str, String>,
     /// Whether it is the short form.
     pub quick: bool,
-    /// What was typed.
+    /// The command line.
     pub command: String,
 }
 
 impl Head {
-    /// Of this run.
+    /// The head of this run.
     pub fn of(facts: &DeviceFacts, arguments: &ReportArguments, loaded: &Loaded) -> Self {
         let mut settings = Settings::default().as_options();
         settings.remove("size");
@@ -53,7 +53,7 @@ impl Head {
         }
     }
 
-    /// What it is about, in a line.
+    /// The subject in a line.
     pub fn title(&self) -> String {
         let model = match self.inputs.first() {
             Some(input) if self.inputs.len() == 1 => input.name.clone(),

@@ -1,4 +1,4 @@
-//! What the methods cost, and how wrong they are.
+//! The part on the methods' costs and errors.
 
 use surfel::{
     Result,

@@ -11,7 +11,6 @@ mod comparison;
 mod distance;
 mod figures;
 mod head;
-mod markdown;
 mod methods;
 mod page;
 mod part;
@@ -36,7 +35,6 @@ use crate::{
     json::to_json,
     outputs,
     scene::load_scene,
-    steps::Steps,
 };
 use head::Head;
 use part::Part;
@@ -76,20 +74,18 @@ struct Data<'a> {
 /// # Errors
 /// Whatever goes wrong; a part that does not exist on this device or for this model says so on the page instead.
 pub fn run(arguments: &ReportArguments) -> Result<()> {
-    let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let in_the_way: Vec<_> = outputs::paths(&inputs).collect();
-    outputs::check_places(&[], Some(&arguments.output), &FILES, &in_the_way)?;
+    outputs::check_places([], Some(&arguments.output), &FILES, &arguments.model)?;
     arguments.device.watch(arguments.device.open()?, |headless| make(headless, arguments))
 }
 
-fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
-    check_sizes(&headless, arguments)?;
+fn make(headless: &mut Headless, arguments: &ReportArguments) -> Result<()> {
+    check_sizes(headless, arguments)?;
     let bars = Bars::new();
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, Representation::Splats, &bars, &mut Steps::default())?;
+    let loaded = load_scene(&inputs, Representation::Splats, &bars)?;
     let camera = CameraChoice::none().camera(&loaded, arguments.size_px())?;
     let head = Head::of(headless.device().facts(), arguments, &loaded);
-    let (headless, loaded, camera, bars) = (&mut headless, &loaded, &camera, &bars);
+    let (loaded, camera, bars) = (&loaded, &camera, &bars);
     let mut session = Session { headless, arguments, loaded, camera, bars, comparison: None };
     let mut parts = Vec::new();
     for (number, (id, title, gather)) in CHAPTERS.iter().enumerate() {
@@ -106,10 +102,7 @@ fn make(mut headless: Headless, arguments: &ReportArguments) -> Result<()> {
         };
         parts.push(Part { id, title, ..part });
     }
-    write(arguments, &head, &parts)?;
-    // A lost cache costs the next run some time, that is all.
-    let _ = session.headless.renderer.shaders.save_cache();
-    Ok(())
+    write(arguments, &head, &parts)
 }
 
 /// Refuses sizes that only a later part would find too large.

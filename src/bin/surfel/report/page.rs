@@ -48,7 +48,7 @@ pub fn html(head: &Head, parts: &[Part]) -> String {
     page.into_string()
 }
 
-/// What it is about, what follows, and what to doubt.
+/// The page's subject, its findings, and its doubts.
 fn header(head: &Head, parts: &[Part]) -> Markup {
     let doubtful = parts.iter().any(|part| !part.flags.is_empty());
     html! {

@@ -1,4 +1,4 @@
-//! What a part of the page is before it is HTML.
+//! A part of the page before it is HTML.
 
 use surfel::{
     Error, Result,
@@ -15,13 +15,13 @@ pub struct Part {
     pub id: &'static str,
     /// Its heading.
     pub title: &'static str,
-    /// What follows from it, in a sentence or two: stands in the summary, too.
+    /// Its conclusion in a sentence or two: stands in the summary, too.
     pub finding: String,
-    /// What there is to see, in order.
+    /// Its contents, in order.
     pub blocks: Vec<Block>,
-    /// What to type for the same.
+    /// The command lines that give the same.
     pub commands: Vec<CommandLine>,
-    /// What makes its times doubtful, a sentence each.
+    /// The reasons to doubt its times, a sentence each.
     pub flags: Vec<String>,
     /// The machine while it was timed.
     pub machine: Option<Machine>,
@@ -45,9 +45,9 @@ pub enum Block {
     Plot {
         /// SVG.
         svg: String,
-        /// What those hear who can't see it.
+        /// The text for those who can't see it.
         alt: String,
-        /// What one sees and what follows.
+        /// A sentence on what one sees and what follows.
         caption: String,
     },
     /// Pictures side by side.
@@ -56,18 +56,18 @@ pub enum Block {
         columns: usize,
         /// Row by row.
         panels: Vec<Panel>,
-        /// What one sees and what follows.
+        /// A sentence on what one sees and what follows.
         caption: String,
     },
 }
 
 /// A picture with what it shows.
 pub struct Panel {
-    /// What it is.
+    /// Its name.
     pub name: String,
-    /// What else is to be said; may be empty.
+    /// A remark; may be empty.
     pub caption: String,
-    /// What those hear who can't see it.
+    /// The text for those who can't see it.
     pub alt: String,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -76,10 +76,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Of opaque sRGB bytes. Its alternative text is made of `about` and the name.
-    ///
-    /// # Errors
-    /// As [`save::png_bytes`].
+    /// A panel of opaque sRGB bytes. Its alternative text is made of `about` and the name.
     pub fn new(
         name: impl Into<String>,
         caption: impl Into<String>,

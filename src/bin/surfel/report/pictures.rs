@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use surfel::{
-    Progress as _, Result,
+    Result,
     prepare::PreparedScene,
     renderer::Wanted,
     report::{CameraReport, InputReport},
@@ -13,7 +13,7 @@ use super::{
     part::{Block, Panel, Part},
     session::Session,
 };
-use crate::{json::to_value, render::RenderArguments};
+use crate::{json::to_value, render::RenderArguments, scene::upload};
 
 /// The shadings shown, with what they show.
 const SHADINGS: [(&str, &str); 3] = [
@@ -22,7 +22,7 @@ const SHADINGS: [(&str, &str); 3] = [
     ("albedo", "the model's own colors, blended between splats, without light"),
 ];
 
-/// What the page says of the model.
+/// The model in the page's JSON.
 #[derive(Serialize)]
 struct Data<'a> {
     camera: CameraReport,
@@ -36,9 +36,7 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     part.finding = inputs.iter().map(|input| input.summary.as_str()).collect::<Vec<_>>().join("; ") + ".";
     let mut panels = Vec::new();
     let Session { headless, loaded, bars, .. } = session;
-    let scene = headless.prepare(&loaded.scene, &|done, total| bars.step("upload", done, total));
-    bars.clear();
-    let scene = scene?;
+    let scene = upload(headless, &loaded.scene, bars)?;
     for (shading, about) in SHADINGS {
         let line = session.arguments.render(shading);
         panels.push(picture(session, &scene, &line, [shading, about])?);

@@ -1,4 +1,4 @@
-//! What all parts are gathered with.
+//! The device, scene and options that all parts are gathered with.
 
 use surfel::{Result, renderer::Headless, scene::Camera};
 
@@ -10,15 +10,11 @@ use crate::{console::Bars, scene::Loaded};
 
 /// A device, a scene, and what the command line says.
 pub struct Session<'a> {
-    /// The device.
     pub headless: &'a mut Headless,
-    /// The options.
     pub arguments: &'a ReportArguments,
-    /// The scene.
     pub loaded: &'a Loaded,
     /// From where it is seen.
     pub camera: &'a Camera,
-    /// Progress.
     pub bars: &'a Bars,
     /// The methods side by side; nothing until a part asks for it first.
     pub comparison: Option<Comparison>,
@@ -26,9 +22,6 @@ pub struct Session<'a> {
 
 impl Session<'_> {
     /// All methods on the scene, with their pictures.
-    ///
-    /// # Errors
-    /// As [`comparison::gather`].
     pub fn comparison(&mut self) -> Result<&mut Comparison> {
         let done = match self.comparison.take() {
             Some(done) => done,

@@ -7,10 +7,9 @@ use surfel::selftest::Pattern;
 
 use crate::parse;
 
-/// What `--list` has nothing to do with.
+/// The options that `--list` has nothing to do with.
 const NOT_WITH_LIST: [&str; 7] = ["junit", "json", "known", "no_known", "retries", "device", "no_validate"];
 
-/// What it does.
 const HELP: &str = "\
 Draw every hard scene with every method and compare it with the oracle in 64 bits, under validation: for those who change \
 a driver, a validation layer, or surfel. Files are not needed, the scenes are built in; each is hard in one known way.
@@ -39,7 +38,6 @@ flake or skip, a case or a pattern, and why:
 Of several that match a case the last counts, and --known counts above what comes along. An entry that matches no case is \
 an error.";
 
-/// How it is used.
 const EXAMPLES: &str = "Examples:
   surfel selftest --quick                                  less than a minute on a processor
   surfel selftest --junit selftest.xml --json selftest.json

@@ -27,7 +27,7 @@ pub fn text(report: &SelftestReport) -> Result<String> {
     xml.to_string().map_err(|error| Error::file("JUnit XML", "write", io::Error::other(error)))
 }
 
-/// What it ran on, and how.
+/// The device and the form of the run.
 fn properties(report: &SelftestReport) -> Vec<(&'static str, String)> {
     let [vendor, device, driver] = report.ids;
     let validation = report.validation.as_ref().map_or("off", |validation| &validation.layer);
@@ -47,7 +47,7 @@ fn properties(report: &SelftestReport) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// What is known keeps a run green: known fails count as skipped, as flakes do that never passed.
+/// The element of a case. Known fails keep a run green: they count as skipped, as flakes do that never passed.
 fn case(result: &CaseResult) -> TestCase {
     let reason = result.reason.as_deref().unwrap_or_default();
     let problems = result.problems.join("\n");

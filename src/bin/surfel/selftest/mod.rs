@@ -3,7 +3,7 @@
 mod arguments;
 mod junit;
 
-use std::{collections::BTreeMap, fs, path::Path, time::Instant};
+use std::{collections::BTreeMap, fs, time::Instant};
 
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
@@ -20,9 +20,9 @@ pub use arguments::SelftestArguments;
 
 use crate::{
     console::{self, Bars},
-    json::to_json,
+    json::write_json,
     outputs,
-    reports::device_report,
+    reports::{device_report, layer_version, version},
 };
 
 /// Runs the subcommand.
@@ -37,7 +37,8 @@ pub fn run(arguments: &SelftestArguments) -> Result<()> {
         return console::print(&names.join("\n"));
     }
     let lists = lists(arguments)?;
-    check_outputs(arguments)?;
+    let files = [&arguments.junit, &arguments.json].into_iter().flatten();
+    outputs::check_places(files, None, &[], &arguments.known)?;
     let loader = loader_facts()?;
     let validation = validation(arguments, &loader)?;
     let start = Instant::now();
@@ -82,9 +83,7 @@ pub fn run(arguments: &SelftestArguments) -> Result<()> {
         cases: outcome.results,
     };
     console::print(&format!("{report}{}", skips(&report)))?;
-    if let Some(path) = &arguments.json {
-        save::text(path, &to_json(&report)?)?;
-    }
+    write_json(arguments.json.as_deref(), &report)?;
     if let Some(path) = &arguments.junit {
         save::text(path, &junit::text(&report)?)?;
     }
@@ -109,7 +108,7 @@ fn selected<'a>(suite: &'a Suite, arguments: &SelftestArguments) -> Result<Vec<&
     Ok(form.into_iter().filter(asked_for).collect())
 }
 
-/// What is known of drivers, of all of them: that which comes along first.
+/// The lists of known results, of all drivers: those that come along first.
 fn lists(arguments: &SelftestArguments) -> Result<Vec<KnownList>> {
     let mut lists = if arguments.no_known { Vec::new() } else { Known::built_in()? };
     for path in &arguments.known {
@@ -121,18 +120,11 @@ fn lists(arguments: &SelftestArguments) -> Result<Vec<KnownList>> {
     Ok(lists)
 }
 
-fn check_outputs(arguments: &SelftestArguments) -> Result<()> {
-    let files: Vec<&Path> =
-        [&arguments.junit, &arguments.json].into_iter().flatten().map(|path| path.as_path()).collect();
-    let inputs: Vec<&Path> = outputs::paths(&arguments.known).collect();
-    outputs::check_places(&files, None, &[], &inputs)
-}
-
 /// The validation layer's version; `None` where it is not to watch.
 fn validation(arguments: &SelftestArguments, loader: &LoaderFacts) -> Result<Option<String>> {
-    match (arguments.no_validate, loader.validation_layer) {
+    match (arguments.no_validate, layer_version(loader)) {
         (true, _) => Ok(None),
-        (false, Some((spec, own))) => Ok(Some(format!("{} (version {own})", version(spec)))),
+        (false, Some(version)) => Ok(Some(version)),
         (false, None) => {
             let reason = "VK_LAYER_KHRONOS_validation is not installed; --no-validate goes without";
             Err(ErrorKind::NoDevice { reasons: vec![reason.to_owned()] }.into())
@@ -140,7 +132,7 @@ fn validation(arguments: &SelftestArguments, loader: &LoaderFacts) -> Result<Opt
     }
 }
 
-/// Why cases were not run: once a reason.
+/// The reasons why cases were not run, each once.
 fn skips(report: &SelftestReport) -> String {
     let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
     for case in report.cases.iter().filter(|case| case.status == Status::Skip) {
@@ -148,8 +140,4 @@ fn skips(report: &SelftestReport) -> String {
     }
     let line = |(reason, cases): (&str, usize)| format!("skipped, {cases} case(s): {reason}\n");
     reasons.into_iter().map(line).collect()
-}
-
-fn version([major, minor, patch]: [u32; 3]) -> String {
-    format!("{major}.{minor}.{patch}")
 }

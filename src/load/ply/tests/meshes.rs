@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::{Value::*, *};
-use crate::{math::srgb::linear_from_srgb, scene::MeshColors};
+use crate::{math::srgb::linear_from_srgb, scene::Colors};
 
 fn vertices(count: usize) -> Vec<Vec<Value>> {
     (0..count).map(|i| vec![Float(i as f32), Float(0.5), Float(0.0)]).collect()
@@ -83,7 +83,7 @@ fn faces_before_vertices_other_elements_normals_and_colors() {
         let mesh = mesh(&file);
         assert_eq!(mesh.triangles, [[2, 1, 0]]);
         assert_eq!(mesh.normals.unwrap()[1], Vec3::new(0.0, 1.0, 1.0));
-        let MeshColors::PerVertex(colors) = mesh.colors else { panic!("colors") };
+        let Colors::Each(colors) = mesh.colors else { panic!("colors") };
         assert_eq!(colors, [[1.0, 0.0, linear_from_srgb(128.0 / 255.0), 1.0]; 3]);
     }
 }

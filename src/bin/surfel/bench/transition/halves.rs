@@ -8,6 +8,7 @@ use surfel::{
     load::{
         Samples,
         builtin::{self, DEFAULT_SPHERE_TRIANGLES},
+        file_name,
     },
     report::InputReport,
     scene::{Mesh, MeshObject, Object, Scene},
@@ -18,7 +19,7 @@ use crate::console::Bars;
 
 /// The scenes.
 pub struct Halves {
-    /// What the model is called.
+    /// The model's name.
     pub model: String,
     /// Triangles to the right, splats to the left.
     pub hybrid: Scene,
@@ -26,11 +27,11 @@ pub struct Halves {
     pub splats: Scene,
     /// Triangles alone.
     pub polygons: Scene,
-    /// What the hybrid's splats are, and the whole's.
+    /// The hybrid's splats and the whole's.
     pub inputs: Vec<InputReport>,
 }
 
-/// The same places each time.
+/// The seed of the splats' places: the same each time.
 const SEED: u64 = 0;
 
 /// Makes the scenes. `splats`: of the whole.
@@ -45,10 +46,7 @@ pub fn make(source: &Source, splats: u64, bars: &Bars) -> Result<Halves> {
     };
     let built_in;
     let (mesh, model) = match source {
-        Source::Mesh(mesh, path) => {
-            let name = path.file_name().unwrap_or(path.as_os_str());
-            (mesh, name.to_string_lossy().into_owned())
-        }
+        Source::Mesh(mesh, path) => (mesh, file_name(path)),
         Source::BuiltIn => {
             built_in = builtin::sphere_mesh(DEFAULT_SPHERE_TRIANGLES);
             (&built_in, "built-in sphere".to_owned())
