@@ -45,4 +45,4 @@ pub fn by_name(name: &str) -> Option<&'static Shader> {
     ALL.binary_search_by(|shader| shader.name.cmp(name)).ok().map(|found| ALL[found])
 }
 
-include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+include!(concat!(env!("OUT_DIR"), "/shaders/shaders.rs"));
