@@ -1,5 +1,6 @@
-//! Makes the shaders that `src/shaders/mod.rs` takes in: `$OUT_DIR/shaders.rs` and a file of SPIR-V for each. They are compiled from
-//! `glsl/`, or, with the feature `prebuilt-spirv`, taken from `spirv/`, which packages ship, so that neither shaderc nor C++ is needed.
+//! Makes the shaders that `src/shaders/mod.rs` takes in: `$OUT_DIR/shaders/`, with `shaders.rs` and a file of SPIR-V for each. They
+//! are compiled from `glsl/`, or, with the feature `prebuilt-spirv`, taken from `spirv/`, which packages ship, so that neither shaderc
+//! nor C++ is needed.
 
 #[cfg(all(feature = "compile-shaders", not(feature = "prebuilt-spirv")))]
 #[path = "src/shaders/build/mod.rs"]
@@ -11,18 +12,25 @@ use std::{
     process::Command,
 };
 
-/// Where compiled shaders are written, too, if this variable names a folder: `spirv` makes what packages ship.
-const WRITE_TO: &str = "SURFEL_WRITE_SPIRV";
-
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-env-changed={WRITE_TO}");
     tell_the_commit();
-    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default()).join("shaders");
     // Cargo shows each such line as an error and then stops the build.
-    if let Err(errors) = make_shaders(&out) {
+    if let Err(errors) = empty(&out).and_then(|()| make_shaders(&out)) {
         errors.iter().flat_map(|error| error.lines()).for_each(|line| println!("cargo::error={line}"));
     }
+}
+
+/// Makes an empty folder, without the files of shaders that are no more.
+fn empty(folder: &Path) -> Result<(), Vec<String>> {
+    let made = || -> io::Result<()> {
+        if folder.exists() {
+            fs::remove_dir_all(folder)?;
+        }
+        fs::create_dir_all(folder)
+    };
+    made().map_err(|e| vec![format!("cannot make {}: {e}", folder.display())])
 }
 
 /// Takes the shaders that came with the package.
@@ -40,9 +48,8 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
         }
         Ok(())
     };
-    let advice =
-        "only packages have this folder; in a checkout, SURFEL_WRITE_SPIRV=spirv cargo build makes it";
-    copy().map_err(|e| vec![format!("cannot copy {} (prebuilt-spirv): {e}; {advice}", shipped.display())])
+    let which = "only packages that third_party/prebuilt made have it";
+    copy().map_err(|e| vec![format!("cannot copy {} (prebuilt-spirv): {e}; {which}", shipped.display())])
 }
 
 /// Compiles `glsl/`.
@@ -64,17 +71,14 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
     watched.iter().for_each(|path| println!("cargo::rerun-if-changed={}", path.display()));
     let macros = if cfg!(feature = "test-formulas") { &["TEST_FORMULAS"][..] } else { &[] };
     let built = shader_build::build(glsl, HOST_STRUCTS, macros)?;
-    let folders = [Some(out.to_owned()), env::var_os(WRITE_TO).map(PathBuf::from)];
-    for folder in folders.into_iter().flatten() {
-        let failed = |e: io::Error| one(format!("cannot write to {}: {e}", folder.display()));
-        fs::create_dir_all(&folder).map_err(failed)?;
+    let write = || -> io::Result<()> {
         for (name, words) in &built.modules {
             let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-            fs::write(folder.join(format!("{name}.spv")), bytes).map_err(failed)?;
+            fs::write(out.join(format!("{name}.spv")), bytes)?;
         }
-        fs::write(folder.join("shaders.rs"), &built.rust).map_err(failed)?;
-    }
-    Ok(())
+        fs::write(out.join("shaders.rs"), &built.rust)
+    };
+    write().map_err(|e| one(format!("cannot write to {}: {e}", out.display())))
 }
 
 #[cfg(not(any(feature = "compile-shaders", feature = "prebuilt-spirv")))]

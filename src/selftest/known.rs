@@ -20,7 +20,10 @@ use super::pattern::{Pattern, is_like};
 use crate::error::{Error, Result};
 
 /// The lists that come with the program, each with its name.
-pub const BUILT_IN: &[(&str, &str)] = &[("lavapipe.txt", include_str!("known_lists/lavapipe.txt"))];
+pub const BUILT_IN: &[(&str, &str)] = &[
+    ("lavapipe.txt", include_str!("known_lists/lavapipe.txt")),
+    ("swiftshader.txt", include_str!("known_lists/swiftshader.txt")),
+];
 
 /// The result that is expected of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -40,4 +40,4 @@ impl std::hash::Hash for Shader {
     }
 }
 
-include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+include!(concat!(env!("OUT_DIR"), "/shaders/shaders.rs"));

@@ -121,7 +121,7 @@ impl Job<'_> {
     ) -> Result<(Vec<u32>, Vec<StructLayout>), String> {
         let of_file = |problem: String| format!("{}: error: {problem}", self.path.display());
         let mut spirv = compiler.spirv(self.path, &self.words, Optimize::Performance)?;
-        unroll::ask_the_driver(&mut spirv).map_err(of_file)?;
+        unroll::ask_the_driver(&mut spirv, &self.words).map_err(of_file)?;
         // Both splat passes must place a splat alike, to the last bit. Fragments say `precise` where they need it.
         if !self.file.ends_with(".frag") {
             spirv = exact::exact(&spirv).map_err(of_file)?;
