@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ash::vk;
 
-use super::list_occupancy::{self, ListsInUse};
+use super::list_occupancy::{self, ListOccupancy};
 use crate::renderer::{Headless, Readbacks, declare, headless::submit_and_wait};
 use crate::{
     error::Result,
@@ -21,12 +21,12 @@ impl Headless {
     ///
     /// # Errors
     /// As [`crate::renderer::Renderer::record`].
-    pub fn lists_in_use(
+    pub fn list_occupancy(
         &self,
         scene: &PreparedScene,
         camera: &Camera,
         settings: &Settings,
-    ) -> Result<ListsInUse> {
+    ) -> Result<ListOccupancy> {
         let (device, renderer) = (self.device(), &self.renderer);
         let frame = renderer.frame_plan(scene, camera, settings)?;
         let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
@@ -41,7 +41,7 @@ impl Headless {
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut buffers = Vec::new();
-        for name in list_occupancy::told_by(inputs, &frame) {
+        for name in list_occupancy::counter_buffers(inputs, &frame) {
             let Some((content, GraphBufferDesc { size_bytes: size, .. })) = graph.content_of(&name) else {
                 continue;
             };
@@ -76,7 +76,7 @@ impl Headless {
         };
         let told: BTreeMap<_, _> =
             buffers.iter().map(|(name, buffer)| (name.clone(), words(buffer))).collect();
-        let mut in_use = ListsInUse::of(inputs, &frame, &told);
+        let mut in_use = ListOccupancy::of(inputs, &frame, &told);
         // Lists of large splats, or of those that something hides.
         for name in names.into_iter().filter(|name| name.contains("list of ")) {
             in_use.bytes.entry(name).or_insert(0);

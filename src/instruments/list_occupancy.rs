@@ -6,7 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     plan::{
         FramePlan,
-        tiles::{RECORD_BYTES, SPAN_CHUNK, TilePlan},
+        tiles::{RECORD_BYTES, RECT_CHUNK, TilePlan},
     },
     tiles::lists::RECORD_QUARTERS,
 };
@@ -14,17 +14,17 @@ use crate::shaders::config::*;
 
 /// What the lists of one frame held.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ListsInUse {
+pub struct ListOccupancy {
     /// Bytes of buffers that have room for more than is in use, or of which a pass may read less than there is, by their names in the
     /// plan: as many as each pass that accesses them reads or writes at least. 0 where that is not known.
     pub bytes: BTreeMap<String, u64>,
     /// The lists of tiles: one of each part and band that is drawn so.
-    pub tiles: Vec<TilesInUse>,
+    pub tiles: Vec<TileOccupancy>,
 }
 
 /// What one list of tiles held.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TilesInUse {
+pub struct TileOccupancy {
     /// What is in front of `tiles` in the names of its buffers and passes.
     pub kind: String,
     /// Splats that were set up and touch a tile.
@@ -34,7 +34,7 @@ pub struct TilesInUse {
     /// Tiles that have some.
     pub tiles: u64,
     /// Of these, tiles that have more than one dispatch takes.
-    pub overfull: u64,
+    pub overflow: u64,
     /// Pixels of tiles that have some within the image, at least.
     pub pixels: u64,
     /// Splats at pixels: every splat of a tile is looked for at each pixel of it.
@@ -45,7 +45,7 @@ pub struct TilesInUse {
 struct Names {
     /// How many splats are visible before each word of bits, then in all.
     visible_starts: String,
-    spans: String,
+    rects: String,
     starts: String,
     arguments: String,
 }
@@ -55,7 +55,7 @@ impl Names {
         let of_tiles = |what| format!("{what} of {kind}tiles");
         Self {
             visible_starts: format!("starts of visible {kind}splats"),
-            spans: of_tiles("spans"),
+            rects: of_tiles("rects"),
             starts: of_tiles("starts"),
             arguments: of_tiles("arguments"),
         }
@@ -83,15 +83,15 @@ fn lists<'a>(
 }
 
 /// The buffers that tell it, of those that a frame has.
-pub fn told_by<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>) -> Vec<String> {
+pub fn counter_buffers<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>) -> Vec<String> {
     let names = |(kind, ..): (String, Inputs<'_>, Option<&TilePlan>)| {
-        let Names { visible_starts, spans, starts, arguments } = Names::of(&kind);
-        [visible_starts, spans, starts, arguments]
+        let Names { visible_starts, rects, starts, arguments } = Names::of(&kind);
+        [visible_starts, rects, starts, arguments]
     };
     lists(inputs, plan).flat_map(names).collect()
 }
 
-impl ListsInUse {
+impl ListOccupancy {
     /// What the words of these buffers tell.
     pub fn of<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>, told: &BTreeMap<String, Vec<u32>>) -> Self {
         let mut all = Self::default();
@@ -106,7 +106,7 @@ impl ListsInUse {
             }
             if let Some(plan) = plan {
                 let set_up = visible.unwrap_or(plan.record_count.into());
-                let told = [&names.spans, &names.starts, &names.arguments].map(words);
+                let told = [&names.rects, &names.starts, &names.arguments].map(words);
                 all.add_tiles(kind, (plan, inputs.settings.size_px), set_up, told);
             }
         }
@@ -119,22 +119,22 @@ impl ListsInUse {
         kind: String,
         (plan, size_px): (&TilePlan, [u32; 2]),
         set_up: u64,
-        [spans, starts, arguments]: [&[u32]; 3],
+        [rects, starts, arguments]: [&[u32]; 3],
     ) {
         let word = |words: &[u32], place: u64| words.get(place as usize).copied().unwrap_or(0).into();
         let (tile_count, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
-        let records = spans.iter().take(set_up as usize).filter(|span| **span < SPAN_CHUNK).count() as u64;
+        let records = rects.iter().take(set_up as usize).filter(|rect| **rect < RECT_CHUNK).count() as u64;
         // Behind those of tiles are those of chunks, which other passes read.
         let entries = word(starts, tile_count);
-        let [tiles, overfull] = [bins + 1, bins + 2].map(|place| word(starts, place));
+        let [tiles, overflow] = [bins + 1, bins + 2].map(|place| word(starts, place));
         let runs: u64 = word(arguments, u64::from(ARGUMENTS_QUADS) + 1);
         let lists = [
-            ("spans", 4 * set_up),
+            ("rects", 4 * set_up),
             ("entries", 4 * entries),
             ("starts", 4 * tiles),
             ("seen", 4 * tiles),
             ("runs", 8 * runs),
-            ("overfull", 4 * overfull),
+            ("overflow", 4 * overflow),
         ];
         let in_use =
             RECORD_QUARTERS.map(|quarter| (quarter, RECORD_BYTES * records)).into_iter().chain(lists);
@@ -147,6 +147,6 @@ impl ListsInUse {
         let beyond = tile_count * tile_pixels - u64::from(size_px[0]) * u64::from(rows_px);
         let splat_pixels = entries * tile_pixels;
         let pixels = (tiles * tile_pixels).saturating_sub(beyond);
-        self.tiles.push(TilesInUse { kind, records, entries, tiles, overfull, pixels, splat_pixels });
+        self.tiles.push(TileOccupancy { kind, records, entries, tiles, overflow, pixels, splat_pixels });
     }
 }

@@ -18,5 +18,5 @@ pub use floor::Floor;
 #[cfg(feature = "counts")]
 pub use instructions::{Counter, counts_of};
 pub use limits::{LimitProbes, Probe};
-pub use list_occupancy::{ListsInUse, TilesInUse};
+pub use list_occupancy::{ListOccupancy, TileOccupancy};
 pub use paper::draw_as_published;

@@ -142,8 +142,8 @@ fn shaded_by_tiles<'a>(
     lights: Option<&Handle<Buffer>>,
     precision: Accumulate,
 ) -> Result<Opaque<'a>> {
-    let image = graph.create_image("shown by tiles", inputs.image(sum_format(precision)));
-    let mut shown = tiles::Shown { image, precision };
+    let image = graph.create_image("shaded tiles", inputs.image(sum_format(precision)));
+    let mut shown = tiles::ShadedTiles { image, precision };
     let mut opaque = Opaque::default();
     let mut start = TileStart::Empty;
     if !inputs.meshes.is_empty() {

@@ -76,7 +76,7 @@ fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
     let floored = rows.iter().filter(|row| !row["floor_ms"].is_null());
     let floored: Vec<_> = floored.map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(floored, ["finalize", "frame"]);
-    // Every splat of a tile is looked for at each of its pixels. Of some 55 500 splats that may be seen, each has a span of 4 bytes; those
+    // Every splat of a tile is looked for at each of its pixels. Of some 55 500 splats that may be seen, each has a rect of 4 bytes; those
     // that cover some pixel, a record of 64, made from 32, and an entry of 4 in each of two tiles or less. A tile of 32 pixels has 8
     // bytes of each, and 4 for its number and its start.
     let work = |pass: &str, what: &str| bound(pass)["work"][what].as_u64().unwrap();
@@ -89,7 +89,7 @@ fn passes_by_tiles_are_set_beside_the_devices_limits_too() {
     };
     close("count tiles", 4 * strict, 4 * 60_000);
     close("fill tiles", 4 * (strict + entries), 4 * (60_000 + entries) + 4 * 300);
-    close("set up splats", 90 * strict, 110 * strict);
+    close("project splats", 90 * strict, 110 * strict);
     close(
         "see, sum and shade tiles",
         60 * strict + 4 * entries,
@@ -117,10 +117,10 @@ fn passes_that_do_an_unknown_part_of_lists_have_no_bound() {
             let found = bounds.iter().find(|row| row["name"].as_str().unwrap().contains(what));
             found.unwrap_or_else(|| panic!("{size}: {what}")).clone()
         };
-        let (all, overfull) = (of("see, sum and shade"), of("overfull"));
+        let (all, overflow) = (of("see, sum and shade"), of("overflow"));
         assert_eq!(all["work"]["kernels"].is_u64(), is_known, "{all}");
         assert_eq!(all["binds"].is_string(), is_known, "{all}");
-        assert_eq!(overfull["binds"], Value::Null, "{overfull}");
+        assert_eq!(overflow["binds"], Value::Null, "{overflow}");
     }
 }
 

@@ -171,9 +171,9 @@ fn bands_with_and_without_overfull_tiles_are_one_image() {
     (hard.settings.accumulate, hard.settings.cull) = (Accumulate::F16, Cull::Hidden);
     for wanted in [ALL, PICTURE] {
         let [whole, cut] = [u64::MAX, 0].map(|most| draw(&mut headless, &hard, most, wanted));
-        let overfull = passes(&cut).iter().filter(|name| name.contains("overfull")).count();
-        println!("{} bands, {overfull} passes of overfull tiles", bands(&cut));
-        assert!(bands(&cut) > 1 && overfull >= bands(&cut), "{:?}", passes(&cut));
+        let overflow = passes(&cut).iter().filter(|name| name.contains("overflow")).count();
+        println!("{} bands, {overflow} passes of overflow tiles", bands(&cut));
+        assert!(bands(&cut) > 1 && overflow >= bands(&cut), "{:?}", passes(&cut));
         // A hundred thousand additions in another order.
         assert_same_within(1e-3, &cut, &whole, hard.name);
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use surfel::{
     graph::execute::{FrameProfile, Profile},
     hard_scenes::{Hard, sphere},
-    instruments::{ListsInUse, TilesInUse},
+    instruments::{ListOccupancy, TileOccupancy},
     renderer::{Headless, Wanted},
     scene::{Colors, Cull, Filter, Object, Rasterizer, Scene, Settings, TileInvocations, TileMemory},
 };
@@ -19,9 +19,9 @@ fn by_tiles(size_px: [u32; 2]) -> Settings {
     Settings { size_px, rasterizer: Rasterizer::Compute, ..Settings::default() }
 }
 
-fn in_use(headless: &mut Headless, hard: &Hard) -> ListsInUse {
+fn in_use(headless: &mut Headless, hard: &Hard) -> ListOccupancy {
     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-    headless.lists_in_use(&prepared, &hard.camera, &hard.settings).unwrap()
+    headless.list_occupancy(&prepared, &hard.camera, &hard.settings).unwrap()
 }
 
 fn counted(headless: &mut Headless, hard: &Hard) -> FrameProfile {
@@ -56,14 +56,14 @@ fn lists_of_a_few_splats_hold_what_they_must() {
         ellipse([100.0, 0.0], [5.0, 5.0]);
         hard.scene.objects = vec![builder.object(false)];
         hard.settings = Settings { filter: Filter::None, tile_invocations, ..hard.settings };
-        let ListsInUse { bytes, tiles } = in_use(&mut headless, &hard);
+        let ListOccupancy { bytes, tiles } = in_use(&mut headless, &hard);
         let tiles_of_ellipse = 4 * 4 - 4;
-        let expected = TilesInUse {
+        let expected = TileOccupancy {
             kind: String::new(),
             records: 3,
             entries: 2 * tiles_of_ellipse + 1,
             tiles: tiles_of_ellipse + 1,
-            overfull: 0,
+            overflow: 0,
             pixels: (tiles_of_ellipse + 1) * tile_px,
             splat_pixels: (2 * tiles_of_ellipse + 1) * tile_px,
         };
@@ -73,9 +73,9 @@ fn lists_of_a_few_splats_hold_what_they_must() {
         assert!((8 * 5..=8 * 13).contains(&of("runs of tiles")), "{}", of("runs of tiles"));
         assert_eq!(of("seen of tiles"), 4 * 13);
         assert_eq!((of("entries of tiles"), of("first quarter of records of tiles")), (4 * 25, 16 * 3));
-        assert!((4 * 4..=4 * 5).contains(&of("spans of tiles")), "{}", of("spans of tiles"));
-        assert_eq!(bytes.get("list of visible splats"), Some(&of("spans of tiles")));
-        assert_eq!(of("overfull of tiles"), 0);
+        assert!((4 * 4..=4 * 5).contains(&of("rects of tiles")), "{}", of("rects of tiles"));
+        assert_eq!(bytes.get("list of visible splats"), Some(&of("rects of tiles")));
+        assert_eq!(of("overflow of tiles"), 0);
     }
 }
 
@@ -89,7 +89,7 @@ fn lists_of_overfull_tiles_of_chunks_and_of_all_splats_are_told() {
     let settings = Settings { tile_invocations: TileInvocations::Column, ..by_tiles([24, 24]) };
     let one_tile = hard(vec![ball], [0.0, 0.0, 900.0], settings);
     let told = in_use(&mut headless, &one_tile).tiles.remove(0);
-    assert_eq!((told.tiles, told.overfull, told.entries), (1, 1, told.records));
+    assert_eq!((told.tiles, told.overflow, told.entries), (1, 1, told.records));
     assert!(told.records > 200_000, "{}", told.records);
 
     let mut ball = hard(vec![sphere(10_000, DVec3::ZERO)], [0.0, 0.0, 3.2], by_tiles([131, 203]));
@@ -104,8 +104,8 @@ fn lists_of_overfull_tiles_of_chunks_and_of_all_splats_are_told() {
     ball.settings.cull = Cull::Setup;
     let of_all = in_use(&mut headless, &ball);
     assert_eq!(of_all.tiles, whole.tiles);
-    assert_eq!(of_all.bytes["spans of tiles"], 4 * 10_000);
-    assert!(whole.bytes["spans of tiles"] < 4 * 6_000, "{}", whole.bytes["spans of tiles"]);
+    assert_eq!(of_all.bytes["rects of tiles"], 4 * 10_000);
+    assert!(whole.bytes["rects of tiles"] < 4 * 6_000, "{}", whole.bytes["rects of tiles"]);
 }
 
 /// A tile's list has the same splats however the image is cut; those at the borders of bands are set up for both.
@@ -129,7 +129,7 @@ fn lists_of_bands_hold_together_what_one_of_all_does() {
         for (number, band) in (1..).zip(&bands) {
             assert_eq!(band.kind, format!("{part}band-{number} "));
         }
-        let sum = |of: fn(&TilesInUse) -> u64| bands.iter().map(of).sum::<u64>();
+        let sum = |of: fn(&TileOccupancy) -> u64| bands.iter().map(of).sum::<u64>();
         assert_eq!([sum(|t| t.entries), sum(|t| t.tiles)], [whole.entries, whole.tiles]);
         assert_eq!(sum(|t| t.splat_pixels), whole.splat_pixels);
         assert!(sum(|t| t.records) > whole.records, "{} {}", sum(|t| t.records), whole.records);
@@ -192,17 +192,17 @@ fn the_device_counts_no_less_than_lists_are_told_to_hold() {
     let covered = counts_of(&profile, "finalize").counts.unwrap().fragments;
     println!("{tiles:?}; {covered} fragments");
     assert!(tiles.pixels <= covered && tiles.pixels > covered / 2, "{} {covered}", tiles.pixels);
-    let set_up = counts_of(&profile, "set up splats").invocations.unwrap();
+    let set_up = counts_of(&profile, "project splats").invocations.unwrap();
     assert!(tiles.records <= set_up && tiles.records > set_up / 2, "{} {set_up}", tiles.records);
 
     // As points, of a list.
     hard.settings = Settings { rasterizer: Rasterizer::Perspective, cull: Cull::List, ..hard.settings };
-    let ListsInUse { bytes, tiles } = in_use(&mut headless, &hard);
+    let ListOccupancy { bytes, tiles } = in_use(&mut headless, &hard);
     let profile = counted(&mut headless, &hard);
     let vertices = counts_of(&profile, "visibility").counts.unwrap().vertices;
     assert_eq!((bytes["list of visible splats"], tiles.len()), (4 * vertices, 0));
 
     // Without lists nothing is told.
     hard.settings.cull = Cull::Setup;
-    assert_eq!(in_use(&mut headless, &hard), ListsInUse::default());
+    assert_eq!(in_use(&mut headless, &hard), ListOccupancy::default());
 }

@@ -173,14 +173,16 @@ fn record(device: &Device, (renderer, prepared): &(Renderer, PreparedScene)) -> 
     commands.end().map(drop)
 }
 
-/// Of what is done with a thing, these calls fail one after the other: each is named, and what was made before is gone.
+/// Of what is done with a thing, these calls fail one after the other: each is named, and what was made before is gone. Memory that was
+/// taken before is there again, so that the last few calls may not come: how many failed.
 fn assert_fail<T>(
     host: &Host,
     device: &Device,
     calls: impl IntoIterator<Item = usize>,
     thing: &dyn Fn() -> T,
     done: &dyn Fn(&T) -> Result<(), Error>,
-) {
+) -> usize {
+    let mut failed = 0;
     let finish = || {
         // SAFETY: nothing was ever submitted.
         unsafe { device.epoch_done(device.end_epoch()) };
@@ -191,13 +193,18 @@ fn assert_fail<T>(
         let before = finish();
         faults::fail_after(succeed as u32);
         let result = done(&thing);
-        let function = faults::stop().expect("so many calls");
+        let Some(function) = faults::stop() else {
+            result.unwrap();
+            break;
+        };
+        failed += 1;
         let error = result.expect_err(function);
         assert_eq!(error.exit_code(), 2, "{function}: {error}");
         assert!(!error.to_string().contains("''"), "{function}: no object is named: {error}");
         assert_eq!(finish(), before, "{succeed}: {function}");
         assert_eq!(host.said(), [] as [String; 0], "{succeed}: {function}");
     }
+    failed
 }
 
 #[test]
@@ -216,9 +223,11 @@ fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
     {
         assert!(all.contains(&function), "{all:?}");
     }
-    assert_fail(&host, &device, 0..of_set_up.len(), &|| (), &|()| set_up(&device).map(drop));
+    let failed = assert_fail(&host, &device, 0..of_set_up.len(), &|| (), &|()| set_up(&device).map(drop));
+    assert!(failed + 3 >= of_set_up.len() && failed > 30, "{failed} of {of_set_up:?}");
     // A renderer that has its pipelines.
-    assert_fail(&host, &device, 0..of_next.len(), &|| (), &|()| record(&device, &own));
+    let failed = assert_fail(&host, &device, 0..of_next.len(), &|| (), &|()| record(&device, &own));
+    assert!(failed + 3 >= of_next.len() && failed > 20, "{failed} of {of_next:?}");
     // One that has none: the first and the last of each function that makes them, and every twentieth.
     let is_tried = |i: &usize| {
         let (function, is) = (of_first[*i], |call: &&str| *call == of_first[*i]);
@@ -233,7 +242,9 @@ fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
         of_first.len()
     );
     assert!(tried.len() >= 4, "{tried:?} of {of_first:?}");
-    assert_fail(&host, &device, tried, &|| set_up(&device).unwrap(), &|own| record(&device, own));
+    let failed =
+        assert_fail(&host, &device, tried.clone(), &|| set_up(&device).unwrap(), &|own| record(&device, own));
+    assert_eq!(failed, tried.len());
     drop((own, device));
     assert_eq!(host.destroy(), [] as [String; 0]);
 }

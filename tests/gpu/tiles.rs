@@ -73,7 +73,7 @@ fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
     let seen = points.weight.iter().filter(|weight| **weight > 0.0).count();
     assert!((4..=64).contains(&seen), "{seen}");
     let tiles = by_tiles(&mut headless, &hard, ALL);
-    assert!(passes(&tiles).contains(&"sum overfull tiles"));
+    assert!(passes(&tiles).contains(&"sum overflow tiles"));
     let short = by_tiles(&mut headless, &by(&hard, TileInvocations::ShortColumn), ALL);
     assert_same_bits(&tiles, &short, "tiles half as high");
     // Half a million weights are added in another order: 2^-24 of the sum each, at random.
@@ -116,7 +116,7 @@ fn an_invocation_a_pixel_draws_the_same_bits_in_every_pass() {
     let mut headless = shared();
     let eye = |x, z| scenes::builder::camera([x, 0.0, z], [0.0; 3]);
     let balls = |x| vec![sphere(8000, DVec3::ZERO), sphere(8000, DVec3::new(x, 0.0, 0.0))];
-    let overfull = hard(vec![sphere(560_000, DVec3::ZERO)], eye(0.0, 900.0), [16, 16]);
+    let overflow = hard(vec![sphere(560_000, DVec3::ZERO)], eye(0.0, 900.0), [16, 16]);
     let hidden = with(&hard(balls(-2.5), eye(6.0, 0.0), [64, 48]), |s| s.cull = Cull::Hidden);
     let bands = |s: &mut Settings| s.tile_memory = TileMemory::Most(0);
     let bands = with(&hard(vec![sphere(24_000, DVec3::ZERO)], eye(0.0, 3.2), [64, 96]), bands);
@@ -131,7 +131,7 @@ fn an_invocation_a_pixel_draws_the_same_bits_in_every_pass() {
         ball.splats.colors = Colors::Uniform([0.9, 0.1, 0.1, 0.4]);
     }
     let all =
-        [("overfull", overfull), ("hidden", hidden), ("bands", bands), ("lit", lit), ("layers", layers)];
+        [("overflow", overflow), ("hidden", hidden), ("bands", bands), ("lit", lit), ("layers", layers)];
     for (name, hard) in all {
         for wanted in [ALL, PICTURE] {
             let [columns, pixels] = [TileInvocations::Column, TileInvocations::Pixel]
@@ -263,7 +263,7 @@ fn overfull_tiles_are_shaded_as_by_their_sums() {
         hard.scene.lights = color.map(|color| Light { kind: LightKind::Eye, color }).into_iter().collect();
         assert!(is_shaded_as_by_sums(&mut headless, &hard), "{invocations:?}");
         let frame = by_tiles(&mut headless, &hard, PICTURE);
-        assert!(passes(&frame).contains(&"shade overfull tiles"), "{invocations:?}");
+        assert!(passes(&frame).contains(&"shade overflow tiles"), "{invocations:?}");
         assert_eq!(different(&frame, &by_points(&mut headless, &hard, PICTURE)), 0, "{invocations:?}");
         assert!(frame.linear.iter().filter(|color| **color != frame.linear[0]).count() >= 3);
     }

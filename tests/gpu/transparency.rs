@@ -102,10 +102,8 @@ fn a_ball_of_fine_splats_lets_as_much_light_through_as_one_of_polygons_from_near
         objects: vec![transparent::tinted(scenes::sphere(20_000, DVec3::ZERO), color)],
         ..Scene::default()
     };
-    let polygons = Scene {
-        meshes: vec![builder::ball_of_polygons(DVec3::ZERO, 1.0, 60, color)],
-        ..Scene::default()
-    };
+    let polygons =
+        Scene { meshes: vec![builder::ball_of_polygons(DVec3::ZERO, 1.0, 60, color)], ..Scene::default() };
     // The last layer's alpha of several surfaces must not make more of two.
     for (layers, last_layer) in [(24, LastLayer::Drop), (3, LastLayer::Stack)] {
         // Below a pixel a splat, the filter makes the ball larger by a part of a pixel, and its silhouette thicker.

@@ -114,7 +114,7 @@ pub struct TileConstants {
     pub round_first: u32,
     /// Records of one walk.
     pub round_length: u32,
-    /// Of an overfull tile; of layers.
+    /// Of an overflow tile; of layers.
     pub part: u32,
     /// An image-plane unit in pixels.
     pub focal_px: f32,

@@ -77,7 +77,7 @@ impl PipelineRecipe {
     }
 
     /// Whether it projects splats or draws them, and so depends on rasterizer and filter.
-    pub fn sets_splats_up(&self) -> bool {
+    pub fn projects_splats(&self) -> bool {
         self.has(SPEC_RASTERIZER)
     }
 

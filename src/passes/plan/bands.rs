@@ -6,7 +6,9 @@
 
 use std::ops::Range;
 
-use crate::passes::plan::{block_list::ListedBlocks, draws::Draw, seen::SeenSplats, tiles::TilePlan};
+use crate::passes::plan::{
+    block_list::ListedBlocks, draws::Draw, seen::PotentiallyVisibleBlocks, tiles::TilePlan,
+};
 use crate::{
     prepare::Chunk,
     scene::{Settings, TileMemory},
@@ -34,7 +36,7 @@ pub struct Band<'a> {
 
 impl<'a> Band<'a> {
     /// A band of splats that are listed first: of the blocks that may touch its rows.
-    pub fn new(splats: &[Draw<'a>], seen: &SeenSplats, plan: TilePlan) -> Self {
+    pub fn new(splats: &[Draw<'a>], seen: &PotentiallyVisibleBlocks, plan: TilePlan) -> Self {
         let mut splats = splats.to_vec();
         let visible = Some(ListedBlocks::of(&mut splats, &seen.chunks, plan.rows.clone()));
         Self { splats, visible, plan }
@@ -58,7 +60,7 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
 /// splats in so few rows, or in no order.
 pub(crate) fn cut_into_bands(
     draws: &[Draw<'_>],
-    seen: &SeenSplats,
+    seen: &PotentiallyVisibleBlocks,
     whole: &TilePlan,
     settings: &Settings,
     limits: &Limits,
@@ -74,7 +76,7 @@ pub(crate) fn cut_into_bands(
 /// What is cut into bands.
 struct Cut<'c, 'a> {
     draws: &'c [Draw<'a>],
-    seen: &'c SeenSplats,
+    seen: &'c PotentiallyVisibleBlocks,
     culls_hidden: bool,
     settings: &'c Settings,
     limits: &'c Limits,

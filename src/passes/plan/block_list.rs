@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::passes::plan::{draws::Draw, seen::SeenBlock};
+use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleBlock};
 use crate::shaders::config::{ALL_VISIBLE, BLOCK_SPLATS};
 
 /// Words in front of the blocks: the rows.
@@ -15,7 +15,7 @@ pub struct ListedBlocks(Vec<u32>);
 impl ListedBlocks {
     /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk its number, and that of its first splat
     /// among those that are looked at.
-    pub fn of(draws: &mut [Draw<'_>], seen: &[Vec<SeenBlock>], rows: Range<u32>) -> Self {
+    pub fn of(draws: &mut [Draw<'_>], seen: &[Vec<PotentiallyVisibleBlock>], rows: Range<u32>) -> Self {
         let mut words = vec![rows.start, rows.end];
         for (number, (draw, blocks)) in (0..).zip(draws.iter_mut().zip(seen)) {
             let before = words.len();

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::passes::plan::seen::SeenBlock;
+use crate::passes::plan::seen::PotentiallyVisibleBlock;
 use crate::{
     math::size::{SizeBound, box_within_px},
     prepare::{Block, Chunk, ViewFromLocal},
@@ -13,7 +13,7 @@ use crate::{
 
 /// How blocks are looked at.
 #[derive(Clone, Copy)]
-pub struct Look<'a> {
+pub struct BlockCullView<'a> {
     /// The motion to view space.
     pub view: &'a ViewFromLocal,
     /// What bounds the images of the chunk's splats.
@@ -38,11 +38,15 @@ const FILTER_RESERVE_PX: f64 = 6.0;
 /// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
 /// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
 /// `glsl/cull_mark.comp.glsl`, of a ball in place of a splat.
-pub fn seen_blocks(chunk: &Chunk, look: &Look<'_>) -> Vec<SeenBlock> {
-    (0..).zip(&chunk.blocks).filter_map(|(number, block)| seen_block(number, block, look)).collect()
+pub fn potentially_visible_blocks(chunk: &Chunk, look: &BlockCullView<'_>) -> Vec<PotentiallyVisibleBlock> {
+    (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)).collect()
 }
 
-fn seen_block(number: u32, block: &Block, look: &Look<'_>) -> Option<SeenBlock> {
+fn potentially_visible(
+    number: u32,
+    block: &Block,
+    look: &BlockCullView<'_>,
+) -> Option<PotentiallyVisibleBlock> {
     let ball = Ball::of(block, look);
     let angles = ball.angles(block);
     let right = std::f64::consts::FRAC_PI_2;
@@ -54,7 +58,7 @@ fn seen_block(number: u32, block: &Block, look: &Look<'_>) -> Option<SeenBlock> 
     let largest_radius = block.largest_radius * scale;
     let bound = SizeBound { nearest_z: ball.z - ball.reach, largest_radius, ..*look.bound };
     let of_chunk = box_within_px(look.bound, largest_radius, most_x);
-    Some(SeenBlock {
+    Some(PotentiallyVisibleBlock {
         number,
         count: block.count,
         box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk),
@@ -88,7 +92,7 @@ struct Image {
 }
 
 impl Ball {
-    fn of(block: &Block, look: &Look<'_>) -> Self {
+    fn of(block: &Block, look: &BlockCullView<'_>) -> Self {
         let scale = look.view.view_from_local_scale;
         let middle = block.center * scale + look.view.origin_from_eye;
         let of_origin = look.view.origin_from_eye.length() + block.center.length() * scale;
@@ -103,7 +107,7 @@ impl Ball {
     }
 
     /// `None` where nothing of it may be seen.
-    fn image(&self, look: &Look<'_>) -> Option<Image> {
+    fn image(&self, look: &BlockCullView<'_>) -> Option<Image> {
         let [width, height] = look.bound.size_px;
         let all = 0..(height as u32).div_ceil(BAND_ROW);
         if self.z + self.reach < look.bound.near {

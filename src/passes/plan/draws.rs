@@ -9,8 +9,8 @@ use crate::passes::{
         variant::{Constants, culls, splat_constants},
     },
     plan::{
-        blocks::{Look, seen_blocks},
-        seen::SeenBlock,
+        blocks::{BlockCullView, potentially_visible_blocks},
+        seen::PotentiallyVisibleBlock,
     },
 };
 use crate::{
@@ -32,7 +32,7 @@ pub struct Draw<'a> {
     pub largest_box_px: f64,
     /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as above.
     pub boxes: Vec<(u32, f64)>,
-    /// From where, for [`Self::seen_blocks`].
+    /// From where, for [`Self::potentially_visible_blocks`].
     view: ViewFromLocal,
     bound: SizeBound,
     bounded: bool,
@@ -47,9 +47,12 @@ pub struct Draw<'a> {
 
 impl Draw<'_> {
     /// The blocks in which there may be something to see.
-    pub(crate) fn seen_blocks(&self) -> Vec<SeenBlock> {
+    pub(crate) fn potentially_visible_blocks(&self) -> Vec<PotentiallyVisibleBlock> {
         let Self { view, bound, bounded, .. } = self;
-        seen_blocks(self.chunk, &Look { view, bound, culls: culls(&self.variant), bounded: *bounded })
+        potentially_visible_blocks(
+            self.chunk,
+            &BlockCullView { view, bound, culls: culls(&self.variant), bounded: *bounded },
+        )
     }
 }
 

@@ -9,7 +9,7 @@ use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS,
     plan::{
         SplatMethod, bands::Band, block_list::ListedBlocks, culling, draws::Draw, invocations::Invocations,
-        seen::SeenSplats, tiles::TilePlan,
+        seen::PotentiallyVisibleBlocks, tiles::TilePlan,
     },
 };
 use crate::{
@@ -57,7 +57,10 @@ pub(crate) fn primitives<'a>(
         return SplatMethod::default();
     }
     let rows = rows_of_image(settings);
-    let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
+    let seen = PotentiallyVisibleBlocks::new(
+        splats.iter().map(Draw::potentially_visible_blocks).collect(),
+        rows.end,
+    );
     SplatMethod::Primitives {
         visible: Some(ListedBlocks::of(splats, &seen.chunks, rows)),
         culls_hidden: culling::primitives_cull_hidden(polygons, settings),
@@ -84,7 +87,10 @@ fn bands<'a>(
         return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
     }
     let rows = rows_of_image(settings);
-    let seen = SeenSplats::new(splats.iter().map(Draw::seen_blocks).collect(), rows.end);
+    let seen = PotentiallyVisibleBlocks::new(
+        splats.iter().map(Draw::potentially_visible_blocks).collect(),
+        rows.end,
+    );
     let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
     if left_to_others(&whole) {
         return None;

@@ -139,7 +139,7 @@ impl<'a> SurfacePlan<'a> {
     /// which are shaded before, blend with them as colors, beside tiles that one dispatch takes.
     pub(crate) fn tiles_can_shade(&self, settings: &Settings) -> bool {
         let polygons = !self.meshes.is_empty();
-        let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_be_overfull();
+        let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_overflow();
         let as_colors = !polygons || settings.transition != Transition::Attributes;
         as_colors && !self.bands().iter().any(|band| by_sums(&band.plan))
     }

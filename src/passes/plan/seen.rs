@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, ops::Range};
 
 /// A block some of whose splats may be seen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenBlock {
+pub struct PotentiallyVisibleBlock {
     /// Its number in its chunk.
     pub number: u32,
     /// Its splats.
@@ -17,7 +17,7 @@ pub struct SeenBlock {
     pub all_seen: bool,
 }
 
-impl SeenBlock {
+impl PotentiallyVisibleBlock {
     /// Whether none of its splats is left out where splats are looked for in these rows.
     pub fn is_within(&self, rows: &Range<u32>) -> bool {
         self.all_seen && rows.start <= self.rows.start && self.rows.end <= rows.end
@@ -30,9 +30,9 @@ impl SeenBlock {
 }
 
 /// The blocks of all chunks that may be seen, and how many of their splats may touch which rows.
-pub struct SeenSplats {
+pub struct PotentiallyVisibleBlocks {
     /// Chunk by chunk.
-    pub chunks: Vec<Vec<SeenBlock>>,
+    pub chunks: Vec<Vec<PotentiallyVisibleBlock>>,
     classes: Vec<SizeClass>,
 }
 
@@ -47,9 +47,9 @@ struct SizeClass {
 /// Boxes are told apart by so many pixels.
 const SIZE_STEP_PX: f64 = 0.25;
 
-impl SeenSplats {
+impl PotentiallyVisibleBlocks {
     /// Those of some blocks, in an image with so many rows of tiles.
-    pub fn new(chunks: Vec<Vec<SeenBlock>>, rows: u32) -> Self {
+    pub fn new(chunks: Vec<Vec<PotentiallyVisibleBlock>>, rows: u32) -> Self {
         let mut classes: BTreeMap<u64, SizeClass> = BTreeMap::new();
         for block in chunks.iter().flatten() {
             let box_px = (block.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;

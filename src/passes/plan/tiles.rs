@@ -8,7 +8,7 @@ use crate::passes::plan::invocations::Invocations;
 use crate::passes::plan::tiles::rows::tile_rows;
 use crate::{math::size::pixels_along, shaders::config::*, vk::Limits};
 
-/// Bits of a tile's column or row in a span, as in `glsl/tile/rect.glsl`; what is left of 16 is for how many tiles a splat touches
+/// Bits of a tile's column or row in a tile rect, as in `glsl/tile/rect.glsl`; what is left of 16 is for how many tiles a splat touches
 /// along a side. The first that has room for the image is taken.
 const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
 
@@ -36,8 +36,8 @@ const ENTRIES_A_PIXEL: u64 = 4;
 const MOST_ROUNDS: u32 = 16;
 const MOST_OF_MANY: u64 = 64;
 
-/// Where spans begin that stand for no tiles, as in `glsl/tile/rect.glsl`.
-pub(crate) const SPAN_CHUNK: u32 = u32::MAX - MOST_CHUNKS;
+/// Where rects begin that stand for no tiles, as in `glsl/tile/rect.glsl`.
+pub(crate) const RECT_CHUNK: u32 = u32::MAX - MOST_CHUNKS;
 
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(crate) const RECORD_BYTES: u64 = 16;
@@ -72,7 +72,7 @@ pub struct TilePlan {
     pub segment_length: u32,
     /// Records that are walked over in one dispatch.
     pub round_length: u32,
-    /// Bits of a column or row of tiles in a span.
+    /// Bits of a column or row of tiles in a tile rect.
     pub place_bits: u32,
     /// Tiles that a splat of a record touches at most.
     pub most_tiles: u32,
@@ -87,7 +87,7 @@ pub struct TilePlan {
     /// Some splats may be too large for a record or not regular, and are left to the graphics pipeline.
     pub may_be_large: bool,
     /// In some band of the image a tile may have more entries than one dispatch takes, so that sums need 32 bits in all.
-    pub overfull_somewhere: bool,
+    pub overflows_somewhere: bool,
     /// What a tile's visible depth hides is not summed.
     pub hidden: bool,
     /// What they draw, and how they come by splats.
@@ -98,10 +98,10 @@ impl TilePlan {
     /// Bytes of records and lists, and of the lists of splats that may be seen which they are made from.
     pub fn bytes(&self) -> u64 {
         let records = self.record_room;
-        // Four quarters and a span; an index, a bit, and a 32nd of a count.
+        // Four quarters and a rect; an index, a bit, and a 32nd of a count.
         let of_records = records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4;
         let counts = u64::from(self.segments) * u64::from(self.bin_count()) * 4;
-        // Starts, tiles with splats, runs, the overfull.
+        // Starts, tiles with splats, runs, overflow tiles.
         of_records + self.entry_room * 4 + counts + u64::from(self.bin_count()) * 20
     }
 
@@ -175,7 +175,7 @@ impl TilePlan {
             part_length: walk_length,
             layers_at_once: 1,
             may_be_large: !fits,
-            overfull_somewhere: false,
+            overflows_somewhere: false,
             hidden: false,
             invocations,
         })
@@ -207,8 +207,8 @@ impl TilePlan {
     }
 
     /// Whether a tile may have more splats than one dispatch takes.
-    pub fn may_be_overfull(&self) -> bool {
-        self.overfull_somewhere || self.record_count > self.part_length
+    pub fn may_overflow(&self) -> bool {
+        self.overflows_somewhere || self.record_count > self.part_length
     }
 
     /// Parts of a tile that has all splats.
@@ -216,13 +216,13 @@ impl TilePlan {
         self.record_count.div_ceil(self.walk_length)
     }
 
-    /// The same; none where a tile can't be overfull.
-    pub fn parts_of_overfull(&self) -> u32 {
-        if self.may_be_overfull() { self.parts() } else { 0 }
+    /// The same; none where no tile can overflow.
+    pub fn parts_of_overflow(&self) -> u32 {
+        if self.may_overflow() { self.parts() } else { 0 }
     }
 
-    /// Tiles that may be overfull at once.
-    pub fn most_overfull(&self) -> u64 {
+    /// Tiles that may overflow at once.
+    pub fn most_overflow(&self) -> u64 {
         (self.entry_room / u64::from(self.part_length)).clamp(1, self.tile_count.into())
     }
 }

@@ -64,7 +64,7 @@ pub(crate) fn list<'a>(
     let rects = [BIND_RECTS, BIND_RECT_TEXELS];
     let pass = Pass::new(graph, inputs.source, &name("count"), WHY);
     let pass = tiles
-        .read_as_texels(pass, rects, &tiles.spans)
+        .read_as_texels(pass, rects, &tiles.rects)
         .read_if(at(BIND_VISIBLE_STARTS), visible_starts, read)
         .write(at(BIND_COUNTS), &mut tiles.counts, update, Start::Load);
     let count = walk_key(&shaders::TILE_COUNT_COMP, plan, visible.is_some());
@@ -82,7 +82,7 @@ pub(crate) fn list<'a>(
         .write(at(BIND_NON_EMPTY_TILES), &mut tiles.seen, write, Start::Discard)
         .write(at(BIND_RUNS), &mut tiles.runs, write, Start::Discard)
         .write(at(BIND_ARGUMENTS), &mut tiles.arguments, write, Start::Discard)
-        .write(at(BIND_OVERFLOW_TILES), &mut tiles.overfull, write, Start::Discard);
+        .write(at(BIND_OVERFLOW_TILES), &mut tiles.overflow, write, Start::Discard);
     let start = key(&shaders::TILE_START_COMP, vec![(SPEC_PART_LENGTH, plan.part_length)]);
     finish(pass, inputs, (plan, start), |pass| pass.groups(pass.constants, 1))?;
 
@@ -90,7 +90,7 @@ pub(crate) fn list<'a>(
     let numbers = visible.as_ref().filter(|_| plan.may_be_large).map(|list| &list.list);
     let pass = Pass::new(graph, inputs.source, &name("fill"), WHY);
     let pass = tiles
-        .read_as_texels(pass, rects, &tiles.spans)
+        .read_as_texels(pass, rects, &tiles.rects)
         .read_if(at(BIND_VISIBLE_STARTS), visible_starts, read)
         .read_if(at(BIND_VISIBLE_LIST), numbers, read)
         .read(at(BIND_STARTS), &tiles.starts, read)

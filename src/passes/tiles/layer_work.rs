@@ -51,7 +51,7 @@ pub(crate) enum Work {
 }
 
 impl Work {
-    /// How all tiles but the overfull are worked on.
+    /// How all but overflow tiles are worked on.
     pub fn of_whole_tiles(settings: &Settings, plan: &TilePlan) -> Self {
         if shares(settings, plan).len() > 1 { Self::Several } else { Self::Whole }
     }

@@ -15,7 +15,7 @@ use crate::passes::{
         dispatch,
         layer_work::{Work, dispatches},
         lists::Tiles,
-        overfull, splat,
+        overflow, splat,
     },
 };
 use crate::{
@@ -25,7 +25,7 @@ use crate::{
     shaders::{self, config::*},
 };
 
-/// Bytes of what is known of an overfull tile between dispatches.
+/// Bytes of what is known of an overflow tile between dispatches.
 const STATE_BYTES: u64 = (TILE_WIDTH * MOST_TILE_HEIGHT * STATE_VECTORS * 16) as u64;
 
 /// Depth and weight of the layer before, between dispatches.
@@ -80,7 +80,7 @@ pub(crate) fn layers<'a>(
         let tiles = list(graph, inputs, &format!("transparent {band}"), plan)?;
         let work = Work::of_whole_tiles(inputs.settings, plan);
         declare(graph, inputs, (&band, &tiles), around, &mut layers, work)?;
-        if plan.may_be_overfull() {
+        if plan.may_overflow() {
             declare(graph, inputs, (&band, &tiles), around, &mut layers, Work::Parts)?;
         }
     }
@@ -105,13 +105,13 @@ fn declare<'a>(
             let why = "transparent splats: all layers of one tile after the other";
             (format!("layers of {band}tiles"), why, ARGUMENTS_TILES)
         }
-        Work::Parts => (format!("layers of {band}overfull tiles"), overfull::WHY, ARGUMENTS_OVERFLOW),
+        Work::Parts => (format!("layers of {band}overflow tiles"), overflow::WHY, ARGUMENTS_OVERFLOW),
     };
     let mut peeled = (work == Work::Several)
         .then(|| graph.create_image(&format!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT)));
-    let state_bytes = BufferDesc::of_bytes(plan.most_overfull() * STATE_BYTES);
+    let state_bytes = BufferDesc::of_bytes(plan.most_overflow() * STATE_BYTES);
     let mut state = (work == Work::Parts)
-        .then(|| graph.create_buffer(&format!("state of {band}overfull tiles"), state_bytes));
+        .then(|| graph.create_buffer(&format!("state of {band}overflow tiles"), state_bytes));
 
     let update =
         if peeled.is_some() { Access::SampledAndStoredCompute } else { Access::StorageReadWriteCompute };

@@ -26,7 +26,7 @@ pub(crate) struct Tiles<'a> {
     /// Splats ready to be drawn: 16 bytes of each in each.
     pub records: [Handle<Buffer>; 4],
     /// The tiles that each touches.
-    pub spans: Handle<Buffer>,
+    pub rects: Handle<Buffer>,
     /// Of each segment, how many of its records fall into each bin.
     pub counts: Handle<Buffer>,
     /// Where the list of each bin starts.
@@ -40,7 +40,7 @@ pub(crate) struct Tiles<'a> {
     /// Of dispatches and draws.
     pub arguments: Handle<Buffer>,
     /// The tiles with more splats than one dispatch takes.
-    pub overfull: Handle<Buffer>,
+    pub overflow: Handle<Buffer>,
 }
 
 impl<'a> Tiles<'a> {
@@ -55,13 +55,13 @@ impl<'a> Tiles<'a> {
         let records =
             std::array::from_fn(|i| create(RECORD_QUARTERS[i], plan.record_room * RECORD_BYTES, formats[i]));
         let mut words = |what: &str, count| create(what, count * 4, vk::Format::R32_UINT);
-        let (entries, spans) = (words("entries", plan.entry_room), words("spans", plan.record_room));
+        let (entries, rects) = (words("entries", plan.entry_room), words("rects", plan.record_room));
         let mut buffer = |what: &str, size_bytes| create(what, size_bytes, vk::Format::UNDEFINED);
         Self {
             plan,
             records,
             entries,
-            spans,
+            rects,
             counts: buffer("counts", u64::from(plan.segments) * bins * 4),
             starts: buffer("starts", (bins + 3) * 4),
             seen: buffer("seen", tile_count * 4),
@@ -70,7 +70,7 @@ impl<'a> Tiles<'a> {
                 "arguments",
                 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * u64::from(plan.chunk_count),
             ),
-            overfull: buffer("overfull", tile_count * 4),
+            overflow: buffer("overflow", tile_count * 4),
         }
     }
 
@@ -96,7 +96,7 @@ impl<'a> Tiles<'a> {
         }
         pass.read(tiles(BIND_STARTS), &self.starts, Access::StorageReadCompute)
             .read(tiles(BIND_NON_EMPTY_TILES), &self.seen, Access::StorageReadCompute)
-            .read(tiles(BIND_OVERFLOW_TILES), &self.overfull, Access::StorageReadCompute)
+            .read(tiles(BIND_OVERFLOW_TILES), &self.overflow, Access::StorageReadCompute)
             .read(arguments(0), &self.arguments, Access::IndirectRead)
     }
 

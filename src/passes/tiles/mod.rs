@@ -11,7 +11,7 @@ pub(crate) mod large;
 pub(crate) mod layer_work;
 pub(crate) mod layers;
 pub(crate) mod lists;
-pub(crate) mod overfull;
+pub(crate) mod overflow;
 pub(crate) mod project;
 pub(crate) mod runs;
 pub(crate) mod shaded;
@@ -23,6 +23,6 @@ pub(crate) use crate::passes::tiles::{
     large::{see_large, sum_large},
     layers::layers,
     lists::Tiles,
-    shaded::{Shown, shaded},
+    shaded::{ShadedTiles, shaded},
     splat::{TileImages, fused, see, sum},
 };

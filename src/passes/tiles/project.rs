@@ -44,7 +44,7 @@ pub(crate) fn project<'a>(
         false => "opaque splats: each is culled, or made ready to be drawn by tiles",
         true => "transparent splats: each is made ready to be drawn by tiles",
     };
-    let mut pass = Pass::new(graph, inputs.source, &format!("set up {kind}splats"), why);
+    let mut pass = Pass::new(graph, inputs.source, &format!("project {kind}splats"), why);
     if let Some(visible) = visible {
         pass = pass
             .read(at(BIND_VISIBLE_STARTS), &visible.starts, Access::StorageReadCompute)
@@ -53,7 +53,7 @@ pub(crate) fn project<'a>(
             .read(VISIBLE_ARGUMENTS, &visible.arguments, Access::IndirectRead);
     }
     let quarters = (BIND_RECORDS..).zip(&mut tiles.records);
-    for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.spans)]) {
+    for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.rects)]) {
         pass = pass.write(at(binding), buffer, Access::StorageWriteCompute, Start::Discard);
     }
     let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));

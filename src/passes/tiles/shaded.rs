@@ -12,7 +12,7 @@ use crate::passes::{
     tiles::{
         dispatch,
         lists::Tiles,
-        overfull,
+        overflow,
         splat::{self, TileImages, TileStart, beside_polygons},
     },
 };
@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// What tiles show, in place of sums.
-pub(crate) struct Shown {
+pub(crate) struct ShadedTiles {
     pub image: Handle<Image>,
     /// The image's.
     pub precision: Accumulate,
@@ -69,7 +69,7 @@ pub(crate) fn shaded<'a>(
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
-    shown: &mut Shown,
+    shown: &mut ShadedTiles,
     (polygons, lights): (Option<&Handle<Image>>, Option<&Handle<Buffer>>),
     start: TileStart,
 ) -> Result<()> {
@@ -90,30 +90,30 @@ pub(crate) fn shaded<'a>(
     }
     let key = key(inputs.settings, plan, shown.precision, beside);
     dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
-    match plan.may_be_overfull() {
-        true => shade_overfull(graph, inputs, kind, tiles, shown, lights),
+    match plan.may_overflow() {
+        true => shade_overflow(graph, inputs, kind, tiles, shown, lights),
         false => Ok(()),
     }
 }
 
-/// Declares the passes of overfull tiles.
-fn shade_overfull<'a>(
+/// Declares the passes of overflow tiles.
+fn shade_overflow<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
-    shown: &mut Shown,
+    shown: &mut ShadedTiles,
     lights: Option<&Handle<Buffer>>,
 ) -> Result<()> {
     let plan = tiles.plan;
-    let mut images = TileImages::of_overfull(graph, kind, plan);
+    let mut images = TileImages::of_overflow(graph, kind, plan);
     splat::see(graph, inputs, kind, tiles, &mut images, None, false)?;
     splat::sum(graph, inputs, kind, tiles, &mut images, (None, false), false)?;
 
     let mut constants = shading_constants(inputs.settings.shading, inputs.lights);
     constants.extend(splat::constants(inputs.settings, plan, shown.precision));
     let (access, content) = TileStart::Bands.access(); // the other tiles
-    let pass = Pass::new(graph, inputs.source, &format!("shade {kind}overfull tiles"), overfull::WHY);
+    let pass = Pass::new(graph, inputs.source, &format!("shade {kind}overflow tiles"), overflow::WHY);
     let pass = tiles
         .read_lists(pass)
         .read(at(BIND_COLORS_BEFORE), &images.sums.color, Access::SampledCompute)

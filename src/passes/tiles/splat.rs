@@ -18,7 +18,7 @@ use crate::passes::{
         clear::clear,
         dispatch,
         lists::Tiles,
-        overfull::{self, extent_of_slots, in_parts},
+        overflow::{self, extent_of_slots, in_parts},
     },
 };
 use crate::{
@@ -35,7 +35,7 @@ pub(crate) const VISIBLE_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
 pub(crate) struct TileImages {
     pub sums: Sums,
     pub depth: Handle<Image>,
-    /// They hold overfull tiles alone, one beside the other.
+    /// They hold overflow tiles alone, one beside the other.
     in_slots: bool,
 }
 
@@ -62,11 +62,11 @@ impl TileImages {
         images
     }
 
-    /// Images of as many overfull tiles as there may be.
-    pub fn of_overfull<'a>(graph: &mut Graph<Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
-        let extent = extent_of_slots(plan.most_overfull() as u32, plan.tile_px());
+    /// Images of as many overflow tiles as there may be.
+    pub fn of_overflow<'a>(graph: &mut Graph<Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
+        let extent = extent_of_slots(plan.most_overflow() as u32, plan.tile_px());
         let mut image = |what, format| {
-            graph.create_image(&format!("{what} of {kind}overfull tiles"), ImageDesc { format, extent })
+            graph.create_image(&format!("{what} of {kind}overflow tiles"), ImageDesc { format, extent })
         };
         let format = sum_format(Accumulate::F32);
         Self {
@@ -82,10 +82,10 @@ impl TileImages {
     }
 }
 
-/// The precision of the sums in the images. Those of an overfull tile go on from part to part, which half floats, which end at
+/// The precision of the sums in the images. Those of an overflow tile go on from part to part, which half floats, which end at
 /// 65504, would not bear; but what the graphics pipeline adds to is as it was asked for.
 fn accumulate_of(settings: &Settings, plan: &TilePlan) -> Accumulate {
-    match plan.may_be_overfull() && !plan.may_be_large {
+    match plan.may_overflow() && !plan.may_be_large {
         true => Accumulate::F32,
         false => settings.accumulate,
     }
@@ -204,14 +204,14 @@ pub(crate) fn fused<'a>(
         .write(at(BIND_VISIBLE_DEPTH), &mut images.depth, access, content)
         .read_if(at(BIND_DEPTH_BEFORE), before, Access::SampledCompute);
     dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
-    if plan.may_be_overfull() {
+    if plan.may_overflow() {
         see(graph, inputs, kind, tiles, images, before, false)?;
         sum(graph, inputs, kind, tiles, images, (None, with_depth), false)?;
     }
     Ok(())
 }
 
-/// Declares visibility alone: of parts of overfull tiles, or of `all` tiles. `before`: as in [`fused`].
+/// Declares visibility alone: of parts of overflow tiles, or of `all` tiles. `before`: as in [`fused`].
 pub(crate) fn see<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -263,7 +263,7 @@ pub(crate) fn sum<'a>(
     finish(pass, inputs, tiles, images, step, all)
 }
 
-/// A pass over `all` tiles, or over parts of overfull ones.
+/// A pass over `all` tiles, or over parts of overflow tiles.
 fn begin<'g, 'a>(
     graph: &'g mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
@@ -271,7 +271,7 @@ fn begin<'g, 'a>(
     (kind, why): (&str, &'static str),
     all: bool,
 ) -> Pass<'g, 'a> {
-    let (of, why) = if all { ("tiles", why) } else { ("overfull tiles", overfull::WHY) };
+    let (of, why) = if all { ("tiles", why) } else { ("overflow tiles", overflow::WHY) };
     Pass::new(graph, inputs.source, &format!("{what} {kind}{of}"), why)
 }
 
@@ -285,6 +285,6 @@ fn finish<'a>(
 ) -> Result<()> {
     let mut key = key(inputs.settings, tiles.plan, step);
     key.constants.push((SPEC_IN_SLOTS, u32::from(images.in_slots)));
-    let parts = tiles.plan.parts_of_overfull();
+    let parts = tiles.plan.parts_of_overflow();
     dispatch::finish(pass, inputs, (tiles.plan, key), move |pass| in_parts(pass, all, parts))
 }

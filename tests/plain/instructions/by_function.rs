@@ -53,7 +53,7 @@ pub fn table() -> String {
     for filter in [Filter::None, Filter::Adjust] {
         let settings = Settings { filter, ..Settings::default() };
         for recipe in frame_pipelines(&settings, Traits::default()).unwrap() {
-            if recipe.sets_splats_up() {
+            if recipe.projects_splats() {
                 let counts = by_function(&recipe);
                 let whole = Counter::default().pipeline(&recipe).unwrap().vertex.unwrap().arb.unwrap();
                 assert_eq!(counts.values().sum::<u32>(), whole, "{}", recipe.pass);

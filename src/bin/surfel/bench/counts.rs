@@ -201,10 +201,10 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         Kernel::Gaussian { .. } => kernel_eval.to_owned(),
         Kernel::PsiE { .. } => format!("psi_e {kernel_eval}"),
     };
-    if recipe.has(SPEC_KERNEL) && !recipe.sets_splats_up() && settings.kernel == PSI_E {
+    if recipe.has(SPEC_KERNEL) && !recipe.projects_splats() && settings.kernel == PSI_E {
         names.kernel_eval = kernel_eval.clone();
     }
-    if recipe.sets_splats_up() {
+    if recipe.projects_splats() {
         names.rasterizer = settings.rasterizer.name().to_owned();
         let (filter, filter_weight) = (settings.filter, settings.filter_weight);
         names.filter = WeightedFilter { filter, filter_weight }.to_string();
@@ -217,7 +217,7 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
     if recipe.constants().contains(&(SPEC_TEXELS, 0)) {
         names.draws = format!("{} as words", names.draws).trim_start().to_owned();
     }
-    if recipe.draws() == "triangles" && !recipe.sets_splats_up() {
+    if recipe.draws() == "triangles" && !recipe.projects_splats() {
         names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
     // Each pipeline is named where it is found first: another precision finds those alone that depend on it.

@@ -76,7 +76,7 @@ pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Resul
     let frame = headless.render(&prepared, &camera, settings, wanted)?;
     let counted = frame.profile.unwrap_or_default();
     let fragments = [fragments(&counted), fragments(&floor.frame(headless, Profile::Counts)?)];
-    let in_use = headless.lists_in_use(&prepared, &camera, settings)?;
+    let in_use = headless.list_occupancy(&prepared, &camera, settings)?;
     // Others have other points, or none.
     let as_points = matches!(settings.rasterizer, Rasterizer::Perspective | Rasterizer::Auto);
     let drawn_points = as_points.then(|| strict.count());

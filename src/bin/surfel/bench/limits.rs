@@ -7,7 +7,7 @@ use surfel::{
         Access, Executed, Plan, PlannedPass, Use,
         execute::{FrameProfile, PassCounts, PassProfile},
     },
-    instruments::{LimitProbes, ListsInUse, Probe, TilesInUse},
+    instruments::{LimitProbes, ListOccupancy, Probe, TileOccupancy},
     prepare::{Chunk, PreparedScene},
     report::{
         ThroughputProbe,
@@ -21,7 +21,7 @@ pub struct FrameWork<'a> {
     pub scene: &'a PreparedScene,
     /// Splats that are drawn, where they are drawn as points.
     pub drawn_points: Option<u64>,
-    pub in_use: &'a ListsInUse,
+    pub in_use: &'a ListOccupancy,
 }
 
 impl<'a> FrameWork<'a> {
@@ -83,20 +83,20 @@ impl<'a> FrameWork<'a> {
     }
 
     /// The list of tiles that a pass makes or reads, and what it does with it.
-    fn tiles_of(&self, pass: &PlannedPass) -> Option<(&'a TilesInUse, OfTiles)> {
-        let of = |tiles: &'a TilesInUse| {
+    fn tiles_of(&self, pass: &PlannedPass) -> Option<(&'a TileOccupancy, OfTiles)> {
+        let of = |tiles: &'a TileOccupancy| {
             let writes = |what: &str| {
                 let name = format!("{what} of {}tiles", tiles.kind);
                 let own = |usage: &&Use| self.plan.resource(usage.resource).name == name;
                 pass.uses.iter().find(own).map(|usage| usage.start.is_some())
             };
-            let does = match [writes("spans"), writes("starts"), writes("entries")] {
+            let does = match [writes("rects"), writes("starts"), writes("entries")] {
                 [None, None, None] => return None,
                 [Some(true), ..] => OfTiles::SetUp,
                 [Some(false), ..] | [_, Some(true), _] => OfTiles::Lists,
                 // Tiles with too many splats are left to other passes, as are large splats.
                 [None, Some(false), Some(false)]
-                    if tiles.overfull == 0 && pass.name.starts_with("see") && pass.name.contains("sum") =>
+                    if tiles.overflow == 0 && pass.name.starts_with("see") && pass.name.contains("sum") =>
                 {
                     OfTiles::DrawsAll
                 }

@@ -60,8 +60,8 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             size_px: SIZE_PX.map(f64::from),
             filter_px: std::f64::consts::SQRT_2,
         };
-        let look = Look { view: &view, bound: &bound, culls: round % 2 == 0, bounded: true };
-        let seen = seen_block(0, &block, &look);
+        let look = BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0, bounded: true };
+        let seen = potentially_visible(0, &block, &look);
         for disk in &disks {
             let faces_away = disk.normal.dot(disk.center - camera.eye) > 0.0;
             if look.culls && faces_away {

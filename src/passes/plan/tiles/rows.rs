@@ -9,7 +9,7 @@ use crate::{
     passes::plan::{
         draws::Draw,
         invocations::{Invocations, are_small},
-        seen::SeenSplats,
+        seen::PotentiallyVisibleBlocks,
     },
     scene::Settings,
     shaders::config::*,
@@ -37,7 +37,7 @@ impl TilePlan {
     pub fn tightened_to_blocks(
         self,
         draws: &[Draw<'_>],
-        seen: &SeenSplats,
+        seen: &PotentiallyVisibleBlocks,
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
@@ -50,7 +50,7 @@ impl TilePlan {
     /// The plan for the blocks that may touch some rows of tiles; none where there is none, or more than the device has room for.
     pub(crate) fn of_blocks(
         draws: &[Draw<'_>],
-        seen: &SeenSplats,
+        seen: &PotentiallyVisibleBlocks,
         rows: Range<u32>,
         culls_hidden: bool,
         settings: &Settings,
@@ -97,7 +97,7 @@ impl TilePlan {
             segments: largest(|band| band.segments.into()) as u32,
             entry_room: largest(|band| band.entry_room),
             may_be_large: bands.iter().any(|band| band.may_be_large),
-            overfull_somewhere: bands.iter().any(Self::may_be_overfull),
+            overflows_somewhere: bands.iter().any(Self::may_overflow),
             ..self.clone()
         }
     }

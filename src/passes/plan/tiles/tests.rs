@@ -128,10 +128,10 @@ fn rows_of_bands_are_one_row_of_tiles_or_two() {
 fn bands_agree_on_what_they_have_in_common() {
     let bands =
         [(9000, 3.0), (1_000_000, 3.0), (20_000, f64::INFINITY)].map(|of| plan(&[of], [1024, 1024]).unwrap());
-    assert!(!bands[0].may_be_overfull() && bands[1].may_be_overfull() && bands[2].may_be_large);
+    assert!(!bands[0].may_overflow() && bands[1].may_overflow() && bands[2].may_be_large);
     let among = bands.each_ref().map(|band| band.with_common_capacity(&bands));
     for (band, alone) in among.iter().zip(&bands) {
-        assert!(band.may_be_overfull() && band.may_be_large, "{band:?}");
+        assert!(band.may_overflow() && band.may_be_large, "{band:?}");
         assert_eq!([band.record_room, band.entry_room], [among[0].record_room, among[0].entry_room]);
         assert!(band.bytes() >= alone.bytes() && band.record_count == alone.record_count, "{band:?}");
     }

@@ -20,7 +20,7 @@ pub(crate) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -
     }
 }
 
-/// Records the dispatches of a pass: perhaps of whole tiles, then of all parts of overfull ones.
+/// Records the dispatches of a pass: perhaps of whole tiles, then of all parts of overflow ones.
 pub(crate) fn in_parts(pass: &TileDispatch<'_, '_>, whole: bool, parts: u32) -> Result<()> {
     if whole {
         pass.indirect(pass.constants, ARGUMENTS_TILES)?;
