@@ -14,7 +14,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{ComputeKey, GraphicsKey, Layout},
+        key::{ComputeKey, GraphicsKey, Layout},
         variant::Constants,
     },
     place::{Place, lists},

@@ -8,8 +8,8 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{GraphicsKey, Layout},
         constants::PaperConstants,
+        key::{GraphicsKey, Layout},
     },
     place::read,
     plan::draws::Draw,

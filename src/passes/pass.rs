@@ -4,7 +4,8 @@
 use std::cell::RefCell;
 
 use crate::passes::pipeline::{
-    cache::{ComputeKey, GraphicsKey, Shaders},
+    cache::Shaders,
+    key::{ComputeKey, GraphicsKey},
     recipe::{Key, PipelineRecipe},
 };
 use crate::passes::{

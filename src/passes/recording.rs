@@ -3,7 +3,7 @@
 use ash::vk;
 
 use crate::passes::{
-    pipeline::cache::{Layout, Shaders},
+    pipeline::{cache::Shaders, key::Layout},
     place::{At, Place},
 };
 use crate::{

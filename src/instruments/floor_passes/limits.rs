@@ -10,7 +10,7 @@ use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
 use crate::passes::{
     pass::{Pass, Source},
     pipeline::{
-        cache::{ComputeKey, GraphicsKey, Layout},
+        key::{ComputeKey, GraphicsKey, Layout},
         variant::splat_constants,
     },
     place::{Place, lists},

@@ -4,7 +4,7 @@ use crate::passes::{
     cull::visible::{VisibleList, create_bits, dispatch_words, list_marked},
     inputs::Inputs,
     pass::Pass,
-    pipeline::cache::{ComputeKey, Layout},
+    pipeline::key::{ComputeKey, Layout},
     place::{Place, lists},
 };
 use crate::{

@@ -8,7 +8,7 @@ use crate::passes::{
     },
     inputs::Inputs,
     pass::Pass,
-    pipeline::{cache::ComputeKey, constants::FrameConstants},
+    pipeline::{constants::FrameConstants, key::ComputeKey},
     place::{Place, arguments},
     plan::draws::Draw,
 };

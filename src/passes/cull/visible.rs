@@ -8,7 +8,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{ComputeKey, Layout},
+        key::{ComputeKey, Layout},
         variant::Constants,
     },
     place::{At, INDICES, Place, arguments, lists, transfer},

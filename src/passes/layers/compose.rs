@@ -4,7 +4,7 @@ use crate::passes::pipeline::formats::sum_format;
 use crate::passes::{
     layers::layer::Layer,
     pipeline::{
-        cache::{GraphicsKey, Layout},
+        key::{GraphicsKey, Layout},
         variant::resolve_constants,
     },
     place::sums,

@@ -10,14 +10,18 @@ use ash::vk;
 
 use crate::passes::{
     pipeline::tile_layouts::{STORAGE_BUFFERS, TileLayouts},
-    pipeline::{constants, splat_shaders::Stages, variant::Constants},
+    pipeline::{
+        constants,
+        key::{ComputeKey, GraphicsKey, Layout},
+        variant::Constants,
+    },
 };
 use crate::{
     error::{Error, Result},
     prepare::SplatSetLayout,
-    shaders::{self, Shader, config::*},
+    shaders::{Shader, config::*},
     vk::{
-        Binding, Blend, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
+        Binding, ComputePipeline, ComputePipelineDesc, DepthState, Device, GraphicsPipeline,
         GraphicsPipelineDesc, PipelineCache, PipelineLayout, PoolSizes, SetLayout, Stage, StandIns,
     },
 };
@@ -58,42 +62,6 @@ pub struct Shaders {
     /// The formula that is made wrong; for tests of the tests.
     #[cfg(feature = "test-formulas")]
     pub perturbed: Option<crate::passes::pipeline::formula::Formula>,
-}
-
-/// One of the layouts that pipelines share.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Layout {
-    Splat,
-    List,
-    Finalize,
-    DepthCells,
-    Record,
-    Tile,
-    TileQuads,
-}
-
-/// All that a graphics pipeline is made of.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct GraphicsKey {
-    pub vertex: &'static Shader,
-    pub fragment: &'static Shader,
-    pub layout: Layout,
-    pub constants: Constants,
-    pub topology: vk::PrimitiveTopology,
-    /// Polygons that face away are not drawn.
-    pub cull_clockwise: bool,
-    pub color_formats: Vec<vk::Format>,
-    pub blend: Blend,
-    /// The depth test: the comparison and whether it writes.
-    pub depth: Option<(vk::CompareOp, bool)>,
-}
-
-/// All that a compute pipeline is made of.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct ComputeKey {
-    pub shader: &'static Shader,
-    pub layout: Layout,
-    pub constants: Constants,
 }
 
 impl Shaders {
@@ -265,39 +233,6 @@ impl Shaders {
 
     #[cfg(not(feature = "test-formulas"))]
     fn perturb(&self, _constants: &mut Constants) {}
-}
-
-impl GraphicsKey {
-    /// A triangle over the whole target without blending and depth: to be completed.
-    pub fn fullscreen(fragment: &'static Shader, layout: Layout, constants: Constants) -> Self {
-        let stages = (&shaders::FULLSCREEN_VERT, fragment);
-        Self::new(stages, layout, vk::PrimitiveTopology::TRIANGLE_LIST, constants)
-    }
-
-    /// Points, quads or triangles without color, blending and depth: to be completed.
-    pub fn new(
-        (vertex, fragment): Stages,
-        layout: Layout,
-        topology: vk::PrimitiveTopology,
-        constants: Constants,
-    ) -> Self {
-        Self {
-            vertex,
-            fragment,
-            layout,
-            constants,
-            topology,
-            cull_clockwise: false,
-            color_formats: Vec::new(),
-            blend: Blend::Replace,
-            depth: None,
-        }
-    }
-
-    /// The names of its shaders.
-    pub fn name(&self) -> String {
-        format!("{} + {}", self.vertex.name, self.fragment.name)
-    }
 }
 
 impl Shader {

@@ -5,6 +5,7 @@ pub(crate) mod constants;
 pub(crate) mod formats;
 #[cfg(feature = "test-formulas")]
 pub(crate) mod formula;
+pub(crate) mod key;
 pub(crate) mod recipe;
 pub(crate) mod splat_shaders;
 pub(crate) mod tile_layouts;

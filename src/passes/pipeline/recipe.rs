@@ -5,7 +5,8 @@ use std::hash::{Hash, Hasher};
 use ash::vk;
 
 use crate::passes::pipeline::{
-    cache::{ComputeKey, GraphicsKey, Layout, Shaders},
+    cache::Shaders,
+    key::{ComputeKey, GraphicsKey, Layout},
     splat_shaders::Stages,
 };
 use crate::{

@@ -6,7 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{GraphicsKey, Layout},
+        key::{GraphicsKey, Layout},
         variant::Constants,
     },
     plan::mesh_draws::MeshDraw,

@@ -5,7 +5,7 @@ use ash::vk;
 use crate::passes::{
     inputs::Inputs,
     pass::Pass,
-    pipeline::cache::{GraphicsKey, Layout},
+    pipeline::key::{GraphicsKey, Layout},
     place::sums,
     resolve::fullscreen::draw_fullscreen,
     splats::accumulate::Sums,

@@ -10,8 +10,8 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{GraphicsKey, Layout},
         constants::FinalizeConstants,
+        key::{GraphicsKey, Layout},
         variant::resolve_constants,
     },
     place::{Place, sums},

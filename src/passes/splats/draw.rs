@@ -7,8 +7,8 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{GraphicsKey, Layout},
         constants::FrameConstants,
+        key::{GraphicsKey, Layout},
         splat_shaders::{Drawn, Primitive, Stages},
         variant::Constants,
     },

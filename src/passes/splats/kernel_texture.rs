@@ -7,7 +7,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{GraphicsKey, Layout},
+        key::{GraphicsKey, Layout},
         variant::kernel_constants,
     },
 };

@@ -7,7 +7,7 @@ use crate::passes::{
     cull::visible::list_visible,
     inputs::Inputs,
     pass::Pass,
-    pipeline::{cache::ComputeKey, constants::TileConstants},
+    pipeline::{constants::TileConstants, key::ComputeKey},
     place::{tiles as at, transfer},
     plan::tiles::TilePlan,
     tiles::{

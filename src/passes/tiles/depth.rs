@@ -4,7 +4,7 @@ use std::slice;
 
 use ash::vk;
 
-use crate::passes::pipeline::cache::GraphicsKey;
+use crate::passes::pipeline::key::GraphicsKey;
 use crate::passes::{
     inputs::Inputs,
     pass::Pass,

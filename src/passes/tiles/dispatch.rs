@@ -6,8 +6,8 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{ComputeKey, Layout},
         constants::TileConstants,
+        key::{ComputeKey, Layout},
         variant::Constants,
     },
     place::{Place, arguments},

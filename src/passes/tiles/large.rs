@@ -3,7 +3,7 @@
 use crate::passes::{
     inputs::Inputs,
     pass::Pass,
-    pipeline::{cache::Layout, constants::FrameConstants, splat_shaders::Summed},
+    pipeline::{constants::FrameConstants, key::Layout, splat_shaders::Summed},
     place::{Place, arguments, lists},
     splats::{
         accumulate::{self, read_depths},

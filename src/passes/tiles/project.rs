@@ -5,7 +5,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::{ComputeKey, Layout},
+        key::{ComputeKey, Layout},
         variant::Constants,
     },
     place::{Place, tiles as at},

@@ -3,8 +3,8 @@
 use crate::passes::{
     pass::Pass,
     pipeline::{
-        cache::{GraphicsKey, Layout},
         constants::FinalizeConstants,
+        key::{GraphicsKey, Layout},
         variant::Constants,
     },
     place::{Place, arguments},

@@ -6,7 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::variant::resolve_constants,
-    pipeline::{cache::ComputeKey, variant::shading_constants},
+    pipeline::{key::ComputeKey, variant::shading_constants},
     place::tiles as at,
     plan::tiles::TilePlan,
     tiles::{

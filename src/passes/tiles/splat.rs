@@ -8,7 +8,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        cache::ComputeKey,
+        key::ComputeKey,
         variant::{Constants, splat_constants},
     },
     place::tiles as at,

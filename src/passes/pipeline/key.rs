@@ -1,0 +1,78 @@
+//! All that a pipeline is made of: two passes with equal keys share one.
+
+use ash::vk;
+
+use crate::passes::pipeline::{splat_shaders::Stages, variant::Constants};
+use crate::{
+    shaders::{self, Shader},
+    vk::Blend,
+};
+
+/// One of the layouts that pipelines share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Layout {
+    Splat,
+    List,
+    Finalize,
+    DepthCells,
+    Record,
+    Tile,
+    TileQuads,
+}
+
+/// All that a graphics pipeline is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct GraphicsKey {
+    pub vertex: &'static Shader,
+    pub fragment: &'static Shader,
+    pub layout: Layout,
+    pub constants: Constants,
+    pub topology: vk::PrimitiveTopology,
+    /// Polygons that face away are not drawn.
+    pub cull_clockwise: bool,
+    pub color_formats: Vec<vk::Format>,
+    pub blend: Blend,
+    /// The depth test: the comparison and whether it writes.
+    pub depth: Option<(vk::CompareOp, bool)>,
+}
+
+/// All that a compute pipeline is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct ComputeKey {
+    pub shader: &'static Shader,
+    pub layout: Layout,
+    pub constants: Constants,
+}
+
+impl GraphicsKey {
+    /// A triangle over the whole target without blending and depth: to be completed.
+    pub fn fullscreen(fragment: &'static Shader, layout: Layout, constants: Constants) -> Self {
+        let stages = (&shaders::FULLSCREEN_VERT, fragment);
+        Self::new(stages, layout, vk::PrimitiveTopology::TRIANGLE_LIST, constants)
+    }
+
+    /// Points, quads or triangles without color, blending and depth: to be completed.
+    pub fn new(
+        (vertex, fragment): Stages,
+        layout: Layout,
+        topology: vk::PrimitiveTopology,
+        constants: Constants,
+    ) -> Self {
+        Self {
+            vertex,
+            fragment,
+            layout,
+            constants,
+            topology,
+            cull_clockwise: false,
+            color_formats: Vec::new(),
+            blend: Blend::Replace,
+            depth: None,
+        }
+    }
+
+    /// The names of its shaders.
+    pub fn name(&self) -> String {
+        format!("{} + {}", self.vertex.name, self.fragment.name)
+    }
+}
