@@ -64,7 +64,7 @@ void fit_half_floats(int row)
 {
     vec4 largest = max(abs(colors[row]), abs(normals[row]));
     float most = max(max(largest.x, largest.y), max(largest.z, largest.w));
-    float factor = most > 60000.0 ? 60000.0 / most : 1.0;
+    float factor = most > HALF_FLOAT_FITS ? HALF_FLOAT_FITS / most : 1.0;
     colors[row] *= factor;
     normals[row] *= factor;
 }

@@ -197,5 +197,6 @@
 // Limits of numbers.
 #define MOST_LIGHTS 16              // Lights of a scene.
 #define HALF_FLOAT_MAX 65504.0      // The largest finite 16-bit float.
+#define HALF_FLOAT_FITS 60000.0     // Sums above it are scaled to it, so that their rounding cannot end beyond the largest.
 #define LEAST_WEIGHT 5.9604645e-8   // 2^-24, the smallest 16-bit float: what covers must not vanish in sums.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

@@ -14,8 +14,7 @@ fn folder() -> Folder {
 }
 
 fn drawn(folder: &Folder, arguments: &[&str]) -> Run {
-    let run = done(folder, &[arguments, &["--size", "64x64", "-o", "a.png"]].concat());
-    run
+    done(folder, &[arguments, &["--size", "64x64", "-o", "a.png"]].concat())
 }
 
 #[test]

@@ -27,7 +27,14 @@ impl Primitive {
         match rasterizer {
             Rasterizer::Quad => Self::Quad,
             Rasterizer::Triangle => Self::Triangle,
-            _ => Self::Point,
+            Rasterizer::Auto
+            | Rasterizer::Perspective
+            | Rasterizer::PerspectivePaper
+            | Rasterizer::Raycast
+            | Rasterizer::RaycastApproximate
+            | Rasterizer::AffineCenter
+            | Rasterizer::AffineContour
+            | Rasterizer::Compute => Self::Point,
         }
     }
 
