@@ -232,7 +232,7 @@ fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
     let is_tried = |i: &usize| {
         let (function, is) = (of_first[*i], |call: &&str| *call == of_first[*i]);
         let is_end = !of_first[..*i].iter().any(is) || !of_first[i + 1..].iter().any(is);
-        !of_next.contains(&function) && (is_end || i % 20 == 0)
+        !of_next.contains(&function) && (is_end || i.is_multiple_of(20))
     };
     let tried: Vec<_> = (0..of_first.len()).filter(is_tried).collect();
     println!(

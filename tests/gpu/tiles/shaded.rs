@@ -6,9 +6,7 @@ use glam::DVec3;
 use surfel::{
     hard_scenes::{Hard, sphere, transparent},
     renderer::{Headless, Wanted},
-    scene::{
-        Accumulate, Colors, Cull, Light, LightKind, Scene, Settings, Shading, TileInvocations, Transition,
-    },
+    scene::{Accumulate, Cull, Light, LightKind, Scene, Shading, Transition},
 };
 
 /// Whether tiles are shaded at once; then they are as they are by their sums.
