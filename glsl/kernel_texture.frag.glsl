@@ -1,7 +1,7 @@
 // Writes the kernel over the square around the unit disk. Beyond the disk it goes on as it is (or is 0, for psi_e), because a fetch
 // at the rim reads texels outside.
 //
-// CUT_OFF, for inc/paper_weight.glsl: 0 outside of the disk, so that the alpha test finds the rim. u = -1 and 1 are the texture's
+// CUT_OFF, for paper.frag.glsl: 0 outside of the disk, so that the alpha test finds the rim. u = -1 and 1 are the texture's
 // borders there: what lies beyond is clamped to the texels there, which are 0 but for those on the axes, half a texel inside.
 #version 460
 #include "inc/perturb.glsl"

@@ -1,6 +1,6 @@
 // For the limits beside the floor benchmark: splats seen at pixels and then added to them, by what tiles do it with
 // (tile/pixel.glsl), and nothing else: no list, no record, no image. Each splat is the one before, moved a little, so that only
-// its place is new. An invocation has a column of 8 pixels, or, PIXELS, one, as in tile_splat.comp.glsl.
+// its place is new. An invocation has a column of 8 pixels, or, PIXELS, one, as in tile_accumulate.comp.glsl.
 // Permutations: _ pixels
 #version 460
 #extension GL_EXT_control_flow_attributes : require

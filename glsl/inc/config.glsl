@@ -151,8 +151,8 @@
 #define BIND_COLORS_BEFORE 17  // Binding: `BIND_COLORS` as it was before.
 #define BIND_NORMALS_BEFORE 18 // Binding: `BIND_NORMALS` as it was before.
 #define BIND_RUNS 19           // Binding: runs of tiles with splats.
-#define BIND_VISIBLE_STARTS 20    // Binding: how many splats are kept before each word of their bits.
-#define BIND_VISIBLE_LIST 21      // Binding: the list of kept splats.
+#define BIND_VISIBLE_STARTS 20    // Binding: how many splats are visible before each word of their bits.
+#define BIND_VISIBLE_LIST 21      // Binding: the list of visible splats.
 #define BIND_VISIBLE_BLOCKS 22    // Binding: the blocks in which they are looked for.
 #define BIND_RECORD_TEXELS 23  // Binding: the quarters of projected splats, as texels.
 #define BIND_ENTRY_TEXELS 27   // Binding: the lists, as texels.

@@ -21,8 +21,8 @@ struct FrameConstants {
     uint chunk_color;       // twice the chunk's number in the frame's part; plus 1 where all its splats have color 0
     float view_from_local_scale; // what local lengths are multiplied by: a power of two
     float origin_from_eye[6]; // local origin seen from the eye, local axes, view unit: x, y, z in f32; what f32 left of each
-    uint first_record;      // the number of the chunk's first splat among all of the frame's part (kept.glsl: that are looked at)
-    uint listed_blocks;     // of this chunk (kept.glsl)
+    uint first_record;      // the number of the chunk's first splat among all of the frame's part (list.glsl: that are looked at)
+    uint listed_blocks;     // of this chunk (list.glsl)
 };
 
 layout(push_constant, std430) uniform Frame { FrameConstants frame; };

@@ -17,7 +17,7 @@ struct TileConstants {
     uint first_tile;     // of the band of rows that lists are of: all of the image, or as much as memory is meant for
     uint tile_count;     // of the band; all tiles are numbered from its first one
     uint bin_count;      // tiles, then chunks
-    uint record_count;   // at most; of culled splats, as many as are kept
+    uint record_count;   // at most; of listed splats, as many as are visible
     uint segments;
     uint segment_length; // records, a multiple of SEGMENT_BLOCK
     uint round_first;    // where in its segment a walk begins

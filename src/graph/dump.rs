@@ -3,12 +3,13 @@
 use std::fmt::{self, Write as _};
 
 use super::{
-    barrier::{Barrier, Scope},
+    barrier::Barrier,
     declare::{Start, Use},
     lifetime::Usage,
     load_store::Attachment,
     plan::{Plan, PlannedPass},
     resource::{ClearValue, Origin, ResourceDesc, ResourceId, State},
+    scope::Scope,
 };
 
 impl fmt::Display for Plan {

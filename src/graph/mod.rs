@@ -23,6 +23,7 @@ mod lifetime;
 mod load_store;
 mod plan;
 mod resource;
+mod scope;
 mod shape;
 #[cfg(test)]
 mod tests;
@@ -32,7 +33,7 @@ mod validate;
 
 pub use access::{Access, AccessInfo, PassKind};
 pub use alias::{Block, MemoryClass, MemoryNeed, Slot};
-pub use barrier::{Barrier, Batch, Cause, Scope, Transition};
+pub use barrier::{Barrier, Batch};
 pub use compile::Compiled;
 pub use declare::{Graph, PassBuilder, Start, Use};
 pub use lifetime::{Lifetime, Usage};
@@ -42,4 +43,5 @@ pub use resource::{
     Buffer, BufferDesc, BufferState, ClearValue, Handle, Image, ImageDesc, ImageState, Origin, ResourceDesc,
     ResourceId, State, aspect_of,
 };
+pub use scope::{Cause, Scope, Transition};
 pub use traffic::Executed;

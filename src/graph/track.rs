@@ -4,8 +4,8 @@ use ash::vk;
 
 use super::{
     access::writes_of,
-    barrier::{Cause, Scope, Transition},
     resource::State,
+    scope::{Cause, Scope, Transition},
 };
 
 /// The state of one resource between two passes.

@@ -1,4 +1,4 @@
-//! Measures what the device can do at most, one thing at a time; see [`passes::limit_draws`].
+//! Measures what the device can do at most, one thing at a time; see [`limit_passes::limit_draws`].
 
 use ash::vk;
 

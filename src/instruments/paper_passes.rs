@@ -1,5 +1,5 @@
 //! The splat passes as Guennebaud, Barthe, Paulin 2006 publish them, without all that ours do for exactness: what the
-//! instructions that we have more buy. For comparison only; see `glsl/inc/paper.glsl`.
+//! instructions that we have more buy. For comparison only; see `glsl/paper.vert.glsl`.
 
 use ash::vk;
 

@@ -12,6 +12,8 @@ pub(crate) struct At {
 pub(crate) enum Place {
     /// `BIND_LIST_*`, of a chunk; of all chunks under number 0.
     Lists(u32),
+    /// The same set with nothing in it, for chunks without lists.
+    NoLists,
     /// `BIND_READ_*`.
     Read,
     /// `BIND_SUMS_*`.
@@ -22,6 +24,11 @@ pub(crate) enum Place {
     Tiles(u32),
     /// The arguments of draws and dispatches.
     Arguments,
+    /// Those of the visible splats of all chunks.
+    VisibleArguments,
+    /// Those of all draws of layers, and the fragments of the layer before.
+    LayerArguments,
+    LayerFragments,
     /// What is drawn by index.
     Indices,
     /// What is copied, cleared or filled.

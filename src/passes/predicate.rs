@@ -8,7 +8,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::splat_shaders::Primitive,
-    place::{At, arguments, transfer},
+    place::{At, Place, transfer},
     recording::Recording,
 };
 use crate::{
@@ -21,10 +21,10 @@ use crate::{
 const STEP: u32 = 32;
 
 /// One `VkDrawIndirectCommand` for the whole target, one a chunk of splats; one `VkDrawIndexedIndirectCommand` a mesh.
-const ARGUMENTS: At = arguments(u32::MAX - 1);
+const ARGUMENTS: At = Place::LayerArguments.at(0);
 
 /// 32 bits: the fragments of the layer before, for a pass that draws only where there are some.
-const FRAGMENTS: At = arguments(u32::MAX - 2);
+const FRAGMENTS: At = Place::LayerFragments.at(0);
 
 /// Whether the draws of a pass depend on the layer before.
 pub(crate) fn is_predicated(pass: &Recording<'_, '_>) -> bool {

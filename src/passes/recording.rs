@@ -61,7 +61,11 @@ impl Recording<'_, '_> {
             Place::Sums => &self.shaders.sums_set,
             Place::Cells => &self.shaders.cells_set,
             Place::Tiles(_) => &self.shaders.tiles()?.set,
-            Place::Lists(_) | Place::Arguments | Place::Indices | Place::Transfer => &self.shaders.list_set,
+            Place::Lists(_) | Place::NoLists => &self.shaders.list_set,
+            _ => {
+                let (pass, reason) = (self.context.name().to_owned(), "is no set of descriptors".to_owned());
+                return Err(ErrorKind::Graph { pass, resource: format!("{place:?}"), reason }.into());
+            }
         };
         self.descriptors.set(layout, &given)
     }
@@ -88,7 +92,8 @@ impl Recording<'_, '_> {
 
     fn named(&self, at: At) -> Result<ResourceId> {
         self.find(at).ok_or_else(|| {
-            let (pass, reason) = (String::new(), "is used by the pass but not declared".to_owned());
+            let (pass, reason) =
+                (self.context.name().to_owned(), "is used by the pass but not declared".to_owned());
             ErrorKind::Graph { pass, resource: format!("{at:?}"), reason }.into()
         })
     }

@@ -4,6 +4,7 @@
 //! by a power of two. Both are exact; what is left is one rounding of each coordinate to `f32`, 6e-8 of its distance from
 //! that origin.
 
+mod as_packed;
 mod blocks;
 mod chunk;
 mod memory;
@@ -14,11 +15,12 @@ mod radii;
 mod rebase;
 mod sequence;
 
+pub use as_packed::as_packed;
 pub use blocks::Block;
 pub use chunk::Chunk;
 pub use memory::SplatSetLayout;
 pub use mesh_chunk::MeshChunk;
-pub use packed::{LARGEST_TURN_RAD, as_packed};
+pub use packed::LARGEST_TURN_RAD;
 pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
 
@@ -95,7 +97,7 @@ pub fn prepare(
 ///
 /// # Errors
 /// None today.
-pub fn prepare_without_device(limits: &Limits, scene: &Scene) -> Result<PreparedScene> {
+pub(crate) fn prepare_without_device(limits: &Limits, scene: &Scene) -> Result<PreparedScene> {
     cut(None, limits, scene, &|_, _| {})
 }
 

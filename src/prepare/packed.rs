@@ -12,10 +12,9 @@
 //! Colors, where each splat has its own: 8 bits a channel; the square roots of red, green, blue, which are off by 1/510 at
 //! most as sRGB values nearly are; and alpha.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 
-use super::{pack, rebase::Rebase};
-use crate::scene::{Colors, Shapes, Splats};
+use super::rebase::Rebase;
 
 /// Bytes of a disk.
 pub const DISK_BYTES: usize = 16;
@@ -121,24 +120,6 @@ pub fn color([red, green, blue, alpha]: [f32; 4]) -> u32 {
 pub fn unpacked_color(word: u32) -> [f32; 4] {
     let [red, green, blue, alpha] = word.to_le_bytes().map(|c| f32::from(c) / 255.0);
     [red * red, green * green, blue * blue, alpha]
-}
-
-/// The splats of an object as a device has them under `--splat-format packed`, if they are one chunk: for comparing pictures with what
-/// packing alone does. `None` where they stay exact: ellipses, and what has something far off.
-pub fn as_packed(splats: &Splats) -> Option<Splats> {
-    let all = || 0..splats.len();
-    let survey = pack::survey(splats, all(), Rebase::of(splats, all())).packed()?;
-    let packed = pack::pack(splats, all(), &survey);
-    let disks = || packed.shapes.iter().map(|words| unpacked_disk(*words));
-    let world = |length: f64| length / survey.rebase.scale;
-    let colors = match &splats.colors {
-        Colors::Uniform(color) => Colors::Uniform(*color),
-        Colors::Each(_) => Colors::Each(packed.colors.iter().map(|word| unpacked_color(*word)).collect()),
-    };
-    let normals: Vec<Vec3> = disks().map(|(_, normal, _)| normal.as_vec3()).collect();
-    let radii = disks().map(|(.., radius)| world(radius) as f32).collect();
-    let positions = disks().map(|(center, ..)| center / survey.rebase.scale + survey.rebase.origin).collect();
-    Some(Splats { positions, shapes: Shapes::Disks { normals, radii }, colors })
 }
 
 #[cfg(test)]

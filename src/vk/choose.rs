@@ -82,8 +82,8 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Those of a device that has what Vulkan promises and no more, where there is none.
-    pub fn promised() -> Self {
+    /// The limits of a plain device, where there is none: what Vulkan promises, and what tiles need.
+    pub fn plain() -> Self {
         Self {
             max_storage_buffer_range: 1 << 27,
             max_texels: 1 << 16,
@@ -191,7 +191,7 @@ mod tests {
             pipeline_statistics: true,
             draw_indirect_count: true,
             blend_f32: true,
-            limits: Limits::promised(),
+            limits: Limits::plain(),
         }
     }
 

@@ -11,11 +11,9 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use super::{
     borrowed::BorrowedDevice,
     choose::{DeviceFacts, choose},
-    executables::check_executables,
-    facts::{all_facts, facts},
+    facts::{all_facts, check_executables, facts},
     garbage::{Garbage, Retired},
     instance::Instance,
-    memory::block_sizes,
     result::VkResultExt,
 };
 use crate::error::{Error, ErrorKind, Result};
@@ -266,4 +264,14 @@ impl Drop for Shared {
             unsafe { self.raw.destroy_device(None) };
         }
     }
+}
+
+/// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a
+/// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
+fn block_sizes() -> gpu_allocator::AllocationSizes {
+    const FIRST_BYTES: u64 = 8 << 20;
+    const MOST_BYTES: u64 = 64 << 20;
+    gpu_allocator::AllocationSizes::new(FIRST_BYTES, FIRST_BYTES)
+        .with_max_device_memblock_size(MOST_BYTES)
+        .with_max_host_memblock_size(MOST_BYTES)
 }

@@ -6,12 +6,11 @@ use std::ffi::c_char;
 use ash::{khr, vk};
 
 use super::{
-    choose::DeviceFacts,
     device::{Device, Origin},
     instance::Instance,
     result::VkResultExt,
 };
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 
 /// One of the programs that a pipeline became.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,25 +44,6 @@ impl Device {
         match self.captures_executables() {
             true => vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR,
             false => vk::PipelineCreateFlags::empty(),
-        }
-    }
-}
-
-/// Refuses a device that can't tell.
-pub(super) fn check_executables(
-    instance: &Instance,
-    physical: vk::PhysicalDevice,
-    facts: &DeviceFacts,
-) -> Result<()> {
-    let name = khr::pipeline_executable_properties::NAME;
-    // SAFETY: the device was enumerated from this instance.
-    let offered = unsafe { instance.raw().enumerate_device_extension_properties(physical) }
-        .of_call("vkEnumerateDeviceExtensionProperties", &facts.name)?;
-    match offered.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)) {
-        true => Ok(()),
-        false => {
-            let reason = format!("{}: lacks {}", facts.name, name.to_string_lossy());
-            Err(ErrorKind::NoDevice { reasons: vec![reason] }.into())
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 
 use super::{
     choose::{DeviceFacts, DeviceKind, Limits},
@@ -10,7 +10,10 @@ use super::{
     loader::version_parts,
     result::VkResultExt,
 };
-use crate::error::Result;
+use crate::error::{ErrorKind, Result};
+
+/// Storage buffers that a stage must be able to see: two of a chunk of splats, and those of lists.
+pub(crate) const LEAST_STORAGE_BUFFERS: u32 = 7;
 
 /// Every physical device with its facts, in Vulkan's order.
 ///
@@ -106,12 +109,15 @@ pub(super) unsafe fn facts(
             format(vk::Format::R16G16B16A16_SFLOAT).contains(blended),
             "R16G16B16A16_SFLOAT attachments that can be blended and sampled",
         ),
-        // Vulkan promises 128 and 4: see glsl/large_count.comp.glsl and the sets of the splat passes.
+        // Vulkan promises 128 and 4: see the sizes of workgroups in glsl/inc/config.glsl, and the sets of the splat passes.
         (
             limits.max_compute_work_group_invocations >= 256 && limits.max_compute_work_group_size[0] >= 256,
             "compute workgroups of 256",
         ),
-        (limits.max_per_stage_descriptor_storage_buffers >= 6, "6 storage buffers in a stage"),
+        (
+            limits.max_per_stage_descriptor_storage_buffers >= LEAST_STORAGE_BUFFERS,
+            "7 storage buffers in a stage",
+        ),
     ];
     DeviceFacts {
         name,
@@ -184,4 +190,23 @@ fn kind(kind: vk::PhysicalDeviceType) -> DeviceKind {
 
 fn text(raw: std::result::Result<&CStr, std::ffi::FromBytesUntilNulError>) -> String {
     raw.map(|text| text.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Refuses a device that can't tell.
+pub(super) fn check_executables(
+    instance: &Instance,
+    physical: vk::PhysicalDevice,
+    facts: &DeviceFacts,
+) -> Result<()> {
+    let name = khr::pipeline_executable_properties::NAME;
+    // SAFETY: the device was enumerated from this instance.
+    let offered = unsafe { instance.raw().enumerate_device_extension_properties(physical) }
+        .of_call("vkEnumerateDeviceExtensionProperties", &facts.name)?;
+    match offered.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)) {
+        true => Ok(()),
+        false => {
+            let reason = format!("{}: lacks {}", facts.name, name.to_string_lossy());
+            Err(ErrorKind::NoDevice { reasons: vec![reason] }.into())
+        }
+    }
 }

@@ -121,13 +121,3 @@ impl Device {
         self.memory().as_ref().map_or(0, |(allocator, _)| allocator.capacity())
     }
 }
-
-/// How much device memory is taken at once. What is larger than a block gets memory of its own, of its exact size; so a
-/// block is what may lie idle beside it, and the crate's own 256 MiB would be six times the memory of a million splats.
-pub(super) fn block_sizes() -> gpu_allocator::AllocationSizes {
-    const FIRST_BYTES: u64 = 8 << 20;
-    const MOST_BYTES: u64 = 64 << 20;
-    gpu_allocator::AllocationSizes::new(FIRST_BYTES, FIRST_BYTES)
-        .with_max_device_memblock_size(MOST_BYTES)
-        .with_max_host_memblock_size(MOST_BYTES)
-}

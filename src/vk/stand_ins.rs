@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::{
     buffer::{Buffer, BufferDesc},
-    descriptors::Descriptor,
+    descriptor::Descriptor,
     device::Device,
     image::{Image, ImageDesc},
     memory::MemoryUse,
@@ -17,7 +17,7 @@ use crate::error::Result;
 const IMAGE_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 /// Bytes of the buffers: as much as a uniform block of ours.
-const BUFFER_BYTES: u64 = 1024;
+pub(crate) const STAND_IN_BYTES: u64 = 1024;
 
 /// A small buffer of each kind and an image of one texel, whose contents mean nothing; made when a set first needs one, for pipelines
 /// are compiled for devices, too, that have no memory.
@@ -100,7 +100,7 @@ impl Made {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER
                 | vk::BufferUsageFlags::UNIFORM_BUFFER
                 | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
-            let desc = BufferDesc { name, size: BUFFER_BYTES, usage };
+            let desc = BufferDesc { name, size: STAND_IN_BYTES, usage };
             Buffer::new(device, desc, MemoryUse::Device)?.with_texels(name, format)
         };
         let image = ImageDesc {

@@ -19,7 +19,7 @@ use surfel::{
     passes::Formula,
     reference::Picture,
     renderer::{Frame, Headless, Wanted},
-    scene::{Cull, Filter, Kernel, KernelEval, Rasterizer, Transition},
+    scene::{Cull, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Transition},
     selftest::{agreement::compare, light::compare_light, tolerance},
 };
 
@@ -88,7 +88,8 @@ fn opaque() -> Vec<Hard> {
         with(&ellipses, |s| (s.rasterizer, s.filter) = (Rasterizer::AffineContour, Filter::Ewa)),
         with(&ellipses, |s| s.filter = Filter::Max),
         with(&scenes::subpixel_filtered(), |s| s.filter = Filter::Max),
-        with(&sphere, |s| s.cull = Cull::Hidden),
+        // With an ε of a radius, what is hidden lies farther behind than a hundredth.
+        with(&sphere, |s| (s.cull, s.epsilon) = (Cull::Hidden, Epsilon::Radii(0.1))),
         with(&sphere, |s| s.kernel_eval = KernelEval::Texture),
     ];
     all.extend(rasterizers.map(|rasterizer| with(&ellipses, |s| s.rasterizer = rasterizer)));

@@ -157,7 +157,7 @@ fn bands_draw_the_same_splats_in_every_pixel() {
 
 /// Where a tile of one band may have more splats than a dispatch takes, sums of all bands have 32 bits, which lie in one image.
 #[test]
-fn bands_with_and_without_overfull_tiles_are_one_image() {
+fn bands_with_and_without_overflow_tiles_are_one_image() {
     let mut headless = shared();
     // Within one tile at the lower border, beside a ball in other bands.
     let mut speck = sphere(170_000, DVec3::ZERO);

@@ -81,7 +81,7 @@ fn lists_of_a_few_splats_hold_what_they_must() {
 
 /// More in one tile than a dispatch takes; chunks; and no list of those that may be seen.
 #[test]
-fn lists_of_overfull_tiles_of_chunks_and_of_all_splats_are_told() {
+fn lists_of_overflow_tiles_of_chunks_and_of_all_splats_are_told() {
     let mut headless = shared();
     // A pixel of 24 along a side is 31 units wide: the ball is in the middle of one tile.
     let mut ball = sphere(260_000, DVec3::new(-8.0 * 31.0, 8.0 * 31.0, 0.0));

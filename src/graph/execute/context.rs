@@ -56,6 +56,11 @@ impl PassContext<'_> {
         self.recorder.device.raw()
     }
 
+    /// The pass's name.
+    pub fn name(&self) -> &str {
+        &self.pass.name
+    }
+
     /// The command buffer, recording.
     pub fn commands(&self) -> vk::CommandBuffer {
         self.recorder.commands

@@ -11,8 +11,11 @@ use crate::passes::{
         key::{ComputeKey, Layout},
         variant::Constants,
     },
-    place::{At, INDICES, Place, arguments, lists, transfer},
-    plan::{block_list::ListedBlocks, draws::Draw},
+    place::{At, INDICES, Place, lists, transfer},
+    plan::{
+        block_list::ListedBlocks,
+        draws::{Draw, by_variant},
+    },
     recording::{Pipeline, Recording, rows_of},
 };
 use crate::{
@@ -62,8 +65,8 @@ impl VisibleList {
     }
 }
 
-/// The arguments of the visible splats of all chunks; those with a chunk's number are of its large splats.
-pub(crate) const VISIBLE_ARGUMENTS: At = arguments(u32::MAX);
+/// The arguments of the visible splats of all chunks.
+pub(crate) const VISIBLE_ARGUMENTS: At = Place::VisibleArguments.at(0);
 
 /// Records a draw of points, one a visible splat of a chunk, inside of rendering with all bound but the indices.
 pub(crate) fn draw_visible(pass: &Recording<'_, '_>, chunk: usize) -> Result<()> {
@@ -122,7 +125,7 @@ pub(crate) fn dispatch_words<'a>(
     shader: &'static Shader,
 ) -> Result<()> {
     let of = |draw: &Draw<'_>| pass.compute(list_key(shader, draw.variant.clone()));
-    let pipelines = inputs.draws.iter().map(of).collect::<Result<Vec<_>>>()?;
+    let pipelines = by_variant(inputs.draws, of)?;
     pass.finish(move |pass| dispatch_chunks(pass, inputs, |chunk| pipelines[chunk]));
     Ok(())
 }

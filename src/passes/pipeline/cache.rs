@@ -29,6 +29,8 @@ use crate::{
 /// Bindings of set 1 of the splat passes.
 const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
 
+const _: () = assert!(2 + LIST_BINDINGS <= crate::vk::LEAST_STORAGE_BUFFERS);
+
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
 pub fn room_of_lists(sets: u32) -> PoolSizes {
     PoolSizes { sets, buffers: LIST_BINDINGS * sets, ..PoolSizes::default() }
@@ -93,7 +95,7 @@ impl Shaders {
         )?;
         let list_layout = PipelineLayout::new(
             device,
-            "lists of large splats",
+            "lists",
             &[splat_set.set(), &list_set],
             size_of::<constants::FrameConstants>() as u32,
             compute,

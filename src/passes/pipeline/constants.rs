@@ -50,7 +50,7 @@ impl FrameConstants {
     }
 }
 
-/// What the paper's own programs are told; see `glsl/inc/paper.glsl`.
+/// What the paper's own programs are told; see `glsl/paper.vert.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct PaperConstants {
@@ -90,7 +90,7 @@ pub struct FinalizeConstants {
     pub near: f32,
 }
 
-/// What the passes over tiles are told; see `glsl/inc/tiles.glsl`.
+/// What the passes over tiles are told; see `glsl/tile/constants.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct TileConstants {

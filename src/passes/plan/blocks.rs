@@ -37,7 +37,7 @@ const FILTER_RESERVE_PX: f64 = 6.0;
 
 /// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
 /// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
-/// `glsl/cull_mark.comp.glsl`, of a ball in place of a splat.
+/// `glsl/mark_visible.comp.glsl`, of a ball in place of a splat.
 pub fn potentially_visible_blocks(chunk: &Chunk, look: &BlockCullView<'_>) -> Vec<PotentiallyVisibleBlock> {
     (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)).collect()
 }

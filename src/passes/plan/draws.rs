@@ -14,6 +14,7 @@ use crate::passes::{
     },
 };
 use crate::{
+    error::Result,
     math::size::{SizeBound, box_px, largest_box_px},
     prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal},
     scene::{Camera, Epsilon, Filter, Settings},
@@ -54,6 +55,23 @@ impl Draw<'_> {
             &BlockCullView { view, bound, culls: culls(&self.variant), bounded: *bounded },
         )
     }
+}
+
+/// What `make` gives for each draw, asked once for draws in a row that have the same pipelines.
+pub(crate) fn by_variant<T: Copy>(
+    draws: &[Draw<'_>],
+    mut make: impl FnMut(&Draw<'_>) -> Result<T>,
+) -> Result<Vec<T>> {
+    let mut all: Vec<T> = Vec::with_capacity(draws.len());
+    for (number, draw) in draws.iter().enumerate() {
+        let is_same =
+            |last: &Draw<'_>| last.variant == draw.variant && last.may_be_large == draw.may_be_large;
+        match (number.checked_sub(1).map(|last| &draws[last]).filter(|last| is_same(last)), all.last()) {
+            (Some(_), Some(last)) => all.push(*last),
+            _ => all.push(make(draw)?),
+        }
+    }
+    Ok(all)
 }
 
 /// The low-pass filter's radius: √2 pixels (Guennebaud et al. 2006, section 4.1).

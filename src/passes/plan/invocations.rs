@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn cpus_draw_columns_and_gpus_pixels_unless_asked_otherwise() {
         use TileInvocations::{Auto, Column, Pixel, ShortColumn};
-        let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::promised() };
+        let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::plain() };
         let cpu = Limits { is_cpu: true, ..gpu };
         let of = |wanted, limits: &Limits| Invocations::of(wanted, limits, false);
         assert_eq!(of(Auto, &cpu), Invocations::Columns);
@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn tiles_are_half_as_high_for_small_splats_on_cpus_unless_asked_otherwise() {
         use TileInvocations::{Auto, Column, ShortColumn};
-        let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::promised() };
+        let gpu = Limits { shuffles: true, max_texels: LEAST_TEXELS, ..Limits::plain() };
         let cpu = Limits { is_cpu: true, ..gpu };
         let height = |wanted, limits: &Limits, small| Invocations::of(wanted, limits, small).tile_height();
         assert_eq!([height(Auto, &cpu, true), height(Auto, &cpu, false)], [4, 8]);

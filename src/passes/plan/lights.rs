@@ -6,6 +6,8 @@ use crate::scene::{Camera, Light, LightKind, MOST_LIGHTS};
 /// color.
 pub type ShaderLight = [[f32; 4]; 2];
 
+const _: () = assert!((MOST_LIGHTS * size_of::<ShaderLight>()) as u64 <= crate::vk::STAND_IN_BYTES);
+
 /// Lights as a camera sees them.
 pub(crate) fn shader_lights(lights: &[Light], camera: &Camera) -> Vec<ShaderLight> {
     let view = camera.view_from_world();

@@ -158,10 +158,10 @@ mod tests {
 
     #[test]
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
-        let cpu = Limits { is_cpu: true, shuffles: true, max_texels: u32::MAX, ..Limits::promised() };
+        let cpu = Limits { is_cpu: true, shuffles: true, max_texels: u32::MAX, ..Limits::plain() };
         let auto = Settings::default();
         assert!(wants_tiles(false, &auto, &cpu).is_ok());
-        assert!(wants_tiles(false, &auto, &Limits::promised()).is_err());
+        assert!(wants_tiles(false, &auto, &Limits::plain()).is_err());
         assert!(wants_tiles(false, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
         let textured = Settings { kernel_eval: KernelEval::Texture, ..auto.clone() };
         assert!(wants_tiles(false, &textured, &cpu).is_err());
@@ -171,7 +171,7 @@ mod tests {
         // An image of this size has a pixel more than a thousand for each of 1048 splats.
         assert!(is_few(1048, &auto) && !is_few(1049, &auto));
         let named = |rasterizer| Settings { rasterizer, ..Settings::default() };
-        assert!(wants_tiles(true, &named(Rasterizer::Compute), &Limits::promised()).is_ok());
+        assert!(wants_tiles(true, &named(Rasterizer::Compute), &Limits::plain()).is_ok());
         assert!(wants_tiles(false, &named(Rasterizer::Perspective), &cpu).is_err());
         assert!(check(&named(Rasterizer::Compute), &Limits { storage_buffers_a_stage: 4, ..cpu }).is_err());
         assert!(check(&auto, &Limits { storage_buffers_a_stage: 4, ..cpu }).is_ok());

@@ -2,7 +2,7 @@
 
 use crate::passes::{
     pipeline::{cache::room_of_lists, tile_layouts::STORAGE_BUFFERS},
-    plan::{FramePlan, SurfacePlan, tiles::TilePlan},
+    plan::{FramePlan, SurfacePlan},
 };
 use crate::{
     scene::{Layers, Settings},
@@ -27,13 +27,9 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     let lists = 5 * listed(&plan.opaque) + (3 + 2 * layers) * listed(&plan.transparent);
     // Without lists, what draws splats: visibility and accumulation, also of each layer.
     let lists = lists + 2 + 2 * layers;
-    // Of kept splats: three passes that list them, twice, and one that sets them up.
-    let kept = |part: &SurfacePlan<'_>| {
-        let bands = part.bands().iter().filter(|band| band.visible.is_some()).count();
-        let lists = bands + usize::from(part.visible().is_some());
-        (8 * lists * part.splats.len()) as u32
-    };
-    let lists = lists + kept(&plan.opaque) + kept(&plan.transparent);
+    // Of visible splats: three passes that list them, and three that list those which nothing hides; large ones of a band, two draws.
+    let listed = |part: &SurfacePlan<'_>| part.bands().len() + usize::from(part.visible().is_some());
+    let lists = lists + 8 * (listed(&plan.opaque) + listed(&plan.transparent)) as u32;
     let bands = plan.opaque.bands().len() as u32;
     // What fragments read: in visibility and accumulation, of each band, too; of polygons; in each layer's visibility, accumulation
     // and polygons.
@@ -41,14 +37,14 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     // Sums: for finalization, of tiles and of polygons, and for the export; the depth of tiles of each band; and each layer.
     let sums = 3 + bands + layers;
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
-    let tiles = bands_of_all
-        .map(|band| room_of_tiles(&band.plan))
-        .fold(PoolSizes::default(), |sum, room| sum.plus(&room));
+    let tiles = bands_of_all.fold(PoolSizes::default(), |sum, _| sum.plus(&room_of_tiles()));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
     Needs {
         room: PoolSizes {
             sets: reads + sums + 1,
             uniform_buffers: reads + sums,
+            // The cells of depth have a buffer and an image.
+            buffers: 1,
             images: 2 * reads + 5 * sums + 1,
             filtered_images: reads,
             ..PoolSizes::default()
@@ -59,9 +55,9 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     }
 }
 
-/// Sets and descriptors that drawing by tiles takes from the frame's pool, at most.
-fn room_of_tiles(plan: &TilePlan) -> PoolSizes {
-    let sets = plan.chunk_count * 3 + 12;
+/// Sets and descriptors that a band of tiles takes from the frame's pool, at most: one for each of its passes.
+fn room_of_tiles() -> PoolSizes {
+    let sets = 12;
     PoolSizes {
         sets,
         buffers: STORAGE_BUFFERS * sets,

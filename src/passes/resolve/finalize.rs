@@ -14,7 +14,7 @@ use crate::passes::{
         key::{GraphicsKey, Layout},
         variant::resolve_constants,
     },
-    place::{Place, sums},
+    place::sums,
     resolve::fullscreen::draw_fullscreen,
     splats::accumulate::Sums,
     tiles::{
@@ -124,7 +124,7 @@ pub(crate) fn finalize<'a>(
     if let (false, Some(key)) = (opaque.tiles.is_empty(), &key) {
         let (pass, runs) = read_runs(pass, &opaque.tiles);
         let pipeline = pass.graphics(key_of_tiles(key))?;
-        pass.finish(move |pass| draw_runs(pass, pipeline, runs, Place::Sums, constants));
+        pass.finish(move |pass| draw_runs(pass, pipeline, runs, constants));
         return Ok(());
     }
     pass = match (layers, opaque.depth()) {
@@ -160,7 +160,7 @@ fn finalize_shown<'a>(
         if let Some(pipeline) = of_polygons {
             draw_fullscreen(pass, pipeline, &constants)?;
         }
-        draw_runs(pass, of_tiles, runs, Place::Sums, constants)
+        draw_runs(pass, of_tiles, runs, constants)
     });
     Ok(())
 }

@@ -13,7 +13,7 @@ use crate::passes::{
         variant::Constants,
     },
     place::{Place, arguments},
-    plan::draws::Draw,
+    plan::draws::{Draw, by_variant},
     predicate::{self, is_predicated},
     recording::{Pipeline, Recording},
 };
@@ -43,6 +43,7 @@ enum Portion {
 }
 
 /// The pipelines for one draw: of the rasterizer's own primitive, and quads where there may be large splats.
+#[derive(Clone, Copy)]
 pub(crate) struct DrawPipelines {
     own: Pipeline,
     quads: Option<Pipeline>,
@@ -81,7 +82,7 @@ impl SplatPass {
     /// The pipelines that draw listed splats as quads, one a draw.
     pub fn quad_pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<Pipeline>> {
         let key = |draw: &Draw<'_>| self.key(Portion::Large, &draw.variant);
-        inputs.draws.iter().map(|draw| pass.graphics(key(draw))).collect()
+        by_variant(inputs.draws, |draw| pass.graphics(key(draw)))
     }
 
     /// The pipelines of every draw, in their order.
@@ -92,7 +93,7 @@ impl SplatPass {
             let own = make(own)?;
             Ok(DrawPipelines { own, quads: draw.may_be_large.then(|| make(Portion::Large)).transpose()? })
         };
-        inputs.draws.iter().map(both).collect()
+        by_variant(inputs.draws, both)
     }
 }
 
@@ -111,10 +112,14 @@ pub(crate) fn draw_splats(
     let primitive = Primitive::of(inputs.settings.rasterizer);
     let (predicated, listed) = (is_predicated(pass), pass.has(VISIBLE_ARGUMENTS));
     // Chunks without lists share a set of stand-ins.
-    let unlisted = pass.set(Place::Lists(UNLISTED))?;
+    let mut unlisted = None;
     for (number, (draw, pipelines)) in inputs.draws.iter().zip(pipelines).enumerate() {
         let large = arguments(number as u32);
-        let lists = if pass.has(large) { pass.set(Place::Lists(number as u32))? } else { unlisted };
+        let lists = match (pass.has(large), unlisted) {
+            (true, _) => pass.set(Place::Lists(number as u32))?,
+            (false, Some(unlisted)) => unlisted,
+            (false, None) => *unlisted.insert(pass.set(Place::NoLists)?),
+        };
         pass.bind_sets(Layout::Splat, 0, &[draw.chunk.set(), lists])?;
         // Lists of large splats have numbers within their chunks.
         pass.push(Layout::Splat, &FrameConstants { first_record: 0, ..draw.constants })?;
@@ -134,6 +139,3 @@ pub(crate) fn draw_splats(
     }
     Ok(())
 }
-
-/// No chunk has this number.
-const UNLISTED: u32 = u32::MAX;

@@ -9,9 +9,9 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::formats::DEPTH_FORMAT,
-    place::{Place, sums},
+    place::sums,
     tiles::{
-        Tiles,
+        lists::Tiles,
         runs::{draw_runs, read_runs, runs_key},
     },
 };
@@ -57,6 +57,6 @@ pub(crate) fn depth_buffer<'a>(
         ..runs_key(&shaders::TILE_DEPTH_FRAG, Vec::new())
     })?;
     let constants = inputs.finalize_constants();
-    pass.finish(move |pass| draw_runs(pass, pipeline, runs, Place::Sums, constants));
+    pass.finish(move |pass| draw_runs(pass, pipeline, runs, constants));
     Ok(depth)
 }

@@ -10,7 +10,7 @@ use crate::passes::{
         draw::{SplatPass, bind_read},
         visibility,
     },
-    tiles::{Tiles, depth::depth_after, splat::TileImages},
+    tiles::{depth::depth_after, lists::Tiles, splat::TileImages},
 };
 use crate::{
     error::Result,

@@ -105,7 +105,7 @@ mod tests {
     fn the_shares_are_all_layers_and_no_dispatch_exceeds_the_iterations() {
         for records in [1, 4000, 54_000, 540_000] {
             for lights in [0, 1, 16] {
-                let limits = Limits { max_texels: 1 << 27, ..Limits::promised() };
+                let limits = Limits { max_texels: 1 << 27, ..Limits::plain() };
                 for (most, last_layer) in [
                     (1, LastLayer::Stack),
                     (1, LastLayer::Drop),

@@ -1,4 +1,4 @@
-//! Splats drawn by tiles of the image, in compute: set up once, listed by tile, then seen and summed a tile at a time.
+//! Splats drawn by tiles of the image, in compute: projected once, listed by tile, then seen and summed a tile at a time.
 //!
 //! What it leaves is what the graphics pipeline's passes leave: sums, and a depth. Splats that are too large for that, or not
 //! regular, are listed too, by chunk, and drawn by the graphics pipeline into the same images.

@@ -9,7 +9,10 @@ use crate::passes::{
         variant::Constants,
     },
     place::{Place, tiles as at},
-    plan::{draws::Draw, tiles::TilePlan},
+    plan::{
+        draws::{Draw, by_variant},
+        tiles::TilePlan,
+    },
     recording::rows_of,
     tiles::lists::Tiles,
 };
@@ -57,7 +60,7 @@ pub(crate) fn project<'a>(
         pass = pass.write(at(binding), buffer, Access::StorageWriteCompute, Start::Discard);
     }
     let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
-    let pipelines = inputs.draws.iter().map(of).collect::<Result<Vec<_>>>()?;
+    let pipelines = by_variant(inputs.draws, of)?;
     pass.finish(move |pass| {
         let set = pass.set(Place::Tiles(0))?;
         // Chunks write places of their own.

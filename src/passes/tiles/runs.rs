@@ -9,7 +9,7 @@ use crate::passes::{
     },
     place::{Place, arguments},
     recording::{Pipeline, Recording},
-    tiles::Tiles,
+    tiles::lists::Tiles,
 };
 use crate::{
     error::Result,
@@ -44,19 +44,18 @@ pub(crate) fn runs_key(fragment: &'static Shader, constants: Constants) -> Graph
     GraphicsKey::new(stages, Layout::TileQuads, ash::vk::PrimitiveTopology::TRIANGLE_STRIP, constants)
 }
 
-/// Records the draws. `read`: what the fragments read; `constants`: finalization's, without the tiles' height.
+/// Records the draws, whose fragments read sums. `constants`: finalization's, without the tiles' height.
 pub(crate) fn draw_runs(
     pass: &Recording<'_, '_>,
     pipeline: Pipeline,
     runs: Runs,
-    read: Place,
     constants: FinalizeConstants,
 ) -> Result<()> {
-    let read = pass.set(read)?;
+    let sums = pass.set(Place::Sums)?;
     pass.bind(pipeline);
     pass.push(pipeline.layout, &FinalizeConstants { tile_height: runs.tile_height, ..constants })?;
     for number in 0..runs.bands {
-        pass.bind_sets(pipeline.layout, 0, &[read, pass.set(Place::Tiles(number))?])?;
+        pass.bind_sets(pipeline.layout, 0, &[sums, pass.set(Place::Tiles(number))?])?;
         pass.draw_indirect(arguments(number), 4 * u64::from(ARGUMENTS_QUADS))?;
     }
     Ok(())

@@ -45,7 +45,7 @@ fn key(
     precision: Accumulate,
     Beside { polygons, lights }: Beside,
 ) -> ComputeKey {
-    let shader = plan.invocations.shader(match leaves_hidden_out(plan, polygons) {
+    let shader = plan.invocations.shader(match plan.hidden {
         false => [&shaders::TILE_SHADE_COLUMN_COMP, &shaders::TILE_SHADE_PIXEL_COMP],
         true => [&shaders::TILE_SHADE_COLUMN_HIDDEN_COMP, &shaders::TILE_SHADE_PIXEL_HIDDEN_COMP],
     });
@@ -55,11 +55,6 @@ fn key(
         constants.extend(beside_polygons(settings));
     }
     dispatch::key(shader, constants)
-}
-
-/// Beside polygons more than what visibility lets through may count (`--transition paper`).
-fn leaves_hidden_out(plan: &TilePlan, polygons: bool) -> bool {
-    plan.hidden && !polygons
 }
 
 /// Declares all of it, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
@@ -78,7 +73,7 @@ pub(crate) fn shaded<'a>(
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
     let pass = Pass::new(graph, inputs.source, &format!("see, sum and shade {kind}tiles"), why);
-    let mut pass = match leaves_hidden_out(plan, beside.polygons) {
+    let mut pass = match plan.hidden {
         true => tiles.shorten_lists(pass),
         false => tiles.read_lists(pass),
     }

@@ -34,7 +34,7 @@ fn a_tile_with_more_splats_than_a_shader_has_iterations_loses_none() {
 /// Tiles with more splats than one dispatch takes are shaded after the others: here a ball in the middle of one, beside a tile
 /// with few, and another ball where four tiles meet.
 #[test]
-fn overfull_tiles_are_shaded_as_by_their_sums() {
+fn overflow_tiles_are_shaded_as_by_their_sums() {
     let mut headless = shared();
     let camera = scenes::builder::camera([0.0, 0.0, 900.0], [0.0; 3]);
     // A pixel of 24 along a side is 31 units wide there.
@@ -64,7 +64,7 @@ fn overfull_tiles_are_shaded_as_by_their_sums() {
 /// In layers the first tiles do all of them at once, others go on from dispatch to dispatch, and what has too many splats for that
 /// goes step by step and part by part. Lights are a loop within a loop.
 #[test]
-fn layers_of_overfull_tiles_lose_none() {
+fn layers_of_overflow_tiles_lose_none() {
     let mut headless = shared();
     // Means don't tell how many splats there are: those at the end of a tile's list have another color.
     let clear = |count| {
