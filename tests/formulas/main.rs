@@ -16,10 +16,11 @@ use common::{
     shared, with, with_points_up_to,
 };
 use surfel::{
+    load::builtin::checkerboard,
     passes::Formula,
     reference::Picture,
     renderer::{Frame, Headless, Wanted},
-    scene::{Cull, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Transition},
+    scene::{Cull, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Scene, Transition},
     selftest::{agreement::compare, light::compare_light, tolerance},
 };
 
@@ -71,6 +72,8 @@ fn light(frame: &Frame, _: &Hard, oracle: &Picture) -> Option<String> {
 /// Of opaque splats: those that see most formulas first, then those that see one that no other does.
 fn opaque() -> Vec<Hard> {
     let (sphere, ellipses) = (scenes::sphere_of_disks(), scenes::random_ellipses(Filter::None));
+    let board = Scene { objects: vec![checkerboard(20)], ..Scene::default() };
+    let board = Hard::seen_from([0.0, 0.0, 40.0], "board", board);
     let psi_e = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
     let rasterizers = [
         Rasterizer::AffineContour,
@@ -88,8 +91,8 @@ fn opaque() -> Vec<Hard> {
         with(&ellipses, |s| (s.rasterizer, s.filter) = (Rasterizer::AffineContour, Filter::Ewa)),
         with(&ellipses, |s| s.filter = Filter::Max),
         with(&scenes::subpixel_filtered(), |s| s.filter = Filter::Max),
-        // With an ε of a radius, what is hidden lies farther behind than a hundredth.
-        with(&sphere, |s| (s.cull, s.epsilon) = (Cull::Hidden, Epsilon::Radii(0.1))),
+        // Flat, and ε below a hundredth of the distance: what is not hidden is taken for it.
+        with(&board, |s| (s.cull, s.epsilon) = (Cull::Hidden, Epsilon::Radii(0.1))),
         with(&sphere, |s| s.kernel_eval = KernelEval::Texture),
     ];
     all.extend(rasterizers.map(|rasterizer| with(&ellipses, |s| s.rasterizer = rasterizer)));
@@ -109,7 +112,8 @@ fn every_formula_of_opaque_splats_is_seen_by_points_and_by_quads() {
     let quads = |headless: &mut Headless, hard: &Hard, oracle: &Picture| {
         with_points_up_to(headless, 0.0, |headless| points(headless, hard, oracle))
     };
-    let of_points = [Formula::PointCenter, Formula::PointSize];
+    // Lists of what is not hidden are of points alone.
+    let of_points = [Formula::PointCenter, Formula::PointSize, Formula::NearestDepth];
     let of_quads: Vec<_> = Formula::ALL.into_iter().filter(|formula| !of_points.contains(formula)).collect();
     assert_seen(&mut headless, &scenes, &of_quads, &quads);
 }
