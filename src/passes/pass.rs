@@ -1,7 +1,7 @@
 //! A pass in the making: each resource is named once, with its access and where the pass finds it; so are its pipelines, and why the
 //! frame has it.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use crate::passes::pipeline::{
     cache::Shaders,
@@ -114,7 +114,8 @@ impl<'g, 'a> Pass<'g, 'a> {
         bound.sort_unstable();
         declared.finish(Box::new(move |context| match source {
             Source::Device(shaders, descriptors) => {
-                body(&Recording { context, shaders, descriptors, bound: &bound })
+                let pipeline = Cell::default();
+                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline })
             }
             Source::List(_) => Ok(()),
         }));

@@ -1,5 +1,7 @@
 //! What the body of a pass records with: the sets of what the pass named, its pipelines, draws and dispatches.
 
+use std::cell::Cell;
+
 use ash::vk;
 
 use crate::passes::{
@@ -30,6 +32,8 @@ pub(crate) struct Recording<'c, 'a> {
     pub descriptors: &'a DescriptorPool,
     /// In order.
     pub bound: &'c [(At, ResourceId)],
+    /// The pipeline that was bound last: chunks in a row often share one.
+    pub pipeline: Cell<vk::Pipeline>,
 }
 
 impl Recording<'_, '_> {
@@ -98,8 +102,11 @@ impl Recording<'_, '_> {
         })
     }
 
-    /// Binds a pipeline.
+    /// Binds a pipeline, where it is not bound already.
     pub fn bind(&self, pipeline: Pipeline) {
+        if self.pipeline.replace(pipeline.raw) == pipeline.raw {
+            return;
+        }
         let point = pipeline.layout.bind_point();
         // SAFETY: the pipeline is alive as long as the shaders; its layout has this bind point.
         unsafe { self.device().cmd_bind_pipeline(self.commands(), point, pipeline.raw) };
