@@ -104,13 +104,19 @@ impl<'a> Floor<'a> {
         self.chunks.iter().map(|chunk| u64::from(chunk.count)).sum()
     }
 
-    /// Draws one frame and measures it.
+    /// Draws one frame and measures it. A driver need not run a shader that does nothing, and then counts no fragments of
+    /// the first pass: its counts are `None`.
     ///
     /// # Errors
     /// Whatever the driver answers.
     pub fn frame(&mut self, headless: &Headless, profile: Profile) -> Result<FrameProfile> {
         self.record(headless, Some(profile), false)?;
-        self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), |profiler| profiler.read())
+        let mut measured =
+            self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), |profiler| profiler.read())?;
+        if let Some(depth) = measured.passes.first_mut() {
+            depth.counts = depth.counts.filter(|counts| counts.fragments > 0);
+        }
+        Ok(measured)
     }
 
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {

@@ -46,8 +46,14 @@ pub fn draw_as_published(
     let mut slot = FrameSlot::new(device);
 
     let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
-    // Two sets with the kernel, one with the sums.
-    let room = PoolSizes { sets: 3, images: 4, filtered_images: 2, ..PoolSizes::default() };
+    // Two sets that fragments read, with the kernel, and one of sums: with stand-ins where nothing is read.
+    let room = PoolSizes {
+        sets: 3,
+        uniform_buffers: 3,
+        images: 2 * 2 + 5,
+        filtered_images: 2,
+        ..PoolSizes::default()
+    };
     // SAFETY: the slot is new.
     unsafe { slot.begin(Needs { room, ..Needs::default() }, None) }?;
     let SlotParts { descriptors, execution, .. } = slot.parts()?;

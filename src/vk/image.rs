@@ -38,6 +38,13 @@ impl ImageDesc<'_> {
             .usage(self.usage)
     }
 
+    /// The same for an image that may share its memory. Newer layers (1.4.309) look for hazards between two such images only
+    /// where both say so, and are alike. Without a layer nothing is said: a driver may then not compress them.
+    pub(crate) fn placed_info(&self, device: &Device) -> vk::ImageCreateInfo<'static> {
+        let info = self.create_info();
+        if device.instance().is_validated() { info.flags(vk::ImageCreateFlags::ALIAS) } else { info }
+    }
+
     /// Which aspect of the format there is.
     pub fn aspect(&self) -> vk::ImageAspectFlags {
         match self.format {
@@ -63,7 +70,7 @@ impl Image {
     /// # Errors
     /// [`crate::ErrorKind::Option`] for a size that the device doesn't have; whatever the driver or the allocator answers.
     pub fn new(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
-        let mut image = Self::unbound(device, desc)?;
+        let mut image = Self::unbound(device, desc, &desc.create_info())?;
         // SAFETY: the image was just made from this device.
         let requirements = unsafe { device.raw().get_image_memory_requirements(image.raw) };
         let allocation = device.allocate(&AllocationCreateDesc {
@@ -87,7 +94,7 @@ impl Image {
     /// # Errors
     /// Whatever the driver answers.
     pub(crate) fn placed(device: &Device, desc: ImageDesc<'_>, memory: &Memory, offset: u64) -> Result<Self> {
-        let mut image = Self::unbound(device, desc)?;
+        let mut image = Self::unbound(device, desc, &desc.placed_info(device))?;
         let (block, start) = memory.raw();
         // SAFETY: the image was just made from this device.
         let needed = unsafe { device.raw().get_image_memory_requirements(image.raw) };
@@ -120,7 +127,7 @@ impl Image {
     }
 
     /// The image without memory and view: an owner already, so that no failure after it leaks the handle.
-    fn unbound(device: &Device, desc: ImageDesc<'_>) -> Result<Self> {
+    fn unbound(device: &Device, desc: ImageDesc<'_>, info: &vk::ImageCreateInfo<'_>) -> Result<Self> {
         let vk::Extent2D { width, height } = desc.extent;
         let side = device.facts().limits.max_image_side;
         if ![width, height].iter().all(|side_px| (1..=side).contains(side_px)) {
@@ -129,8 +136,7 @@ impl Image {
         }
         // SAFETY: the device is alive; the size is within its limits; formats and usages are those that
         // `DeviceFacts` asks for or Vulkan demands of every device.
-        let raw = unsafe { device.raw().create_image(&desc.create_info(), None) }
-            .of_call("vkCreateImage", desc.name)?;
+        let raw = unsafe { device.raw().create_image(info, None) }.of_call("vkCreateImage", desc.name)?;
         device.set_name(raw, desc.name);
         Ok(Self {
             device: device.clone(),

@@ -4,7 +4,7 @@ use std::ffi::CStr;
 
 use ash::{ext, vk};
 
-use super::result::VkResultExt;
+use super::{loader::load_entry, result::VkResultExt};
 use crate::error::Result;
 
 pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -20,13 +20,18 @@ pub enum Validation {
 }
 
 /// Makes validation layers up to 1.3.239 or so look for hazards across submits, which they only do when told by
-/// the environment (newer ones do so by themselves). Adds to what the user has set.
+/// the environment. Adds to what the user has set. Newer layers do so by themselves, and where the environment sets
+/// such an old flag they ignore what `VK_EXT_layer_settings` asks for: for them nothing is set.
 ///
 /// # Safety
 /// No other thread may read or write the process's environment at the same time; in a program: first thing in
 /// `main`; in tests: before the process's first Vulkan instance, behind a `Once`.
 pub unsafe fn arm_validation_across_submits() {
     const FLAG: &str = "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
+    let through = load_entry().and_then(|(entry, _)| Through::of_installed(&entry));
+    if !matches!(through, Ok(Through::ValidationFeatures)) {
+        return;
+    }
     let separator = if cfg!(windows) { ";" } else { ":" };
     let enables = match std::env::var("VK_LAYER_ENABLES") {
         Ok(set) if set.split(separator).any(|flag| flag == FLAG) => return,
@@ -72,17 +77,19 @@ pub(super) const FEATURES: [vk::ValidationFeatureEnableEXT; 2] = [
     vk::ValidationFeatureEnableEXT::BEST_PRACTICES,
 ];
 
-/// Those checks for [`Through::LayerSettings`].
-pub(super) fn settings() -> [vk::LayerSettingEXT<'static>; 2] {
-    static YES: vk::Bool32 = vk::TRUE;
-    [c"validate_sync", c"validate_best_practices"].map(|name| {
+/// Those checks for [`Through::LayerSettings`], and every message as often as it comes, as older layers do by themselves.
+pub(super) fn settings() -> [vk::LayerSettingEXT<'static>; 3] {
+    static VALUES: [vk::Bool32; 2] = [vk::FALSE, vk::TRUE];
+    let settings =
+        [(c"validate_sync", true), (c"validate_best_practices", true), (c"enable_message_limit", false)];
+    settings.map(|(name, value)| {
         let mut setting = vk::LayerSettingEXT::default()
             .layer_name(VALIDATION_LAYER)
             .setting_name(name)
             .ty(vk::LayerSettingTypeEXT::BOOL32);
         // ash's own setter counts bytes, not values.
         setting.value_count = 1;
-        setting.p_values = (&raw const YES).cast();
+        setting.p_values = (&raw const VALUES[usize::from(value)]).cast();
         setting
     })
 }

@@ -6,7 +6,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::program::{Folder, Run, done, surfel};
+use super::program::{Folder, Run, counts_all_fragments, done, surfel};
 
 /// A run that is small: figures don't matter here.
 fn bench(folder: &Folder, words: &[&str]) -> Run {
@@ -25,14 +25,20 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
     assert!(run.stdout.contains("x floor") && run.stdout.ends_with('\n'), "{}", run.stdout);
     // Of 3 frames no median is certain.
     assert!(run.stdout.contains("note: floor, frame: too few frames"), "{}", run.stdout);
-    let report = &folder.json("floor.json")["floor"];
+    let json = folder.json("floor.json");
+    let report = &json["floor"];
     let rows = report["rows"].as_array().unwrap();
     let names: Vec<_> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["visibility", "accumulate", "finalize", "frame"]);
     for row in rows {
         assert!(row["ratio"]["median"].as_f64().unwrap() > 0.0, "{row}");
-        assert_eq!(row["fragments"], row["floor_fragments"], "{row}");
+        if counts_all_fragments(&json) {
+            assert_eq!(row["fragments"], row["floor_fragments"], "{row}");
+        }
+        assert!(row["fragments"].as_u64() > Some(0) && row["floor_fragments"] != 0, "{row}");
     }
+    let is_unknown = rows[0]["floor_fragments"].is_null();
+    assert_eq!(run.stdout.contains("counts no fragments of a shader that does nothing"), is_unknown);
     assert!(report["strict_points"].as_u64() < report["floor_points"].as_u64());
 
     // In the same rounds: the device's limits, and which of them binds each pass.
@@ -163,9 +169,10 @@ fn throughput_is_told_in_every_form_of_every_pass() {
             assert_eq!(method["frames"]["frame_ms"]["interval"].as_array().unwrap().len(), 2);
             assert!(method["frames"]["record_ms"]["median"].as_f64() > Some(0.0));
         }
-        // What the floor draws is what perspective splatting draws.
-        let fragments = |frames: &Value| frames["passes"][1]["fragments"].clone();
-        assert_eq!(fragments(&row["floor"]), fragments(&methods[0]["frames"]));
+        // What the floor draws is what perspective splatting draws, which has no early depth test.
+        let fragments = |frames: &Value| frames["passes"][1]["fragments"].as_u64();
+        let (floor, own) = (fragments(&row["floor"]), fragments(&methods[0]["frames"]));
+        assert!(floor == own || floor > Some(0) && floor < own && !counts_all_fragments(&report), "{row}");
         assert!(row["splat_bytes"].as_u64() > Some(0) && row["transient_bytes"].as_u64() > Some(0));
     }
     assert!(report["machine"]["threads"].as_u64() > Some(0));

@@ -17,7 +17,7 @@ mod selftest;
 use std::fs;
 
 use files::{exr, png};
-use program::{Folder, done, surfel};
+use program::{Folder, counts_all_fragments, done, surfel};
 use serde_json::Value;
 
 const SMALL: [&str; 2] = ["--size", "64x64"];
@@ -203,7 +203,9 @@ fn timings_hold_all_that_explains_a_measurement() {
     assert!(ordered(&frames["submit_to_wait_ms"]) > 0.0);
     if passes[0]["vertices"].is_u64() {
         assert_eq!((&passes[0]["vertices"], &passes[1]["vertices"]), (&150_000.into(), &150_000.into()));
-        assert!(passes[2]["fragments"].as_u64() >= Some(64 * 64));
+        // Where nothing is seen, an early depth test fails.
+        let least = if counts_all_fragments(&json) { 64 * 64 } else { 1 };
+        assert!(passes[2]["fragments"].as_u64() >= Some(least));
     }
     assert!(frames["flags"].is_array());
     // People see the same, and why.

@@ -50,6 +50,11 @@ pub struct Run {
     pub stderr: String,
 }
 
+/// Whether the driver counts all fragments that are drawn, as Mesa 22.3.6 (Debian 12) does, not only those that it must shade.
+pub fn counts_all_fragments(report: &serde_json::Value) -> bool {
+    report["device"]["driver"].as_str().unwrap().contains("Mesa 22.")
+}
+
 pub fn surfel(folder: &Folder, arguments: &[&str]) -> Run {
     surfel_with(folder, arguments, &[])
 }

@@ -71,6 +71,7 @@ impl Host {
                 .large_points(features.large_points)
                 .draw_indirect_first_instance(features.first_instance)
                 .pipeline_statistics_query(features.pipeline_statistics);
+            let mut features10 = vk::PhysicalDeviceFeatures2::default().features(core);
             let mut features12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
             let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
                 .synchronization2(true)
@@ -82,7 +83,7 @@ impl Host {
                 .queue_priorities(&[1.0])];
             let info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
-                .enabled_features(&core)
+                .push_next(&mut features10)
                 .push_next(&mut features12)
                 .push_next(&mut features13);
             let device = instance.create_device(physical, &info, None).unwrap();

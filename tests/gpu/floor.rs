@@ -4,12 +4,33 @@ use crate::common::{scenes, shared, with_limits};
 use surfel::{
     graph::execute::{FrameProfile, Profile},
     instruments::{Floor, LimitProbes},
-    renderer::Wanted,
+    renderer::{Headless, Wanted},
     report::ThroughputProbe,
 };
 
-fn fragments(profile: &FrameProfile) -> Vec<u64> {
-    profile.passes.iter().map(|pass| pass.counts.expect("counted").fragments).collect()
+fn fragments(profile: &FrameProfile) -> Vec<Option<u64>> {
+    profile.passes.iter().map(|pass| pass.counts.map(|counts| counts.fragments)).collect()
+}
+
+/// Whether the driver counts all that is drawn, as Mesa 22.3.6 (Debian 12) does. Others need not run a shader that does
+/// nothing, nor one of a fragment that an early depth test hides.
+fn counts_all(headless: &Headless) -> bool {
+    headless.device().facts().driver.contains("Mesa 22.")
+}
+
+/// The floor draws the fragments of the passes. The passes themselves write depth, which allows no early test, until finalize.
+fn assert_same(headless: &Headless, floor: &[Option<u64>], own: &[Option<u64>]) {
+    if counts_all(headless) {
+        assert!(own.len() == 3 && own.iter().all(Option::is_some), "{own:?}");
+        assert_eq!(floor, own);
+    } else {
+        let ([depth, add, fill], [visibility, accumulate, finalize]) = (floor, own) else {
+            panic!("{floor:?}, {own:?}");
+        };
+        let is_less = |less: &Option<u64>, more: &Option<u64>| *less > Some(0) && less <= more;
+        assert!(depth.is_none() || depth == visibility, "{depth:?}, {visibility:?}");
+        assert!(is_less(add, accumulate) && is_less(finalize, fill), "{floor:?}, {own:?}");
+    }
 }
 
 #[test]
@@ -26,7 +47,7 @@ fn the_floor_draws_the_fragments_of_the_passes_and_the_strict_floor_fewer_points
             let mut floor = Floor::new(&headless, &prepared, &hard.camera, &settings, survivors).unwrap();
             let counted = fragments(&floor.frame(&headless, Profile::Counts).unwrap());
             println!("{size_px:?}: {} points; fragments {own:?}, the floor's {counted:?}", floor.count());
-            assert_eq!(counted, own);
+            assert_same(&headless, &counted, &own);
             // A closed sphere: about half of its splats face away.
             assert_eq!(floor.count() < prepared.splat_count(), is_fewer);
             let times = floor.frame(&headless, Profile::Times).unwrap();
@@ -51,7 +72,7 @@ fn a_scene_of_several_chunks_has_a_floor_too() {
                 let mut floor =
                     Floor::new(headless, &prepared, &hard.camera, &hard.settings, survivors).unwrap();
                 let counted = fragments(&floor.frame(headless, Profile::Counts).unwrap());
-                assert_eq!(counted, fragments(frame.profile.as_ref().unwrap()));
+                assert_same(headless, &counted, &fragments(frame.profile.as_ref().unwrap()));
                 assert_eq!(floor.count() < prepared.splat_count(), survivors);
             }
         },
@@ -75,6 +96,7 @@ fn the_limits_shade_what_their_rates_count() {
                 // None is kept, and none counted where a driver tests the depth first.
                 ThroughputProbe::Points => assert_eq!(fragments, Some(0)),
                 ThroughputProbe::DrawnPoints => {}
+                ThroughputProbe::DepthFragments if fragments == Some(0) && !counts_all(&headless) => {}
                 // Points of 32 pixels: in 64x96 none overlaps another. Drivers may count by blocks of 4x4.
                 ThroughputProbe::Fragments
                 | ThroughputProbe::DepthFragments

@@ -52,6 +52,9 @@ fn any_order_of_drops_with_a_frame_under_way_leaks_nothing_and_destroys_nothing_
     }
 }
 
+/// What a leaked object is called: by layer 1.3.239 (Debian 12), and by 1.4.309 (Debian 13).
+const LEAKED: [&str; 2] = ["VUID-vkDestroyDevice-device-00378", "VUID-vkDestroyDevice-device-05137"];
+
 /// The layer would have said so above.
 #[test]
 fn a_leaked_object_is_reported_when_the_device_is_destroyed() {
@@ -61,13 +64,13 @@ fn a_leaked_object_is_reported_when_the_device_is_destroyed() {
     let messages = watched.messages.clone();
     drop(watched);
     let vuids: Vec<_> = messages.all().into_iter().map(|message| message.vuid).collect();
-    assert_eq!(vuids, ["VUID-vkDestroyDevice-device-00378"]);
+    assert!(matches!(&vuids[..], [vuid] if LEAKED.contains(&vuid.as_str())), "{vuids:?}");
 
     let host = Host::new(EnabledFeatures::default());
     // SAFETY: as above.
     unsafe { host.device.create_fence(&vk::FenceCreateInfo::default(), None) }.unwrap();
     let said = host.destroy();
-    assert!(said.len() == 1 && said[0].contains("VUID-vkDestroyDevice-device-00378"), "{said:?}");
+    assert!(said.len() == 1 && LEAKED.iter().any(|vuid| said[0].contains(vuid)), "{said:?}");
 }
 
 /// So would it of an object that is destroyed before the host has waited for the device.

@@ -16,7 +16,7 @@ pub fn memory_need(device: &Device, desc: &ResourceDesc, usage: Usage) -> Memory
     let mut requirements = vk::MemoryRequirements2::default();
     match (desc, usage) {
         (ResourceDesc::Image(desc), Usage::Image(usage)) => {
-            let create = image_desc("", *desc, usage).create_info();
+            let create = image_desc("", *desc, usage).placed_info(device);
             let info = vk::DeviceImageMemoryRequirements::default().create_info(&create);
             // SAFETY: the description is valid; maintenance4 is enabled.
             unsafe { device.raw().get_device_image_memory_requirements(&info, &mut requirements) };

@@ -122,7 +122,26 @@ impl FloorReport {
             .column("fragments", |row| figure(row.fragments))
             .column("floor's", |row| figure(row.floor_fragments))
             .note("medians; a ratio is the median of the rounds' own ratios")
-            .grid()
+            .with_notes(self.notes())
+    }
+
+    /// How the fragments are to be read where a driver shades fewer than are drawn.
+    fn notes(&self) -> Vec<String> {
+        let is_unknown = |row: &FloorRow| row.floor_ms.is_some() && row.floor_fragments.is_none();
+        let is_unknown = |row: &FloorRow| row.fragments.is_some() && is_unknown(row);
+        let counts = |row: &FloorRow| row.fragments.zip(row.floor_fragments);
+        let differ = |row: &FloorRow| counts(row).is_some_and(|(own, floor)| own != floor);
+        let notes = [
+            (
+                self.rows.iter().any(is_unknown),
+                "the driver counts no fragments of a shader that does nothing",
+            ),
+            (
+                self.rows.iter().any(differ),
+                "fragments that fail an early depth test are not shaded, nor counted",
+            ),
+        ];
+        notes.into_iter().filter(|(holds, _)| *holds).map(|(_, note)| note.to_owned()).collect()
     }
 
     /// The figures by which it is judged.
