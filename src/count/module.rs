@@ -1,4 +1,6 @@
 //! A module as rspirv parses it, arranged for counting: constants with their values, the blocks of its one function.
+//!
+//! Its parts (`reader`, `types`, `fold`, `specialize`, `numbering`) work on the module and are called by it, and so name each other.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,5 +1,7 @@
 //! Some rows of the picture: what is in front first, then the sums over the fragments of the opaque surface, then its
 //! color, then what is transparent before it.
+//!
+//! This file and `polygons` name each other: polygons are looked for in the band's rows, and are a part of what it shows.
 
 use std::ops::Range;
 

@@ -1,4 +1,7 @@
 //! Which cases there are, and what they are called.
+//!
+//! This file, `check` and `layers` name each other: a case holds its check, a check draws in its case's suite, and layers are cases with
+//! checks of their own.
 
 use super::{check::Check, layers};
 use crate::{

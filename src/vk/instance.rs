@@ -5,10 +5,10 @@ use std::{ffi::CStr, sync::Arc};
 use ash::{ext, vk};
 
 use super::{
-    loader::load_entry,
+    loader::{VALIDATION_LAYER, load_entry},
     messages::{Messages, on_message},
     result::VkResultExt,
-    validation::{FEATURES, Through, VALIDATION_LAYER, Validation, settings},
+    validation::{FEATURES, Through, Validation, settings},
 };
 use crate::error::{ErrorKind, Result};
 

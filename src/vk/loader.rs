@@ -1,9 +1,14 @@
 //! The Vulkan loader and the validation layer.
 
+use std::ffi::CStr;
+
 use ash::vk;
 
-use super::{result::VkResultExt, validation::VALIDATION_LAYER};
+use super::result::VkResultExt;
 use crate::error::{ErrorKind, Result};
+
+/// Its name.
+pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// Versions of the system's Vulkan parts.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,10 +4,11 @@ use std::ffi::CStr;
 
 use ash::{ext, vk};
 
-use super::{loader::load_entry, result::VkResultExt};
+use super::{
+    loader::{VALIDATION_LAYER, load_entry},
+    result::VkResultExt,
+};
 use crate::error::Result;
-
-pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// Whether the validation layer watches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

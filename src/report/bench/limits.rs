@@ -3,6 +3,8 @@
 //! A pass has so many points, fragments and bytes. Each, at the speed that the device reached when it did nothing else, takes
 //! a time below which the pass can't get; the largest of these times is its *bound*, and that limit *binds*. Fragments are those that
 //! are shaded: what a shader then discards may cost less than one that is written or blended.
+//!
+//! This file and `floor` name each other: the floor's report holds the limits', which are measured in the floor's rounds.
 
 use std::collections::BTreeMap;
 

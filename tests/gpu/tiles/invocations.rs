@@ -38,7 +38,6 @@ fn an_invocation_a_pixel_or_a_short_column_draws_the_same_bits_as_one_a_column()
 }
 
 #[test]
-#[ignore = "an invocation a pixel in every pass that has two forms: minutes on a CPU"]
 fn an_invocation_a_pixel_draws_the_same_bits_in_every_pass() {
     let mut headless = shared();
     let eye = |x, z| scenes::builder::camera([x, 0.0, z], [0.0; 3]);
