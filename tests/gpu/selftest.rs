@@ -23,7 +23,7 @@ fn every_quick_case_passes() {
 }
 
 #[test]
-#[ignore = "every method with every option on every hard scene: half an hour"]
+#[ignore = "every method with every option on every hard scene: minutes"]
 fn every_case_passes() {
     assert_all_pass(&|_| true);
 }
