@@ -287,11 +287,8 @@ fn samples_that_are_few_or_alone_get_the_radius_of_their_share() {
     mesh.positions.extend(tiny);
     mesh.triangles.push([3, 4, 5]);
     let area = Areas::of(&mesh, &|_| true).unwrap().total;
-    let alone = (0..100).find_map(|seed| {
-        let (splats, _) = samples(&mesh, 100, seed);
-        let i = splats.positions.iter().position(|p| p.x > 1e5)?;
-        Some(f64::from(disks(&splats).1[i]))
-    });
+    let alone = |splats: &Splats| splats.positions.iter().position(|p| p.x > 1e5).map(|i| disks(splats).1[i]);
+    let alone = (0..100).find_map(|seed| alone(&samples(&mesh, 100, seed).0)).map(f64::from);
     assert!((alone.unwrap() / (3.0 * share(area, 100.0)) - 1.0).abs() < 1e-5, "{alone:?}");
     // Samples that f64 can't tell apart.
     let mut mesh = one_triangle();
