@@ -192,22 +192,19 @@ impl Rasterizer {
 }
 
 impl Filter {
-    /// Whether this filter exists for this rasterizer.
+    /// Whether this filter exists for this rasterizer; what tiles rule out is [`super::Settings::why_not_tiles`].
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] for `ewa`, whose map is affine, with a rasterizer that stands for another
     /// map, and for what would have to leave a triangle.
     pub(super) fn check(self, rasterizer: Rasterizer) -> Result<()> {
-        use Rasterizer::{Compute, PerspectivePaper, Raycast, RaycastApproximate, Triangle};
+        use Rasterizer::{PerspectivePaper, Raycast, RaycastApproximate, Triangle};
         let problem = match (self, rasterizer) {
             (Self::Ewa, PerspectivePaper | Raycast | RaycastApproximate | Triangle) => {
                 "the filter brings its own affine map; expected perspective, quad, affine-center or affine-contour"
             }
             (Self::Max, Triangle) => {
                 "the filter reaches beyond the triangle; expected another rasterizer or filter"
-            }
-            (Self::Max, Compute) => {
-                "a record has no room for a second kernel; expected another rasterizer or filter"
             }
             _ => return Ok(()),
         };
@@ -251,7 +248,7 @@ mod tests {
                             | Rasterizer::RaycastApproximate
                             | Rasterizer::Triangle
                     ),
-                    Filter::Max => matches!(rasterizer, Rasterizer::Triangle | Rasterizer::Compute),
+                    Filter::Max => *rasterizer == Rasterizer::Triangle,
                     _ => false,
                 };
                 assert_eq!(error.is_some(), refused, "{filter:?} with {rasterizer:?}: {error:?}");

@@ -71,16 +71,28 @@ impl Settings {
             (option.check)(self).map_err(|problem| Error::option(format!("--{}", option.name), problem))?;
         }
         self.filter.check(self.rasterizer)?;
-        if self.rasterizer == Rasterizer::Compute && self.kernel_eval == KernelEval::Texture {
-            let problem =
-                "texture: compute finds kernels by arithmetic; expected analytic or another rasterizer";
-            return Err(Error::option("--kernel-eval", problem));
+        if let (Rasterizer::Compute, Some((option, reason))) = (self.rasterizer, self.why_not_tiles()) {
+            let problem = format!("{reason}; expected another value, or a --rasterizer other than compute");
+            return Err(Error::option(option, problem));
         }
         if self.filter == Filter::Ewa && !matches!(self.kernel, Kernel::Gaussian { .. }) {
             let problem = "ewa: adds covariances, which psi_e has none of; expected --kernel gaussian:S";
             return Err(Error::option("--filter", problem));
         }
         Ok(())
+    }
+
+    /// The option that rules out tiles (`--rasterizer compute`), and why it does, as a part of a sentence.
+    pub fn why_not_tiles(&self) -> Option<(&'static str, &'static str)> {
+        if self.filter == Filter::Max {
+            let reason = "the filter max has a second kernel, which records of tiles have no room for";
+            return Some(("--filter", reason));
+        }
+        if self.kernel_eval == KernelEval::Texture {
+            let reason = "the texture of kernels is not for tiles, which find them by arithmetic";
+            return Some(("--kernel-eval", reason));
+        }
+        None
     }
 
     /// Refuses a filter that the splats of an object rule out.
@@ -149,6 +161,8 @@ mod tests {
         let gaussian = |sigma| Settings { kernel: Kernel::Gaussian { sigma }, ..good() };
         let psi_e = |a, b, n| Settings { kernel: Kernel::PsiE { a, b, n }, ..good() };
         let background = |blue| Settings { background: Some([0.0, 1.0, blue]), ..good() };
+        let textured_tiles =
+            Settings { kernel_eval: KernelEval::Texture, rasterizer: Rasterizer::Compute, ..good() };
         let cases = [
             ("--size", Settings { size_px: [0, 5], ..good() }),
             ("--size", Settings { size_px: [5, 65_537], ..good() }),
@@ -160,6 +174,8 @@ mod tests {
             ("--kernel", psi_e(1.0, 1.0, f32::NAN)),
             ("--filter", Settings { filter: Filter::Ewa, ..psi_e(6.0, 1.5, 3.0) }),
             ("--filter", Settings { filter: Filter::Ewa, rasterizer: Rasterizer::Raycast, ..good() }),
+            ("--filter", Settings { filter: Filter::Max, rasterizer: Rasterizer::Compute, ..good() }),
+            ("--kernel-eval", textured_tiles),
             ("--epsilon", Settings { epsilon: Epsilon::Radii(-1e-9), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::NAN), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::INFINITY), ..good() }),

@@ -14,7 +14,7 @@ use crate::passes::{
 };
 use crate::{
     error::{Error, Result},
-    scene::{Filter, KernelEval, Rasterizer, Settings},
+    scene::{Rasterizer, Settings},
     vk::Limits,
 };
 
@@ -121,11 +121,8 @@ fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::
 }
 
 fn can_do_tiles(settings: &Settings, limits: &Limits) -> std::result::Result<(), Reason> {
-    if settings.filter == Filter::Max {
-        return Err("the filter max has a second kernel, which records have no room for");
-    }
-    if settings.kernel_eval == KernelEval::Texture {
-        return Err("tiles find kernels by arithmetic");
+    if let Some((_, reason)) = settings.why_not_tiles() {
+        return Err(reason);
     }
     if !limits.first_instance
         || limits.storage_buffers_a_stage < STORAGE_BUFFERS
@@ -155,6 +152,7 @@ pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
 mod tests {
     use super::*;
     use crate::passes::plan::few::is_few;
+    use crate::scene::{Filter, KernelEval};
 
     #[test]
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
