@@ -55,12 +55,13 @@ impl<Body> Graph<Body> {
         let mut executed = live.order.iter().zip(barriers.passes).zip(rendering).peekable();
         let (mut passes, mut culled) = (Vec::with_capacity(live.order.len()), Vec::new());
         for ((declared, pass), kind) in graph.passes.into_iter().enumerate().zip(kinds) {
-            let Pass { name, why, uses, side_effect, .. } = pass;
+            let Pass { name, why, role, uses, side_effect, .. } = pass;
             match executed.next_if(|((next, _), _)| **next == declared) {
                 Some(((_, barriers), rendering)) => {
                     passes.push(PlannedPass {
                         name,
                         why,
+                        role,
                         declared,
                         kind,
                         barriers,

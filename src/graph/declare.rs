@@ -45,10 +45,23 @@ pub(super) struct Resource {
 pub(super) struct Pass {
     pub(super) name: String,
     pub(super) why: &'static str,
+    pub(super) role: Role,
     pub(super) uses: Vec<Use>,
     pub(super) side_effect: bool,
     /// The name of the first handle that is another graph's.
     pub(super) foreign: Option<Arc<str>>,
+}
+
+/// What a pass does, as far as measurements have to know it and no [`Access`] tells it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Nothing of what follows.
+    #[default]
+    Other,
+    /// Its fragments are blended with what is in the color attachments.
+    Blends,
+    /// It draws all that is in the lists which it reads, each thing once.
+    DrawsAll,
 }
 
 /// One resource in one pass.
@@ -142,8 +155,14 @@ impl<Body> Graph<Body> {
 
     /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
     pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
-        let pass =
-            Pass { name: name.to_owned(), why: "", uses: Vec::new(), side_effect: false, foreign: None };
+        let pass = Pass {
+            name: name.to_owned(),
+            why: "",
+            role: Role::Other,
+            uses: Vec::new(),
+            side_effect: false,
+            foreign: None,
+        };
         PassBuilder { graph: self, pass }
     }
 }
@@ -188,6 +207,12 @@ impl<Body> PassBuilder<'_, Body> {
     /// Says why the frame has the pass, for whoever explains it.
     pub fn why(mut self, why: &'static str) -> Self {
         self.pass.why = why;
+        self
+    }
+
+    /// Says what it does, for whoever measures it.
+    pub fn role(mut self, role: Role) -> Self {
+        self.pass.role = role;
         self
     }
 

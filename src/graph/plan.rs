@@ -4,7 +4,7 @@ use super::{
     access::PassKind,
     alias::{Block, Slot},
     barrier::{Barrier, Batch},
-    declare::Use,
+    declare::{Role, Use},
     lifetime::{Lifetime, Usage},
     load_store::Rendering,
     resource::{Origin, ResourceDesc, ResourceId, State},
@@ -52,6 +52,8 @@ pub struct PlannedPass {
     pub name: String,
     /// Why the frame has it; empty where it did not say.
     pub why: &'static str,
+    /// What it does, where it said so.
+    pub role: Role,
     /// Its place among the declared passes.
     pub declared: usize,
     /// What it records.

@@ -14,7 +14,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, PassBuilder, ResourceId, Start, execute::Body},
+    graph::{Access, Graph, Handle, PassBuilder, ResourceId, Role, Start, execute::Body},
     vk::DescriptorPool,
 };
 
@@ -101,6 +101,11 @@ impl<'g, 'a> Pass<'g, 'a> {
     /// Writes what they don't name: an attachment.
     pub fn attach<K>(self, handle: &mut Handle<K>, access: Access, start: Start) -> Self {
         Self { declared: self.declared.write(handle, access, start), ..self }
+    }
+
+    /// Says what it does, for whoever measures it.
+    pub fn role(self, role: Role) -> Self {
+        Self { declared: self.declared.role(role), ..self }
     }
 
     /// Keeps the pass even if nobody reads what it writes.

@@ -16,7 +16,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, Role, Start, execute::Body},
     scene::Settings,
     shaders::{self, config::*},
     vk::Blend,
@@ -55,7 +55,8 @@ pub(crate) fn layer_accumulate<'a>(
     let inputs = layer.inputs;
     let mut sums = create(graph, layer, ["color sums", "normal sums"]);
     let why = "transparent things: sums of weights, colors, normals and alphas of the layer";
-    let pass = begin(layer.pass(graph, "accumulate", why), layer, depth, &mut sums);
+    let pass = layer.pass(graph, "accumulate", why).role(Role::Blends);
+    let pass = begin(pass, layer, depth, &mut sums);
     let pass = pass.read_if(read(BIND_READ_KERNEL), layer.kernel, Access::SampledFragment);
     let pipelines = splat_pass(inputs.settings, layer.before.is_some()).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {

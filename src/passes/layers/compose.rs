@@ -14,7 +14,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, Role, Start, execute::Body},
     scene::Settings,
     shaders::{self, config::*},
     vk::Blend,
@@ -88,6 +88,7 @@ pub(crate) fn layer_compose<'a>(
     let lights = layer.lights.filter(|_| layer_sums.rest.is_none());
     let mut pass = layer
         .pass(graph, "compose", why)
+        .role(Role::Blends)
         .attach(&mut target, Access::ColorAttachment, start)
         .read_if(sums(BIND_SUMS_LIGHTS), lights, Access::UniformReadFragment);
     for (binding, image) in images_of(layer_sums) {

@@ -16,7 +16,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Role, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
     vk::Blend,
@@ -73,6 +73,7 @@ pub(crate) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let why = "transparent things: lit colors and weights of all that is left";
     let mut pass = layer
         .pass(graph, "accumulate", why)
+        .role(Role::Blends)
         .attach(&mut sums.color, Access::ColorAttachment, zero)
         .attach(&mut sums.normal, Access::ColorAttachment, zero)
         .read_if(read(BIND_READ_KERNEL), layer.kernel, Access::SampledFragment);

@@ -16,7 +16,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, ClearValue, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, ClearValue, Graph, Handle, Image, Role, Start, execute::Body},
     scene::{KernelEval, Settings, Transition},
     shaders::config::*,
 };
@@ -94,6 +94,7 @@ pub(crate) fn accumulate<'a>(
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
     let pass = Pass::new(graph, inputs.source, "accumulate", WHY)
+        .role(Role::Blends)
         .attach(&mut sums.color, Access::ColorAttachment, zero)
         .attach(&mut sums.normal, Access::ColorAttachment, zero)
         .read_if(read(BIND_READ_KERNEL), kernel, Access::SampledFragment);

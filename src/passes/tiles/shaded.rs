@@ -18,7 +18,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, Buffer, Graph, Handle, Image, execute::Body},
+    graph::{Access, Buffer, Graph, Handle, Image, Role, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
 };
@@ -72,7 +72,8 @@ pub(crate) fn shaded<'a>(
     let beside = Beside { polygons: polygons.is_some(), lights: inputs.lights };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
-    let pass = Pass::new(graph, inputs.source, &format!("see, sum and shade {kind}tiles"), why);
+    let pass =
+        Pass::new(graph, inputs.source, &format!("see, sum and shade {kind}tiles"), why).role(Role::DrawsAll);
     let mut pass = match plan.hidden {
         true => tiles.shorten_lists(pass),
         false => tiles.read_lists(pass),

@@ -23,7 +23,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, Image, ImageDesc, Start, execute::Body},
+    graph::{Access, Graph, Handle, Image, ImageDesc, Role, Start, execute::Body},
     scene::{Accumulate, Settings, Transition},
     shaders::{self, config::*},
 };
@@ -195,7 +195,7 @@ pub(crate) fn fused<'a>(
     let mut key = key(inputs.settings, plan, step);
     key.constants.push((SPEC_KEEPS_DEPTH, u32::from(start == TileStart::Cleared)));
     let why = "opaque splats: visibility and sums of one tile after the other";
-    let pass = Pass::new(graph, inputs.source, &format!("see and sum {kind}tiles"), why);
+    let pass = Pass::new(graph, inputs.source, &format!("see and sum {kind}tiles"), why).role(Role::DrawsAll);
     let pass = if plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     let (access, content) = start.access();
     let pass = pass

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use surfel::{
     graph::{
-        Access, Executed, Plan, PlannedPass, Use,
+        Access, Executed, Plan, PlannedPass, Role, Use,
         execute::{FrameProfile, PassCounts, PassProfile},
     },
     instruments::{LimitProbes, ListOccupancy, Probe, TileOccupancy},
@@ -95,9 +95,7 @@ impl<'a> FrameWork<'a> {
                 [Some(true), ..] => OfTiles::SetUp,
                 [Some(false), ..] | [_, Some(true), _] => OfTiles::Lists,
                 // Tiles with too many splats are left to other passes, as are large splats.
-                [None, Some(false), Some(false)]
-                    if tiles.overflow == 0 && pass.name.starts_with("see") && pass.name.contains("sum") =>
-                {
+                [None, Some(false), Some(false)] if tiles.overflow == 0 && pass.role == Role::DrawsAll => {
                     OfTiles::DrawsAll
                 }
                 _ => OfTiles::Draws,
@@ -138,14 +136,12 @@ fn uses(pass: &PlannedPass, access: Access) -> bool {
 /// Bytes of a color in the buffers of a chunk.
 const COLOR_BYTES: u64 = 8;
 
-/// The kind of a pass's fragments: the plan has the attachments, but only the pass's name tells whether it blends.
+/// The kind of a pass's fragments.
 fn fragments_of(pass: &PlannedPass) -> ThroughputProbe {
     let has_colors = pass.rendering.as_ref().is_some_and(|rendering| !rendering.colors.is_empty());
     match () {
         () if !has_colors => ThroughputProbe::DepthFragments,
-        () if pass.name.starts_with("accumulate") || pass.name.starts_with("compose") => {
-            ThroughputProbe::BlendedFragments
-        }
+        () if pass.role == Role::Blends => ThroughputProbe::BlendedFragments,
         () => ThroughputProbe::Fragments,
     }
 }
