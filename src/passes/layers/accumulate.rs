@@ -55,8 +55,7 @@ pub(crate) fn layer_accumulate<'a>(
     let inputs = layer.inputs;
     let mut sums = create(graph, layer, ["color sums", "normal sums"]);
     let why = "transparent things: sums of weights, colors, normals and alphas of the layer";
-    let pass = layer.pass(graph, "accumulate", why).role(Role::Blends);
-    let pass = begin(pass, layer, depth, &mut sums);
+    let pass = begin(layer.pass(graph, "accumulate", why), layer, depth, &mut sums);
     let pass = pass.read_if(read(BIND_READ_KERNEL), layer.kernel, Access::SampledFragment);
     let pipelines = splat_pass(inputs.settings, layer.before.is_some()).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
@@ -99,6 +98,7 @@ fn begin<'g, 'a>(
 ) -> Pass<'g, 'a> {
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
     let pass = pass
+        .role(Role::Blends)
         .attach(&mut sums.color, Access::ColorAttachment, zero)
         .attach(&mut sums.normal, Access::ColorAttachment, zero)
         .uses(depth, Access::DepthTest);

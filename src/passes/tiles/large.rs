@@ -14,7 +14,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
-    graph::{Access, Graph, Handle, Image, Start, execute::Body},
+    graph::{Access, Graph, Handle, Image, Role, Start, execute::Body},
     shaders::config::*,
 };
 
@@ -51,6 +51,7 @@ pub(crate) fn sum_large<'a>(
     with_depth: bool,
 ) -> Result<()> {
     let pass = Pass::new(graph, inputs.source, &format!("sum {kind}large splats"), WHY)
+        .role(Role::Blends)
         .attach(&mut images.sums.color, Access::ColorAttachment, Start::Load)
         .attach(&mut images.sums.normal, Access::ColorAttachment, Start::Load);
     let pass = read_depths(pass, depth, polygons, with_depth);
