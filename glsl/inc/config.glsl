@@ -168,7 +168,9 @@
 #define SEGMENT_BLOCK 32      // Records that are dealt out to a segment at a time.
 #define BIN_GROUP_SIZE 8      // Invocations of a workgroup that walks over segments.
 #define PROJECT_GROUP_SIZE 64 // Invocations of a workgroup that projects splats.
-#define MOST_CHUNKS 8191      // Chunks that tile rects can tell apart.
+#define RECT_SIDE_BITS 16     // Bits of a tile rect along a side of the image: the first tile's place, then how many tiles more.
+#define MOST_PLACE_BITS 13    // Of these, bits of a place at most; the rest marks small rects and their corners.
+#define RECT_CHUNK 4294959104 // From this rect on they stand for no tiles but for a chunk each; the last one, all ones, for nothing.
 #define SLOTS_IN_ROW 256      // Tiles in a row of an image that holds overflow tiles alone.
 #define STATE_VECTORS 4       // Vectors of four floats that are kept of a pixel of an overflow tile's layers.
 #define WHOLE_TILES 2147483647 // The part of a dispatch that does whole tiles and leaves the overflow tiles out.

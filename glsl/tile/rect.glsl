@@ -5,14 +5,13 @@
 // the last bits; all ones, not seen.
 
 layout(constant_id = SPEC_PLACE_BITS) const uint PLACE_BITS = 11;
-const uint MORE_BITS = 16 - PLACE_BITS;
+const uint MORE_BITS = RECT_SIDE_BITS - PLACE_BITS;
 const uint LAST_PLACE = (1u << PLACE_BITS) - 1;
 const uint MOST_MORE = 3 * (1u << (MORE_BITS - 2)) - 1;
-const uint SMALL_BITS = MORE_BITS - 3;
+const uint SMALL_BITS = MOST_PLACE_BITS - PLACE_BITS;
 const uint MOST_MORE_OF_SMALL = (1u << SMALL_BITS) - 1;
 const uint SMALL = 3u << (2 * MORE_BITS - 2);
 const uint RECT_NONE = 0xffffffffu;
-const uint RECT_CHUNK = RECT_NONE - MOST_CHUNKS;
 
 // `outside`: bits of the corners that it does not touch: the first tile, the last of the first row, and both of the last row.
 uint rect_from(uvec2 first, uvec2 more, uint outside)

@@ -6,7 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     plan::{
         FramePlan,
-        tiles::{RECORD_BYTES, RECT_CHUNK, TilePlan},
+        tiles::{RECORD_BYTES, TilePlan},
     },
     tiles::lists::RECORD_QUARTERS,
 };

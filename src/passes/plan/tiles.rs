@@ -8,13 +8,16 @@ use crate::passes::plan::invocations::Invocations;
 use crate::passes::plan::tiles::rows::tile_rows;
 use crate::{math::size::pixels_along, shaders::config::*, vk::Limits};
 
-/// Bits of a tile's column or row in a tile rect, as in `glsl/tile/rect.glsl`; what is left of 16 is for how many tiles a splat touches
-/// along a side. The first that has room for the image is taken.
-const PLACE_BITS: [u32; 4] = [10, 11, 12, 13];
+/// Bits of a tile's column or row in a tile rect at least; what is left of [`RECT_SIDE_BITS`] is for how many tiles a splat touches
+/// along a side. As few are taken as have room for the image.
+const LEAST_PLACE_BITS: u32 = 10;
 
-/// Tiles along a side that a splat of a record touches at most: `MOST_MORE` and one there.
+/// Chunks that tile rects can tell apart.
+const MOST_CHUNKS: u32 = u32::MAX - RECT_CHUNK;
+
+/// Tiles along a side that a splat of a record touches at most: `MOST_MORE` of `glsl/tile/rect.glsl`, and one.
 fn most_tiles_a_side(place_bits: u32) -> u32 {
-    3 << (14 - place_bits)
+    3 << (RECT_SIDE_BITS - place_bits - 2)
 }
 
 /// Iterations of all loops of a shader's run together, after which llvmpipe ends them silently, with some in reserve.
@@ -35,9 +38,6 @@ const ENTRIES_A_PIXEL: u64 = 4;
 /// Walks over all segments, one after the other, unless splats touch [`MOST_OF_MANY`] tiles at most.
 const MOST_ROUNDS: u32 = 16;
 const MOST_OF_MANY: u64 = 64;
-
-/// Where rects begin that stand for no tiles, as in `glsl/tile/rect.glsl`.
-pub(crate) const RECT_CHUNK: u32 = u32::MAX - MOST_CHUNKS;
 
 /// The bytes of a quarter of a record, each quarter in a buffer of its own.
 pub(crate) const RECORD_BYTES: u64 = 16;
@@ -131,7 +131,7 @@ impl TilePlan {
             return None;
         }
         let has_places = |bits: &u32| tiles_x.max(tiles_y) <= (1 << bits) - most_tiles_a_side(*bits);
-        let place_bits = PLACE_BITS.into_iter().find(has_places)?;
+        let place_bits = (LEAST_PLACE_BITS..=MOST_PLACE_BITS).find(has_places)?;
         let most_a_side = most_tiles_a_side(place_bits);
         let record_count = u32::try_from(records).ok()?;
         let blocks = record_count.div_ceil(SEGMENT_BLOCK);
