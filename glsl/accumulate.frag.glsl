@@ -61,7 +61,7 @@ void main()
         weight = kernel_weight(dot(fragment.uv, fragment.uv));
     }
     if (WEIGHTED) {
-        weight = max(weight * normal_weight.w, LEAST_WEIGHT); // what covers must not vanish in 16-bit sums
+        weight = max(weight * normal_weight.w, LEAST_WEIGHT);
     }
     if (SUMMED == SUMMED_REST) {
         color_sum = weight * extra.w * vec4(extra.rgb, 1.0);

@@ -14,10 +14,10 @@
 layout(local_size_x = LIST_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint visible_bits[]; };
 
-bool is_outside(vec3 p, float radius)
+bool is_outside(vec3 p, float radius, float near)
 {
     float reach = 2.0 * radius;
-    if (p.z + reach < frame.near) {
+    if (p.z + reach < near) {
         return true;
     }
     if (FILTER == FILTER_ADJUST_PAPER || !(reach <= 0.25 * p.z)) {
@@ -35,8 +35,8 @@ bool is_outside(vec3 p, float radius)
 bool may_be_seen(uint index)
 {
     Splat splat = load_splat(index);
-    bool left_out = CULL_BACKFACES && dot(splat.normal, splat.p) > 0.0;
-    return !left_out && !is_outside(splat.p, splat.radius);
+    bool left_out = CULL_BACKFACES && splat.det > 0.0;
+    return !left_out && !is_outside(splat.p, splat.radius, frame.near * splat.unit);
 }
 
 void main()

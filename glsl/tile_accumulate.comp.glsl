@@ -59,12 +59,15 @@ void load(bool goes_on)
     }
 }
 
-// Half floats end at HALF_FLOAT_MAX. Of sums only ratios count.
+// Half floats end at HALF_FLOAT_MAX, and what covers must not become 0. Of sums only ratios count.
 void fit_half_floats(int row)
 {
     vec4 largest = max(abs(colors[row]), abs(normals[row]));
     float most = max(max(largest.x, largest.y), max(largest.z, largest.w));
     float factor = most > HALF_FLOAT_FITS ? HALF_FLOAT_FITS / most : 1.0;
+    if (colors[row].a > 0.0 && colors[row].a < LEAST_HALF_FLOAT) {
+        factor = LEAST_HALF_FLOAT / colors[row].a;
+    }
     colors[row] *= factor;
     normals[row] *= factor;
 }

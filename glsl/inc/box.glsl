@@ -50,7 +50,7 @@ void include_rim(inout Box box, Mapping m, float a, float b, float c, float size
     for (int sign = -1; sign <= 1; sign += 2) {
         vec2 angle = e * k + float(sign) * root * vec2(-e.y, e.x);
         vec3 q = m.p + m.s * angle.x + m.t * angle.y;
-        if (q.z >= frame.near) {
+        if (q.z >= m.near) {
             include_point(box, q, size);
         }
     }
@@ -64,13 +64,13 @@ Box near_box(Mapping m)
     include_rim(box, m, m.n0.y, m.n1.y, m.n2.y, size);
     include_rim(box, m, m.n0.x, m.n1.x, m.n2.x, size);
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
-    float chord = (frame.near - m.p.z) / depth_radius;
+    float chord = (m.near - m.p.z) / depth_radius;
     if (depth_radius > 0.0 && abs(chord) <= 1.0) {
         vec2 e = vec2(m.s.z, m.t.z) / depth_radius;
         float root = sqrt(max(1.0 - chord * chord, 0.0));
         for (int sign = -1; sign <= 1; sign += 2) {
             vec2 angle = e * chord + float(sign) * root * vec2(-e.y, e.x);
-            include_point(box, vec3((m.p + m.s * angle.x + m.t * angle.y).xy, frame.near), size);
+            include_point(box, vec3((m.p + m.s * angle.x + m.t * angle.y).xy, m.near), size);
         }
     }
     return box;

@@ -17,6 +17,8 @@
 #define SPEC_OUTWARD 13       // Constant: transparent and closed; normals stay outward in layers.
 #define SPEC_IN_LAYERS 14     // Constant: transparent; drawn in layers.
 #define SPEC_PACKED 15        // Constant: disks in 16 bytes, their colors in 4 (`inc/packed.glsl`).
+#define SPEC_FINE 9           // Constant: positions have a second part (`inc/splat.glsl`).
+#define SPEC_HALF_SUMS 38     // Constant: splats are summed in 16 bits.
 #define SPEC_LIGHTS 21        // Constant: how many lights of its own the scene has.
 #define SPEC_LIMIT_SPLATS 27  // Constant: splats of each invocation of the limit of kernels.
 #define SPEC_HALF_FLOATS 28   // Constant: what is left in images has 16 bits.
@@ -200,5 +202,5 @@
 #define MOST_LIGHTS 16              // Lights of a scene.
 #define HALF_FLOAT_MAX 65504.0      // The largest finite 16-bit float.
 #define HALF_FLOAT_FITS 60000.0     // Sums above it are scaled to it, so that their rounding cannot end beyond the largest.
-#define LEAST_WEIGHT 5.9604645e-8   // 2^-24, the smallest 16-bit float: what covers must not vanish in sums.
+#define LEAST_HALF_FLOAT 5.9604645e-8 // 2^-24, the smallest 16-bit float above 0; kernels end there.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

@@ -3,5 +3,5 @@
 float nearest_of_regular(Mapping m)
 {
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
-    return FORMULA_LESS(FORMULA_NEAREST_DEPTH, frame.near / (m.p.z - depth_radius) * 1.00001);
+    return FORMULA_LESS(FORMULA_NEAREST_DEPTH, m.near / (m.p.z - depth_radius) * 1.00001);
 }

@@ -57,26 +57,31 @@ void emit_nothing()
 void hand_over(Mapping m, vec4 extra)
 {
     // Dual to s and t in the splat's plane: u_axis . s = 1, u_axis . t = 0.
-    float n2 = precise_dot(m.n2, m.n2);
-    vec3 u_axis = precise_cross(m.t, m.n2) / n2;
-    vec3 v_axis = precise_cross(m.n2, m.s) / n2;
-    // The third component such that the plane holds the center.
-    vec2 slope = m.n2.xy * (m.scale / frame.near);
-    vec3 plane = vec3(slope, (1.0 - (slope.x * m.p.x + slope.y * m.p.y)) / m.p.z);
+    vec3 normal = unit_of(largest(m.n2)) * m.n2;
+    float length2 = precise_dot(normal, m.n2);
+    vec3 u_axis = precise_cross(m.t, normal) / length2;
+    vec3 v_axis = precise_cross(normal, m.s) / length2;
+    // 1 / z is linear along the image: n2 . (x, y, 1) / det. The third component such that the plane holds the center, but where
+    // that loses more digits: rounding is a step of 1 + |slope . p| over p_z, or of the component itself.
+    vec3 plane = m.n2 * (m.scale / m.near);
+    vec2 of_center = plane.xy * m.p.xy;
+    if ((1.0 + abs(of_center.x) + abs(of_center.y)) < abs(plane.z * m.p.z) || m.regular) {
+        plane.z = (1.0 - (of_center.x + of_center.y)) / m.p.z;
+    }
     if (m.edge_on) {
         plane = vec3(0.0); // its rays meet nothing
     }
     // The square that its approximate size leaves of the splat; none where the center is too near to have one.
     float half_square_px = 0.0;
-    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > frame.near) {
+    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > m.near) {
         half_square_px = approximate_radius(m) * frame.focal_px;
     }
-    // x and y of positions in focal lengths, so that a pixel is its ray.
+    // x and y of positions in focal lengths, so that a pixel is its ray; lengths in the view unit, which fragments know.
     vec3 stretch = vec3(frame.focal_px, frame.focal_px, 1.0);
-    ray_center_extra = vec4(m.p * stretch, extra.x);
-    ray_plane_extra = vec4(plane / stretch, extra.y);
-    ray_u_extra = vec4(u_axis / stretch, extra.z);
-    ray_v_square = vec4(v_axis / stretch, half_square_px);
+    ray_center_extra = vec4(m.p * stretch / m.unit, extra.x);
+    ray_plane_extra = vec4(plane / stretch * m.unit, extra.y);
+    ray_u_extra = vec4(u_axis / stretch * m.unit, extra.z);
+    ray_v_square = vec4(v_axis / stretch * m.unit, half_square_px);
 }
 #elif !defined(TRIANGLES)
 void hand_over(Mapping m, ImageMap map, vec4 extra)
@@ -92,8 +97,8 @@ void hand_over(Mapping m, ImageMap map, vec4 extra)
     uv_affine = vec4(map.at_x0.xy, map.affine ? 1.0 : 0.0, extra.w);
 #endif
 #if defined(CENTER)
-    bool low_pass = m.p.z > frame.near;
-    center_low_pass = low_pass ? vec3(handed_over_px(projected_center_px(m)), frame.near / m.p.z) : vec3(0.0);
+    bool low_pass = m.p.z > m.near;
+    center_low_pass = low_pass ? vec3(handed_over_px(projected_center_px(m)), m.near / m.p.z) : vec3(0.0);
 #endif
 }
 #endif
@@ -104,7 +109,7 @@ void emit(Mapping m, vec4 extra, float depth_factor)
 #if defined(TRIANGLES)
     vec2 uv = triangle_corner(m, gl_VertexIndex % 3);
     vec3 q = m.p + m.s * uv.x + m.t * uv.y;
-    float z = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near) * depth_factor;
+    float z = FORMULA(FORMULA_CENTER_CONSTANTS, m.near) * depth_factor;
     // Depth is this position's: bit-equal in both passes but for the factor. (gl_Position itself can't be `invariant`: Mesa
     // 22.3 warns of it.)
     vec2 xy = 2.0 * frame.focal_px / frame.size_px * q.xy;

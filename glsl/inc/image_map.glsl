@@ -41,8 +41,12 @@ ImageMap projective_map(Mapping m, vec2 x0_px, vec3 at_x0)
 ImageMap projective_map_about(Mapping m, vec2 x0_px)
 {
     vec3 x0 = vec3(x0_px / frame.focal_px, 1.0);
-    // Here w comes from n2 too: it must be wrong by the same factor as its own scale, which then cancels.
-    m.scale = frame.near / precise_dot(m.n2, m.p);
+    // Near the center w comes from n2 too: it must be wrong by the same factor as its own scale, which then cancels. What is not regular may
+    // be seen far from there, where the scale itself is better.
+    vec3 apart = m.p.z * x0 - m.p;
+    if (m.regular || m.p.z > 0.0 && dot(apart, apart) < m.p.z * m.p.z * dot(x0, x0)) {
+        m.scale = m.near / precise_dot(m.n2, m.p);
+    }
     vec3 at_x0 = m.scale * vec3(precise_dot(m.n0, x0), precise_dot(m.n1, x0), precise_dot(m.n2, x0));
     return projective_map(m, x0_px, FORMULA(FORMULA_ELSEWHERE_CONSTANTS, at_x0));
 }
@@ -53,7 +57,7 @@ const float NEVER_INSIDE = 1e6;
 ImageMap projective_map_about_center(Mapping m)
 {
     vec2 x0_px = FORMULA(FORMULA_EXPANSION_POINT, projected_center_px(m));
-    float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near / m.p.z);
+    float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, m.near / m.p.z);
     if (FILTER == FILTER_MAX && m.edge_on) {
         return ImageMap(x0_px, vec3(0.0, 0.0, w0), vec3(NEVER_INSIDE, 0.0, 0.0), vec3(0.0, NEVER_INSIDE, 0.0), true);
     }
@@ -64,7 +68,7 @@ ImageMap affine_center_map(Mapping m)
 {
     // At the center (u, v) change as (uw, vw) / w does.
     ImageMap map = projective_map_about_center(m);
-    float z_over_near = FORMULA(FORMULA_AFFINE_MAP, m.p.z / frame.near);
+    float z_over_near = FORMULA(FORMULA_AFFINE_MAP, m.p.z / m.near);
     vec2 uv_x = map.along_x.xy * z_over_near;
     vec2 uv_y = map.along_y.xy * z_over_near;
     map.along_x.xy = uv_x;
@@ -98,7 +102,7 @@ Contour contour_of(Mapping m)
 // The depth at the ellipse's middle: of the plane, from the center's.
 float depth_at_middle(Mapping m, vec2 e, vec2 gradient)
 {
-    float w = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near / m.p.z) + dot(gradient, e - m.p.xy / m.p.z);
+    float w = FORMULA(FORMULA_CENTER_CONSTANTS, m.near / m.p.z) + dot(gradient, e - m.p.xy / m.p.z);
     return w;
 }
 
@@ -138,15 +142,18 @@ Stretched stretched(Mapping m)
     vec2 half_axes;
     if (RASTERIZER == RASTERIZER_AFFINE_CONTOUR && !m.edge_on) {
         Contour contour = contour_of(m);
-        float difference = contour.xx - contour.yy;
-        float spread = sqrt(difference * difference + 4.0 * contour.xy * contour.xy);
-        half_axes.x = sqrt(0.5 * (contour.xx + contour.yy + spread));
+        // In units of the larger, so that no fourth power of a length underflows.
+        float unit = max(max(contour.xx, contour.yy), TINY);
+        float difference = (contour.xx - contour.yy) / unit;
+        float xy = contour.xy / unit;
+        float spread = sqrt(difference * difference + 4.0 * xy * xy);
+        half_axes.x = sqrt(0.5 * (contour.xx + contour.yy + spread * unit));
         half_axes.y = contour.root_det / half_axes.x;
         float cosine = 1.0;
         float sine = 0.0;
         if (spread > 0.0) {
             float larger = sqrt(0.5 + 0.5 * abs(difference) / spread);
-            float smaller = FORMULA(FORMULA_FILTER_ROTATION, abs(contour.xy) / (spread * larger));
+            float smaller = FORMULA(FORMULA_FILTER_ROTATION, abs(xy) / (spread * larger));
             cosine = difference >= 0.0 ? larger : smaller;
             sine = difference >= 0.0 ? smaller : larger;
             sine = contour.xy < 0.0 ? -sine : sine;
@@ -161,7 +168,7 @@ Stretched stretched(Mapping m)
         half_axes = vec2(axes.major, abs(axes.minor));
         ewa.middle = m.p.xy / m.p.z;
         ewa.direction = axes.direction;
-        ewa.w = FORMULA(FORMULA_CENTER_CONSTANTS, frame.near / m.p.z);
+        ewa.w = FORMULA(FORMULA_CENTER_CONSTANTS, m.near / m.p.z);
         float s_z = m.s.z * axes.cosine + m.t.z * axes.sine;
         float t_z = m.t.z * axes.cosine - m.s.z * axes.sine;
         ewa.along_axes = FORMULA(FORMULA_INVERSE_MAPPING_W, -ewa.w / m.p.z) * vec2(s_z, axes.minor < 0.0 ? -t_z : t_z);

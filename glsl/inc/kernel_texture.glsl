@@ -8,5 +8,5 @@ float kernel_from_texture(vec2 uv)
 {
     const float scale = 0.5 * float(KERNEL_TEXTURE_SIDE - 1) / float(KERNEL_TEXTURE_SIDE);
     float weight = textureLod(kernel_texture, 0.5 + scale * uv, 0.0).r;
-    return FORMULA(FORMULA_KERNEL_TEXTURE, max(weight, LEAST_WEIGHT));
+    return FORMULA(FORMULA_KERNEL_TEXTURE, max(weight, LEAST_HALF_FLOAT));
 }

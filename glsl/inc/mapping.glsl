@@ -18,13 +18,15 @@ struct Mapping {
     vec3 n0;             // t x p, p x s, s x t: the rows of adj(M)
     vec3 n1;
     vec3 n2;
+    float near;          // depth of the near plane, in the splat's own unit, like all lengths here
+    float unit;          // that unit in view units is 1 / unit
     float scale;         // near / det; det as exact as the splat itself, also where it is seen edge-on
     float inverse_shift; // 1 / f
     vec3 normal;         // unit, view space, turned to the eye
     float share;         // of its weight that the filter leaves to the splat
     bool regular;        // see below
     bool faces_away;     // the normal was turned
-    bool edge_on;        // the plane holds the eye, as far as can be told: only a filter makes the splat visible
+    bool edge_on;        // the plane holds the eye: only a filter makes the splat visible
 };
 
 // A splat is *regular* if it lies wholly beyond the near plane and is not nearly as deep as it is far: its image is an
@@ -32,11 +34,17 @@ struct Mapping {
 // Depth radius over center depth up to which p_z^2 - s_z^2 - t_z^2 keeps them: at least 0.19 p_z^2.
 const float REGULAR_DEPTH_RATIO = 0.9;
 
-// |det| / (|s x t| |p|) below which the sign of det is rounding noise: the splat is seen edge-on and has no area.
-const float EDGE_ON = 2.4e-7; // 4 * 2^-24
+// A splat is seen edge-on, and has no area, where near / det is beyond this. |det| is the distance of the eye from the splat's plane times
+// the area of s and t, rounded about once, in a unit of which the splat is about 1 away or large: where it is so small, either the
+// plane holds the eye to 30 digits, or the splat is 1e-15 of its distance large.
+const float LARGEST_SCALE = 1e37;
 
-// A shift of less than a few steps of f32 would do nothing: seen from very far, a surface would hide itself in part.
+// Depths of one surface, found from two splats of it, differ by some steps of f32: with a smaller shift it would hide itself in
+// part. The reference has this rule, too (src/reference/splat.rs).
 const float LEAST_SHIFT = 1e-6;
+
+// Everything belongs to the nearest surface long before.
+const float LARGEST_EPSILON = 1e30;
 
 // Epsilon of a transparent splat grows as the filter lengthens the minor axis of its image, from l to L = sqrt(l^2 + h^2): a
 // slanted surface would peel again and again. A neighbor that still reaches a pixel has its center up to L from it, where the
@@ -60,7 +68,9 @@ bool map_splat(uint index, out Mapping m)
     vec3 p = splat.p;
     vec3 s = splat.s;
     vec3 t = splat.t;
-    bool faces_away = dot(splat.normal, p) > 0.0;
+    m.near = frame.near * splat.unit;
+    m.unit = splat.unit;
+    bool faces_away = splat.det > 0.0;
     if (CULL_BACKFACES && faces_away) {
         return false;
     }
@@ -70,10 +80,10 @@ bool map_splat(uint index, out Mapping m)
 
     // No filter makes a splat deeper: what is regular stays so.
     float depth_radius = sqrt(s.z * s.z + t.z * t.z);
-    if (p.z + depth_radius < frame.near) {
+    if (p.z + depth_radius < m.near) {
         return false; // wholly behind the near plane
     }
-    m.regular = p.z - depth_radius >= frame.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
+    m.regular = p.z - depth_radius >= m.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
 
     m.share = 1.0;
     bool is_widened = FILTER == FILTER_ADJUST && m.regular;
@@ -91,7 +101,6 @@ bool map_splat(uint index, out Mapping m)
     vec3 n1;
     vec3 n2;
     float det;
-    m.edge_on = false;
     if (is_widened) {
         n0 = widened.n0;
         n1 = widened.n1;
@@ -103,12 +112,12 @@ bool map_splat(uint index, out Mapping m)
         n2 = precise_cross(s, t);
         bool changed = FILTER == FILTER_ADJUST_PAPER && (any(notEqual(s, splat.s)) || any(notEqual(t, splat.t)));
         det = changed ? precise_dot(n2, p) : splat.det;
-        m.edge_on = !(abs(det) > EDGE_ON * sqrt(dot(n2, n2)) * sqrt(dot(p, p)));
     }
-    if (m.edge_on && !(FILTER == FILTER_MAX && p.z > frame.near) && !(FILTER == FILTER_EWA && m.regular)) {
+    float scale = m.near / det;
+    m.edge_on = !(abs(scale) <= LARGEST_SCALE);
+    if (m.edge_on && !(FILTER == FILTER_MAX && p.z > m.near) && !(FILTER == FILTER_EWA && m.regular)) {
         return false;
     }
-    float scale = frame.near / det;
     m.p = p;
     m.s = s;
     m.t = t;
@@ -121,7 +130,7 @@ bool map_splat(uint index, out Mapping m)
     if (IN_LAYERS && FILTER != FILTER_NONE && m.regular) {
         thickness *= FORMULA(FORMULA_LENGTHENED, thickened(splat.p, splat.s, splat.t));
     }
-    float epsilon = frame.epsilon_radii * thickness + frame.epsilon_length;
+    float epsilon = min(frame.epsilon_radii * thickness + frame.epsilon_length * splat.unit, LARGEST_EPSILON);
     float relative = epsilon > 0.0 ? max(FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)), LEAST_SHIFT) : 0.0;
     // Exactly 1 without epsilon: a division need not be.
     m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;

@@ -6,7 +6,7 @@ struct Surface {
     vec3 normal;  // unit, view space
 };
 
-// Normals that cancel give (0, 0, -1), the one toward the viewer. The smallest weight is 2^-24, so the square of a sum
+// Normals that cancel give (0, 0, -1), the one toward the viewer. The smallest weight is 2^-60, so the square of a sum
 // that did not cancel is far above the smallest f32.
 vec3 normal_of_sum(vec3 sum)
 {

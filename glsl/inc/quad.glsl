@@ -34,7 +34,7 @@ ImageMap quad_map(Mapping m, Quad quad)
     }
     vec2 center = projected_center_px(m);
     vec2 middle_px = 0.5 * frame.size_px;
-    bool center_inside = m.p.z > frame.near && all(greaterThanEqual(center, quad.lo - middle_px))
+    bool center_inside = m.p.z > m.near && all(greaterThanEqual(center, quad.lo - middle_px))
         && all(lessThanEqual(center, quad.hi - middle_px));
     if (m.regular || center_inside) {
         return projective_map_about_center(m);

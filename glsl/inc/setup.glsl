@@ -5,9 +5,6 @@
 #include "inc/variant.glsl"
 #include "inc/splat.glsl"
 
-// The smallest share of its weight that a filter leaves to a splat: of less, 16-bit sums lose dark colors.
-const float LEAST_SHARE = 1.0 / 16.0;
-
 #include "inc/principal.glsl"
 #include "inc/adjust.glsl"
 #include "inc/adjust_paper.glsl"

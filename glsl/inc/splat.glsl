@@ -10,14 +10,17 @@
 layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Shapes { vec4 shapes[]; };
 layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
 
-// A point of the splat is p + u s + v t with u^2 + v^2 <= 1.
+// A point of the splat is p + u s + v t with u^2 + v^2 <= 1. Lengths are in a unit of the splat's own, a power of two times the view
+// unit, in which the largest of |p| and the radius is about 1: squares and products of three lengths neither over- nor underflow,
+// whatever else is in the chunk. Images, and near over depth, don't depend on it.
 struct Splat {
     vec3 p;
     vec3 s;
     vec3 t;
     vec3 normal;  // unit, to the side from which the surface is seen
     float radius; // the larger one
-    float det;    // (s x t) . p, with all its digits also where the splat is seen edge-on
+    float det;    // (s x t) . p, rounded about once, also where the splat is seen edge-on
+    float unit;   // what lengths in the view unit were multiplied by
 };
 
 vec3 precise_cross(vec3 a, vec3 b)
@@ -70,57 +73,134 @@ vec3 exact_cross(vec3 a, vec3 b)
         exact_dot(vec3(a.x, -a.y, 0.0), vec3(b.y, b.x, 0.0), vec3(0.0)));
 }
 
-// n . p of a local normal and a local position, the eye at the origin. Not in view space: there the rotation's rounding,
-// 1e-7, is 1e-3 of the cosine of 89.99 degrees.
-float normal_dot_center(vec3 n, vec3 position)
+// The power of two that makes a length about 1; its exponent stays within +-100, so that nothing else leaves f32 by it.
+float unit_of(float size)
+{
+    uint exponent = clamp(floatBitsToUint(size) >> 23 & 255, 27, 227);
+    return uintBitsToFloat((254 - exponent) << 23);
+}
+
+float largest(vec3 v)
+{
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+// A vector from the eye, in the axes of local space: rounded, and what that left.
+struct FromEye {
+    vec3 high;
+    vec3 low;
+};
+
+// Knuth's two-sum of what is moved and the origin: exact but for the sum of what both left.
+FromEye from_eye(vec3 position, vec3 position_low)
 {
     vec3 origin = vec3(frame.origin_from_eye[0], frame.origin_from_eye[1], frame.origin_from_eye[2]);
     vec3 origin_low = vec3(frame.origin_from_eye[3], frame.origin_from_eye[4], frame.origin_from_eye[5]);
     vec3 moved = frame.view_from_local_scale * position; // exact, a power of two
     vec3 p = moved + origin;
     vec3 part = p - moved;
-    vec3 lost = (moved - (p - part)) + (origin - part) + origin_low;
-    return exact_dot(n, p, lost);
+    vec3 lost = (moved - (p - part)) + (origin - part);
+    if (!FINE) {
+        return FromEye(p, lost + origin_low);
+    }
+    // Next to the eye, what is left may be as large as the rest.
+    vec3 rest = lost + (origin_low + frame.view_from_local_scale * position_low);
+    vec3 high = p + rest;
+    vec3 of_rest = high - p;
+    vec3 low = (p - (high - of_rest)) + (rest - of_rest);
+    return FromEye(high, low);
+}
+
+// A fine splat's center in view space. x and y cancel where it is far from the eye beside its distance from the axis, so that they are
+// dot products in two parts. What f32 leaves of the rows' own numbers matters along the axis only, where the center may be far.
+vec3 fine_center(FromEye d)
+{
+    float z = precise_dot(frame.view_from_local_z.xyz, d.high);
+    float x = exact_dot(frame.view_from_local_x.xyz, d.high, d.low) + frame.view_from_local_x.w * z;
+    float y = exact_dot(frame.view_from_local_y.xyz, d.high, d.low) + frame.view_from_local_y.w * z;
+    return FORMULA(FORMULA_VIEW_TRANSFORM, vec3(x, y, z));
+}
+
+const uint SHAPE_VECTORS = (ELLIPSES ? 3 : 2) + (FINE ? 1 : 0);
+
+// The center in view space. Without the lower parts of positions one rotation and one sum: as exact as those positions.
+vec3 center_of(vec3 position, FromEye d)
+{
+    if (FINE) {
+        return fine_center(d);
+    }
+    vec3 translation = vec3(frame.view_from_local_x.w, frame.view_from_local_y.w, frame.view_from_local_z.w);
+    vec3 p = frame.view_from_local_scale * FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position)) + translation;
+    return p;
+}
+
+// n . p, not in view space: there the rotation's rounding, 1e-7, is 1e-3 of the cosine of 89.99 degrees.
+float normal_dot_center(vec3 n, FromEye d, float unit)
+{
+    return exact_dot(n, unit * d.high, unit * d.low);
+}
+
+Splat load_ellipse(uint index)
+{
+    uint first = SHAPE_VECTORS * index;
+    vec4 position_radius = shapes[first];
+    vec3 s = shapes[first + 1].xyz;
+    vec3 t = shapes[first + 2].xyz;
+    FromEye d = from_eye(position_radius.xyz, FINE ? shapes[first + 3].xyz : vec3(0.0));
+    Splat splat;
+    splat.p = center_of(position_radius.xyz, d);
+    splat.radius = frame.view_from_local_scale * position_radius.w;
+    splat.unit = unit_of(max(largest(splat.p), splat.radius));
+    float scale = splat.unit * frame.view_from_local_scale;
+    // About 1 long each, so that their product has a direction whatever their lengths.
+    vec2 units = vec2(unit_of(largest(s)), unit_of(largest(t)));
+    vec3 n = exact_cross(units.x * s, units.y * t);
+    splat.det = normal_dot_center(n, d, splat.unit) * (scale / units.x) * (scale / units.y);
+    splat.normal = rotated(safe_normalize(n));
+    splat.s = scale * FORMULA(FORMULA_TANGENT_FRAME, rotated(s));
+    splat.t = scale * rotated(t);
+    splat.p *= splat.unit;
+    splat.radius *= splat.unit;
+    return splat;
+}
+
+Splat load_disk(uint index)
+{
+    vec4 position_radius;
+    vec3 n_local;
+    vec3 low = vec3(0.0);
+    if (PACKED) {
+        uvec4 words = packed_shapes[index];
+        position_radius = vec4(unpacked_coordinate(words.x), unpacked_coordinate(words.y),
+            unpacked_coordinate(words.z), unpacked_radius(words.xyz));
+        n_local = unpacked_normal(words.w);
+    } else {
+        uint first = SHAPE_VECTORS * index;
+        position_radius = shapes[first];
+        n_local = shapes[first + 1].xyz;
+        low = FINE ? shapes[first + 2].xyz : vec3(0.0);
+    }
+    FromEye d = from_eye(position_radius.xyz, low);
+    Splat splat;
+    splat.p = center_of(position_radius.xyz, d);
+    splat.radius = frame.view_from_local_scale * position_radius.w;
+    splat.unit = unit_of(max(largest(splat.p), splat.radius));
+    splat.p *= splat.unit;
+    splat.radius *= splat.unit;
+    vec3 n = rotated(n_local);
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + n.z);
+    float b = n.x * n.y * a;
+    splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
+    splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
+    splat.normal = n;
+    splat.det = splat.radius * splat.radius * normal_dot_center(n_local, d, splat.unit);
+    return splat;
 }
 
 Splat load_splat(uint index)
 {
-    Splat splat;
-    float scale = frame.view_from_local_scale;
-    vec3 translation = vec3(frame.view_from_local_x.w, frame.view_from_local_y.w, frame.view_from_local_z.w);
-    if (ELLIPSES) {
-        vec4 position_radius = shapes[3 * index];
-        splat.p = scale * FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
-        splat.s = scale * FORMULA(FORMULA_TANGENT_FRAME, rotated(shapes[3 * index + 1].xyz));
-        splat.t = scale * rotated(shapes[3 * index + 2].xyz);
-        splat.normal = safe_normalize(cross(safe_normalize(splat.s), safe_normalize(splat.t)));
-        splat.radius = scale * position_radius.w;
-        vec3 n_local = exact_cross(scale * shapes[3 * index + 1].xyz, scale * shapes[3 * index + 2].xyz);
-        splat.det = normal_dot_center(n_local, position_radius.xyz);
-    } else {
-        vec4 position_radius;
-        vec3 n_local;
-        if (PACKED) {
-            uvec4 words = packed_shapes[index];
-            position_radius = vec4(unpacked_coordinate(words.x), unpacked_coordinate(words.y),
-                unpacked_coordinate(words.z), unpacked_radius(words.xyz));
-            n_local = unpacked_normal(words.w);
-        } else {
-            position_radius = shapes[2 * index];
-            n_local = shapes[2 * index + 1].xyz;
-        }
-        vec3 n = rotated(n_local);
-        float side = n.z >= 0.0 ? 1.0 : -1.0;
-        float a = -1.0 / (side + n.z);
-        float b = n.x * n.y * a;
-        splat.p = scale * FORMULA(FORMULA_VIEW_TRANSFORM, rotated(position_radius.xyz)) + translation;
-        splat.radius = scale * position_radius.w;
-        splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
-        splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
-        splat.normal = n;
-        splat.det = splat.radius * splat.radius * normal_dot_center(n_local, position_radius.xyz);
-    }
-    return splat;
+    return ELLIPSES ? load_ellipse(index) : load_disk(index);
 }
 
 // Where each splat has its own color: one for all is never packed.

@@ -23,7 +23,7 @@ float approximate_radius(Mapping m)
 
 Box splat_box(Mapping m)
 {
-    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > frame.near) {
+    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && m.p.z > m.near) {
         vec2 center = m.p.xy / m.p.z;
         float half_size = approximate_radius(m);
         return Box(center - half_size, center + half_size);
@@ -42,7 +42,7 @@ Box splat_box(Mapping m)
     } else {
         box = near_box(m);
     }
-    if (FILTER == FILTER_MAX && m.p.z > frame.near) {
+    if (FILTER == FILTER_MAX && m.p.z > m.near) {
         include_low_pass(box, m);
     }
     return box;

@@ -19,14 +19,14 @@ float triangle_scale(Mapping m)
     return 1.0 + SNAP_PX / (abs(axes.minor) * frame.focal_px);
 }
 
-const float LARGEST_SCALE = 1.0 + SNAP_PX / THINNEST_PX;
+const float LARGEST_TRIANGLE_SCALE = 1.0 + SNAP_PX / THINNEST_PX;
 
 bool fits_triangle(Mapping m)
 {
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
     float scale = triangle_scale(m);
     // Corners are 2 radii from the center. Written so that NaN and infinity don't fit.
-    return m.regular && scale <= LARGEST_SCALE && 2.0 * scale * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
+    return m.regular && scale <= LARGEST_TRIANGLE_SCALE && 2.0 * scale * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
 }
 
 vec2 triangle_corner(Mapping m, uint corner)

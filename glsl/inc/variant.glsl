@@ -16,9 +16,16 @@ layout(constant_id = SPEC_TRANSITION) const uint TRANSITION = TRANSITION_COLOR;
 layout(constant_id = SPEC_OUTWARD) const bool OUTWARD = false;
 layout(constant_id = SPEC_IN_LAYERS) const bool IN_LAYERS = false;
 layout(constant_id = SPEC_PACKED) const bool PACKED = false;
+layout(constant_id = SPEC_FINE) const bool FINE = false;
+layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
 
 // Regular splats (see mapping.glsl) are mapped by an affine map: u and v are linear in the image.
 const bool AFFINE = RASTERIZER == RASTERIZER_AFFINE_CENTER || RASTERIZER == RASTERIZER_AFFINE_CONTOUR
     || FILTER == FILTER_EWA;
 // Splats have weights of their own.
 const bool WEIGHTED = FILTER == FILTER_EWA || WEIGHT_BY_AREA;
+
+// What covers has a weight, 2^-60 at least: squares of sums don't vanish. In sums of 16 bits nothing above 0 is smaller than
+// LEAST_HALF_FLOAT, and of less than a 16th they lose dark colors.
+#define LEAST_SHARE (HALF_SUMS ? 1.0 / 16.0 : 0.0)
+#define LEAST_WEIGHT (HALF_SUMS ? LEAST_HALF_FLOAT : 8.6736174e-19)

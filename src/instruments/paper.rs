@@ -33,8 +33,9 @@ pub fn draw_as_published(
             "the scene has elliptic splats, the paper's filter is for disks",
         ));
     }
-    if scene.chunks.iter().any(|chunk| chunk.packed) {
-        return Err(Error::option("as published", "the paper's programs know no packed splats"));
+    if scene.chunks.iter().any(|chunk| chunk.packed || chunk.fine) {
+        let problem = "the paper's programs know no packed splats, nor such with coordinates beyond f32";
+        return Err(Error::option("as published", problem));
     }
     let device = headless.device();
     let format = vk::Format::R32G32B32A32_SFLOAT;

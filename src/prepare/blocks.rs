@@ -102,7 +102,8 @@ fn sample(words: &[[u32; 4]], survey: &Survey) -> Sample {
         }
         false => vector(words[1]),
     };
-    Sample { center: vector(words[0]), normal, radius: f32::from_bits(words[0][3]).into() }
+    let low = if survey.fine { vector(words[words.len() - 1]) } else { DVec3::ZERO };
+    Sample { center: vector(words[0]) + low, normal, radius: f32::from_bits(words[0][3]).into() }
 }
 
 #[cfg(test)]

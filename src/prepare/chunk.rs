@@ -4,7 +4,7 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
-    blocks::Block,
+    blocks::{Block, BlockMaker},
     memory::{ChunkMemory, Uploader},
     pack::{Packed, Survey, shape_bytes},
     radii::RadiusStep,
@@ -17,8 +17,13 @@ const MAX_SPLATS: usize = 1 << 22;
 
 /// How many splats fit into buffers of this many bytes: the larger shape decides, so that it is the same for all.
 pub(super) fn capacity(max_storage_buffer_range: u64) -> usize {
-    let fit = max_storage_buffer_range / shape_bytes(true) as u64;
+    let fit = max_storage_buffer_range / shape_bytes(true, false) as u64;
     usize::try_from(fit).unwrap_or(usize::MAX).clamp(1, MAX_SPLATS)
+}
+
+/// How many of that fit where they are fine.
+pub(super) fn part_of(capacity: usize, fine: bool) -> usize {
+    if fine { (capacity * shape_bytes(true, false) / shape_bytes(true, true)).max(1) } else { capacity }
 }
 
 /// Splats of one object in buffers of their own.
@@ -33,6 +38,8 @@ pub struct Chunk {
     pub closed: bool,
     /// Some of the object is transparent.
     pub transparent: bool,
+    /// Coordinates have two parts: 16 bytes more.
+    pub fine: bool,
     /// One color for all.
     pub uniform_color: bool,
     /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
@@ -80,6 +87,7 @@ impl Chunk {
             ellipses: survey.ellipses,
             closed,
             transparent,
+            fine: survey.fine,
             uniform_color: survey.uniform_color,
             packed: survey.packed,
             bounds: survey.bounds,
@@ -92,8 +100,29 @@ impl Chunk {
         })
     }
 
+    /// Puts its splats on the device, if there is one, batch by batch, and finds its blocks. `progress` is told how many are done.
+    pub(super) fn fill(
+        &mut self,
+        mut uploader: Option<&mut Uploader<'_>>,
+        batches: impl Iterator<Item = Packed>,
+        survey: &Survey,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<()> {
+        let (mut first, mut blocks) = (0, BlockMaker::default());
+        for packed in batches.filter(|packed| packed.count > 0) {
+            blocks.add(&packed, survey);
+            if let Some(uploader) = &mut uploader {
+                self.upload(uploader, first, &packed)?;
+            }
+            first += packed.count;
+            progress(first.into());
+        }
+        self.blocks = blocks.finish();
+        Ok(())
+    }
+
     /// Uploads the splats from number `first` of the chunk on.
-    pub(super) fn upload(&self, uploader: &mut Uploader<'_>, first: u32, packed: &Packed) -> Result<()> {
+    fn upload(&self, uploader: &mut Uploader<'_>, first: u32, packed: &Packed) -> Result<()> {
         let Some(ChunkMemory { buffers, .. }) = &self.memory else { return Ok(()) };
         let shapes: &[u8] = bytemuck::cast_slice(&packed.shapes);
         let colors: &[u8] = bytemuck::cast_slice(&packed.colors);

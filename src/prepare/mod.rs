@@ -2,7 +2,7 @@
 //!
 //! World coordinates are `f64`; shaders have `f32`. So each chunk is *rebased*: moved by an origin in its thick and scaled
 //! by a power of two. Both are exact; what is left is one rounding of each coordinate to `f32`, 6e-8 of its distance from
-//! that origin.
+//! that origin, and where that is too much a second part (`sites.rs`).
 
 mod as_packed;
 mod blocks;
@@ -14,6 +14,7 @@ mod packed;
 mod radii;
 mod rebase;
 mod sequence;
+mod sites;
 
 pub use as_packed::as_packed;
 pub use blocks::Block;
@@ -26,14 +27,14 @@ pub use rebase::{Rebase, ViewFromLocal};
 
 use std::ops::Range;
 
-use blocks::BlockMaker;
 use memory::Uploader;
 use mesh_chunk::PackedMesh;
 use sequence::Sequence;
+use sites::sites;
 
 use crate::{
     error::Result,
-    scene::{DefectCounts, Light, Opacity, Scene, SplatFormat, Storage},
+    scene::{DefectCounts, Light, Opacity, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 
@@ -130,41 +131,31 @@ fn cut(
         let transparent = opacity == Opacity::Transparent;
         // Before it is cut, so that chunks are compact.
         let sequence = Sequence::of(splats, scene.storage.order);
-        for range in pieces(0..sequence.len(), capacity) {
-            let which = || sequence.in_any_order(range.clone());
-            let survey = pack::survey(splats, which(), Rebase::of(splats, which()));
-            prepared.defects.merge(&survey.defects);
-            if survey.count == 0 {
-                done += range.len() as u64;
-                progress(done, total);
-                continue;
-            }
-            let survey = match scene.storage.format {
-                SplatFormat::Packed => survey.packed().unwrap_or(survey),
-                SplatFormat::Exact => survey,
-            };
-            if transparent {
-                transparent_splats += survey.count;
-                transparent_radii += survey.sum_of_radii;
-            }
-            let number = prepared.chunks.len();
-            let mut chunk = Chunk::new(uploader.as_ref(), number, (object.closed, transparent), &survey)?;
-            let (mut first, mut blocks) = (0, BlockMaker::default());
-            for batch in pieces(range.clone(), BATCH_SPLATS) {
-                done += batch.len() as u64;
-                let packed = pack::pack(splats, sequence.at(batch), &survey);
-                if packed.count > 0 {
-                    blocks.add(&packed, &survey);
-                    if let Some(uploader) = &mut uploader {
-                        chunk.upload(uploader, first, &packed)?;
+        for piece in pieces(0..sequence.len(), capacity) {
+            for site in sites(splats, &sequence, &piece, scene.storage.format) {
+                for range in pieces(0..site.len(&piece), chunk::part_of(capacity, site.fine)) {
+                    let which = |places: Range<usize>| site.at(&sequence, &piece, places);
+                    let survey = site.survey(splats, which(range.clone()));
+                    prepared.defects.merge(&survey.defects);
+                    if survey.count > 0 {
+                        if transparent {
+                            transparent_splats += survey.count;
+                            transparent_radii += survey.sum_of_radii;
+                        }
+                        let number = prepared.chunks.len();
+                        let traits = (object.closed, transparent);
+                        let mut chunk = Chunk::new(uploader.as_ref(), number, traits, &survey)?;
+                        let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
+                        let packed = batches.map(|which| pack::pack(splats, which, &survey));
+                        let mut uploaded = |count| progress(done + count, total);
+                        chunk.fill(uploader.as_mut(), packed, &survey, &mut uploaded)?;
+                        chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
+                        prepared.chunks.push(chunk);
                     }
-                    first += packed.count;
+                    done += range.len() as u64;
+                    progress(done, total);
                 }
-                progress(done, total);
             }
-            chunk.blocks = blocks.finish();
-            chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
-            prepared.chunks.push(chunk);
         }
     }
     prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));

@@ -1,7 +1,7 @@
 //! The layout of splats in GPU buffers.
 //!
 //! Disks, 32 bytes: `position radius`, `normal 0`. Ellipses, 48 bytes: `position major-radius`, `s 0`, `t 0`. Local
-//! space, f32. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
+//! space, f32. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
 use glam::{DVec3, Vec3};
@@ -21,6 +21,8 @@ pub struct Survey {
     pub count: u32,
     /// Whether they carry tangent vectors.
     pub ellipses: bool,
+    /// Coordinates have two parts.
+    pub fine: bool,
     /// One color for all.
     pub uniform_color: bool,
     /// Disks in 16 bytes.
@@ -40,7 +42,7 @@ pub struct Survey {
 impl Survey {
     /// Bytes of a splat's shape.
     pub fn shape_bytes(&self) -> usize {
-        if self.packed { packed::DISK_BYTES } else { shape_bytes(self.ellipses) }
+        if self.packed { packed::DISK_BYTES } else { shape_bytes(self.ellipses, self.fine) }
     }
 
     /// Bytes of a splat's color.
@@ -48,12 +50,13 @@ impl Survey {
         if self.colors_are_packed() { packed::COLOR_BYTES } else { COLOR_BYTES }
     }
 
-    /// The survey of these splats in 16 bytes each; `None` where they stay exact: ellipses, and what has something far off
-    /// ([`packed::rebase`]).
+    /// The survey of these splats in 16 bytes each; `None` where they stay exact: ellipses, fine ones, and what has
+    /// something far off ([`packed::rebase`]).
     pub fn packed(&self) -> Option<Self> {
         let [lo, hi] = self.bounds;
         let largest = lo.abs().max(hi.abs()).max_element().max(self.largest_radius);
-        let rebase = packed::rebase(self.rebase, largest).filter(|_| !self.ellipses && self.count > 0)?;
+        let rebase = packed::rebase(self.rebase, largest)
+            .filter(|_| !self.ellipses && !self.fine && self.count > 0)?;
         let scale = rebase.scale / self.rebase.scale; // a power of two, so that lengths are exact
         let widened =
             |step: &RadiusStep| RadiusStep { radius: packed::widened(step.radius * scale), ..*step };
@@ -91,8 +94,9 @@ pub struct Packed {
 const SHORTEST_TANGENT: f64 = 1.0 / (1_u128 << 90) as f64;
 
 /// Bytes of a splat's shape.
-pub fn shape_bytes(ellipses: bool) -> usize {
-    if ellipses { 48 } else { 32 }
+pub fn shape_bytes(ellipses: bool, fine: bool) -> usize {
+    let exact = if ellipses { 48 } else { 32 };
+    exact + if fine { 16 } else { 0 }
 }
 
 /// Bytes of a splat's color.
@@ -102,6 +106,7 @@ pub const COLOR_BYTES: usize = 8;
 pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebase) -> Survey {
     let mut survey = Survey {
         rebase,
+        fine: false,
         count: 0,
         ellipses: matches!(splats.shapes, Shapes::Ellipses { .. }),
         uniform_color: matches!(splats.colors, Colors::Uniform(_)),
@@ -171,6 +176,9 @@ pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey
                 };
                 packed.shapes.extend([bits(position, radius), local(s[i]), local(t[i])]);
             }
+        }
+        if survey.fine {
+            packed.shapes.push(bits(position - position.as_vec3().as_dvec3(), 0.0));
         }
         if !uniform_color || packed.colors.is_empty() {
             let color = splats.color(i);

@@ -1,6 +1,6 @@
 //! The local space of a chunk, and its view space in a frame.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::scene::{Camera, Splats};
 
@@ -22,8 +22,10 @@ pub struct Rebase {
 /// and pixels are ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewFromLocal {
-    /// The rows of the rotation, each with its component of the translation.
-    pub rows: [[f32; 4]; 3],
+    /// The rotation.
+    pub rotation: DMat3,
+    /// The local origin in the view's unit.
+    pub translation: DVec3,
     /// The factor of local lengths.
     pub view_from_local_scale: f64,
     /// The factor of world lengths.
@@ -84,17 +86,31 @@ impl Rebase {
         let origin_in_view = view.point(self.origin);
         let unit = power_of_two_above(origin_in_view.length().max(self.scale.recip()));
         let view_from_world_scale = unit.recip();
-        let translation = origin_in_view * view_from_world_scale;
-        let row = |i: usize| {
-            let axis = view.rotation.row(i).as_vec3();
-            [axis.x, axis.y, axis.z, translation[i] as f32]
-        };
         ViewFromLocal {
-            rows: [row(0), row(1), row(2)],
+            rotation: view.rotation,
+            translation: origin_in_view * view_from_world_scale,
             view_from_local_scale: view_from_world_scale / self.scale,
             view_from_world_scale,
             origin_from_eye: (self.origin - camera.eye) * view_from_world_scale,
         }
+    }
+}
+
+impl ViewFromLocal {
+    /// The rows of the rotation in f32, each with its component of the translation.
+    pub fn rows(&self) -> [[f32; 4]; 3] {
+        [0, 1, 2].map(|i| self.rotation.row(i).as_vec3().extend(self.translation[i] as f32).into())
+    }
+
+    /// For fine splats, which are moved by where the eye is (`glsl/inc/splat.glsl`): behind each row what f32 leaves of it, along the
+    /// view's axis.
+    pub fn fine_rows(&self) -> [[f32; 4]; 3] {
+        let axis = self.rotation.row(2);
+        [0, 1, 2].map(|i| {
+            let row = self.rotation.row(i);
+            let left = row - row.as_vec3().as_dvec3();
+            row.as_vec3().extend(left.dot(axis) as f32).into()
+        })
     }
 }
 
@@ -151,7 +167,7 @@ mod tests {
                 let eye = rebase.origin + DVec3::Z * distance * size;
                 let camera = Camera { eye, target: rebase.origin, up: DVec3::Y, fov_y_rad: 1.0, near: None };
                 let view = rebase.view_from_local(&camera);
-                let z = f64::from(view.rows[2][3]);
+                let z = view.translation.z;
                 assert!((distance * size * view.view_from_world_scale / z - 1.0).abs() < 1e-6);
                 assert!(z <= 1.0 && (z > 0.5 || view.view_from_local_scale >= 0.5), "{size} {distance}: {z}");
             }

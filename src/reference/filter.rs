@@ -8,8 +8,6 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::scene::LEAST_SHARE;
-
 /// The image-plane motion of a view-space point `at` that moves along `v`: the Jacobian of `(X/Z, Y/Z)`.
 pub(super) fn projected(at: DVec3, v: DVec3) -> DVec2 {
     (v.truncate() - at.truncate() / at.z * v.z) / at.z
@@ -36,12 +34,12 @@ pub(super) fn orthogonalized(center: DVec3, s: DVec3, t: DVec3) -> (DVec3, DVec3
 }
 
 /// The share of its weight that an adjusted splat keeps under a weight by area: the projected area of `old` over that
-/// of `new` (tangent vectors, at the center), at most 1 and at least [`LEAST_SHARE`].
-pub(super) fn area_share(center: DVec3, old: (DVec3, DVec3), new: (DVec3, DVec3)) -> f64 {
+/// of `new` (tangent vectors, at the center), at most 1 and at least `least`.
+pub(super) fn area_share(center: DVec3, old: (DVec3, DVec3), new: (DVec3, DVec3), least: f64) -> f64 {
     let area = |(s, t)| projected(center, s).perp_dot(projected(center, t)).abs();
     let share = area(old) / area(new);
     // Written so that 0/0 is the least share.
-    if share >= LEAST_SHARE { share.min(1.0) } else { LEAST_SHARE }
+    if share >= least { share.min(1.0) } else { least }
 }
 
 /// Below this many `h` an axis loses its depth as it vanishes: which of its ends is nearer can't be told where it

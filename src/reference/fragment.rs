@@ -6,7 +6,7 @@ use super::intersect::r2_margin;
 use super::kernel::weight;
 use super::splat::DrawnSplat;
 use super::view::View;
-use crate::scene::{Kernel, LEAST_WEIGHT};
+use crate::scene::Kernel;
 
 /// A splat's part of a pixel that it covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl DrawnSplat {
         // The depth is the disk's own wherever the disk is.
         let (z, _) = disk.or(low_pass)?;
         let weight = disk.map_or(0.0, |disk| disk.1).max(low_pass.map_or(0.0, |low_pass| low_pass.1));
-        Some(Fragment { z, weight: (self.share * weight).max(LEAST_WEIGHT) })
+        Some(Fragment { z, weight: (self.share * weight).max(self.least_weight) })
     }
 
     /// `None` where no rounding can change what the splat is here. `limit_r2` is the kernel's.

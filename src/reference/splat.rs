@@ -49,6 +49,8 @@ pub(super) struct DrawnSplat {
     pub map: Map,
     /// The factor of the kernel's value, above 0 and at most 1; coverage does not depend on it.
     pub share: f64,
+    /// The least weight of a fragment that covers.
+    pub least_weight: f64,
     /// The low-pass filter beside it, for [`Filter::Max`].
     pub low_pass: Option<LowPass>,
     /// The square to which it is cut, for [`Rasterizer::RaycastApproximate`].
@@ -73,6 +75,10 @@ impl DrawnSplat {
 
 /// The largest depth radius over the center's depth at which a splat is still taken for an ellipse.
 const REGULAR_DEPTH_RATIO: f64 = 0.9;
+
+/// The least part of its depth by which a splat is shifted: with less, a surface whose depth has 24 bits would hide itself in part.
+/// Farther away than 1e6 ε, surfaces closer to each other than a millionth of their distance are one.
+const LEAST_SHIFT: f64 = 1e-6;
 
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
 /// Objects whose every alpha is 0 have none.
@@ -163,7 +169,7 @@ fn prepare_one(
         Epsilon::Radii(factor) => factor * splats.major_radius(i) * thickness,
         Epsilon::Length(length) => length,
     };
-    let shift = if epsilon > 0.0 { 1.0 + epsilon / center.z.max(epsilon) } else { 1.0 };
+    let shift = if epsilon > 0.0 { 1.0 + (epsilon / center.z.max(epsilon)).max(LEAST_SHIFT) } else { 1.0 };
     let (s, t) = match settings.filter {
         Filter::Adjust if regular => adjust(center, s, t, h),
         Filter::AdjustPaper if regular => adjust_paper(center, s, t, h),
@@ -174,7 +180,7 @@ fn prepare_one(
     let share = match &map {
         Map::Stretched(stretched) => stretched.share,
         _ if in_front && settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area => {
-            area_share(center, original, (s, t))
+            area_share(center, original, (s, t), settings.floors().share)
         }
         _ => 1.0,
     };
@@ -210,6 +216,7 @@ fn prepare_one(
         shift,
         map,
         share,
+        least_weight: settings.floors().weight,
         low_pass,
         square,
         minor_px: (!reaches_near).then_some(view.focal_px * minor),
@@ -219,10 +226,13 @@ fn prepare_one(
 /// The map of a regular splat with the tangent vectors that are drawn. All rasterizers but the affine ones draw the
 /// same picture.
 fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
+    let least = settings.floors().share;
     match (settings.filter, settings.rasterizer) {
-        (Filter::Ewa, Rasterizer::AffineContour) => Map::Stretched(Stretched::of_contour(center, s, t, h)),
+        (Filter::Ewa, Rasterizer::AffineContour) => {
+            Map::Stretched(Stretched::of_contour(center, s, t, h, least))
+        }
         // The filter brings its own map.
-        (Filter::Ewa, _) => Map::Stretched(Stretched::at_center(center, s, t, h)),
+        (Filter::Ewa, _) => Map::Stretched(Stretched::at_center(center, s, t, h, least)),
         (_, Rasterizer::AffineContour) => Map::Affine(ImageEllipse::exact_contour(center, s, t)),
         (_, Rasterizer::AffineCenter) => {
             let (s, t) = orthogonalized(center, s, t);

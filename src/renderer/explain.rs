@@ -48,6 +48,8 @@ pub struct ExplainedChunk {
     pub uniform_color: bool,
     /// Disks in 16 bytes.
     pub packed: bool,
+    /// Coordinates have two parts: 16 bytes more a splat.
+    pub fine: bool,
     /// Device memory.
     pub bytes: u64,
     /// What no splat's box exceeds, as proved from the chunk's bounds; infinite where one may reach the near plane.
@@ -118,6 +120,7 @@ impl Renderer {
             transparent: draw.chunk.transparent,
             uniform_color: draw.chunk.uniform_color,
             packed: draw.chunk.packed,
+            fine: draw.chunk.fine,
             bytes: draw.chunk.bytes(),
             largest_box_px: draw.largest_box_px,
             may_be_large: draw.may_be_large,

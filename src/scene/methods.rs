@@ -164,13 +164,25 @@ named! {
     }
 }
 
-/// The smallest share of its weight that a filter leaves to a splat: 1/16. Normalization by area or determinant would
-/// let the smallest splats fall below what 16-bit sums can hold, and lose dark colors long before.
-pub const LEAST_SHARE: f64 = 1.0 / 16.0;
+/// The smallest share of its weight that a filter leaves to a splat in 16-bit sums: 1/16. Normalization by area or determinant
+/// would let the smallest splats fall below what they can hold, and lose dark colors long before. 32-bit sums need none.
+const LEAST_SHARE: f64 = 1.0 / 16.0;
 
-/// The least weight of a fragment that covers: what 16-bit sums can hold. A kernel ends there (`--kernel`), and a share
-/// of it is no less.
-pub const LEAST_WEIGHT: f64 = 1.0 / 16_777_216.0;
+/// What a splat weighs at least.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floors {
+    /// The part of its weight that a filter leaves to it.
+    pub share: f64,
+    /// Of a fragment that covers: above 0, whatever the filter leaves of it.
+    pub weight: f64,
+}
+
+impl Floors {
+    /// In 16-bit sums: the smallest 16-bit float above 0, and [`LEAST_SHARE`].
+    pub const HALF: Self = Self { share: LEAST_SHARE, weight: 1.0 / (1 << 24) as f64 };
+    /// In 32-bit sums.
+    pub const NONE: Self = Self { share: 0.0, weight: 1.0 / (1_u64 << 60) as f64 };
+}
 
 impl Rasterizer {
     /// All but [`Self::Auto`], which is one of them, each with its name.

@@ -28,8 +28,8 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::Mesh;
 pub use methods::{
-    Accumulate, Backfaces, Cull, Filter, FilterWeight, KernelEval, LEAST_SHARE, LEAST_WEIGHT, LastLayer,
-    Rasterizer, Shading, TileInvocations, Transition,
+    Accumulate, Backfaces, Cull, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer, Shading,
+    TileInvocations, Transition,
 };
 pub use opacity::Opacity;
 pub(crate) use option::named;

@@ -3,8 +3,8 @@
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes, TileMemory,
     methods::{
-        Accumulate, Backfaces, Cull, Filter, FilterWeight, KernelEval, LastLayer, Rasterizer, Shading,
-        TileInvocations, Transition,
+        Accumulate, Backfaces, Cull, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
+        Shading, TileInvocations, Transition,
     },
     option::{OptionTable as _, settings},
     values::{Epsilon, Kernel},
@@ -93,6 +93,13 @@ impl Settings {
             return Some(("--kernel-eval", reason));
         }
         None
+    }
+
+    /// What a splat weighs at least. Tiles sum in registers of 32 bits, whatever `accumulate` says; `auto` is taken for them, whose picture is
+    /// the truer one.
+    pub fn floors(&self) -> Floors {
+        let by_tiles = matches!(self.rasterizer, Rasterizer::Auto | Rasterizer::Compute);
+        if self.accumulate == Accumulate::F16 && !by_tiles { Floors::HALF } else { Floors::NONE }
     }
 
     /// Refuses a filter that the splats of an object rule out.

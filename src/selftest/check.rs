@@ -14,7 +14,7 @@ use crate::{
     prepare::PreparedScene,
     reference::{self, Picture},
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, FilterWeight, KernelEval, Layers, Rasterizer, Settings, TileInvocations},
+    scene::{Accumulate, FilterWeight, Floors, KernelEval, Layers, Rasterizer, Settings, TileInvocations},
 };
 
 /// The check of a drawing.
@@ -151,7 +151,11 @@ impl<'a> Stage<'a> {
     fn oracle(&mut self, scene: usize, hard: &Hard) -> Result<Rc<Picture>> {
         let mut key = Settings {
             rasterizer: hard.settings.rasterizer.family(),
-            accumulate: Accumulate::default(),
+            // The sums are f64; what a splat weighs at least is as it is on the device.
+            accumulate: match hard.settings.floors() == Floors::HALF {
+                true => Accumulate::F16,
+                false => Accumulate::F32,
+            },
             kernel_eval: KernelEval::default(),
             tile_invocations: TileInvocations::default(),
             ..hard.settings.clone()

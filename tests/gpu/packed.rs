@@ -109,10 +109,16 @@ fn packed_disks_have_half_the_bytes_and_the_rest_stays_exact() {
     assert_eq!(disks.bytes(), 20 * disks.splat_count());
     assert!(prepare(&scenes::random_ellipses(Filter::Adjust)).chunks.iter().all(|chunk| !chunk.packed));
 
-    // One point far off: all others would lose their digits.
+    // One point far off: all others would lose their digits. Farther off it has a chunk of its own.
     let mut stray = scenes::sphere_of_disks();
-    stray.scene.objects[0].splats.positions[7] = DVec3::splat(1000.0);
+    stray.scene.objects[0].splats.positions[7] = DVec3::splat(100.0);
     assert!(!prepare(&stray).chunks[0].packed);
+    stray.scene.objects[0].splats.positions[7] = DVec3::splat(1e6);
+    let chunks = prepare(&stray).chunks;
+    assert_eq!(
+        chunks.iter().map(|chunk| (chunk.count > 1, chunk.packed)).collect::<Vec<_>>(),
+        [(true, true), (false, true)]
+    );
     // A color for all has all its bits.
     let mut disk = builder::Builder::default();
     disk.disk(DVec3::ZERO, DVec3::Z, 3.0, [0.5; 4]);

@@ -86,6 +86,10 @@ fn the_published_programs_draw_and_ours_are_nearer_to_the_oracle() {
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let mut seen = 0;
     for hard in of_disks() {
+        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+        if prepared.chunks.iter().any(|chunk| chunk.fine) {
+            continue; // for f64
+        }
         let [published, filtered, ours] = errors(&mut headless, &hard);
         let columns = |wrong: Wrong| format!("{} | {:.1e} | {:.1e}", wrong.coverage_px, wrong.rms, wrong.max);
         let [a, b, c] = [published, filtered, ours].map(columns);

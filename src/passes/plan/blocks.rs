@@ -98,10 +98,7 @@ impl Ball {
         let of_origin = look.view.origin_from_eye.length() + block.center.length() * scale;
         let reserve = LENGTH_RESERVE * middle.length() + ORIGIN_RESERVE * of_origin;
         let radius = block.radius * scale + reserve;
-        let [x, y, z] = look.view.rows.map(|row| {
-            let [x, y, z, _] = row.map(f64::from);
-            DVec3::new(x, y, z).dot(middle)
-        });
+        let [x, y, z] = (look.view.rotation * middle).into();
         // A splat's points are within the root of 2 of its larger radius, for skew axes.
         Self { middle, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
     }

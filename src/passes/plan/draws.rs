@@ -111,13 +111,18 @@ pub fn draws<'a>(
             let radius = step.radius * view.view_from_local_scale;
             (step.count, box_px(&bound, radius).min(largest_box_px))
         };
+        let mut constants = FrameConstants {
+            splat_count: chunk.count,
+            chunk_color: u32::from(chunk.uniform_color),
+            ..frame_constants(&view, camera, settings, limits, epsilon)
+        };
+        if chunk.fine {
+            [constants.view_from_local_x, constants.view_from_local_y, constants.view_from_local_z] =
+                view.fine_rows();
+        }
         Draw {
             chunk,
-            constants: FrameConstants {
-                splat_count: chunk.count,
-                chunk_color: u32::from(chunk.uniform_color),
-                ..frame_constants(&view, camera, settings, limits, epsilon)
-            },
+            constants,
             largest_box_px,
             boxes: chunk.radii.iter().map(box_of).collect(),
             view,
@@ -138,6 +143,9 @@ pub fn draws<'a>(
                 }
                 if chunk.packed {
                     constants.push((SPEC_PACKED, 1));
+                }
+                if chunk.fine {
+                    constants.push((SPEC_FINE, 1));
                 }
                 constants
             },
@@ -161,10 +169,11 @@ pub(crate) fn frame_constants(
 ) -> FrameConstants {
     let focal_px = camera.focal_px(settings.size_px[1]);
     let epsilon_length = epsilon_length * view.view_from_world_scale;
+    let [view_from_local_x, view_from_local_y, view_from_local_z] = view.rows();
     FrameConstants {
-        view_from_local_x: view.rows[0],
-        view_from_local_y: view.rows[1],
-        view_from_local_z: view.rows[2],
+        view_from_local_x,
+        view_from_local_y,
+        view_from_local_z,
         size_px: settings.size_px.map(|side| side as f32),
         focal_px: focal_px as f32,
         near: near_in_view(camera, view) as f32,
@@ -197,17 +206,16 @@ fn in_two_parts(v: DVec3) -> [f32; 6] {
 
 /// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius.
 fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
-    let [x, y, z, translation] = view.rows[2].map(f64::from);
-    let row = DVec3::new(x, y, z);
+    let row = view.rotation.row(2);
     let [lo, hi] = chunk.bounds;
     let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
     let local = row.dot(center) - row.abs().dot(half) - chunk.largest_radius;
-    local * view.view_from_local_scale + translation
+    local * view.view_from_local_scale + view.translation.z
 }
 
 /// Whether the box of the chunk's centers lies between the near plane and the four sides of the view.
 fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> bool {
-    let [x, y, z] = view.rows.map(|row| DVec4::from_array(row.map(f64::from)));
+    let [x, y, z] = [0, 1, 2].map(|i| view.rotation.row(i).extend(view.translation[i]));
     let [edge_x, edge_y] = bound.size_px.map(|side| 0.5 * side / bound.focal_px);
     let [lo, hi] = chunk.bounds;
     let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));

@@ -14,7 +14,8 @@ use crate::passes::{
 };
 use crate::{
     error::{Error, Result},
-    scene::{Rasterizer, Settings},
+    scene::{Accumulate, Rasterizer, Settings},
+    shaders::config::SPEC_HALF_SUMS,
     vk::Limits,
 };
 
@@ -45,13 +46,16 @@ pub(crate) fn tiles<'a>(
     bands.map(|bands| (bands, reason)).ok_or("tiles have no room for so many, or for ones so large in layers")
 }
 
-/// How the graphics pipeline draws these splats, which it numbers.
+/// How the graphics pipeline draws these splats, which it numbers, and sums in as many bits as it was asked to.
 pub(crate) fn primitives<'a>(
     splats: &mut [Draw<'a>],
     polygons: bool,
     settings: &Settings,
     limits: &Limits,
 ) -> SplatMethod<'a> {
+    if settings.accumulate == Accumulate::F16 {
+        splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_HALF_SUMS, 1)));
+    }
     if !culling::lists_primitives(splats, settings, limits) {
         culling::number_splats(splats);
         return SplatMethod::default();

@@ -6,7 +6,6 @@ use super::*;
 use crate::reference::affine::ImageEllipse;
 use crate::reference::filter::projected;
 use crate::reference::intersect::Map;
-use crate::scene::LEAST_SHARE;
 
 const CENTER: Rasterizer = Rasterizer::Perspective;
 const CONTOUR: Rasterizer = Rasterizer::AffineContour;
@@ -53,7 +52,7 @@ fn the_weight_is_that_of_the_sum_of_covariances() {
                 let ray = (center + delta).extend(1.0);
                 let exponent = delta.dot(variance.inverse() * delta);
                 let inside = exponent <= 1.0 / (sigma * sigma);
-                let expected = factor.max(LEAST_SHARE) * (-0.5 * exponent).exp();
+                let expected = factor.max(settings.floors().share) * (-0.5 * exponent).exp();
                 let got = splat.fragment(ray, view.near, settings.kernel);
                 assert_eq!(got.is_some(), inside, "case {case}");
                 if let Some(fragment) = got {
@@ -149,7 +148,7 @@ fn an_edge_on_splat_is_drawn_as_wide_as_the_filter() {
         let pixel = 1.0 / 32.0;
         let at = |x: f64, y: f64| splat.fragment(DVec3::new(x, y, 1.0), view.near, Kernel::default());
         let middle = at(0.0, 0.0).unwrap();
-        assert_eq!((middle.weight, middle.z), (LEAST_SHARE, 1.0));
+        assert_eq!((middle.weight, middle.z), (ewa(rasterizer).floors().share, 1.0));
         assert!(at(0.0, 1.41 * pixel).is_some() && at(0.0, 1.42 * pixel).is_none());
         // √(16² + 2) = 16.0624.
         assert!(at(16.06 * pixel, 0.0).is_some() && at(16.07 * pixel, 0.0).is_none());
@@ -177,10 +176,15 @@ fn a_large_splat_keeps_weight_and_shape_and_a_small_one_the_least_share() {
         assert!((a.r2 / b.r2 - 1.0).abs() < 6e-6 && (a.z - b.z).abs() < 1e-15);
     }
     let (small, _) = drawn(facing_disk(DVec3::Z, 1e-6, GRAY), &ewa(CENTER));
-    assert_eq!(small.share, LEAST_SHARE);
+    let least = ewa(CENTER).floors().share;
+    assert_eq!((small.share, least), (least, 1.0 / 16.0));
+    // 32-bit sums keep all of it: (1e-6 / h)² at depth 1, h = √2/32.
+    let exact = Settings { accumulate: crate::scene::Accumulate::F32, ..ewa(CENTER) };
+    let (small, _) = drawn(facing_disk(DVec3::Z, 1e-6, GRAY), &exact);
+    assert!((small.share / (1e-12 * 512.0) - 1.0).abs() < 1e-6);
     let middle = picture(&ellipses(&[facing_disk(DVec3::Z, 1e-6, GRAY)]), &ewa(CENTER));
     let weights: Vec<f64> = middle.pixels.iter().map(|p| p.weight).filter(|w| *w > 0.0).collect();
     // √2 pixels around a pixel corner: 4 pixels with r² = ½/2 = ¼, none farther.
     assert_eq!(weights.len(), 4);
-    assert!(weights.iter().all(|w| (w - LEAST_SHARE * (-0.5_f64).exp()).abs() < 1e-9));
+    assert!(weights.iter().all(|w| (w - least * (-0.5_f64).exp()).abs() < 1e-9));
 }

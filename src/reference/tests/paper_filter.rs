@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3, Vec3};
 use super::*;
 use crate::reference::filter::{adjust, minor_axis, orthogonalized, projected, widened};
 use crate::reference::paper_filter::adjust_paper;
-use crate::scene::LEAST_SHARE;
 
 /// Any orthogonal tangent vectors of a disk.
 fn disk(normal: DVec3, radius: f64) -> (DVec3, DVec3) {
@@ -132,7 +131,7 @@ fn a_weight_by_area_is_old_area_over_new() {
                 Filter::Adjust => (radius / widened(radius, h)).powi(2),
                 _ => (radius / h).powi(2).min(1.0),
             };
-            let share = share.max(LEAST_SHARE);
+            let share = share.max(unit.floors().share);
             let scene = disks(DVec3::Z, Vec3::NEG_Z, radius as f32);
             let (a, b) = (picture(&scene, &area), picture(&scene, &unit));
             assert!(covered(&b) >= 4);

@@ -1,7 +1,7 @@
 //! Where a splat's image lies and how large it is: N1–N5, N7, N20, N24, N25.
 
 use glam::{DQuat, DVec3};
-use surfel::scene::{Epsilon, Filter, FilterWeight, LEAST_SHARE, Settings};
+use surfel::scene::{Epsilon, Filter, FilterWeight, Settings};
 
 use super::{GRAY, hard, of_size};
 use crate::common::{
@@ -40,8 +40,10 @@ fn n01_an_edge_on_splat_shrinks_to_a_line_and_never_grows() {
                         // The filter's band is as wide at every angle, with a pixel more or less at its border where the
                         // disk still has depth.
                         let more = if filter == Filter::Adjust { 4.0 } else { 0.0 };
+                        // Without a filter the line's ends are rounding once the cosine has lost its digits: by 2 pixels each.
+                        let longest = if k >= 5 { length_px + 4.0 } else { 0.0 };
                         assert!(
-                            area <= before + more,
+                            area <= f64::max(before + more, longest),
                             "{filter:?} {side_px} {turn} 1e-{k}: {area} after {before}"
                         );
                         before = area;
@@ -179,7 +181,7 @@ fn n07_subpixel_splats_are_all_seen_and_none_weighs_more_than_another() {
         let hard = hard("subpixel", builder, settings());
         // The drawn radius h' and the share of its weight: that of `adjust`, whose axes become √(l² + h²) long.
         let drawn_px2 = 2.0 + radius_px * radius_px;
-        let share = f64::max(radius_px * radius_px / drawn_px2, LEAST_SHARE);
+        let share = radius_px * radius_px / drawn_px2;
         for (filter_weight, share) in [(FilterWeight::Unit, 1.0), (FilterWeight::Area, share)] {
             let hard = Hard { settings: Settings { filter_weight, ..hard.settings.clone() }, ..hard.clone() };
             let frame = render(&mut headless, &hard);
