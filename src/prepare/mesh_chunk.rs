@@ -6,11 +6,13 @@
 use std::ops::Range;
 
 use ash::vk;
+use glam::Vec3;
 
 use super::{
     memory::{ChunkMemory, Uploader},
     pack::packed_color,
     rebase::Rebase,
+    sites::HOME,
 };
 use crate::{
     error::Result,
@@ -35,6 +37,8 @@ pub struct MeshChunk {
     pub(crate) transparent: bool,
     /// One color for all.
     pub(crate) uniform_color: bool,
+    /// How far a corner is rounded at most, and how long edges are in the mean: world space.
+    rounding_and_edge: [f64; 2],
     /// Vertices, colors, indices, but where a frame is only listed.
     memory: Option<ChunkMemory<3>>,
 }
@@ -109,6 +113,16 @@ impl PackedMesh {
         super::pieces(0..mesh.triangles.len(), triangles).map(move |range| Self::of(mesh, range, rebase))
     }
 
+    /// How far a corner is rounded at most, and how long edges are in the mean: world space.
+    fn rounding_and_edge(&self) -> [f64; 2] {
+        let corner = |index: u32| Vec3::from_slice(&self.vertices[2 * index as usize][..3]).as_dvec3();
+        let edges = self.indices.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
+        let total: f64 = edges.map(|[a, b]| corner(a).distance(corner(b))).sum();
+        let farthest = self.vertices.iter().step_by(2).flatten().fold(0.0, |most, x| f32::max(most, x.abs()));
+        [f64::from(farthest) / 16_777_216.0, total / (3 * self.indices.len()) as f64]
+            .map(|length| length / self.rebase.scale)
+    }
+
     /// Nothing of it can be drawn.
     pub fn is_empty(&self) -> bool {
         self.indices.is_empty()
@@ -156,8 +170,15 @@ impl MeshChunk {
             closed,
             transparent,
             uniform_color: packed.colors.len() == 1,
+            rounding_and_edge: packed.rounding_and_edge(),
             memory: uploader.map(|uploader| packed.upload(uploader, number)).transpose()?,
         })
+    }
+
+    /// How far a corner is rounded at most, and how long edges are in the mean, where that is too much: world space.
+    pub fn rounding(&self) -> Option<[f64; 2]> {
+        let [rounding, edge] = self.rounding_and_edge;
+        (rounding * 16_777_216.0 > HOME * edge).then_some(self.rounding_and_edge)
     }
 
     /// The descriptor set; null without memory.

@@ -16,7 +16,7 @@ use super::{
 use crate::scene::{Shapes, SplatFormat, Splats};
 
 /// The farthest that a splat's coordinates may be from its local space's origin, in its smaller half axes.
-const HOME: f64 = 8192.0;
+pub(super) const HOME: f64 = 8192.0;
 
 /// The same of a fine one.
 const FINE_HOME: f64 = HOME * 16_777_216.0;

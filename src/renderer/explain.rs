@@ -19,6 +19,8 @@ pub struct Explanation {
     pub point_cap_px: f32,
     /// How opaque splats are drawn and why so, where there are any; then transparent ones.
     pub drawn: [Option<String>; 2],
+    /// What is beyond f32, a sentence each.
+    pub notes: Vec<String>,
     /// The passes, in order.
     pub passes: Vec<ExplainedPass>,
     /// Passes that were declared and left out, because nobody reads their results.
@@ -140,6 +142,7 @@ impl Renderer {
         let drawn = [&frame.opaque, &frame.transparent].map(|surface| surface.explained(settings));
         Explanation {
             drawn,
+            notes: passes::notes_of_digits(&frame, settings),
             chunks: chunks.collect(),
             meshes: meshes.collect(),
             point_cap_px: limits.point_size_range[1],

@@ -122,6 +122,7 @@ impl Renderer {
         for chunk in &scene.chunks {
             settings.check_object("the scene", chunk.ellipses)?;
         }
+        passes::check_digits(scene, camera)?;
         Ok(FramePlan::new(scene, camera, settings, &self.limits))
     }
 

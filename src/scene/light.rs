@@ -7,12 +7,15 @@ use crate::error::{Error, Result};
 /// The most lights of a scene: the device is told of them in a small buffer that each frame fills.
 pub const MOST_LIGHTS: usize = 16;
 
+/// The brightest that a channel of a light may be: all of them together stay within f32.
+const BRIGHTEST: f32 = 1e30;
+
 /// A light. There is no attenuation and no shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Its place.
     pub kind: LightKind,
-    /// Linear red, green and blue, each at least 0; 1 is white at full strength.
+    /// Linear red, green and blue, each from 0 to 1e30; 1 is white at full strength.
     pub color: [f32; 3],
 }
 
@@ -34,9 +37,9 @@ impl Light {
     /// # Errors
     /// [`crate::error::ErrorKind::Option`].
     pub fn validate(&self) -> Result<()> {
-        if !self.color.iter().all(|c| *c >= 0.0 && c.is_finite()) {
+        if !self.color.iter().all(|c| (0.0..=BRIGHTEST).contains(c)) {
             let [red, green, blue] = self.color;
-            let problem = format!("color {red},{green},{blue}: expected finite numbers, at least 0");
+            let problem = format!("color {red},{green},{blue}: expected numbers from 0 to {BRIGHTEST:e}");
             return Err(Error::option("light", problem));
         }
         match self.kind {

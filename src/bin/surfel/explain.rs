@@ -42,6 +42,9 @@ fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
     if !culled.is_empty() {
         writeln!(text, "passes left out, because nobody reads their results: {}", culled.join(", "))?;
     }
+    for note in &explanation.notes {
+        writeln!(text, "note: {note}")?;
+    }
     writeln!(text, "pipelines: {}", pipelines.len())?;
     for pipeline in pipelines {
         writeln!(text, "  {pipeline}")?;

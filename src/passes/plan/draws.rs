@@ -34,7 +34,7 @@ pub struct Draw<'a> {
     /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as above.
     pub boxes: Vec<(u32, f64)>,
     /// From where, for [`Self::potentially_visible_blocks`].
-    view: ViewFromLocal,
+    pub(super) view: ViewFromLocal,
     bound: SizeBound,
     bounded: bool,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
@@ -55,6 +55,21 @@ impl Draw<'_> {
             &BlockCullView { view, bound, culls: culls(&self.variant), bounded: *bounded },
         )
     }
+}
+
+impl Draw<'_> {
+    /// The largest depth of a splat's center, in view space.
+    pub(super) fn farthest_z(&self) -> f64 {
+        let row = self.view.rotation.row(2);
+        let [center, half] = center_and_half(self.chunk);
+        (row.dot(center) + row.abs().dot(half)) * self.view.view_from_local_scale + self.view.translation.z
+    }
+}
+
+/// Of the box of a chunk's centers, local space.
+fn center_and_half(chunk: &Chunk) -> [DVec3; 2] {
+    let [lo, hi] = chunk.bounds;
+    [0.5 * (lo + hi), 0.5 * (hi - lo)]
 }
 
 /// What `make` gives for each draw, asked once for draws in a row that have the same pipelines.
@@ -154,9 +169,9 @@ pub fn draws<'a>(
     scene.chunks.iter().map(draw).collect()
 }
 
-/// The depth of the near plane in view space. Nearer than that f32 ends; the eye is about 1 away.
+/// The depth of the near plane in view space (`digits.rs` refuses one that f32 does not have).
 fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
-    (camera.near() * view.view_from_world_scale).max(1e-37)
+    camera.near() * view.view_from_world_scale
 }
 
 /// What is the same for all that is drawn in one local space; ε in radii and as a world length.
@@ -207,8 +222,7 @@ fn in_two_parts(v: DVec3) -> [f32; 6] {
 /// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius.
 fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
     let row = view.rotation.row(2);
-    let [lo, hi] = chunk.bounds;
-    let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    let [center, half] = center_and_half(chunk);
     let local = row.dot(center) - row.abs().dot(half) - chunk.largest_radius;
     local * view.view_from_local_scale + view.translation.z
 }
@@ -217,8 +231,7 @@ fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
 fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> bool {
     let [x, y, z] = [0, 1, 2].map(|i| view.rotation.row(i).extend(view.translation[i]));
     let [edge_x, edge_y] = bound.size_px.map(|side| 0.5 * side / bound.focal_px);
-    let [lo, hi] = chunk.bounds;
-    let (center, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
+    let [center, half] = center_and_half(chunk);
     let least = |plane: DVec4| {
         let normal = plane.truncate();
         view.view_from_local_scale * (normal.dot(center) - normal.abs().dot(half)) + plane.w

@@ -5,6 +5,7 @@ pub(crate) mod bands;
 pub(crate) mod block_list;
 pub(crate) mod blocks;
 pub(crate) mod culling;
+pub(crate) mod digits;
 pub(crate) mod draws;
 pub(crate) mod few;
 pub(crate) mod invocations;
