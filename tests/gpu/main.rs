@@ -8,6 +8,7 @@ mod bands;
 mod by_design;
 mod cull;
 mod embedding;
+mod extremes;
 mod f16;
 mod floor;
 mod frame_graph;

@@ -1,0 +1,117 @@
+//! The rows: families of scenes, and how far each may be from the oracle.
+
+use surfel::{
+    hard_scenes::Hard,
+    scene::{Scene, Settings},
+};
+
+use super::{
+    edge_on,
+    errors::{Errors, F32},
+    extent, field,
+    looking::Draws as _,
+    method, near, ordinary,
+    posed::keep_posed,
+    put::Made,
+    sheets, sizes, skew,
+};
+use crate::common::builder::Random;
+
+/// A family of scenes.
+pub struct Row {
+    pub name: &'static str,
+    make: Box<dyn Fn(&mut Random) -> Made>,
+    pub limit: Errors,
+    /// The scenes go through a file.
+    pub loaded: bool,
+}
+
+/// A scene of a row. Its settings have no method yet.
+#[derive(Clone)]
+pub struct Case {
+    pub hard: Hard,
+    /// How far depths may be off, relative, before an ε-threshold is a tie.
+    pub depth_steps: f64,
+}
+
+impl Row {
+    fn new(name: &'static str, make: impl Fn(&mut Random) -> Made + 'static) -> Self {
+        Self { name, make: Box::new(make), limit: F32, loaded: false }
+    }
+
+    /// The scene with this number. `plain`: with few different settings, which need few pipelines.
+    pub fn case(&self, number: u64, plain: bool) -> Case {
+        // A sequence of its own for each row, wherever it stands among the others.
+        let row = self
+            .name
+            .bytes()
+            .fold(0_u64, |hash, byte| hash.wrapping_mul(1_099_511_628_211) ^ u64::from(byte));
+        let mut random = Random(row.wrapping_add(number << 1));
+        let mut made = (self.make)(&mut random);
+        let settings: Settings = method::settings(&mut random, &made, plain);
+        keep_posed(&mut made.object, &made.camera, settings.filter, made.exact_planes);
+        let scene = Scene { objects: vec![made.object], ..Scene::default() };
+        Case {
+            hard: Hard { name: self.name, scene, camera: made.camera, settings },
+            depth_steps: made.depth_steps,
+        }
+    }
+}
+
+/// Every row.
+pub fn all() -> Vec<Row> {
+    let loaded = |random: &mut Random| {
+        let makers: [fn(&mut Random) -> Made; 7] = [
+            ordinary::any,
+            |random| extent::wide(random, 1e4),
+            extent::far_scan,
+            sizes::units,
+            |random| sizes::mixed(random, 1e6),
+            |random| skew::needles(random, 1e-3, 1.0),
+            |random| field::telephoto(random, 1.0, 10.0),
+        ];
+        makers[(random.unit() * makers.len() as f64) as usize](random)
+    };
+    vec![
+        Row::new("ordinary", ordinary::any),
+        Row::new("1 cm in 1 m to 100 m", |random| {
+            let side = random.log(1.0, 100.0);
+            extent::wide(random, side)
+        }),
+        Row::new("1 cm in 1 km", |random| extent::wide(random, 1e3)),
+        Row::new("1 cm in 10 km", |random| extent::wide(random, 1e4)),
+        Row::new("1 cm in 100 km", |random| extent::wide(random, 1e5)),
+        Row::new("sites 1 km apart", |random| extent::sites(random, 1e3, 12)),
+        Row::new("sites 10 km apart", |random| extent::sites(random, 1e4, 12)),
+        Row::new("sites 100 km apart", |random| extent::sites(random, 1e5, 12)),
+        Row::new("sites of many splats, 1 to 100 km apart", |random| {
+            let apart = random.log(1e3, 1e5);
+            extent::sites(random, apart, 700)
+        }),
+        Row::new("millimetres far from the origin", extent::far_scan),
+        Row::new("units from 1e-12 to 1e12", sizes::units),
+        Row::new("radii from 1e-4 to 1e4 in one object", |random| sizes::mixed(random, 1e4)),
+        Row::new("radii from 1e-12 to 1e12 in one object", |random| sizes::mixed(random, 1e12)),
+        Row::new("telephoto, 10 to 1 degrees", |random| field::telephoto(random, 1.0, 10.0)),
+        Row::new("telephoto, 1 to 0.1 degrees", |random| field::telephoto(random, 0.1, 1.0)),
+        Row::new("telephoto, 0.1 to 0.01 degrees", |random| field::telephoto(random, 0.01, 0.1)),
+        Row::new("telephoto, 0.01 to 0.001 degrees", |random| field::telephoto(random, 0.001, 0.01)),
+        Row::new("120 to 179.99 degrees", field::wide),
+        Row::new("needles, sine 1 to 1e-3", |random| skew::needles(random, 1e-3, 1.0)),
+        Row::new("needles, sine 1e-3 to 1e-7", |random| skew::needles(random, 1e-7, 1e-3)),
+        Row::new("strips, sine 1 to 1e-3", |random| skew::strips(random, 1e-3, 1.0)),
+        Row::new("strips, sine 1e-3 to 1e-7", |random| skew::strips(random, 1e-7, 1e-3)),
+        Row::new("eye plane beside centers, 1 to 1e-4 r", |random| {
+            near::eye_plane(random, &[1.0, 0.1, 1e-2, 1e-3, 1e-4, -1e-4, -1e-2, -0.3])
+        }),
+        Row::new("eye plane through centers, 1e-7 r to 0", |random| {
+            near::eye_plane(random, &[1e-7, 1e-9, 0.0, -1e-9, -1e-7])
+        }),
+        Row::new("near plane cuts", near::near_plane),
+        Row::new("ground, the eye 1e-2 to 1e-5 above", |random| edge_on::ground(random, 1e-5, 1e-2)),
+        Row::new("ground, the eye 1e-5 to 1e-9 above", |random| edge_on::ground(random, 1e-9, 1e-5)),
+        Row::new("far sheets, 1e-3 to 1e-5 apart", |random| sheets::far(random, 1e-5, 1e-3)),
+        Row::new("far sheets, 1e-5 to 4e-7 apart", |random| sheets::far(random, 4e-7, 1e-5)),
+        Row { loaded: true, ..Row::new("through a file", loaded) },
+    ]
+}
