@@ -42,12 +42,12 @@ pub struct Errors {
     pub beyond: usize,
 }
 
-/// What rounding to f32 may do to a scene whose numbers are as good as f32 has them.
+/// What rounding to f32 may do to a scene whose numbers are as good as f32 has them, beyond what [`super::truth::Change`] says of a place
+/// that is off by 4e-5 px.
 ///
-/// A place on the screen is good to some 16 steps of f32 of its distance from the image's middle, 16 · 2⁻²⁴ · 40 px = 4e-5 px. Across
-/// the thinnest splat that is drawn without a filter, a twentieth of a pixel, that is 8e-4 of its radius; most are forty times as thick.
-/// The steepest kernel makes up to 2 of it (d ln w / d r² = −2 at σ = 1/2, r² moves by 2 r): the rim's margin of the oracle, 1e-3 in r²,
-/// is the same bound. So weights are good to 1e-3; one that sums several is no worse.
+/// Weights: tangent vectors, their products and the determinant are some dozen roundings of 2⁻²⁴, 1e-6 together, of r² where the splat
+/// is seen at an angle; seen nearly edge-on they are divided by the cosine of it, of which the hundredth part of a radian costs two
+/// digits: 1e-4 of r². The default's d ln w / d r² is −2, and −10 that of ψ_E where its weight counts: 1e-3. A sum is no worse.
 /// Albedos and normals are means: weights that are off by 1e-3 move them by less than 1e-3 of what they differ by; normals of f32
 /// are 1e-5 degrees off by themselves. 1/1024 and 0.1°, times the length of the mean.
 /// Depths: 1e-4, because a plane's depth is as steep as the plane is tilted. These are the self-test's own bounds
@@ -82,42 +82,47 @@ impl Errors {
             errors.missed += usize::from(covers && !covered);
             errors.surplus += usize::from(covered && !covers);
             if covered && covers {
-                errors.add(seen, i, expected, kernel);
+                errors.add(seen, i, truth, kernel);
             }
         }
         errors
     }
 
-    fn add(&mut self, seen: &Seen, i: usize, expected: &surfel::reference::Pixel, kernel: Kernel) {
-        let worst = |worst: &mut f64, value: f64| {
-            // A NaN is the worst of all.
-            *worst = if value.is_nan() { f64::INFINITY } else { worst.max(value) };
+    fn add(&mut self, seen: &Seen, i: usize, truth: &Truth, kernel: Kernel) {
+        let (expected, change) = (&truth.picture.pixels[i], &truth.changes[i]);
+        // A NaN is the worst of all.
+        let worst = |worst: &mut f64, error: f64, change: f64, scale: f64| {
+            let value = ((error - change) / scale).max(0.0);
+            *worst = if error.is_nan() { f64::INFINITY } else { worst.max(value) };
         };
         if let Some(weight) = seen.weight.get(i) {
             // The default's least weight, at the rim of a splat of which a filter left the least.
             let least = if matches!(kernel, Kernel::Gaussian { .. }) { 0.135 / 16.0 } else { 0.135 };
-            let error = (f64::from(*weight) - expected.weight).abs() / expected.weight.max(least);
-            worst(&mut self.weight, error);
+            let error = (f64::from(*weight) - expected.weight).abs();
+            worst(&mut self.weight, error, change.weight, expected.weight.max(least));
         }
         if let Some(albedo) = seen.albedo.get(i) {
             let error = (albedo.as_dvec3() - DVec3::from(expected.albedo)).abs();
-            worst(&mut self.albedo, error.x.max(error.y).max(error.z));
+            worst(&mut self.albedo, error.max_element(), change.albedo, 1.0);
         }
         if let Some(srgb) = seen.srgb.get(i) {
             for c in 0..3 {
                 // Anything that rounds to this level, and a tenth of a level more for 16-bit colors before it.
                 let linear = |level: f64| f64::from(linear_from_srgb((level / 255.0) as f32));
                 let (lo, hi) = (linear(f64::from(srgb[c]) - 0.6), linear(f64::from(srgb[c]) + 0.6));
-                worst(&mut self.albedo, (lo - expected.albedo[c]).max(expected.albedo[c] - hi).max(0.0));
+                let error = (lo - expected.albedo[c]).max(expected.albedo[c] - hi).max(0.0);
+                worst(&mut self.albedo, error, change.albedo, 1.0);
             }
         }
         if let Some(normal) = seen.normal.get(i) {
             let (a, b) = (normal.as_dvec3(), DVec3::from(expected.normal));
             let degrees = a.cross(b).length().atan2(a.dot(b)).to_degrees();
-            worst(&mut self.normal_deg, degrees * expected.normal_length);
+            let length = expected.normal_length;
+            worst(&mut self.normal_deg, degrees * length, change.normal.to_degrees() * length, 1.0);
         }
         if let Some(depth) = seen.depth.get(i) {
-            worst(&mut self.depth, (f64::from(*depth) / expected.depth - 1.0).abs());
+            let error = (f64::from(*depth) - expected.depth).abs();
+            worst(&mut self.depth, error, change.depth, expected.depth);
         }
     }
 
