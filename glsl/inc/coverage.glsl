@@ -55,12 +55,31 @@ vec4 extra()
 
 #if defined(RAYS)
 
-// The ray of the fragment meets the splat's plane n . q = n . p (Botsch et al. 2005): 1 / z is linear along the image.
+// Half the side of the square to which a splat's approximate size cuts it, and whether its plane is expanded about its center.
+float half_square_px()
+{
+    return ray_v_square.w < 0.0 ? -1.0 - ray_v_square.w : ray_v_square.w;
+}
+
+// The ray of the fragment meets the splat's plane n . q = n . p (Botsch et al. 2005): 1 / z is linear along the image. With d from
+// the center's image c in the image, q - p = z (d, 0) + (z - p_z) (c, 1), and z - p_z = -p_z z (slope . d): nothing cancels, however
+// small the splat is beside its distance.
 vec3 evaluate()
 {
-    precise vec3 ray = vec3(at_px(), 1.0); // x and y in focal lengths, like all that was handed over
-    precise float inverse_z = ray_plane_extra.x * ray.x + ray_plane_extra.y * ray.y + ray_plane_extra.z;
-    vec3 q = ray / inverse_z - ray_center_extra.xyz;
+    precise vec2 place = at_px(); // x and y in focal lengths, like all that was handed over
+    vec3 q;
+    precise float inverse_z;
+    if (ray_v_square.w >= 0.0) {
+        vec2 c = ray_center_extra.xy / ray_center_extra.z;
+        precise vec2 d = place - c;
+        precise float change = ray_plane_extra.x * d.x + ray_plane_extra.y * d.y;
+        inverse_z = ray_plane_extra.z + change;
+        float deeper = -ray_center_extra.z * change / inverse_z;
+        q = vec3(d / inverse_z + c * deeper, deeper);
+    } else {
+        inverse_z = ray_plane_extra.x * place.x + ray_plane_extra.y * place.y + ray_plane_extra.z;
+        q = vec3(place, 1.0) / inverse_z - ray_center_extra.xyz;
+    }
     precise float w = FORMULA(FORMULA_RAY_DEPTH, frame.near * inverse_z);
     return vec3(dot(FORMULA(FORMULA_RAY_AXIS, ray_u_extra.xyz), q), dot(ray_v_square.xyz, q), w);
 }
@@ -126,9 +145,9 @@ vec4 extra()
 Covered covered(float limit_r2)
 {
 #if defined(RAYS)
-    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && ray_v_square.w > 0.0) {
+    if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && half_square_px() > 0.0) {
         vec2 d = abs(from_center_px());
-        if (max(d.x, d.y) > ray_v_square.w) {
+        if (max(d.x, d.y) > half_square_px()) {
             discard; // sprites end at pixels, so that the square is cut here
         }
     }

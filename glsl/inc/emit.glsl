@@ -61,14 +61,16 @@ void hand_over(Mapping m, vec4 extra)
     float length2 = precise_dot(normal, m.n2);
     vec3 u_axis = precise_cross(m.t, normal) / length2;
     vec3 v_axis = precise_cross(normal, m.s) / length2;
-    // 1 / z is linear along the image: n2 . (x, y, 1) / det. The third component such that the plane holds the center, but where
-    // that loses more digits: rounding is a step of 1 + |slope . p| over p_z, or of the component itself.
+    // 1 / z is linear along the image: n2 . (x, y, 1) / det, expanded about the center, but where that loses more digits: rounding is a
+    // step of 1 + |slope . p| over p_z, or of the third component.
     vec3 plane = m.n2 * (m.scale / m.near);
     vec2 of_center = plane.xy * m.p.xy;
-    if ((1.0 + abs(of_center.x) + abs(of_center.y)) < abs(plane.z * m.p.z) || m.regular) {
-        plane.z = (1.0 - (of_center.x + of_center.y)) / m.p.z;
+    bool about_center = m.regular || m.p.z > m.near && 1.0 + abs(of_center.x) + abs(of_center.y) < abs(plane.z * m.p.z);
+    if (about_center) {
+        plane.z = 1.0 / m.p.z; // there
     }
     if (m.edge_on) {
+        about_center = false;
         plane = vec3(0.0); // its rays meet nothing
     }
     // The square that its approximate size leaves of the splat; none where the center is too near to have one.
@@ -81,7 +83,7 @@ void hand_over(Mapping m, vec4 extra)
     ray_center_extra = vec4(m.p * stretch / m.unit, extra.x);
     ray_plane_extra = vec4(plane / stretch * m.unit, extra.y);
     ray_u_extra = vec4(u_axis / stretch * m.unit, extra.z);
-    ray_v_square = vec4(v_axis / stretch * m.unit, half_square_px);
+    ray_v_square = vec4(v_axis / stretch * m.unit, about_center ? half_square_px : -1.0 - half_square_px);
 }
 #elif !defined(TRIANGLES)
 void hand_over(Mapping m, ImageMap map, vec4 extra)

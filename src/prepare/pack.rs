@@ -4,7 +4,7 @@
 //! space, f32. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use super::{
     packed,
@@ -169,12 +169,13 @@ pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey
                 }
             }
             Shapes::Ellipses { s, t } => {
-                let local = |v: Vec3| {
-                    let v = v.as_dvec3() * rebase.scale;
+                let [s, t] = far_apart(s[i].as_dvec3(), t[i].as_dvec3());
+                let local = |v: DVec3| {
+                    let v = v * rebase.scale;
                     let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
                     bits(v, 0.0)
                 };
-                packed.shapes.extend([bits(position, radius), local(s[i]), local(t[i])]);
+                packed.shapes.extend([bits(position, radius), local(s), local(t)]);
             }
         }
         if survey.fine {
@@ -190,6 +191,26 @@ pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey
         packed.count += 1;
     }
     packed
+}
+
+/// Tangent vectors of the same ellipse with more than 14° between them: where these have less, its axes, since a vector's rounding, 6e-8
+/// of it, is divided by the sine in all that is found of both.
+fn far_apart(s: DVec3, t: DVec3) -> [DVec3; 2] {
+    const LEAST_SINE: f64 = 0.25;
+    let [length_s, length_t] = [s.length(), t.length()];
+    if s.cross(t).length() >= LEAST_SINE * length_s * length_t {
+        return [s, t];
+    }
+    // Rotating the parametrization moves the rim along itself: tan 2θ = 2 s·t / (s·s − t·t). In units of the longer one.
+    let unit = length_s.max(length_t);
+    let [a, b] = [s / unit, t / unit];
+    let angle_rad = 0.5 * (2.0 * a.dot(b)).atan2(a.length_squared() - b.length_squared());
+    let (sin, cos) = angle_rad.sin_cos();
+    let major = a * cos + b * sin;
+    // The shorter one by area and direction: of the difference little would be left.
+    let normal = a.cross(b);
+    let minor = normal.cross(major) / major.length_squared();
+    [major * unit, minor * unit]
 }
 
 /// A color as 16-bit fractions; what is no number is 0.

@@ -1,9 +1,9 @@
 //! Which splats of an object share a local space.
 //!
 //! A device has coordinates in f32: half a step of one is up to 2⁻²⁴ of it. So a splat is *at home* in a local space if none of its
-//! coordinates there is above 2¹³ of its smaller half axes: it is then placed within 2⁻¹¹ of it, along each axis. Splats that are not at
+//! coordinates there is above 2¹¹ of its smaller half axes: it is then placed within 2⁻¹³ of it, along each axis. Splats that are not at
 //! home where most of an object is get a local space of their own: a second site in the same file, a stray point. What has no such
-//! place, a road of many kilometers, becomes *fine*: its coordinates have a second f32, with which 2³⁷ half axes are at
+//! place, a road of many kilometers, becomes *fine*: its coordinates have a second f32, with which 2³⁵ half axes are at
 //! home.
 
 use std::ops::Range;
@@ -16,7 +16,7 @@ use super::{
 use crate::scene::{Shapes, SplatFormat, Splats};
 
 /// The farthest that a splat's coordinates may be from its local space's origin, in its smaller half axes.
-pub(super) const HOME: f64 = 8192.0;
+pub(super) const HOME: f64 = 2048.0;
 
 /// The same of a fine one.
 const FINE_HOME: f64 = HOME * 16_777_216.0;
