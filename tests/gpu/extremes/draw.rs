@@ -22,6 +22,19 @@ pub struct Drawn {
     pub errors: Errors,
     /// What is beyond the bounds of its row.
     pub beyond: String,
+    /// Tiles were shaded in the dispatch that sums them.
+    pub at_once: bool,
+}
+
+impl Drawn {
+    /// The method's name, with what the device made of it.
+    pub fn name(&self) -> &'static str {
+        match (self.method, self.at_once) {
+            (Method::Shaded, true) => "compute, shaded at once",
+            (Method::Picture, true) => "compute, shaded at once, sRGB",
+            (method, _) => method.name(),
+        }
+    }
 }
 
 /// Draws the scene of a row by some of the methods that its settings allow.
@@ -39,7 +52,7 @@ pub fn draw(
     let mut originals = row.loaded.then(|| Truths::of(case));
     let mut drawn = Vec::new();
     for method in choose(Method::all(&hard.settings)) {
-        let seen = see(headless, &prepared, drawn_case, method);
+        let (seen, at_once) = see(headless, &prepared, drawn_case, method);
         let mut errors = Errors::of(&seen, truths.get(method.rasterizer()), hard.settings.kernel);
         let mut beyond = errors.words_beyond(&row.limit);
         if let Some(originals) = &mut originals {
@@ -50,24 +63,28 @@ pub fn draw(
             }
         }
         errors.beyond = usize::from(!beyond.is_empty());
-        drawn.push(Drawn { method, errors, beyond });
+        drawn.push(Drawn { method, errors, beyond, at_once });
     }
     drawn
 }
 
-/// What a method shows.
-fn see(headless: &mut Headless, prepared: &PreparedScene, case: &Case, method: Method) -> Seen {
+/// Tiles that are shaded at once.
+const AT_ONCE: &str = "see, sum and shade tiles";
+
+/// What a method shows, and whether by tiles that are shaded at once.
+fn see(headless: &mut Headless, prepared: &PreparedScene, case: &Case, method: Method) -> (Seen, bool) {
     let settings = method.of(&case.hard.settings);
     let mut frame = |shading, accumulate| -> Frame {
         let settings = Settings { shading, accumulate, ..settings.clone() };
         headless.render(prepared, &case.hard.camera, &settings, method.wanted()).unwrap()
     };
     let mut albedo = frame(Shading::Albedo, settings.accumulate);
-    if settings.accumulate == Accumulate::F16 && !passes(&albedo).contains(&"see, sum and shade tiles") {
+    let at_once = passes(&albedo).contains(&AT_ONCE);
+    if settings.accumulate == Accumulate::F16 && !at_once {
         // Sums of large splats lie in images, and those of 16 bits have bounds of their own (`f16.rs`).
         albedo = frame(Shading::Albedo, Accumulate::F32);
     }
-    match method {
+    let seen = match method {
         Method::Surface(_) => Seen {
             covered: albedo.weight.iter().map(|weight| *weight > 0.0).collect(),
             albedo: vectors(&albedo.albedo),
@@ -78,7 +95,6 @@ fn see(headless: &mut Headless, prepared: &PreparedScene, case: &Case, method: M
         },
         Method::Shaded => {
             let normals = frame(Shading::Normals, settings.accumulate);
-            assert!(passes(&albedo).iter().any(|pass| pass.contains("tiles")), "{:?}", passes(&albedo));
             // `(n.x, −n.y, −n.z)/2 + ½`.
             let normal = |color: Vec3| (2.0 * color - 1.0) * Vec3::new(1.0, -1.0, -1.0);
             Seen {
@@ -93,7 +109,8 @@ fn see(headless: &mut Headless, prepared: &PreparedScene, case: &Case, method: M
             srgb: albedo.srgb,
             ..Seen::default()
         },
-    }
+    };
+    (seen, at_once)
 }
 
 fn vectors(values: &[[f32; 4]]) -> Vec<Vec3> {

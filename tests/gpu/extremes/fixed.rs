@@ -1,37 +1,89 @@
 //! The same three hundred scenes in every run of the tests.
 
-use super::{draw::draw, rows};
+use super::{
+    draw::draw,
+    method::Method,
+    rows::{self, Row},
+};
 use crate::common::shared;
 
 /// So many scenes of each row.
 const SCENES_A_ROW: u64 = 10;
 
-/// A scene by one method each, which take turns: nothing is missed, nothing too much, and no figure beyond its row's bound.
-#[test]
-fn extreme_scenes_agree_with_the_oracle() {
+/// What a theme's scenes have to show at least.
+const FEWEST_PX: usize = 2000;
+
+/// Scenes by one method each, which take turns: nothing is missed, nothing too much, and no figure beyond its row's bound.
+fn agree(theme: &str) {
     let mut headless = shared();
-    let (mut scenes, mut compared, mut beyond) = (0, 0, Vec::new());
-    for (place, row) in (0..).zip(rows::all()) {
+    let (mut compared, mut beyond) = (0, Vec::new());
+    let all = rows::all();
+    for (place, row) in all.iter().enumerate().filter(|(_, row)| row.theme == theme) {
         for number in 0..SCENES_A_ROW {
-            let case = row.case(number, true);
-            // So that each row has each method, and each method each row's first scenes.
-            let turn = (number + 3 * place) as usize;
-            let one = |methods: Vec<_>| vec![methods[turn % methods.len()]];
-            for drawn in draw(&mut headless, &row, &case, one) {
+            // So that each row has each method, and not each the same ones first.
+            let turn = number as usize + 3 * place;
+            let one = |methods: Vec<Method>| vec![methods[turn % methods.len()]];
+            for drawn in draw(&mut headless, row, &row.case(number, true), one) {
                 compared += drawn.errors.compared;
                 if !drawn.beyond.is_empty() {
-                    beyond.push(format!(
-                        "{}: {number} by {}: {}",
-                        row.name,
-                        drawn.method.name(),
-                        drawn.beyond
-                    ));
+                    let (name, method) = (row.name, drawn.name());
+                    beyond.push(format!("{name}: {number} by {method}: {}", drawn.beyond));
                 }
             }
-            scenes += 1;
         }
     }
-    println!("{scenes} scenes, {compared} pixels");
-    assert!(scenes >= 300 && compared > 50_000, "{scenes} scenes, {compared} pixels: too little is seen");
+    println!("{theme}: {compared} pixels");
+    assert!(compared > FEWEST_PX, "{theme}: {compared} pixels: too little is seen");
     assert!(beyond.is_empty(), "{} scenes: {beyond:#?}", beyond.len());
+}
+
+macro_rules! themes {
+    ($($test:ident $theme:literal,)+) => {
+        const THEMES: &[&str] = &[$($theme),+];
+
+        $(#[test]
+        fn $test() {
+            agree($theme);
+        })+
+    };
+}
+
+themes! {
+    ordinary_scenes_agree "ordinary",
+    scenes_that_are_large_beside_their_splats_agree "extent",
+    radii_of_every_size_agree "sizes",
+    telephoto_lenses_agree "telephoto",
+    tangent_vectors_nearly_parallel_agree "skew",
+    splats_through_the_eye_plane_agree "eye plane",
+    ground_that_the_eye_lies_on_agrees "ground",
+    far_sheets_agree "sheets",
+    scenes_through_a_file_agree "file",
+}
+
+#[test]
+fn every_row_has_its_test() {
+    let all = rows::all();
+    assert!(all.len() as u64 * SCENES_A_ROW >= 300);
+    let has_test = |row: &&Row| THEMES.contains(&row.theme);
+    assert_eq!(all.iter().filter(has_test).count(), all.len());
+}
+
+/// The pictures of tiles are those of the dispatch that sums and shades them, where the eye is outside of the scene.
+#[test]
+fn most_pictures_by_tiles_are_shaded_at_once() {
+    let mut headless = shared();
+    let all = rows::all();
+    for name in ["ordinary", "telephoto, 10 to 1 degrees", "far sheets, 1e-3 to 1e-6 apart"] {
+        let row = all.iter().find(|row| row.name == name).unwrap();
+        let (mut pictures, mut at_once) = (0, 0);
+        for number in 0..10 {
+            let pictures_of = |methods: Vec<Method>| methods.into_iter().filter(|m| m.is_picture()).collect();
+            for drawn in draw(&mut headless, row, &row.case(number, true), pictures_of) {
+                pictures += 1;
+                at_once += usize::from(drawn.at_once);
+            }
+        }
+        println!("{name}: {at_once} of {pictures}");
+        assert!(3 * at_once > pictures, "{name}: {at_once} of {pictures}");
+    }
 }

@@ -20,7 +20,7 @@ const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
 pub enum Method {
     /// The surface as data.
     Surface(Rasterizer),
-    /// Tiles that are shaded in the dispatch that sums them, into 32 bits.
+    /// The picture alone, in 32 bits: tiles are shaded in the dispatch that sums them, unless some splat is too large for them.
     Shaded,
     /// The same with all that is the default: 16-bit sums, 8-bit sRGB.
     Picture,
@@ -30,9 +30,14 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Surface(rasterizer) => rasterizer.name(),
-            Self::Shaded => "compute, shaded at once",
-            Self::Picture => "compute, shaded at once, sRGB",
+            Self::Shaded => "compute, picture",
+            Self::Picture => "compute, picture, sRGB",
         }
+    }
+
+    /// Whether it is a picture that is looked at, not the surface as data.
+    pub fn is_picture(self) -> bool {
+        matches!(self, Self::Shaded | Self::Picture)
     }
 
     pub fn rasterizer(self) -> Rasterizer {
@@ -43,8 +48,8 @@ impl Method {
     }
 
     pub fn wanted(self) -> Wanted {
-        let (picture, surface) = (!matches!(self, Self::Surface(_)), matches!(self, Self::Surface(_)));
-        Wanted { picture, linear: self != Self::Picture, surface, profile: None }
+        let picture = self.is_picture();
+        Wanted { picture, linear: self != Self::Picture, surface: !picture, profile: None }
     }
 
     /// The settings for it.
@@ -89,7 +94,8 @@ pub fn settings(random: &mut Random, made: &Made, plain: bool) -> Settings {
         ..Settings::default()
     };
     if plain {
-        return default;
+        let cull = random.one_of(&[Cull::Auto, Cull::List]);
+        return Settings { backfaces: made.backfaces.unwrap_or_default(), cull, ..default };
     }
     Settings {
         kernel: if kernel && filter != Filter::Ewa { PSI_E } else { Kernel::default() },
@@ -98,7 +104,7 @@ pub fn settings(random: &mut Random, made: &Made, plain: bool) -> Settings {
         } else {
             FilterWeight::Area
         },
-        backfaces,
+        backfaces: made.backfaces.unwrap_or(backfaces),
         cull,
         ..default
     }

@@ -5,8 +5,9 @@ use surfel::scene::{Camera, Filter, Object, Shapes};
 
 use super::looking::SIZE_PX;
 
-/// The cosine between a splat's plane and the ray to its center, below which it may face either way: a hundred steps of f32.
-const FACING: f64 = 1e-5;
+/// The sine between a splat's plane and the ray to its center, below which f32 loses it: turning a normal rounds it by 2⁻²⁴, of which
+/// depth and r² have as much as one divided by this, a ten-thousandth; and nearer still it may face either way.
+const FACING: f64 = 1e-3;
 
 /// How near a splat may be to where another map is taken for it, relative.
 const REGULAR: f64 = 1e-4;

@@ -1,7 +1,7 @@
 //! Splats put into a scene one by one, and the scene that a row makes.
 
 use glam::DVec3;
-use surfel::scene::{Camera, Epsilon, Filter, Object};
+use surfel::scene::{Backfaces, Camera, Epsilon, Filter, Object};
 
 use super::looking::Draws as _;
 use crate::common::builder::{Builder, Random};
@@ -18,6 +18,8 @@ pub struct Made {
     pub filters: &'static [Filter],
     /// The one ε that the scene is about.
     pub epsilon: Option<Epsilon>,
+    /// What becomes of back faces, where the scene is about that.
+    pub backfaces: Option<Backfaces>,
     /// The radius of what is seen, by which an ε is chosen where it is a length.
     pub radius: f64,
     /// How far depths may be off, relative, before an ε-threshold is a tie.
@@ -79,6 +81,7 @@ impl Put {
             camera,
             filters: EVERY_FILTER,
             epsilon: None,
+            backfaces: None,
             radius,
             depth_steps: DEPTH_MARGIN,
             exact_planes: false,

@@ -19,6 +19,8 @@ use crate::common::builder::Random;
 
 /// A family of scenes.
 pub struct Row {
+    /// What is extreme about it: rows of one theme are one test.
+    pub theme: &'static str,
     pub name: &'static str,
     make: Box<dyn Fn(&mut Random) -> Made>,
     pub limit: Errors,
@@ -35,8 +37,8 @@ pub struct Case {
 }
 
 impl Row {
-    fn new(name: &'static str, make: impl Fn(&mut Random) -> Made + 'static) -> Self {
-        Self { name, make: Box::new(make), limit: F32, loaded: false }
+    fn new(theme: &'static str, name: &'static str, make: impl Fn(&mut Random) -> Made + 'static) -> Self {
+        Self { theme, name, make: Box::new(make), limit: F32, loaded: false }
     }
 
     /// The scene with this number. `plain`: with few different settings, which need few pipelines.
@@ -73,45 +75,52 @@ pub fn all() -> Vec<Row> {
         makers[(random.unit() * makers.len() as f64) as usize](random)
     };
     vec![
-        Row::new("ordinary", ordinary::any),
-        Row::new("1 cm in 1 m to 100 m", |random| {
+        Row::new("ordinary", "ordinary", ordinary::any),
+        Row::new("extent", "1 cm in 1 m to 100 m", |random| {
             let side = random.log(1.0, 100.0);
             extent::wide(random, side)
         }),
-        Row::new("1 cm in 1 km", |random| extent::wide(random, 1e3)),
-        Row::new("1 cm in 10 km", |random| extent::wide(random, 1e4)),
-        Row::new("1 cm in 100 km", |random| extent::wide(random, 1e5)),
-        Row::new("sites 1 km apart", |random| extent::sites(random, 1e3, 12)),
-        Row::new("sites 10 km apart", |random| extent::sites(random, 1e4, 12)),
-        Row::new("sites 100 km apart", |random| extent::sites(random, 1e5, 12)),
-        Row::new("sites of many splats, 1 to 100 km apart", |random| {
+        Row::new("extent", "1 cm in 1 km", |random| extent::wide(random, 1e3)),
+        Row::new("extent", "1 cm in 10 km", |random| extent::wide(random, 1e4)),
+        Row::new("extent", "1 cm in 100 km", |random| extent::wide(random, 1e5)),
+        Row::new("extent", "sites 1 km apart", |random| extent::sites(random, 1e3, 12)),
+        Row::new("extent", "sites 10 km apart", |random| extent::sites(random, 1e4, 12)),
+        Row::new("extent", "sites 100 km apart", |random| extent::sites(random, 1e5, 12)),
+        Row::new("extent", "sites of many splats, 1 to 100 km apart", |random| {
             let apart = random.log(1e3, 1e5);
             extent::sites(random, apart, 700)
         }),
-        Row::new("millimetres far from the origin", extent::far_scan),
-        Row::new("units from 1e-12 to 1e12", sizes::units),
-        Row::new("radii from 1e-4 to 1e4 in one object", |random| sizes::mixed(random, 1e4)),
-        Row::new("radii from 1e-12 to 1e12 in one object", |random| sizes::mixed(random, 1e12)),
-        Row::new("telephoto, 10 to 1 degrees", |random| field::telephoto(random, 1.0, 10.0)),
-        Row::new("telephoto, 1 to 0.1 degrees", |random| field::telephoto(random, 0.1, 1.0)),
-        Row::new("telephoto, 0.1 to 0.01 degrees", |random| field::telephoto(random, 0.01, 0.1)),
-        Row::new("telephoto, 0.01 to 0.001 degrees", |random| field::telephoto(random, 0.001, 0.01)),
-        Row::new("120 to 179.99 degrees", field::wide),
-        Row::new("needles, sine 1 to 1e-3", |random| skew::needles(random, 1e-3, 1.0)),
-        Row::new("needles, sine 1e-3 to 1e-7", |random| skew::needles(random, 1e-7, 1e-3)),
-        Row::new("strips, sine 1 to 1e-3", |random| skew::strips(random, 1e-3, 1.0)),
-        Row::new("strips, sine 1e-3 to 1e-7", |random| skew::strips(random, 1e-7, 1e-3)),
-        Row::new("eye plane beside centers, 1 to 1e-4 r", |random| {
+        Row::new("extent", "millimetres far from the origin", extent::far_scan),
+        Row::new("sizes", "units from 1e-12 to 1e12", sizes::units),
+        Row::new("sizes", "radii from 1e-4 to 1e4 in one object", |random| sizes::mixed(random, 1e4)),
+        Row::new("sizes", "radii from 1e-12 to 1e12 in one object", |random| sizes::mixed(random, 1e12)),
+        Row::new("telephoto", "telephoto, 10 to 1 degrees", |random| field::telephoto(random, 1.0, 10.0)),
+        Row::new("telephoto", "telephoto, 1 to 0.1 degrees", |random| field::telephoto(random, 0.1, 1.0)),
+        Row::new("telephoto", "telephoto, 0.1 to 0.01 degrees", |random| field::telephoto(random, 0.01, 0.1)),
+        Row::new("telephoto", "telephoto, 0.01 to 0.001 degrees", |random| {
+            field::telephoto(random, 0.001, 0.01)
+        }),
+        Row::new("ordinary", "120 to 179.99 degrees", field::wide),
+        Row::new("skew", "needles, sine 1 to 1e-3", |random| skew::needles(random, 1e-3, 1.0)),
+        Row::new("skew", "needles, sine 1e-3 to 1e-7", |random| skew::needles(random, 1e-7, 1e-3)),
+        Row::new("skew", "needles among back faces", skew::needles_among_back_faces),
+        Row::new("skew", "strips, sine 1 to 1e-3", |random| skew::strips(random, 1e-3, 1.0)),
+        Row::new("skew", "strips, sine 1e-3 to 1e-7", |random| skew::strips(random, 1e-7, 1e-3)),
+        Row::new("eye plane", "eye plane beside centers, 1 to 1e-4 r", |random| {
             near::eye_plane(random, &[1.0, 0.1, 1e-2, 1e-3, 1e-4, -1e-4, -1e-2, -0.3])
         }),
-        Row::new("eye plane through centers, 1e-7 r to 0", |random| {
+        Row::new("eye plane", "eye plane through centers, 1e-7 r to 0", |random| {
             near::eye_plane(random, &[1e-7, 1e-9, 0.0, -1e-9, -1e-7])
         }),
-        Row::new("near plane cuts", near::near_plane),
-        Row::new("ground, the eye 1e-2 to 1e-5 above", |random| edge_on::ground(random, 1e-5, 1e-2)),
-        Row::new("ground, the eye 1e-5 to 1e-9 above", |random| edge_on::ground(random, 1e-9, 1e-5)),
-        Row::new("far sheets, 1e-3 to 1e-5 apart", |random| sheets::far(random, 1e-5, 1e-3)),
-        Row::new("far sheets, 1e-5 to 4e-7 apart", |random| sheets::far(random, 4e-7, 1e-5)),
-        Row { loaded: true, ..Row::new("through a file", loaded) },
+        Row::new("eye plane", "near plane cuts", near::near_plane),
+        Row::new("ground", "ground, the eye 1e-2 to 1e-5 above", |random| {
+            edge_on::ground(random, 1e-5, 1e-2)
+        }),
+        Row::new("ground", "ground, the eye 1e-5 to 1e-9 above", |random| {
+            edge_on::ground(random, 1e-9, 1e-5)
+        }),
+        Row::new("sheets", "far sheets, 1e-3 to 1e-6 apart", |random| sheets::far(random, 1e-6, 1e-3)),
+        Row::new("sheets", "far sheets, 1e-6 to 4e-7 apart", |random| sheets::far(random, 4e-7, 1e-6)),
+        Row { loaded: true, ..Row::new("file", "through a file", loaded) },
     ]
 }

@@ -1,7 +1,7 @@
 //! Tangent vectors that are nearly parallel: the sine between them is down to 1e-7, below which they are a defect.
 
 use glam::DVec3;
-use surfel::scene::Filter;
+use surfel::scene::{Backfaces, Filter};
 
 use super::{
     looking::{Draws as _, Looking},
@@ -13,6 +13,30 @@ use crate::common::builder::Random;
 pub fn needles(random: &mut Random, least_sine: f64, most_sine: f64) -> Made {
     let made = made(random, least_sine, most_sine, |random, pixel, _| pixel * random.log(3.0, 40.0));
     Made { filters: &[Filter::Adjust, Filter::Ewa], ..made }
+}
+
+/// Needles among splats that face away, in one block with them, where back faces are culled: the needles are all that is seen.
+pub fn needles_among_back_faces(random: &mut Random) -> Made {
+    let mut put = Put::ellipses();
+    let eye = random.direction() * random.between(0.0, 3.0);
+    let looking = Looking::from(random, eye, 10.0, 15.0);
+    let away = looking.vector(DVec3::Z);
+    for i in 0..random.count(10, 30) {
+        let (place, z) = (looking.place(random, 0.9), random.between(9.0, 11.0));
+        let at = looking.point(place, z);
+        if i >= 3 {
+            let normal = (away + random.direction() * 0.05).normalize();
+            let radius = looking.pixel(z) * random.log(1.5, 8.0);
+            put.splat(random, at, normal, radius);
+            continue;
+        }
+        let normal = (random.direction() * 0.5 - away).normalize();
+        let s = normal.any_orthonormal_vector() * looking.pixel(z) * random.log(3.0, 40.0);
+        let t = s + normal.cross(s) * random.log(1e-6, 1e-3);
+        put.ellipse(random, at, s, t);
+    }
+    let made = put.made(looking.camera, looking.pixel(10.0));
+    Made { filters: &[Filter::Adjust, Filter::Ewa], backfaces: Some(Backfaces::Cull), ..made }
 }
 
 /// Strips that are some pixels wide, and longer than anything.

@@ -12,7 +12,7 @@ use super::{
 use crate::common::shared;
 
 /// So many problems of a row are printed.
-const MOST_WORDS: usize = 6;
+const MOST_WORDS: usize = 12;
 
 /// A line of a table.
 struct Line {
@@ -31,7 +31,7 @@ fn page() -> std::path::PathBuf {
 }
 
 /// `SURFEL_SCENES`: of each row (200). `SURFEL_FIRST`: the number of the first (0). `SURFEL_ROWS`: only rows with this in their name.
-/// `SURFEL_UPDATE_TABLES=1` writes the tables anew.
+/// `SURFEL_UPDATE_TABLES=1` writes the tables anew. A scene alone is printed.
 #[test]
 #[ignore = "minutes: as many scenes as SURFEL_SCENES says, by every method"]
 fn every_row_by_every_method() {
@@ -45,11 +45,18 @@ fn every_row_by_every_method() {
         let mut words = 0;
         for number in first..first + scenes {
             line.scenes += 1;
-            for drawn in draw(&mut headless, row, &row.case(number, false), |methods| methods) {
+            let case = row.case(number, false);
+            if scenes == 1 {
+                println!(
+                    "{:?}\n{:?}\n{:#?}",
+                    case.hard.camera, case.hard.settings, case.hard.scene.objects[0]
+                );
+            }
+            for drawn in draw(&mut headless, row, &case, |methods| methods) {
                 line.errors = line.errors.and(drawn.errors);
-                of_method(&mut by_method, drawn.method.name(), drawn.errors);
+                of_method(&mut by_method, drawn.name(), drawn.errors);
                 if !drawn.beyond.is_empty() && words < MOST_WORDS {
-                    println!("    {number} by {}: {}", drawn.method.name(), drawn.beyond);
+                    println!("    {number} by {}: {}", drawn.name(), drawn.beyond);
                     words += 1;
                 }
             }
