@@ -220,6 +220,8 @@ pub fn packed_color(color: [f32; 4]) -> [u16; 4] {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     fn vector(words: [u32; 4]) -> Vec3 {

@@ -7,8 +7,8 @@ use crate::{
     scene::{Accumulate, Camera, Filter, FilterWeight, Settings},
 };
 
-/// Depth is near / z, in f32, which ends at 1e-38; and a splat may be 1e12 times as large as it is far.
-const LEAST_NEAR: f64 = 1e-25;
+/// Depth is near / z, in f32, which ends at 1e-38.
+const LEAST_NEAR: f64 = 1e-36;
 
 /// The least part of its depth by which a splat is shifted: `LEAST_SHIFT` of `glsl/inc/mapping.glsl`.
 const LEAST_SHIFT: f64 = 1e-6;
@@ -18,15 +18,18 @@ const LEAST_SHIFT: f64 = 1e-6;
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] with the nearest that it may be.
 pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
-    let splats = scene.chunks.iter().map(|chunk| &chunk.rebase);
-    let near_in_units =
-        |rebase: &Rebase| camera.near() * rebase.view_from_local(camera).view_from_world_scale;
-    let least =
-        splats.chain(scene.meshes.iter().map(|mesh| &mesh.rebase)).map(near_in_units).fold(1.0, f64::min);
+    let near_in_units = |rebase: &Rebase, radius: f64| {
+        let view = rebase.view_from_local(camera);
+        // A splat that is larger than far has a unit of its own, which is larger, too.
+        camera.near() * view.view_from_world_scale / (radius * view.view_from_local_scale).max(1.0)
+    };
+    let splats = scene.chunks.iter().map(|chunk| near_in_units(&chunk.rebase, chunk.largest_radius));
+    let meshes = scene.meshes.iter().map(|mesh| near_in_units(&mesh.rebase, 0.0));
+    let least = splats.chain(meshes).fold(1.0, f64::min);
     if least < LEAST_NEAR {
         let (near, needed) = (camera.near(), camera.near() / least * LEAST_NEAR);
         let problem = format!(
-            "near {near:e}: something in the scene is {:e} times as far; expected {needed:.1e} or more",
+            "near {near:e}: something in the scene is {:.1e} times as far or as large; expected {needed:.1e} or more",
             least.recip()
         );
         return Err(Error::option("camera", problem));
