@@ -10,7 +10,7 @@
 //! the least distance of the octahedron from its center, 1/√3: by [`LARGEST_TURN_RAD`], 0.0037°.
 //!
 //! Colors, where each splat has its own: 8 bits a channel; the square roots of red, green, blue, which are off by 1/510 at
-//! most as sRGB values nearly are; and alpha.
+//! most: by 0.73 of a level of sRGB, where dark, and half a level where light; and alpha.
 
 use glam::{DVec2, DVec3};
 

@@ -85,7 +85,7 @@ named! {
 named! {
     /// The weight of a splat that tangent adjustment has enlarged. With other filters it means nothing.
     FilterWeight {
-        /// Its old area over its new one, on the screen, but at least a 16th.
+        /// Its old area over its new one, on the screen; in 16-bit sums at least a 16th.
         Area = "area",
         /// As much as any other.
         Unit = "unit",

@@ -15,10 +15,11 @@ named! {
 named! {
     /// The bytes in which a splat is kept.
     SplatFormat {
-        /// Disks in 32, ellipses in 48, and 8 for a color of its own: 32-bit floats, and 16-bit fractions for colors.
+        /// Disks in 32, ellipses in 48, and 8 for a color of its own: 32-bit floats, and 16-bit fractions for colors; 16 more where a
+        /// scene is so extended that f32 can't place them.
         Exact = "exact",
         /// Disks in 16, and 4 for a color of its own: normals turn by 0.0037° at most, radii grow by 1.6e-5, roots of colors and
-        /// alpha are rounded to 8 bits. Ellipses stay exact, and chunks that have something farther from their thick than 16 times as far
+        /// alpha are rounded to 8 bits, which is 0.73 of a level of sRGB at most. Ellipses stay exact, and chunks that have something farther from their thick than 16 times as far
         /// as half of their splats, because fixed steps would move the others.
         Packed = "packed",
     }

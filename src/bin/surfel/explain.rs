@@ -60,6 +60,7 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
         (false, true) => "packed disks",
         (false, false) => "disks",
     };
+    let fine = if chunk.fine { " with coordinates of two parts" } else { "" };
     let color = if chunk.uniform_color { "one color for all" } else { "a color each" };
     let closed = if chunk.closed { "closed surface" } else { "open surface" };
     let size = match (chunk.may_be_large, chunk.largest_box_px) {
@@ -78,7 +79,7 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
         (true, _) => "some may reach the near plane: large ones listed, drawn as quads".to_owned(),
     };
     let layers = if chunk.transparent { ", transparent: drawn in layers" } else { "" };
-    format!("{} {kind}, {color}, {closed}{layers}, {} bytes; {size}", chunk.splats, chunk.bytes)
+    format!("{} {kind}{fine}, {color}, {closed}{layers}, {} bytes; {size}", chunk.splats, chunk.bytes)
 }
 
 fn mesh_words(mesh: &ExplainedMesh) -> String {
