@@ -11,7 +11,7 @@ use super::{
 };
 use crate::common::shared;
 
-/// So many problems of a row are printed.
+/// So many scenes of a row with something beyond its bound are printed.
 const MOST_WORDS: usize = 12;
 
 /// A line of a table.
@@ -52,13 +52,21 @@ fn every_row_by_every_method() {
                     case.hard.camera, case.hard.settings, case.hard.scene.objects[0]
                 );
             }
-            for drawn in draw(&mut headless, row, &case, |methods| methods) {
+            let drawn = draw(&mut headless, row, &case, |methods| methods);
+            for drawn in &drawn {
                 line.errors = line.errors.and(drawn.errors);
                 of_method(&mut by_method, drawn.name(), drawn.errors);
-                if !drawn.beyond.is_empty() && words < MOST_WORDS {
-                    println!("    {number} by {}: {}", drawn.name(), drawn.beyond);
-                    words += 1;
+                if scenes == 1 && !drawn.beyond.is_empty() {
+                    println!("    {}: {}", drawn.name(), drawn.beyond);
                 }
+            }
+            let beyond: Vec<_> = drawn.iter().filter(|drawn| !drawn.beyond.is_empty()).collect();
+            if let Some(first) = beyond.first()
+                && words < MOST_WORDS
+            {
+                let (count, of) = (beyond.len(), drawn.len());
+                println!("    {number}: {count} of {of} methods, {}: {}", first.name(), first.beyond);
+                words += 1;
             }
         }
         let (errors, secs) = (&line.errors, begun.elapsed().as_secs_f64());
