@@ -1,6 +1,8 @@
 //! Runs of a chunk's splats, small enough in space (they have the order of a Z-curve) that where one may be seen, and from which
 //! side, is known on the host before a frame is drawn.
 
+use std::f64::consts::PI;
+
 use glam::{DVec3, Vec3};
 
 use super::{
@@ -20,13 +22,17 @@ pub struct Block {
     pub radius: f64,
     /// The axis of a cone around all normals, of unit length.
     pub axis: DVec3,
-    /// The angle from the axis that none of them exceeds; π where they have no common direction.
+    /// The angle from the axis that none of them exceeds, as a device finds it but for its roundings of unit vectors; π where they have no
+    /// common direction.
     pub spread_rad: f64,
-    /// The largest major radius.
+    /// The largest major radius: no point of a splat is farther from its center, however skew its tangent vectors (it is the larger
+    /// singular value of the two, [`crate::scene::Splats::major_radius`]), but for a rounding to f32.
     pub largest_radius: f64,
 }
 
 impl Block {
+    /// Bounds of what a device reads, which f64 holds exactly. Any axis would do for the cone, whose angle is that of the normal which is
+    /// farthest from it; the mean keeps it narrow.
     fn around(splats: &[Sample]) -> Self {
         let [lo, hi] = splats.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], splat| {
             [lo.min(splat.center), hi.max(splat.center)]
@@ -36,27 +42,31 @@ impl Block {
         let axis = sum.try_normalize();
         // Not by the cosine, which tells small angles no better than 1e-8.
         let angle = |axis: DVec3, normal: DVec3| 2.0 * (0.5 * (axis - normal).length()).min(1.0).asin();
-        let spread_of =
-            |axis: DVec3| splats.iter().map(|splat| angle(axis, splat.normal)).fold(0.0, f64::max);
+        let turn = |axis: DVec3, splat: &Sample| angle(axis, splat.normal) + splat.normal_error_rad;
+        let spread_of = |axis: DVec3| splats.iter().map(|splat| turn(axis, splat)).fold(0.0, f64::max);
         Self {
             count: splats.len() as u32,
             center,
             radius: splats.iter().map(|splat| splat.center.distance(center)).fold(0.0, f64::max),
             axis: axis.unwrap_or(DVec3::Z),
-            spread_rad: axis.map_or(std::f64::consts::PI, spread_of),
+            spread_rad: axis.map_or(PI, spread_of).min(PI),
             largest_radius: splats.iter().map(|splat| splat.radius).fold(0.0, f64::max),
         }
     }
 }
 
-/// The smallest sine between tangent vectors whose normal a device finds in f32 within 1e-4 rad of that found here.
-const LEAST_SINE: f64 = 1e-3;
+/// How long the error of a device's `s × t` may be, of unit vectors: in f32 it has each rotated and normalized, off by some 8 roundings of
+/// 2⁻²⁴ of its length, and rounds the product once more. The product is as long as the sine between the two. What is found here in
+/// f64 is off by 1e-16.
+const NORMAL_ERROR: f64 = 1.5e-6;
 
 /// A splat as the device has it.
 struct Sample {
     center: DVec3,
-    /// Zero where it is not certain enough.
+    /// Of unit length.
     normal: DVec3,
+    /// How far that of the device may be from it, beside what every normal's is.
+    normal_error_rad: f64,
     radius: f64,
 }
 
@@ -92,18 +102,25 @@ impl BlockMaker {
 fn sample(words: &[[u32; 4]], survey: &Survey) -> Sample {
     if survey.packed {
         let (center, normal, radius) = packed::unpacked_disk(words[0]);
-        return Sample { center, normal, radius };
+        return Sample { center, normal, normal_error_rad: 0.0, radius };
     }
     let vector = |words: [u32; 4]| Vec3::from_slice(&words.map(f32::from_bits)[..3]).as_dvec3();
-    let normal = match survey.ellipses {
-        true => {
-            let n = vector(words[1]).normalize().cross(vector(words[2]).normalize());
-            if n.length() > LEAST_SINE { n.normalize() } else { DVec3::ZERO }
-        }
-        false => vector(words[1]),
+    let (normal, normal_error_rad) = match survey.ellipses {
+        true => normal_of([vector(words[1]), vector(words[2])]),
+        false => (vector(words[1]), 0.0),
     };
     let low = if survey.fine { vector(words[words.len() - 1]) } else { DVec3::ZERO };
-    Sample { center: vector(words[0]) + low, normal, radius: f32::from_bits(words[0][3]).into() }
+    let center = vector(words[0]) + low;
+    Sample { center, normal, normal_error_rad, radius: f32::from_bits(words[0][3]).into() }
+}
+
+/// The normal of an ellipse, and how far a device's may be from it; where there is none, any, and π.
+fn normal_of(tangents: [DVec3; 2]) -> (DVec3, f64) {
+    let [s, t] = tangents.map(DVec3::normalize);
+    let n = s.cross(t);
+    let error = NORMAL_ERROR / n.length();
+    // What is no longer than a part of a vector turns it by the arc sine of that part at most.
+    if error < 1.0 { (n.normalize(), error.asin()) } else { (DVec3::Z, PI) }
 }
 
 #[cfg(test)]
@@ -135,9 +152,17 @@ mod tests {
         let positions: Vec<_> = (0..count).map(|i| DVec3::new(at(i), at(i).sin(), 0.0)).collect();
         let normals: Vec<_> = (0..count).map(|i| Vec3::new((at(i)).sin() as f32, 0.0, 1.0)).collect();
         let disks = Shapes::Disks { normals: normals.clone(), radii: vec![0.25; count] };
-        let [s, t] = [Vec3::X, Vec3::Y].map(|to| normals.iter().map(|n| 0.25 * n.cross(to)).collect());
-        let ellipses = Shapes::Ellipses { s, t };
-        for (shapes, as_packed) in [(disks.clone(), false), (disks, true), (ellipses, false)] {
+        // Both nearly along one direction, unless their sine is 1; no longer than 0.25 together.
+        let ellipses = |sine: f32| {
+            let along = |n: &Vec3| n.cross(Vec3::Y).normalize();
+            let s = normals.iter().map(|n| 0.17 * along(n)).collect();
+            let t = normals.iter().map(|n| {
+                0.17 * ((1.0 - sine * sine).sqrt() * along(n) + sine * n.normalize().cross(along(n)))
+            });
+            Shapes::Ellipses { s, t: t.collect() }
+        };
+        let skew = [1.0, 0.1, 1e-3, 1e-4].map(|sine| (ellipses(sine), false));
+        for (shapes, as_packed) in [(disks.clone(), false), (disks, true)].into_iter().chain(skew) {
             let (blocks, scale) = blocks_of(shapes, positions.clone(), as_packed);
             assert_eq!(
                 blocks.iter().map(|block| block.count).collect::<Vec<_>>(),
@@ -153,11 +178,33 @@ mod tests {
         }
     }
 
+    /// Whatever a device makes of nearly parallel tangent vectors is in the cone: here of the same words in f32.
+    #[test]
+    fn a_cone_holds_normals_that_f32_finds_of_nearly_parallel_vectors() {
+        let mut random = crate::math::random::SplitMix(9);
+        let mut direction = || Vec3::from([(); 3].map(|()| 2.0 * random.unit() as f32 - 1.0)).normalize();
+        for k in 0..60_000 {
+            let sine = 10.0_f32.powf(-6.2 * (k as f32 / 60_000.0));
+            let s = direction();
+            let t = 0.7 * (s + sine * s.cross(direction()).normalize());
+            let in_f32 = s.normalize().cross(t.normalize()).normalize().as_dvec3();
+            let (normal, error_rad) = normal_of([s, t].map(|v| v.as_dvec3()));
+            let turn = in_f32.angle_between(normal);
+            assert!(turn <= error_rad + 1e-6, "sine {sine}: {turn} of {error_rad}");
+        }
+        let (blocks, _) = blocks_of(
+            Shapes::Ellipses { s: vec![Vec3::X; 3], t: vec![Vec3::Y, Vec3::Y, Vec3::new(1.0, -5e-7, 0.0)] },
+            vec![DVec3::ZERO; 3],
+            false,
+        );
+        assert_eq!(blocks[0].spread_rad, PI);
+    }
+
     #[test]
     fn normals_without_a_common_direction_are_of_every_direction() {
         let normals = vec![Vec3::Z, Vec3::NEG_Z];
         let (blocks, _) =
             blocks_of(Shapes::Disks { normals, radii: vec![1.0; 2] }, vec![DVec3::ZERO; 2], false);
-        assert_eq!(blocks[0].spread_rad, std::f64::consts::PI);
+        assert_eq!(blocks[0].spread_rad, PI);
     }
 }
