@@ -2,11 +2,16 @@
 // a sphere around them (inc/list.glsl).
 //
 // Whoever projects a marked splat decides anew, and exactly: what is left out here must be what all of them leave out. Facing is the
-// same expression as theirs (mapping.glsl), which nothing may contract. Outside: all points of a splat are within r = sqrt(2) R
-// of its center (R the larger radius; the root for skew axes). Where 2 R <= p_z / 4, its image reaches at most
-// r (1 + |c|) / (p_z - r) < 2 R (1 + |c|) / p_z from its center's image c, an affine image less, and a filter adds up to
-// 1.2 of its radius; but that of adjust_paper.glsl may add any depth. Any other splat is marked. So is NaN, which no comparison
-// leaves out.
+// same expression as theirs (mapping.glsl), which nothing may contract. So is p_z, and a sum rounds in the order of what is added:
+// p_z + 2 R < near here is p_z + depth radius < near there.
+//
+// Outside: all points of a splat are within its radius R of its center, however skew its vectors are (R is the larger singular value of
+// the two). A point p + d is seen (d_x - c_x d_z) / (p_z + d_z) from the center's image c, which is R sqrt(1 + c_x^2) / (p_z - R) at
+// most: where 2 R <= p_z / 4, less than 2 R (1 + |c_x|) / p_z by 7/16 of that. An affine image reaches R sqrt(1 + c_x^2) / p_z.
+// A filter makes of half an axis l at most sqrt(l^2 + h^2) <= l + h, at the center's depth, p_z / (p_z - R) <= 8/7 of it where
+// the splat is nearest; that of adjust_paper.glsl may make both h long in one direction, 8/7 sqrt(2) h: below 2 h, the more so as the
+// image ends half a pixel beyond its last pixel's center, and that a box is larger by its margin. No filter makes a splat deeper.
+// Any other splat is marked. So is NaN, which no comparison leaves out.
 #version 460
 #include "inc/setup.glsl"
 #include "inc/list.glsl"
@@ -20,7 +25,7 @@ bool is_outside(vec3 p, float radius, float near)
     if (p.z + reach < near) {
         return true;
     }
-    if (FILTER == FILTER_ADJUST_PAPER || !(reach <= 0.25 * p.z)) {
+    if (!(reach <= 0.25 * p.z)) {
         return false;
     }
     vec2 c = p.xy / p.z;

@@ -3,7 +3,7 @@
 /// The bounds of the splats of a chunk, seen from a camera; lengths in one unit.
 #[derive(Clone, Copy, Debug)]
 pub struct SizeBound {
-    /// The smallest view-space depth of any point of any splat.
+    /// The smallest view-space depth of any point of any splat, as a device may find it.
     pub nearest_z: f64,
     /// The largest radius of a splat.
     pub largest_radius: f64,
@@ -20,8 +20,9 @@ pub struct SizeBound {
 /// Radius over the nearest depth, up to which all splats are known to be regular.
 const LARGEST_RADIUS_RATIO: f64 = 0.45;
 
-/// Whether every splat is regular as `glsl/inc/box.glsl` has it: wholly beyond the near plane, and its depth radius at
-/// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter.
+/// Whether every splat is regular as `glsl/inc/mapping.glsl` has it: wholly beyond the near plane, and its depth radius at
+/// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter; of the near plane, the nearest
+/// depth has a reserve for it.
 fn all_regular(bound: &SizeBound) -> bool {
     bound.nearest_z > bound.near && bound.largest_radius <= LARGEST_RADIUS_RATIO * bound.nearest_z
 }
@@ -30,9 +31,13 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// near the eye plane.
 ///
 /// Two points of a splat at x₁, x₂ in the image plane with depths z₁, z₂: `x₁ − x₂ = ((X₁ − X₂) − x₂ (z₁ − z₂)) / z₁`,
-/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it. A
-/// filter adds its covariance, or less: of half an axis l it makes √(l² + h²) at the center's depth p (and 0.2% more: 1%
-/// here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. Three pixels for rounding.
+/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it: a splat is connected, so
+/// that the clamped ends of its box are places of points of it. Nothing of that asks how the tangent vectors lie, if r is the larger
+/// singular value of the two. A filter adds its covariance, or less: of half an axis l it makes √(l² + h²) at the center's depth p (1%
+/// more here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. (`adjust-paper` lengthens each vector by
+/// itself, two to h in any directions, which together reach √2 h: that is its h here. `max` adds its own disk about the center: of the
+/// splat's ends a and b from there, max(a, h) + max(b, h) ≤ √((a + b)² + 4 h²) where a ≤ 6 b, as of all that is regular by the half.)
+/// Three pixels for rounding.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
     box_px(bound, bound.largest_radius)
 }

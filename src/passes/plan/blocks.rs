@@ -20,24 +20,28 @@ pub struct BlockCullView<'a> {
     pub bound: &'a SizeBound,
     /// Splats that face away are not drawn.
     pub culls: bool,
-    /// A filter enlarges a splat's image by a few pixels at most.
-    pub bounded: bool,
 }
 
-/// What a device finds in f32 may differ from this file's f64 by so much of an angle.
+/// What a device finds in f32 of a unit vector may differ from this file's f64 by so much of an angle: some roundings of 2⁻²⁴, and a
+/// packed normal's; much less than this.
 const ANGLE_RESERVE_RAD: f64 = 1e-3;
 
 /// The same of a place, as a part of its distance from the eye; and of the distances of the chunk's origin from both, whose difference it
-/// is to a device.
+/// is to a device: its sum of four terms is off by some 6 roundings of 2⁻²⁴ of them, 4e-7.
 const LENGTH_RESERVE: f64 = 1e-5;
 const ORIGIN_RESERVE: f64 = 1e-6;
 
-/// The farthest that a filter takes a splat's image beyond itself, and rounding: pixels.
+/// The farthest that a filter takes a splat's image beyond itself, 8/7 √2 h (`glsl/mark_visible.comp.glsl`), and the margin of its box: less
+/// than 3 pixels.
 const FILTER_RESERVE_PX: f64 = 6.0;
 
 /// The blocks of a chunk some of whose splats may be seen, in their order. What is left out here, every stage that sets splats up
 /// would leave out: what faces away, what is nearer than the near plane, and what is beside the image, by the bounds of
 /// `glsl/mark_visible.comp.glsl`, of a ball in place of a splat.
+///
+/// The ball has all points within 2 R of a center. A splat's image, a filter's h aside, reaches R √(1 + c²) / (p_z − R) from its center's
+/// image c at most (there). The image of a ball of 2 R about that center reaches 2 R √(1 + c²) / (p_z + 2 R) at least, which is
+/// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth.
 pub fn potentially_visible_blocks(chunk: &Chunk, look: &BlockCullView<'_>) -> Vec<PotentiallyVisibleBlock> {
     (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)).collect()
 }
@@ -95,11 +99,12 @@ impl Ball {
     fn of(block: &Block, look: &BlockCullView<'_>) -> Self {
         let scale = look.view.view_from_local_scale;
         let middle = block.center * scale + look.view.origin_from_eye;
-        let of_origin = look.view.origin_from_eye.length() + block.center.length() * scale;
+        // Of any splat: its block's middle may be the chunk's origin, and the eye.
+        let of_origin = look.view.origin_from_eye.length() + (block.center.length() + block.radius) * scale;
         let reserve = LENGTH_RESERVE * middle.length() + ORIGIN_RESERVE * of_origin;
         let radius = block.radius * scale + reserve;
         let [x, y, z] = (look.view.rotation * middle).into();
-        // A splat's points are within the root of 2 of its larger radius, for skew axes.
+        // A splat's points are within its radius, its image within that of twice as much.
         Self { middle, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
     }
 
@@ -111,9 +116,10 @@ impl Ball {
             return None;
         }
         let is_far = self.reach <= 0.25 * self.z; // NaN is not
-        if !look.bounded || !is_far {
+        if !is_far {
             return Some(Image { rows: all, most_x: f64::INFINITY, is_whole: false });
         }
+        // A point d from the middle is seen (d_x − c d_z) / (z + d_z) from the middle's image c, |d| √(1 + c²) / (z − |d|) at most.
         let [x, y] = [self.x, self.y].map(|side| {
             let c = side / self.z;
             (c, self.reach / (self.z - self.reach) * (1.0 + c.abs()))
@@ -134,7 +140,8 @@ impl Ball {
         Some(Image { rows, most_x: (x.0.abs() + x.1).max(y.0.abs() + y.1), is_whole })
     }
 
-    /// Between which the angles lie of normals and the ways from the eye to their centers: above 90° a splat shows the eye its face.
+    /// Between which the angles lie of normals and the ways from the eye to their centers: above 90° a splat shows the eye its face. From
+    /// outside a ball is seen within the arc sine of its radius over its distance; angles of directions add up at most.
     fn angles(&self, block: &Block) -> [f64; 2] {
         let distance = self.middle.length();
         let is_outside = self.radius < distance; // NaN is not

@@ -36,7 +36,6 @@ pub struct Draw<'a> {
     /// From where, for [`Self::potentially_visible_blocks`].
     pub(super) view: ViewFromLocal,
     bound: SizeBound,
-    bounded: bool,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
@@ -49,11 +48,8 @@ pub struct Draw<'a> {
 impl Draw<'_> {
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_blocks(&self) -> Vec<PotentiallyVisibleBlock> {
-        let Self { view, bound, bounded, .. } = self;
-        potentially_visible_blocks(
-            self.chunk,
-            &BlockCullView { view, bound, culls: culls(&self.variant), bounded: *bounded },
-        )
+        let Self { view, bound, .. } = self;
+        potentially_visible_blocks(self.chunk, &BlockCullView { view, bound, culls: culls(&self.variant) })
     }
 }
 
@@ -118,7 +114,12 @@ pub fn draws<'a>(
             near,
             focal_px,
             size_px: settings.size_px.map(f64::from),
-            filter_px: if settings.filter == Filter::None { 0.0 } else { FILTER_RADIUS_PX },
+            filter_px: match settings.filter {
+                Filter::None => 0.0,
+                // Its two axes may have one direction: together they reach √2 times as far as one.
+                Filter::AdjustPaper => std::f64::consts::SQRT_2 * FILTER_RADIUS_PX,
+                Filter::Adjust | Filter::Max | Filter::Ewa => FILTER_RADIUS_PX,
+            },
         };
         let point_cap_px = limits.point_size_range[1];
         let largest_box_px = largest_box_px(&bound);
@@ -142,7 +143,6 @@ pub fn draws<'a>(
             boxes: chunk.radii.iter().map(box_of).collect(),
             view,
             bound,
-            bounded: settings.filter != Filter::AdjustPaper,
             wholly_in_view: wholly_in_view(chunk, &view, &bound),
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
@@ -219,12 +219,19 @@ fn in_two_parts(v: DVec3) -> [f32; 6] {
     [high.x, high.y, high.z, low.x, low.y, low.z]
 }
 
-/// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius.
+/// What a device finds in f32 of a depth may differ by so much from f64's, as a part of the distances of which it is the sum: some 6
+/// roundings of 2⁻²⁴, with room.
+const DEPTH_RESERVE: f64 = 1e-6;
+
+/// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius, as a device may
+/// find it. The host proves by it that splats are regular, and those that a device finds otherwise would have no place.
 fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
     let row = view.rotation.row(2);
     let [center, half] = center_and_half(chunk);
     let local = row.dot(center) - row.abs().dot(half) - chunk.largest_radius;
-    local * view.view_from_local_scale + view.translation.z
+    let farthest = center.length() + half.length() + chunk.largest_radius;
+    let reserve = DEPTH_RESERVE * (farthest * view.view_from_local_scale + view.origin_from_eye.length());
+    local * view.view_from_local_scale + view.translation.z - reserve
 }
 
 /// Whether the box of the chunk's centers lies between the near plane and the four sides of the view.
