@@ -1,8 +1,7 @@
 // Of the visible splats, marks those that may belong to the visible surface: the second pass of Guennebaud, Barthe, Paulin,
 // "Deferred Splatting", Eurographics 2004, with a hierarchy of the visible depth in place of each splat's pixel. A splat is hidden
 // where its nearest point is behind the farthest visible depth of all cells that its box touches. That is what accumulation's depth
-// test does to each fragment, so that the picture is the same to the bit. (A bound of f32 for what f32 has digits for: of an unfiltered
-// splat seen nearly edge-on, (u, v) are noise, and so is the depth of its few fragments.)
+// test does to each fragment, so that the picture is the same to the bit.
 //
 // Marked in any case: what is not regular, what is not found to hold a pixel's center here (a vertex stage may round it otherwise), and boxes of more
 // than MOST_CELLS blocks along a side. The box is taken a pixel larger, for the same rounding.

@@ -5,8 +5,9 @@
 // is an ellipse. Of the tile in a corner, P is the pixel that is nearest to the box's middle. If f(P) > 0, and f grows from P away from
 // the middle in x and in y, then f > 0 in all of the tile, since a convex function is nowhere below its tangent plane.
 //
-// Pixels find f with roundings of some 2^-22 of T, what its terms are at most; so does this, and its slope, over 8 pixels, too. What is
-// left out has f(P) > 2^-10 T.
+// Pixels find f from the record (tile/splat.glsl), whose numbers are those here, with roundings of some 2^-22 of T, what its terms are at
+// most; so does this, and its slope. T is that of a place a pixel beyond P; 8 pixels beyond, terms are at most 81 times as much: 2e-5 T.
+// What is left out has f(P) > 2^-10 T.
 
 // `first`, `last`: the tiles of the box's corners, in tiles of that size.
 uint corners_outside(ImageMap map, uvec2 first, uvec2 last, vec2 tile_px)
@@ -15,26 +16,21 @@ uint corners_outside(ImageMap map, uvec2 first, uvec2 last, vec2 tile_px)
         return 0;
     }
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
-    vec3 along_x = map.along_x;
-    vec3 along_y = map.along_y;
+    // Over the depth at the center, which may be so small that its square is none.
     float w0 = map.at_x0.z;
-    if (map.affine) {
-        along_x.z = 0.0;
-        along_y.z = 0.0;
-        w0 = 1.0;
-    }
-    // The last pixels of the first tiles, and the first of the last ones, from the map's middle.
-    vec2 origin_px = map.x0_px + 0.5 * frame.size_px - 0.5;
-    vec2 near_px = vec2(first + 1) * tile_px - 1.0 - origin_px;
-    vec2 far_px = vec2(last) * tile_px - origin_px;
+    vec3 along_x = map.affine ? vec3(map.along_x.xy, 0.0) : map.along_x / w0;
+    vec3 along_y = map.affine ? vec3(map.along_y.xy, 0.0) : map.along_y / w0;
+    // The centers of the last pixels of the first tiles, and of the first of the last ones, from the map's middle: rounded once.
+    vec2 near_px = (vec2(first + 1) * tile_px - 0.5 - 0.5 * frame.size_px) - map.x0_px;
+    vec2 far_px = (vec2(last) * tile_px + 0.5 - 0.5 * frame.size_px) - map.x0_px;
     vec2 most_px = max(abs(near_px), abs(far_px)) + 1.0;
-    vec3 most = abs(along_x) * most_px.x + abs(along_y) * most_px.y + vec3(0.0, 0.0, w0);
+    vec3 most = abs(along_x) * most_px.x + abs(along_y) * most_px.y + vec3(0.0, 0.0, 1.0);
     float margin = 9.765625e-4 * (dot(most.xy, most.xy) + limit * most.z * most.z);
     uint outside = 0;
     [[unroll]] for (uint corner = 0; corner < 4; corner++) {
         bool right = (corner & 1) != 0;
         bool below = (corner & 2) != 0;
-        vec3 uvw = along_x * (right ? far_px.x : near_px.x) + along_y * (below ? far_px.y : near_px.y) + vec3(0.0, 0.0, w0);
+        vec3 uvw = along_x * (right ? far_px.x : near_px.x) + along_y * (below ? far_px.y : near_px.y) + vec3(0.0, 0.0, 1.0);
         vec3 slope = vec3(uvw.xy, -limit * uvw.z);
         float slope_x = dot(slope, along_x);
         float slope_y = dot(slope, along_y);
