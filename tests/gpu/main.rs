@@ -7,6 +7,7 @@ mod common;
 mod bands;
 mod by_design;
 mod cull;
+mod culling;
 mod embedding;
 mod extremes;
 mod f16;
