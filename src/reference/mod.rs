@@ -21,8 +21,8 @@
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
-//! Not modelled, because they are to change nothing: [`crate::scene::Accumulate`] (the sums are `f64` whatever it
-//! says), [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
+//! Of [`crate::scene::Accumulate`] only the floors are modelled that 16-bit sums ask for ([`Settings::floors`]): the sums are `f64` whatever
+//! it says. Not modelled, because they are to change nothing: [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
 
 mod affine;
 mod band;
@@ -74,7 +74,7 @@ use crate::scene::{Camera, Scene, Settings};
 /// that every thread stays busy.
 const BAND_ROWS: usize = 16;
 
-/// Renders `scene` seen by `camera`, with every setting but `accumulate`, `kernel_eval` and `tile_invocations`.
+/// Renders `scene` seen by `camera`, with every setting but `kernel_eval` and `tile_invocations`; of `accumulate` only the floors.
 ///
 /// Splats with a [`crate::scene::Defect`] are left out and counted. Uses all cores; the picture does not depend on
 /// how many. `progress(done, total)` is called from several threads, with rows.
