@@ -106,10 +106,10 @@ impl Errors {
             worst(&mut self.albedo, error.max_element(), change.albedo, 1.0);
         }
         if let Some(srgb) = seen.srgb.get(i) {
-            for (c, expected) in expected.albedo.iter().enumerate() {
+            for (srgb, expected) in srgb.iter().zip(expected.albedo) {
                 // Anything that rounds to this level, and a tenth of a level more for 16-bit colors before it.
                 let linear = |level: f64| f64::from(linear_from_srgb((level / 255.0) as f32));
-                let (lo, hi) = (linear(f64::from(srgb[c]) - 0.6), linear(f64::from(srgb[c]) + 0.6));
+                let (lo, hi) = (linear(f64::from(*srgb) - 0.6), linear(f64::from(*srgb) + 0.6));
                 let error = (lo - expected).max(expected - hi).max(0.0);
                 worst(&mut self.albedo, error, change.albedo, 1.0);
             }
