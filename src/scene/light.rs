@@ -51,3 +51,17 @@ impl Light {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lights_that_f32_could_not_sum_are_refused() {
+        let of = |red: f32| Light { color: [red, 0.0, 1.0], ..Light::DEFAULT }.validate();
+        assert!(of(0.0).is_ok() && of(1e30).is_ok());
+        for red in [-1.0, 3e38, f32::INFINITY, f32::NAN] {
+            assert!(of(red).unwrap_err().to_string().contains("expected numbers from 0 to 1e30"), "{red}");
+        }
+    }
+}

@@ -78,3 +78,81 @@ fn depth_without_epsilon(draw: &Draw<'_>) -> Option<f64> {
     let epsilon = f64::from(constants.epsilon_radii) * radius + f64::from(constants.epsilon_length);
     (epsilon > 0.0 && epsilon < LEAST_SHIFT * depth).then(|| depth / draw.view.view_from_world_scale)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+
+    use super::*;
+    use crate::{
+        prepare::prepare_without_device,
+        scene::{Colors, Epsilon, Mesh, MeshObject, Object, Rasterizer, Scene, Shapes, Splats},
+        vk::Limits,
+    };
+
+    /// Disks of a radius on the axis of view, at these depths.
+    fn disks(depths: &[f64], radius: f32) -> Scene {
+        let count = depths.len();
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![radius; count] };
+        let positions = depths.iter().map(|depth| DVec3::NEG_Z * *depth).collect();
+        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let objects = vec![Object { name: "disks".to_owned(), splats, closed: false }];
+        Scene { objects, ..Scene::default() }
+    }
+
+    fn camera(near: f64) -> Camera {
+        let eye = DVec3::ZERO;
+        Camera { eye, target: DVec3::NEG_Z, up: DVec3::Y, fov_y_rad: 1.0, near: Some(near) }
+    }
+
+    fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {
+        let limits = Limits::plain();
+        let prepared = prepare_without_device(&limits, scene).unwrap();
+        notes(&FramePlan::new(&prepared, &camera(1e-3), settings, &limits), settings)
+    }
+
+    #[test]
+    fn a_near_plane_without_depth_is_refused_whether_things_are_far_or_large() {
+        let problem_of = |scene: &Scene, near: f64| {
+            let prepared = prepare_without_device(&Limits::plain(), scene).unwrap();
+            check(&prepared, &camera(near)).map_err(|error| error.to_string())
+        };
+        assert_eq!(problem_of(&disks(&[1.0, 3.0], 0.1), 1e-30), Ok(()));
+        assert_eq!(problem_of(&disks(&[1e6], 0.1), 1e-20), Ok(()));
+        for (scene, near) in
+            [(disks(&[1.0], 0.1), 1e-37), (disks(&[1e12], 0.1), 1e-25), (disks(&[1.0], 1e12), 1e-25)]
+        {
+            let problem = problem_of(&scene, near).unwrap_err();
+            assert!(problem.starts_with("camera: near ") && problem.contains("or more"), "{problem}");
+        }
+    }
+
+    #[test]
+    fn what_f32_can_not_tell_apart_is_told_and_nothing_of_an_ordinary_scene() {
+        let points =
+            Settings { rasterizer: Rasterizer::Perspective, filter: Filter::None, ..Settings::default() };
+        assert!(notes_of(&disks(&[1.0, 3.0], 0.1), &points).is_empty());
+        let sheets = Settings { epsilon: Epsilon::Length(0.05), ..points.clone() };
+        assert!(notes_of(&disks(&[1e4], 0.1), &sheets).is_empty());
+        let told = notes_of(&disks(&[1e6], 0.1), &sheets);
+        assert!(told.len() == 1 && told[0].starts_with("epsilon is less"), "{told:?}");
+        let floors = Settings { filter: Filter::Ewa, ..points.clone() };
+        let told = notes_of(&disks(&[1.0], 0.1), &floors);
+        assert!(told.len() == 1 && told[0].starts_with("sums of 16 bits"), "{told:?}");
+        let exact = Settings { accumulate: Accumulate::F32, ..floors };
+        assert!(notes_of(&disks(&[1.0], 0.1), &exact).is_empty());
+        let mut scene = disks(&[1.0], 0.1);
+        let corner = |x: f64, y: f64| DVec3::new(x, y, -5.0);
+        let positions =
+            [0.0, 1e4].iter().flat_map(|x| [corner(*x, 0.0), corner(x + 1.0, 0.0), corner(*x, 1.0)]);
+        let mesh = Mesh {
+            positions: positions.collect(),
+            normals: None,
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+            colors: Colors::Uniform([1.0; 4]),
+        };
+        scene.meshes.push(MeshObject { name: "far corners".to_owned(), mesh, closed: false });
+        let told = notes_of(&scene, &points);
+        assert!(told.len() == 1 && told[0].starts_with("mesh 0: its corners are rounded"), "{told:?}");
+    }
+}
