@@ -95,6 +95,12 @@ impl Settings {
         None
     }
 
+    /// Whether the filter gives splats weights of their own.
+    pub fn weighs_splats(&self) -> bool {
+        let by_area = self.filter.adjusts() && self.filter_weight == FilterWeight::Area;
+        self.filter == Filter::Ewa || by_area
+    }
+
     /// What a splat weighs at least. Tiles sum in registers of 32 bits, whatever `accumulate` says; `auto` is taken for them, whose picture is
     /// the truer one.
     pub fn floors(&self) -> Floors {

@@ -4,7 +4,7 @@ use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, draws::Draw};
 use crate::{
     error::{Error, Result},
     prepare::{PreparedScene, Rebase},
-    scene::{Accumulate, Camera, Filter, FilterWeight, Settings},
+    scene::{Accumulate, Camera, Settings},
 };
 
 /// Depth is near / z, in f32, which ends at 1e-38.
@@ -47,12 +47,10 @@ pub fn notes(frame: &FramePlan<'_>, settings: &Settings) -> Vec<String> {
              millionth of their distance apart are one"
         ));
     }
-    let is_weighed = settings.filter == Filter::Ewa
-        || settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area;
     let by_points = |part: &SurfacePlan<'_>| {
         !part.splats.is_empty() && matches!(part.method, SplatMethod::Primitives { .. })
     };
-    if is_weighed
+    if settings.weighs_splats()
         && settings.accumulate == Accumulate::F16
         && (by_points(&frame.opaque) || by_points(&frame.transparent))
     {
@@ -86,7 +84,7 @@ mod tests {
     use super::*;
     use crate::{
         prepare::prepare_without_device,
-        scene::{Colors, Epsilon, Mesh, MeshObject, Object, Rasterizer, Scene, Shapes, Splats},
+        scene::{Colors, Epsilon, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Shapes, Splats},
         vk::Limits,
     };
 

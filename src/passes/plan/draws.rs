@@ -41,6 +41,8 @@ pub struct Draw<'a> {
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
     /// triangle: such ones are then listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
+    /// A filter's weights are summed in 16 bits.
+    pub(crate) half_sums: bool,
     /// The specialization constants of its pipelines.
     pub(crate) variant: Constants,
 }
@@ -150,6 +152,7 @@ pub fn draws<'a>(
                 Primitive::Triangle => settings.filter == Filter::None || largest_box_px.is_infinite(),
                 Primitive::Quad => false,
             },
+            half_sums: false,
             variant: {
                 let cull_closed = chunk.closed && !chunk.transparent;
                 let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);

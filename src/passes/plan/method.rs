@@ -15,7 +15,6 @@ use crate::passes::{
 use crate::{
     error::{Error, Result},
     scene::{Accumulate, Rasterizer, Settings},
-    shaders::config::SPEC_HALF_SUMS,
     vk::Limits,
 };
 
@@ -53,9 +52,8 @@ pub(crate) fn primitives<'a>(
     settings: &Settings,
     limits: &Limits,
 ) -> SplatMethod<'a> {
-    if settings.accumulate == Accumulate::F16 {
-        splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_HALF_SUMS, 1)));
-    }
+    let half_sums = settings.accumulate == Accumulate::F16 && settings.weighs_splats();
+    splats.iter_mut().for_each(|draw| draw.half_sums = half_sums);
     if !culling::lists_primitives(splats, settings, limits) {
         culling::number_splats(splats);
         return SplatMethod::default();

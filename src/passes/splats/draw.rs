@@ -63,14 +63,15 @@ impl SplatPass {
         }
     }
 
-    /// What the pipeline is that draws a portion of the splats of a variant.
-    fn key(&self, portion: Portion, variant: &Constants) -> GraphicsKey {
+    /// What the pipeline is that draws a portion of the splats of a chunk.
+    fn key(&self, portion: Portion, draw: &Draw<'_>) -> GraphicsKey {
         let (primitive, stages) = match portion {
             Portion::Large => (Primitive::Quad, self.stages_of_quads),
             Portion::All | Portion::Small => (self.primitive, self.stages),
         };
         let some_large = (SPEC_SOME_LARGE, u32::from(portion != Portion::All));
-        let constants = [variant.as_slice(), &self.constants, &[some_large]].concat();
+        let half_sums = (SPEC_HALF_SUMS, u32::from(draw.half_sums && !self.color_formats.is_empty()));
+        let constants = [draw.variant.as_slice(), &self.constants, &[some_large, half_sums]].concat();
         GraphicsKey {
             color_formats: self.color_formats.clone(),
             blend: Blend::Add,
@@ -81,14 +82,14 @@ impl SplatPass {
 
     /// The pipelines that draw listed splats as quads, one a draw.
     pub fn quad_pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<Pipeline>> {
-        let key = |draw: &Draw<'_>| self.key(Portion::Large, &draw.variant);
+        let key = |draw: &Draw<'_>| self.key(Portion::Large, draw);
         by_variant(inputs.draws, |draw| pass.graphics(key(draw)))
     }
 
     /// The pipelines of every draw, in their order.
     pub fn pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
         let both = |draw: &Draw<'_>| {
-            let make = |portion| pass.graphics(self.key(portion, &draw.variant));
+            let make = |portion| pass.graphics(self.key(portion, draw));
             let own = if draw.may_be_large { Portion::Small } else { Portion::All };
             let own = make(own)?;
             Ok(DrawPipelines { own, quads: draw.may_be_large.then(|| make(Portion::Large)).transpose()? })
