@@ -1,6 +1,6 @@
 //! The header: what elements follow, checked for what the crate lets pass.
 
-use std::path::Path;
+use std::{collections::HashSet, path::Path};
 
 use ply_rs_bw::{
     parser::{Parser, Reader},
@@ -72,8 +72,8 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header> {
 
 /// The crate keeps the last of two equal names, and would then read the body with a wrong record size.
 fn refuse_duplicates(path: &Path, header: &str) -> Result<()> {
-    let mut elements: Vec<&str> = Vec::new();
-    let mut properties: Vec<&str> = Vec::new();
+    let mut elements: HashSet<&str> = HashSet::new();
+    let mut properties: HashSet<&str> = HashSet::new();
     for (i, line) in header.lines().enumerate() {
         let mut words = line.split_ascii_whitespace();
         let (kind, name, seen) = match words.next() {
@@ -85,10 +85,9 @@ fn refuse_duplicates(path: &Path, header: &str) -> Result<()> {
             _ => continue,
         };
         let name = name.unwrap_or_default();
-        if seen.contains(&name) {
+        if !seen.insert(name) {
             return Err(Error::input(path, format!("line {}", i + 1), format!("a second {kind} '{name}'")));
         }
-        seen.push(name);
     }
     Ok(())
 }
