@@ -37,6 +37,10 @@ vec3 to_eye()
 
 void main()
 {
+    // A triangle that is seen exactly edge-on has no area, but some devices give it fragments, between whose corners nothing can be found.
+    if (any(isnan(color_alpha))) {
+        discard;
+    }
 #if defined(TRANSPARENT)
     if (PEELED) {
         peel(gl_FragCoord.z);
