@@ -3,12 +3,13 @@
 use glam::DVec3;
 
 use super::{Ball, Camera};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Parts of a camera, in world space. Each may be missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraParts {
-    /// The eye; without, it looks along −z at the target from so far that the scene fits.
+    /// The eye; without, it looks along −z at the target from so far that the scene fits; along ±y where up is ±z, which would be
+    /// parallel to the view.
     pub eye: Option<DVec3>,
     /// The point in the middle of the picture; without, the middle of the scene.
     pub target: Option<DVec3>,
@@ -36,14 +37,39 @@ impl CameraParts {
     /// The camera for a scene within a ball.
     ///
     /// # Errors
-    /// As [`Camera::validate`].
+    /// As [`Camera::validate`]; for an `up` that is parallel to the view from `eye`.
     pub fn camera(&self, ball: &Ball, size_px: [u32; 2]) -> Result<Camera> {
         let fit = Camera::fit(ball, size_px, self.fov_y_rad.unwrap_or(Camera::DEFAULT_FOV_Y_RAD));
         let target = self.target.unwrap_or(fit.target);
-        let eye = self.eye.unwrap_or(target + (fit.eye - fit.target));
+        let distance = fit.eye.distance(fit.target);
+        let eye = self.eye.unwrap_or(target + distance * self.toward_eye());
+        if let Some(up) = self.up.filter(|up| are_parallel(*up, target - eye)) {
+            let problem = format!(
+                "{},{},{}: parallel to the view; expected another direction, or another --eye",
+                up.x, up.y, up.z
+            );
+            return Err(Error::option("--up", problem));
+        }
         let camera = Camera { eye, target, up: self.up.unwrap_or(fit.up), near: self.near, ..fit };
         camera.validate()?;
         Ok(camera)
+    }
+
+    /// The direction from the target to an eye that is not given: so turned about x that up is not along it.
+    fn toward_eye(&self) -> DVec3 {
+        match self.up.filter(|up| are_parallel(*up, DVec3::Z)) {
+            Some(up) => DVec3::NEG_Y * up.z.signum(),
+            None => DVec3::Z,
+        }
+    }
+}
+
+/// Within half a degree, where the picture would turn by any angle. A vector without length or direction is parallel to none.
+fn are_parallel(a: DVec3, b: DVec3) -> bool {
+    const LARGEST_SINE: f64 = 0.0087;
+    match (a.try_normalize(), b.try_normalize()) {
+        (Some(a), Some(b)) => a.cross(b).length() < LARGEST_SINE,
+        _ => false,
     }
 }
 
@@ -63,6 +89,17 @@ mod tests {
         let camera = narrow.camera(&ball, [8, 8]).unwrap();
         // The same scene fits a narrow view from further away.
         assert!(camera.eye.z > 5.0 * fit.eye.z && camera.fov_y_rad == 0.1 && camera.near() == 0.5);
+        // A scan with z up is seen from the front, with its top up.
+        for (up, toward) in [(DVec3::Z, DVec3::NEG_Y), (2.0 * DVec3::NEG_Z, DVec3::Y)] {
+            let camera = CameraParts { up: Some(up), ..none }.camera(&ball, [8, 8]).unwrap();
+            assert!((camera.eye - camera.target).normalize().distance(toward) < 1e-12, "{up}");
+            assert!((camera.eye.distance(camera.target) / fit.eye.distance(fit.target) - 1.0).abs() < 1e-12);
+        }
+        let rolled =
+            CameraParts { up: Some(DVec3::new(1.0, 1.0, 0.0)), ..none }.camera(&ball, [8, 8]).unwrap();
+        assert_eq!(rolled.eye, fit.eye);
+        let above = CameraParts { eye: Some(ball.center + DVec3::Z), up: Some(DVec3::Z), ..none };
+        assert!(above.camera(&ball, [8, 8]).unwrap_err().to_string().starts_with("--up: 0,0,1: parallel"));
         let inside = CameraParts { eye: Some(ball.center), ..none };
         assert_eq!(inside.camera(&ball, [8, 8]).unwrap_err().exit_code(), 1);
         assert_eq!(inside.or(only_eye).or(narrow), CameraParts { eye: inside.eye, ..narrow });

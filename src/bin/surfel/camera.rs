@@ -23,7 +23,7 @@ pub struct CameraArguments {
     #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub camera: Option<PathBuf>,
 
-    /// The eye [default: on +z from the target, so far that the scene fits]
+    /// The eye [default: on +z from the target, so far that the scene fits; on -y with --up 0,0,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub eye: Option<[f64; 3]>,
 
@@ -31,7 +31,7 @@ pub struct CameraArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub target: Option<[f64; 3]>,
 
-    /// The direction that is up [default: 0,1,0]
+    /// The direction that is up; 0,0,1 for what has z up [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub up: Option<[f64; 3]>,
 

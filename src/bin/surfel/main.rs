@@ -9,6 +9,7 @@ mod compare;
 mod console;
 mod convert;
 mod device;
+mod emptiness;
 mod explain;
 mod figure;
 mod info;

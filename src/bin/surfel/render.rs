@@ -7,14 +7,14 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Settings, Storage},
+    scene::{Ball, Settings, Storage},
 };
 
 use crate::{
     camera::CameraChoice,
     console::{self, Bars},
     device::DeviceArguments,
-    explain,
+    emptiness, explain,
     json::write_json,
     measure::{self, View},
     outputs::{self, PictureFormat},
@@ -104,7 +104,7 @@ fn draw(
     let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
-    let Loaded { mut scene, inputs, steps: loading, .. } = loaded;
+    let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
@@ -127,7 +127,7 @@ fn draw(
         console::print(&report.to_string())?;
         write_json(arguments.timings.as_deref(), &report)?;
     }
-    write(headless, arguments, view, format)
+    write(headless, arguments, view, &ball, format)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.
@@ -135,6 +135,7 @@ fn write(
     headless: &mut Headless,
     arguments: &RenderArguments,
     view: View<'_>,
+    ball: &Ball,
     format: PictureFormat,
 ) -> Result<()> {
     let picture = &arguments.picture;
@@ -146,6 +147,9 @@ fn write(
     };
     let transparent = view.settings.background.is_none();
     pictures::write_picture(&picture.output, format, frame.size_px, transparent, colors)?;
+    if let Some(hint) = emptiness::hint(&frame.srgb, view.settings.background, view.camera, ball) {
+        console::say(&hint);
+    }
     if let Some(folder) = &picture.dump {
         dump(headless, view)?.write(folder)?;
     }

@@ -1,0 +1,68 @@
+//! Why a picture shows nothing, and what to try: nobody should look at a white page and wonder.
+
+use surfel::scene::{Ball, Camera};
+
+/// What to say of a picture that is all background (sRGB; `None`: transparent); `None` where something is seen.
+pub fn hint(
+    pixels: &[[u8; 4]],
+    background: Option<[f32; 3]>,
+    camera: &Camera,
+    ball: &Ball,
+) -> Option<String> {
+    let is_empty = |pixel: &[u8; 4]| match background {
+        None => pixel[3] == 0,
+        Some(color) => {
+            pixel.iter().zip(color).all(|(byte, value)| (f32::from(*byte) - 255.0 * value).abs() <= 1.0)
+        }
+    };
+    pixels.iter().all(is_empty).then(|| format!("nothing is seen in it: {}", reason(camera, ball)))
+}
+
+fn reason(camera: &Camera, ball: &Ball) -> String {
+    let center = camera.view_from_world().point(ball.center);
+    let [distance, across] = [center.length(), center.truncate().length()];
+    let to_axis_deg = across.atan2(center.z).to_degrees();
+    let half_fov_deg = 0.5 * camera.fov_y_rad.to_degrees();
+    let reach_deg = (ball.radius / distance).min(1.0).asin().to_degrees();
+    let [x, y, z] = ball.center.to_array();
+    match () {
+        () if distance <= ball.radius => {
+            "the eye is inside of the scene; try without --eye, or --backfaces flip".to_owned()
+        }
+        // Of the image's corners, which are up to twice as far.
+        () if to_axis_deg > reach_deg + 2.0 * half_fov_deg => format!(
+            "the scene is around {x:.4},{y:.4},{z:.4}, {to_axis_deg:.0} degrees from where the camera looks; try without --eye and --target"
+        ),
+        () if reach_deg < half_fov_deg / 1000.0 => format!(
+            "the scene is {distance:.3e} away and smaller than a pixel; try without --eye, or a smaller --fov"
+        ),
+        () => "what the camera looks at faces away or is seen edge-on; try --backfaces flip or another --eye"
+            .to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn hint_of(eye: DVec3, target: DVec3) -> String {
+        let camera = Camera { eye, target, up: DVec3::Y, fov_y_rad: 0.8, near: None };
+        hint(&[[255; 4]; 9], Some([1.0; 3]), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 }).unwrap()
+    }
+
+    #[test]
+    fn an_empty_picture_says_what_to_try_and_any_other_nothing() {
+        let far = DVec3::new(0.0, 0.0, 5.0);
+        assert!(hint_of(far, DVec3::new(100.0, 0.0, 5.0)).contains("90 degrees from where the camera looks"));
+        assert!(hint_of(DVec3::new(0.0, 0.1, 0.0), far).contains("inside of the scene"));
+        assert!(hint_of(1e6 * far, DVec3::ZERO).contains("smaller than a pixel"));
+        assert!(hint_of(far, DVec3::ZERO).contains("edge-on"));
+        let camera = Camera { eye: far, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.8, near: None };
+        let ball = Ball { center: DVec3::ZERO, radius: 1.0 };
+        let seen = |pixels: &[[u8; 4]], background| hint(pixels, background, &camera, &ball).is_none();
+        assert!(seen(&[[255; 4], [200, 255, 255, 255]], Some([1.0; 3])) && seen(&[[0, 0, 0, 1]], None));
+        assert!(!seen(&[[9, 9, 9, 0]], None));
+    }
+}
