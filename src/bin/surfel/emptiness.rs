@@ -24,14 +24,15 @@ fn reason(camera: &Camera, ball: &Ball) -> String {
     let to_axis_deg = across.atan2(center.z).to_degrees();
     let half_fov_deg = 0.5 * camera.fov_y_rad.to_degrees();
     let reach_deg = (ball.radius / distance).min(1.0).asin().to_degrees();
-    let [x, y, z] = ball.center.to_array();
+    // Without the sign of what rounds to 0.
+    let [x, y, z] = (ball.center * 1e4).round().to_array().map(|value| value / 1e4 + 0.0);
     match () {
         () if distance <= ball.radius => {
             "the eye is inside of the scene; try without --eye, or --backfaces flip".to_owned()
         }
         // Of the image's corners, which are up to twice as far.
         () if to_axis_deg > reach_deg + 2.0 * half_fov_deg => format!(
-            "the scene is around {x:.4},{y:.4},{z:.4}, {to_axis_deg:.0} degrees from where the camera looks; try without --eye and --target"
+            "the scene is around {x},{y},{z}, {to_axis_deg:.0} degrees from where the camera looks; try without --eye and --target"
         ),
         () if reach_deg < half_fov_deg / 1000.0 => format!(
             "the scene is {distance:.3e} away and smaller than a pixel; try without --eye, or a smaller --fov"
