@@ -1,6 +1,15 @@
 //! What can go wrong, who is at fault, and the exit code that says so.
 
-use std::{fmt, io, path::PathBuf};
+mod one_line;
+
+use std::{
+    fmt::{self, Write as _},
+    io,
+    path::PathBuf,
+};
+
+use one_line::OneLine;
+pub use one_line::one_line;
 
 /// A `Result` whose error is [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -9,7 +18,7 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 #[derive(Debug)]
 pub struct Error(Box<ErrorKind>);
 
-/// What happened. Each variant names the thing at fault and prints as one line.
+/// What happened. Each variant names the thing at fault and prints as one line ([`one_line`]).
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ErrorKind {
@@ -153,6 +162,7 @@ impl From<ErrorKind> for Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut f = OneLine::new(f);
         match &*self.0 {
             ErrorKind::Input { path, place, problem } if place.is_empty() => {
                 write!(f, "{}: {problem}", path.display())

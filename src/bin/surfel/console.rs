@@ -6,7 +6,7 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
-use surfel::{Error, Progress, Result};
+use surfel::{Error, Progress, Result, error::one_line};
 
 /// Prints a result and ends its last line. A reader that has left, as in `surfel info | head -1`, is no failure.
 ///
@@ -23,9 +23,10 @@ pub fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Tells something that is no result.
+/// Tells something that is no result. Names in it may be a file's.
 pub fn say(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
+    let lines: Vec<String> = text.split('\n').map(one_line).collect();
+    let _ = writeln!(io::stderr(), "{}", lines.join("\n"));
 }
 
 /// Tells why the program fails: one line, whatever is in the text.
