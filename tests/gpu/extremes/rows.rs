@@ -41,7 +41,7 @@ impl Row {
         // A coordinate that f32 holds in one part is off by 2^-13 of its splat's smaller half axis at most (`src/prepare/sites.rs`): in space by
         // the root of 3 as much, in the image of a splat that is tilted by 80 degrees by six times that; d ln w / d ln r is 4 at the rim.
         let weight = 4.0 * 6.0 * 3.0_f64.sqrt() * 0.5_f64.powi(13);
-        let is_extended = matches!(theme, "extent" | "file");
+        let is_extended = matches!(theme, "extent" | "telephoto" | "file");
         let limit = if is_extended { Errors { weight: F32.weight + weight, ..F32 } } else { F32 };
         Self { theme, name, make: Box::new(make), limit, loaded: false }
     }
