@@ -61,11 +61,9 @@ void hand_over(Mapping m, vec4 extra)
     float length2 = precise_dot(normal, m.n2);
     vec3 u_axis = precise_cross(m.t, normal) / length2;
     vec3 v_axis = precise_cross(normal, m.s) / length2;
-    // 1 / z is linear along the image: n2 . (x, y, 1) / det, expanded about the center, but where that loses more digits: rounding is a
-    // step of 1 + |slope . p| over p_z, or of the third component.
+    // 1 / z is linear along the image: n2 . (x, y, 1) / det; of a regular splat expanded about the center.
     vec3 plane = m.n2 * (m.scale / m.near);
-    vec2 of_center = plane.xy * m.p.xy;
-    bool about_center = m.regular || m.p.z > m.near && 1.0 + abs(of_center.x) + abs(of_center.y) < abs(plane.z * m.p.z);
+    bool about_center = m.regular;
     if (about_center) {
         plane.z = 1.0 / m.p.z; // there
     }

@@ -37,14 +37,12 @@ ImageMap projective_map(Mapping m, vec2 x0_px, vec3 at_x0)
     return ImageMap(x0_px, at_x0, x, y, false);
 }
 
-// Expanded about a point that is not the center.
-ImageMap projective_map_about(Mapping m, vec2 x0_px)
+// Expanded about a point that is not the center. `near_center`: what is seen of the splat is near its center; w comes from n2 there, too,
+// and must be wrong by the same factor as its own scale, which then cancels. Else the scale itself is better.
+ImageMap projective_map_about(Mapping m, vec2 x0_px, bool near_center)
 {
     vec3 x0 = vec3(x0_px / frame.focal_px, 1.0);
-    // Near the center w comes from n2 too: it must be wrong by the same factor as its own scale, which then cancels. What is not regular may
-    // be seen far from there, where the scale itself is better.
-    vec3 apart = m.p.z * x0 - m.p;
-    if (m.regular || m.p.z > 0.0 && dot(apart, apart) < m.p.z * m.p.z * dot(x0, x0)) {
+    if (near_center) {
         m.scale = m.near / precise_dot(m.n2, m.p);
     }
     vec3 at_x0 = m.scale * vec3(precise_dot(m.n0, x0), precise_dot(m.n1, x0), precise_dot(m.n2, x0));
@@ -206,7 +204,7 @@ ImageMap regular_map(Mapping m)
         return projective_map_about_center(m);
     }
     switch (RASTERIZER) {
-    case RASTERIZER_PERSPECTIVE_PAPER: return projective_map_about(m, vec2(0.0));
+    case RASTERIZER_PERSPECTIVE_PAPER: return projective_map_about(m, vec2(0.0), true);
     case RASTERIZER_AFFINE_CENTER: return affine_center_map(m);
     case RASTERIZER_AFFINE_CONTOUR: return affine_contour_map(m);
     default: return projective_map_about_center(m);

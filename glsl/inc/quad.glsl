@@ -22,22 +22,35 @@ bool quad_of(Mapping m, int corner, out Quad quad)
     return true;
 }
 
-// (uw, vw, w) is expanded about the projected center if the splat is regular, as a point's is, or if that lies inside the
-// box; else about the box's middle: the center of a splat near the eye plane projects far away or not at all.
+// Whether w loses less, in all of the box, if it is found from its value at the center than from the plane alone: a rounding of n2, e, makes
+// e |d| p_z / det of it, d the way from the center's image, or e |x| / (n2 . x). Where the eye is near the plane of a large splat, det is
+// small, and much of the splat is seen far from its center.
+bool is_near_center(Mapping m, vec2 center_px, vec2 lo_px, vec2 hi_px)
+{
+    vec2 reach = max(abs(lo_px - center_px), abs(hi_px - center_px)) / frame.focal_px;
+    vec3 x = vec3(0.5 * (lo_px + hi_px) / frame.focal_px, 1.0);
+    float det = m.near / m.scale;
+    return m.p.z > 0.0 && length(reach) * m.p.z * abs(dot(m.n2, x)) < length(x) * abs(det);
+}
+
+// (uw, vw, w) is expanded about the projected center if the splat is regular, as a point's is, or if what is seen of it is near there; else
+// about the box's middle: the center of a splat near the eye plane projects far away or not at all.
 ImageMap quad_map(Mapping m, Quad quad)
 {
     if (m.regular && AFFINE || m.edge_on) {
         return regular_map(m);
     }
+    vec2 lo_px = quad.lo - 0.5 * frame.size_px;
+    vec2 hi_px = quad.hi - 0.5 * frame.size_px;
+    vec2 center_px = projected_center_px(m);
+    bool near_center = m.regular || is_near_center(m, center_px, lo_px, hi_px);
     if (RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER) {
-        return projective_map_about(m, vec2(0.0));
+        return projective_map_about(m, vec2(0.0), near_center);
     }
-    vec2 center = projected_center_px(m);
-    vec2 middle_px = 0.5 * frame.size_px;
-    bool center_inside = m.p.z > m.near && all(greaterThanEqual(center, quad.lo - middle_px))
-        && all(lessThanEqual(center, quad.hi - middle_px));
-    if (m.regular || center_inside) {
+    // From a center far off, places in the box would lose their digits.
+    bool inside = m.p.z > m.near && all(greaterThanEqual(center_px, lo_px)) && all(lessThanEqual(center_px, hi_px));
+    if (m.regular || near_center && inside) {
         return projective_map_about_center(m);
     }
-    return projective_map_about(m, 0.5 * (quad.lo + quad.hi) - middle_px);
+    return projective_map_about(m, 0.5 * (lo_px + hi_px), near_center);
 }

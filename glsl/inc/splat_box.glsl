@@ -13,7 +13,10 @@ void include_low_pass(inout Box box, Mapping m)
 // the axis reach beyond it and are chopped.
 float approximate_radius(Mapping m)
 {
-    float radius = sqrt(max(dot(m.s, m.s), dot(m.t, m.t)));
+    // The larger half axis, whatever the tangent vectors: with a = s . s, b = t . t its square is (a + b + |(a - b, 2 s . t)|) / 2.
+    float a = dot(m.s, m.s);
+    float b = dot(m.t, m.t);
+    float radius = sqrt(0.5 * (a + b + length(vec2(a - b, 2.0 * dot(m.s, m.t)))));
     float half_size = FORMULA(FORMULA_APPROXIMATE_SIZE, radius / m.p.z);
     if (FILTER == FILTER_MAX) {
         half_size = max(half_size, frame.filter_radius);

@@ -39,7 +39,7 @@ pub struct ViewFromLocal {
 const ORIGIN_STEP: f64 = 1.0 / 1024.0;
 
 /// At most so many splats are looked at, evenly spread over the sequence in which they are given.
-const SAMPLES: usize = 1 << 16;
+pub(super) const SAMPLES: usize = 1 << 16;
 
 impl Rebase {
     /// The local space of some splats; the world itself where none can be drawn.

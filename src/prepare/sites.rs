@@ -1,7 +1,8 @@
 //! Which splats of an object share a local space.
 //!
 //! A device has coordinates in f32: half a step of one is up to 2⁻²⁴ of it. So a splat is *at home* in a local space if none of its
-//! coordinates there is above 2¹¹ of its smaller half axes: it is then placed within 2⁻¹³ of it, along each axis. Splats that are not at
+//! coordinates there is above 2¹¹ of its smaller half axes: it is then placed within 2⁻¹³ of it, along each axis. Of a larger splat than
+//! most those of most count: a wall is looked at from as near as what stands before it. Splats that are not at
 //! home where most of an object is get a local space of their own: a second site in the same file, a stray point. What has no such
 //! place, a road of many kilometers, becomes *fine*: its coordinates have a second f32, with which 2³⁵ half axes are at
 //! home.
@@ -10,7 +11,7 @@ use std::ops::Range;
 
 use super::{
     pack::{self, Survey},
-    rebase::Rebase,
+    rebase::{Rebase, SAMPLES},
     sequence::Sequence,
 };
 use crate::scene::{Shapes, SplatFormat, Splats};
@@ -78,8 +79,9 @@ pub(super) fn sites(
     if packed && whole.survey(splats, sequence.in_any_order(piece.clone())).packed {
         return vec![whole];
     }
+    let typical = typical_half_axis(splats, sequence.in_any_order(piece.clone()));
     let is_away = |rebase: &Rebase, i: usize, reach: f64| {
-        splats.defect(i).is_none() && !is_home(splats, i, rebase, reach)
+        splats.defect(i).is_none() && !is_home(splats, i, rebase, reach, typical)
     };
     if !sequence.in_any_order(piece.clone()).any(|i| is_away(&rebase, i, HOME)) {
         return vec![whole];
@@ -111,10 +113,19 @@ pub(super) fn sites(
     sites
 }
 
-fn is_home(splats: &Splats, i: usize, rebase: &Rebase, reach: f64) -> bool {
+fn is_home(splats: &Splats, i: usize, rebase: &Rebase, reach: f64, typical: f64) -> bool {
     let farthest = (splats.positions[i] - rebase.origin).abs().max_element();
     // Written so that infinity is away.
-    farthest <= reach * smaller_half_axis(splats, i)
+    farthest <= reach * smaller_half_axis(splats, i).min(typical)
+}
+
+/// The median of the smaller half axes of some splats, of as many as are looked at for a local space; infinite without any.
+fn typical_half_axis(splats: &Splats, which: impl ExactSizeIterator<Item = usize>) -> f64 {
+    let stride = which.len().div_ceil(SAMPLES).max(1);
+    let good = which.step_by(stride).filter(|&i| splats.defect(i).is_none());
+    let mut axes: Vec<f64> = good.map(|i| smaller_half_axis(splats, i)).collect();
+    let middle = axes.len() / 2;
+    if axes.is_empty() { f64::INFINITY } else { *axes.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 /// No more than the smaller half axis; of skew tangent vectors their area over the larger.
@@ -151,7 +162,7 @@ mod tests {
         for site in &sites {
             let reach = if site.fine { FINE_HOME } else { HOME };
             let mut of_site = site.at(&sequence, &piece, 0..site.len(&piece));
-            assert!(of_site.all(|i| is_home(&splats, i, &site.rebase, reach)));
+            assert!(of_site.all(|i| is_home(&splats, i, &site.rebase, reach, f64::INFINITY)));
         }
         sites.iter().map(|site| (site.len(&piece), site.fine)).collect()
     }

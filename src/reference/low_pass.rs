@@ -38,7 +38,10 @@ pub(super) struct Square {
 impl Square {
     /// The square of a splat with these drawn tangent vectors, or of its low-pass filter, where that is larger.
     pub fn around(center: DVec3, s: DVec3, t: DVec3, low_pass: Option<&LowPass>) -> Self {
-        let half_side = s.length().max(t.length()) / center.z;
+        // The larger singular value of the two: the ellipse's own, whatever vectors it is told by.
+        let (sum, difference) =
+            (s.length_squared() + t.length_squared(), s.length_squared() - t.length_squared());
+        let half_side = (0.5 * (sum + difference.hypot(2.0 * s.dot(t)))).sqrt() / center.z;
         Self {
             center: center.truncate() / center.z,
             half_side: half_side.max(low_pass.map_or(0.0, |low_pass| low_pass.radius)),

@@ -121,9 +121,14 @@ pub fn all() -> Vec<Row> {
         Row::new("ground", "ground, the eye 1e-2 to 1e-5 above", |random| {
             edge_on::ground(random, 1e-5, 1e-2)
         }),
-        Row::new("ground", "ground, the eye 1e-5 to 1e-9 above", |random| {
-            edge_on::ground(random, 1e-9, 1e-5)
-        }),
+        // Near the horizon (u, v) are sums of terms of which they are a hundred-thousandth; rays, which are told of the plane alone, lose
+        // nothing there.
+        Row {
+            limit: Errors { weight: 2e-2, depth: 1e-3, ..F32 },
+            ..Row::new("ground", "ground, the eye 1e-5 to 1e-9 above", |random| {
+                edge_on::ground(random, 1e-9, 1e-5)
+            })
+        },
         Row::new("sheets", "far sheets, 1e-3 to 1e-6 apart", |random| sheets::far(random, 1e-6, 1e-3)),
         Row::new("sheets", "far sheets, 1e-6 to 4e-7 apart", |random| sheets::far(random, 4e-7, 1e-6)),
         Row { loaded: true, ..Row::new("file", "through a file", loaded) },
