@@ -4,6 +4,7 @@
 //! Meshes are placed before they become splats, so that the splats are round and leave no hole where they are drawn.
 
 mod from_mesh;
+mod from_points;
 mod hybrid;
 mod memory;
 mod object;

@@ -1,7 +1,7 @@
 //! One object: its model loaded or made, placed, colored, and turned into what is drawn.
 
 use super::{
-    from_mesh,
+    from_mesh, from_points,
     parts::{Parts, StepTimer},
     words::finish_splats,
 };
@@ -40,6 +40,8 @@ pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<Built
     let (model, name) = open(object, &mut work)?;
     let parts = match model {
         Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
+        Model::Points(points) => refuse_triangles(object, "points")
+            .and_then(|()| from_points::parts(points, name, object, &mut work)),
         Model::Mesh(mesh) => from_mesh::parts(mesh, name, object, &mut work),
     };
     let Parts { splats, triangles, report } = parts.map_err(|error| of_object(error, object))?;
@@ -83,16 +85,24 @@ fn splats_of(model: BuiltIn, splats: u64) -> Model {
     Model::Splats { splats, closed }
 }
 
-fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts> {
+/// Refuses what needs triangles for a file of `what`.
+fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
     let purpose = match (object.representation, object.samples) {
         (Representation::Splats, None) => "",
         (Representation::Splats, Some(_)) => "to take samples of its triangles",
         _ => "to draw its triangles",
     };
-    if !purpose.is_empty() {
-        let problem = format!("the file holds splats; expected a mesh, {purpose}");
-        return Err(Error::input("", "", problem));
+    match purpose {
+        "" => Ok(()),
+        _ => {
+            let problem = format!("the file holds {what}; expected a mesh, {purpose}");
+            Err(Error::input("", "", problem))
+        }
     }
+}
+
+fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts> {
+    refuse_triangles(object, "splats")?;
     // Told by what they are in the file, before they become something else.
     let defects = splats.splats.drop_defective();
     splats.splats = splats.splats.transformed(&object.world_from_object);

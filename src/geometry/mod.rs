@@ -1,5 +1,6 @@
 //! CPU preparation: what turns other models into splats.
 
+mod cloud;
 mod hybrid;
 mod mesh_splats;
 mod neighbors;
@@ -11,6 +12,7 @@ mod shaded_mesh;
 mod surface;
 mod topology;
 
+pub use cloud::{CloudReport, splats_from_points};
 pub use hybrid::{EDGE_SPACING, Hybrid, HybridOptions, HybridReport, hybrid};
 pub use mesh_splats::{DEFAULT_OVERLAP, splats_from_mesh};
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};

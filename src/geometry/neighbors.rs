@@ -95,6 +95,39 @@ impl Tree {
         found.then(|| Nearest { distance: best.distance.sqrt(), ..best })
     }
 
+    /// The points in the tree's order, in which neighbors lie near each other; a *place* is an index of it.
+    pub(super) fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Fills `found` with the squared distances and places of the others nearest to the point at `place`, nearest first.
+    /// Where there are fewer, infinite distances stand behind them.
+    pub(super) fn nearest_places(&self, place: usize, found: &mut [(f64, u32)]) {
+        self.nearest_but(Some(place), self.points[place].position, found);
+    }
+
+    /// As [`Tree::nearest_places`] for a place that is no point's.
+    #[cfg(test)]
+    pub(super) fn nearest_places_to(&self, target: DVec3, found: &mut [(f64, u32)]) {
+        self.nearest_but(None, target, found);
+    }
+
+    fn nearest_but(&self, place: Option<usize>, target: DVec3, found: &mut [(f64, u32)]) {
+        found.fill((f64::INFINITY, u32::MAX));
+        let Some(last) = found.len().checked_sub(1) else { return };
+        self.search(0..self.points.len(), target, f64::INFINITY, &mut |other, squared| {
+            if Some(other) != place && squared < found[last].0 {
+                let mut i = last;
+                while i > 0 && squared < found[i - 1].0 {
+                    found[i] = found[i - 1];
+                    i -= 1;
+                }
+                found[i] = (squared, other as u32);
+            }
+            found[last].0
+        });
+    }
+
     fn nearest(&self, place: usize) -> [f64; NEIGHBORS] {
         let mut nearest = [f64::INFINITY; NEIGHBORS];
         let target = self.points[place].position;

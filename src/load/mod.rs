@@ -14,7 +14,7 @@ use std::{fs, path::Path};
 use crate::{
     error::{Error, Result},
     progress::Progress,
-    scene::{Mesh, Splats},
+    scene::{Mesh, Points, Splats},
 };
 
 pub use scene_file::{
@@ -35,6 +35,19 @@ pub enum Model {
     },
     /// Triangles; [`crate::geometry::splats_from_mesh`] makes splats of them.
     Mesh(Mesh),
+    /// Points that lack normals, radii or both; [`crate::geometry::splats_from_points`] makes splats of them.
+    Points(Points),
+}
+
+impl Model {
+    /// What a file of this holds, in the plural, for messages.
+    pub fn contents(&self) -> &'static str {
+        match self {
+            Self::Splats { .. } => "splats",
+            Self::Mesh(_) => "triangles",
+            Self::Points(_) => "points",
+        }
+    }
 }
 
 /// Reads a PLY (ascii or binary) or OBJ file whole.
@@ -48,7 +61,7 @@ pub fn load(path: &Path, progress: &dyn Progress) -> Result<Model> {
     let bytes = read_file(path)?;
     match sniff::format(path, &bytes)? {
         sniff::Format::Ply => ply::parse(path, &bytes, progress),
-        sniff::Format::Obj => obj::parse(path, &bytes, progress).map(Model::Mesh),
+        sniff::Format::Obj => obj::parse(path, &bytes, progress),
     }
 }
 

@@ -13,6 +13,7 @@ mod mesh;
 mod methods;
 mod opacity;
 mod option;
+mod points;
 mod settings;
 mod splats;
 mod storage;
@@ -34,6 +35,7 @@ pub use methods::{
 pub use opacity::Opacity;
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
+pub use points::Points;
 pub use settings::{Settings, with_each};
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};

@@ -1,11 +1,11 @@
-//! Splats and meshes moved, turned, scaled, mirrored or sheared: an affine map of world space, in `f64`.
+//! Splats, meshes and points moved, turned, scaled, mirrored or sheared: an affine map of world space, in `f64`.
 //!
 //! What is outside stays outside, also under a mirror. A normal `n` bounds the half space `n·(x − p) > 0`, which an
 //! invertible map `M` takes to the half space of `M⁻ᵀn`; `M` itself turns it elsewhere unless it is a similarity.
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-use super::{Mesh, Shapes, Splats};
+use super::{Mesh, Points, Shapes, Splats};
 
 /// Relative deviation from a similarity below which a disk stays a disk: radii are kept in 32 bits, which tell no less.
 const SIMILARITY: f64 = 1e-7;
@@ -61,6 +61,27 @@ impl Mesh {
         if linear.mirrors() {
             self.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         }
+        self
+    }
+}
+
+impl Points {
+    /// These points under an [invertible](is_invertible) map of world space. Normals become unit, or stay zero. Radii scale with
+    /// a similarity, and are no longer known under another map.
+    #[must_use]
+    pub fn transformed(mut self, world_from_object: &DAffine3) -> Self {
+        let linear = Linear::of(&world_from_object.matrix3);
+        for position in self.positions.iter_mut().chain(&mut self.viewpoint) {
+            *position = world_from_object.transform_point3(*position);
+        }
+        for normal in self.normals.iter_mut().flatten() {
+            *normal = linear.normal(*normal);
+        }
+        let scale = linear.similarity();
+        self.radii = self
+            .radii
+            .zip(scale)
+            .map(|(radii, scale)| radii.into_iter().map(|radius| scaled(radius, scale)).collect());
         self
     }
 }

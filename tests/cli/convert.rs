@@ -2,7 +2,10 @@
 
 use std::fs;
 
-use super::program::{Folder, done, surfel};
+use super::{
+    files::png,
+    program::{Folder, done, surfel},
+};
 
 /// A closed octahedron; coordinates that 32 bits have.
 const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n\
@@ -131,4 +134,42 @@ fn more_samples_than_there_is_memory_for() {
             && said.lines().count() == 1
     );
     assert_eq!(folder.names(), ["octahedron.obj"]);
+}
+
+#[test]
+fn points_are_drawn_without_normals_and_radii() {
+    let folder = folder();
+    let header = "ply\nformat ascii 1.0\nelement vertex COUNT\nproperty float x\nproperty float y\nproperty float z\n\
+        property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+    // A sphere by Fibonacci's spiral, red; its last point twice, and one far away.
+    let mut rows: Vec<String> = (0..2000)
+        .map(|i| {
+            let z = (f64::from(i) + 0.5) / 1000.0 - 1.0;
+            let (sin, cos) = (f64::from(i) * 2.399_963_229_728_653).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            format!("{} {} {z} 255 0 0\n", r * cos, r * sin)
+        })
+        .collect();
+    rows.extend([rows[1999].clone(), "3 3 3 255 0 0\n".to_owned()]);
+    folder.write("points.ply", &(header.replace("COUNT", &rows.len().to_string()) + &rows.concat()));
+    let run = done(&folder, &["render", "points.ply", "-o", "points.png", "--size", "64x64"]);
+    let told = "points.ply: 2002 points: normals and radii found from 12 neighbors each; 1 duplicate merged, 1 isolated \
+        point left out\n";
+    assert!(run.stdout.contains(told) || run.stderr.contains(told), "{}{}", run.stdout, run.stderr);
+    let png = png(&folder.path("points.png"));
+    let is_red = |x: u32, y: u32| png.at(x, y)[0] > 100 && png.at(x, y)[1] < 20;
+    // No hole within the disk that the sphere is seen as, which fills most of the picture.
+    assert!((0..64).flat_map(|y| (0..64).map(move |x| (x, y))).all(|(x, y)| {
+        let (dx, dy) = (f64::from(x) - 31.5, f64::from(y) - 31.5);
+        dx.hypot(dy) > 20.0 || is_red(x, y)
+    }));
+    let refused = surfel(&folder, &["convert", "points.ply", "a.ply", "--resample", "9"]);
+    assert!(
+        refused.stderr.contains("points.ply: the file holds points; expected a mesh"),
+        "{}",
+        refused.stderr
+    );
+    // As their vertices alone, with the normals' line left to the same words.
+    let said = convert(&folder, &["points.ply", "splats.ply"]);
+    assert!(said.contains("-> splats.ply: 2000 disks"), "{said}");
 }

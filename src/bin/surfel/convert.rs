@@ -19,8 +19,8 @@ use crate::{
 
 const HELP: &str = "Write a model as a file of splats.
 
-Without --resample these are the splats that `surfel render` draws: a disk at each vertex of a mesh, or the splats of the \
-file. With --resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from \
+Without --resample these are the splats that `surfel render` draws: a disk at each vertex of a mesh or each point, or the splats of \
+the file. With --resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from \
 the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
 
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
@@ -36,7 +36,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Args)]
 #[command(long_about = HELP, after_help = EXAMPLES)]
 pub struct ConvertArguments {
-    /// A PLY file (splats or a mesh) or an OBJ file (a mesh)
+    /// A PLY file (splats, a mesh or points) or an OBJ file (a mesh or points)
     #[arg(value_name = "INPUT")]
     input: PathBuf,
 
@@ -82,7 +82,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
 fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
     let mesh = match load(path, bars)? {
         Model::Mesh(mesh) => mesh,
-        Model::Splats { .. } => return Err(not_a_mesh(path)),
+        other => return Err(not_a_mesh(path, &other)),
     };
     resample_mesh(&mesh, path, count, seed, bars).map(|(object, report)| (object, report.summary))
 }

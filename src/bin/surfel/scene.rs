@@ -6,7 +6,9 @@ use clap::{Args, ValueEnum};
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
     compose::{build, make, resampled},
-    load::{BuiltIn, ObjectDescription, Representation, Samples, file_name, is_scene_file, load_scene_file},
+    load::{
+        BuiltIn, Model, ObjectDescription, Representation, Samples, file_name, is_scene_file, load_scene_file,
+    },
     prepare::PreparedScene,
     renderer::Headless,
     report::{InputReport, Step},
@@ -16,9 +18,9 @@ use surfel::{
 use crate::console::{self, Bars};
 
 /// The manual of inputs.
-pub const INPUTS: &str = "Inputs are PLY files (splats or meshes), OBJ files (meshes), and scene files (.toml: objects, each \
+pub const INPUTS: &str = "Inputs are PLY files (splats, meshes or points), OBJ files (meshes or points), and scene files (.toml: objects, each \
 with its place and looks, lights and a camera; `surfel render --help` has their keys); a mesh becomes disks at its \
-vertices. Several inputs are one scene; none is the built-in model. Lengths are in the files' own unit; +y is up unless \
+vertices, points become disks that close their surface, with normals from their neighbors. Several inputs are one scene; none is the built-in model. Lengths are in the files' own unit; +y is up unless \
 --up says otherwise. The camera looks along -z at the whole scene unless told otherwise.";
 
 /// The inputs.
@@ -101,9 +103,10 @@ pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport)> {
     Ok((splats, built.report))
 }
 
-/// Why a file of splats can't be resampled.
-pub fn not_a_mesh(path: &Path) -> Error {
-    let problem = "the file holds splats; expected a mesh, to take samples of its triangles";
+/// Why a file of splats or points can't be resampled.
+pub fn not_a_mesh(path: &Path, model: &Model) -> Error {
+    let contents = model.contents();
+    let problem = format!("the file holds {contents}; expected a mesh, to take samples of its triangles");
     Error::input(path, "", problem)
 }
 

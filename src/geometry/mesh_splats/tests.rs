@@ -18,7 +18,7 @@ fn real_mesh(name: &str) -> Option<Mesh> {
     }
     match crate::load::load(&path, &()).unwrap() {
         crate::load::Model::Mesh(mesh) => Some(mesh),
-        crate::load::Model::Splats { .. } => panic!("{name} is a mesh"),
+        crate::load::Model::Splats { .. } | crate::load::Model::Points(_) => panic!("{name} is a mesh"),
     }
 }
 

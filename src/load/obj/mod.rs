@@ -1,24 +1,27 @@
-//! OBJ files: the mesh in them, through the crate `tobj`. Materials, texture coordinates, points and lines are left
+//! OBJ files: the mesh in them, through the crate `tobj`, or their vertices where no row is a face. Materials, texture coordinates, points and lines are left
 //! out; no other file is opened.
 
 mod rows;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
+use std::{
+    io::{self, BufRead},
+    path::Path,
+};
 
 use glam::{DVec3, Vec3};
 
-use super::file_name;
+use super::{Model, file_name};
 use crate::{
     error::{Error, Result},
     math::srgb::linear_from_srgb,
     progress::Progress,
-    scene::{Colors, Mesh},
+    scene::{Colors, Mesh, Points},
 };
 use rows::Rows;
 
-pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Result<Mesh> {
+pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Result<Model> {
     let task = format!("read {}", file_name(path));
     let total = bytes.len() as u64;
     let mut rows = Rows::new(bytes, |done| progress.step(&task, done, total));
@@ -31,8 +34,10 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     let (models, _) = loaded.map_err(|e| Error::input(path, "", e.to_string()))?;
     // Without `g`, `o` and `usemtl` rows, all faces are in one model and share its vertices.
     let Some(model) = models.into_iter().next().filter(|m| !m.mesh.indices.is_empty()) else {
-        let problem = "no faces; expected a mesh (bare points: normals from points come later)";
-        return Err(Error::input(path, "", problem));
+        if rows.vertices() == 0 || rows.has_faces() {
+            return Err(Error::input(path, "", "neither a face nor a point; expected a mesh or points"));
+        }
+        return points(bytes).map(Model::Points).map_err(|e| Error::file(path, "read", e));
     };
     let mesh = model.mesh;
     let left_out = rows.vertices() - (mesh.positions.len() / 3) as u64;
@@ -44,11 +49,39 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     } else {
         Colors::unknown()
     };
-    Ok(Mesh {
+    Ok(Model::Mesh(Mesh {
         normals: rows.all_corners_have_normals().then(|| vertex_normals(&mesh)),
         positions: mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect(),
         colors,
         triangles: mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
+    }))
+}
+
+/// The vertices of a file without faces. Normals are theirs where there are as many.
+fn points(bytes: &[u8]) -> io::Result<Points> {
+    let mut rows = Rows::new(bytes, |_| {});
+    let (mut positions, mut colors, mut normals) = (Vec::new(), Vec::new(), Vec::new());
+    let mut row = String::new();
+    while rows.read_line(&mut row)? > 0 {
+        let mut words = row.split_ascii_whitespace();
+        let is_vertex = words.next() == Some("v");
+        let mut numbers = words.map(|word| word.parse::<f64>().unwrap_or(f64::NAN));
+        let mut next = || numbers.next().unwrap_or(f64::NAN);
+        let first = DVec3::new(next(), next(), next());
+        if is_vertex {
+            positions.push(first);
+            colors.push(linear_color(&[next(), next(), next()]));
+        } else {
+            normals.push(first.as_vec3());
+        }
+        row.clear();
+    }
+    Ok(Points {
+        normals: (normals.len() == positions.len()).then_some(normals),
+        positions,
+        radii: None,
+        colors: if rows.has_colors() { Colors::Each(colors) } else { Colors::unknown() },
+        viewpoint: None,
     })
 }
 

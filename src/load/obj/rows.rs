@@ -27,6 +27,7 @@ pub(super) struct Rows<'a, P: Fn(u64)> {
     vertices: u64,
     normals: u64,
     has_colors: bool,
+    has_faces: bool,
     a_corner_lacks_normal: bool,
     /// The face rows that name the largest vertex and normal numbers; faces may stand before their vertices.
     largest: [(u64, u64); 2],
@@ -45,6 +46,7 @@ impl<'a, P: Fn(u64)> Rows<'a, P> {
             vertices: 0,
             normals: 0,
             has_colors: false,
+            has_faces: false,
             a_corner_lacks_normal: false,
             largest: [(0, 0); 2],
             fault: None,
@@ -69,6 +71,10 @@ impl<'a, P: Fn(u64)> Rows<'a, P> {
 
     pub(super) fn has_colors(&self) -> bool {
         self.has_colors
+    }
+
+    pub(super) fn has_faces(&self) -> bool {
+        self.has_faces
     }
 
     pub(super) fn all_corners_have_normals(&self) -> bool {
@@ -138,6 +144,7 @@ impl<'a, P: Fn(u64)> Rows<'a, P> {
 
     /// Corners `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last row so far.
     fn face<'w>(&mut self, words: impl Iterator<Item = &'w str>) -> Result<(), String> {
+        self.has_faces = true;
         self.row.extend_from_slice(b"f");
         let mut corners = 0_usize;
         for word in words {

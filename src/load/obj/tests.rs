@@ -5,7 +5,10 @@ use proptest::prelude::*;
 use super::*;
 
 fn mesh(text: &str) -> Mesh {
-    parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap()
+    match parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap() {
+        Model::Mesh(mesh) => mesh,
+        _ => panic!("no mesh"),
+    }
 }
 
 #[track_caller]
@@ -71,9 +74,25 @@ fn faults_name_their_line() {
         &format!("{SQUARE}f 1//{largest} 2//1 3//1\n"),
         &format!("line 5: normal '{largest}', but the file has 0 so far"),
     );
-    let bare = "no faces; expected a mesh (bare points: normals from points come later)";
-    refuses(SQUARE, bare);
+    let bare = "neither a face nor a point; expected a mesh or points";
     refuses("p 1\nl 1 2\n", bare);
+}
+
+#[test]
+fn a_file_without_faces_is_points() {
+    let points = |text: &str| match parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap() {
+        Model::Points(points) => points,
+        _ => panic!("no points"),
+    };
+    let bare = points(SQUARE);
+    assert_eq!(bare.positions, mesh(&format!("{SQUARE}f 1 2 3 4")).positions);
+    assert!(bare.normals.is_none() && matches!(bare.colors, Colors::Uniform(_)));
+    let whole = points("vn 0 0 2\nv 4600000.000123456 2 3 1 0 1\nvn 0 1 0\nv 0 2 nan\np 1 2\n");
+    assert_eq!(whole.positions[0].x, 4_600_000.000_123_456);
+    assert_eq!(whole.normals, Some(vec![Vec3::new(0.0, 0.0, 2.0), Vec3::Y]));
+    let Colors::Each(colors) = whole.colors else { panic!("colors") };
+    assert_eq!(colors[0], [1.0, 0.0, 1.0, 1.0]);
+    assert!(points(&format!("{SQUARE}vn 0 0 1\n")).normals.is_none());
 }
 
 #[test]
@@ -101,10 +120,11 @@ proptest! {
             }
         }
         match parse(Path::new("a.obj"), &bytes, &()) {
-            Ok(mesh) => {
+            Ok(Model::Mesh(mesh)) => {
                 let count = mesh.positions.len();
                 prop_assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < count));
             }
+            Ok(_) => {}
             Err(error) => prop_assert!(!error.to_string().contains('\n'), "{error}"),
         }
     }

@@ -1,4 +1,4 @@
-//! PLY files: splats or meshes, ascii or binary of either byte order.
+//! PLY files: splats, meshes or points, ascii or binary of either byte order.
 //!
 //! The format is G. Turk's "The PLY Polygon File Format" (1994). The header and binary elements are parsed by the crate
 //! `ply-rs-bw`. Ascii values are not, because its grammar knows neither `nan` nor `inf` nor `1.`, which C programs
@@ -19,7 +19,7 @@ use super::{Model, file_name};
 use crate::{
     error::{Error, Result},
     progress::Progress,
-    scene::{Colors, Mesh, Shapes, Splats},
+    scene::{Colors, Mesh, Points, Shapes, Splats},
 };
 use body::Body;
 use faces::Triangles;
@@ -73,8 +73,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     if layout.clip_curves {
         progress.note(&format!("{}: clip curves are not supported yet and are left out", path.display()));
     }
-    let splats = splats(path, vertices)?;
-    Ok(Model::Splats { splats, closed: header.closed })
+    Ok(splats_or_points(vertices, header.closed))
 }
 
 fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {
@@ -86,20 +85,16 @@ fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {
     }
 }
 
-fn splats(path: &Path, vertices: Vertices) -> Result<Splats> {
-    let refuse = |found: &str| {
-        let problem = format!(
-            "{found}; expected faces, or nx ny nz with radius, or su_x … sv_z (normals from points come later)"
-        );
-        Err(Error::input(path, "element vertex", problem))
-    };
-    let shapes = match (vertices.tangents, vertices.normals, vertices.radii) {
+/// Splats where the file has all that makes them.
+fn splats_or_points(vertices: Vertices, closed: bool) -> Model {
+    let Vertices { positions, normals, radii, tangents, colors, .. } = vertices;
+    let colors = colors.map_or_else(Colors::unknown, Colors::Each);
+    let shapes = match (tangents, normals, radii) {
         (Some((s, t)), _, _) => Shapes::Ellipses { s, t },
         (None, Some(normals), Some(radii)) => Shapes::Disks { normals, radii },
-        (None, None, None) => return refuse("bare points"),
-        (None, Some(_), None) => return refuse("points with normals but no radius"),
-        (None, None, Some(_)) => return refuse("points with a radius but no normals"),
+        (None, normals, radii) => {
+            return Model::Points(Points { positions, normals, radii, colors, viewpoint: None });
+        }
     };
-    let colors = vertices.colors.map_or_else(Colors::unknown, Colors::Each);
-    Ok(Splats { positions: vertices.positions, shapes, colors })
+    Model::Splats { splats: Splats { positions, shapes, colors }, closed }
 }

@@ -16,14 +16,14 @@ fn parse(bytes: &[u8]) -> crate::error::Result<Model> {
 fn splats(bytes: &[u8]) -> Splats {
     match parse(bytes).unwrap() {
         Model::Splats { splats, .. } => splats,
-        Model::Mesh(_) => panic!("a mesh"),
+        _ => panic!("no splats"),
     }
 }
 
 fn mesh(bytes: &[u8]) -> Mesh {
     match parse(bytes).unwrap() {
         Model::Mesh(mesh) => mesh,
-        Model::Splats { .. } => panic!("splats"),
+        _ => panic!("no mesh"),
     }
 }
 

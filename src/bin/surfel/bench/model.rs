@@ -29,7 +29,7 @@ impl Source {
         let Some(path) = &context.arguments.model else { return Ok(Self::BuiltIn) };
         match load(path, &context.bars)? {
             Model::Mesh(mesh) => Ok(Self::Mesh(mesh, path.clone())),
-            Model::Splats { .. } => Err(not_a_mesh(path)),
+            other => Err(not_a_mesh(path, &other)),
         }
     }
 

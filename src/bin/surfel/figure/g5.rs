@@ -67,8 +67,10 @@ fn model(context: &FigureContext<'_>) -> Result<(Mesh, String)> {
     context.bars.clear();
     match model? {
         Model::Mesh(mesh) => Ok((mesh, file_name(path))),
-        Model::Splats { .. } => {
-            Err(Error::input(path, "", "the file holds splats; expected a mesh, to draw its triangles"))
+        other => {
+            let contents = other.contents();
+            let problem = format!("the file holds {contents}; expected a mesh, to draw its triangles");
+            Err(Error::input(path, "", problem))
         }
     }
 }

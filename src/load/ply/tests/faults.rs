@@ -1,3 +1,4 @@
+use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
 use super::{Value::*, *};
@@ -126,18 +127,20 @@ fn faults_of_faces_and_strips() {
 }
 
 #[test]
-fn points_that_are_no_splats_are_refused_with_what_is_missing() {
-    let rest = "; expected faces, or nx ny nz with radius, or su_x … sv_z (normals from points come later)";
+fn points_that_lack_something_are_points_with_what_they_have() {
     let bare =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
-    let refuses = |more: &str, body: &str, found: &str| {
-        let text = format!("{bare}{more}end_header\n{body}\n");
-        refuses(&text, &format!("element vertex: {found}{rest}"));
+    let check = |more: &str, body: &str, normals: Option<Vec<Vec3>>, radii: Option<Vec<f32>>| {
+        let Ok(Model::Points(points)) = parse(format!("{bare}{more}end_header\n{body}\n").as_bytes()) else {
+            panic!("no points: {more}")
+        };
+        assert_eq!(points.positions, [DVec3::new(1.0, 2.0, 3.0)]);
+        assert_eq!((points.normals, points.radii), (normals, radii));
     };
-    refuses("", "1 2 3", "bare points");
-    refuses("property float radius\n", "1 2 3 4", "points with a radius but no normals");
+    check("", "1 2 3", None, None);
+    check("property float radius\n", "1 2 3 4", None, Some(vec![4.0]));
     let normals = "property float nx\nproperty float ny\nproperty float nz\n";
-    refuses(normals, "1 2 3 4 5 6", "points with normals but no radius");
+    check(normals, "1 2 3 4 5 6", Some(vec![Vec3::new(4.0, 5.0, 6.0)]), None);
 }
 
 /// Small valid files of every kind.
@@ -192,6 +195,7 @@ proptest! {
             Ok(Model::Splats { splats, .. }) => {
                 let _ = splats.bounds();
             }
+            Ok(Model::Points(points)) => prop_assert!(!points.positions.is_empty() || points.radii.is_none()),
             Err(error) => prop_assert!(!error.to_string().contains('\n'), "{error}"),
         }
     }

@@ -1,0 +1,90 @@
+//! Points at the same place become one, and those that are nowhere are left out.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use crate::scene::{Colors, Points};
+
+/// What was left of the points.
+pub(super) struct Merged {
+    /// In the order of the first of each.
+    pub points: Points,
+    /// Points that were at the place of another.
+    pub duplicates: usize,
+    /// Points with a coordinate that is NaN or infinite.
+    pub not_finite: usize,
+}
+
+/// Merges points whose coordinates are equal as numbers: color and radius become the mean, normals their sum.
+pub(super) fn merge(points: Points) -> Merged {
+    let position = |i: &u32| points.positions[*i as usize];
+    let count = u32::try_from(points.positions.len()).unwrap_or(u32::MAX);
+    let mut order: Vec<u32> = (0..count).filter(|i| position(i).is_finite()).collect();
+    let not_finite = points.positions.len() - order.len();
+    order.par_sort_unstable_by(|a, b| compare(position(a), position(b)).then(a.cmp(b)));
+    let same = |a: &u32, b: &u32| position(a) == position(b);
+    let groups = order.chunk_by(same).count();
+    let duplicates = order.len() - groups;
+    if duplicates == 0 && not_finite == 0 {
+        return Merged { points, duplicates, not_finite };
+    }
+    let mut groups: Vec<&[u32]> = order.chunk_by(same).collect();
+    groups.par_sort_unstable_by_key(|group| group[0]);
+    let mean = |colors: &[[f32; 4]], group: &[u32]| -> [f32; 4] {
+        let sum = |c: usize| group.iter().map(|&i| f64::from(colors[i as usize][c])).sum::<f64>();
+        std::array::from_fn(|c| (sum(c) / group.len() as f64) as f32)
+    };
+    let radius = |radii: &[f32], group: &[u32]| -> f32 {
+        let sum: f64 = group.iter().map(|&i| f64::from(radii[i as usize])).sum();
+        (sum / group.len() as f64) as f32
+    };
+    let merged = Points {
+        positions: groups.iter().map(|group| position(&group[0])).collect(),
+        normals: points.normals.as_ref().map(|n| groups.iter().map(|group| sum_normal(n, group)).collect()),
+        radii: points.radii.as_ref().map(|r| groups.iter().map(|group| radius(r, group)).collect()),
+        colors: match &points.colors {
+            Colors::Uniform(color) => Colors::Uniform(*color),
+            Colors::Each(colors) => Colors::Each(groups.iter().map(|group| mean(colors, group)).collect()),
+        },
+        viewpoint: points.viewpoint,
+    };
+    Merged { points: merged, duplicates, not_finite }
+}
+
+fn compare(a: DVec3, b: DVec3) -> std::cmp::Ordering {
+    let along = |a: f64, b: f64| a.partial_cmp(&b).unwrap_or(std::cmp::Ordering::Equal);
+    along(a.x, b.x).then_with(|| along(a.y, b.y)).then_with(|| along(a.z, b.z))
+}
+
+/// Each normal counts as much, whatever its length; a single one stays as it is.
+fn sum_normal(normals: &[Vec3], group: &[u32]) -> Vec3 {
+    match group {
+        [only] => normals[*only as usize],
+        _ => {
+            group.iter().map(|&i| normals[i as usize].as_dvec3().normalize_or_zero()).sum::<DVec3>().as_vec3()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_places_merge_whatever_the_sign_of_zero() {
+        let nan = DVec3::new(0.0, f64::NAN, 0.0);
+        let points = Points {
+            positions: vec![DVec3::X, DVec3::ZERO, nan, DVec3::X, DVec3::new(-0.0, 0.0, -0.0), DVec3::Y],
+            normals: Some(vec![Vec3::X, Vec3::Z, Vec3::Z, 3.0 * Vec3::Y, Vec3::Z, Vec3::Z]),
+            radii: None,
+            colors: Colors::Each([0.0, 1.0, 0.5, 0.5, 1.0, 0.25].map(|v| [v; 4]).into()),
+            viewpoint: None,
+        };
+        let merged = merge(points);
+        assert_eq!((merged.duplicates, merged.not_finite), (2, 1));
+        assert_eq!(merged.points.positions, [DVec3::X, DVec3::ZERO, DVec3::Y]);
+        assert_eq!(merged.points.normals.unwrap()[0], Vec3::new(1.0, 1.0, 0.0));
+        let Colors::Each(colors) = merged.points.colors else { panic!("one color") };
+        assert_eq!(colors, [[0.25; 4], [1.0; 4], [0.25; 4]]);
+    }
+}

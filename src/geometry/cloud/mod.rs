@@ -1,0 +1,289 @@
+//! Points become splats: normals and radii that the file does not have, from the points nearby.
+//!
+//! The steps, each a file: points at one place [`merge`]; each finds its neighbors and their [`plane`]; normals are turned to one
+//! side ([`orient`]); isolated points are left out ([`outliers`]); disks [`reach`] as far as closes the surface. All of it is the
+//! same whatever the number of threads.
+//!
+//! Splats are round: ellipses take half as much memory again and a fifth of the neighbors' say on how far they reach along either
+//! axis, where the gap rule has one length.
+
+mod eigen;
+mod merge;
+mod orient;
+mod outliers;
+mod plane;
+mod reach;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::{
+    mesh_splats::DEFAULT_OVERLAP,
+    neighbors::{Point, Tree},
+};
+use crate::{
+    progress::Progress,
+    scene::{Points, Shapes, Splats},
+};
+use merge::{Merged, merge};
+use plane::{MOST_NEIGHBORS, NEIGHBORS};
+
+/// So many points are done between two progress messages.
+const BATCH: usize = 1 << 16;
+
+/// The radius of a point that is alone: there is nothing to measure it by.
+const ALONE: f64 = 1.0;
+
+/// Cosine of the angle from which on a neighbor faces the other way: 120°, more than any edge of a solid that is not a blade.
+const OTHER_WAY: f64 = -0.5;
+
+/// The facts found on the way from points to splats.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CloudReport {
+    /// Points in the file.
+    pub points: usize,
+    /// Points with a coordinate that is NaN or infinite: left out.
+    pub not_finite: usize,
+    /// Points at the place of another: merged with it.
+    pub duplicates: usize,
+    /// Points whose neighbors are 8 times as far from them as these are from theirs: left out.
+    pub isolated: usize,
+    /// Points whose normal was taken from the file.
+    pub normals_from_file: usize,
+    /// Points whose radius was taken from the file.
+    pub radii_from_file: usize,
+    /// Disks over 4 times as large as the median of those around them, which they got instead.
+    pub limited: usize,
+}
+
+impl fmt::Display for CloudReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let splats = self.points - self.not_finite - self.duplicates - self.isolated;
+        let found = match (self.normals_from_file >= splats, self.radii_from_file >= splats) {
+            (false, false) => "normals and radii",
+            (false, true) => "normals",
+            _ => "radii",
+        };
+        write!(f, "{} points: {found} found from {NEIGHBORS} neighbors each", self.points)?;
+        let parts = [
+            (self.duplicates, "merged", "duplicate"),
+            (self.isolated, "left out", "isolated point"),
+            (self.not_finite, "left out", "point not finite"),
+        ];
+        for (i, (count, done, what)) in parts.into_iter().filter(|part| part.0 > 0).enumerate() {
+            let separator = if i == 0 { ';' } else { ',' };
+            let what = if count == 1 { what.to_owned() } else { what.replace("point", "points") };
+            let what = if count > 1 && what == "duplicate" { "duplicates".to_owned() } else { what };
+            write!(f, "{separator} {count} {what} {done}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Makes a round disk of each point.
+///
+/// Normals are the file's where it has usable ones, else those of the plane through the 12 nearest neighbors, turned toward the
+/// viewpoint, or else to one side along a spanning tree. Radii are the file's, or 1.5 times what the gap rule of `reach.rs`
+/// gives: 1 is free of holes already, the rest makes kernels blend as those of meshes ([`DEFAULT_OVERLAP`]). Order and colors
+/// are those of the points.
+pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, CloudReport) {
+    let mut report = CloudReport { points: points.positions.len(), ..CloudReport::default() };
+    let Merged { points, duplicates, not_finite } = merge(points);
+    (report.duplicates, report.not_finite) = (duplicates, not_finite);
+    let mut cloud = Cloud::new(&points);
+    let steps = Steps { progress, passes: 2 };
+    cloud.find_planes(&points, &steps, &mut report);
+    let isolated = outliers::isolated(&cloud.neighbors, &cloud.spreads);
+    let radii = cloud.radii(&points, &steps, &mut report);
+    // Back into the order of the file.
+    let count = points.positions.len();
+    let mut normals = vec![Vec3::ZERO; count];
+    let mut radii_of_points = vec![0.0; count];
+    let mut keep = vec![true; count];
+    for (place, point) in cloud.tree.points().iter().enumerate() {
+        let i = point.number as usize;
+        normals[i] = cloud.normals[place].as_vec3();
+        radii_of_points[i] = radii[place];
+        keep[i] = !isolated[place];
+    }
+    report.isolated = keep.iter().filter(|keep| !**keep).count();
+    let Points { positions, colors, .. } = points;
+    let shapes = Shapes::Disks { normals, radii: radii_of_points };
+    let mut splats = Splats { positions, shapes, colors };
+    if report.isolated > 0 {
+        splats.keep(&keep);
+    }
+    (splats, report)
+}
+
+/// Tells of two passes over all points as one task.
+struct Steps<'a> {
+    progress: &'a dyn Progress,
+    passes: usize,
+}
+
+impl Steps<'_> {
+    fn done(&self, pass: usize, done: usize, total: usize) {
+        const TASK: &str = "normals and radii of points";
+        self.progress.step(TASK, (pass * total + done) as u64, (self.passes * total) as u64);
+    }
+}
+
+/// Points in the order of their tree; all arrays by place in it.
+struct Cloud {
+    tree: Tree,
+    /// Nearest first, `u32::MAX` for none. Where more were looked at, a part of those.
+    neighbors: Vec<[u32; NEIGHBORS]>,
+    /// Mean distances of 6 neighbors; 0 without any.
+    spreads: Vec<f64>,
+    /// Unit.
+    normals: Vec<DVec3>,
+}
+
+impl Cloud {
+    fn new(points: &Points) -> Self {
+        // Differences of coordinates far from the origin are exact, their squares would not be.
+        let origin = points.positions.first().copied().unwrap_or_default();
+        let moved = |(number, position): (u32, &DVec3)| Point { position: *position - origin, number };
+        let tree = Tree::new((0..).zip(&points.positions).map(moved).collect());
+        Self { tree, neighbors: Vec::new(), spreads: Vec::new(), normals: Vec::new() }
+    }
+
+    fn place(&self, place: usize) -> DVec3 {
+        self.tree.points()[place].position
+    }
+
+    /// The offsets of up to `K` neighbors.
+    fn offsets<const K: usize>(&self, place: usize) -> ([u32; K], Vec<DVec3>) {
+        let mut found = [(0.0, 0); K];
+        self.tree.nearest_places(place, &mut found);
+        let near = found.map(|(_, place)| place);
+        (near, self.offsets_of(place, &near))
+    }
+
+    fn offsets_of(&self, place: usize, near: &[u32]) -> Vec<DVec3> {
+        let here = self.place(place);
+        near.iter().filter(|j| **j != u32::MAX).map(|&j| self.place(j as usize) - here).collect()
+    }
+
+    /// Neighbors, spreads and normals.
+    fn find_planes(&mut self, points: &Points, steps: &Steps<'_>, report: &mut CloudReport) {
+        let count = self.tree.points().len();
+        let of_file = |place: usize| -> Option<DVec3> {
+            let number = self.tree.points()[place].number as usize;
+            let normal = points.normals.as_ref()?[number].as_dvec3();
+            normal.is_finite().then(|| normal.try_normalize()).flatten()
+        };
+        let one = |place: usize| {
+            let (mut near, offsets) = self.offsets::<NEIGHBORS>(place);
+            let six = &offsets[..offsets.len().min(6)];
+            let spread = six.iter().map(|o| o.length()).sum::<f64>() / six.len().max(1) as f64;
+            let normal = of_file(place).unwrap_or_else(|| {
+                let mut wider = [u32::MAX; MOST_NEIGHBORS];
+                let plane = plane::plane(&offsets, || {
+                    let (near, offsets) = self.offsets(place);
+                    wider = near;
+                    offsets
+                });
+                if plane.along_line {
+                    // Joins scan lines.
+                    let every = MOST_NEIGHBORS / NEIGHBORS;
+                    near[NEIGHBORS / 2..]
+                        .iter_mut()
+                        .zip(wider[MOST_NEIGHBORS / 2..].iter().step_by(every))
+                        .for_each(|(near, wider)| *near = *wider);
+                }
+                plane.normal
+            });
+            (near, spread, normal)
+        };
+        let (mut neighbors, mut spreads, mut normals) = (Vec::new(), Vec::new(), Vec::new());
+        neighbors.reserve_exact(count);
+        spreads.reserve_exact(count);
+        normals.reserve_exact(count);
+        for first in (0..count).step_by(BATCH) {
+            steps.done(0, first, count);
+            let batch: Vec<_> = (first..count.min(first + BATCH)).into_par_iter().map(one).collect();
+            for (near, spread, normal) in batch {
+                neighbors.push(near);
+                spreads.push(spread);
+                normals.push(normal);
+            }
+        }
+        let given: Vec<bool> = (0..count).map(|place| of_file(place).is_some()).collect();
+        report.normals_from_file = given.iter().filter(|given| **given).count();
+        (self.neighbors, self.spreads, self.normals) = (neighbors, spreads, normals);
+        self.choose_sides(points, &given, report);
+    }
+
+    /// The sides of normals that are not the file's.
+    fn choose_sides(&mut self, points: &Points, given: &[bool], report: &CloudReport) {
+        if let Some(viewpoint) = points.viewpoint {
+            let origin = points.positions.first().copied().unwrap_or_default();
+            for (place, point) in self.tree.points().iter().enumerate() {
+                let toward = viewpoint - origin - point.position;
+                if !given[place] && self.normals[place].dot(toward) < 0.0 {
+                    self.normals[place] = -self.normals[place];
+                }
+            }
+        } else if report.normals_from_file == 0 {
+            let positions: Vec<DVec3> = self.tree.points().iter().map(|point| point.position).collect();
+            let areas: Vec<f64> = self.spreads.iter().map(|spread| spread * spread).collect();
+            orient::orient(&positions, &self.neighbors, &areas, &mut self.normals);
+        } else {
+            // A few lack theirs: as most of their neighbors.
+            for place in (0..given.len()).filter(|&place| !given[place]) {
+                let near = self.neighbors[place].iter().filter(|j| **j != u32::MAX && given[**j as usize]);
+                let most: DVec3 = near.map(|&j| self.normals[j as usize]).sum();
+                if self.normals[place].dot(most) < 0.0 {
+                    self.normals[place] = -self.normals[place];
+                }
+            }
+        }
+    }
+
+    /// The radii of disks: the file's, or those that close the surface.
+    fn radii(&self, points: &Points, steps: &Steps<'_>, report: &mut CloudReport) -> Vec<f32> {
+        let count = self.tree.points().len();
+        let of_file = |place: usize| -> Option<f32> {
+            let number = self.tree.points()[place].number as usize;
+            points.radii.as_ref().map(|radii| radii[number]).filter(|r| *r > 0.0 && r.is_finite())
+        };
+        let one =
+            |place: usize| of_file(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place)) as f32);
+        let mut radii = Vec::new();
+        radii.reserve_exact(count);
+        for first in (0..count).step_by(BATCH) {
+            steps.done(1, first, count);
+            radii.par_extend((first..count.min(first + BATCH)).into_par_iter().map(one));
+        }
+        steps.done(1, count, count);
+        report.radii_from_file = (0..count).filter(|&place| of_file(place).is_some()).count();
+        if report.radii_from_file > 0 {
+            return radii;
+        }
+        let (limited, changed) = outliers::limit_radii(&self.neighbors, &radii);
+        report.limited = changed;
+        limited
+    }
+
+    /// The least radius of the disk at a place.
+    fn reach(&self, place: usize) -> f64 {
+        let normal = self.normals[place];
+        let of = |near: &[u32]| {
+            let same_way = |j: &u32| *j != u32::MAX && normal.dot(self.normals[*j as usize]) > OTHER_WAY;
+            let near: Vec<u32> = near.iter().copied().filter(same_way).collect();
+            reach::reach(normal, &self.offsets_of(place, &near))
+        };
+        let first = of(&self.neighbors[place]);
+        let found = match first.open {
+            false => first,
+            true => of(&self.offsets::<MOST_NEIGHBORS>(place).0),
+        };
+        if found.distance > 0.0 { found.distance } else { ALONE }
+    }
+}

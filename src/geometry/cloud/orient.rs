@@ -1,0 +1,152 @@
+//! The sides of normals, found along a spanning tree (Hoppe, DeRose, Duchamp, McDonald, Stuetzle, "Surface Reconstruction from
+//! Unorganized Points", 1992).
+//!
+//! The graph joins each point with its neighbors; the tree that joins all at the least cost hands the side on. Two rules
+//! differ from the paper's:
+//! - A normal is compared with the other's mirror image in the plane halfway between the two points, not with the other itself.
+//!   On a sphere the two are equal, however far apart, across a right-angled edge they agree, and two sides of a plate oppose.
+//! - An edge that does not lie in both planes costs more, so that it is taken last: with noise, points of one surface lie
+//!   above each other, too.
+//!
+//! The tree is found by Kruskal's algorithm on costs in 256 steps, and sets of points that know their side against the set's first.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::plane::NEIGHBORS;
+
+/// Sets of places, and of each place on which side it is against its set's root: bit 31 of the parent.
+struct Sets(Vec<u32>);
+
+/// The other side.
+const TURNED: u32 = 1 << 31;
+
+impl Sets {
+    /// The root of a place, and its side against it in bit 31.
+    fn root(&mut self, place: u32) -> u32 {
+        let (mut at, mut side) = (place, 0);
+        loop {
+            let up = self.0[at as usize];
+            let parent = up & !TURNED;
+            if parent == at {
+                return at | side;
+            }
+            // Halve the path: a place that is two below a root is then one below.
+            let above = self.0[parent as usize];
+            let short = (above & !TURNED) | ((above ^ up) & TURNED);
+            if above & !TURNED != parent {
+                self.0[at as usize] = short;
+            }
+            side ^= short & TURNED;
+            at = short & !TURNED;
+        }
+    }
+
+    fn join(&mut self, a: u32, b: u32, turned: bool) {
+        let (a, b) = (self.root(a), self.root(b));
+        let (low, high) = ((a & !TURNED).min(b & !TURNED), (a & !TURNED).max(b & !TURNED));
+        if low != high {
+            self.0[high as usize] = low | ((a ^ b) & TURNED) ^ if turned { TURNED } else { 0 };
+        }
+    }
+}
+
+/// The cost of handing the side on along an edge, in 256 steps, and whether the normals are on different sides.
+fn edge(along: DVec3, a: DVec3, b: DVec3) -> (u8, bool) {
+    let Some(along) = along.try_normalize() else { return (u8::MAX, a.dot(b) < 0.0) };
+    let (out_a, out_b) = (along.dot(a), along.dot(b));
+    let agreement = (a - 2.0 * out_a * along).dot(b);
+    let in_planes = (1.0 - out_a * out_a) * (1.0 - out_b * out_b);
+    let cost = (1.0 - agreement.abs() * in_planes).clamp(0.0, 1.0);
+    // The root spreads the small costs, of which most are.
+    ((255.0 * cost.sqrt()) as u8, agreement < 0.0)
+}
+
+/// Turns normals so that they are on one side of each connected surface: outward, where that is known.
+///
+/// `neighbors` are places, [`NEIGHBORS`] for each, `u32::MAX` for none; `areas` are the shares of the surface.
+///
+/// **Outward.** By the divergence theorem the sum of area · normal · (position − center) is three times the volume of a
+/// closed surface, if normals point outward. Where it is below a tenth of the sum of its terms' largest values, the surface
+/// is nearly flat: there the mean normal's largest component becomes positive.
+pub(super) fn orient(
+    positions: &[DVec3],
+    neighbors: &[[u32; NEIGHBORS]],
+    areas: &[f64],
+    normals: &mut [DVec3],
+) {
+    let sets = spanning_tree(positions, neighbors, normals);
+    #[derive(Clone, Copy, Default)]
+    struct Sum {
+        area: f64,
+        center: DVec3,
+        normal: DVec3,
+        outward: f64,
+        largest: f64,
+    }
+    let mut sums = vec![Sum::default(); positions.len()];
+    for (i, &up) in sets.iter().enumerate() {
+        if up & TURNED != 0 {
+            normals[i] = -normals[i];
+        }
+        let sum = &mut sums[(up & !TURNED) as usize];
+        sum.area += areas[i];
+        sum.center += areas[i] * positions[i];
+        sum.normal += areas[i] * normals[i];
+    }
+    for (i, &up) in sets.iter().enumerate() {
+        let sum = &mut sums[(up & !TURNED) as usize];
+        let from_center = positions[i] - sum.center / sum.area;
+        sum.outward += areas[i] * normals[i].dot(from_center);
+        sum.largest += areas[i] * from_center.length();
+    }
+    let turn = |sum: &Sum| match sum.outward.abs() < 0.1 * sum.largest {
+        true => sum.normal[sum.normal.abs().max_position()] < 0.0,
+        false => sum.outward < 0.0,
+    };
+    for (normal, &up) in normals.iter_mut().zip(&sets) {
+        if turn(&sums[(up & !TURNED) as usize]) {
+            *normal = -*normal;
+        }
+    }
+}
+
+/// Of each place the root of its tree, and its side against it in bit 31.
+fn spanning_tree(positions: &[DVec3], neighbors: &[[u32; NEIGHBORS]], normals: &[DVec3]) -> Vec<u32> {
+    let of_place = |i: usize| -> [(u8, bool); NEIGHBORS] {
+        neighbors[i].map(|j| match j {
+            u32::MAX => (u8::MAX, false),
+            j => edge(positions[j as usize] - positions[i], normals[i], normals[j as usize]),
+        })
+    };
+    // An edge that both ends know counts once.
+    let counts =
+        |i: usize, j: u32| j != u32::MAX && (i < j as usize || !neighbors[j as usize].contains(&(i as u32)));
+    let costs: Vec<[(u8, bool); NEIGHBORS]> = (0..positions.len()).into_par_iter().map(of_place).collect();
+    // Sorted by counting: where each cost's edges begin.
+    let mut begins = [0_usize; 257];
+    for (i, costs) in costs.iter().enumerate() {
+        for (&j, (cost, _)) in neighbors[i].iter().zip(costs) {
+            begins[usize::from(*cost) + 1] += usize::from(counts(i, j));
+        }
+    }
+    for cost in 0..256 {
+        begins[cost + 1] += begins[cost];
+    }
+    let mut edges = vec![(0_u32, 0_u32); begins[256]];
+    for (i, costs) in costs.iter().enumerate() {
+        for (&j, (cost, turned)) in neighbors[i].iter().zip(costs) {
+            if counts(i, j) {
+                let next = &mut begins[usize::from(*cost)];
+                edges[*next] = (i as u32, j | if *turned { TURNED } else { 0 });
+                *next += 1;
+            }
+        }
+    }
+    drop(costs);
+    let mut sets = Sets((0..positions.len() as u32).collect());
+    for (a, b) in edges {
+        sets.join(a, b & !TURNED, b & TURNED != 0);
+    }
+    (0..positions.len() as u32).map(|place| sets.root(place)).collect()
+}

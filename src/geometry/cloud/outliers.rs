@@ -1,0 +1,59 @@
+//! Points that belong to no surface, and disks too large for those around them.
+
+use rayon::prelude::*;
+
+use super::plane::NEIGHBORS;
+
+/// A point is isolated whose neighbors are so many times as far away as its neighbors' neighbors are from them. Where the density
+/// of a scan changes by 1:10 this is √10 at most.
+pub(super) const ISOLATED: f64 = 8.0;
+
+/// No disk is larger than so many times the median of its neighbors'; it then gets the median.
+const LARGEST: f32 = 4.0;
+
+/// Whether each point is isolated; `spreads` are mean distances of neighbors.
+pub(super) fn isolated(neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<bool> {
+    let is_isolated = |(near, &spread): (&[u32; NEIGHBORS], &f64)| {
+        median(near, |j| spreads[j]).is_some_and(|median| spread > ISOLATED * median)
+    };
+    neighbors.par_iter().zip(spreads).map(is_isolated).collect()
+}
+
+/// Radii without those that are far too large; how many these were.
+pub(super) fn limit_radii(neighbors: &[[u32; NEIGHBORS]], radii: &[f32]) -> (Vec<f32>, usize) {
+    let limited = |(near, &radius): (&[u32; NEIGHBORS], &f32)| match median(near, |j| f64::from(radii[j])) {
+        Some(median) if radius > LARGEST * median as f32 && median > 0.0 => median as f32,
+        _ => radius,
+    };
+    let limited: Vec<f32> = neighbors.par_iter().zip(radii).map(limited).collect();
+    let changed = limited.iter().zip(radii).filter(|(new, old)| new != old).count();
+    (limited, changed)
+}
+
+/// The lower median of the neighbors' values; `None` without neighbors.
+fn median(near: &[u32; NEIGHBORS], value: impl Fn(usize) -> f64) -> Option<f64> {
+    let mut values = [f64::INFINITY; NEIGHBORS];
+    let mut len = 0;
+    for &j in near.iter().filter(|j| **j != u32::MAX) {
+        values[len] = value(j as usize);
+        len += 1;
+    }
+    let values = &mut values[..len];
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(len.saturating_sub(1) / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_far_from_all_is_isolated_and_its_disk_is_no_plate() {
+        let mut near = [u32::MAX; NEIGHBORS];
+        near[..3].copy_from_slice(&[0, 1, 2]);
+        let all = [near; 4];
+        assert_eq!(isolated(&all, &[1.0, 1.0, 1.1, 9.0]), [false, false, false, true]);
+        assert_eq!(limit_radii(&all, &[1.0, 1.0, 1.0, 4.5]), (vec![1.0; 4], 1));
+        assert_eq!(isolated(&[[u32::MAX; NEIGHBORS]], &[1.0]), [false]);
+    }
+}
