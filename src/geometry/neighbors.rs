@@ -107,7 +107,6 @@ impl Tree {
     }
 
     /// As [`Tree::nearest_places`] for a place that is no point's.
-    #[cfg(test)]
     pub(super) fn nearest_places_to(&self, target: DVec3, found: &mut [(f64, u32)]) {
         self.nearest_but(None, target, found);
     }

@@ -22,7 +22,7 @@ fn round_trip(splats: &Splats, closed: bool) -> (Splats, WrittenSplats, String) 
             assert_eq!(read, closed);
             (splats, written, header)
         }
-        Model::Mesh(_) => panic!("splats"),
+        _ => panic!("no splats"),
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) const MOST_NEIGHBORS: usize = 48;
 
 /// Thickness over width (standard deviations) up to which neighbors are flat. On a sphere the 12 are, if their reach is below
 /// 4/5 of its radius.
-const FLAT: f64 = 0.2;
+pub(super) const FLAT: f64 = 0.2;
 
 /// Width over length below which they are a line.
 const LINE: f64 = 0.1;
@@ -50,7 +50,7 @@ pub(super) struct Plane {
 
 impl Plane {
     /// Through 0 and the offsets that `part` takes.
-    fn fit(offsets: &[DVec3], part: impl Fn(DVec3) -> bool) -> Self {
+    pub(super) fn fit(offsets: &[DVec3], part: impl Fn(DVec3) -> bool) -> Self {
         let (mut sum, mut count) = (DVec3::ZERO, 1.0);
         let [mut xx, mut xy, mut xz, mut yy, mut yz, mut zz] = [0.0; 6];
         for &o in offsets.iter().filter(|o| part(**o)) {

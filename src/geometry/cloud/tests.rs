@@ -141,7 +141,7 @@ fn cases(count: usize) -> Vec<Case> {
     let (a, b) = (s.many(count, Surfaces::sphere), s.many(places, Surfaces::sphere));
     let noise = noisy(&a, 0.01, &mut s.0);
     add("sphere", a, b.clone(), [1.0, 4.0], 0);
-    add("sphere, 1% noise", noise, b, [8.0, 30.0], 0);
+    add("sphere, 1% noise", noise, b, [8.0, 30.0], count / 2000);
     let (a, b) = (s.many(count, Surfaces::torus), s.many(places, Surfaces::torus));
     add("torus", a, b, [2.0, 8.0], 0);
     let (a, b) = (s.many(count, Surfaces::cube), s.many(places, Surfaces::cube));
@@ -160,7 +160,7 @@ fn cpu_secs() -> f64 {
     fields.skip(11).take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
-fn check(case: &Case) -> String {
+fn check(case: &Case) {
     let start = cpu_secs();
     let (splats, report) = of(&case.samples);
     let secs = cpu_secs() - start;
@@ -177,14 +177,14 @@ fn check(case: &Case) -> String {
         case.places.len(),
         report.limited
     );
+    println!("{told}");
     assert!(mean < case.most[0] && p99 < case.most[1] && flipped <= case.flipped && holes == 0, "{told}");
-    told
 }
 
 #[test]
 fn surfaces_are_oriented_and_closed() {
     for case in cases(10_000) {
-        println!("{}", check(&case));
+        check(&case);
     }
 }
 
@@ -194,7 +194,7 @@ fn large_surfaces_are_oriented_and_closed() {
     for count in [100_000, 1_000_000] {
         println!("{count} points");
         for case in cases(count) {
-            println!("{}", check(&case));
+            check(&case);
         }
     }
 }

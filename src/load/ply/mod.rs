@@ -12,8 +12,11 @@ mod skip;
 #[cfg(test)]
 mod tests;
 mod vertices;
+mod viewpoint;
 
 use std::path::Path;
+
+use glam::DVec3;
 
 use super::{Model, file_name};
 use crate::{
@@ -24,6 +27,7 @@ use crate::{
 use body::Body;
 use faces::Triangles;
 use vertices::{VertexLayout, Vertices};
+use viewpoint::Viewpoint;
 
 pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Result<Model> {
     let header = header::parse(path, bytes)?;
@@ -37,6 +41,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     }
     let mut triangles = Triangles::new(path, vertex_count);
     let mut vertices = Vertices::new(layout);
+    let mut viewpoint = None;
     let mut body = Body::new(path, &header, bytes);
     let task = format!("read {}", file_name(path));
     for def in header.elements.values() {
@@ -59,6 +64,12 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
             ("tristrips", true) => {
                 body.read(def, &mut on_progress, |i, record| triangles.add_strip(i, record))?;
             }
+            ("camera", _) if Viewpoint::is_in(def) => {
+                body.read(def, &mut on_progress, |_, record: Viewpoint| {
+                    viewpoint = viewpoint.or(record.place());
+                    Ok(())
+                })?;
+            }
             _ => body.read(def, &mut on_progress, |_, _: skip::Skipped| Ok(()))?,
         }
     }
@@ -73,7 +84,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     if layout.clip_curves {
         progress.note(&format!("{}: clip curves are not supported yet and are left out", path.display()));
     }
-    Ok(splats_or_points(vertices, header.closed))
+    Ok(splats_or_points(vertices, header.closed, viewpoint))
 }
 
 fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {
@@ -86,14 +97,14 @@ fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {
 }
 
 /// Splats where the file has all that makes them.
-fn splats_or_points(vertices: Vertices, closed: bool) -> Model {
+fn splats_or_points(vertices: Vertices, closed: bool, viewpoint: Option<DVec3>) -> Model {
     let Vertices { positions, normals, radii, tangents, colors, .. } = vertices;
     let colors = colors.map_or_else(Colors::unknown, Colors::Each);
     let shapes = match (tangents, normals, radii) {
         (Some((s, t)), _, _) => Shapes::Ellipses { s, t },
         (None, Some(normals), Some(radii)) => Shapes::Disks { normals, radii },
         (None, normals, radii) => {
-            return Model::Points(Points { positions, normals, radii, colors, viewpoint: None });
+            return Model::Points(Points { positions, normals, radii, colors, viewpoint });
         }
     };
     Model::Splats { splats: Splats { positions, shapes, colors }, closed }

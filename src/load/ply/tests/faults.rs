@@ -141,6 +141,16 @@ fn points_that_lack_something_are_points_with_what_they_have() {
     check("property float radius\n", "1 2 3 4", None, Some(vec![4.0]));
     let normals = "property float nx\nproperty float ny\nproperty float nz\n";
     check(normals, "1 2 3 4 5 6", Some(vec![Vec3::new(4.0, 5.0, 6.0)]), None);
+    let viewpoint = |place: &str| {
+        let camera = "element camera 1\nproperty float view_px\nproperty float view_py\nproperty float view_pz\n\
+            property int viewportx\nend_header\n1 2 3\n";
+        match parse(format!("{bare}{camera}{place} 640\n").as_bytes()) {
+            Ok(Model::Points(points)) => points.viewpoint,
+            _ => panic!("no points"),
+        }
+    };
+    assert_eq!(viewpoint("4 5 6"), Some(DVec3::new(4.0, 5.0, 6.0)));
+    assert_eq!((viewpoint("0 0 0"), viewpoint("0 nan 1")), (None, None));
 }
 
 /// Small valid files of every kind.
