@@ -90,7 +90,7 @@ fn write(path: &Path, colors: bool, ellipses: bool) {
 fn read(path: &Path) -> (Splats, bool) {
     match load(path, &()).unwrap() {
         Model::Splats { splats, closed } => (splats, closed),
-        Model::Mesh(_) => panic!("splats"),
+        _ => panic!("no splats"),
     }
 }
 

@@ -9,12 +9,11 @@ const MOST_SWEEPS: usize = 12;
 /// Eigenvalues, rising, and their unit eigenvectors. NaN in, NaN or anything out.
 pub(super) fn eigen(matrix: &DMat3) -> ([f64; 3], [DVec3; 3]) {
     let mut a = matrix.transpose().to_cols_array_2d();
-    let mut vectors = DMat3::IDENTITY.to_cols_array_2d();
+    let mut vectors = [DVec3::X, DVec3::Y, DVec3::Z];
     for _ in 0..MOST_SWEEPS {
         let beside = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
         let along = a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2];
-        // Also the answer to NaN.
-        if !(beside > 1e-32 * along) {
+        if beside <= 1e-32 * along || !beside.is_finite() {
             break;
         }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
@@ -23,11 +22,11 @@ pub(super) fn eigen(matrix: &DMat3) -> ([f64; 3], [DVec3; 3]) {
     }
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| a[i][i].total_cmp(&a[j][j]));
-    (order.map(|i| a[i][i]), order.map(|i| DVec3::from_array(vectors[i])))
+    (order.map(|i| a[i][i]), order.map(|i| vectors[i]))
 }
 
-/// The rotation of axes p and q that makes `a[p][q]` zero; `vectors` are rows.
-fn rotate(a: &mut [[f64; 3]; 3], vectors: &mut [[f64; 3]; 3], p: usize, q: usize) {
+/// The rotation of axes p and q that makes `a[p][q]` zero.
+fn rotate(a: &mut [[f64; 3]; 3], vectors: &mut [DVec3; 3], p: usize, q: usize) {
     if a[p][q] == 0.0 {
         return;
     }
@@ -44,11 +43,9 @@ fn rotate(a: &mut [[f64; 3]; 3], vectors: &mut [[f64; 3]; 3], p: usize, q: usize
     a[p][r] = cos * apr - sin * aqr;
     a[q][r] = sin * apr + cos * aqr;
     (a[r][p], a[r][q]) = (a[p][r], a[q][r]);
-    for i in 0..3 {
-        let (vp, vq) = (vectors[p][i], vectors[q][i]);
-        vectors[p][i] = cos * vp - sin * vq;
-        vectors[q][i] = sin * vp + cos * vq;
-    }
+    let (vp, vq) = (vectors[p], vectors[q]);
+    vectors[p] = cos * vp - sin * vq;
+    vectors[q] = sin * vp + cos * vq;
 }
 
 #[cfg(test)]

@@ -54,6 +54,8 @@ pub struct CloudReport {
     pub duplicates: usize,
     /// Points whose neighbors are 8 times as far from them as these are from theirs: left out.
     pub isolated: usize,
+    /// The points are so noisy that planes were fitted to 48 neighbors each, of all points or of a part.
+    pub noisy: bool,
     /// Points whose normal was taken from the file.
     pub normals_from_file: usize,
     /// Points whose radius was taken from the file.
@@ -70,7 +72,8 @@ impl fmt::Display for CloudReport {
             (false, true) => "normals",
             _ => "radii",
         };
-        write!(f, "{} points: {found} found from {NEIGHBORS} neighbors each", self.points)?;
+        let neighbors = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
+        write!(f, "{} points: {found} found from {neighbors} neighbors each", self.points)?;
         let parts = [
             (self.duplicates, "merged", "duplicate"),
             (self.isolated, "left out", "isolated point"),
@@ -224,6 +227,7 @@ impl Cloud {
             }
         }
         let given: Vec<bool> = (0..count).map(|place| of_file(place).is_some()).collect();
+        report.noisy = coarse.is_some();
         report.normals_from_file = given.iter().filter(|given| **given).count();
         (self.neighbors, self.spreads, self.normals) = (neighbors, spreads, normals);
         self.choose_sides(points, &given, report);

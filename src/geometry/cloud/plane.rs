@@ -68,8 +68,9 @@ impl Plane {
         let [yy, yz, zz] = [yy - m.y * sum.y, yz - m.y * sum.z, zz - m.z * sum.z];
         let covariance = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         let ([least, middle, most], [normal, _, along]) = eigen(&DMat3::from_cols_array_2d(&covariance));
-        // Rounding leaves that much of a line's width.
-        if !(middle > 1e-14 * most) {
+        // Rounding leaves that much of a line's width; NaN, where squares overflow, is none.
+        let has_width = middle > 1e-14 * most;
+        if !has_width {
             return Self { normal: across(along, most > 0.0), thickness: 0.0, width: 0.0, along_line: false };
         }
         let ratio = |a: f64, b: f64| (a.max(0.0) / b).sqrt();
