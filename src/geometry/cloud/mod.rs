@@ -15,10 +15,9 @@ mod orient;
 mod outliers;
 mod plane;
 mod reach;
+mod report;
 #[cfg(test)]
 mod tests;
-
-use std::fmt;
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -34,6 +33,8 @@ use crate::{
 use merge::{Merged, merge};
 use plane::{MOST_NEIGHBORS, NEIGHBORS};
 
+pub use report::CloudReport;
+
 /// So many points are done between two progress messages.
 const BATCH: usize = 1 << 16;
 
@@ -42,52 +43,6 @@ const ALONE: f64 = 1.0;
 
 /// Cosine of the angle from which on a neighbor faces the other way: 120°, more than any edge of a solid that is not a blade.
 const OTHER_WAY: f64 = -0.5;
-
-/// The facts found on the way from points to splats.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct CloudReport {
-    /// Points in the file.
-    pub points: usize,
-    /// Points with a coordinate that is NaN or infinite: left out.
-    pub not_finite: usize,
-    /// Points at the place of another: merged with it.
-    pub duplicates: usize,
-    /// Points whose neighbors are 8 times as far from them as these are from theirs: left out.
-    pub isolated: usize,
-    /// The points are so noisy that planes were fitted to 48 neighbors each, of all points or of a part.
-    pub noisy: bool,
-    /// Points whose normal was taken from the file.
-    pub normals_from_file: usize,
-    /// Points whose radius was taken from the file.
-    pub radii_from_file: usize,
-    /// Disks over 4 times as large as the median of those around them, which they got instead.
-    pub limited: usize,
-}
-
-impl fmt::Display for CloudReport {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let splats = self.points - self.not_finite - self.duplicates - self.isolated;
-        let found = match (self.normals_from_file >= splats, self.radii_from_file >= splats) {
-            (false, false) => "normals and radii",
-            (false, true) => "normals",
-            _ => "radii",
-        };
-        let neighbors = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
-        write!(f, "{} points: {found} found from {neighbors} neighbors each", self.points)?;
-        let parts = [
-            (self.duplicates, "merged", "duplicate"),
-            (self.isolated, "left out", "isolated point"),
-            (self.not_finite, "left out", "point not finite"),
-        ];
-        for (i, (count, done, what)) in parts.into_iter().filter(|part| part.0 > 0).enumerate() {
-            let separator = if i == 0 { ';' } else { ',' };
-            let what = if count == 1 { what.to_owned() } else { what.replace("point", "points") };
-            let what = if count > 1 && what == "duplicate" { "duplicates".to_owned() } else { what };
-            write!(f, "{separator} {count} {what} {done}")?;
-        }
-        Ok(())
-    }
-}
 
 /// Makes a round disk of each point.
 ///

@@ -18,6 +18,9 @@ use super::plane::NEIGHBORS;
 /// Sets of places, and of each place on which side it is against its set's root: bit 31 of the parent.
 struct Sets(Vec<u32>);
 
+/// The length of the mean normal above which a surface is a sheet. That of half a ball is 1/2.
+const SHEET: f64 = 0.7;
+
 /// The other side.
 const TURNED: u32 = 1 << 31;
 
@@ -66,9 +69,9 @@ fn edge(along: DVec3, a: DVec3, b: DVec3) -> (u8, bool) {
 ///
 /// `neighbors` are places, [`NEIGHBORS`] for each, `u32::MAX` for none; `areas` are the shares of the surface.
 ///
-/// **Outward.** By the divergence theorem the sum of area · normal · (position − center) is three times the volume of a
-/// closed surface, if normals point outward. Where it is below a tenth of the sum of its terms' largest values, the surface
-/// is nearly flat: there the mean normal's largest component becomes positive.
+/// **Outward.** By the divergence theorem the sum of area · normal of a closed surface is zero, and that of area · normal ·
+/// (position − center) is three times its volume if normals point outward: so they are turned. Where the mean normal is longer
+/// than [`SHEET`], the surface is a sheet, of which no side is outside: there its largest component becomes positive.
 pub(super) fn orient(
     positions: &[DVec3],
     neighbors: &[[u32; NEIGHBORS]],
@@ -82,7 +85,6 @@ pub(super) fn orient(
         center: DVec3,
         normal: DVec3,
         outward: f64,
-        largest: f64,
     }
     let mut sums = vec![Sum::default(); positions.len()];
     for (i, &up) in sets.iter().enumerate() {
@@ -98,9 +100,8 @@ pub(super) fn orient(
         let sum = &mut sums[(up & !TURNED) as usize];
         let from_center = positions[i] - sum.center / sum.area;
         sum.outward += areas[i] * normals[i].dot(from_center);
-        sum.largest += areas[i] * from_center.length();
     }
-    let turn = |sum: &Sum| match sum.outward.abs() < 0.1 * sum.largest {
+    let turn = |sum: &Sum| match sum.normal.length() > SHEET * sum.area {
         true => sum.normal[sum.normal.abs().max_position()] < 0.0,
         false => sum.outward < 0.0,
     };

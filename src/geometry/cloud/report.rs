@@ -1,0 +1,51 @@
+//! What was done with points, in numbers and in words.
+
+use std::fmt;
+
+use super::plane::{MOST_NEIGHBORS, NEIGHBORS};
+
+/// The facts found on the way from points to splats.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CloudReport {
+    /// Points in the file.
+    pub points: usize,
+    /// Points with a coordinate that is NaN or infinite: left out.
+    pub not_finite: usize,
+    /// Points at the place of another: merged with it.
+    pub duplicates: usize,
+    /// Points whose neighbors are 8 times as far from them as these are from theirs: left out.
+    pub isolated: usize,
+    /// The points are so noisy that planes were fitted to 48 neighbors each, of all points or of a part.
+    pub noisy: bool,
+    /// Points whose normal was taken from the file.
+    pub normals_from_file: usize,
+    /// Points whose radius was taken from the file.
+    pub radii_from_file: usize,
+    /// Disks over 4 times as large as the median of those around them, which they got instead.
+    pub limited: usize,
+}
+
+impl fmt::Display for CloudReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let splats = self.points - self.not_finite - self.duplicates - self.isolated;
+        let found = match (self.normals_from_file >= splats, self.radii_from_file >= splats) {
+            (false, false) => "normals and radii",
+            (false, true) => "normals",
+            _ => "radii",
+        };
+        let neighbors = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
+        write!(f, "{} points: {found} found from {neighbors} neighbors each", self.points)?;
+        let parts = [
+            (self.duplicates, "merged", "duplicate"),
+            (self.isolated, "left out", "isolated point"),
+            (self.not_finite, "left out", "point not finite"),
+        ];
+        for (i, (count, done, what)) in parts.into_iter().filter(|part| part.0 > 0).enumerate() {
+            let separator = if i == 0 { ';' } else { ',' };
+            let what = if count == 1 { what.to_owned() } else { what.replace("point", "points") };
+            let what = if count > 1 && what == "duplicate" { "duplicates".to_owned() } else { what };
+            write!(f, "{separator} {count} {what} {done}")?;
+        }
+        Ok(())
+    }
+}
