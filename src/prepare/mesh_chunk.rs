@@ -39,6 +39,8 @@ pub struct MeshChunk {
     pub(crate) uniform_color: bool,
     /// How far a corner is rounded at most, and how long edges are in the mean: world space.
     rounding_and_edge: [f64; 2],
+    /// The longest edge, world space.
+    pub(crate) longest_edge: f64,
     /// Vertices, colors, indices, but where a frame is only listed.
     memory: Option<ChunkMemory<3>>,
 }
@@ -115,12 +117,16 @@ impl PackedMesh {
 
     /// How far a corner is rounded at most, and how long edges are in the mean: world space.
     fn rounding_and_edge(&self) -> [f64; 2] {
+        let total: f64 = self.edges().sum();
+        let farthest = self.vertices.iter().step_by(2).flatten().fold(0.0, |most, x| f32::max(most, x.abs()));
+        [f64::from(farthest) / 16_777_216.0 / self.rebase.scale, total / (3 * self.indices.len()) as f64]
+    }
+
+    /// The lengths of its triangles' edges, world space.
+    fn edges(&self) -> impl Iterator<Item = f64> + '_ {
         let corner = |index: u32| Vec3::from_slice(&self.vertices[2 * index as usize][..3]).as_dvec3();
         let edges = self.indices.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
-        let total: f64 = edges.map(|[a, b]| corner(a).distance(corner(b))).sum();
-        let farthest = self.vertices.iter().step_by(2).flatten().fold(0.0, |most, x| f32::max(most, x.abs()));
-        [f64::from(farthest) / 16_777_216.0, total / (3 * self.indices.len()) as f64]
-            .map(|length| length / self.rebase.scale)
+        edges.map(move |[a, b]| corner(a).distance(corner(b)) / self.rebase.scale)
     }
 
     /// Nothing of it can be drawn.
@@ -171,6 +177,7 @@ impl MeshChunk {
             transparent,
             uniform_color: packed.colors.len() == 1,
             rounding_and_edge: packed.rounding_and_edge(),
+            longest_edge: packed.edges().fold(0.0, f64::max),
             memory: uploader.map(|uploader| packed.upload(uploader, number)).transpose()?,
         })
     }

@@ -164,10 +164,6 @@ named! {
     }
 }
 
-/// The smallest share of its weight that a filter leaves to a splat in 16-bit sums: 1/16. Normalization by area or determinant
-/// would let the smallest splats fall below what they can hold, and lose dark colors long before. 32-bit sums need none.
-const LEAST_SHARE: f64 = 1.0 / 16.0;
-
 /// What a splat weighs at least.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Floors {
@@ -178,8 +174,9 @@ pub struct Floors {
 }
 
 impl Floors {
-    /// In 16-bit sums: the smallest 16-bit float above 0, and [`LEAST_SHARE`].
-    pub const HALF: Self = Self { share: LEAST_SHARE, weight: 1.0 / (1 << 24) as f64 };
+    /// In 16-bit sums: the smallest 16-bit float above 0, and a 16th. Normalization by area or determinant would let the smallest
+    /// splats fall below what such sums can hold, and lose dark colors long before.
+    pub const HALF: Self = Self { share: 1.0 / 16.0, weight: 1.0 / (1 << 24) as f64 };
     /// In 32-bit sums.
     pub const NONE: Self = Self { share: 0.0, weight: 1.0 / (1_u64 << 60) as f64 };
 }

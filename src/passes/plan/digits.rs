@@ -13,6 +13,9 @@ const LEAST_NEAR: f64 = 1e-36;
 /// The least part of its depth by which a splat is shifted: `LEAST_SHIFT` of `glsl/inc/mapping.glsl`.
 const LEAST_SHIFT: f64 = 1e-6;
 
+/// The longest edge of a polygon, in distances of the target, of which a device's rasterizer, in f32, leaves something near the eye.
+const LARGEST_EDGE: f64 = 1e6;
+
 /// Refuses a near plane so near that the depth of something in the scene has no digits.
 ///
 /// # Errors
@@ -38,7 +41,7 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
 }
 
 /// What a frame can't tell apart, or weighs otherwise than asked, in a sentence each.
-pub fn notes(frame: &FramePlan<'_>, settings: &Settings) -> Vec<String> {
+pub fn notes(frame: &FramePlan<'_>, camera: &Camera, settings: &Settings) -> Vec<String> {
     let mut notes = Vec::new();
     let splats = || frame.opaque.splats.iter().chain(&frame.transparent.splats);
     if let Some(depth) = splats().filter_map(depth_without_epsilon).reduce(f64::max) {
@@ -58,6 +61,13 @@ pub fn notes(frame: &FramePlan<'_>, settings: &Settings) -> Vec<String> {
                     their color; --accumulate f32 has no such floor".to_owned());
     }
     for (number, mesh) in frame.opaque.meshes.iter().chain(&frame.transparent.meshes).enumerate() {
+        let (longest, distance) = (mesh.chunk.longest_edge, camera.eye.distance(camera.target));
+        if longest > LARGEST_EDGE * distance {
+            notes.push(format!(
+                "mesh {number}: an edge of {longest:.1e} is over a million times as long as the target is far: near the eye such a \
+                 polygon has no digits"
+            ));
+        }
         if let Some([rounding, edge]) = mesh.chunk.rounding() {
             notes.push(format!(
                 "mesh {number}: its corners are rounded by up to {rounding:.1e}, and its mean edge is {edge:.1e} long: it is too \
@@ -106,7 +116,7 @@ mod tests {
     fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {
         let limits = Limits::plain();
         let prepared = prepare_without_device(&limits, scene).unwrap();
-        notes(&FramePlan::new(&prepared, &camera(1e-3), settings, &limits), settings)
+        notes(&FramePlan::new(&prepared, &camera(1e-3), settings, &limits), &camera(1e-3), settings)
     }
 
     #[test]
@@ -152,5 +162,9 @@ mod tests {
         scene.meshes.push(MeshObject { name: "far corners".to_owned(), mesh, closed: false });
         let told = notes_of(&scene, &points);
         assert!(told.len() == 1 && told[0].starts_with("mesh 0: its corners are rounded"), "{told:?}");
+        scene.meshes[0].mesh.positions = vec![corner(-1e7, -1.0), corner(1e7, -1.0), corner(0.0, 1e7)];
+        scene.meshes[0].mesh.triangles = vec![[0, 1, 2]];
+        let told = notes_of(&scene, &points);
+        assert!(told.len() == 1 && told[0].starts_with("mesh 0: an edge of 2.0e7"), "{told:?}");
     }
 }
