@@ -46,9 +46,9 @@ impl Method {
     }
 
     /// The method whose exact picture is also its own: it does not depend on how sums and kernels are rounded, nor on which of
-    /// the rasterizers that are exact draws it.
+    /// the rasterizers that are exact draws it. What 16-bit sums ask of weights is an error of theirs.
     pub fn exact(&self) -> Self {
-        let (accumulate, kernel_eval) = <(Accumulate, KernelEval)>::default();
+        let (accumulate, kernel_eval) = (Accumulate::F32, KernelEval::default());
         Self { rasterizer: self.rasterizer.family(), filter: self.filter, accumulate, kernel_eval }
     }
 
