@@ -13,6 +13,9 @@ const LEAST_NEAR: f64 = 1e-36;
 /// The least part of its depth by which a splat is shifted: `LEAST_SHIFT` of `glsl/inc/mapping.glsl`.
 const LEAST_SHIFT: f64 = 1e-6;
 
+/// One in so many splats may be anywhere.
+const STRAYS: u64 = 1000;
+
 /// The longest edge of a polygon, in distances of the target, of which a device's rasterizer, in f32, leaves something near the eye.
 const LARGEST_EDGE: f64 = 1e6;
 
@@ -26,7 +29,14 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
         // A splat that is larger than far has a unit of its own, which is larger, too.
         camera.near() * view.view_from_world_scale / (radius * view.view_from_local_scale).max(1.0)
     };
-    let splats = scene.chunks.iter().map(|chunk| near_in_units(&chunk.rebase, chunk.largest_radius));
+    // A stray point beyond all measure, which is seen as nothing, must not refuse the rest.
+    let total = scene.splat_count();
+    let counts = |count: u32| u64::from(count) * STRAYS >= total;
+    let splats = scene
+        .chunks
+        .iter()
+        .filter(|chunk| counts(chunk.count))
+        .map(|chunk| near_in_units(&chunk.rebase, chunk.largest_radius));
     let meshes = scene.meshes.iter().map(|mesh| near_in_units(&mesh.rebase, 0.0));
     let least = splats.chain(meshes).fold(1.0, f64::min);
     if least < LEAST_NEAR {

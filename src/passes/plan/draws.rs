@@ -172,9 +172,9 @@ pub fn draws<'a>(
     scene.chunks.iter().map(draw).collect()
 }
 
-/// The depth of the near plane in view space (`digits.rs` refuses one that f32 does not have).
+/// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.
 fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
-    camera.near() * view.view_from_world_scale
+    (camera.near() * view.view_from_world_scale).max(1e-37)
 }
 
 /// What is the same for all that is drawn in one local space; ε in radii and as a world length.
