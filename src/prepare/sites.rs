@@ -81,7 +81,7 @@ pub(super) fn sites(
     }
     let typical = typical_half_axis(splats, sequence.in_any_order(piece.clone()));
     let is_away = |rebase: &Rebase, i: usize, reach: f64| {
-        splats.defect(i).is_none() && !is_home(splats, i, rebase, reach, typical)
+        !is_home(splats, i, rebase, reach, typical) && splats.defect(i).is_none()
     };
     if !sequence.in_any_order(piece.clone()).any(|i| is_away(&rebase, i, HOME)) {
         return vec![whole];
@@ -100,8 +100,9 @@ pub(super) fn sites(
             (home, away) = split(&rebase, FINE_HOME);
         }
         if home.is_empty() {
-            // No place in between is anyone's home: the first splat's own is.
-            rebase = Rebase::of(splats, rest[..1].iter().copied());
+            // No place in between is anyone's home: the first splat's own is, to the bit.
+            rebase =
+                Rebase { origin: splats.positions[rest[0]], ..Rebase::of(splats, rest[..1].iter().copied()) };
             (home, away) = split(&rebase, FINE_HOME);
         }
         if last {
@@ -182,5 +183,20 @@ mod tests {
         assert_eq!(sites_of(row(10_000, 10.0, DVec3::ZERO).collect(), 0.01), [(10_000, true)]);
         // No two in reach of each other, nor of a place in between.
         assert_eq!(sites_of(row(3, 1e15, DVec3::ZERO).collect(), 1e-3).len(), 3);
+    }
+
+    #[test]
+    fn a_plate_among_grains_is_placed_as_exactly_as_they_are() {
+        // Its own local space, rounded to a part of its size, is no home by their measure: its place is the origin, to the bit.
+        let mut positions: Vec<DVec3> = row(5, 1e-12, DVec3::ZERO).collect();
+        positions.push(DVec3::new(1.0, 3.0, 7.0) * 1.234e11);
+        let mut radii = vec![1e-9; 5];
+        radii.push(1e12);
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; 6], radii };
+        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let sites = sites(&splats, &Sequence::of(&splats, Order::Input), &(0..6), SplatFormat::Exact);
+        let places: Vec<_> = sites.iter().map(|site| site.listed.clone().unwrap_or_default()).collect();
+        assert_eq!(places, [vec![0, 1, 2, 3, 4], vec![5]]);
+        assert_eq!(sites[1].rebase.point(splats.positions[5]), DVec3::ZERO);
     }
 }

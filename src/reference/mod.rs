@@ -47,6 +47,7 @@ mod search_box;
 mod shade;
 mod splat;
 mod surface;
+mod tangents;
 mod transition;
 mod triangle;
 mod true_pixel;

@@ -12,10 +12,10 @@ use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
+use super::tangents::tangents;
 use super::view::View;
 use crate::scene::{
     Backfaces, DefectCounts, Epsilon, Filter, FilterWeight, Object, Opacity, Rasterizer, Scene, Settings,
-    Shapes,
 };
 
 /// A splat in view space. A point of it is `center + u·s + v·t`.
@@ -253,56 +253,4 @@ fn thickened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
     let minor = ((sum + 2.0 * area).sqrt() - (sum - 2.0 * area).max(0.0).sqrt()) / 2.0;
     let lengthened = if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 };
     1.0 + 2.0 * (lengthened - 1.0)
-}
-
-/// The scaled tangent vectors in world space, with `s × t` along the outward normal.
-fn tangents(shapes: &Shapes, i: usize) -> (DVec3, DVec3) {
-    match shapes {
-        Shapes::Disks { normals, radii } => {
-            let normal = normals[i].as_dvec3().normalize();
-            // The coordinate axis farthest from the normal is never parallel to it.
-            let n = normal.abs();
-            let axis = if n.x <= n.y && n.x <= n.z {
-                DVec3::X
-            } else if n.y <= n.z {
-                DVec3::Y
-            } else {
-                DVec3::Z
-            };
-            let first = axis.cross(normal).normalize();
-            let radius = f64::from(radii[i]);
-            (radius * first, radius * normal.cross(first))
-        }
-        Shapes::Ellipses { s, t } => (s[i].as_dvec3(), t[i].as_dvec3()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::*;
-
-    #[test]
-    fn the_tangents_of_a_disk_are_right_handed_for_every_normal() {
-        // Axes and diagonals, at the ends of the f32 range too.
-        for x in [-1.0, -0.0, 0.0, 1.0] {
-            for y in [-1.0, -0.0, 0.0, 1.0] {
-                for z in [-1.0, 0.0, 1.0] {
-                    for length in [1e-38_f32, 1.0, 1e38] {
-                        let normal = Vec3::new(x, y, z) * length;
-                        if normal == Vec3::ZERO {
-                            continue;
-                        }
-                        let shapes = Shapes::Disks { normals: vec![normal], radii: vec![2.0] };
-                        let (s, t) = tangents(&shapes, 0);
-                        assert!((s.length() - 2.0).abs() < 1e-14 && (t.length() - 2.0).abs() < 1e-14);
-                        assert!(s.dot(t).abs() < 1e-14);
-                        let expected = normal.as_dvec3().normalize();
-                        assert!((s.cross(t) / 4.0 - expected).length() < 1e-14, "{normal}");
-                    }
-                }
-            }
-        }
-    }
 }
