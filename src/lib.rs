@@ -47,6 +47,7 @@ pub mod instruments;
 #[cfg(feature = "files")]
 pub mod load;
 pub mod math;
+pub mod notes;
 pub mod passes;
 pub mod prepare;
 pub mod progress;

@@ -8,10 +8,11 @@ use super::{
 use crate::{
     error::{Error, ErrorKind, Result},
     load::{
-        BuiltIn, Model, ObjectDescription, Representation, Source,
+        BuiltIn, LoadOptions, Model, ObjectDescription, Representation, Source,
         builtin::{checkerboard, relief, sphere, sphere_mesh},
         file_name, load,
     },
+    notes::Note,
     progress::Progress,
     report::{InputReport, Step},
     scene::{MeshObject, Object},
@@ -37,14 +38,14 @@ pub struct BuiltObject {
 /// triangles, and for a model of which nothing can be drawn.
 pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<BuiltObject> {
     let mut work = StepTimer { progress, steps: Vec::new() };
-    let (model, name) = open(object, &mut work)?;
+    let (model, name, notes) = open(object, &mut work)?;
     let parts = match model {
         Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
         Model::Points(points) => refuse_triangles(object, "points")
             .and_then(|()| from_points::parts(points, name, object, &mut work)),
         Model::Mesh(mesh) => from_mesh::parts(mesh, name, object, &mut work),
     };
-    let Parts { splats, triangles, report } = parts.map_err(|error| of_object(error, object))?;
+    let Parts { splats, triangles, mut report } = parts.map_err(|error| of_object(error, object))?;
     let nothing =
         report.splats == 0 && triangles.as_ref().is_none_or(|object| object.mesh.triangles.is_empty());
     if nothing {
@@ -52,18 +53,26 @@ pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<Built
         let problem = format!("no {what} can be drawn ({})", report.summary);
         return Err(of_object(Error::input("", "", problem), object));
     }
+    report.notes = notes;
     Ok(BuiltObject { splats, triangles, report, steps: work.steps })
 }
 
-/// The model and its name, as it is before it is placed.
-fn open(object: &ObjectDescription, work: &mut StepTimer<'_>) -> Result<(Model, String)> {
+/// The model and its name, as it is before it is placed, and what was done with its file.
+fn open(object: &ObjectDescription, work: &mut StepTimer<'_>) -> Result<(Model, String, Vec<Note>)> {
     let own = match &object.source {
         Source::File(path) => file_name(path),
         Source::BuiltIn { model, .. } => format!("built-in {}", model.name()),
     };
     let name = object.name.clone().unwrap_or(own);
+    let mut notes = Vec::new();
     let model = match &object.source {
-        Source::File(path) => work.time(format!("read {name}"), |progress| load(path, progress))?,
+        Source::File(path) => {
+            let options = LoadOptions::default();
+            let loaded = work.time(format!("read {name}"), |progress| load(path, &options, progress))?;
+            loaded.notes.iter().for_each(|note| work.progress.note(&format!("{}: {note}", path.display())));
+            notes = loaded.notes;
+            loaded.model
+        }
         Source::BuiltIn { model, splats, triangles } => {
             work.time(format!("make the {name}"), |_| match object.representation {
                 Representation::Splats => splats_of(*model, *splats),
@@ -72,7 +81,7 @@ fn open(object: &ObjectDescription, work: &mut StepTimer<'_>) -> Result<(Model, 
             })
         }
     };
-    Ok((model, name))
+    Ok((model, name, notes))
 }
 
 fn splats_of(model: BuiltIn, splats: u64) -> Model {

@@ -32,6 +32,7 @@ pub(super) fn finish_splats(
         triangles: mesh.map(|[_, triangles]| triangles),
         splats: object.splats.len(),
         dropped: defects.total(),
+        notes: Vec::new(),
         summary,
     };
     (object, report)
@@ -49,6 +50,7 @@ pub(super) fn finish_triangles(object: &MeshObject, head: &str, counts: [usize; 
         triangles: Some(counts[1]),
         splats: 0,
         dropped: 0,
+        notes: Vec::new(),
         summary: format!("{}: {head}; drawn as {triangles} triangles{opacity}", object.name),
     }
 }

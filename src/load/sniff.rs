@@ -56,13 +56,13 @@ pub(super) fn format(path: &Path, bytes: &[u8]) -> Result<Format> {
 mod tests {
     use std::fs;
 
-    use crate::load::{Model, load};
+    use crate::load::{LoadOptions, Model, load};
 
     fn load_bytes(name: &str, bytes: &[u8]) -> Result<Model, String> {
         let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();
-        load(&path, &()).map_err(|e| {
+        load(&path, &LoadOptions::default(), &()).map(|loaded| loaded.model).map_err(|e| {
             assert_eq!(e.exit_code(), 1);
             e.to_string().replace(&folder.path().display().to_string(), "")
         })
@@ -106,11 +106,11 @@ mod tests {
     #[test]
     fn missing_files_and_folders_are_named() {
         let folder = temp_dir::TempDir::new().unwrap();
-        let missing = load(&folder.path().join("no.ply"), &()).unwrap_err();
+        let missing = load(&folder.path().join("no.ply"), &LoadOptions::default(), &()).unwrap_err();
         assert_eq!(missing.exit_code(), 1);
         let expected = format!("{}/no.ply: cannot read: No such file", folder.path().display());
         assert!(missing.to_string().starts_with(&expected), "{missing}");
-        let is_folder = load(folder.path(), &()).unwrap_err().to_string();
+        let is_folder = load(folder.path(), &LoadOptions::default(), &()).unwrap_err().to_string();
         assert!(is_folder.ends_with("not a file; expected a PLY or OBJ file"), "{is_folder}");
     }
 }

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, fmt};
 use serde::Serialize;
 
 use super::{FrameTimes, Grid};
-use crate::scene::Camera;
+use crate::{notes::Note, scene::Camera};
 
 /// Everything that is needed to understand, repeat and compare a measurement.
 #[derive(Clone, Debug, Serialize)]
@@ -90,6 +90,8 @@ pub struct InputReport {
     pub splats: usize,
     /// Splats that can't, and were left out.
     pub dropped: usize,
+    /// What of it is not drawn as its file says it.
+    pub notes: Vec<Note>,
     /// The input and what was done with it, in words.
     pub summary: String,
 }

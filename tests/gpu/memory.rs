@@ -19,7 +19,7 @@ use surfel::{
     Headless, HeadlessOptions, Validation,
     frame::{FrameSlot, HeadlessTarget},
     graph::MemoryClass,
-    load::{Model, builtin, load},
+    load::{LoadOptions, Model, builtin, load},
     renderer::Readbacks,
     save,
     scene::{Colors, Object, Rasterizer, Scene, Settings, Shapes, Splats},
@@ -88,7 +88,7 @@ fn write(path: &Path, colors: bool, ellipses: bool) {
 }
 
 fn read(path: &Path) -> (Splats, bool) {
-    match load(path, &()).unwrap() {
+    match load(path, &LoadOptions::default(), &()).unwrap().model {
         Model::Splats { splats, closed } => (splats, closed),
         _ => panic!("no splats"),
     }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3, Vec3Swizzles as _};
 use surfel::{
-    load::{Model, builtin, load},
+    load::{LoadOptions, Model, builtin, load},
     math::{random::SplitMix, srgb::linear_from_srgb},
     save::{self, WrittenSplats},
     scene::{Colors, Shapes, Splats},
@@ -17,7 +17,7 @@ fn round_trip(splats: &Splats, closed: bool) -> (Splats, WrittenSplats, String) 
     assert_eq!(written.bytes, bytes.len() as u64);
     let text = String::from_utf8_lossy(&bytes);
     let header = text.split("end_header").next().unwrap().to_owned();
-    match load(&path, &()).unwrap() {
+    match load(&path, &LoadOptions::default(), &()).unwrap().model {
         Model::Splats { splats, closed: read } => {
             assert_eq!(read, closed);
             (splats, written, header)

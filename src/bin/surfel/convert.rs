@@ -6,7 +6,7 @@ use clap::Args;
 use surfel::{
     Result,
     compose::splats_kind,
-    load::{Model, load},
+    load::{LoadOptions, Model, load},
     save,
     scene::Object,
 };
@@ -80,7 +80,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
 
 /// Splats spread evenly over the mesh in a file, and what was done in words.
 fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
-    let mesh = match load(path, bars)? {
+    let mesh = match load(path, &LoadOptions::default(), bars)?.model {
         Model::Mesh(mesh) => mesh,
         other => return Err(not_a_mesh(path, &other)),
     };

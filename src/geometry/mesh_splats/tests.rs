@@ -16,7 +16,7 @@ fn real_mesh(name: &str) -> Option<Mesh> {
         let _ = writeln!(stderr, "SKIPPED: {} is not there (set SURFEL_DATA to its folder)", path.display());
         return None;
     }
-    match crate::load::load(&path, &()).unwrap() {
+    match crate::load::load(&path, &crate::load::LoadOptions::default(), &()).unwrap().model {
         crate::load::Model::Mesh(mesh) => Some(mesh),
         crate::load::Model::Splats { .. } | crate::load::Model::Points(_) => panic!("{name} is a mesh"),
     }

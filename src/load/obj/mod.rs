@@ -5,26 +5,22 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-use std::{
-    io::{self, BufRead},
-    path::Path,
-};
+use std::io::{self, BufRead};
 
 use glam::{DVec3, Vec3};
 
-use super::{Model, file_name};
+use super::{Input, Loaded, Model};
 use crate::{
     error::{Error, Result},
     math::srgb::linear_from_srgb,
-    progress::Progress,
+    notes::Deed,
     scene::{Colors, Mesh, Points},
 };
 use rows::Rows;
 
-pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Result<Model> {
-    let task = format!("read {}", file_name(path));
-    let total = bytes.len() as u64;
-    let mut rows = Rows::new(bytes, |done| progress.step(&task, done, total));
+pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
+    let Input { path, bytes, .. } = *input;
+    let mut rows = Rows::new(bytes, |done| input.step(done));
     let options =
         tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, single_index: false };
     let loaded = tobj::load_obj_buf(&mut rows, &options, |_| Err(tobj::LoadError::OpenFileFailed));
@@ -37,24 +33,25 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
         if rows.vertices() == 0 || rows.has_faces() {
             return Err(Error::input(path, "", "neither a face nor a point; expected a mesh or points"));
         }
-        return points(bytes).map(Model::Points).map_err(|e| Error::file(path, "read", e));
+        let points = points(bytes).map(Model::Points);
+        return points.map(|model| Loaded::new(model, "OBJ")).map_err(|e| Error::file(path, "read", e));
     };
     let mesh = model.mesh;
     let left_out = rows.vertices() - (mesh.positions.len() / 3) as u64;
-    if left_out > 0 {
-        progress.note(&format!("{}: {left_out} vertex(es) without a face left out", path.display()));
-    }
     let colors = if rows.has_colors() {
         Colors::Each(mesh.vertex_color.chunks_exact(3).map(linear_color).collect())
     } else {
         Colors::unknown()
     };
-    Ok(Model::Mesh(Mesh {
+    let mesh = Mesh {
         normals: rows.all_corners_have_normals().then(|| vertex_normals(&mesh)),
         positions: mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect(),
         colors,
         triangles: mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
-    }))
+    };
+    let mut loaded = Loaded::new(Model::Mesh(mesh), "OBJ");
+    loaded.note(Deed::Dropped, left_out, "vertices without a face");
+    Ok(loaded)
 }
 
 /// The vertices of a file without faces. Normals are theirs where there are as many.

@@ -17,7 +17,7 @@ pub(super) struct Fault {
 const PROGRESS_LINES: u64 = 1 << 16;
 
 /// Gives the kept rows as text, one row a `fill_buf`; ends at the first fault.
-pub(super) struct Rows<'a, P: Fn(u64)> {
+pub(super) struct Rows<'a, P: Fn(usize)> {
     bytes: &'a [u8],
     rest: &'a [u8],
     on_progress: P,
@@ -34,7 +34,7 @@ pub(super) struct Rows<'a, P: Fn(u64)> {
     fault: Option<Fault>,
 }
 
-impl<'a, P: Fn(u64)> Rows<'a, P> {
+impl<'a, P: Fn(usize)> Rows<'a, P> {
     pub(super) fn new(bytes: &'a [u8], on_progress: P) -> Self {
         Self {
             bytes,
@@ -91,7 +91,7 @@ impl<'a, P: Fn(u64)> Rows<'a, P> {
             self.rest = self.rest.get(end + 1..).unwrap_or_default();
             self.line += 1;
             if self.line.is_multiple_of(PROGRESS_LINES) || self.rest.is_empty() {
-                (self.on_progress)((self.bytes.len() - self.rest.len()) as u64);
+                (self.on_progress)(self.bytes.len() - self.rest.len());
             }
             if let Err(problem) = self.keep(line) {
                 self.row.clear();
@@ -216,7 +216,7 @@ fn shown(word: &str) -> String {
     word.chars().take(40).collect::<String>().escape_debug().to_string()
 }
 
-impl<P: Fn(u64)> Read for Rows<'_, P> {
+impl<P: Fn(usize)> Read for Rows<'_, P> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let n = self.fill_buf()?.read(out)?;
         self.consume(n);
@@ -224,7 +224,7 @@ impl<P: Fn(u64)> Read for Rows<'_, P> {
     }
 }
 
-impl<P: Fn(u64)> BufRead for Rows<'_, P> {
+impl<P: Fn(usize)> BufRead for Rows<'_, P> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         if self.used == self.row.len() {
             self.advance();

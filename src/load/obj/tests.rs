@@ -1,11 +1,14 @@
-use std::path::Path;
-
 use proptest::prelude::*;
 
 use super::*;
+use crate::load::input::of_bytes;
+
+fn parse(bytes: &[u8]) -> Result<Model> {
+    of_bytes("a.obj", bytes, super::parse).map(|loaded| loaded.model)
+}
 
 fn mesh(text: &str) -> Mesh {
-    match parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap() {
+    match parse(text.as_bytes()).unwrap() {
         Model::Mesh(mesh) => mesh,
         _ => panic!("no mesh"),
     }
@@ -13,7 +16,7 @@ fn mesh(text: &str) -> Mesh {
 
 #[track_caller]
 fn refuses(text: &str, expected: &str) {
-    let error = parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap_err();
+    let error = parse(text.as_bytes()).unwrap_err();
     assert_eq!((error.to_string(), error.exit_code()), (format!("a.obj: {expected}"), 1));
 }
 
@@ -80,7 +83,7 @@ fn faults_name_their_line() {
 
 #[test]
 fn a_file_without_faces_is_points() {
-    let points = |text: &str| match parse(Path::new("a.obj"), text.as_bytes(), &()).unwrap() {
+    let points = |text: &str| match parse(text.as_bytes()).unwrap() {
         Model::Points(points) => points,
         _ => panic!("no points"),
     };
@@ -119,7 +122,7 @@ proptest! {
                 _ => bytes[at] = b"0123456789-/. \n"[usize::from(value % 15)],
             }
         }
-        match parse(Path::new("a.obj"), &bytes, &()) {
+        match parse(&bytes) {
             Ok(Model::Mesh(mesh)) => {
                 let count = mesh.positions.len();
                 prop_assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < count));

@@ -14,14 +14,13 @@ mod tests;
 mod vertices;
 mod viewpoint;
 
-use std::path::Path;
-
 use glam::DVec3;
+use ply_rs_bw::ply::Encoding;
 
-use super::{Model, file_name};
+use super::{Input, Loaded, Model};
 use crate::{
-    error::{Error, Result},
-    progress::Progress,
+    error::Result,
+    notes::Deed,
     scene::{Colors, Mesh, Points, Shapes, Splats},
 };
 use body::Body;
@@ -29,10 +28,11 @@ use faces::Triangles;
 use vertices::{VertexLayout, Vertices};
 use viewpoint::Viewpoint;
 
-pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Result<Model> {
+pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
+    let Input { path, bytes, .. } = *input;
     let header = header::parse(path, bytes)?;
     let Some(vertex_def) = header.elements.get("vertex") else {
-        return Err(Error::input(path, "header", "no element 'vertex'"));
+        return Err(input.fault("header", "no element 'vertex'"));
     };
     let layout = VertexLayout::of(path, vertex_def)?;
     let vertex_count = vertex_def.count;
@@ -43,15 +43,12 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
     let mut vertices = Vertices::new(layout);
     let mut viewpoint = None;
     let mut body = Body::new(path, &header, bytes);
-    let task = format!("read {}", file_name(path));
     for def in header.elements.values() {
-        let mut on_progress = |body: &Body<'_>| {
-            let (done, total) = (body.bytes_read(), bytes.len());
-            progress.step(&task, done as u64, total as u64);
-        };
+        let mut on_progress = |body: &Body<'_>| input.step(body.bytes_read());
         match (def.name.as_str(), faces::index_list(path, def)?) {
             ("vertex", _) => {
                 body.check_size(def)?;
+                input.options.limits.check_points(input, def.count as u64)?;
                 vertices.reserve(def.count);
                 body.read(def, &mut on_progress, |_, record| {
                     vertices.push(record);
@@ -73,18 +70,26 @@ pub(super) fn parse(path: &Path, bytes: &[u8], progress: &dyn Progress) -> Resul
             _ => body.read(def, &mut on_progress, |_, _: skip::Skipped| Ok(()))?,
         }
     }
-    progress.step(&task, bytes.len() as u64, bytes.len() as u64);
-    if triangles.small_polygons > 0 {
-        let count = triangles.small_polygons;
-        progress.note(&format!("{}: {count} face(s) with fewer than 3 corners left out", path.display()));
+    input.step(bytes.len());
+    let (small, declared) = (triangles.small_polygons as u64, triangles.declared);
+    let model = match declared {
+        true => Model::Mesh(mesh(vertices, triangles.triangles)),
+        false => splats_or_points(vertices, header.closed, viewpoint),
+    };
+    let mut loaded = Loaded::new(model, format_words(header.encoding));
+    loaded.note(Deed::Dropped, small, "faces with fewer than 3 corners");
+    if layout.clip_curves && !declared {
+        loaded.note(Deed::Ignored, vertex_count as u64, "clip curves, which are not supported yet,");
     }
-    if triangles.declared {
-        return Ok(Model::Mesh(mesh(vertices, triangles.triangles)));
+    Ok(loaded)
+}
+
+fn format_words(encoding: Encoding) -> &'static str {
+    match encoding {
+        Encoding::Ascii => "PLY, ascii",
+        Encoding::BinaryLittleEndian => "PLY, binary, little endian",
+        Encoding::BinaryBigEndian => "PLY, binary, big endian",
     }
-    if layout.clip_curves {
-        progress.note(&format!("{}: clip curves are not supported yet and are left out", path.display()));
-    }
-    Ok(splats_or_points(vertices, header.closed, viewpoint))
 }
 
 fn mesh(vertices: Vertices, triangles: Vec<[u32; 3]>) -> Mesh {

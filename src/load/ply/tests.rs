@@ -2,15 +2,13 @@ mod faults;
 mod meshes;
 mod splats;
 
-use std::path::Path;
-
 use crate::{
-    load::Model,
+    load::{Model, input::of_bytes},
     scene::{Mesh, Splats},
 };
 
 fn parse(bytes: &[u8]) -> crate::error::Result<Model> {
-    super::parse(Path::new("a.ply"), bytes, &())
+    of_bytes("a.ply", bytes, super::parse).map(|loaded| loaded.model)
 }
 
 fn splats(bytes: &[u8]) -> Splats {

@@ -3,7 +3,7 @@
 use std::fs;
 
 use surfel::{
-    load::{Model, load},
+    load::{LoadOptions, Model, load},
     save,
     scene::{Object, Shapes},
 };
@@ -26,7 +26,9 @@ pub fn written_and_read(case: &Case) -> Case {
     let path = folder.path().join("scene.ply");
     save::splats(&path, &object.splats, object.closed, &()).unwrap();
     assert!(fs::metadata(&path).unwrap().len() > 100);
-    let Model::Splats { splats, closed } = load(&path, &()).unwrap() else { panic!("a mesh was read") };
+    let Model::Splats { splats, closed } = load(&path, &LoadOptions::default(), &()).unwrap().model else {
+        panic!("a mesh was read")
+    };
     assert_eq!((splats.len(), closed), (object.splats.len(), object.closed));
     let mut read = case.clone();
     read.hard.scene.objects = vec![Object { name: object.name.clone(), splats, closed }];

@@ -4,7 +4,7 @@ use surfel::{
     Error, Result,
     compose::finish,
     geometry::check_memory_for,
-    load::{Model, builtin, load},
+    load::{LoadOptions, Model, builtin, load},
     report::InputReport,
     scene::{Ball, Mesh, Object, Scene},
 };
@@ -27,7 +27,7 @@ impl Source {
     /// As [`load`]; a file of splats, which can't be resampled.
     pub fn open(context: &BenchContext<'_>) -> Result<Self> {
         let Some(path) = &context.arguments.model else { return Ok(Self::BuiltIn) };
-        match load(path, &context.bars)? {
+        match load(path, &LoadOptions::default(), &context.bars)?.model {
             Model::Mesh(mesh) => Ok(Self::Mesh(mesh, path.clone())),
             other => Err(not_a_mesh(path, &other)),
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use surfel::{
     Error, Result,
     geometry::{Hybrid, HybridOptions, hybrid},
-    load::{Model, builtin::relief_mesh, file_name, load},
+    load::{LoadOptions, Model, builtin::relief_mesh, file_name, load},
     prepare::PreparedScene,
     scene::{Accumulate, Camera, Kernel, Mesh, MeshObject, Object, Scene, Settings, Transition},
 };
@@ -63,9 +63,9 @@ fn model(context: &FigureContext<'_>) -> Result<(Mesh, String)> {
     let Some(path) = context.model else {
         return Ok((relief_mesh(FEW_TRIANGLES), "The built-in relief".to_owned()));
     };
-    let model = load(path, context.bars);
+    let model = load(path, &LoadOptions::default(), context.bars);
     context.bars.clear();
-    match model? {
+    match model?.model {
         Model::Mesh(mesh) => Ok((mesh, file_name(path))),
         other => {
             let contents = other.contents();

@@ -51,6 +51,7 @@ pub fn scene(splats: u64, alpha: f32) -> Result<(Scene, InputReport)> {
     let drawn = scene.splat_count();
     let name = format!("{COUNT} balls");
     let input = InputReport {
+        notes: Vec::new(),
         summary: format!("{name}: {drawn} disks"),
         name,
         vertices: None,

@@ -1,0 +1,55 @@
+//! How files are read: what they may hold at most, and what the user says of them.
+
+use super::Input;
+use crate::error::Result;
+
+/// How files are read.
+#[derive(Clone, Debug, Default)]
+pub struct LoadOptions {
+    /// What a file may hold.
+    pub limits: Limits,
+    /// Files that a file names may lie outside of its folder.
+    pub allow_outside: bool,
+}
+
+/// What a file may hold at most: more is refused before memory is taken for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Points or vertices; their numbers are kept in 32 bits.
+    pub points: u64,
+    /// Triangles.
+    pub faces: u64,
+    /// Bytes of a line of text.
+    pub line_bytes: usize,
+    /// Bytes of a header of text.
+    pub header_bytes: usize,
+    /// Items of one list, such as the corners of a polygon.
+    pub list_items: usize,
+}
+
+impl Limits {
+    /// The limits unless told otherwise.
+    pub const DEFAULT: Self = Self {
+        points: u32::MAX as u64,
+        faces: u32::MAX as u64,
+        line_bytes: 1 << 20,
+        header_bytes: 1 << 20,
+        list_items: 1 << 20,
+    };
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+impl Limits {
+    /// Refuses a number of points.
+    pub(super) fn check_points(&self, input: &Input<'_>, points: u64) -> Result<()> {
+        match points <= self.points {
+            true => Ok(()),
+            false => Err(input.fault("", format!("{points} points; expected at most {}", self.points))),
+        }
+    }
+}
