@@ -7,6 +7,7 @@ use surfel::report::Grid;
 use super::{
     draw::draw,
     errors::Errors,
+    fixed::one_in_turn,
     rows::{self, Row},
 };
 use crate::common::shared;
@@ -22,7 +23,7 @@ struct Line {
 }
 
 /// An environment variable as a number.
-pub(super) fn asked<T: FromStr>(name: &str, usual: T) -> T {
+fn asked<T: FromStr>(name: &str, usual: T) -> T {
     env::var(name).ok().map_or(usual, |value| value.parse().ok().expect(name))
 }
 
@@ -31,28 +32,33 @@ fn page() -> std::path::PathBuf {
 }
 
 /// `SURFEL_SCENES`: of each row (200). `SURFEL_FIRST`: the number of the first (0). `SURFEL_ROWS`: only rows with this in their name.
-/// `SURFEL_UPDATE_TABLES=1` writes the tables anew. A scene alone is printed.
+/// `SURFEL_METHODS=1`: each scene by one method, in turn, as `fixed.rs` does it. `SURFEL_UPDATE_TABLES=1` writes the tables anew. A
+/// scene alone is printed.
 #[test]
 #[ignore = "minutes: as many scenes as SURFEL_SCENES says, by every method"]
 fn every_row_by_every_method() {
     let mut headless = shared();
     let (scenes, first) = (asked("SURFEL_SCENES", 200_u64), asked("SURFEL_FIRST", 0_u64));
+    let one_each = asked("SURFEL_METHODS", 0) == 1;
     let only = env::var("SURFEL_ROWS").unwrap_or_default();
     let begun = Instant::now();
     let (mut by_row, mut by_method) = (Vec::new(), Vec::<Line>::new());
-    for row in rows::all().iter().filter(|row| row.name.contains(&only)) {
+    for (place, row) in rows::all().iter().enumerate().filter(|(_, row)| row.name.contains(&only)) {
         let mut line = Line { label: row.name, scenes: 0, errors: Errors::default() };
         let mut words = 0;
         for number in first..first + scenes {
             line.scenes += 1;
-            let case = row.case(number, false);
+            let case = row.case(number, one_each);
             if scenes == 1 {
                 println!(
                     "{:?}\n{:?}\n{:#?}",
                     case.hard.camera, case.hard.settings, case.hard.scene.objects[0]
                 );
             }
-            let drawn = draw(&mut headless, row, &case, |methods| methods);
+            let drawn = draw(&mut headless, row, &case, |methods| match one_each {
+                true => one_in_turn(place, number, methods),
+                false => methods,
+            });
             for drawn in &drawn {
                 line.errors = line.errors.and(drawn.errors);
                 of_method(&mut by_method, drawn.name(), drawn.errors);
