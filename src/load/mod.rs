@@ -7,6 +7,8 @@ pub mod builtin;
 #[cfg(test)]
 mod hostile;
 mod input;
+#[cfg(feature = "las")]
+mod las;
 mod lines;
 mod loaded;
 mod obj;
@@ -55,6 +57,8 @@ pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Resu
         sniff::Format::Stl => stl::parse(&input),
         sniff::Format::Off => off::parse(&input),
         sniff::Format::Pcd => pcd::parse(&input),
+        #[cfg(feature = "las")]
+        sniff::Format::Las => las::parse(&input),
         #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las")))]
         other => {
             let name = other.name();
