@@ -4,6 +4,8 @@
 //! those of a scene file, which lie in its folder or below.
 
 pub mod builtin;
+#[cfg(feature = "gltf")]
+mod gltf;
 #[cfg(test)]
 mod hostile;
 mod input;
@@ -57,6 +59,8 @@ pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Resu
         sniff::Format::Stl => stl::parse(&input),
         sniff::Format::Off => off::parse(&input),
         sniff::Format::Pcd => pcd::parse(&input),
+        #[cfg(feature = "gltf")]
+        sniff::Format::Gltf => gltf::parse(&input),
         #[cfg(feature = "las")]
         sniff::Format::Las => las::parse(&input),
         #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las")))]
