@@ -4,6 +4,8 @@
 //! those of a scene file, which lie in its folder or below.
 
 pub mod builtin;
+#[cfg(feature = "e57")]
+mod e57;
 #[cfg(feature = "gltf")]
 mod gltf;
 #[cfg(test)]
@@ -24,6 +26,8 @@ mod shade;
 mod sniff;
 mod source;
 mod stl;
+#[cfg(test)]
+mod tests;
 mod text;
 
 use std::path::Path;
@@ -63,6 +67,8 @@ pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Resu
         sniff::Format::Gltf => gltf::parse(&input),
         #[cfg(feature = "las")]
         sniff::Format::Las => las::parse(&input),
+        #[cfg(feature = "e57")]
+        sniff::Format::E57 => e57::parse(&input),
         #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las")))]
         other => {
             let name = other.name();
