@@ -6,8 +6,8 @@ use crate::{error::Result, math::random::SplitMix, scene::Colors};
 /// Bytes that mean something in formats of text.
 const WORDS: &[u8] = b"0123456789-+.eE,;:# \n\r\t\"{}[]/vfnxyzNF";
 
-/// Reads each file as it is, cut at every byte, and `cases` changed ones. None may panic, every error is one line, and
-/// what is read holds together.
+/// Reads each file as it is, cut at every byte, and `cases` changed ones. None may panic, every error is one line,
+/// and what is read holds together.
 pub(super) fn attack(files: &[Vec<u8>], cases: usize, parse: impl Fn(&Input<'_>) -> Result<Loaded>) {
     let try_one = |bytes: &[u8]| match of_bytes("a", bytes, &parse) {
         Ok(loaded) => check(&loaded),

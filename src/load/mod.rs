@@ -43,8 +43,8 @@ pub use scene_file::{
 };
 pub use text::{Column, Columns};
 
-/// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, CSV), PCD, OFF, STL,
-/// and with their Cargo features LAS, LAZ and COPC, E57, glTF and GLB; gzip or zstd around any of them.
+/// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, CSV), PCD, OFF,
+/// STL, and with their Cargo features LAS, LAZ and COPC, E57, glTF and GLB; gzip or zstd around any of them.
 ///
 /// Elements that can't be drawn (not finite, zero size) stay in: the scene and geometry modules drop and count them.
 ///

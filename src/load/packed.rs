@@ -1,6 +1,7 @@
 //! Files that are compressed as a whole: gzip and zstd, told by their first bytes.
 //!
-//! What they expand to is limited by their size ([`Limits::expanded_bytes`]), so that a small file can't fill the memory.
+//! What they expand to is limited by their size ([`Limits::expanded_bytes`]), so that a small file can't fill the
+//! memory.
 
 use std::{
     io::Read,

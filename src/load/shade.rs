@@ -9,8 +9,7 @@ pub(super) fn from_srgb(colors: &[[f32; 3]], scale: f32) -> (Vec<[f32; 4]>, u64)
     let table = Table::new();
     let linear = |value: f32| match scale == 255.0 && value.fract() == 0.0 {
         true => table.byte(value),
-        // Also NaN becomes 0.
-        false => linear_from_srgb((value / scale).max(0.0).min(1.0)),
+        false => linear_from_srgb(unit(value / scale)),
     };
     let is_outside = |value: &f32| !(0.0..=scale * 1.001).contains(value);
     let outside = colors.par_iter().filter(|color| color.iter().any(is_outside)).count();
@@ -25,10 +24,15 @@ pub(super) fn gray(intensities: &[f32]) -> Vec<[f32; 4]> {
         finite.map(|v| (v, v)).reduce(|| (0.0, 0.0), |a: (f32, f32), b| (a.0.min(b.0), a.1.max(b.1)));
     let range = if largest > least { largest - least } else { 1.0 };
     let gray = |value: &f32| {
-        let gray = linear_from_srgb(((value - least) / range).max(0.0).min(1.0));
+        let gray = linear_from_srgb(unit((value - least) / range));
         [gray, gray, gray, 1.0]
     };
     intensities.par_iter().map(gray).collect()
+}
+
+/// The nearest value from 0 to 1; what is no number is 0.
+pub(super) fn unit(value: f32) -> f32 {
+    if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) }
 }
 
 /// The linear values of all bytes.

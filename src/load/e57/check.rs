@@ -26,8 +26,8 @@ pub(super) fn header(input: &Input<'_>) -> Result<()> {
     }
 }
 
-/// Refuses more points than the file has room for. Fields that have but one value take no bytes, so that any number of
-/// points would fit if all were so.
+/// Refuses more points than the file has room for. Fields that have but one value take no bytes, so that any number
+/// of points would fit if all were so.
 pub(super) fn sizes(input: &Input<'_>, clouds: &[PointCloud]) -> Result<()> {
     let (mut points, mut bits) = (0_u64, 0_u64);
     for (i, cloud) in clouds.iter().enumerate() {

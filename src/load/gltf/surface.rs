@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    load::{Input, Loaded, Model},
+    load::{Input, Loaded, Model, shade},
     notes::Deed,
     scene::{Colors, Mesh, Points},
 };
@@ -119,7 +119,7 @@ impl<'a> Surface<'a> {
             let product: [f64; 4] = std::array::from_fn(|c| {
                 own.get(c).copied().unwrap_or(1.0) * base.color.get(c).copied().unwrap_or(1.0)
             });
-            let mut color = product.map(|value| value.max(0.0).min(1.0) as f32);
+            let mut color = product.map(|value| shade::unit(value as f32));
             self.clamped += u64::from(product.iter().any(|value| !(0.0..=1.0).contains(value)));
             if base.is_opaque {
                 color[3] = 1.0;

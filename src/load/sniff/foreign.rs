@@ -1,4 +1,5 @@
-//! Files that are no models of a known format but that people have, by their first bytes, so that messages name them.
+//! Files that are no models of a known format but that people have, by their first bytes, so that messages name
+//! them.
 
 /// First bytes, and what they are.
 const BY_FIRST_BYTES: [(&[u8], &str); 22] = [

@@ -54,7 +54,7 @@ const PROBE_BYTES: usize = 4096;
 pub(super) fn expected() -> &'static str {
     match (cfg!(feature = "las"), cfg!(feature = "e57"), cfg!(feature = "gltf")) {
         (true, true, true) => {
-            "a PLY, OBJ, STL, OFF, glTF, PCD, LAS, LAZ or E57 file or rows of numbers, gzip or zstd around it or not"
+            "a PLY, OBJ, STL, OFF, glTF, PCD, LAS, LAZ or E57 file or rows of numbers, also in gzip or zstd"
         }
         (true, ..) => "a PLY, OBJ, STL, OFF, PCD, LAS or LAZ file or rows of numbers",
         _ => "a PLY, OBJ, STL, OFF or PCD file or rows of numbers",

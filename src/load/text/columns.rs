@@ -119,8 +119,8 @@ impl Columns {
 impl FromStr for Columns {
     type Err = Error;
 
-    /// Names between commas: `x`, `y`, `z`, `i` (intensity), `r`, `g`, `b`, `nx`, `ny`, `nz`, `radius`, and `-` for a
-    /// column that is not read.
+    /// Names between commas: `x`, `y`, `z`, `i` (intensity), `r`, `g`, `b`, `nx`, `ny`, `nz`, `radius`, and `-` for
+    /// a column that is not read.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] for other names, one that is there twice, and where x, y or z is missing.

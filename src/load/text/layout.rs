@@ -42,9 +42,9 @@ pub(super) type Fault = (usize, String);
 pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
     let line_end = if input.bytes.contains(&b'\n') { b'\n' } else { b'\r' };
     let (mut comment, mut header, mut count) = (None, None, None);
-    let mut lines =
+    let lines =
         Lines { bytes: input.bytes, at: input.bytes.len() - without_mark(input.bytes).len(), line_end };
-    while let Some((at, line)) = lines.next() {
+    for (at, line) in lines {
         if line.len() > input.options.limits.line_bytes {
             return Err((at, too_long(input.options.limits.line_bytes)));
         }

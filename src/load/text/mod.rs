@@ -1,4 +1,5 @@
-//! Points as rows of numbers: XYZ, PTS, CSV and whatever else people call it. [`layout`] says which columns are what.
+//! Points as rows of numbers: XYZ, PTS, CSV and whatever else people call it. [`layout`] says which columns are
+//! what.
 
 mod columns;
 mod fields;
