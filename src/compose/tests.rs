@@ -189,7 +189,7 @@ fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
             "flat.obj: no area to take samples of in 1 triangle",
         ),
         (of_file(&folder, "none.ply"), "none.ply: cannot read: No such file"),
-        (of_file(&folder, "scene.toml"), "scene.toml: this is a scene file; expected a PLY or OBJ file"),
+        (of_file(&folder, "scene.toml"), "scene.toml: this is a scene file; expected a PLY, OBJ, STL"),
     ];
     fs::write(folder.path().join("scene.toml"), "[[object]]\n").unwrap();
     for (object, expected) in cases {

@@ -1,20 +1,19 @@
 //! The bytes of a file, and what its reader needs beside them.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
-#[cfg(test)]
-use super::Loaded;
 use super::{LoadOptions, file_name};
-use crate::{
-    error::{Error, Result},
-    progress::Progress,
-};
+use crate::{error::Error, progress::Progress};
+#[cfg(test)]
+use crate::{error::Result, load::Loaded};
 
 /// A file in memory, on its way through a reader.
 #[derive(Clone, Copy)]
 pub(super) struct Input<'a> {
     /// Its name in messages.
     pub path: &'a Path,
+    /// Where files are that it may name; `None` for standard input.
+    pub folder: Option<&'a Path>,
     /// The whole of it.
     pub bytes: &'a [u8],
     /// How it is to be read.
@@ -29,20 +28,18 @@ impl Input<'_> {
         Error::input(self.path, place, problem)
     }
 
+    /// The line that has this byte, as a place in words.
+    pub fn line(&self, at: usize) -> String {
+        let end = if self.bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+        let before = self.bytes.get(..at).unwrap_or(self.bytes);
+        format!("line {}", before.iter().filter(|b| **b == end).count() + 1)
+    }
+
     /// Tells that `done` bytes are read.
     pub fn step(&self, done: usize) {
         let task = format!("read {}", file_name(self.path));
         self.progress.step(&task, done as u64, self.bytes.len() as u64);
     }
-}
-
-/// The whole file. Only regular files: a device or a pipe may never end, and counts are checked against the size.
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>> {
-    let metadata = fs::metadata(path).map_err(|e| Error::file(path, "read", e))?;
-    if !metadata.is_file() {
-        return Err(Error::input(path, "", "not a file; expected a PLY or OBJ file"));
-    }
-    fs::read(path).map_err(|e| Error::file(path, "read", e))
 }
 
 /// Bytes that were never in a file, for the tests of readers.
@@ -52,5 +49,11 @@ pub(super) fn of_bytes(
     bytes: &[u8],
     parse: impl Fn(&Input<'_>) -> Result<Loaded>,
 ) -> Result<Loaded> {
-    parse(&Input { path: Path::new(name), bytes, options: &LoadOptions::default(), progress: &() })
+    parse(&Input {
+        path: Path::new(name),
+        folder: None,
+        bytes,
+        options: &LoadOptions::default(),
+        progress: &(),
+    })
 }

@@ -4,18 +4,36 @@
 //! those of a scene file, which lie in its folder or below.
 
 pub mod builtin;
+#[cfg(feature = "e57")]
+mod e57;
+#[cfg(feature = "gltf")]
+mod gltf;
+#[cfg(test)]
+mod hostile;
 mod input;
+#[cfg(feature = "las")]
+mod las;
+mod lines;
 mod loaded;
 mod obj;
+mod off;
 mod options;
+mod packed;
+mod pcd;
 mod ply;
 mod scene_file;
+mod shade;
 mod sniff;
+mod source;
+mod stl;
+#[cfg(test)]
+mod tests;
+mod text;
 
 use std::path::Path;
 
 use crate::{error::Result, progress::Progress};
-use input::{Input, read_file};
+use input::Input;
 
 pub use loaded::{Loaded, Model};
 pub use options::{Limits, LoadOptions};
@@ -23,8 +41,10 @@ pub use scene_file::{
     BuiltIn, MOST_BUILT_IN_SPLATS, MOST_OBJECTS, MOST_SCENE_FILE_BYTES, ObjectDescription, Polygons,
     Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
 };
+pub use text::{Column, Columns};
 
-/// Reads a PLY (ascii or binary) or OBJ file whole.
+/// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, CSV), PCD, OFF,
+/// STL, and with their Cargo features LAS, LAZ and COPC, E57, glTF and GLB; gzip or zstd around any of them.
 ///
 /// Elements that can't be drawn (not finite, zero size) stay in: the scene and geometry modules drop and count them.
 ///
@@ -32,12 +52,34 @@ pub use scene_file::{
 /// [`crate::ErrorKind::File`] if the file can't be read; [`crate::ErrorKind::Input`], naming element and number or the line, if
 /// its content is not what its format demands, or is of a format that surfel does not know.
 pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Loaded> {
-    let bytes = read_file(path)?;
-    let input = Input { path, bytes: &bytes, options, progress };
-    match sniff::format(path, &bytes)? {
+    let source = source::read(path, &options.limits)?;
+    let folder = source.folder.as_deref();
+    let input = Input { path: &source.path, folder, bytes: &source.bytes, options, progress };
+    let format = sniff::format(&source.path, &source.name, &source.bytes)?;
+    let mut loaded = match format {
         sniff::Format::Ply => ply::parse(&input),
         sniff::Format::Obj => obj::parse(&input),
+        sniff::Format::Rows => text::parse(&input),
+        sniff::Format::Stl => stl::parse(&input),
+        sniff::Format::Off => off::parse(&input),
+        sniff::Format::Pcd => pcd::parse(&input),
+        #[cfg(feature = "gltf")]
+        sniff::Format::Gltf => gltf::parse(&input),
+        #[cfg(feature = "las")]
+        sniff::Format::Las => las::parse(&input),
+        #[cfg(feature = "e57")]
+        sniff::Format::E57 => e57::parse(&input),
+        #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las")))]
+        other => {
+            let name = other.name();
+            Err(input
+                .fault("", format!("a {name} file, which needs the Cargo feature `{}`", name.to_lowercase())))
+        }
+    }?;
+    if let Some(packing) = source.packing {
+        loaded.format = format!("{} in {}", loaded.format, packing.name());
     }
+    Ok(loaded)
 }
 
 /// The file's own name, without its folder.

@@ -1,6 +1,6 @@
 //! How files are read: what they may hold at most, and what the user says of them.
 
-use super::Input;
+use super::{Columns, Input};
 use crate::error::Result;
 
 /// How files are read.
@@ -10,6 +10,8 @@ pub struct LoadOptions {
     pub limits: Limits,
     /// Files that a file names may lie outside of its folder.
     pub allow_outside: bool,
+    /// What the columns of rows of numbers are; `None`: as the file's header or their number tells it.
+    pub columns: Option<Columns>,
 }
 
 /// What a file may hold at most: more is refused before memory is taken for it.
@@ -25,6 +27,14 @@ pub struct Limits {
     pub header_bytes: usize,
     /// Items of one list, such as the corners of a polygon.
     pub list_items: usize,
+    /// Bytes of standard input, of which no size is known beforehand.
+    pub piped_bytes: u64,
+    /// Bytes to which any compressed file may expand, however small it is.
+    pub expanded_bytes: u64,
+    /// Bytes to which each byte of a larger compressed file may expand beyond [`Limits::expanded_bytes`].
+    pub expansion: u64,
+    /// As [`Limits::expansion`], for the records of LAZ files, whose flat terrains compress better than others.
+    pub laz_expansion: u64,
 }
 
 impl Limits {
@@ -35,6 +45,10 @@ impl Limits {
         line_bytes: 1 << 20,
         header_bytes: 1 << 20,
         list_items: 1 << 20,
+        piped_bytes: 16 << 30,
+        expanded_bytes: 32 << 20,
+        expansion: 12,
+        laz_expansion: 32,
     };
 }
 
@@ -51,5 +65,10 @@ impl Limits {
             true => Ok(()),
             false => Err(input.fault("", format!("{points} points; expected at most {}", self.points))),
         }
+    }
+
+    /// Bytes to which this many compressed ones may expand, each to `expansion`.
+    pub(super) fn expanded(&self, compressed: usize, expansion: u64) -> u64 {
+        expansion.saturating_mul(compressed as u64).saturating_add(self.expanded_bytes)
     }
 }

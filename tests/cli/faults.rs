@@ -43,7 +43,7 @@ fn an_empty_file() {
         &folder,
         &["render", "empty.ply"],
         1,
-        &["empty.ply: the file is empty; expected a PLY or OBJ file"],
+        &["empty.ply: the file is empty; expected a PLY, OBJ, STL"],
     );
 }
 

@@ -1,0 +1,121 @@
+//! E57 files: scans, each with its pose, joined in the file's common coordinates. The crate `e57` reads them.
+
+mod check;
+#[cfg(test)]
+mod tests;
+
+use std::io::Cursor;
+
+use e57::{CartesianCoordinate, E57Reader, PointCloud, RecordName};
+use glam::DVec3;
+
+use super::{Input, Loaded, Model, shade};
+use crate::{
+    error::Result,
+    notes::Deed,
+    scene::{Colors, Points, UNKNOWN_SRGB},
+};
+
+/// How many points are read between two steps of progress.
+const STEP_POINTS: u64 = 1 << 18;
+
+/// What was read so far.
+#[derive(Default)]
+struct Scans {
+    positions: Vec<DVec3>,
+    /// sRGB, 0–1.
+    colors: Vec<[f32; 3]>,
+    has_colors: bool,
+    invalid: u64,
+}
+
+pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
+    check::header(input)?;
+    let fault = |e: e57::Error| input.fault("", one_line(&e));
+    let mut reader = E57Reader::new(Cursor::new(input.bytes)).map_err(fault)?;
+    let clouds = reader.pointclouds();
+    if clouds.is_empty() {
+        return Err(input.fault("", "no scan; expected at least one"));
+    }
+    check::sizes(input, &clouds)?;
+    let mut scans = Scans::default();
+    let mut ignored = Vec::new();
+    for (i, cloud) in clouds.iter().enumerate() {
+        let fault = |e: e57::Error| input.fault(format!("scan {i}"), one_line(&e));
+        let reader = reader.pointcloud_simple(cloud).map_err(fault)?;
+        for (k, point) in (0_u64..).zip(reader) {
+            scans.add(&point.map_err(fault)?);
+            if k % STEP_POINTS == 0 {
+                let before = input.bytes.len() / clouds.len() * i;
+                let share =
+                    (input.bytes.len() / clouds.len()) as f64 * (k as f64 / cloud.records.max(1) as f64);
+                input.step(before + share as usize);
+            }
+        }
+        ignored.extend(unread(cloud).filter(|name| !ignored.contains(name)).collect::<Vec<_>>());
+    }
+    input.step(input.bytes.len());
+    let format = match clouds.len() {
+        1 => "E57, 1 scan".to_owned(),
+        scans => format!("E57, {scans} scans"),
+    };
+    let mut loaded = Loaded::new(Model::Points(scans.points(viewpoint(&clouds))), format);
+    loaded.up = Some(DVec3::Z);
+    loaded.metres_per_unit = Some(1.0);
+    loaded.note(Deed::Dropped, scans.invalid, "points that are marked as invalid");
+    let names = ignored.join(", ");
+    loaded.note(Deed::Ignored, ignored.len() as u64, format!("fields that have no meaning here ({names})"));
+    Ok(loaded)
+}
+
+impl Scans {
+    fn add(&mut self, point: &e57::Point) {
+        let CartesianCoordinate::Valid { x, y, z } = point.cartesian else {
+            self.invalid += 1;
+            return;
+        };
+        self.positions.push(DVec3::new(x, y, z));
+        // Intensities are here, too, where a point has no color.
+        self.has_colors |= point.color.is_some();
+        let color = point.color.as_ref().map(|color| [color.red, color.green, color.blue]);
+        self.colors.push(color.unwrap_or([UNKNOWN_SRGB; 3]));
+    }
+
+    /// What was read, which is taken out.
+    fn points(&mut self, viewpoint: Option<DVec3>) -> Points {
+        let srgb = std::mem::take(&mut self.colors);
+        let colors = match self.has_colors {
+            true => Colors::Each(shade::from_srgb(&srgb, 1.0).0),
+            false => Colors::unknown(),
+        };
+        let positions = std::mem::take(&mut self.positions);
+        Points { positions, normals: None, radii: None, colors, viewpoint }
+    }
+}
+
+/// Where the scanner stood, if it was one place for all scans: the origin of their own coordinates.
+fn viewpoint(clouds: &[PointCloud]) -> Option<DVec3> {
+    let place = |cloud: &PointCloud| {
+        let place = &cloud.transform.as_ref()?.translation;
+        Some(DVec3::new(place.x, place.y, place.z)).filter(|place| place.is_finite())
+    };
+    let first = place(clouds.first()?)?;
+    clouds.iter().all(|cloud| place(cloud) == Some(first)).then_some(first)
+}
+
+/// Fields of extensions, which may be normals or names of objects.
+fn unread(cloud: &PointCloud) -> impl Iterator<Item = String> {
+    cloud.prototype.iter().filter_map(|record| match &record.name {
+        RecordName::Unknown { namespace, name } => {
+            let name: String = format!("{namespace}:{name}").chars().take(40).collect();
+            Some(name.escape_debug().to_string())
+        }
+        _ => None,
+    })
+}
+
+/// What the crate says, with its cause.
+fn one_line(error: &e57::Error) -> String {
+    let cause = std::error::Error::source(error).map(|cause| format!(": {cause}")).unwrap_or_default();
+    format!("{error}{cause}").split_whitespace().collect::<Vec<_>>().join(" ")
+}

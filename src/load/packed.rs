@@ -1,0 +1,204 @@
+//! Files that are compressed as a whole: gzip and zstd, told by their first bytes.
+//!
+//! What they expand to is limited by their size ([`Limits::expanded_bytes`]), so that a small file can't fill the
+//! memory.
+
+use std::{
+    io::Read,
+    path::{Path, PathBuf},
+};
+
+use super::Limits;
+use crate::error::{Error, Result};
+
+/// How a file is compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packing {
+    Gzip,
+    Zstd,
+}
+
+impl Packing {
+    /// Told by the first bytes.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        match bytes {
+            [0x1f, 0x8b, ..] => Some(Self::Gzip),
+            [0x28, 0xb5, 0x2f, 0xfd, ..] => Some(Self::Zstd),
+            _ => None,
+        }
+    }
+
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gzip => "gzip",
+            Self::Zstd => "zstd",
+        }
+    }
+
+    /// The name of what is inside: `a.ply` of `a.ply.gz`.
+    pub fn inner_name(self, path: &Path) -> PathBuf {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("gz" | "gzip" | "zst" | "zstd") => path.with_extension(""),
+            _ => path.to_owned(),
+        }
+    }
+
+    /// What is inside.
+    pub fn unpack(self, path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+        match self {
+            Self::Gzip => gzip(path, bytes, limits),
+            Self::Zstd => zstd(path, bytes, limits),
+        }
+    }
+}
+
+#[cfg(feature = "gzip")]
+fn gzip(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+    // A file may be several, one after the other.
+    limited(flate2::read::MultiGzDecoder::new(bytes), Packing::Gzip, path, bytes.len(), limits)
+}
+
+#[cfg(not(feature = "gzip"))]
+fn gzip(path: &Path, _: &[u8], _: &Limits) -> Result<Vec<u8>> {
+    Err(not_built(Packing::Gzip, path))
+}
+
+#[cfg(feature = "zstd")]
+fn zstd(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+    use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
+
+    let most = limits.expanded(bytes.len(), limits.expansion);
+    // The decoder keeps a window beside its output, of a size that the file names.
+    let largest_window = limits.expanded(bytes.len(), limits.expansion / 3);
+    let mut rest = bytes;
+    let mut unpacked = Vec::new();
+    // A file may be several, one after the other.
+    while !rest.is_empty() {
+        let mut decoder = FrameDecoder::new();
+        decoder.set_max_window_size(largest_window);
+        let decoder = StreamingDecoder::new_with_decoder(&mut rest, decoder)
+            .map_err(|e| damaged(Packing::Zstd, path, &e.to_string()))?;
+        let left = Limits { expanded_bytes: most - unpacked.len() as u64, expansion: 0, ..*limits };
+        unpacked.append(&mut limited(decoder, Packing::Zstd, path, bytes.len(), &left)?);
+    }
+    Ok(unpacked)
+}
+
+#[cfg(not(feature = "zstd"))]
+fn zstd(path: &Path, _: &[u8], _: &Limits) -> Result<Vec<u8>> {
+    Err(not_built(Packing::Zstd, path))
+}
+
+#[cfg_attr(
+    not(any(feature = "gzip", feature = "zstd")),
+    expect(dead_code, reason = "nothing can be unpacked")
+)]
+fn limited(
+    stream: impl Read,
+    packing: Packing,
+    path: &Path,
+    compressed: usize,
+    limits: &Limits,
+) -> Result<Vec<u8>> {
+    let most = limits.expanded(compressed, limits.expansion);
+    let mut unpacked = Vec::new();
+    stream
+        .take(most.saturating_add(1))
+        .read_to_end(&mut unpacked)
+        .map_err(|e| damaged(packing, path, &e.to_string()))?;
+    match unpacked.len() as u64 > most {
+        true => {
+            let problem = format!(
+                "{} of {compressed} bytes expands to more than {most}; unpack it first if you trust it",
+                packing.name()
+            );
+            Err(Error::input(path, "", problem))
+        }
+        false => Ok(unpacked),
+    }
+}
+
+#[cfg_attr(
+    not(any(feature = "gzip", feature = "zstd")),
+    expect(dead_code, reason = "nothing can be unpacked")
+)]
+fn damaged(packing: Packing, path: &Path, why: &str) -> Error {
+    Error::input(path, "", format!("damaged {}: {why}", packing.name()))
+}
+
+#[cfg(not(all(feature = "gzip", feature = "zstd")))]
+fn not_built(packing: Packing, path: &Path) -> Error {
+    let name = packing.name();
+    Error::input(path, "", format!("compressed by {name}, which needs the Cargo feature `{name}`"))
+}
+
+#[cfg(all(test, feature = "gzip", feature = "zstd"))]
+mod tests {
+    use std::io::Write as _;
+
+    use flate2::{Compression, write::GzEncoder};
+    use ruzstd::encoding::{CompressionLevel, compress_to_vec};
+
+    use super::*;
+
+    fn gzipped(bytes: &[u8]) -> Vec<u8> {
+        let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+        encoder.write_all(bytes).unwrap();
+        encoder.finish().unwrap()
+    }
+
+    fn zstd_of(bytes: &[u8]) -> Vec<u8> {
+        compress_to_vec(bytes, CompressionLevel::Fastest)
+    }
+
+    fn unpack(bytes: &[u8]) -> Result<Vec<u8>, String> {
+        let packing = Packing::of(bytes).unwrap();
+        packing.unpack(Path::new("a.ply.gz"), bytes, &Limits::DEFAULT).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn both_come_back_and_so_do_several_in_one_file() {
+        for pack in [gzipped, zstd_of] {
+            let once = pack(b"ply\nformat ascii 1.0\n");
+            assert_eq!(unpack(&once).unwrap(), b"ply\nformat ascii 1.0\n");
+            let twice = [once, pack(b"more")].concat();
+            assert_eq!(unpack(&twice).unwrap(), b"ply\nformat ascii 1.0\nmore");
+        }
+    }
+
+    #[test]
+    fn bombs_are_refused_at_their_limit() {
+        let zeros = vec![0; 40 << 20];
+        for (bytes, name) in [(gzipped(&zeros), "gzip"), (zstd_of(&zeros), "zstd")] {
+            let refused = unpack(&bytes).unwrap_err();
+            let start = format!("a.ply.gz: {name} of {} bytes expands to more than ", bytes.len());
+            assert!(refused.starts_with(&start), "{refused}");
+        }
+        // A window of 1 << 41 bytes, which the decoder would keep beside its output.
+        let window = [0x28, 0xb5, 0x2f, 0xfd, 0x00, 0xf8, 0x01, 0x00, 0x00];
+        assert!(unpack(&window).unwrap_err().starts_with("a.ply.gz: damaged zstd: "));
+    }
+
+    #[test]
+    fn cut_and_changed_files_are_refused_or_come_back_whole() {
+        for pack in [gzipped, zstd_of] {
+            let bytes = pack(b"v 0 0 0\nv 1 0 0\n");
+            for end in 4..bytes.len() {
+                let _ = unpack(&bytes[..end]);
+                let mut changed = bytes.clone();
+                changed[end] ^= 0x55;
+                let _ = unpack(&changed);
+            }
+            assert!(unpack(&bytes[..bytes.len() / 2]).is_err());
+        }
+    }
+
+    #[test]
+    fn the_inner_name_tells_the_format() {
+        let inner = |name: &str| Packing::Gzip.inner_name(Path::new(name));
+        assert_eq!(inner("x/a.PLY.GZ"), Path::new("x/a.PLY"));
+        assert_eq!(inner("a.obj"), Path::new("a.obj"));
+    }
+}

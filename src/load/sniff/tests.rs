@@ -1,0 +1,112 @@
+use std::fs;
+
+use crate::load::{LoadOptions, Model, load};
+
+fn load_bytes(name: &str, bytes: &[u8]) -> Result<Model, String> {
+    let folder = temp_dir::TempDir::new().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    load(&path, &LoadOptions::default(), &()).map(|loaded| loaded.model).map_err(|e| {
+        assert_eq!(e.exit_code(), 1);
+        e.to_string().replace(&folder.path().display().to_string(), "")
+    })
+}
+
+const TRIANGLE_OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const TRIANGLE_PLY: &[u8] = b"ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\n\
+    property float y\r\nproperty float z\r\nelement face 1\r\nproperty list uchar int vertex_index\r\n\
+    end_header\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n";
+
+#[test]
+fn the_content_decides_then_the_name() {
+    let cases = [
+        ("a.ply", TRIANGLE_PLY),
+        ("a.obj", TRIANGLE_PLY),
+        ("b.OBJ", TRIANGLE_OBJ),
+        ("a.ply", TRIANGLE_OBJ),
+        ("a", TRIANGLE_OBJ),
+        ("a.stl", b"\xef\xbb\xbf# by hand\r\n\r\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+    ];
+    for (name, bytes) in cases {
+        let Ok(Model::Mesh(mesh)) = load_bytes(name, bytes) else { panic!("{name}") };
+        assert_eq!((mesh.triangles, mesh.positions.len()), (vec![[0, 1, 2]], 3));
+    }
+    for name in ["a", "a.ply", "a.xyz", "a.las"] {
+        let Ok(Model::Points(points)) = load_bytes(name, b"0 0 0\n1 2 3\n") else { panic!("{name}") };
+        assert_eq!(points.positions.len(), 2);
+    }
+}
+
+#[test]
+fn what_is_no_model_is_named() {
+    let cases: [(&str, &[u8], &str); 17] = [
+        ("a.ply", b"", "the file is empty"),
+        ("a.ply", b"plywood", "named .ply, but its first line is not 'ply'"),
+        (
+            "a.ply",
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+            "this is a git-lfs pointer, not the file itself (run `git lfs pull`)",
+        ),
+        ("a.obj", b"\x89PNG\r\n\x1a\n", "this is a PNG picture"),
+        ("a.las", b"\xff\xd8\xff\xe0", "this is a JPEG picture"),
+        ("a.ply", b"PK\x03\x04", "this is a zip archive (unpack it first)"),
+        (
+            "a.laz",
+            b"\n<!DOCTYPE html>\n<title>404</title>",
+            "this is an HTML page, perhaps of a download that failed",
+        ),
+        ("a.obj", b"<Html>", "this is an HTML page, perhaps of a download that failed"),
+        ("a.json", b"{\"camera\": 1}", "this is JSON, but not glTF"),
+        ("a.json", b" [1, 2]", "this is JSON, but not glTF"),
+        ("a.obj", b"v 0 0 0\0", "named .obj, but its content is binary of another format"),
+        ("a", b"\x01\0\0\0", "binary, of an unknown format"),
+        ("a", b"Once upon a time", "text of an unknown format"),
+        ("a.txt.bak", b"\xff\xfe1\0", "this is text in UTF-16 (save it as UTF-8)"),
+        ("a.toml", b"[[object]]\n", "this is a scene file"),
+        ("a.ply", b"\r\n \n", "named .ply, but its first line is not 'ply'"),
+        ("a.pcd", &[0; 60], "named .pcd, but its content is binary of another format"),
+    ];
+    for (name, bytes, found) in cases {
+        let expected = format!("/{name}: {found}; expected {}", super::expected());
+        assert_eq!(load_bytes(name, bytes).unwrap_err(), expected);
+    }
+}
+
+#[test]
+fn missing_files_and_folders_are_named() {
+    let folder = temp_dir::TempDir::new().unwrap();
+    let missing = load(&folder.path().join("no.ply"), &LoadOptions::default(), &()).unwrap_err();
+    assert_eq!(missing.exit_code(), 1);
+    let expected = format!("{}/no.ply: cannot read: No such file", folder.path().display());
+    assert!(missing.to_string().starts_with(&expected), "{missing}");
+    let is_folder = load(folder.path(), &LoadOptions::default(), &()).unwrap_err().to_string();
+    assert!(is_folder.ends_with(&format!(": a folder; expected {}", super::expected())), "{is_folder}");
+    let device = load(std::path::Path::new("/dev/null"), &LoadOptions::default(), &()).unwrap_err();
+    assert!(device.to_string().starts_with("/dev/null: neither a file nor `-`"), "{device}");
+}
+
+#[cfg(all(feature = "gzip", feature = "zstd"))]
+#[test]
+fn compressed_files_are_told_by_what_is_in_them() {
+    use std::io::Write as _;
+
+    use ruzstd::encoding::{CompressionLevel, compress_to_vec};
+
+    let gzip = |bytes: &[u8]| {
+        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        encoder.write_all(bytes).unwrap();
+        encoder.finish().unwrap()
+    };
+    let zstd = |bytes: &[u8]| compress_to_vec(bytes, CompressionLevel::Fastest);
+    // Nothing but the name says that this is OBJ.
+    let odd_obj = b"curv 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (name, bytes) in
+        [("a.obj.gz", gzip(odd_obj)), ("b.obj.zst", zstd(odd_obj)), ("c", gzip(TRIANGLE_PLY))]
+    {
+        assert!(matches!(load_bytes(name, &bytes), Ok(Model::Mesh(_))), "{name}");
+    }
+    let twice = load_bytes("a.gz", &gzip(&zstd(b"0 0 0\n"))).unwrap_err();
+    assert_eq!(twice, "/a.gz: compressed twice, by gzip and zstd; expected once");
+    let empty = load_bytes("a.ply.gz", &gzip(b"")).unwrap_err();
+    assert!(empty.starts_with("/a.ply.gz: the file is empty; expected "), "{empty}");
+}

@@ -1,0 +1,132 @@
+//! A line taken apart, and the numbers in it.
+
+/// What stands between the numbers of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Between {
+    /// Any number of blanks and tabs.
+    Blanks,
+    Comma,
+    Semicolon,
+}
+
+/// How the numbers of a file are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Writing {
+    pub between: Between,
+    /// 1,5 is one and a half.
+    pub decimal_comma: bool,
+}
+
+impl Writing {
+    /// Told by one row.
+    pub fn of(row: &[u8]) -> Self {
+        let has = |byte: u8| row.contains(&byte);
+        if has(b';') {
+            return Self { between: Between::Semicolon, decimal_comma: has(b',') };
+        }
+        let blanks = Self { between: Between::Blanks, decimal_comma: has(b',') };
+        // Commas that stand within three or more words stand for points; in `1, 2, 3` they end words.
+        let mut words = 0;
+        let all_decimal = blanks.fields(row).all(|word| {
+            words += 1;
+            number(word, true).is_some() && !word.ends_with(b",")
+        });
+        match has(b',') && !(all_decimal && words >= 3) {
+            true => Self { between: Between::Comma, decimal_comma: false },
+            false => blanks,
+        }
+    }
+
+    /// The words of a line, without blanks around them. One empty word at the end, behind a last comma, is none.
+    pub fn fields<'a>(self, line: &'a [u8]) -> Fields<'a> {
+        Fields { rest: Some(line), between: self.between }
+    }
+
+    /// The number that a word is.
+    pub fn number(self, word: &[u8]) -> Option<f64> {
+        number(word, self.decimal_comma)
+    }
+}
+
+/// The words of a line.
+pub(super) struct Fields<'a> {
+    rest: Option<&'a [u8]>,
+    between: Between,
+}
+
+impl<'a> Iterator for Fields<'a> {
+    type Item = &'a [u8];
+
+    #[inline]
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let rest = self.rest?.trim_ascii_start();
+        if rest.is_empty() {
+            self.rest = None;
+            return None;
+        }
+        let ends = |byte: &u8| match self.between {
+            Between::Blanks => byte.is_ascii_whitespace(),
+            Between::Comma => *byte == b',',
+            Between::Semicolon => *byte == b';',
+        };
+        match rest.iter().position(ends) {
+            Some(end) => {
+                let (word, behind) = rest.split_at(end);
+                self.rest = behind.get(1..);
+                Some(word.trim_ascii_end())
+            }
+            None => {
+                self.rest = None;
+                Some(rest.trim_ascii_end())
+            }
+        }
+    }
+}
+
+/// The longest number with a decimal comma: a shortest f64 has at most 24 characters.
+const MOST_DECIMAL_BYTES: usize = 64;
+
+fn number(word: &[u8], decimal_comma: bool) -> Option<f64> {
+    let word = word.strip_prefix(b"\"").and_then(|w| w.strip_suffix(b"\"")).unwrap_or(word);
+    if decimal_comma && word.contains(&b',') {
+        let mut copy = [0; MOST_DECIMAL_BYTES];
+        let copy = copy.get_mut(..word.len())?;
+        copy.copy_from_slice(word);
+        copy.iter_mut().filter(|b| **b == b',').for_each(|b| *b = b'.');
+        return str::from_utf8(copy).ok()?.parse().ok();
+    }
+    str::from_utf8(word).ok()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_way_to_write_a_row_is_told() {
+        let cases: [(&str, Between, bool, &[f64]); 9] = [
+            ("1 2\t 3", Between::Blanks, false, &[1.0, 2.0, 3.0]),
+            ("1,2,3", Between::Comma, false, &[1.0, 2.0, 3.0]),
+            ("1, 2, 3,", Between::Comma, false, &[1.0, 2.0, 3.0]),
+            ("1.5;2;3;", Between::Semicolon, false, &[1.5, 2.0, 3.0]),
+            ("1,5;2,25;-3", Between::Semicolon, true, &[1.5, 2.25, -3.0]),
+            ("1,5 2,5\t3,5", Between::Blanks, true, &[1.5, 2.5, 3.5]),
+            ("\"1.5\",\"2\",\"3\"", Between::Comma, false, &[1.5, 2.0, 3.0]),
+            ("1e3 +2. .5", Between::Blanks, false, &[1000.0, 2.0, 0.5]),
+            ("1,2,3 4,5,6", Between::Comma, false, &[1.0, 2.0]),
+        ];
+        for (row, between, decimal_comma, numbers) in cases {
+            let writing = Writing::of(row.as_bytes());
+            assert_eq!(writing, Writing { between, decimal_comma }, "{row}");
+            let read: Vec<f64> =
+                writing.fields(row.as_bytes()).map_while(|word| writing.number(word)).collect();
+            assert_eq!(read, numbers, "{row}");
+        }
+    }
+
+    #[test]
+    fn an_empty_word_between_commas_is_one() {
+        let writing = Writing::of(b"1,2,3");
+        assert_eq!(writing.fields(b"1,,3,").collect::<Vec<_>>(), [&b"1"[..], b"", b"3"]);
+    }
+}

@@ -1,0 +1,217 @@
+//! What a file of rows is made of: how its numbers are written, where its rows start and what its columns are.
+//!
+//! Columns are those that the user gives, or else those that a header names, or else, by their number:
+//!
+//! | columns | taken as |
+//! |---|---|
+//! | 3 | x y z |
+//! | 4 | x y z, intensity |
+//! | 6 | x y z, and red green blue, or a normal if the numbers are of length 1 or below 0 |
+//! | 7 | x y z, intensity, red green blue |
+//! | 9 | x y z, red green blue and a normal, in either order |
+//! | 10 | x y z, intensity, red green blue and a normal, in either order |
+//! | others | x y z; the others are not read |
+
+use super::{
+    columns::{Column, Columns},
+    fields::Writing,
+};
+use crate::load::{Input, lines::shown, sniff::without_mark};
+
+/// What a file of rows is made of.
+pub(super) struct Layout {
+    pub writing: Writing,
+    pub columns: Columns,
+    /// What the columns that are not read are called, or how many there are.
+    pub ignored: Vec<String>,
+    /// The byte at which the first line of data starts: a row, or a number of rows.
+    pub start: usize,
+    /// The first line of data is a number of rows.
+    pub counted: bool,
+    /// What ends a line.
+    pub line_end: u8,
+}
+
+/// How many rows are looked at to tell what columns are.
+const SAMPLES: usize = 1000;
+
+/// A problem, and the byte of the line that it is in.
+pub(super) type Fault = (usize, String);
+
+/// The file's layout.
+pub(super) fn layout(input: &Input<'_>) -> Result<Layout, Fault> {
+    let line_end = if input.bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    let (mut comment, mut header, mut count) = (None, None, None);
+    let lines =
+        Lines { bytes: input.bytes, at: input.bytes.len() - without_mark(input.bytes).len(), line_end };
+    for (at, line) in lines {
+        if line.len() > input.options.limits.line_bytes {
+            return Err((at, too_long(input.options.limits.line_bytes)));
+        }
+        if line.is_empty() {
+            continue;
+        }
+        if let Some(text) = comment_text(line) {
+            comment = Some(text);
+            continue;
+        }
+        let writing = Writing::of(line);
+        let first = writing.fields(line).next().unwrap_or_default();
+        let is_alone = writing.fields(line).nth(1).is_none();
+        match (writing.number(first), is_alone) {
+            (Some(_), true) if count.is_none() => count = Some((at, line)),
+            (Some(_), true) => {
+                return Err((
+                    at,
+                    "a second line of one number, as in PTX files; expected rows of x y z".to_owned(),
+                ));
+            }
+            (Some(_), false) => {
+                let start = count.map_or(at, |(at, _)| at);
+                let rest = Lines { bytes: input.bytes, at, line_end };
+                let (columns, ignored) = columns(input, writing, at, header, comment, rest)?;
+                return Ok(Layout { writing, columns, ignored, start, counted: count.is_some(), line_end });
+            }
+            (None, _) if header.is_none() && count.is_none() => header = Some((at, line)),
+            (None, _) => return Err((at, format!("'{}'; expected a number", shown(first)))),
+        }
+    }
+    match (header, count) {
+        (Some((at, line)), _) => Err((at, format!("'{}'; expected rows of numbers", shown(line)))),
+        (None, Some((at, line))) => Err((at, format!("'{}' and no rows; expected x y z", shown(line)))),
+        (None, None) => Err((0, "no rows of numbers; expected x y z".to_owned())),
+    }
+}
+
+pub(super) fn too_long(most: usize) -> String {
+    format!("a line of more than {most} bytes; expected a row of numbers")
+}
+
+/// The text of a comment.
+pub(super) fn comment_text(line: &[u8]) -> Option<&[u8]> {
+    line.strip_prefix(b"#").or_else(|| line.strip_prefix(b"//"))
+}
+
+fn columns(
+    input: &Input<'_>,
+    writing: Writing,
+    at: usize,
+    header: Option<(usize, &[u8])>,
+    comment: Option<&[u8]>,
+    mut rows: Lines<'_>,
+) -> Result<(Columns, Vec<String>), Fault> {
+    let first = rows.next().map(|(_, line)| line).unwrap_or_default();
+    let width = writing.fields(first).count();
+    if let Some(given) = &input.options.columns {
+        let behind = width.saturating_sub(given.columns().len());
+        // Those that the user names `-` are ignored by their own word.
+        return Ok((given.clone(), vec![format!("column {}", given.columns().len() + 1); behind.min(1)]));
+    }
+    let named = |line: &[u8]| {
+        let text = String::from_utf8_lossy(line);
+        let names = text.split([',', ';', '\t', ' ']).map(str::trim).filter(|name| !name.is_empty());
+        let columns: Vec<(Column, String)> =
+            names.map(|name| (Column::of_header(name), shown(name.as_bytes()))).collect();
+        let others = columns.iter().filter(|(column, _)| *column == Column::Other);
+        let others = others.map(|(_, name)| format!("column '{name}'")).collect();
+        (columns.into_iter().map(|(column, _)| column).collect::<Vec<_>>(), others)
+    };
+    if let Some((at, line)) = header {
+        // Blanks may be part of names where something else stands between them.
+        let words: Vec<Vec<u8>> = Writing { decimal_comma: false, ..writing }
+            .fields(line)
+            .map(|name| name.iter().map(|b| if *b == b' ' { b'_' } else { *b }).collect())
+            .collect();
+        let (columns, others) = named(&words.join(&b' '));
+        let columns = Columns::new(columns).map_err(|problem| (at, format!("header: {problem}")))?;
+        return Ok((columns, others));
+    }
+    if let Some((columns, others)) = comment.map(named)
+        && columns.len() == width
+        && let Ok(columns) = Columns::new(columns)
+    {
+        return Ok((columns, others));
+    }
+    let columns = by_width(width, &samples(writing, width, at, input.bytes, rows.line_end));
+    let ignored = (1..).zip(&columns).filter(|(_, column)| **column == Column::Other);
+    let ignored = ignored.map(|(i, _)| format!("column {i}")).collect();
+    match Columns::new(columns) {
+        Ok(columns) => Ok((columns, ignored)),
+        Err(_) => Err((at, format!("{width} numbers in a row; expected at least 3"))),
+    }
+}
+
+/// Rows from the start and from all over the file; those that are wrong are left to their reader.
+fn samples(writing: Writing, width: usize, start: usize, bytes: &[u8], line_end: u8) -> Vec<Vec<f64>> {
+    let row = |line: &[u8]| -> Option<Vec<f64>> {
+        let row: Option<Vec<f64>> = writing.fields(line).map(|word| writing.number(word)).collect();
+        row.filter(|row| row.len() == width)
+    };
+    // A row of more columns has no rule.
+    if width > 10 {
+        return Vec::new();
+    }
+    let first = Lines { bytes, at: start, line_end };
+    let mut rows: Vec<Vec<f64>> = first.take(SAMPLES / 2).filter_map(|(_, line)| row(line)).collect();
+    let length = bytes.len() - start;
+    for i in 1..SAMPLES / 2 {
+        // The line that is there is cut; the next one is whole.
+        let mut there = Lines { bytes, at: start + length / (SAMPLES / 2) * i, line_end };
+        rows.extend(there.by_ref().nth(1).and_then(|(_, line)| row(line)));
+    }
+    rows
+}
+
+fn by_width(width: usize, rows: &[Vec<f64>]) -> Vec<Column> {
+    use Column::{Color, Intensity, Normal, Position};
+    let position = [0, 1, 2].map(Position);
+    let (color, normal) = ([0, 1, 2].map(Color), [0, 1, 2].map(Normal));
+    let is_normal = |from: usize| is_normal(rows.iter().filter_map(|row| row.get(from..from + 3)));
+    let pair = |from: usize| if is_normal(from) { [normal, color] } else { [color, normal] }.concat();
+    match width {
+        0..=2 => vec![Column::Other; width],
+        4 => [&position[..], &[Intensity]].concat(),
+        6 if is_normal(3) => [position, normal].concat(),
+        6 => [position, color].concat(),
+        7 => [&position[..], &[Intensity], &color].concat(),
+        9 => [&position[..], &pair(3)].concat(),
+        10 => [&position[..], &[Intensity], &pair(4)].concat(),
+        _ => [&position[..], &vec![Column::Other; width - 3]].concat(),
+    }
+}
+
+/// Whether triples are normals: some are below zero, or all but those that are zero have length 1.
+fn is_normal<'a>(triples: impl Iterator<Item = &'a [f64]>) -> bool {
+    let (mut any, mut all_unit) = (false, true);
+    for triple in triples {
+        if triple.iter().any(|&v| v < 0.0) {
+            return true;
+        }
+        let square: f64 = triple.iter().map(|v| v * v).sum();
+        if square > 0.0 {
+            any = true;
+            all_unit &= (square - 1.0).abs() < 0.01;
+        }
+    }
+    any && all_unit
+}
+
+/// The lines of a file, without blanks around them, and the bytes at which they start.
+pub(super) struct Lines<'a> {
+    pub bytes: &'a [u8],
+    pub at: usize,
+    pub line_end: u8,
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (usize, &'a [u8]);
+
+    #[inline]
+    fn next(&mut self) -> Option<(usize, &'a [u8])> {
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let at = self.at;
+        let line = rest.split(|b| *b == self.line_end).next().unwrap_or_default();
+        self.at += line.len() + 1;
+        Some((at, line.trim_ascii()))
+    }
+}

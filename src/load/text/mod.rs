@@ -1,0 +1,65 @@
+//! Points as rows of numbers: XYZ, PTS, CSV and whatever else people call it. [`layout`] says which columns are
+//! what.
+
+mod columns;
+mod fields;
+mod layout;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+use super::{Input, Loaded, Model, shade};
+use crate::{
+    error::Result,
+    notes::Deed,
+    scene::{Colors, Points},
+};
+use layout::{Fault, Layout};
+use rows::Rows;
+
+pub use columns::{Column, Columns};
+
+pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
+    let fault = |(at, problem): Fault| input.fault(input.line(at), problem);
+    let layout = layout::layout(input).map_err(fault)?;
+    let rows =
+        rows::read(input.bytes, &layout, &input.options.limits, |done| input.step(done)).map_err(fault)?;
+    Ok(loaded(rows, &layout))
+}
+
+fn loaded(rows: Rows, layout: &Layout) -> Loaded {
+    let longer = rows.longer;
+    let (colors, what, outside) = match (rows.colors.is_empty(), rows.intensities.is_empty()) {
+        (false, _) => {
+            let largest = rows.colors.iter().flatten().fold(0.0, |a: f32, b| a.max(*b));
+            let (scale, what) = match largest {
+                // A little above is rounding.
+                ..=1.001 => (1.0, ", colors 0–1"),
+                ..=255.0 => (255.0, ", colors 0–255"),
+                _ => (65535.0, ", colors 0–65535"),
+            };
+            let (colors, outside) = shade::from_srgb(&rows.colors, scale);
+            (Colors::Each(colors), what, outside)
+        }
+        (true, false) => (Colors::Each(shade::gray(&rows.intensities)), ", intensity as gray", 0),
+        (true, true) => (Colors::unknown(), "", 0),
+    };
+    let points = Points {
+        positions: rows.positions,
+        normals: (!rows.normals.is_empty()).then_some(rows.normals),
+        radii: (!rows.radii.is_empty()).then_some(rows.radii),
+        colors,
+        viewpoint: None,
+    };
+    let format = format!("rows of {}{what}", layout.columns);
+    let mut loaded = Loaded::new(Model::Points(points), format);
+    loaded.note(Deed::Clamped, outside, "points with a color out of its range");
+    loaded.note(Deed::Ignored, longer, "rows with more numbers than columns, whose rest is");
+    let ignored = &layout.ignored;
+    if !ignored.is_empty() {
+        let names: Vec<&str> = ignored.iter().take(8).map(String::as_str).collect();
+        let more = if ignored.len() > names.len() { ", …" } else { "" };
+        loaded.note(Deed::Ignored, ignored.len() as u64, format!("columns ({}{more})", names.join(", ")));
+    }
+    loaded
+}

@@ -1,0 +1,155 @@
+//! Rows of numbers, read in parallel by blocks of lines.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::{
+    columns::{Column, SLOTS},
+    layout::{Fault, Layout, Lines, comment_text, too_long},
+};
+use crate::load::{Limits, lines::shown};
+
+/// What rows hold; what is there has one entry a row.
+#[derive(Default)]
+pub(super) struct Rows {
+    pub positions: Vec<DVec3>,
+    pub intensities: Vec<f32>,
+    pub colors: Vec<[f32; 3]>,
+    pub normals: Vec<Vec3>,
+    pub radii: Vec<f32>,
+    /// How many rows have more numbers than the first.
+    pub longer: u64,
+    /// Numbers that stand alone in a line: the byte, the number, how many rows stand before it.
+    counts: Vec<(usize, f64, u64)>,
+}
+
+/// About how many bytes are read at once by a thread.
+const BLOCK_BYTES: usize = 1 << 20;
+
+/// How many blocks are read between two steps of progress.
+const BLOCKS: usize = 64;
+
+/// All rows of a file.
+pub(super) fn read(
+    bytes: &[u8],
+    layout: &Layout,
+    limits: &Limits,
+    step: impl Fn(usize),
+) -> Result<Rows, Fault> {
+    let mut rows = Rows::default();
+    let mut at = layout.start;
+    while at < bytes.len() {
+        let mut blocks = Vec::new();
+        while at < bytes.len() && blocks.len() < BLOCKS {
+            let end = line_end_after(bytes, at.saturating_add(BLOCK_BYTES), layout.line_end);
+            blocks.push((at, end));
+            at = end;
+        }
+        let read: Vec<Result<Rows, Fault>> =
+            blocks.into_par_iter().map(|(start, end)| block(bytes, start, end, layout, limits)).collect();
+        for block in read {
+            rows.append(block?);
+        }
+        if rows.positions.len() as u64 > limits.points {
+            return Err((layout.start, format!("more than {} rows; expected at most that", limits.points)));
+        }
+        step(at);
+    }
+    rows.check_counts()?;
+    Ok(rows)
+}
+
+/// The first byte behind the line that has the byte `at`.
+fn line_end_after(bytes: &[u8], at: usize, line_end: u8) -> usize {
+    let rest = bytes.get(at..).unwrap_or_default();
+    rest.iter().position(|b| *b == line_end).map_or(bytes.len(), |end| at + end + 1)
+}
+
+fn block(bytes: &[u8], start: usize, end: usize, layout: &Layout, limits: &Limits) -> Result<Rows, Fault> {
+    let mut rows = Rows::default();
+    let slots: Vec<Option<usize>> = layout.columns.columns().iter().map(|column| column.slot()).collect();
+    // What the file has before the block keeps the bytes of faults right.
+    for (at, line) in
+        (Lines { bytes: bytes.get(..end).unwrap_or(bytes), at: start, line_end: layout.line_end })
+    {
+        if line.is_empty() || comment_text(line).is_some() {
+            continue;
+        }
+        if line.len() > limits.line_bytes {
+            return Err((at, too_long(limits.line_bytes)));
+        }
+        rows.line(at, line, layout, &slots).map_err(|problem| (at, problem))?;
+    }
+    Ok(rows)
+}
+
+impl Rows {
+    fn line(
+        &mut self,
+        at: usize,
+        line: &[u8],
+        layout: &Layout,
+        slots: &[Option<usize>],
+    ) -> Result<(), String> {
+        let mut values = [0.0; SLOTS];
+        let mut fields = layout.writing.fields(line);
+        for (i, slot) in slots.iter().enumerate() {
+            let Some(word) = fields.next() else {
+                if i == 1 && layout.counted {
+                    let (before, [count, ..]) = (self.positions.len() as u64, values);
+                    self.counts.push((at, count, before));
+                    return Ok(());
+                }
+                let s = if i == 1 { "" } else { "s" };
+                return Err(format!("{i} number{s} in a row; expected {}", slots.len()));
+            };
+            if let Some(value) = slot.and_then(|slot| values.get_mut(slot)) {
+                *value = layout
+                    .writing
+                    .number(word)
+                    .ok_or_else(|| format!("'{}' in column {}; expected a number", shown(word), i + 1))?;
+            }
+        }
+        self.longer += u64::from(layout.ignored.is_empty() && fields.next().is_some());
+        let [x, y, z, intensity, r, g, b, nx, ny, nz, radius] = values;
+        self.positions.push(DVec3::new(x, y, z));
+        let has = |column| layout.columns.has(column);
+        if has(Column::Intensity) {
+            self.intensities.push(intensity as f32);
+        }
+        if has(Column::Color(0)) {
+            self.colors.push([r as f32, g as f32, b as f32]);
+        }
+        if has(Column::Normal(0)) {
+            self.normals.push(DVec3::new(nx, ny, nz).as_vec3());
+        }
+        if has(Column::Radius) {
+            self.radii.push(radius as f32);
+        }
+        Ok(())
+    }
+
+    fn append(&mut self, mut next: Self) {
+        let before = self.positions.len() as u64;
+        self.counts.extend(next.counts.iter().map(|&(at, count, rows)| (at, count, before + rows)));
+        self.positions.append(&mut next.positions);
+        self.intensities.append(&mut next.intensities);
+        self.colors.append(&mut next.colors);
+        self.normals.append(&mut next.normals);
+        self.radii.append(&mut next.radii);
+        self.longer += next.longer;
+    }
+
+    /// Each number that stands alone is how many rows follow it.
+    fn check_counts(&self) -> Result<(), Fault> {
+        let ends =
+            self.counts.iter().skip(1).map(|(_, _, before)| *before).chain([self.positions.len() as u64]);
+        for (&(at, count, before), end) in self.counts.iter().zip(ends) {
+            let rows = end - before;
+            if count != rows as f64 {
+                return Err((at, format!("{count} rows are said to follow, but {rows} do")));
+            }
+        }
+        Ok(())
+    }
+}

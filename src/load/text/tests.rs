@@ -1,0 +1,144 @@
+use glam::{DVec3, Vec3};
+
+use super::*;
+use crate::{
+    load::{LoadOptions, hostile::attack, input::of_bytes},
+    math::srgb::linear_from_srgb,
+};
+
+fn points(text: &str) -> (Points, Loaded) {
+    let loaded = of_bytes("a.xyz", text.as_bytes(), parse).unwrap();
+    match &loaded.model {
+        Model::Points(points) => (points.clone(), loaded),
+        _ => panic!("no points"),
+    }
+}
+
+fn with_columns(columns: &str, text: &str) -> Result<Loaded> {
+    let options = LoadOptions { columns: Some(columns.parse().unwrap()), ..LoadOptions::default() };
+    let path = std::path::Path::new("a.xyz");
+    parse(&Input { path, folder: None, bytes: text.as_bytes(), options: &options, progress: &() })
+}
+
+#[track_caller]
+fn refuses(text: &str, expected: &str) {
+    let error = of_bytes("a.xyz", text.as_bytes(), parse).unwrap_err();
+    assert_eq!((error.to_string(), error.exit_code()), (format!("a.xyz: {expected}"), 1));
+}
+
+fn notes(loaded: &Loaded) -> Vec<String> {
+    loaded.notes.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn columns_are_told_by_their_number() {
+    let cases = [
+        ("4600000.000123456 2 3", "rows of x y z"),
+        ("1 2 3 0.5", "rows of x y z i, intensity as gray"),
+        ("1 2 3 255 0 7", "rows of x y z r g b, colors 0–255"),
+        ("1 2 3 0.5 0.25 1", "rows of x y z r g b, colors 0–1"),
+        ("1 2 3 512 0 65535", "rows of x y z r g b, colors 0–65535"),
+        ("1 2 3 0 0 -2", "rows of x y z nx ny nz"),
+        ("1 2 3 0.6 0.8 0", "rows of x y z nx ny nz"),
+        ("1 2 3 -5 255 0 7", "rows of x y z i r g b, colors 0–255"),
+        ("1 2 3 255 0 7 0 0 1", "rows of x y z r g b nx ny nz, colors 0–255"),
+        ("1 2 3 0 0 1 255 0 7", "rows of x y z nx ny nz r g b, colors 0–255"),
+        ("1 2 3 9 255 0 7 0 0 1", "rows of x y z i r g b nx ny nz, colors 0–255"),
+    ];
+    for (row, format) in cases {
+        let (points, loaded) = points(&format!("# a comment\n\n{row}\r\n{row} \n\n \n"));
+        assert_eq!(loaded.format, format, "{row}");
+        assert_eq!((points.positions.len(), loaded.notes.len()), (2, 0), "{row}");
+    }
+    assert_eq!(points("4600000.000123456 2 3").0.positions[0].x, 4_600_000.000_123_456);
+    let (five, loaded) = points("1 2 3 4 5\n");
+    assert_eq!((five.positions.len(), loaded.format.as_str()), (1, "rows of x y z - -"));
+    assert_eq!(notes(&loaded), ["2 columns (column 4, column 5) ignored"]);
+}
+
+#[test]
+fn normals_that_start_like_colors_are_told_by_later_rows() {
+    let mut text = "1 2 3 0.6 0.7 0.1\n".repeat(3000);
+    text.push_str(&"1 2 3 0 0 -1\n".repeat(3000));
+    assert!(points(&text).0.normals.is_some());
+}
+
+#[test]
+fn values_go_where_the_header_says() {
+    let text = "Time;B;G;R;\"X [m]\";y;Z;nx;ny;nz;Radius\n9;0;51;255;1,5;2;3;0;0;2;0,5\n";
+    let (points, loaded) = points(text);
+    assert_eq!(points.positions, [DVec3::new(1.5, 2.0, 3.0)]);
+    assert_eq!((points.normals, points.radii), (Some(vec![2.0 * Vec3::Z]), Some(vec![0.5])));
+    assert_eq!(points.colors.get(0), Some([1.0, linear_from_srgb(0.2), 0.0, 1.0]));
+    assert_eq!(notes(&loaded), ["1 columns (column 'Time') ignored"]);
+    let commented = self::points("//X Y Z Intensity\n1 2 3 7\n").1;
+    assert_eq!(commented.format, "rows of x y z i, intensity as gray");
+    assert_eq!(self::points("\u{feff}x,y,z\n1,2,3\n").0.positions.len(), 1);
+}
+
+#[test]
+fn the_user_may_name_the_columns() {
+    let loaded = with_columns("-,z,y,x", "1 2 3 4\n5 6 7 8 9\n").unwrap();
+    let Model::Points(points) = &loaded.model else { panic!("no points") };
+    assert_eq!(points.positions[1], DVec3::new(8.0, 7.0, 6.0));
+    assert_eq!(notes(&loaded), ["1 rows with more numbers than columns, whose rest is ignored"]);
+    let rest = with_columns("x,y,z", "1 2 3 4\n").unwrap();
+    assert_eq!(notes(&rest), ["1 columns (column 4) ignored"]);
+    let short = with_columns("x,y,z,i", "a b c d\n1 2 3\n").unwrap_err();
+    assert_eq!(short.to_string(), "a.xyz: line 2: 3 numbers in a row; expected 4");
+}
+
+#[test]
+fn pts_files_count_their_rows_a_scan() {
+    let (points, loaded) = points("2\n1 2 3 -2048 255 0 0\n4 5 6 2047 0 0 0\n1\n7 8 9 0 0 0 0\n");
+    assert_eq!((points.positions.len(), loaded.format.as_str()), (3, "rows of x y z i r g b, colors 0–255"));
+    refuses("3\n1 2 3\n4 5 6\n", "line 1: 3 rows are said to follow, but 2 do");
+    refuses("1\n1 2 3\n2\n4 5 6\n", "line 3: 2 rows are said to follow, but 1 do");
+    refuses("-1\n1 2 3\n", "line 1: -1 rows are said to follow, but 1 do");
+    refuses(
+        "18446744073709551616\n1 2 3\n",
+        "line 1: 18446744073709552000 rows are said to follow, but 1 do",
+    );
+    refuses("2\n3\n1 2 3\n", "line 2: a second line of one number, as in PTX files; expected rows of x y z");
+}
+
+#[test]
+fn wrong_rows_are_told_by_their_line() {
+    refuses("1 2 3\n\n4 5\n", "line 3: 2 numbers in a row; expected 3");
+    refuses("1 2 3\n4\n", "line 2: 1 number in a row; expected 3");
+    refuses("1 2 3\r4 5 6x\r", "line 2: '6x' in column 3; expected a number");
+    refuses("1,2,3\n1,,3\n", "line 2: '' in column 2; expected a number");
+    refuses("1 2\n3 4\n", "line 1: 2 numbers in a row; expected at least 3");
+    refuses("a b c\n1 2 3\n", "line 1: header: no columns x, y and z; expected them");
+    refuses("x y z\na b c\n", "line 2: 'a'; expected a number");
+    refuses("# only\n\n", "line 1: no rows of numbers; expected x y z");
+    refuses("x y z\n", "line 1: 'x y z'; expected rows of numbers");
+    refuses("5\n", "line 1: '5' and no rows; expected x y z");
+    refuses(
+        &format!("1 2 3\n{}\n", "1 ".repeat(1 << 20)),
+        "line 2: a line of more than 1048576 bytes; expected a row of numbers",
+    );
+    refuses(&"1".repeat(3 << 20), "line 1: a line of more than 1048576 bytes; expected a row of numbers");
+}
+
+#[test]
+fn many_blocks_are_one_file_and_faults_know_their_line() {
+    let row = |i: usize| format!("{i} {} {}\n", 2 * i, i % 7);
+    let text: String = (0..300_000).map(row).collect();
+    assert!(text.len() > 4 * 1024 * 1024);
+    let (points, _) = points(&text);
+    assert!(points.positions.iter().enumerate().all(|(i, p)| (p.x, p.y) == (i as f64, 2.0 * i as f64)));
+    refuses(&format!("{text}1 2 bad\n"), "line 300001: 'bad' in column 3; expected a number");
+}
+
+const TEXTS: [&str; 4] = [
+    "2\n1 2 3 -5 255 0 7\n# 1\n4 5 6 7 0 0 1\n1\n-1 2e3 3 0 0 1 0\n",
+    "X;\"y [m]\";z;nx;ny;nz;r;g;b\n1,5;2;3;0;0;1;0;1;0,5\n",
+    "//X Y Z Intensity\r\n1 2 3 7\r\n4 5 6 8\r\n",
+    "1, 2, 3, 0, 0, 1,\n4, 5, 6, 1, 0, 0,\n",
+];
+
+#[test]
+fn hostile_bytes_are_refused_or_read() {
+    attack(&TEXTS.map(|text| text.as_bytes().to_vec()), 20_000, parse);
+}
