@@ -13,6 +13,8 @@ mod emptiness;
 mod explain;
 mod figure;
 mod info;
+mod inputs;
+mod interrupts;
 mod json;
 mod machine;
 mod measure;
@@ -30,6 +32,7 @@ mod selftest;
 mod settings;
 mod steps;
 mod turns;
+mod up;
 mod usage;
 
 use std::process::ExitCode;
@@ -40,6 +43,7 @@ fn main() -> ExitCode {
         // SAFETY: first thing in `main`, there is no other thread yet.
         unsafe { surfel::vk::arm_validation_across_submits() };
     }
+    interrupts::watch();
     let arguments = match usage::parse() {
         Ok(arguments) => arguments,
         Err(exit) => return exit,
