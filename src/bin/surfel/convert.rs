@@ -29,7 +29,7 @@ surfel closed\" tells `surfel render` that the surface is closed, so that splats
 
 const EXAMPLES: &str = "Examples:
   surfel convert igea.ply splats.ply                          a disk at each vertex
-  surfel convert igea.ply igea-1m.ply --resample 1000000      a million disks, evenly spread
+  surfel convert igea.ply igea-1m.ply --resample 1M           a million disks, evenly spread
   surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7";
 
 /// Write a model as a file of splats, at a mesh's vertices or anew over its area
@@ -45,7 +45,7 @@ pub struct ConvertArguments {
     output: PathBuf,
 
     /// Spread that many disks evenly over the mesh's area; takes about 75 bytes of memory each [default: a disk at each vertex]
-    #[arg(long, value_name = "N", value_parser = parse::whole::<u64>(1..=4_294_967_295), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = parse::splats, allow_hyphen_values = true)]
     resample: Option<u64>,
 
     /// Which samples are taken
