@@ -101,10 +101,9 @@ fn globe(radius: f64) -> Mesh {
         for (a, b) in (0..count).map(|i| (i, (i + 1) % count)) {
             match circle {
                 1 => mesh.triangles.push([0, here + a, here + b]),
-                _ => mesh.triangles.extend([
-                    [above + a, here + a, here + b],
-                    [above + a, here + b, above + b],
-                ]),
+                _ => {
+                    mesh.triangles.extend([[above + a, here + a, here + b], [above + a, here + b, above + b]])
+                }
             }
             if circle == 90 {
                 mesh.triangles.push([1, here + b, here + a]);
