@@ -111,7 +111,7 @@ fn values_that_cannot_be() {
         ("--kernel", "gaussian:NaN", ["--kernel", "NaN"]),
         ("--epsilon", "-1r", ["--epsilon", "at least 0"]),
         ("--background", "0,0,2", ["--background", "0 to 1"]),
-        ("--fov", "180", ["--fov", "between 1e-10 and 180"]),
+        ("--fov", "180", ["--fov", "above 1e-10 and below 180"]),
         ("--eye", "1,2", ["--eye", "three numbers"]),
         ("--frames", "0", ["--frames", "expected a whole number, 1 to 100000"]),
     ] {
