@@ -108,7 +108,7 @@ fn place_of(path: &Path) -> io::Result<(PathBuf, Option<Metadata>)> {
     }
 }
 
-/// Whether [`write`] could write there now: permission bits don't tell (root, read-only file systems), trying does.
+/// Whether a file could be written there now: permission bits don't tell (root, read-only file systems), trying does.
 ///
 /// # Errors
 /// [`crate::ErrorKind::File`] with the reason why not.

@@ -58,8 +58,8 @@ impl CameraParts {
         Ok(camera)
     }
 
-    /// These parts with a direction that was found to be up; the eye, if it is not given, sees things from above by
-    /// [`RAISED_RAD`], because what lies on the ground is seen from there.
+    /// These parts with a direction that was found to be up; the eye, if it is not given, sees things from above by 30°, because
+    /// what lies on the ground is seen from there.
     #[must_use]
     pub fn with_found_up(self, up: DVec3) -> Self {
         let level = Self { up: Some(up), ..self };

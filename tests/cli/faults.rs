@@ -96,6 +96,9 @@ fn sizes_that_cannot_be() {
         info["devices"].as_array().unwrap().iter().find(|device| device["default"] == true).unwrap();
     let side = default["max_image_side_px"].as_u64().unwrap();
     if side < 65_536 {
+        let largest = format!("{side}x1");
+        let run = surfel(&folder, &["render", "good.obj", "--size", &largest, "-o", "wide.png"]);
+        assert_eq!(run.code, 0, "{}", run.stderr);
         let size = format!("{}x8", side + 1);
         let words = ["--size", &size, "draws at most", default["name"].as_str().unwrap()];
         refused(&folder, &["render", "--size", &size], 1, &words);

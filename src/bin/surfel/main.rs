@@ -14,6 +14,7 @@ mod explain;
 mod figure;
 mod info;
 mod inputs;
+#[cfg(unix)]
 mod interrupts;
 mod json;
 mod machine;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         // SAFETY: first thing in `main`, there is no other thread yet.
         unsafe { surfel::vk::arm_validation_across_submits() };
     }
+    #[cfg(unix)]
     interrupts::watch();
     let arguments = match usage::parse() {
         Ok(arguments) => arguments,

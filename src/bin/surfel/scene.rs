@@ -68,7 +68,10 @@ pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
 }
 
 /// Refuses what is not drawn as its file says it.
-fn refuse_losses(report: &InputReport) -> Result<()> {
+///
+/// # Errors
+/// [`ErrorKind::Input`] with the first of it.
+pub fn refuse_losses(report: &InputReport) -> Result<()> {
     let losses: Vec<_> = report.notes.iter().filter(|note| note.deed.is_loss()).collect();
     let Some(first) = losses.first() else { return Ok(()) };
     let others = match losses.len() - 1 {

@@ -34,7 +34,11 @@ impl CloudReport {
             Note::of(Deed::Merged, self.duplicates, "points at the place of another"),
             Note::of(Deed::Dropped, self.isolated, "isolated points"),
             Note::of(Deed::Dropped, self.not_finite, "points that are not finite"),
-            Note::of(Deed::Clamped, self.limited, "radii far above those around them"),
+            Note::of(
+                Deed::Computed,
+                self.limited,
+                "radii as those around them, in place of far larger ones,",
+            ),
             Note::of(Deed::Computed, splats.saturating_sub(self.normals_from_file), "normals"),
             Note::of(Deed::Computed, splats.saturating_sub(self.radii_from_file), "radii"),
         ];
