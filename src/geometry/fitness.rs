@@ -64,8 +64,9 @@ pub struct Fitness {
 }
 
 impl Fitness {
-    /// Measures disks of these radii at a mesh's vertices; `normals` are unit or zero. A radius is 0 where there is no face.
-    pub(super) fn of(mesh: &Mesh, normals: &[DVec3], radii: &[f64]) -> Self {
+    /// Measures disks of these radii at a mesh's vertices; `normals` are unit or zero. A radius is 0 where there is no face. Borders are
+    /// looked for where the mesh has any.
+    pub(super) fn of(mesh: &Mesh, normals: &[DVec3], radii: &[f64], has_borders: bool) -> Self {
         let faces = || mesh.triangles.iter().filter_map(|&t| corners(mesh, t).map(|p| (t, p)));
         let boxes = faces().flat_map(|(_, p)| p).map(|corner| Bounds::of_ball(corner, 0.0));
         let Some(size) = boxes.reduce(Bounds::union).map(|bounds| 2.0 * bounds.radius()) else {
@@ -84,7 +85,7 @@ impl Fitness {
             }
         }
         // A disk that is smaller than what is visible stands nowhere off by more.
-        if radii.iter().any(|radius| *radius > visible) {
+        if has_borders && radii.iter().any(|radius| *radius > visible) {
             mark_borders(mesh, &mut tilts);
         }
         let mut fitness = Self::default();

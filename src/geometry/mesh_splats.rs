@@ -34,7 +34,7 @@ pub fn splats_from_mesh(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (
 /// As [`splats_from_mesh`], and how well these splats show the mesh.
 pub fn fitting_splats(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Splats, MeshReport, Fitness) {
     let (surface, radii) = disks(mesh, overlap, progress);
-    let fitness = Fitness::of(mesh, &surface.normals, &radii);
+    let fitness = Fitness::of(mesh, &surface.normals, &radii, surface.report.boundary_edges > 0);
     (collect(mesh, &surface.used, &surface.normals, &radii), surface.report, fitness)
 }
 
