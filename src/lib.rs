@@ -60,6 +60,7 @@ pub mod scene;
 #[cfg(feature = "selftest")]
 pub mod selftest;
 pub mod shaders;
+pub mod small_file;
 pub mod vk;
 
 pub use error::{Error, ErrorKind, Result};

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// Something that was done with a part of a file: what is drawn is not all that the file says. `--strict` refuses it.
+/// Something that was done with a part of a file: what is drawn is not all that the file says, or more. `--strict` refuses
+/// what [`Deed::is_loss`] is true of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Note {
     /// What was done.
@@ -13,6 +14,13 @@ pub struct Note {
     pub count: u64,
     /// To what and why, after the number: `faces with fewer than 3 corners`.
     pub what: String,
+}
+
+impl Note {
+    /// A note where there is something to note.
+    pub fn of(deed: Deed, count: usize, what: &str) -> Option<Self> {
+        (count > 0).then(|| Self { deed, count: count as u64, what: what.to_owned() })
+    }
 }
 
 impl fmt::Display for Note {
@@ -35,9 +43,16 @@ pub enum Deed {
     Clamped,
     /// It has no meaning here.
     Ignored,
+    /// The file does not have it, and what is drawn needs it: nothing is lost.
+    Computed,
 }
 
 impl Deed {
+    /// Whether something that the file says is not drawn as it says it: what `--strict` refuses.
+    pub fn is_loss(self) -> bool {
+        self != Self::Computed
+    }
+
     fn words(self) -> &'static str {
         match self {
             Self::Dropped => "left out",
@@ -45,6 +60,7 @@ impl Deed {
             Self::Replaced => "replaced",
             Self::Clamped => "clamped",
             Self::Ignored => "ignored",
+            Self::Computed => "computed",
         }
     }
 }

@@ -3,15 +3,21 @@
 use super::{
     hybrid::{self, usual_samples},
     parts::{Parts, StepTimer},
-    words::{finish, finish_triangles, mesh_head, normals_computed, radii_computed, split_into},
+    words::{
+        counted, finish, finish_triangles, mesh_head, normals_computed, radii_computed, split_into,
+        too_coarse, too_uneven,
+    },
 };
 use crate::{
     error::Result,
-    geometry::{self, DEFAULT_OVERLAP, Hybrid, HybridOptions, shaded_mesh, splats_from_mesh},
+    geometry::{
+        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Suited, fitting_splats, shaded_mesh,
+        splats_from_mesh,
+    },
     load::{ObjectDescription, Representation, Samples},
     progress::Progress,
     report::InputReport,
-    scene::{Mesh, MeshObject, Object},
+    scene::{Mesh, MeshObject, Object, Splats},
 };
 
 /// The parts of a mesh that are drawn; it is given in its own coordinates. Errors know no file.
@@ -32,11 +38,12 @@ pub(super) fn parts(
                 splats_at_vertices(&placed(own), name, progress)
             })))
         }
-        (Representation::Splats, Some(samples)) => work
+        (Representation::Auto, None) => best(placed(own), name, work),
+        (Representation::Splats | Representation::Auto, Some(samples)) => work
             .time(format!("resample {name}"), |progress| resampled(&placed(own), name, samples, progress))
             .map(splats),
         (Representation::Mesh, _) => {
-            Ok(work.time(format!("normals of {name}"), |_| triangles(placed(own), name)))
+            Ok(work.time(format!("normals of {name}"), |_| triangles(placed(own), name, "")))
         }
         (Representation::Hybrid { polygons, sample_edges }, samples) => {
             let stay = hybrid::stay_polygons(&own, polygons);
@@ -55,10 +62,44 @@ fn splats((object, report): (Object, InputReport)) -> Parts {
     Parts { splats: Some(object), triangles: None, report }
 }
 
+/// What shows it best.
+fn best(mesh: Mesh, name: String, work: &mut StepTimer<'_>) -> Result<Parts> {
+    let (made, report, fitness) = work.time(format!("normals and radii of {name}"), |progress| {
+        fitting_splats(&mesh, DEFAULT_OVERLAP, progress)
+    });
+    match fitness.suited() {
+        Suited::VertexDisks => Ok(splats(at_vertices(&mesh, name, (made, report)))),
+        Suited::SpreadDisks(count) => {
+            drop(made);
+            let samples = Samples { count, seed: 0 };
+            let (object, mut report) =
+                work.time(format!("resample {name}"), |progress| resampled(&mesh, name, samples, progress))?;
+            let disks = counted(object.splats.len(), "disk", "disks");
+            report.summary += &format!("; drawn as {disks}{}", too_uneven(&fitness));
+            Ok(splats((object, report)))
+        }
+        Suited::Triangles => {
+            drop(made);
+            Ok(work.time(format!("normals of {name}"), |_| triangles(mesh, name, &too_coarse(&fitness))))
+        }
+    }
+}
+
 fn splats_at_vertices(mesh: &Mesh, name: String, progress: &dyn Progress) -> (Object, InputReport) {
-    let (splats, report) = splats_from_mesh(mesh, DEFAULT_OVERLAP, progress);
+    at_vertices(mesh, name, splats_from_mesh(mesh, DEFAULT_OVERLAP, progress))
+}
+
+fn at_vertices(mesh: &Mesh, name: String, (splats, report): (Splats, MeshReport)) -> (Object, InputReport) {
     let head = format!("{}; {}", mesh_head(counts(mesh), &report), radii_computed(&report, splats.len()));
-    finish(Object { name, splats, closed: report.closed }, head, Some(counts(mesh)))
+    let (object, told) = finish(Object { name, splats, closed: report.closed }, head, Some(counts(mesh)));
+    (object, with_notes(told, mesh, &report))
+}
+
+/// With what was done with the mesh before its splats were looked at.
+fn with_notes(mut told: InputReport, mesh: &Mesh, report: &MeshReport) -> InputReport {
+    let mut notes = report.notes(mesh.positions.len());
+    notes.append(&mut told.notes);
+    InputReport { notes, ..told }
 }
 
 /// Splats spread evenly over a mesh, and what was done.
@@ -73,15 +114,17 @@ pub fn resampled(
 ) -> Result<(Object, InputReport)> {
     let (splats, report) = geometry::resample(mesh, samples.count, samples.seed, progress)?;
     let head = format!("{}; resampled with seed {}", mesh_head(counts(mesh), &report), samples.seed);
-    Ok(finish(Object { name, splats, closed: report.closed }, head, Some(counts(mesh))))
+    let (object, told) = finish(Object { name, splats, closed: report.closed }, head, Some(counts(mesh)));
+    Ok((object, with_notes(told, mesh, &report)))
 }
 
-fn triangles(mesh: Mesh, name: String) -> Parts {
+/// `why` goes on from what it is drawn as.
+fn triangles(mesh: Mesh, name: String, why: &str) -> Parts {
     let counts = counts(&mesh);
     let (mesh, report) = shaded_mesh(mesh);
     let head = format!("{}; {}", mesh_head(counts, &report), normals_computed(&report, counts[0]));
     let object = MeshObject { name, mesh, closed: report.closed };
-    let report = finish_triangles(&object, &head, counts);
+    let report = with_notes(finish_triangles(&object, &head, counts, why), &object.mesh, &report);
     Parts { splats: None, triangles: Some(object), report }
 }
 
@@ -96,7 +139,9 @@ fn both(
     let Hybrid { splats, polygons, closed, report } =
         geometry::hybrid(mesh, &stays_polygon, options, progress)?;
     let head = format!("{}; {}", mesh_head(counts(mesh), &report.mesh), split_into(&report, splats.len()));
-    let (object, report) = finish(Object { name: name.clone(), splats, closed }, head, Some(counts(mesh)));
+    let (object, told) = finish(Object { name: name.clone(), splats, closed }, head, Some(counts(mesh)));
+    let mut report = with_notes(told, mesh, &report.mesh);
+    report.drawn_as = "splats and triangles";
     let triangles = MeshObject { name, mesh: polygons, closed };
     // A part may have everything.
     Ok(Parts {

@@ -34,7 +34,7 @@ fn bytes(object: &ObjectDescription) -> u64 {
     let own = match &object.source {
         Source::File(path) => fs::metadata(path).map_or(0, |metadata| metadata.len()),
         Source::BuiltIn { splats, triangles, .. } => match object.representation {
-            Representation::Splats => splats.saturating_mul(BYTES_PER_SPLAT as u64),
+            Representation::Splats | Representation::Auto => splats.saturating_mul(BYTES_PER_SPLAT as u64),
             Representation::Mesh => triangles.saturating_mul(BYTES_PER_TRIANGLE),
             Representation::Hybrid { .. } => {
                 let splats = splats.saturating_mul(BYTES_PER_SAMPLE);

@@ -3,6 +3,7 @@
 //!
 //! Meshes are placed before they become splats, so that the splats are round and leave no hole where they are drawn.
 
+mod facts;
 mod from_mesh;
 mod from_points;
 mod hybrid;
@@ -20,7 +21,7 @@ pub use words::{finish, splats_kind};
 
 use crate::{
     error::Result,
-    load::{ObjectDescription, load_scene_file},
+    load::{LoadOptions, ObjectDescription, load_scene_file},
     progress::Progress,
     report::InputReport,
     scene::{CameraParts, Light, Scene},
@@ -41,9 +42,9 @@ pub struct Composed {
 ///
 /// # Errors
 /// As [`load_scene_file`] and [`build`].
-pub fn compose(path: &Path, progress: &dyn Progress) -> Result<Composed> {
-    let file = load_scene_file(path)?;
-    let (scene, reports) = build(&file.objects, file.lights, progress, &mut |_| {})?;
+pub fn compose(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Composed> {
+    let file = load_scene_file(path, options)?;
+    let (scene, reports) = build(&file.objects, file.lights, options, progress, &mut |_| {})?;
     Ok(Composed { scene, camera: file.camera.unwrap_or_default(), reports })
 }
 
@@ -54,6 +55,7 @@ pub fn compose(path: &Path, progress: &dyn Progress) -> Result<Composed> {
 pub fn build(
     objects: &[ObjectDescription],
     lights: Vec<Light>,
+    options: &LoadOptions,
     progress: &dyn Progress,
     tell: &mut dyn FnMut(&BuiltObject),
 ) -> Result<(Scene, Vec<InputReport>)> {
@@ -61,7 +63,7 @@ pub fn build(
     let mut scene = Scene { lights, ..Scene::default() };
     let mut reports = Vec::new();
     for object in objects {
-        let built = make(object, progress)?;
+        let built = make(object, options, progress)?;
         tell(&built);
         reports.push(built.report);
         scene.objects.extend(built.splats);

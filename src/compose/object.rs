@@ -1,7 +1,9 @@
 //! One object: its model loaded or made, placed, colored, and turned into what is drawn.
 
+use glam::DVec3;
+
 use super::{
-    from_mesh, from_points,
+    facts, from_mesh, from_points,
     parts::{Parts, StepTimer},
     words::finish_splats,
 };
@@ -14,7 +16,7 @@ use crate::{
     },
     notes::Note,
     progress::Progress,
-    report::{InputReport, Step},
+    report::{InputReport, ModelReport, Step},
     scene::{MeshObject, Object},
 };
 
@@ -25,7 +27,9 @@ pub struct BuiltObject {
     pub splats: Option<Object>,
     /// Its triangles.
     pub triangles: Option<MeshObject>,
-    /// Both in numbers and words.
+    /// The direction that is up in the world, where its file or the file's format tells one; unit.
+    pub up: Option<DVec3>,
+    /// All parts in numbers and words.
     pub report: InputReport,
     /// How long each step took.
     pub steps: Vec<Step>,
@@ -36,9 +40,14 @@ pub struct BuiltObject {
 /// # Errors
 /// As [`load`] and [`crate::geometry::resample`]; [`ErrorKind::Input`] for splats that should be resampled or drawn as
 /// triangles, and for a model of which nothing can be drawn.
-pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<BuiltObject> {
+pub fn make(
+    object: &ObjectDescription,
+    options: &LoadOptions,
+    progress: &dyn Progress,
+) -> Result<BuiltObject> {
     let mut work = StepTimer { progress, steps: Vec::new() };
-    let (model, name, notes) = open(object, &mut work)?;
+    let Opened { model, name, notes, file } = open(object, options, &mut work)?;
+    let up = file.as_ref().and_then(|file| file.up).map(DVec3::from_array);
     let parts = match model {
         Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
         Model::Points(points) => refuse_triangles(object, "points")
@@ -49,39 +58,50 @@ pub fn make(object: &ObjectDescription, progress: &dyn Progress) -> Result<Built
     let nothing =
         report.splats == 0 && triangles.as_ref().is_none_or(|object| object.mesh.triangles.is_empty());
     if nothing {
-        let what = if object.representation == Representation::Splats { "splat" } else { "triangle" };
+        let what = if triangles.is_none() { "splat" } else { "triangle" };
         let problem = format!("no {what} can be drawn ({})", report.summary);
         return Err(of_object(Error::input("", "", problem), object));
     }
-    report.notes = notes;
-    Ok(BuiltObject { splats, triangles, report, steps: work.steps })
+    report.notes = [notes, report.notes].concat();
+    report.model = file;
+    let up = up.and_then(|up| object.world_from_object.transform_vector3(up).try_normalize());
+    Ok(BuiltObject { splats, triangles, up, report, steps: work.steps })
 }
 
-/// The model and its name, as it is before it is placed, and what was done with its file.
-fn open(object: &ObjectDescription, work: &mut StepTimer<'_>) -> Result<(Model, String, Vec<Note>)> {
+/// A model as it is before it is placed.
+struct Opened {
+    model: Model,
+    name: String,
+    /// What was done with its file.
+    notes: Vec<Note>,
+    /// What its file holds, where it has one.
+    file: Option<ModelReport>,
+}
+
+fn open(object: &ObjectDescription, options: &LoadOptions, work: &mut StepTimer<'_>) -> Result<Opened> {
     let own = match &object.source {
         Source::File(path) => file_name(path),
         Source::BuiltIn { model, .. } => format!("built-in {}", model.name()),
     };
     let name = object.name.clone().unwrap_or(own);
-    let mut notes = Vec::new();
+    let (mut notes, mut file) = (Vec::new(), None);
     let model = match &object.source {
         Source::File(path) => {
-            let options = LoadOptions::default();
-            let loaded = work.time(format!("read {name}"), |progress| load(path, &options, progress))?;
+            let loaded = work.time(format!("read {name}"), |progress| load(path, options, progress))?;
+            file = Some(facts::of(&loaded));
             loaded.notes.iter().for_each(|note| work.progress.note(&format!("{}: {note}", path.display())));
             notes = loaded.notes;
             loaded.model
         }
         Source::BuiltIn { model, splats, triangles } => {
             work.time(format!("make the {name}"), |_| match object.representation {
-                Representation::Splats => splats_of(*model, *splats),
+                Representation::Splats | Representation::Auto => splats_of(*model, *splats),
                 // Other models have none, and no scene file asks them for any.
                 Representation::Mesh | Representation::Hybrid { .. } => Model::Mesh(sphere_mesh(*triangles)),
             })
         }
     };
-    Ok((model, name, notes))
+    Ok(Opened { model, name, notes, file })
 }
 
 fn splats_of(model: BuiltIn, splats: u64) -> Model {
@@ -97,8 +117,8 @@ fn splats_of(model: BuiltIn, splats: u64) -> Model {
 /// Refuses what needs triangles for a file of `what`.
 fn refuse_triangles(object: &ObjectDescription, what: &str) -> Result<()> {
     let purpose = match (object.representation, object.samples) {
-        (Representation::Splats, None) => "",
-        (Representation::Splats, Some(_)) => "to take samples of its triangles",
+        (Representation::Splats | Representation::Auto, None) => "",
+        (Representation::Splats | Representation::Auto, Some(_)) => "to take samples of its triangles",
         _ => "to draw its triangles",
     };
     match purpose {

@@ -28,6 +28,11 @@ fn of_file(folder: &temp_dir::TempDir, name: &str) -> ObjectDescription {
     ObjectDescription::of_file(folder.path().join(name))
 }
 
+/// Made as its file says it.
+fn make_one(object: &ObjectDescription, progress: &dyn Progress) -> Result<BuiltObject> {
+    make(object, &LoadOptions::default(), progress)
+}
+
 fn stretched() -> DAffine3 {
     DAffine3 { matrix3: glam::DMat3::from_diagonal(DVec3::new(2.0, -1.0, 1.0)), translation: DVec3::X }
 }
@@ -41,7 +46,7 @@ fn a_scene_file_becomes_a_scene() {
         [[object]]\nfile = \"mesh.obj\"\nrepresentation = \"mesh\"\nalpha = 0.5\ntranslate = [0, 0, 5]\n\
         [[object]]\nbuiltin = \"sphere\"\nsplats = 500\n";
     fs::write(&path, text).unwrap();
-    let Composed { scene, camera, reports } = compose(&path, &()).unwrap();
+    let Composed { scene, camera, reports } = compose(&path, &LoadOptions::default(), &()).unwrap();
     assert_eq!(camera, CameraParts { fov_y_rad: Some(30_f64.to_radians()), ..CameraParts::default() });
     assert_eq!(scene.lights[0].color, [0.5; 3]);
     assert_eq!((scene.objects.len(), scene.meshes.len(), scene.splat_count()), (2, 1, 502));
@@ -50,7 +55,7 @@ fn a_scene_file_becomes_a_scene() {
     assert_eq!(scene.meshes[0].mesh.bounds().unwrap().max.z, 6.0);
     let summaries: Vec<&str> = reports.iter().map(|report| report.summary.as_str()).collect();
     let expected = [
-        "two: 2 ellipses; 1 splats left out: 1 normal zero or not finite",
+        "two: 2 ellipses; 1 splat left out: 1 normal zero or not finite",
         "mesh.obj: 6 vertices, 8 triangles: closed; normals computed; drawn as 8 triangles; transparent, alpha 0.5",
         "built-in sphere: 500 disks, closed",
     ];
@@ -62,8 +67,10 @@ fn a_scene_file_becomes_a_scene() {
 #[test]
 fn a_mesh_is_placed_before_it_becomes_splats() {
     let folder = folder();
-    let object = ObjectDescription { world_from_object: stretched(), ..of_file(&folder, "mesh.obj") };
-    let made = make(&object, &()).unwrap();
+    let representation = Representation::Splats;
+    let world_from_object = stretched();
+    let object = ObjectDescription { world_from_object, representation, ..of_file(&folder, "mesh.obj") };
+    let made = make_one(&object, &()).unwrap();
     let splats = made.splats.unwrap();
     assert!(splats.closed && made.triangles.is_none());
     let Shapes::Disks { normals, .. } = &splats.splats.shapes else { panic!("ellipses") };
@@ -72,11 +79,11 @@ fn a_mesh_is_placed_before_it_becomes_splats() {
         assert!(normal.as_dvec3().dot(*position - DVec3::X) > 0.0, "mirrored, and still facing outward");
     }
     let samples = Some(Samples { count: 300, seed: 1 });
-    let sampled = make(&ObjectDescription { samples, ..object.clone() }, &()).unwrap();
+    let sampled = make_one(&ObjectDescription { samples, ..object.clone() }, &()).unwrap();
     assert_eq!(sampled.report.splats, 300);
     assert!(sampled.report.summary.ends_with(": closed; resampled with seed 1"));
     let representation = Representation::Mesh;
-    let drawn = make(&ObjectDescription { representation, ..object }, &()).unwrap();
+    let drawn = make_one(&ObjectDescription { representation, ..object }, &()).unwrap();
     let triangles = drawn.triangles.unwrap();
     assert!(triangles.closed && drawn.splats.is_none());
     let steps: Vec<&str> = drawn.steps.iter().map(|step| step.name.as_str()).collect();
@@ -88,21 +95,74 @@ fn a_mesh_is_placed_before_it_becomes_splats() {
 }
 
 #[test]
+fn what_shows_a_mesh_best_is_chosen_and_told() {
+    let folder = folder();
+    let coarse = make_one(&of_file(&folder, "mesh.obj"), &()).unwrap();
+    assert!(coarse.splats.is_none() && coarse.triangles.is_some());
+    let expected = "mesh.obj: 6 vertices, 8 triangles: closed; normals computed; drawn as 8 triangles: too coarse \
+        for splats (disks at its vertices would stand 50.0% of its size off 100% of its surface); --representation splats \
+        draws disks";
+    assert_eq!(coarse.report.summary, expected);
+    assert_eq!(coarse.report.drawn_as, "triangles");
+    // Samples are asked for: whatever the mesh is.
+    let samples = Some(Samples { count: 300, seed: 1 });
+    let sampled = make_one(&ObjectDescription { samples, ..of_file(&folder, "mesh.obj") }, &()).unwrap();
+    assert_eq!((sampled.report.splats, sampled.report.drawn_as), (300, "splats"));
+    // A fine ball, as it is where splats are asked for.
+    let ball = crate::load::builtin::sphere_mesh(20_480);
+    let vertices = ball.positions.iter().map(|p| format!("v {} {} {}\n", p.x, p.y, p.z));
+    let faces = ball.triangles.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
+    fs::write(folder.path().join("ball.obj"), vertices.chain(faces).collect::<String>()).unwrap();
+    let auto = of_file(&folder, "ball.obj");
+    let asked = ObjectDescription { representation: Representation::Splats, ..auto.clone() };
+    let [chosen, asked] = [auto, asked].map(|object| make_one(&object, &()).unwrap());
+    assert_eq!(chosen.report, asked.report);
+    let expected = "ball.obj: 10242 vertices, 20480 triangles: closed; normals and radii computed";
+    assert_eq!(chosen.report.summary, expected);
+}
+
+#[test]
+fn what_was_done_and_what_the_file_holds_is_in_the_report() {
+    let folder = folder();
+    let faulty = format!("{OCTAHEDRON}v 5 5 5\nv 6 6 6\nf 1 2 2\nf 1 1 1\nf 3 3 3\n");
+    fs::write(folder.path().join("faulty.obj"), faulty).unwrap();
+    let told = |name: &str| {
+        let report = make_one(&of_file(&folder, name), &()).unwrap().report;
+        let notes: Vec<String> = report.notes.iter().map(|note| note.to_string()).collect();
+        (notes, report.model.unwrap())
+    };
+    let (notes, model) = told("splats.ply");
+    assert_eq!(notes, ["1 splats whose normal is zero or not finite left out"]);
+    assert_eq!((model.holds, model.points, model.triangles), ("splats", 3, None));
+    assert_eq!(model.bounds, Some([[0.0; 3], [2.0, 0.0, 0.0]]));
+    assert_eq!([model.normals, model.colors, model.sizes], [true, false, true]);
+    let (notes, model) = told("faulty.obj");
+    assert!(notes.iter().any(|note| note == "3 triangles without area left out"), "{notes:?}");
+    assert!(notes.contains(&"6 normals computed".to_owned()), "{notes:?}");
+    assert_eq!((model.holds, model.triangles), ("triangles", Some(11)));
+    let points = SPLATS.replace("property float radius\n", "").replace(" 1\n", "\n");
+    fs::write(folder.path().join("points.ply"), points.replace("2 0 0 0 0 0", "1 0 0 0 0 1")).unwrap();
+    let (notes, model) = told("points.ply");
+    assert_eq!(notes, ["1 points at the place of another merged", "2 radii computed"]);
+    assert_eq!([model.normals, model.sizes], [true, false]);
+}
+
+#[test]
 fn the_built_in_ball_is_drawn_as_either() {
     let ball = ObjectDescription {
         alpha: 0.0,
         color: Some([linear_from_srgb(0.5), 0.0, 1.0]),
         ..ObjectDescription::of_built_in(BuiltIn::Sphere)
     };
-    let splats = make(&ball, &()).unwrap();
+    let splats = make_one(&ball, &()).unwrap();
     assert_eq!(splats.report.summary, "built-in sphere: 20000 disks, closed; invisible, alpha 0");
-    let mesh = make(&ObjectDescription { representation: Representation::Mesh, ..ball }, &()).unwrap();
+    let mesh = make_one(&ObjectDescription { representation: Representation::Mesh, ..ball }, &()).unwrap();
     let expected = "built-in sphere: 10242 vertices, 20480 triangles: closed; normals given; drawn as 20480 \
         triangles; invisible, alpha 0";
     assert_eq!(mesh.report.summary, expected);
     let Colors::Uniform(color) = mesh.triangles.unwrap().mesh.colors else { panic!("one color") };
     assert_eq!(color, [linear_from_srgb(0.5), 0.0, 1.0, 0.0]);
-    let board = make(&ObjectDescription::of_built_in(BuiltIn::Checkerboard), &()).unwrap();
+    let board = make_one(&ObjectDescription::of_built_in(BuiltIn::Checkerboard), &()).unwrap();
     assert_eq!(board.report.summary, "built-in checkerboard: 10000 disks");
 }
 
@@ -116,7 +176,7 @@ fn a_hybrid_is_splats_and_triangles_of_one_name() {
         alpha: 0.5,
         ..of_file(&folder, "mesh.obj")
     };
-    let made = make(&of_mesh(x_above(0.0), true), &()).unwrap();
+    let made = make_one(&of_mesh(x_above(0.0), true), &()).unwrap();
     let expected = "mesh.obj: 6 vertices, 8 triangles: closed; 9 splats and 4 triangles, which meet at 4 edges with 5 \
         of the splats; transparent, alpha 0.5";
     assert_eq!(made.report.summary, expected);
@@ -130,16 +190,16 @@ fn a_hybrid_is_splats_and_triangles_of_one_name() {
     assert!(matches!(triangles.mesh.colors, Colors::Uniform([.., 0.5])));
 
     // As many as vertices where nothing says how many, all of them where none is moved to an edge.
-    let plain = make(&of_mesh(x_above(0.0), false), &()).unwrap();
+    let plain = make_one(&of_mesh(x_above(0.0), false), &()).unwrap();
     assert_eq!(plain.report.splats, 5);
     let samples = Some(Samples { count: 300, seed: 1 });
-    let many = make(&ObjectDescription { samples, ..of_mesh(x_above(0.0), false) }, &()).unwrap();
+    let many = make_one(&ObjectDescription { samples, ..of_mesh(x_above(0.0), false) }, &()).unwrap();
     assert_eq!(many.report.splats, 300);
 
     // One part may have everything.
-    let all_splats = make(&of_mesh(x_above(9.0), true), &()).unwrap();
+    let all_splats = make_one(&of_mesh(x_above(9.0), true), &()).unwrap();
     assert!(all_splats.triangles.is_none() && all_splats.report.splats == 6);
-    let all_triangles = make(&of_mesh(x_above(-9.0), true), &()).unwrap();
+    let all_triangles = make_one(&of_mesh(x_above(-9.0), true), &()).unwrap();
     assert!(all_triangles.splats.is_none() && all_triangles.report.splats == 0);
     assert!(all_triangles.report.summary.contains("; 0 splats and 8 triangles"));
 
@@ -147,7 +207,7 @@ fn a_hybrid_is_splats_and_triangles_of_one_name() {
         representation: of_mesh(x_above(0.0), false).representation,
         ..ObjectDescription::of_built_in(BuiltIn::Sphere)
     };
-    let half = make(&ball, &()).unwrap().report;
+    let half = make_one(&ball, &()).unwrap().report;
     assert!(half.splats.abs_diff(10_000) < 300, "half as many as the whole has: {}", half.splats);
 }
 
@@ -156,7 +216,7 @@ fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
     let folder = folder();
     fs::write(folder.path().join("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
     let refused = |object: ObjectDescription| {
-        let error = make(&object, &()).unwrap_err();
+        let error = make_one(&object, &()).unwrap_err();
         assert_eq!(error.exit_code(), 1);
         error.to_string().replace(&format!("{}/", folder.path().display()), "")
     };
@@ -174,10 +234,10 @@ fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
             ObjectDescription { representation: mesh, ..splats() },
             "splats.ply: the file holds splats; expected a mesh, to draw its triangles",
         ),
-        (flat(), "flat.obj: no splat can be drawn (flat.obj: 3 vertices, 1 triangles: "),
+        (flat(), "flat.obj: no splat can be drawn (flat.obj: 3 vertices, 1 triangle: "),
         (
             ObjectDescription { representation: mesh, ..flat() },
-            "flat.obj: no triangle can be drawn (flat.obj: 3 vertices, 1 triangles: ",
+            "flat.obj: no triangle can be drawn (flat.obj: 3 vertices, 1 triangle: ",
         ),
         (ObjectDescription { samples, ..flat() }, "flat.obj: no area to take samples of in 1 triangle"),
         (

@@ -1,9 +1,10 @@
 //! The making of an object in words.
 
 use crate::{
-    geometry::{HybridReport, MeshReport},
+    geometry::{Fitness, HybridReport, MeshReport},
+    notes::{Deed, Note},
     report::InputReport,
-    scene::{Colors, DefectCounts, MeshObject, Object, Opacity, Shapes, Splats},
+    scene::{Colors, Defect, DefectCounts, MeshObject, Object, Opacity, Shapes, Splats},
 };
 
 /// Drops splats that can't be drawn and puts all in words. `head` is what a mesh was and how it became splats, empty for
@@ -24,7 +25,7 @@ pub(super) fn finish_splats(
     let opacity = opacity(object.splats.colors.opacity(), alphas(&object.splats.colors));
     let mut summary = format!("{}: {head}{opacity}", object.name);
     if defects.total() > 0 {
-        summary += &format!("; {} splats left out: {defects}", defects.total());
+        summary += &format!("; {} left out: {defects}", counted(defects.total(), "splat", "splats"));
     }
     let report = InputReport {
         name: object.name.clone(),
@@ -32,33 +33,71 @@ pub(super) fn finish_splats(
         triangles: mesh.map(|[_, triangles]| triangles),
         splats: object.splats.len(),
         dropped: defects.total(),
-        notes: Vec::new(),
+        drawn_as: "splats",
+        model: None,
+        notes: defect_notes(&defects),
         summary,
     };
     (object, report)
 }
 
+/// What was left out because it can't be drawn.
+fn defect_notes(defects: &DefectCounts) -> Vec<Note> {
+    let kinds = [
+        (Defect::Position, "splats whose position is not finite"),
+        (Defect::Normal, "splats whose normal is zero or not finite"),
+        (Defect::Radius, "splats whose radius is not above zero or not finite"),
+        (Defect::Tangents, "splats whose tangent vectors are collinear or not finite"),
+        (Defect::Color, "splats whose color is not finite"),
+    ];
+    let notes = kinds.into_iter().map(|(defect, what)| Note::of(Deed::Dropped, defects.of(defect), what));
+    notes.flatten().collect()
+}
+
 /// Puts a mesh that is drawn as triangles in words. `head` is what the mesh was; `counts` its numbers of vertices and
-/// triangles before those that can't be drawn were left out.
-pub(super) fn finish_triangles(object: &MeshObject, head: &str, counts: [usize; 2]) -> InputReport {
+/// triangles before those that can't be drawn were left out; `why` goes on from what it is drawn as.
+pub(super) fn finish_triangles(
+    object: &MeshObject,
+    head: &str,
+    counts: [usize; 2],
+    why: &str,
+) -> InputReport {
     let colors = &object.mesh.colors;
-    let triangles = object.mesh.triangles.len();
+    let drawn = counted(object.mesh.triangles.len(), "triangle", "triangles");
     let opacity = opacity(colors.opacity(), alphas(colors));
     InputReport {
         name: object.name.clone(),
         vertices: Some(counts[0]),
         triangles: Some(counts[1]),
-        splats: 0,
-        dropped: 0,
-        notes: Vec::new(),
-        summary: format!("{}: {head}; drawn as {triangles} triangles{opacity}", object.name),
+        drawn_as: "triangles",
+        summary: format!("{}: {head}; drawn as {drawn}{why}{opacity}", object.name),
+        ..InputReport::default()
     }
 }
 
 /// A file of splats in words.
 fn splats_head(object: &Object) -> String {
     let closed = if object.closed { ", closed" } else { "" };
-    format!("{} {}{closed}", object.splats.len(), splats_kind(&object.splats))
+    let kinds = match splats_kind(&object.splats) {
+        "disks" => ["disk", "disks"],
+        _ => ["ellipse", "ellipses"],
+    };
+    format!("{}{closed}", counted(object.splats.len(), kinds[0], kinds[1]))
+}
+
+/// A number and what it is of.
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// Why a mesh is drawn as triangles though nobody asked for it.
+pub(super) fn too_coarse(fitness: &Fitness) -> String {
+    format!(": too coarse for splats ({fitness}); --representation splats draws disks")
+}
+
+/// Why a mesh is sampled anew though nobody asked for it.
+pub(super) fn too_uneven(fitness: &Fitness) -> String {
+    format!(": too uneven for one at each vertex ({fitness}); --representation splats draws those")
 }
 
 /// The kind of the splats, in the plural.
@@ -71,7 +110,8 @@ pub fn splats_kind(splats: &Splats) -> &'static str {
 
 /// A mesh in words.
 pub(super) fn mesh_head([vertices, triangles]: [usize; 2], report: &MeshReport) -> String {
-    format!("{vertices} vertices, {triangles} triangles: {report}")
+    let vertices = counted(vertices, "vertex", "vertices");
+    format!("{vertices}, {}: {report}", counted(triangles, "triangle", "triangles"))
 }
 
 /// The attributes that were missing in the file of a mesh that became `splats` splats.
@@ -99,7 +139,8 @@ pub(super) fn split_into(report: &HybridReport, splats: usize) -> String {
         (edges, 0) => format!(", which meet at {edges} edges"),
         (edges, on_them) => format!(", which meet at {edges} edges with {on_them} of the splats"),
     };
-    format!("{splats} splats and {} triangles{edges}", report.polygons)
+    let splats = counted(splats, "splat", "splats");
+    format!("{splats} and {}{edges}", counted(report.polygons, "triangle", "triangles"))
 }
 
 /// The opacity in words; nothing is said of what is opaque.

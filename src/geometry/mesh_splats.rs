@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{
+    fitness::Fitness,
     radii::hole_free_radii,
     surface::{MeshReport, Surface},
 };
@@ -26,21 +27,33 @@ pub const DEFAULT_OVERLAP: f64 = 1.5;
 ///
 /// A vertex whose faces cancel has normal zero: [`Splats::drop_defective`] removes it.
 pub fn splats_from_mesh(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Splats, MeshReport) {
+    let (surface, radii) = disks(mesh, overlap, progress);
+    (collect(mesh, &surface.used, &surface.normals, &radii), surface.report)
+}
+
+/// As [`splats_from_mesh`], and how well these splats show the mesh.
+pub fn fitting_splats(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Splats, MeshReport, Fitness) {
+    let (surface, radii) = disks(mesh, overlap, progress);
+    let fitness = Fitness::of(mesh, &surface.normals, &radii, surface.report.boundary_edges > 0);
+    (collect(mesh, &surface.used, &surface.normals, &radii), surface.report, fitness)
+}
+
+/// The surface at the vertices, and the radii of disks there.
+fn disks(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Surface, Vec<f64>) {
     const TASK: &str = "splats from the mesh";
     let mut done = 0;
     let mut step = || {
         done += 1;
-        progress.step(TASK, done, 4);
+        progress.step(TASK, done, 3);
     };
-    let Surface { normals, used, report } = Surface::of(mesh, &mut step);
-    let radii = hole_free_radii(mesh, &normals);
+    let surface = Surface::of(mesh, &mut step);
+    let mut radii = hole_free_radii(mesh, &surface.normals);
+    radii.iter_mut().for_each(|radius| *radius *= overlap);
     step();
-    let splats = collect(mesh, &used, &normals, &radii, overlap);
-    step();
-    (splats, report)
+    (surface, radii)
 }
 
-fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap: f64) -> Splats {
+fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64]) -> Splats {
     let kept = || used.iter().enumerate().filter(|(_, used)| **used).map(|(i, _)| i);
     let colors = match &mesh.colors {
         Colors::Each(colors) if colors.len() == used.len() => {
@@ -52,7 +65,7 @@ fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64], overlap
         positions: kept().map(|i| mesh.positions[i]).collect(),
         shapes: Shapes::Disks {
             normals: kept().map(|i| normals[i].as_vec3()).collect(),
-            radii: kept().map(|i| (overlap * radii[i]) as f32).collect(),
+            radii: kept().map(|i| radii[i] as f32).collect(),
         },
         colors,
     }

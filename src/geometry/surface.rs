@@ -8,7 +8,10 @@ use super::{
     normals::{VertexNormals, vertex_normals},
     topology::{Edges, signed_volume},
 };
-use crate::scene::Mesh;
+use crate::{
+    notes::{Deed, Note},
+    scene::Mesh,
+};
 
 /// The facts found in a mesh on the way to splats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,6 +86,20 @@ fn choose_normals(mesh: &Mesh, face_normals: &[DVec3], used: &[bool]) -> (Vec<DV
     (normals, count)
 }
 
+impl MeshReport {
+    /// What of the mesh is not drawn as the file says it, and what was computed; `vertices` is how many it has.
+    pub fn notes(&self, vertices: usize) -> Vec<Note> {
+        let normals = vertices.saturating_sub(self.vertices_without_faces + self.normals_from_file);
+        let notes = [
+            Note::of(Deed::Dropped, self.degenerate_faces, "triangles without area"),
+            Note::of(Deed::Dropped, self.vertices_without_faces, "vertices without a face"),
+            Note::of(Deed::Replaced, self.turned.into(), "surface that is inside out"),
+            Note::of(Deed::Computed, normals, "normals"),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+}
+
 impl fmt::Display for MeshReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match (self.closed, self.turned) {
@@ -94,13 +111,16 @@ impl fmt::Display for MeshReport {
             (false, _) => "open",
         })?;
         let counts = [
-            (self.boundary_edges, "boundary edges"),
-            (self.irregular_edges, "irregular edges"),
-            (self.degenerate_faces, "degenerate faces left out"),
-            (self.vertices_without_faces, "vertices without a face left out"),
+            (self.boundary_edges, ["boundary edge", "boundary edges"]),
+            (self.irregular_edges, ["irregular edge", "irregular edges"]),
+            (self.degenerate_faces, ["degenerate face left out", "degenerate faces left out"]),
+            (
+                self.vertices_without_faces,
+                ["vertex without a face left out", "vertices without a face left out"],
+            ),
         ];
-        for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
-            write!(f, ", {count} {what}")?;
+        for (count, [one, many]) in counts.into_iter().filter(|(count, _)| *count > 0) {
+            write!(f, ", {count} {}", if count == 1 { one } else { many })?;
         }
         Ok(())
     }

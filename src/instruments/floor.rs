@@ -70,7 +70,7 @@ impl<'a> Floor<'a> {
         let device = headless.device();
         let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
         if draws.iter().any(|draw| draw.may_be_large) {
-            let problem = "a splat may exceed the device's largest point: choose a farther camera";
+            let problem = "a splat may exceed the device's largest point: expected more and smaller splats, or a smaller --size";
             return Err(Error::option("bench", problem));
         }
         let points = |draw: &passes::Draw<'_>| {

@@ -12,6 +12,7 @@ pub mod compare;
 mod frames;
 mod grid;
 #[cfg(feature = "compare")]
+mod model;
 mod plot;
 mod probe;
 mod run;
@@ -22,6 +23,7 @@ pub mod zoom;
 
 pub use frames::{FrameSample, FrameTimes, PassFigures, passes_flag};
 pub use grid::{Grid, Table};
+pub use model::ModelReport;
 #[cfg(feature = "compare")]
 pub use plot::{Axis, Chart, PLOT_SIZE_PX, Plot};
 pub use probe::ThroughputProbe;

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, fmt};
 
 use serde::Serialize;
 
-use super::{FrameTimes, Grid};
+use super::{FrameTimes, Grid, ModelReport};
 use crate::{notes::Note, scene::Camera};
 
 /// Everything that is needed to understand, repeat and compare a measurement.
@@ -71,6 +71,9 @@ pub struct SceneReport {
     pub order: &'static str,
     /// `--splat-format`.
     pub splat_format: &'static str,
+    /// The points of the world that are the origins of what the device has, one a chunk of splats:
+    /// coordinates there are differences from these.
+    pub origins: Vec<[f64; 3]>,
     /// Bytes of device memory in buffers of splats and triangles.
     pub splat_bytes: u64,
     /// Bytes of device memory that a frame's own images and buffers share.
@@ -78,7 +81,7 @@ pub struct SceneReport {
 }
 
 /// One input.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct InputReport {
     /// The file's name, or that of the built-in model.
     pub name: String,
@@ -90,7 +93,11 @@ pub struct InputReport {
     pub splats: usize,
     /// Splats that can't, and were left out.
     pub dropped: usize,
-    /// What of it is not drawn as its file says it.
+    /// As what it is drawn: `splats`, `triangles` or `splats and triangles`.
+    pub drawn_as: &'static str,
+    /// What its file holds; `None` for what was made from none.
+    pub model: Option<ModelReport>,
+    /// What of it is not drawn as its file says it, and what was computed because its file does not say it.
     pub notes: Vec<Note>,
     /// The input and what was done with it, in words.
     pub summary: String,

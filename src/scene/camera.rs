@@ -90,7 +90,10 @@ impl Camera {
         }
         if !(self.fov_y_rad >= SMALLEST_FOV_RAD && self.fov_y_rad < std::f64::consts::PI) {
             let degrees = self.fov_y_rad.to_degrees();
-            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 1e-10 and 180")));
+            return Err(Error::option(
+                "--fov",
+                format!("{degrees}: expected degrees above 1e-10 and below 180"),
+            ));
         }
         if !(self.near() > 0.0 && self.near().is_finite()) {
             return Err(Error::option("camera", "near must be above zero"));

@@ -8,9 +8,11 @@ use crate::error::{Error, Result};
 /// Parts of a camera, in world space. Each may be missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraParts {
-    /// The eye; without, it looks along −z at the target from so far that the scene fits; along ±y where up is ±z, which would be
-    /// parallel to the view.
+    /// The eye; without, it is in the direction `from`.
     pub eye: Option<DVec3>,
+    /// The direction from the target to an eye that is not given, from which it sees all of the scene; without, the eye looks along
+    /// −z, or along ±y where up is ±z, which would be parallel to the view. Of any length above 0.
+    pub from: Option<DVec3>,
     /// The point in the middle of the picture; without, the middle of the scene.
     pub target: Option<DVec3>,
     /// The direction that is up; without, +y.
@@ -27,6 +29,7 @@ impl CameraParts {
     pub fn or(self, other: Self) -> Self {
         Self {
             eye: self.eye.or(other.eye),
+            from: self.from.or(other.from),
             target: self.target.or(other.target),
             up: self.up.or(other.up),
             fov_y_rad: self.fov_y_rad.or(other.fov_y_rad),
@@ -55,14 +58,28 @@ impl CameraParts {
         Ok(camera)
     }
 
+    /// These parts with a direction that was found to be up; the eye, if it is not given, sees things from above by 30°, because
+    /// what lies on the ground is seen from there.
+    #[must_use]
+    pub fn with_found_up(self, up: DVec3) -> Self {
+        let level = Self { up: Some(up), ..self };
+        let Some(up) = up.try_normalize().filter(|up| up.distance(DVec3::Y) > 1e-9) else { return level };
+        let (sin, cos) = RAISED_RAD.sin_cos();
+        Self { from: self.from.or(Some(cos * level.toward_eye() + sin * up)), ..level }
+    }
+
     /// The direction from the target to an eye that is not given: so turned about x that up is not along it.
     fn toward_eye(&self) -> DVec3 {
-        match self.up.filter(|up| are_parallel(*up, DVec3::Z)) {
-            Some(up) => DVec3::NEG_Y * up.z.signum(),
-            None => DVec3::Z,
+        match (self.from.and_then(DVec3::try_normalize), self.up.filter(|up| are_parallel(*up, DVec3::Z))) {
+            (Some(from), _) => from,
+            (None, Some(up)) => DVec3::NEG_Y * up.z.signum(),
+            (None, None) => DVec3::Z,
         }
     }
 }
+
+/// 30°.
+const RAISED_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// Within half a degree, where the picture would turn by any angle. A vector without length or direction is parallel to none.
 fn are_parallel(a: DVec3, b: DVec3) -> bool {
@@ -98,6 +115,12 @@ mod tests {
         let rolled =
             CameraParts { up: Some(DVec3::new(1.0, 1.0, 0.0)), ..none }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(rolled.eye, fit.eye);
+        // One that was found to be z up, from above.
+        let found = none.with_found_up(DVec3::Z).camera(&ball, [8, 8]).unwrap();
+        let toward = (found.eye - found.target).normalize();
+        assert!(toward.distance(DVec3::new(0.0, -0.75_f64.sqrt(), 0.5)) < 1e-12, "{toward}");
+        assert_eq!(none.with_found_up(DVec3::Y).camera(&ball, [8, 8]).unwrap(), fit);
+        assert_eq!(only_eye.with_found_up(DVec3::Z).camera(&ball, [8, 8]).unwrap().eye, DVec3::ONE);
         let above = CameraParts { eye: Some(ball.center + DVec3::Z), up: Some(DVec3::Z), ..none };
         assert!(above.camera(&ball, [8, 8]).unwrap_err().to_string().starts_with("--up: 0,0,1: parallel"));
         let inside = CameraParts { eye: Some(ball.center), ..none };

@@ -9,7 +9,13 @@ use std::{
 use ash::vk;
 
 use super::{choose::DeviceFacts, device::Device, garbage::Retired, owned::Owned, result::VkResultExt};
-use crate::error::{Error, Result};
+use crate::{
+    error::{Error, Result},
+    small_file::read_small_file,
+};
+
+/// More than all pipelines of surfel take: what is larger is something else.
+const MOST_BYTES: u64 = 1 << 28;
 
 /// Compiled pipelines, in memory and, where a folder was given, on disk.
 pub struct PipelineCache {
@@ -26,7 +32,8 @@ impl PipelineCache {
     pub fn open(device: &Device, folder: Option<&Path>) -> Result<Self> {
         const NAME: &str = "pipeline cache";
         let file = folder.map(|folder| folder.join(file_name(device.facts())));
-        let stored = file.as_ref().and_then(|file| std::fs::read(file).ok()).unwrap_or_default();
+        let read = |file: &PathBuf| read_small_file(file, MOST_BYTES, "a pipeline cache").ok();
+        let stored = file.as_ref().and_then(read).unwrap_or_default();
         // SAFETY: the device is alive.
         let properties = unsafe { device.instance().raw().get_physical_device_properties(device.physical()) };
         let data: &[u8] = match fits(&stored, &properties) {

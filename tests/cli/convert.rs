@@ -26,7 +26,11 @@ fn convert(folder: &Folder, arguments: &[&str]) -> String {
 }
 
 fn picture(folder: &Folder, model: &str, options: &[&str]) -> Vec<u8> {
-    done(folder, &[&["render", model, "-o", "picture.png", "--size", "64x64"], options].concat());
+    let splats = ["--representation", "splats"];
+    done(
+        folder,
+        &[&["render", model, "-o", "picture.png", "--size", "64x64"], &splats[..], options].concat(),
+    );
     fs::read(folder.path("picture.png")).unwrap()
 }
 
@@ -52,7 +56,7 @@ fn a_converted_mesh_is_drawn_as_the_mesh_itself() {
 fn resampling_repeats_for_a_seed() {
     let folder = folder();
     let run = |output: &str, seed: &[&str]| {
-        let said = convert(&folder, &[&["octahedron.obj", output, "--resample", "20000"], seed].concat());
+        let said = convert(&folder, &[&["octahedron.obj", output, "--resample", "20k"], seed].concat());
         (said, fs::read(folder.path(output)).unwrap())
     };
     let (said, first) = run("a.ply", &[]);
@@ -96,15 +100,15 @@ fn what_cannot_be_converted_is_refused_in_one_line() {
         (&["splats.ply", "a.ply", "--resample", "9"], "splats.ply: the file holds splats; expected a mesh"),
         (
             &["octahedron.obj", "a.ply", "--resample", "0"],
-            "'0' for '--resample <N>': expected a whole number, 1 to 4294967295",
+            "'0' for '--resample <N>': expected a number of splats, 1 to 4294967295",
         ),
         (
             &["octahedron.obj", "a.ply", "--resample", "4294967296"],
-            "'4294967296' for '--resample <N>': expected a whole number",
+            "'4294967296' for '--resample <N>': expected a number of splats",
         ),
         (
             &["octahedron.obj", "a.ply", "--resample", "-1"],
-            "'-1' for '--resample <N>': expected a whole number",
+            "'-1' for '--resample <N>': expected a number of splats",
         ),
         (&["octahedron.obj", "a.ply", "--seed", "1"], "--resample <N>"),
     ];

@@ -96,6 +96,9 @@ fn sizes_that_cannot_be() {
         info["devices"].as_array().unwrap().iter().find(|device| device["default"] == true).unwrap();
     let side = default["max_image_side_px"].as_u64().unwrap();
     if side < 65_536 {
+        let largest = format!("{side}x1");
+        let run = surfel(&folder, &["render", "good.obj", "--size", &largest, "-o", "wide.png"]);
+        assert_eq!(run.code, 0, "{}", run.stderr);
         let size = format!("{}x8", side + 1);
         let words = ["--size", &size, "draws at most", default["name"].as_str().unwrap()];
         refused(&folder, &["render", "--size", &size], 1, &words);
@@ -111,7 +114,7 @@ fn values_that_cannot_be() {
         ("--kernel", "gaussian:NaN", ["--kernel", "NaN"]),
         ("--epsilon", "-1r", ["--epsilon", "at least 0"]),
         ("--background", "0,0,2", ["--background", "0 to 1"]),
-        ("--fov", "180", ["--fov", "between 1e-10 and 180"]),
+        ("--fov", "180", ["--fov", "above 1e-10 and below 180"]),
         ("--eye", "1,2", ["--eye", "three numbers"]),
         ("--frames", "0", ["--frames", "expected a whole number, 1 to 100000"]),
     ] {

@@ -9,6 +9,8 @@ mod faults;
 mod figure;
 mod files;
 mod growth;
+mod inputs;
+mod outputs;
 mod program;
 mod report;
 mod scene_file;
@@ -134,8 +136,8 @@ fn several_inputs_are_one_scene() {
     let words =
         ["render", "left.ply", "right.obj", "-o", "a.png", "--shading", "albedo", "--background", "none"];
     let run = done(&folder, &[&words[..], &SMALL].concat());
-    assert!(run.stderr.contains("left.ply: 1 disks\n"), "{}", run.stderr);
-    assert!(run.stderr.contains("right.obj: 3 vertices, 1 triangles: open"), "{}", run.stderr);
+    assert!(run.stderr.contains("left.ply: 1 disk\n"), "{}", run.stderr);
+    assert!(run.stderr.contains("right.obj: 3 vertices, 1 triangle: open"), "{}", run.stderr);
     let picture = png(&folder.path("a.png"));
     assert_eq!(picture.channels, 4);
     let has = |color: [u8; 4]| picture.pixels.chunks_exact(4).filter(|pixel| **pixel == color).count();

@@ -30,7 +30,7 @@ fn objects_are_placed_colored_and_seen_by_the_files_camera() {
     for subcommand in ["render", "reference"] {
         let run = drawn(&folder, &[subcommand, "scene.toml", "--shading", "albedo"]);
         let said: Vec<&str> = run.stderr.lines().take(2).collect();
-        assert_eq!(said, ["disk.ply: 1 disks", "right: 1 ellipses"], "{subcommand}");
+        assert_eq!(said, ["disk.ply: 1 disk", "right: 1 ellipse"], "{subcommand}");
         let picture = png(&folder.path("a.png"));
         // 64 pixels are 2 · 10 · tan 22.5° = 8.28 units high.
         let at = |x: f64, y: f64| picture.at((32.0 + 7.73 * x) as u32, (32.0 - 7.73 * y) as u32);
@@ -49,10 +49,9 @@ fn objects_are_placed_colored_and_seen_by_the_files_camera() {
 fn a_scene_file_stands_beside_other_inputs() {
     let folder = folder();
     folder.write("scene.toml", "[[object]]\nbuiltin = \"sphere\"\nsplats = 500\nalpha = 0.5\n");
-    let run = drawn(&folder, &["reference", "triangle.obj", "scene.toml"]);
+    let run = drawn(&folder, &["reference", "triangle.obj", "scene.toml", "--representation", "splats"]);
     let said: Vec<&str> = run.stderr.lines().take(2).collect();
-    let triangle =
-        "triangle.obj: 3 vertices, 1 triangles: open, 3 boundary edges; normals and radii computed";
+    let triangle = "triangle.obj: 3 vertices, 1 triangle: open, 3 boundary edges; normals and radii computed";
     assert_eq!(said, [triangle, "built-in sphere: 500 disks, closed; transparent, alpha 0.5"]);
 }
 
@@ -60,7 +59,8 @@ fn a_scene_file_stands_beside_other_inputs() {
 fn meshes_are_drawn_as_triangles_where_that_is_asked_for() {
     let folder = folder();
     let run = drawn(&folder, &["reference", "triangle.obj", "--representation", "mesh"]);
-    let expected = "triangle.obj: 3 vertices, 1 triangles: open, 3 boundary edges; normals computed; drawn as 1 triangles";
+    let expected =
+        "triangle.obj: 3 vertices, 1 triangle: open, 3 boundary edges; normals computed; drawn as 1 triangle";
     assert_eq!(run.stderr.lines().next(), Some(expected));
     let refused = surfel(&folder, &["render", "disk.ply", "--representation", "mesh"]);
     assert_eq!(refused.code, 1);
@@ -81,8 +81,8 @@ fn the_examples_load() {
     assert!(said.starts_with("built-in sphere: ") && said.contains(" of the splats"), "{said}");
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/spheres.toml");
     let run = drawn(&folder, &["render", example]);
-    let expected = "built-in sphere: 20000 disks, closed; transparent, alpha 0.5";
-    assert_eq!(run.stderr.lines().filter(|line| *line == expected).count(), 27, "{}", run.stderr);
+    let expected = "27 × built-in sphere: 20000 disks, closed; transparent, alpha 0.5";
+    assert_eq!(run.stderr.lines().filter(|line| *line == expected).count(), 1, "{}", run.stderr);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn faults_are_told_in_one_line_with_their_place() {
         (&["hybrid.toml"], "disk.ply: the file holds splats; expected a mesh, to draw its triangles"),
         (&["same.toml", "--timings", "disk.ply"], "disk.ply: is an input, or written twice"),
         (&["same.toml", "--timings", "./same.toml"], "./same.toml: is an input, or written twice"),
-        (&["--representation", "points"], "[possible values: splats, mesh]"),
+        (&["--representation", "points"], "[possible values: auto, splats, mesh]"),
     ];
     for (arguments, expected) in cases {
         let run = surfel(&folder, &[&["render"], arguments].concat());

@@ -22,6 +22,7 @@ use crate::{
   surfel render                        a picture of the built-in model, surfel.png
   surfel render scan.ply -o scan.png   a picture of a file
   surfel convert scan.obj splats.ply   a file of splats
+  surfel info scan.ply                 what is in a file, and what would be drawn
   surfel info                          the devices of this machine
 
 Exit codes: 0 fine; 1 the input or an option is at fault; 2 the device is at fault; 3 validation messages or a \

@@ -1,9 +1,6 @@
 //! The camera: from a file, from options, or fitted to the scene.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use glam::DVec3;
@@ -11,9 +8,14 @@ use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
     scene::{Camera, CameraParts},
+    small_file::read_small_file,
 };
 
-use crate::{parse, scene::Loaded};
+use crate::{
+    parse,
+    scene::Loaded,
+    up::{self, Up},
+};
 
 /// The camera.
 #[derive(Args)]
@@ -23,7 +25,8 @@ pub struct CameraArguments {
     #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub camera: Option<PathBuf>,
 
-    /// The eye [default: on +z from the target, so far that the scene fits; on -y with --up 0,0,1]
+    /// The eye [default: on +z from the target, so far that the scene fits; on -y where z is up, and above it where nobody
+    /// said that z is]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub eye: Option<[f64; 3]>,
 
@@ -31,17 +34,24 @@ pub struct CameraArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
     pub target: Option<[f64; 3]>,
 
-    /// The direction that is up; 0,0,1 for what has z up [default: 0,1,0]
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true)]
-    pub up: Option<[f64; 3]>,
+    /// The direction that is up: x, y, z, -x, -y, -z, a direction such as 0,0.5,1, or auto: as the files or the scene file say; else z
+    /// where the shape is plainly that of a map, a terrain or a building; else y [default: auto]
+    #[arg(long, value_name = "UP", value_parser = up::parse, allow_hyphen_values = true)]
+    pub up: Option<Up>,
 
     /// The vertical field of view in degrees [default: 45]
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", value_parser = degrees, allow_hyphen_values = true)]
     pub fov: Option<f64>,
 }
 
 /// More than any camera file holds: what is larger is something else.
 const MAX_FILE_BYTES: u64 = 1 << 16;
+
+/// `45`, without a unit.
+fn degrees(word: &str) -> std::result::Result<f64, String> {
+    let degrees = word.parse().ok().filter(|degrees: &f64| *degrees > 1e-10 && *degrees < 180.0);
+    degrees.ok_or_else(|| "expected degrees above 1e-10 and below 180, such as 45".to_owned())
+}
 
 /// A camera file. Angles in degrees, points in world space.
 #[derive(Deserialize)]
@@ -62,6 +72,14 @@ pub enum CameraChoice {
     Options(CameraParts),
 }
 
+impl CameraArguments {
+    /// Whether an option says something of the camera.
+    pub fn is_given(&self) -> bool {
+        let Self { camera, eye, target, up, fov } = self;
+        camera.is_some() || eye.is_some() || target.is_some() || up.is_some() || fov.is_some()
+    }
+}
+
 impl CameraChoice {
     /// No options.
     pub fn none() -> Self {
@@ -76,16 +94,15 @@ impl CameraChoice {
         if let Some(path) = &arguments.camera {
             return read(path).map(Self::File);
         }
-        if let Some(degrees) = arguments.fov
-            && !(degrees > 0.0 && degrees < 180.0)
-        {
-            return Err(Error::option("--fov", format!("{degrees}: expected degrees between 1e-10 and 180")));
-        }
         let vector = |given: Option<[f64; 3]>| given.map(DVec3::from);
         Ok(Self::Options(CameraParts {
             eye: vector(arguments.eye),
             target: vector(arguments.target),
-            up: vector(arguments.up),
+            from: None,
+            up: match arguments.up {
+                Some(Up::Given(direction)) => Some(direction.into()),
+                Some(Up::Auto) | None => None,
+            },
             fov_y_rad: arguments.fov.map(f64::to_radians),
             near: None,
         }))
@@ -99,23 +116,32 @@ impl CameraChoice {
     pub fn camera(&self, loaded: &Loaded, size_px: [u32; 2]) -> Result<Camera> {
         match (self, &loaded.camera) {
             (Self::File(camera), _) => Ok(*camera),
-            (Self::Options(options), None) => options.camera(&loaded.ball, size_px),
-            (Self::Options(options), Some((path, parts))) => {
-                options.or(*parts).camera(&loaded.ball, size_px).map_err(|error| match error.kind() {
+            (Self::Options(options), None) => with_up(*options, loaded).camera(&loaded.ball, size_px),
+            (Self::Options(options), Some((path, parts))) => with_up(options.or(*parts), loaded)
+                .camera(&loaded.ball, size_px)
+                .map_err(|error| match error.kind() {
                     ErrorKind::Option { problem, .. } => Error::input(path, "camera", problem),
                     _ => error,
-                })
-            }
+                }),
         }
     }
 }
 
-fn read(path: &Path) -> Result<Camera> {
-    let metadata = fs::metadata(path).map_err(|e| Error::file(path, "read", e))?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err(Error::input(path, "", "not a camera file; see surfel render --help"));
+/// With the direction that files or shapes tell, where none is given. An eye that is given and looks along it has no use for it.
+fn with_up(parts: CameraParts, loaded: &Loaded) -> CameraParts {
+    let Some(found) = loaded.up.as_ref().filter(|_| parts.up.is_none()) else { return parts };
+    let with = parts.with_found_up(found.direction);
+    match with.camera(&loaded.ball, [1, 1]) {
+        Ok(_) => {
+            up::tell(found);
+            with
+        }
+        Err(_) => parts,
     }
-    let text = fs::read(path).map_err(|e| Error::file(path, "read", e))?;
+}
+
+fn read(path: &Path) -> Result<Camera> {
+    let text = read_small_file(path, MAX_FILE_BYTES, "a camera file (see surfel render --help)")?;
     let file: CameraFile = serde_json::from_slice(&text).map_err(|e| {
         let (line, column) = (e.line(), e.column());
         let problem = e.to_string();
@@ -140,7 +166,7 @@ fn read(path: &Path) -> Result<Camera> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
+    use std::{fs, path::PathBuf};
 
     use surfel::scene::{Ball, Scene};
 
@@ -182,10 +208,10 @@ mod tests {
             (&near("1e400"), "cam.json: line 1, column 74: number out of range"),
             (
                 &near("1").replace("45", "180"),
-                "cam.json: fov_deg: 180: expected degrees between 1e-10 and 180",
+                "cam.json: fov_deg: 180: expected degrees above 1e-10 and below 180",
             ),
             (&near("1").replace("1,2,3", "0,0,0"), "cam.json: eye and target must be two different points"),
-            (&" ".repeat(100_000), "cam.json: not a camera file"),
+            (&" ".repeat(100_000), "cam.json: 100000 bytes; expected a camera file"),
         ];
         for (text, expected) in cases {
             let error = parsed(text).unwrap_err();
@@ -200,6 +226,7 @@ mod tests {
             scene: Scene::default(),
             ball,
             camera: Some((PathBuf::from("a.toml"), parts)),
+            up: None,
             inputs: Vec::new(),
             steps: Vec::new(),
         };

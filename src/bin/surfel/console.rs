@@ -36,6 +36,35 @@ pub fn fail(text: &str) {
     say(&format!("surfel: {line}"));
 }
 
+/// Lines of which equal ones that follow each other are one, with their number.
+#[derive(Default)]
+pub struct Repeated {
+    /// The last line, and how often it came.
+    last: Option<(String, usize)>,
+}
+
+impl Repeated {
+    /// Tells a line once it is known how often it comes.
+    pub fn say(&mut self, line: &str) {
+        match &mut self.last {
+            Some((last, times)) if last == line => *times += 1,
+            _ => {
+                self.end();
+                self.last = Some((line.to_owned(), 1));
+            }
+        }
+    }
+
+    /// Tells the last line.
+    pub fn end(&mut self) {
+        match self.last.take() {
+            None => {}
+            Some((line, 1)) => say(&line),
+            Some((line, times)) => say(&format!("{times} × {line}")),
+        }
+    }
+}
+
 /// One progress bar at a time, on the standard error; none where that is not a terminal.
 #[derive(Default)]
 pub struct Bars {

@@ -7,6 +7,7 @@ use surfel::{
     Result,
     compose::splats_kind,
     load::{LoadOptions, Model, load},
+    report::InputReport,
     save,
     scene::Object,
 };
@@ -14,7 +15,7 @@ use surfel::{
 use crate::{
     console::{self, Bars},
     outputs, parse,
-    scene::{load_object, not_a_mesh, resample_mesh},
+    scene::{load_object, not_a_mesh, refuse_losses, resample_mesh},
 };
 
 const HELP: &str = "Write a model as a file of splats.
@@ -29,7 +30,7 @@ surfel closed\" tells `surfel render` that the surface is closed, so that splats
 
 const EXAMPLES: &str = "Examples:
   surfel convert igea.ply splats.ply                          a disk at each vertex
-  surfel convert igea.ply igea-1m.ply --resample 1000000      a million disks, evenly spread
+  surfel convert igea.ply igea-1m.ply --resample 1M           a million disks, evenly spread
   surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7";
 
 /// Write a model as a file of splats, at a mesh's vertices or anew over its area
@@ -45,13 +46,17 @@ pub struct ConvertArguments {
     output: PathBuf,
 
     /// Spread that many disks evenly over the mesh's area; takes about 75 bytes of memory each [default: a disk at each vertex]
-    #[arg(long, value_name = "N", value_parser = parse::whole::<u64>(1..=4_294_967_295), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = parse::splats, allow_hyphen_values = true)]
     resample: Option<u64>,
 
     /// Which samples are taken
     #[arg(long, value_name = "S", default_value_t = 0, requires = "resample")]
     #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     seed: u64,
+
+    /// Fail where anything of the file is left out, merged, replaced, clamped or ignored
+    #[arg(long)]
+    strict: bool,
 }
 
 /// Runs the subcommand.
@@ -63,10 +68,14 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     let bars = Bars::new();
     let made = match arguments.resample {
         Some(count) => resampled_file(&arguments.input, count, arguments.seed, &bars),
-        None => load_object(&arguments.input, &bars).map(|(object, report)| (object, report.summary)),
+        None => load_object(&arguments.input, &bars),
     };
     bars.clear();
-    let (object, summary) = made?;
+    let (object, report) = made?;
+    if arguments.strict {
+        refuse_losses(&report)?;
+    }
+    let summary = report.summary;
     let written = save::splats(&arguments.output, &object.splats, object.closed, &bars);
     bars.clear();
     let written = written?;
@@ -78,11 +87,14 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     console::print(&format!("{summary} -> {output}: {count} {kind}{positions}{closed}, {bytes} bytes"))
 }
 
-/// Splats spread evenly over the mesh in a file, and what was done in words.
-fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, String)> {
-    let mesh = match load(path, &LoadOptions::default(), bars)?.model {
+/// Splats spread evenly over the mesh in a file, and what was done.
+fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, InputReport)> {
+    let loaded = load(path, &LoadOptions::default(), bars)?;
+    let mesh = match loaded.model {
         Model::Mesh(mesh) => mesh,
         other => return Err(not_a_mesh(path, &other)),
     };
-    resample_mesh(&mesh, path, count, seed, bars).map(|(object, report)| (object, report.summary))
+    let (object, mut report) = resample_mesh(&mesh, path, count, seed, bars)?;
+    report.notes = [loaded.notes, report.notes].concat();
+    Ok((object, report))
 }

@@ -37,7 +37,8 @@ fn reason(camera: &Camera, ball: &Ball) -> String {
         () if reach_deg < half_fov_deg / 1000.0 => format!(
             "the scene is {distance:.3e} away and smaller than a pixel; try without --eye, or a smaller --fov"
         ),
-        () => "what the camera looks at faces away or is seen edge-on; try --backfaces flip or another --eye"
+        () => "what the camera looks at faces away, is seen edge-on, has an alpha of 0 or the background's color; try --backfaces \
+               flip, another --eye, or --shading normals"
             .to_owned(),
     }
 }

@@ -13,6 +13,9 @@ mod emptiness;
 mod explain;
 mod figure;
 mod info;
+mod inputs;
+#[cfg(unix)]
+mod interrupts;
 mod json;
 mod machine;
 mod measure;
@@ -30,6 +33,7 @@ mod selftest;
 mod settings;
 mod steps;
 mod turns;
+mod up;
 mod usage;
 
 use std::process::ExitCode;
@@ -40,6 +44,8 @@ fn main() -> ExitCode {
         // SAFETY: first thing in `main`, there is no other thread yet.
         unsafe { surfel::vk::arm_validation_across_submits() };
     }
+    #[cfg(unix)]
+    interrupts::watch();
     let arguments = match usage::parse() {
         Ok(arguments) => arguments,
         Err(exit) => return exit,

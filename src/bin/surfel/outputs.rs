@@ -2,15 +2,14 @@
 
 use std::{
     ffi::OsStr,
-    fs::{self, OpenOptions},
     io,
     path::{Path, PathBuf},
-    process,
 };
 
 use surfel::{
     Error, Result,
-    load::{ObjectDescription, Source, is_scene_file, load_scene_file},
+    load::{LoadOptions, ObjectDescription, Source, is_scene_file, load_scene_file},
+    save,
 };
 
 use crate::picture::PictureArguments;
@@ -27,17 +26,22 @@ pub enum PictureFormat {
 /// The files of `--dump`.
 pub const DUMPED: [&str; 5] = ["weight.exr", "albedo.exr", "normal.exr", "depth.exr", "final.exr"];
 
-/// Checks that everything asked for can be written, and gives the picture's format.
+/// Checks that everything asked for can be written, and gives the picture's place, `default` where nobody says it, and format.
 ///
 /// # Errors
 /// A picture whose format is unknown; as [`check_places`].
-pub fn check(arguments: &PictureArguments, timings: &Option<PathBuf>) -> Result<PictureFormat> {
+pub fn check(
+    arguments: &PictureArguments,
+    default: &str,
+    timings: &Option<PathBuf>,
+) -> Result<(PathBuf, PictureFormat)> {
     let PictureArguments { input, camera, output, dump, .. } = arguments;
-    check_name("--output", output, &["png", "exr"])?;
+    let output = output.clone().unwrap_or_else(|| default.into());
+    check_name("--output", &output, &["png", "exr"])?;
     let inputs = input.inputs.iter().chain(&camera.camera);
-    check_places([output].into_iter().chain(timings), dump.as_deref(), &DUMPED, inputs)?;
+    check_places([&output].into_iter().chain(timings), dump.as_deref(), &DUMPED, inputs)?;
     let is_exr = output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
-    Ok(if is_exr { PictureFormat::Exr } else { PictureFormat::Png })
+    Ok((output, if is_exr { PictureFormat::Exr } else { PictureFormat::Png }))
 }
 
 /// Refuses a file whose name has none of these endings.
@@ -68,7 +72,7 @@ pub fn check_places<'a>(
     inputs: impl IntoIterator<Item = &'a PathBuf>,
 ) -> Result<()> {
     let mut files: Vec<PathBuf> = files.into_iter().cloned().collect();
-    files.iter().try_for_each(|file| check_file(file))?;
+    files.iter().try_for_each(|file| save::check_place(file))?;
     let mut taken: Vec<PathBuf> = Vec::new();
     for input in inputs {
         taken.extend(input.canonicalize());
@@ -97,7 +101,8 @@ pub fn check_places<'a>(
 
 /// The files that a scene file names. What is wrong with it is told when it is loaded.
 fn models_of(scene_file: &Path) -> Vec<PathBuf> {
-    let objects = load_scene_file(scene_file).map(|file| file.objects).unwrap_or_default();
+    let options = LoadOptions { allow_outside: true, ..LoadOptions::default() };
+    let objects = load_scene_file(scene_file, &options).map(|file| file.objects).unwrap_or_default();
     let model = |object: ObjectDescription| match object.source {
         Source::File(path) => Some(path),
         Source::BuiltIn { .. } => None,
@@ -111,38 +116,21 @@ fn models_of(scene_file: &Path) -> Vec<PathBuf> {
 /// A name that is not .ply; a place that can't be written to; the input's own.
 pub fn check_converted(input: &Path, output: &Path) -> Result<()> {
     check_name("OUTPUT", output, &["ply"])?;
-    check_file(output)?;
+    save::check_place(output)?;
     match input.canonicalize().is_ok_and(|input| input == place_of(output)) {
         true => Err(Error::option(output.display().to_string(), "is the input")),
         false => Ok(()),
     }
 }
 
-/// A file that can be created or replaced.
-pub fn check_file(path: &Path) -> Result<()> {
-    let fail = |e: io::Error| Error::file(path, "write", e);
-    match fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => return Err(fail(io::ErrorKind::IsADirectory.into())),
-        Ok(metadata) if !metadata.is_file() => return Err(fail(io::Error::other("not a regular file"))),
-        _ => {}
-    }
-    probe(folder_of(path)).map_err(fail)
-}
-
 /// A folder that can be written to, or created.
 fn check_folder(path: &Path) -> Result<()> {
     let fail = |e: io::Error| Error::file(path, "write", e);
     match path.ancestors().find(|ancestor| named(ancestor).exists()) {
-        Some(there) => probe(named(there)).map_err(fail),
+        // Nothing is left of a file without a name.
+        Some(there) => tempfile::tempfile_in(named(there)).map(|_| ()).map_err(fail),
         None => Err(fail(io::ErrorKind::NotFound.into())),
     }
-}
-
-/// Whether files can be created in a folder: permission bits don't tell (root, read-only file systems), trying does.
-fn probe(folder: &Path) -> io::Result<()> {
-    let path = folder.join(format!(".surfel-{}.tmp", process::id()));
-    OpenOptions::new().write(true).create_new(true).open(&path)?;
-    fs::remove_file(&path)
 }
 
 fn folder_of(file: &Path) -> &Path {

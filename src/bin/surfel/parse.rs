@@ -21,15 +21,36 @@ pub fn triple(word: &str) -> Result<[f64; 3], String> {
     <[f64; 3]>::parse(word)
 }
 
-/// A whole number within `range`.
+/// A whole number within `range`; `10k` is ten thousand, `1.4M` a million and four hundred thousand.
 pub fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
 where
     T: FromStr + PartialOrd + Display + Clone + Send + Sync + 'static,
 {
     move |word| {
-        let number = word.parse().ok().filter(|number| range.contains(number));
+        let number = digits(word).and_then(|digits| digits.parse().ok());
+        let number = number.filter(|number| range.contains(number));
         number.ok_or_else(|| format!("expected a whole number, {} to {}", range.start(), range.end()))
     }
+}
+
+/// A number of splats, 1 to 2³² − 1, such as `460000`, `460k` or `1.4M`.
+pub fn splats(word: &str) -> Result<u64, String> {
+    whole(1..=u64::from(u32::MAX))(word)
+        .map_err(|_| "expected a number of splats, 1 to 4294967295, such as 154k or 1.4M".to_owned())
+}
+
+/// A whole number without its suffix, exactly; `None` for what is none.
+fn digits(word: &str) -> Option<String> {
+    let (number, zeros) = match (word.strip_suffix('k'), word.strip_suffix('M')) {
+        (Some(number), _) => (number, 3),
+        (_, Some(number)) => (number, 6),
+        _ => (word, 0),
+    };
+    let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
+    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let all = !whole.is_empty() && are_digits(whole) && are_digits(fraction);
+    let is_whole = fraction.len() <= zeros && (fraction.is_empty() != number.contains('.'));
+    (all && is_whole).then(|| format!("{whole}{fraction}{}", "0".repeat(zeros - fraction.len())))
 }
 
 /// `2.5`: so many of `unit`, within `range`.
@@ -43,20 +64,6 @@ pub fn number(
     }
 }
 
-/// `460000`, `460k` or `1.4M`.
-pub fn splats(word: &str) -> Result<u64, String> {
-    let (number, scale) = match (word.strip_suffix('k'), word.strip_suffix('M')) {
-        (Some(number), _) => (number, 1e3),
-        (_, Some(number)) => (number, 1e6),
-        _ => (word, 1.0),
-    };
-    let splats = number.parse::<f64>().ok().map(|number| (number * scale).round());
-    let splats = splats.filter(|splats| (1.0..=f64::from(u32::MAX)).contains(splats));
-    splats
-        .map(|splats| splats as u64)
-        .ok_or_else(|| "expected a number of splats, 1 to 4294967295, such as 154k or 1.4M".to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +72,14 @@ mod tests {
     fn values_are_read() {
         assert_eq!((square_or_size("512"), square_or_size("3x2")), (Ok([512, 512]), Ok([3, 2])));
         assert_eq!((splats("154k"), splats("1.4M"), splats("7")), (Ok(154_000), Ok(1_400_000), Ok(7)));
+        assert_eq!(
+            (splats("0.5k"), splats("4294967295"), splats("1.000001M")),
+            (Ok(500), Ok(u64::from(u32::MAX)), Ok(1_000_001))
+        );
+        assert_eq!(
+            (whole(0..=u64::MAX)("18446744073709551615"), whole(1..=9_000_u32)("9k")),
+            (Ok(u64::MAX), Ok(9000))
+        );
         assert_eq!(number("percent", 0.0..=1000.0)("2.5"), Ok(2.5));
     }
 
@@ -73,7 +88,25 @@ mod tests {
         for word in ["", "5x", "x5", "-5x5", "5x5x5", "5.5x5", "99999999999x1"] {
             assert!(square_or_size(word).is_err(), "{word}");
         }
-        for word in ["", "k", "0", "-1", "5G", "NaN", "1e30", "0.1"] {
+        for word in [
+            "",
+            "k",
+            "0",
+            "-1",
+            "5G",
+            "NaN",
+            "1e30",
+            "0.1",
+            "1.5",
+            "1.",
+            "1.k",
+            ".5k",
+            "1.2345k",
+            "+1",
+            "1kk",
+            "4294967296",
+            "4.3M0",
+        ] {
             assert!(splats(word).is_err(), "{word}");
         }
         for word in ["", "-1", "NaN", "1001"] {

@@ -7,7 +7,7 @@ use surfel::scene::Settings;
 
 use crate::{
     camera::CameraArguments,
-    scene::InputArguments,
+    inputs::InputArguments,
     settings::{Given, Taken},
 };
 
@@ -17,9 +17,9 @@ pub struct PictureArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats
-    #[arg(short, long, value_name = "FILE", default_value = "surfel.png")]
-    pub output: PathBuf,
+    /// The picture: .png is 8-bit sRGB, .exr is linear 32-bit floats [default: surfel.png, or reference.png of `surfel reference`]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 
     /// Also write weight, albedo, normal and depth of the opaque splats' surface, and the final picture, as .exr into this
     /// folder, linear 32-bit floats
@@ -57,6 +57,7 @@ mod tests {
     };
 
     use super::*;
+    use crate::up::Up;
 
     fn picture(words: &[String]) -> PictureArguments {
         let command = PictureArguments::augment_args(Command::new("test").no_binary_name(true));
@@ -106,6 +107,6 @@ mod tests {
     #[test]
     fn negative_coordinates_are_no_options() {
         let camera = picture(&["--eye", "-1,2,-3", "--up", "-0.5,0,1"].map(str::to_owned)).camera;
-        assert_eq!((camera.eye, camera.up), (Some([-1.0, 2.0, -3.0]), Some([-0.5, 0.0, 1.0])));
+        assert_eq!((camera.eye, camera.up), (Some([-1.0, 2.0, -3.0]), Some(Up::Given([-0.5, 0.0, 1.0]))));
     }
 }

@@ -51,8 +51,8 @@ fn write_png(path: &Path, size_px: [u32; 2], transparent: bool, srgb: &[[u8; 4]]
     }
 }
 
-/// The nearest 8-bit color.
-fn encode([red, green, blue, alpha]: [f32; 4]) -> [u8; 4] {
+/// The nearest 8-bit color, of a linear one.
+pub fn encode([red, green, blue, alpha]: [f32; 4]) -> [u8; 4] {
     // The cast saturates, and takes NaN to 0.
     let byte = |value: f32| (255.0 * value + 0.5) as u8;
     let srgb = |linear: f32| byte(srgb_from_linear(linear.clamp(0.0, 1.0)));

@@ -8,11 +8,13 @@ use surfel::{
 
 use crate::{
     camera::CameraChoice,
-    console::Bars,
+    console::{self, Bars},
+    emptiness,
+    inputs::INPUTS,
     outputs,
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
-    scene::{INPUTS, load_scene},
+    scene::load_scene,
 };
 
 const EXAMPLES: &str = "Examples:
@@ -39,16 +41,20 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let settings = picture.settings();
     settings.validate()?;
     let camera = CameraChoice::of(&picture.camera)?;
-    let format = outputs::check(picture, &None)?;
+    let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
+    let loaded = load_scene(&picture.input.inputs(), &bars)?;
     let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);
     bars.clear();
     let dump = dump(&drawn?);
     let transparent = settings.background.is_none();
-    pictures::write_picture(&picture.output, format, dump.size_px, transparent, Colors::Linear(&dump.color))?;
+    pictures::write_picture(&output, format, dump.size_px, transparent, Colors::Linear(&dump.color))?;
+    let srgb: Vec<[u8; 4]> = dump.color.iter().map(|color| pictures::encode(*color)).collect();
+    if let Some(hint) = emptiness::hint(&srgb, settings.background, &camera, &loaded.ball) {
+        console::say(&hint);
+    }
     match &picture.dump {
         Some(folder) => dump.write(folder),
         None => Ok(()),

@@ -15,6 +15,7 @@ use crate::{
     console::{self, Bars},
     device::DeviceArguments,
     emptiness, explain,
+    inputs::INPUTS,
     json::write_json,
     measure::{self, View},
     outputs::{self, PictureFormat},
@@ -22,7 +23,7 @@ use crate::{
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
-    scene::{INPUTS, Loaded, load_scene, upload},
+    scene::{Loaded, load_scene, upload},
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
@@ -82,12 +83,12 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let settings = arguments.picture.settings();
     settings.validate()?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
-    let format = outputs::check(&arguments.picture, &arguments.timings)?;
+    let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {
         headless.renderer.check_settings(&settings)?;
-        draw(headless, arguments, &settings, &camera, format, steps)
+        draw(headless, arguments, &settings, &camera, &output, steps)
     })
 }
 
@@ -96,12 +97,12 @@ fn draw(
     arguments: &RenderArguments,
     settings: &Settings,
     camera: &CameraChoice,
-    format: PictureFormat,
+    output: &(PathBuf, PictureFormat),
     mut steps: Steps,
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.input.inputs, picture.input.representation(), &bars)?;
+    let loaded = load_scene(&picture.input.inputs(), &bars)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
     let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
@@ -127,7 +128,7 @@ fn draw(
         console::print(&report.to_string())?;
         write_json(arguments.timings.as_deref(), &report)?;
     }
-    write(headless, arguments, view, &ball, format)
+    write(headless, arguments, view, &ball, output)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.
@@ -136,17 +137,17 @@ fn write(
     arguments: &RenderArguments,
     view: View<'_>,
     ball: &Ball,
-    format: PictureFormat,
+    (output, format): &(PathBuf, PictureFormat),
 ) -> Result<()> {
     let picture = &arguments.picture;
-    let wanted = Wanted { picture: true, linear: format == PictureFormat::Exr, ..Wanted::default() };
+    let wanted = Wanted { picture: true, linear: *format == PictureFormat::Exr, ..Wanted::default() };
     let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
     let colors = match format {
         PictureFormat::Png => Colors::Srgb(&frame.srgb),
         PictureFormat::Exr => Colors::Linear(&frame.linear),
     };
     let transparent = view.settings.background.is_none();
-    pictures::write_picture(&picture.output, format, frame.size_px, transparent, colors)?;
+    pictures::write_picture(output, *format, frame.size_px, transparent, colors)?;
     if let Some(hint) = emptiness::hint(&frame.srgb, view.settings.background, view.camera, ball) {
         console::say(&hint);
     }

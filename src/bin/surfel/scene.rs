@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
     compose::{build, make, resampled},
+    geometry::{FoundUp, up_of_shape},
     load::{
-        BuiltIn, Model, ObjectDescription, Representation, Samples, file_name, is_scene_file, load_scene_file,
+        BuiltIn, LoadOptions, Model, ObjectDescription, Representation, Samples, Source, file_name,
+        is_scene_file, load_scene_file,
     },
     prepare::PreparedScene,
     renderer::Headless,
@@ -15,44 +16,11 @@ use surfel::{
     scene::{Ball, CameraParts, Light, Mesh, Object, Scene},
 };
 
-use crate::console::{self, Bars};
-
-/// The manual of inputs.
-pub const INPUTS: &str = "Inputs are PLY files (splats, meshes or points), OBJ files (meshes or points), and scene files (.toml: objects, each \
-with its place and looks, lights and a camera; `surfel render --help` has their keys); a mesh becomes disks at its \
-vertices, points become disks that close their surface, with normals from their neighbors. Several inputs are one scene; none is the built-in model. Lengths are in the files' own unit; +y is up unless \
---up says otherwise. The camera looks along -z at the whole scene unless told otherwise.";
-
-/// The inputs.
-#[derive(Args)]
-pub struct InputArguments {
-    /// PLY, OBJ or scene files (.toml); none is the built-in model
-    #[arg(value_name = "INPUT")]
-    pub inputs: Vec<PathBuf>,
-
-    /// The primitives of inputs that are no scene files
-    #[arg(long, value_name = "WHAT", default_value = "splats")]
-    representation: Primitives,
-}
-
-/// The primitives of an input.
-#[derive(Clone, Copy, ValueEnum)]
-enum Primitives {
-    /// Splats; a mesh with a disk at each vertex
-    Splats,
-    /// The triangles of a mesh
-    Mesh,
-}
-
-impl InputArguments {
-    /// The primitives of inputs that are no scene files.
-    pub fn representation(&self) -> Representation {
-        match self.representation {
-            Primitives::Splats => Representation::Splats,
-            Primitives::Mesh => Representation::Mesh,
-        }
-    }
-}
+use crate::{
+    console::{Bars, Repeated},
+    inputs::Inputs,
+    up,
+};
 
 /// A scene with its extent and where it came from.
 pub struct Loaded {
@@ -62,6 +30,8 @@ pub struct Loaded {
     pub ball: Ball,
     /// The scene file that has a camera, and that camera.
     pub camera: Option<(PathBuf, CameraParts)>,
+    /// The direction that is up, where a file or the scene's shape tells it.
+    pub up: Option<FoundUp>,
     /// One an object.
     pub inputs: Vec<InputReport>,
     /// The steps of loading.
@@ -69,22 +39,47 @@ pub struct Loaded {
 }
 
 /// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it. Meshes are
-/// drawn as `meshes` says, but for those of scene files, which say it themselves.
+/// drawn as `inputs` says, but for those of scene files, which say it themselves.
 ///
 /// # Errors
-/// As [`load_scene_file`] and [`build`]; two scene files that both have a camera.
-pub fn load_scene(inputs: &[PathBuf], meshes: Representation, bars: &Bars) -> Result<Loaded> {
-    let Described { objects, lights, camera } = describe(inputs, meshes)?;
+/// As [`load_scene_file`] and [`build`]; two scene files that both have a camera; with `strict`, anything that is not drawn as
+/// its file says it.
+pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
+    let Described { objects, lights, camera } = describe(inputs)?;
     let mut steps = Vec::new();
-    let built = build(&objects, lights, bars, &mut |object| {
+    let mut ups = Vec::new();
+    let mut lines = Repeated::default();
+    let built = build(&objects, lights, &inputs.options, bars, &mut |object| {
         bars.clear();
         steps.extend(object.steps.iter().cloned());
-        console::say(&object.report.summary);
+        ups.extend(object.up.map(|up| (up, object.report.name.clone())));
+        lines.say(&object.report.summary);
     });
     bars.clear();
-    let (scene, inputs) = built?;
+    lines.end();
+    let (scene, reports) = built?;
+    if inputs.strict {
+        reports.iter().try_for_each(refuse_losses)?;
+    }
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
-    Ok(Loaded { scene, ball, camera, inputs, steps })
+    let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
+    let up = up::of(ups).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
+    Ok(Loaded { scene, ball, camera, up, inputs: reports, steps })
+}
+
+/// Refuses what is not drawn as its file says it.
+///
+/// # Errors
+/// [`ErrorKind::Input`] with the first of it.
+pub fn refuse_losses(report: &InputReport) -> Result<()> {
+    let losses: Vec<_> = report.notes.iter().filter(|note| note.deed.is_loss()).collect();
+    let Some(first) = losses.first() else { return Ok(()) };
+    let others = match losses.len() - 1 {
+        0 => String::new(),
+        others => format!(", and {others} more of that kind"),
+    };
+    let problem = format!("{first}{others}; expected nothing of it with --strict");
+    Err(Error::input(&report.name, "", problem))
 }
 
 /// Brings a scene to the device.
@@ -96,7 +91,9 @@ pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<Prepare
 
 /// The splats of one input that is no scene file, without those that can't be drawn.
 pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport)> {
-    let built = make(&ObjectDescription::of_file(path), bars);
+    let representation = Representation::Splats;
+    let object = ObjectDescription { representation, ..ObjectDescription::of_file(path) };
+    let built = make(&object, &LoadOptions::default(), bars);
     bars.clear();
     let built = built?;
     let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
@@ -132,22 +129,30 @@ struct Described {
     camera: Option<(PathBuf, CameraParts)>,
 }
 
-fn describe(inputs: &[PathBuf], meshes: Representation) -> Result<Described> {
+fn describe(inputs: &Inputs) -> Result<Described> {
     let mut described = Described { objects: Vec::new(), lights: Vec::new(), camera: None };
-    if inputs.is_empty() {
-        if meshes != Representation::Splats {
-            let problem = "mesh: the built-in model is made of splats; expected an input";
-            return Err(Error::option("--representation", problem));
+    let (representation, samples) = (inputs.representation, inputs.samples);
+    let built_in = "the built-in model is made of splats; expected an input";
+    match (inputs.files.is_empty(), representation, samples) {
+        (true, Representation::Mesh, _) => {
+            return Err(Error::option("--representation", format!("mesh: {built_in}")));
         }
-        described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief));
+        (true, _, Some(_)) => return Err(Error::option("--resample", built_in)),
+        (_, Representation::Mesh, Some(_)) => {
+            let problem =
+                "has no meaning for meshes that are drawn as triangles; expected no --representation mesh";
+            return Err(Error::option("--resample", problem));
+        }
+        (true, ..) => described.objects.push(ObjectDescription::of_built_in(BuiltIn::Relief)),
+        _ => {}
     }
-    for path in inputs {
+    for path in &inputs.files {
         if !is_scene_file(path) {
-            let representation = meshes;
-            described.objects.push(ObjectDescription { representation, ..ObjectDescription::of_file(path) });
+            let object = ObjectDescription::of_file(path);
+            described.objects.push(ObjectDescription { representation, samples, ..object });
             continue;
         }
-        let file = load_scene_file(path)?;
+        let file = load_scene_file(path, &inputs.options)?;
         described.objects.extend(file.objects);
         described.lights.extend(file.lights);
         if let Some(camera) = file.camera {
@@ -170,7 +175,7 @@ mod tests {
         let folder = temp_dir::TempDir::new().unwrap();
         let path = folder.path().join(name);
         fs::write(&path, text).unwrap();
-        let loaded = load_scene(&[path], Representation::Splats, &Bars::new());
+        let loaded = load_scene(&Inputs::splats_of(vec![path]), &Bars::new());
         loaded.map(|mut loaded| loaded.inputs.remove(0)).map_err(|e| e.to_string())
     }
 
@@ -178,7 +183,7 @@ mod tests {
     fn what_was_done_with_a_mesh_is_told() {
         let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
         let report = load_text("a.obj", triangle).unwrap();
-        let expected = "a.obj: 3 vertices, 1 triangles: open, 3 boundary edges; normals and radii computed";
+        let expected = "a.obj: 3 vertices, 1 triangle: open, 3 boundary edges; normals and radii computed";
         assert_eq!(report.summary, expected);
         assert_eq!((report.vertices, report.triangles, report.splats), (Some(3), Some(1), 3));
         let with_normals = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
@@ -192,7 +197,7 @@ mod tests {
     fn splats_that_cannot_be_drawn_are_counted_once() {
         let report =
             load_text("a.ply", &format!("{SPLATS}0 0 0 0 0 1 1\n1 0 0 0 0 1 0\n2 0 0 0 0 0 1\n")).unwrap();
-        let expected = "a.ply: 1 disks; 2 splats left out: 1 normal zero or not finite, 1 radius not \
+        let expected = "a.ply: 1 disk; 2 splats left out: 1 normal zero or not finite, 1 radius not \
             above zero or not finite";
         assert_eq!(report.summary, expected);
         assert_eq!((report.splats, report.dropped), (1, 2));

@@ -16,14 +16,16 @@ space; colors are sRGB from 0 to 1.
   color = [1, 1, 1]
   intensity = 1            multiplies the color as linear light, at least 0
 [[object]]                 at least one, at most 1024
-  file                     PLY or OBJ, in the scene file's folder or below, links followed; or
+  file                     PLY or OBJ, in the scene file's folder or below, links followed
+                           (--allow-outside: anywhere); or
   builtin                  \"relief\", \"sphere\" (of radius 1) or \"checkerboard\"
   splats                   of a builtin; 150000, 20000 and 10000 of these; a hybrid has a share
                            for the area of its splats
   triangles = 20480        of the sphere as triangles: at least so many
   name                     in messages, in place of the file's
-  representation           \"splats\" or, of a mesh, \"mesh\": its triangles; or \"hybrid\": some
-                           triangles, splats for the others
+  representation = \"auto\"  a mesh as what shows it best; or \"splats\": disks at its vertices;
+                           \"mesh\": its triangles; \"hybrid\": some triangles, splats for the
+                           others
   polygons                 of a hybrid, which triangles stay: { plane = [nx, ny, nz, d] }: those
                            whose middle x has n.x >= d, or { longer_than = LENGTH }: those with a
                            longer edge; before the object is placed

@@ -1,8 +1,10 @@
 //! The command line as a whole: parsed, or refused in one line.
 
-use std::process::ExitCode;
+use std::{io, path::Path, process::ExitCode};
 
 use clap::{CommandFactory as _, Parser as _, error::ErrorKind};
+
+use surfel::Error;
 
 use crate::{arguments::Arguments, console};
 
@@ -13,9 +15,14 @@ use crate::{arguments::Arguments, console};
 pub fn parse() -> Result<Arguments, ExitCode> {
     Arguments::try_parse().map_err(|error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            // In color where the output is a terminal. A reader that has left is no failure.
-            let _ = error.print();
-            ExitCode::SUCCESS
+            // In color where the output is a terminal. A reader that has left is no failure; a full disk is.
+            match error.print() {
+                Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
+                    console::fail(&Error::file("standard output", "write", e).to_string());
+                    ExitCode::FAILURE
+                }
+                _ => ExitCode::SUCCESS,
+            }
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = error.print();
@@ -23,7 +30,13 @@ pub fn parse() -> Result<Arguments, ExitCode> {
         }
         _ => {
             let asked = std::env::args().nth(1).unwrap_or_default();
-            console::fail(&one_line(&error.to_string(), &manual(&asked)));
+            // The file's name in the place of a subcommand: what most people try first.
+            match error.kind() == ErrorKind::InvalidSubcommand && Path::new(&asked).exists() {
+                true => console::fail(&format!(
+                    "{asked}: expected a subcommand before it, such as: surfel render {asked}"
+                )),
+                false => console::fail(&one_line(&error.to_string(), &manual(&asked))),
+            }
             ExitCode::FAILURE
         }
     })

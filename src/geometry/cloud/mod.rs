@@ -58,7 +58,7 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
     let steps = Steps { progress, passes: 2 };
     cloud.find_planes(&points, &steps, &mut report);
     let isolated = outliers::isolated(&cloud.neighbors, &cloud.spreads);
-    let radii = cloud.radii(&points, &steps, &mut report);
+    let radii = cloud.radii(&points, &isolated, &steps, &mut report);
     // Back into the order of the file.
     let count = points.positions.len();
     let mut normals = vec![Vec3::ZERO; count];
@@ -214,8 +214,14 @@ impl Cloud {
         }
     }
 
-    /// The radii of disks: the file's, or those that close the surface.
-    fn radii(&self, points: &Points, steps: &Steps<'_>, report: &mut CloudReport) -> Vec<f32> {
+    /// The radii of disks: the file's, or those that close the surface. Those of isolated points, which are left out, are not told of.
+    fn radii(
+        &self,
+        points: &Points,
+        isolated: &[bool],
+        steps: &Steps<'_>,
+        report: &mut CloudReport,
+    ) -> Vec<f32> {
         let count = self.tree.points().len();
         let of_file = |place: usize| -> Option<f32> {
             let number = self.tree.points()[place].number as usize;
@@ -234,8 +240,10 @@ impl Cloud {
         if report.radii_from_file > 0 {
             return radii;
         }
-        let (limited, changed) = outliers::limit_radii(&self.neighbors, &radii);
-        report.limited = changed;
+        let limited = outliers::limit_radii(&self.neighbors, &radii);
+        let changed =
+            limited.iter().zip(&radii).zip(isolated).filter(|((new, old), out)| new != old && !**out);
+        report.limited = changed.count();
         limited
     }
 

@@ -19,15 +19,13 @@ pub(super) fn isolated(neighbors: &[[u32; NEIGHBORS]], spreads: &[f64]) -> Vec<b
     neighbors.par_iter().zip(spreads).map(is_isolated).collect()
 }
 
-/// Radii without those that are far too large; how many these were.
-pub(super) fn limit_radii(neighbors: &[[u32; NEIGHBORS]], radii: &[f32]) -> (Vec<f32>, usize) {
+/// Radii without those that are far too large.
+pub(super) fn limit_radii(neighbors: &[[u32; NEIGHBORS]], radii: &[f32]) -> Vec<f32> {
     let limited = |(near, &radius): (&[u32; NEIGHBORS], &f32)| match median(near, |j| f64::from(radii[j])) {
         Some(median) if radius > LARGEST * median as f32 && median > 0.0 => median as f32,
         _ => radius,
     };
-    let limited: Vec<f32> = neighbors.par_iter().zip(radii).map(limited).collect();
-    let changed = limited.iter().zip(radii).filter(|(new, old)| new != old).count();
-    (limited, changed)
+    neighbors.par_iter().zip(radii).map(limited).collect()
 }
 
 /// The lower median of the neighbors' values; `None` without neighbors.
@@ -53,7 +51,7 @@ mod tests {
         near[..3].copy_from_slice(&[0, 1, 2]);
         let all = [near; 4];
         assert_eq!(isolated(&all, &[1.0, 1.0, 1.1, 9.0]), [false, false, false, true]);
-        assert_eq!(limit_radii(&all, &[1.0, 1.0, 1.0, 4.5]), (vec![1.0; 4], 1));
+        assert_eq!(limit_radii(&all, &[1.0, 1.0, 1.0, 4.5]), vec![1.0; 4]);
         assert_eq!(isolated(&[[u32::MAX; NEIGHBORS]], &[1.0]), [false]);
     }
 }

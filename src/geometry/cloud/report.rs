@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::plane::{MOST_NEIGHBORS, NEIGHBORS};
+use crate::notes::{Deed, Note};
 
 /// The facts found on the way from points to splats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,6 +26,26 @@ pub struct CloudReport {
     pub limited: usize,
 }
 
+impl CloudReport {
+    /// What of it is not drawn as the file says it, and what was computed.
+    pub fn notes(&self) -> Vec<Note> {
+        let splats = self.points - self.not_finite - self.duplicates - self.isolated;
+        let notes = [
+            Note::of(Deed::Merged, self.duplicates, "points at the place of another"),
+            Note::of(Deed::Dropped, self.isolated, "isolated points"),
+            Note::of(Deed::Dropped, self.not_finite, "points that are not finite"),
+            Note::of(
+                Deed::Computed,
+                self.limited,
+                "radii as those around them, in place of far larger ones,",
+            ),
+            Note::of(Deed::Computed, splats.saturating_sub(self.normals_from_file), "normals"),
+            Note::of(Deed::Computed, splats.saturating_sub(self.radii_from_file), "radii"),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+}
+
 impl fmt::Display for CloudReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let splats = self.points - self.not_finite - self.duplicates - self.isolated;
@@ -39,11 +60,16 @@ impl fmt::Display for CloudReport {
             (self.duplicates, "merged", "duplicate"),
             (self.isolated, "left out", "isolated point"),
             (self.not_finite, "left out", "point not finite"),
+            (self.limited, "limited", "radius"),
         ];
         for (i, (count, done, what)) in parts.into_iter().filter(|part| part.0 > 0).enumerate() {
             let separator = if i == 0 { ';' } else { ',' };
             let what = if count == 1 { what.to_owned() } else { what.replace("point", "points") };
-            let what = if count > 1 && what == "duplicate" { "duplicates".to_owned() } else { what };
+            let what = match what.as_str() {
+                "duplicate" if count > 1 => "duplicates".to_owned(),
+                "radius" if count > 1 => "radii".to_owned(),
+                _ => what,
+            };
             write!(f, "{separator} {count} {what} {done}")?;
         }
         Ok(())

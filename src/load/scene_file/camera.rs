@@ -19,7 +19,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<CameraParts> {
     let number = |key: &'static str, what: &str, good: fn(f64) -> bool| {
         table.get(key).map(|value| value.number(what, good)).transpose()
     };
-    let fov_deg = number("fov_deg", "degrees between 1e-10 and 180", |deg| deg > 1e-10 && deg < 180.0)?;
+    let fov_deg = number("fov_deg", "degrees above 1e-10 and below 180", |deg| deg > 1e-10 && deg < 180.0)?;
     let near = number("near", "a number above 0", |near| near > 0.0)?;
-    Ok(CameraParts { eye, target, up, fov_y_rad: fov_deg.map(f64::to_radians), near })
+    Ok(CameraParts { eye, target, up, from: None, fov_y_rad: fov_deg.map(f64::to_radians), near })
 }

@@ -93,8 +93,10 @@ pub const MOST_BUILT_IN_SPLATS: u64 = u32::MAX as u64;
 /// As what an object is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Representation {
-    /// Splats; a mesh becomes disks.
+    /// Splats, or a mesh as what shows it best: [`crate::geometry::Fitness`] has the rule.
     #[default]
+    Auto,
+    /// Splats; a mesh becomes disks.
     Splats,
     /// The triangles of a mesh.
     Mesh,

@@ -2,7 +2,7 @@
 //!
 //! Descriptions are read here, checked as far as they can be without opening a model; [`crate::compose`] makes
 //! a scene of them. An object's file lies in the scene file's folder or below it, links followed: a scene from elsewhere
-//! opens nothing else.
+//! opens nothing else, unless the user allows it.
 
 mod camera;
 mod description;
@@ -15,7 +15,7 @@ mod source;
 mod tests;
 mod transform;
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use toml::de::DeTable;
 
@@ -23,7 +23,8 @@ pub use description::{
     BuiltIn, MOST_BUILT_IN_SPLATS, ObjectDescription, Polygons, Representation, Samples, SceneFile, Source,
 };
 
-use crate::error::{Error, Result};
+use super::LoadOptions;
+use crate::{error::Result, small_file::read_small_text};
 use document::{Document, Table, one_line};
 
 /// More than a thousand objects take: what is larger is something else.
@@ -42,26 +43,13 @@ pub fn is_scene_file(path: &Path) -> bool {
 /// # Errors
 /// [`crate::ErrorKind::File`] if it can't be read; [`crate::ErrorKind::Input`], naming the line, the object and the key,
 /// for what is no TOML, a key that is unknown (with the nearest known one), missing or out of its range, an object's file
-/// that is not there or not within the scene file's folder, and more than [`MOST_OBJECTS`].
-pub fn load_scene_file(path: &Path) -> Result<SceneFile> {
-    let metadata = fs::metadata(path).map_err(|e| Error::file(path, "read", e))?;
-    if !metadata.is_file() {
-        return Err(Error::input(path, "", "not a file; expected a scene file"));
-    }
-    if metadata.len() > MOST_SCENE_FILE_BYTES {
-        let problem =
-            format!("{} bytes; expected a scene file, at most {MOST_SCENE_FILE_BYTES}", metadata.len());
-        return Err(Error::input(path, "", problem));
-    }
-    let bytes = fs::read(path).map_err(|e| Error::file(path, "read", e))?;
-    parse(path, &bytes)
+/// that is not there or not within the scene file's folder (unless [`LoadOptions::allow_outside`]), and more than [`MOST_OBJECTS`].
+pub fn load_scene_file(path: &Path, options: &LoadOptions) -> Result<SceneFile> {
+    let text = read_small_text(path, MOST_SCENE_FILE_BYTES, "a scene file")?;
+    parse(path, &text, options)
 }
 
-fn parse(path: &Path, bytes: &[u8]) -> Result<SceneFile> {
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        let line = 1 + bytes[..e.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
-        Error::input(path, format!("line {line}"), "not UTF-8; expected a scene file, which is text")
-    })?;
+fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
     let document = Document { path, text };
     let parsed = DeTable::parse(text).map_err(|e| {
         let at = e.span().map_or(0, |span| span.start);
@@ -75,6 +63,7 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<SceneFile> {
     if objects.is_empty() {
         return Err(document.fault(0, "", "no [[object]]; expected at least one"));
     }
-    let objects = objects.iter().map(object::read).collect::<Result<_>>()?;
+    let objects =
+        objects.iter().map(|object| object::read(object, options.allow_outside)).collect::<Result<_>>()?;
     Ok(SceneFile { path: path.to_owned(), camera, lights, objects })
 }

@@ -31,8 +31,8 @@ pub(super) const KEYS: &[&str] = &[
 /// The most letters of a name: it is a part of messages.
 const MOST_LETTERS: usize = 100;
 
-pub(super) fn read(table: &Table<'_>) -> Result<ObjectDescription> {
-    let source = source::read(table)?;
+pub(super) fn read(table: &Table<'_>, outside: bool) -> Result<ObjectDescription> {
+    let source = source::read(table, outside)?;
     let representation = representation(table)?;
     let samples = samples(table)?;
     check_together(table, &source, representation)?;
@@ -55,14 +55,16 @@ pub(super) fn read(table: &Table<'_>) -> Result<ObjectDescription> {
 fn check_together(table: &Table<'_>, source: &Source, representation: Representation) -> Result<()> {
     if let Source::BuiltIn { model, .. } = source {
         if let (Some(value), false) = (table.get("representation"), model.has_triangles())
-            && representation != Representation::Splats
+            && !matches!(representation, Representation::Splats | Representation::Auto)
         {
             return Err(value.expected("'splats': this built-in model has no triangles"));
         }
         table.refuse("resample", "for a built-in model; expected splats")?;
     }
     match representation {
-        Representation::Splats => table.refuse("triangles", "for a model drawn as splats"),
+        Representation::Splats | Representation::Auto => {
+            table.refuse("triangles", "for a model drawn as splats")
+        }
         Representation::Mesh => {
             let why = "for a model drawn as triangles";
             table.refuse("splats", why)?;
@@ -87,19 +89,22 @@ fn name(table: &Table<'_>) -> Result<Option<String>> {
 fn representation(table: &Table<'_>) -> Result<Representation> {
     #[derive(Clone, Copy, PartialEq)]
     enum Name {
+        Auto,
         Splats,
         Mesh,
         Hybrid,
     }
-    let names = [("splats", Name::Splats), ("mesh", Name::Mesh), ("hybrid", Name::Hybrid)];
+    let names =
+        [("auto", Name::Auto), ("splats", Name::Splats), ("mesh", Name::Mesh), ("hybrid", Name::Hybrid)];
     let name = table.get("representation").map(|value| value.one_of(&names)).transpose()?;
-    let name = name.unwrap_or(Name::Splats);
+    let name = name.unwrap_or(Name::Auto);
     if name != Name::Hybrid {
         let why = "without representation = \"hybrid\"";
         table.refuse("polygons", why)?;
         table.refuse("sample_edges", why)?;
     }
     Ok(match name {
+        Name::Auto => Representation::Auto,
         Name::Splats => Representation::Splats,
         Name::Mesh => Representation::Mesh,
         Name::Hybrid => Representation::Hybrid {

@@ -14,12 +14,13 @@ use crate::{
     load::builtin::{DEFAULT_SPHERE_TRIANGLES, MOST_SPHERE_TRIANGLES},
 };
 
-pub(super) fn read(table: &Table<'_>) -> Result<Source> {
+/// `outside`: files may lie outside of the scene file's folder.
+pub(super) fn read(table: &Table<'_>, outside: bool) -> Result<Source> {
     match (table.get("file"), table.get("builtin")) {
         (Some(file), None) => {
             table.refuse("splats", "for a file; expected resample, which spreads splats over a mesh")?;
             table.refuse("triangles", "for a file")?;
-            inside(table.document.path, &file).map(Source::File)
+            find(table.document.path, &file, outside).map(Source::File)
         }
         (None, Some(name)) => {
             let model = name.one_of(BuiltIn::NAMES)?;
@@ -33,11 +34,11 @@ pub(super) fn read(table: &Table<'_>) -> Result<Source> {
     }
 }
 
-/// The one name of a file in the scene file's folder or below. Links are followed first, so that none leads out.
-fn inside(scene_file: &Path, file: &Value<'_>) -> Result<PathBuf> {
+/// The one name of a file in the scene file's folder or below, or anywhere. Links are followed first, so that none leads out.
+fn find(scene_file: &Path, file: &Value<'_>, outside: bool) -> Result<PathBuf> {
     let name = Path::new(file.text("the name of a PLY or OBJ file")?);
-    if name.is_absolute() || name.has_root() {
-        return Err(file.expected("a path relative to the scene file's folder"));
+    if !outside && (name.is_absolute() || name.has_root()) {
+        return Err(file.expected("a path relative to the scene file's folder, or --allow-outside"));
     }
     let folder = match scene_file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -47,8 +48,10 @@ fn inside(scene_file: &Path, file: &Value<'_>) -> Result<PathBuf> {
         fs::canonicalize(path).map_err(|e| file.fault(&format!("{}: cannot read: {e}", path.display())))
     };
     let (folder, found) = (one_name(folder)?, one_name(&folder.join(name))?);
-    match found.starts_with(&folder) {
+    match outside || found.starts_with(&folder) {
         true => Ok(found),
-        false => Err(file.expected("a file within the scene file's folder, links followed")),
+        false => {
+            Err(file.expected("a file within the scene file's folder, links followed, or --allow-outside"))
+        }
     }
 }

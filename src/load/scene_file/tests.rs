@@ -1,6 +1,6 @@
 mod faults;
 
-use std::{f64::consts::FRAC_PI_2, path::PathBuf};
+use std::{f64::consts::FRAC_PI_2, fs, path::PathBuf};
 
 use glam::{DAffine3, DVec3};
 
@@ -32,7 +32,7 @@ impl Place {
     fn read(&self, text: impl AsRef<[u8]>) -> std::result::Result<SceneFile, String> {
         let path = self.path("scene/scene.toml");
         fs::write(&path, text).unwrap();
-        load_scene_file(&path).map_err(|error| {
+        load_scene_file(&path, &LoadOptions::default()).map_err(|error| {
             assert_eq!(error.exit_code(), 1);
             let said = error.to_string();
             assert!(!said.contains('\n'), "one line: {said}");
@@ -70,6 +70,7 @@ fn everything_that_can_be_said() {
         )
         .unwrap();
     let camera = CameraParts {
+        from: None,
         eye: Some(DVec3::new(0.0, 1.5, 4.0)),
         target: Some(DVec3::ZERO),
         up: Some(DVec3::Z),
@@ -144,13 +145,26 @@ fn transforms_scale_then_turn_about_x_y_z_then_move() {
 fn files_outside_the_scenes_folder_are_not_opened() {
     let place = Place::new();
     let refused = |file: &str| place.read(format!("[[object]]\nfile = '{file}'\n")).unwrap_err();
-    let inside = "expected a file within the scene file's folder, links followed";
+    let inside = "expected a file within the scene file's folder, links followed, or --allow-outside";
     for outside in ["../other/c.ply", "models/../../other/c.ply", ".."] {
         let expected = format!("scene.toml: line 2, object 1, file: '{outside}': {inside}");
         assert_eq!(refused(outside), expected);
     }
     let absolute = place.path("scene/a.ply").display().to_string();
-    assert!(refused(&absolute).ends_with(": expected a path relative to the scene file's folder"));
+    assert!(
+        refused(&absolute)
+            .ends_with(": expected a path relative to the scene file's folder, or --allow-outside")
+    );
+    // Where the user allows it, all of them are.
+    let allowed = LoadOptions { allow_outside: true, ..LoadOptions::default() };
+    let with = |file: &str| {
+        let text = format!("[[object]]\nfile = '{file}'\n");
+        let read = parse(&place.path("scene/scene.toml"), &text, &allowed);
+        read.map(|file| file.objects[0].source.clone()).map_err(|e| e.to_string())
+    };
+    assert_eq!(with("../other/c.ply"), Ok(Source::File(place.path("other/c.ply"))));
+    assert_eq!(with(&absolute), Ok(Source::File(place.path("scene/a.ply"))));
+    assert!(with("../none.ply").unwrap_err().contains("cannot read: No such file"));
     assert!(refused("none.ply").contains("object 1, file: none.ply: cannot read: No such file"));
     assert!(place.read("[[object]]\nfile = \"a\\u0000b\"\n").unwrap_err().contains("file: "));
     #[cfg(unix)]

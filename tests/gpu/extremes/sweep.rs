@@ -23,7 +23,7 @@ struct Line {
 }
 
 /// An environment variable as a number.
-fn asked<T: FromStr>(name: &str, usual: T) -> T {
+pub(super) fn asked<T: FromStr>(name: &str, usual: T) -> T {
     env::var(name).ok().map_or(usual, |value| value.parse().ok().expect(name))
 }
 

@@ -5,7 +5,6 @@ use surfel::{
     Error, Progress as _, Result,
     graph::execute::{FrameProfile, Profile},
     instruments::{Floor, LimitProbes},
-    load::Representation,
     renderer::{Headless, Wanted},
     report::{
         bench::{FloorReport, FloorRound, FloorRow, drift_flag, spread_flag},
@@ -17,6 +16,7 @@ use surfel::{
 use super::{context::BenchContext, limits::FrameWork};
 use crate::{
     camera::CameraChoice,
+    inputs::Inputs,
     machine::clock_mhz,
     reports::scene_report,
     scene::{Loaded, load_scene, upload},
@@ -30,7 +30,7 @@ const WARM_UP_ROUNDS: u32 = 3;
 pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Result<FloorReport> {
     let (arguments, settings, bars) = (context.arguments, &context.settings, &context.bars);
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, Representation::Splats, bars)?;
+    let loaded = load_scene(&Inputs::splats_of(inputs), bars)?;
     let camera = CameraChoice::none().camera(&loaded, settings.size_px)?;
     let Loaded { scene, inputs, .. } = loaded;
     let prepared = upload(headless, &scene, bars)?;

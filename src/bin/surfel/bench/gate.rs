@@ -1,6 +1,6 @@
 //! A run against an earlier one (`--baseline`), and against doubt (`--strict`).
 
-use std::{collections::BTreeMap, fs, path::Path};
+use std::{collections::BTreeMap, path::Path};
 
 use serde::Deserialize;
 use surfel::{
@@ -12,6 +12,7 @@ use surfel::{
             gate::{Gate, GateLimits, Verdict, differences},
         },
     },
+    small_file::read_small_text,
 };
 
 use super::arguments::{Bench, BenchArguments};
@@ -21,6 +22,9 @@ const WIDEST: f64 = 3.0;
 
 /// Frames that give an interval: 6 rounds of pairs.
 const FEWEST_FRAMES: u32 = 12;
+
+/// More than any report has.
+const MOST_BYTES: u64 = 1 << 24;
 
 /// The part of a report that is read.
 #[derive(Deserialize)]
@@ -34,7 +38,7 @@ struct Report {
 /// A file that can't be read or is no report of `surfel bench`.
 pub fn read(arguments: &BenchArguments) -> Result<Option<Gate>> {
     let Some(path) = &arguments.baseline else { return Ok(None) };
-    let text = fs::read_to_string(path).map_err(|e| Error::file(path, "read", e))?;
+    let text = read_small_text(path, MOST_BYTES, "a file of `surfel bench ... --json`")?;
     let report: Report = serde_json::from_str(&text).map_err(|e| {
         let place = format!("line {}", e.line());
         Error::input(path, place, format!("{e}; expected a file of `surfel bench ... --json`"))

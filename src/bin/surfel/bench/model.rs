@@ -49,6 +49,6 @@ impl Source {
         };
         let scene = Scene { objects: vec![object], ..Scene::default() };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
-        Ok(Loaded { scene, ball, camera: None, inputs: vec![report], steps: Vec::new() })
+        Ok(Loaded { scene, ball, camera: None, up: None, inputs: vec![report], steps: Vec::new() })
     }
 }

@@ -21,6 +21,7 @@ pub fn check(arguments: &BenchArguments) -> Result<()> {
     if plot.is_some() && !table.has(Bench::Table1) && !table.has(Bench::Growth) {
         return Err(Error::option("--plot", format!("{} is not over numbers of splats", table.name())));
     }
+    plot.iter().try_for_each(|path| outputs::check_name("--plot", path, &["svg"]))?;
     let names = TABLES.map(|name| format!("{name}.csv"));
     let (files, inputs) = ([json, markdown, plot], [model, baseline]);
     let names = names.each_ref().map(String::as_str);

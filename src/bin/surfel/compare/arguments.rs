@@ -11,13 +11,13 @@ use surfel::{
 use crate::{
     camera::CameraArguments,
     device::DeviceArguments,
+    inputs::{INPUTS, InputArguments},
     parse,
-    scene::{INPUTS, InputArguments},
     settings::{Given, Listed, Taken, chosen, listed},
 };
 
 /// The options that `--zoom` decides by itself.
-const ZOOM_HAS_ITS_OWN: &str = "inputs representation time_size camera eye target up fov rasterizer accumulate kernel_eval \
+const ZOOM_HAS_ITS_OWN: &str = "inputs representation resample seed strict allow_outside time_size camera eye target up fov rasterizer accumulate kernel_eval \
     quick backfaces frames pictures";
 
 const HELP: &str = "\
@@ -25,7 +25,8 @@ Every combination of rasterizer, filter, precision of the sums and kernel evalua
 timed at --time-size, with the methods in turn, so that a change of the machine's speed meets all of them. How wrong it is is \
 found at --size, twice: against the oracle of the same method in 64 bits (implementation error), and against the ground \
 truth, the continuous surface at many samples a pixel under the filter's Gaussian (method error). All of it takes minutes; \
---quick shows what each option changes by itself.
+--quick shows what each option changes by itself. Meshes are disks at their vertices here, unless --representation or --resample \
+say otherwise.
 
 Columns: milliseconds a pass and a frame (median, smallest, largest); fragments a pass; linear color, where white is 1 (largest \
 and root mean square) over the pixels that both pictures cover; PSNR in decibels below white; SSIM, 1 for equal pictures; \
@@ -104,7 +105,8 @@ pub struct CompareArguments {
     #[arg(long, value_name = "FILE.svg", help_heading = "Results")]
     pub plot: Option<PathBuf>,
 
-    /// Write the ground truth, each method's oracle, picture and difference from the truth as PNG into this folder
+    /// Write the ground truth, each method's oracle, picture and difference from the truth as PNG into this folder, each file as soon as
+    /// it is there: where the program is stopped, those that are whole stay
     #[arg(short = 'o', long, value_name = "DIR", help_heading = "Results")]
     pub pictures: Option<PathBuf>,
 }

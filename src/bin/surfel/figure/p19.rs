@@ -2,7 +2,7 @@
 
 use surfel::{
     Error, Result,
-    load::{Representation, builtin::relief, file_name},
+    load::{builtin::relief, file_name},
     scene::{Accumulate, Camera, Filter, KernelEval, Rasterizer, Scene, Settings},
 };
 
@@ -11,7 +11,7 @@ use super::{
     kernels::PsiE,
     sheet::{Panel, Sheet},
 };
-use crate::scene::load_scene;
+use crate::{inputs::Inputs, scene::load_scene};
 
 /// Splats of the built-in model: so few that single ones are seen.
 const FEW_SPLATS: usize = 12_000;
@@ -26,8 +26,8 @@ const NEARER: f64 = 0.5;
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let (scene, what) = match context.model {
         Some(path) => {
-            let inputs = [path.to_owned()];
-            let loaded = load_scene(&inputs, Representation::Splats, context.bars)?;
+            let inputs = Inputs::splats_of(vec![path.to_owned()]);
+            let loaded = load_scene(&inputs, context.bars)?;
             let what = format!("{}, {} splats", file_name(path), loaded.scene.splat_count());
             (loaded.scene, what)
         }

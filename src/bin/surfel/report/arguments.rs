@@ -77,6 +77,8 @@ impl ReportArguments {
     pub fn render(&self, shading: &str) -> CommandLine {
         let size_px = self.size_px().map(|side| side.saturating_mul(PICTURE_SCALE));
         let line = self.on_model("render").option("-o", format!("{shading}.png"));
+        // As the other parts have it.
+        let line = line.given("--representation", self.model.as_ref().map(|_| "splats"));
         self.on_device(line.option("--size", size_px.word()).option("--shading", shading))
     }
 

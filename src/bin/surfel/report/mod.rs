@@ -22,9 +22,7 @@ use std::{collections::BTreeMap, fs};
 
 use serde::Serialize;
 use serde_json::Value;
-use surfel::{
-    Error, ErrorKind, Result, load::Representation, renderer::Headless, report::bench::Machine, save,
-};
+use surfel::{Error, ErrorKind, Result, renderer::Headless, report::bench::Machine, save};
 
 pub use arguments::ReportArguments;
 
@@ -32,6 +30,7 @@ use crate::{
     camera::CameraChoice,
     compare::{self, CompareArguments},
     console::{self, Bars},
+    inputs::Inputs,
     json::to_json,
     outputs,
     scene::load_scene,
@@ -82,7 +81,7 @@ fn make(headless: &mut Headless, arguments: &ReportArguments) -> Result<()> {
     check_sizes(headless, arguments)?;
     let bars = Bars::new();
     let inputs: Vec<_> = arguments.model.iter().cloned().collect();
-    let loaded = load_scene(&inputs, Representation::Splats, &bars)?;
+    let loaded = load_scene(&Inputs::splats_of(inputs), &bars)?;
     let camera = CameraChoice::none().camera(&loaded, arguments.size_px())?;
     let head = Head::of(headless.device().facts(), arguments, &loaded);
     let (loaded, camera, bars) = (&loaded, &camera, &bars);

@@ -3,7 +3,7 @@
 mod arguments;
 mod junit;
 
-use std::{collections::BTreeMap, fs, time::Instant};
+use std::{collections::BTreeMap, time::Instant};
 
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
@@ -13,6 +13,7 @@ use surfel::{
         Case, Counts, Event, Known, KnownList, SIZE_PX, SelftestReport, Status, Suite, ValidationReport,
         run as run_cases,
     },
+    small_file::read_small_text,
     vk::{LoaderFacts, Validation, loader_facts},
 };
 
@@ -90,6 +91,9 @@ pub fn run(arguments: &SelftestArguments) -> Result<()> {
     report.conclude(outcome.lost)
 }
 
+/// Some thousand entries: each is looked for among all cases.
+const MOST_KNOWN_BYTES: u64 = 1 << 17;
+
 /// The cases that were asked for, and those that are always run.
 fn selected<'a>(suite: &'a Suite, arguments: &SelftestArguments) -> Result<Vec<&'a Case>> {
     let form: Vec<&Case> = suite.cases.iter().filter(|case| case.quick || !arguments.quick).collect();
@@ -112,9 +116,7 @@ fn selected<'a>(suite: &'a Suite, arguments: &SelftestArguments) -> Result<Vec<&
 fn lists(arguments: &SelftestArguments) -> Result<Vec<KnownList>> {
     let mut lists = if arguments.no_known { Vec::new() } else { Known::built_in()? };
     for path in &arguments.known {
-        let bytes = fs::read(path).map_err(|error| Error::file(path, "read", error))?;
-        let text =
-            String::from_utf8(bytes).map_err(|_| Error::input(path, "", "expected a text in UTF-8"))?;
+        let text = read_small_text(path, MOST_KNOWN_BYTES, "a list of what is known of drivers")?;
         lists.push(KnownList::parse(&path.display().to_string(), &text)?);
     }
     Ok(lists)

@@ -51,13 +51,11 @@ pub fn scene(splats: u64, alpha: f32) -> Result<(Scene, InputReport)> {
     let drawn = scene.splat_count();
     let name = format!("{COUNT} balls");
     let input = InputReport {
-        notes: Vec::new(),
         summary: format!("{name}: {drawn} disks"),
         name,
-        vertices: None,
-        triangles: None,
         splats: drawn,
-        dropped: 0,
+        drawn_as: "splats",
+        ..InputReport::default()
     };
     Ok((scene, input))
 }

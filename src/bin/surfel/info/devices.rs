@@ -1,31 +1,18 @@
-//! `surfel info`: the devices of this machine, and what they lack.
+//! The devices of this machine, and what they lack.
 
 use std::fmt::Write as _;
 
-use clap::Args;
 use serde::Serialize;
 use surfel::{
     Result,
     vk::{DeviceFacts, DeviceKind, Instance, LoaderFacts, Validation, all_facts, choose, loader_facts},
 };
 
-use crate::{
-    console,
-    json::to_json,
-    reports::{layer_version, version},
-};
-
-/// List devices, drivers and limits, and what a device lacks
-#[derive(Args)]
-pub struct InfoArguments {
-    /// Print JSON
-    #[arg(long)]
-    json: bool,
-}
+use crate::reports::{layer_version, version};
 
 /// The answer.
 #[derive(Serialize)]
-struct Info {
+pub struct Info {
     surfel: &'static str,
     vulkan_loader: String,
     /// `None` where it is not installed.
@@ -60,24 +47,20 @@ struct DeviceInfo {
     default: bool,
 }
 
-/// Runs the subcommand.
+/// Asks Vulkan for all devices.
 ///
 /// # Errors
-/// [`surfel::ErrorKind::NoDevice`] where Vulkan finds none. Devices that can't be used are listed.
-pub fn run(arguments: &InfoArguments) -> Result<()> {
+/// [`surfel::ErrorKind::NoDevice`] where it finds none. Devices that can't be used are listed.
+pub fn gather() -> Result<Info> {
     let loader = loader_facts()?;
     let instance = Instance::new(Validation::Off)?;
     let facts: Vec<DeviceFacts> = all_facts(&instance)?.into_iter().map(|(_, facts)| facts).collect();
     let chosen = choose(&facts, None);
     if facts.is_empty() {
         chosen?;
-        return Ok(());
+        return Err(surfel::ErrorKind::NoDevice { reasons: Vec::new() }.into());
     }
-    let info = info(&loader, &facts, chosen.ok());
-    match arguments.json {
-        true => console::print(&to_json(&info)?),
-        false => console::print(&text(&info)),
-    }
+    Ok(info(&loader, &facts, chosen.ok()))
 }
 
 fn info(loader: &LoaderFacts, facts: &[DeviceFacts], chosen: Option<usize>) -> Info {
@@ -120,7 +103,8 @@ fn device(index: usize, facts: &DeviceFacts, default: bool) -> DeviceInfo {
     }
 }
 
-fn text(info: &Info) -> String {
+/// For people.
+pub fn text(info: &Info) -> String {
     let mut text = String::new();
     let layer = info.validation_layer.as_deref().unwrap_or("not installed");
     // Writing to a string can't fail, here and below.
@@ -151,7 +135,10 @@ fn rows(device: &DeviceInfo) -> Vec<(&'static str, String)> {
     };
     let timestamps = match device.timestamp_valid_bits {
         0 => "none".to_owned(),
-        bits => format!("{bits} bits, {} ns a tick", device.timestamp_period_ns),
+        bits if device.timestamp_period_ns.is_normal() => {
+            format!("{bits} bits, {} ns a tick", device.timestamp_period_ns)
+        }
+        bits => format!("{bits} bits of unknown length"),
     };
     let mut rows = vec![
         ("kind", device.kind.to_owned()),

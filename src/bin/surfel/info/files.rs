@@ -1,0 +1,240 @@
+//! What is in files, and what is made of it.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use surfel::{
+    Error, Result,
+    geometry::{mean_edge, mean_spacing},
+    report::{CameraReport, InputReport, ModelReport},
+    scene::{MeshObject, Object, Settings, Splats},
+};
+
+use crate::{
+    camera::{CameraArguments, CameraChoice},
+    console::Bars,
+    inputs::Inputs,
+    scene::{Loaded, load_scene},
+};
+
+/// The bytes of most splats on a device, and those of one in a scene that is too extended for these.
+const DEVICE_BYTES: [u64; 2] = [32, 48];
+
+/// The answer. Lengths are in the files' own unit.
+#[derive(Serialize)]
+pub struct FileInfo {
+    surfel: &'static str,
+    /// One an object: what its file holds, and what was done with it.
+    inputs: Vec<InputReport>,
+    /// What is drawn, one a part.
+    drawn: Vec<Part>,
+    scene: Whole,
+    /// Which direction is up, and what tells it; `None` where nothing does and +y is taken.
+    up: Option<(CameraUp, String)>,
+    /// The camera that would be taken for a square picture.
+    camera: CameraReport,
+}
+
+/// A direction.
+type CameraUp = [f64; 3];
+
+/// Splats or triangles that are drawn as one.
+#[derive(Serialize)]
+struct Part {
+    name: String,
+    /// `splats` or `triangles`.
+    kind: &'static str,
+    count: usize,
+    /// The surface is closed, so that what faces away need not be drawn.
+    closed: bool,
+    /// The mean distance of a splat from the nearest other, or the mean length of a triangle's side.
+    spacing: Option<f64>,
+    /// Of splats: the smallest radius, the median and the largest.
+    radii: Option<[f64; 3]>,
+}
+
+/// All of it together.
+#[derive(Serialize)]
+struct Whole {
+    min: [f64; 3],
+    max: [f64; 3],
+    extent: [f64; 3],
+    splats: usize,
+    triangles: usize,
+    /// Bytes of memory here.
+    host_bytes: u64,
+    /// Bytes of splats on a device, least and most.
+    device_bytes: [u64; 2],
+}
+
+/// Loads files as `surfel render` does, and tells what came of it.
+///
+/// # Errors
+/// As [`load_scene`]; a camera without a picture.
+pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
+    let choice = CameraChoice::of(camera)?;
+    let loaded = load_scene(inputs, &Bars::new())?;
+    let camera = choice.camera(&loaded, Settings::default().size_px)?;
+    let Loaded { scene, up, inputs, .. } = loaded;
+    let bounds = scene.bounds().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
+    let splats = scene.splat_count();
+    let host_bytes = scene.objects.iter().map(|object| object.splats.bytes()).sum();
+    let parts = scene.objects.iter().map(splat_part).chain(scene.meshes.iter().map(mesh_part));
+    Ok(FileInfo {
+        surfel: env!("CARGO_PKG_VERSION"),
+        inputs,
+        drawn: parts.collect(),
+        scene: Whole {
+            min: bounds.min.into(),
+            max: bounds.max.into(),
+            extent: (bounds.max - bounds.min).into(),
+            splats,
+            triangles: scene.meshes.iter().map(|object| object.mesh.triangles.len()).sum(),
+            host_bytes,
+            device_bytes: DEVICE_BYTES.map(|bytes| bytes * splats as u64),
+        },
+        up: up.map(|up| (up.direction.into(), up.because)),
+        camera: (&camera).into(),
+    })
+}
+
+fn splat_part(object: &Object) -> Part {
+    let Object { name, splats, closed } = object;
+    Part {
+        name: name.clone(),
+        kind: "splats",
+        count: splats.len(),
+        closed: *closed,
+        spacing: mean_spacing(&splats.positions),
+        radii: radii(splats),
+    }
+}
+
+fn mesh_part(object: &MeshObject) -> Part {
+    let MeshObject { name, mesh, closed } = object;
+    Part {
+        name: name.clone(),
+        kind: "triangles",
+        count: mesh.triangles.len(),
+        closed: *closed,
+        spacing: mean_edge(mesh),
+        radii: None,
+    }
+}
+
+fn radii(splats: &Splats) -> Option<[f64; 3]> {
+    let mut radii: Vec<f64> = (0..splats.len()).map(|i| splats.major_radius(i)).collect();
+    radii.sort_unstable_by(f64::total_cmp);
+    Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
+}
+
+/// For people.
+pub fn text(info: &FileInfo) -> String {
+    let mut text = String::new();
+    // Writing to a string can't fail, here and below.
+    for input in &info.inputs {
+        let _ = writeln!(text, "{}", input.name);
+        let holds = input.model.as_ref().map(model_rows).unwrap_or_default();
+        let notes = input.notes.iter().map(|note| ("note", note.to_string()));
+        write_rows(&mut text, holds.into_iter().chain(notes));
+    }
+    for part in &info.drawn {
+        let _ = writeln!(text, "\ndrawn: {} {} of {}", part.count, part.kind, part.name);
+        write_rows(&mut text, part_rows(part));
+    }
+    let Whole { min, max, extent, splats, host_bytes, device_bytes: [least, most], .. } = &info.scene;
+    let _ = writeln!(text, "\nthe whole");
+    let up = match &info.up {
+        Some((up, because)) => format!("{}, because {because}", point(up)),
+        None => format!("{}, as nothing says otherwise", point(&info.camera.up)),
+    };
+    let CameraReport { eye, target, fov_deg, .. } = &info.camera;
+    let mut rows = vec![
+        ("from", point(min)),
+        ("to", point(max)),
+        ("extent", extent.map(number).join(" x ")),
+        ("up", up),
+        ("camera", format!("--eye {} --target {} --fov {}", point(eye), point(target), number(*fov_deg))),
+    ];
+    if *splats > 0 {
+        rows.push(("memory", format!("{host_bytes} bytes here, {least} to {most} on a device")));
+    }
+    write_rows(&mut text, rows);
+    text
+}
+
+fn write_rows(text: &mut String, rows: impl IntoIterator<Item = (&'static str, String)>) {
+    for (name, value) in rows {
+        let _ = writeln!(text, "  {name:9} {value}");
+    }
+}
+
+fn model_rows(model: &ModelReport) -> Vec<(&'static str, String)> {
+    let counts = match model.triangles {
+        Some(triangles) => format!("{} vertices, {triangles} triangles", model.points),
+        None => format!("{} {}", model.points, model.holds),
+    };
+    let with = [(model.normals, "normals"), (model.colors, "colors"), (model.sizes, "sizes")];
+    let list = |there: bool| {
+        let names: Vec<&str> = with.iter().filter(|(has, _)| *has == there).map(|(_, name)| *name).collect();
+        if names.is_empty() { "nothing else".to_owned() } else { names.join(", ") }
+    };
+    let mut rows = vec![("format", model.format.clone()), ("holds", counts), ("with", list(true))];
+    if let Some([least, most]) = &model.bounds {
+        rows.push(("within", format!("{} to {}", point(least), point(most))));
+    }
+    rows.extend(model.metres_per_unit.map(|metres| ("unit", format!("{} m", number(metres)))));
+    rows.extend(model.up.map(|up| ("up", point(&up))));
+    rows
+}
+
+fn part_rows(part: &Part) -> Vec<(&'static str, String)> {
+    let mut rows = vec![("surface", if part.closed { "closed" } else { "open" }.to_owned())];
+    let of = if part.kind == "splats" { "to the nearest, in the mean" } else { "a side, in the mean" };
+    rows.extend(part.spacing.map(|spacing| ("spacing", format!("{} {of}", number(spacing)))));
+    rows.extend(part.radii.map(|[least, median, most]| {
+        let [least, median, most] = [least, median, most].map(number);
+        ("radii", format!("{least} to {most}, median {median}"))
+    }));
+    rows
+}
+
+/// A point as options take it.
+fn point(at: &[f64; 3]) -> String {
+    at.map(number).join(",")
+}
+
+/// Six digits, which tell places on a map to the metre; without the sign of what rounds to 0.
+fn number(value: f64) -> String {
+    match value == 0.0 || !value.is_finite() {
+        true => "0".to_owned(),
+        false => {
+            let digits = (6 - value.abs().log10().floor() as i32).clamp(0, 12);
+            let scale = 10_f64.powi(digits);
+            let rounded = (value * scale).round() / scale + 0.0;
+            let huge = value.abs() >= 1e12 || value.abs() < 1e-9;
+            if huge { format!("{value:e}") } else { format!("{rounded}") }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_keep_seven_digits() {
+        let cases = [
+            (0.0, "0"),
+            (-1e-30, "-1e-30"),
+            (1.0 / 3.0, "0.3333333"),
+            (5_400_123.456, "5400123"),
+            (-0.001_234_567_89, "-0.001234568"),
+            (1e15, "1e15"),
+            (f64::INFINITY, "0"),
+        ];
+        for (value, expected) in cases {
+            assert_eq!(number(value), expected);
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The inputs on the command line, and how they are to be taken.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use surfel::load::{LoadOptions, Representation, Samples};
+
+use crate::parse;
+
+/// The manual of inputs.
+pub const INPUTS: &str = "Inputs are PLY files (splats, meshes or points), OBJ files (meshes or points), and scene files (.toml: objects, each \
+with its place and looks, lights and a camera; `surfel render --help` has their keys). A mesh is drawn as what shows it best: as \
+disks at its vertices where it is dense or smooth, as disks spread evenly over it where its vertices are too uneven for that, and as its triangles \
+where it is coarse, as furniture and machine parts are; --representation decides it otherwise. Points become disks that close their \
+surface, with normals from their neighbors. Several inputs are one scene; none is the built-in model. A line each says what was \
+done. Lengths are in the files' own unit. The camera looks at the whole scene unless told otherwise.";
+
+/// The inputs.
+#[derive(Args)]
+pub struct InputArguments {
+    /// PLY, OBJ or scene files (.toml); none is the built-in model
+    #[arg(value_name = "INPUT")]
+    pub inputs: Vec<PathBuf>,
+
+    /// The primitives of inputs that are no scene files
+    #[arg(long, value_name = "WHAT", default_value = "auto")]
+    representation: Primitives,
+
+    /// Draw meshes that are no scene files as that many disks, spread evenly over their area; 500k or 1.4M will do
+    #[arg(long, value_name = "N", value_parser = parse::splats, allow_hyphen_values = true)]
+    resample: Option<u64>,
+
+    /// Which disks --resample takes [default: 0]
+    #[arg(long, value_name = "S", requires = "resample")]
+    #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
+    seed: Option<u64>,
+
+    /// Fail where anything of a file is left out, merged, replaced, clamped or ignored
+    #[arg(long)]
+    strict: bool,
+
+    /// Scene files may name files outside of their folder
+    #[arg(long)]
+    allow_outside: bool,
+}
+
+/// The primitives of an input.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Primitives {
+    /// What shows a mesh best: splats or its triangles
+    Auto,
+    /// Splats; a mesh with a disk at each vertex
+    Splats,
+    /// The triangles of a mesh
+    Mesh,
+}
+
+/// Files, and how they are to be taken.
+#[derive(Clone, Debug, Default)]
+pub struct Inputs {
+    /// None: the built-in model.
+    pub files: Vec<PathBuf>,
+    /// As what files that are no scene files are drawn.
+    pub representation: Representation,
+    /// New splats of meshes that are no scene files.
+    pub samples: Option<Samples>,
+    /// How files are read.
+    pub options: LoadOptions,
+    /// Fail where anything of a file is not drawn as it says.
+    pub strict: bool,
+}
+
+impl Inputs {
+    /// Files as splats, a mesh with a disk at each vertex: what methods of splats are measured on.
+    pub fn splats_of(files: Vec<PathBuf>) -> Self {
+        Self { files, representation: Representation::Splats, ..Self::default() }
+    }
+}
+
+impl InputArguments {
+    /// The inputs as they were given.
+    pub fn inputs(&self) -> Inputs {
+        Inputs {
+            files: self.inputs.clone(),
+            representation: match self.representation {
+                Primitives::Auto => Representation::Auto,
+                Primitives::Splats => Representation::Splats,
+                Primitives::Mesh => Representation::Mesh,
+            },
+            samples: self.resample.map(|count| Samples { count, seed: self.seed.unwrap_or(0) }),
+            options: LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() },
+            strict: self.strict,
+        }
+    }
+
+    /// The inputs for what compares methods of splats: `auto` is splats, whatever a mesh is.
+    pub fn as_splats(&self) -> Inputs {
+        let inputs = self.inputs();
+        match inputs.representation {
+            Representation::Auto => Inputs { representation: Representation::Splats, ..inputs },
+            _ => inputs,
+        }
+    }
+
+    /// Whether an option says something of inputs.
+    pub fn has_options(&self) -> bool {
+        self.representation != Primitives::Auto
+            || self.resample.is_some()
+            || self.strict
+            || self.allow_outside
+    }
+}

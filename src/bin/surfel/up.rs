@@ -1,0 +1,101 @@
+//! The direction that is up in the picture: asked for, or told by files.
+
+use glam::DVec3;
+use surfel::{geometry::FoundUp, scene::OptionValue as _};
+
+use crate::console;
+
+/// `--up`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Up {
+    /// As files or shapes tell, else +y.
+    Auto,
+    /// This direction.
+    Given([f64; 3]),
+}
+
+/// The directions that have a name.
+const NAMED: [(&str, [f64; 3]); 6] = [
+    ("x", [1.0, 0.0, 0.0]),
+    ("y", [0.0, 1.0, 0.0]),
+    ("z", [0.0, 0.0, 1.0]),
+    ("-x", [-1.0, 0.0, 0.0]),
+    ("-y", [0.0, -1.0, 0.0]),
+    ("-z", [0.0, 0.0, -1.0]),
+];
+
+/// `auto`, `z`, `-x` or `0,0.5,1`.
+pub fn parse(word: &str) -> Result<Up, String> {
+    if word == "auto" {
+        return Ok(Up::Auto);
+    }
+    let name = word.strip_prefix('+').unwrap_or(word);
+    if let Some((_, direction)) = NAMED.iter().find(|(own, _)| *own == name) {
+        return Ok(Up::Given(*direction));
+    }
+    let expected = || "expected auto, x, y, z, -x, -y, -z, or a direction such as 0,0.5,1".to_owned();
+    let direction = <[f64; 3]>::parse(word).map_err(|_| expected())?;
+    match DVec3::from(direction).try_normalize() {
+        Some(_) => Ok(Up::Given(direction)),
+        None => Err(expected()),
+    }
+}
+
+/// The direction in a word.
+fn word(direction: DVec3) -> String {
+    let is_named = |(_, own): &&(&str, [f64; 3])| direction.distance(DVec3::from(*own)) < 1e-9;
+    match NAMED.iter().find(is_named) {
+        Some((name, _)) if name.starts_with('-') => (*name).to_owned(),
+        Some((name, _)) => format!("+{name}"),
+        None => {
+            let [x, y, z] = direction.to_array().map(|part| (1e4 * part).round() / 1e4 + 0.0);
+            format!("{x},{y},{z}")
+        }
+    }
+}
+
+/// What the first of the files says that say something; it is told where another says something else.
+pub fn of(files: Vec<(DVec3, String)>) -> Option<FoundUp> {
+    let (direction, name) = files.first()?;
+    if let Some((other, of)) = files.iter().find(|(other, _)| other.distance(*direction) > 1e-3) {
+        let [first, second] = [*direction, *other].map(word);
+        console::say(&format!(
+            "{of}: has {second} up, and {name} {first}, which is taken; --up says otherwise"
+        ));
+    }
+    Some(FoundUp { direction: *direction, because: format!("{name} says so") })
+}
+
+/// Tells what was found, unless it is what would be taken anyway.
+pub fn tell(found: &FoundUp) {
+    if found.direction.distance(DVec3::Y) > 1e-9 {
+        let (direction, because) = (word(found.direction), &found.because);
+        console::say(&format!("up is {direction}, because {because}; --up y if not"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_have_names() {
+        assert_eq!(parse("auto"), Ok(Up::Auto));
+        for (word, direction) in [("z", [0.0, 0.0, 1.0]), ("+z", [0.0, 0.0, 1.0]), ("-x", [-1.0, 0.0, 0.0])] {
+            assert_eq!(parse(word), Ok(Up::Given(direction)));
+        }
+        assert_eq!(parse("0,-0.5,1"), Ok(Up::Given([0.0, -0.5, 1.0])));
+        for refused in ["", "w", "+", "1,2", "0,0,0", "up", "--z", "NaN,0,0", "1e999,0,0"] {
+            assert!(parse(refused).is_err(), "{refused}");
+        }
+        assert_eq!([DVec3::Z, DVec3::NEG_X, DVec3::ONE].map(word), ["+z", "-x", "1,1,1"]);
+    }
+
+    #[test]
+    fn the_first_file_that_says_it_is_believed() {
+        let files = [(DVec3::Z, "a.las".to_owned()), (DVec3::Y, "b.glb".to_owned())];
+        let found = of(files.to_vec()).unwrap();
+        assert_eq!((found.direction, found.because.as_str()), (DVec3::Z, "a.las says so"));
+        assert_eq!(of(Vec::new()), None);
+    }
+}
