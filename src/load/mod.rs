@@ -6,6 +6,8 @@
 pub mod builtin;
 mod input;
 mod loaded;
+#[cfg(test)]
+mod mutate;
 mod obj;
 mod options;
 mod ply;
