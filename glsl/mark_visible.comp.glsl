@@ -2,7 +2,7 @@
 // a sphere around them (inc/list.glsl).
 //
 // Whoever projects a marked splat decides anew, and exactly: what is left out here must be what all of them leave out. Facing is the
-// same expression as theirs (mapping.glsl), which nothing may contract. So is p_z, and a sum rounds in the order of what is added:
+// sign of the same expression as theirs (mapping.glsl), which nothing may contract. So is p_z, and a sum rounds in the order of what is added:
 // p_z + 2 R < near here is p_z + depth radius < near there.
 //
 // Outside: all points of a splat are within its radius R of its center, however skew its vectors are (R is the larger singular value of
@@ -37,11 +37,23 @@ bool is_outside(vec3 p, float radius, float near)
     return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
 }
 
+// Exactly where rounding could turn a sum of three products: 3 roundings of 6e-8 and what f32 left of the center, or a product below
+// f32. A loop of one turn at most: of a condition CPU drivers compute both sides.
+bool faces_away(Splat splat)
+{
+    vec3 parts = splat.n * splat.from_eye.high;
+    float facing = parts.x + parts.y + parts.z;
+    float doubt = 1e-6 * (abs(parts.x) + abs(parts.y) + abs(parts.z)) + 1e-36;
+    for (bool in_doubt = !(abs(facing) > doubt); in_doubt; in_doubt = false) {
+        facing = normal_dot_center(splat);
+    }
+    return facing > 0.0;
+}
+
 bool may_be_seen(uint index)
 {
     Splat splat = load_splat(index);
-    bool left_out = CULL_BACKFACES && splat.det > 0.0;
-    return !left_out && !is_outside(splat.p, splat.radius, frame.near * splat.unit);
+    return !(CULL_BACKFACES && faces_away(splat)) && !is_outside(splat.p, splat.radius, frame.near * splat.unit);
 }
 
 void main()

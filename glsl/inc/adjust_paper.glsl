@@ -12,31 +12,40 @@ float projected_area(vec3 p, vec3 s, vec3 t)
     return abs(a.x * b.y - a.y * b.x);
 }
 
-// Equation 9: parallel to the screen, h long; `fallback` where equation 8 gives no direction.
-void lengthen(vec3 p, float h, vec2 fallback, inout vec3 v)
+// The projection of a vector's direction, of any length.
+vec2 seen_along(vec3 p, vec3 direction)
 {
-    vec2 projected = (v.xy * p.z - v.z * p.xy) / (p.z * p.z - v.z * v.z); // equation 8
-    float half_length = sqrt(dot(projected, projected));
-    if (half_length < h) {
-        vec2 direction = half_length > 0.0 ? projected / half_length : fallback;
-        v = vec3(direction * (h * p.z), 0.0);
-    }
+    return direction.xy * p.z - direction.z * p.xy;
+}
+
+// The tangent vector along `direction`, a unit vector. Equation 9: where it is too short, parallel to the screen, h long; along
+// `fallback` where equation 8 gives no direction. The radius comes last: its square may be nothing in f32.
+vec3 lengthened(vec3 p, float h, vec2 fallback, float radius, vec3 direction)
+{
+    vec2 along = seen_along(p, direction);
+    float seen = sqrt(dot(along, along));
+    vec3 v = radius * direction;
+    float half_length = radius * seen / (p.z * p.z - v.z * v.z); // equation 8
+    return half_length < h ? vec3((seen > 0.0 ? along / seen : fallback) * (h * p.z), 0.0) : v;
 }
 
 // Answers with the share of its weight that the splat keeps if weights go by area.
 float adjust_tangents_as_the_paper(vec3 p, vec3 normal, float radius, inout vec3 s, inout vec3 t)
 {
+    // Where the disk faces the eye, any basis will do. Written so that no radius divides by 0.
+    vec3 direction_s = s / max(radius, 1e-38);
+    vec3 direction_t = t / max(radius, 1e-38);
     vec3 across = precise_cross(p, normal);
-    if (dot(across, across) > 0.0) { // else any basis will do
-        s = radius * safe_normalize(across);
-        t = precise_cross(normal, s);
+    if (dot(across, across) > 0.0) {
+        direction_s = safe_normalize(across);
+        direction_t = precise_cross(normal, direction_s);
     }
-    float before = projected_area(p, s, t);
+    float before = projected_area(p, radius * direction_s, radius * direction_t);
     float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
-    vec2 s_across = (s.xy - p.xy / p.z * s.z);
-    lengthen(p, h, vec2(1.0, 0.0), s);
+    vec2 s_across = seen_along(p, direction_s);
     s_across = dot(s_across, s_across) > 0.0 ? normalize(s_across) : vec2(1.0, 0.0);
-    lengthen(p, h, vec2(-s_across.y, s_across.x), t);
+    s = lengthened(p, h, vec2(1.0, 0.0), radius, direction_s);
+    t = lengthened(p, h, vec2(-s_across.y, s_across.x), radius, direction_t);
     float after = projected_area(p, s, t);
     return FORMULA(FORMULA_SHARE, clamp(before / after, LEAST_SHARE, 1.0));
 }

@@ -39,10 +39,6 @@ const float REGULAR_DEPTH_RATIO = 0.9;
 // plane holds the eye to 30 digits, or the splat is 1e-15 of its distance large.
 const float LARGEST_SCALE = 1e37;
 
-// Depths of one surface, found from two splats of it, differ by some steps of f32: with a smaller shift it would hide itself in
-// part. The reference has this rule, too (src/reference/splat.rs).
-const float LEAST_SHIFT = 1e-6;
-
 // Everything belongs to the nearest surface long before.
 const float LARGEST_EPSILON = 1e30;
 
@@ -70,7 +66,9 @@ bool map_splat(uint index, out Mapping m)
     vec3 t = splat.t;
     m.near = frame.near * splat.unit;
     m.unit = splat.unit;
-    bool faces_away = splat.det > 0.0;
+    // Not by the determinant, which is nothing where a splat is 1e-19 of its distance large.
+    float facing = normal_dot_center(splat);
+    bool faces_away = facing > 0.0;
     if (CULL_BACKFACES && faces_away) {
         return false;
     }
@@ -111,7 +109,7 @@ bool map_splat(uint index, out Mapping m)
         n1 = precise_cross(p, s);
         n2 = precise_cross(s, t);
         bool changed = FILTER == FILTER_ADJUST_PAPER && (any(notEqual(s, splat.s)) || any(notEqual(t, splat.t)));
-        det = changed ? precise_dot(n2, p) : splat.det;
+        det = changed ? precise_dot(n2, p) : splat.area * facing;
     }
     float scale = m.near / det;
     m.edge_on = !(abs(scale) <= LARGEST_SCALE);
@@ -130,8 +128,12 @@ bool map_splat(uint index, out Mapping m)
     if (IN_LAYERS && FILTER != FILTER_NONE && m.regular) {
         thickness *= FORMULA(FORMULA_LENGTHENED, thickened(splat.p, splat.s, splat.t));
     }
+    // Depths of one surface, found from two splats of it, differ by some steps of f32: with a smaller shift than the least it would
+    // hide itself in part. The reference has this rule, too (src/reference/splat.rs). A product of f32 may be 0 where neither factor
+    // is: such a splat keeps the least shift.
     float epsilon = min(frame.epsilon_radii * thickness + frame.epsilon_length * splat.unit, LARGEST_EPSILON);
-    float relative = epsilon > 0.0 ? max(FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)), LEAST_SHIFT) : 0.0;
+    float part = epsilon > 0.0 ? FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)) : 0.0;
+    float relative = frame.epsilon_radii + frame.epsilon_length > 0.0 ? max(part, LEAST_SHIFT) : 0.0;
     // Exactly 1 without epsilon: a division need not be.
     m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;
     return true;

@@ -10,19 +10,6 @@
 layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Shapes { vec4 shapes[]; };
 layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
 
-// A point of the splat is p + u s + v t with u^2 + v^2 <= 1. Lengths are in a unit of the splat's own, a power of two times the view
-// unit, in which the largest of |p| and the radius is about 1: squares and products of three lengths neither over- nor underflow,
-// whatever else is in the chunk. Images, and near over depth, don't depend on it.
-struct Splat {
-    vec3 p;
-    vec3 s;
-    vec3 t;
-    vec3 normal;  // unit, to the side from which the surface is seen
-    float radius; // the larger one
-    float det;    // (s x t) . p, rounded about once, also where the splat is seen edge-on
-    float unit;   // what lengths in the view unit were multiplied by
-};
-
 vec3 precise_cross(vec3 a, vec3 b)
 {
     vec3 product = a.yzx * b.zxy - a.zxy * b.yzx;
@@ -91,6 +78,21 @@ struct FromEye {
     vec3 low;
 };
 
+// A point of the splat is p + u s + v t with u^2 + v^2 <= 1. Lengths are in a unit of the splat's own, a power of two times the view
+// unit, in which the largest of |p| and the radius is about 1: squares and products of three lengths neither over- nor underflow,
+// whatever else is in the chunk. Images, and near over depth, don't depend on it.
+struct Splat {
+    vec3 p;
+    vec3 s;
+    vec3 t;
+    vec3 normal;   // unit, to the side from which the surface is seen
+    float radius;  // the larger one
+    float unit;    // what lengths in the view unit were multiplied by
+    FromEye from_eye; // the center again, view units
+    vec3 n;        // the normal in the axes of local space, about 1 long
+    float area;    // s x t over n, rotated
+};
+
 // Knuth's two-sum of what is moved and the origin: exact but for the sum of what both left.
 FromEye from_eye(vec3 position, vec3 position_low)
 {
@@ -134,10 +136,11 @@ vec3 center_of(vec3 position, FromEye d)
     return p;
 }
 
-// n . p, not in view space: there the rotation's rounding, 1e-7, is 1e-3 of the cosine of 89.99 degrees.
-float normal_dot_center(vec3 n, FromEye d, float unit)
+// n . p, rounded about once, also where the splat is seen edge-on; positive where it faces away. Not in view space: there the
+// rotation's rounding, 1e-7, is 1e-3 of the cosine of 89.99 degrees. (s x t) . p is that times the area.
+float normal_dot_center(Splat splat)
 {
-    return exact_dot(n, unit * d.high, unit * d.low);
+    return exact_dot(splat.n, splat.unit * splat.from_eye.high, splat.unit * splat.from_eye.low);
 }
 
 Splat load_ellipse(uint index)
@@ -155,7 +158,9 @@ Splat load_ellipse(uint index)
     // About 1 long each, so that their product has a direction whatever their lengths.
     vec2 units = vec2(unit_of(largest(s)), unit_of(largest(t)));
     vec3 n = exact_cross(units.x * s, units.y * t);
-    splat.det = normal_dot_center(n, d, splat.unit) * (scale / units.x) * (scale / units.y);
+    splat.from_eye = d;
+    splat.n = n;
+    splat.area = (scale / units.x) * (scale / units.y);
     splat.normal = rotated(safe_normalize(n));
     splat.s = scale * FORMULA(FORMULA_TANGENT_FRAME, rotated(s));
     splat.t = scale * rotated(t);
@@ -194,7 +199,9 @@ Splat load_disk(uint index)
     splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
     splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
     splat.normal = n;
-    splat.det = splat.radius * splat.radius * normal_dot_center(n_local, d, splat.unit);
+    splat.from_eye = d;
+    splat.n = n_local;
+    splat.area = splat.radius * splat.radius;
     return splat;
 }
 

@@ -66,6 +66,7 @@ impl<'a> Inputs<'a> {
         Self {
             draws: &plan.splats,
             meshes: &plan.meshes,
+            settings: &plan.settings,
             bands: plan.bands(),
             listed: plan.visible(),
             culls_hidden,

@@ -42,8 +42,8 @@ impl Block {
         let axis = sum.try_normalize();
         // Not by the cosine, which tells small angles no better than 1e-8.
         let angle = |axis: DVec3, normal: DVec3| 2.0 * (0.5 * (axis - normal).length()).min(1.0).asin();
-        let turn = |axis: DVec3, splat: &Sample| angle(axis, splat.normal) + splat.normal_error_rad;
-        let spread_of = |axis: DVec3| splats.iter().map(|splat| turn(axis, splat)).fold(0.0, f64::max);
+        let spread_of =
+            |axis: DVec3| splats.iter().map(|splat| angle(axis, splat.normal)).fold(0.0, f64::max);
         Self {
             count: splats.len() as u32,
             center,
@@ -55,18 +55,11 @@ impl Block {
     }
 }
 
-/// How long the error of a device's `s × t` may be, of unit vectors: in f32 it has each rotated and normalized, off by some 8 roundings of
-/// 2⁻²⁴ of its length, and rounds the product once more. The product is as long as the sine between the two. What is found here in
-/// f64 is off by 1e-16.
-const NORMAL_ERROR: f64 = 1.5e-6;
-
 /// A splat as the device has it.
 struct Sample {
     center: DVec3,
     /// Of unit length.
     normal: DVec3,
-    /// How far that of the device may be from it, beside what every normal's is.
-    normal_error_rad: f64,
     radius: f64,
 }
 
@@ -102,25 +95,17 @@ impl BlockMaker {
 fn sample(words: &[[u32; 4]], survey: &Survey) -> Sample {
     if survey.packed {
         let (center, normal, radius) = packed::unpacked_disk(words[0]);
-        return Sample { center, normal, normal_error_rad: 0.0, radius };
+        return Sample { center, normal, radius };
     }
     let vector = |words: [u32; 4]| Vec3::from_slice(&words.map(f32::from_bits)[..3]).as_dvec3();
-    let (normal, normal_error_rad) = match survey.ellipses {
-        true => normal_of([vector(words[1]), vector(words[2])]),
-        false => (vector(words[1]), 0.0),
+    let normal = match survey.ellipses {
+        // Their sine is at least 1/4 (`far_apart.rs`): the product keeps its digits on a device, too.
+        true => vector(words[1]).normalize().cross(vector(words[2]).normalize()).normalize_or(DVec3::Z),
+        false => vector(words[1]),
     };
     let low = if survey.fine { vector(words[words.len() - 1]) } else { DVec3::ZERO };
     let center = vector(words[0]) + low;
-    Sample { center, normal, normal_error_rad, radius: f32::from_bits(words[0][3]).into() }
-}
-
-/// The normal of an ellipse, and how far a device's may be from it; where there is none, any, and π.
-fn normal_of(tangents: [DVec3; 2]) -> (DVec3, f64) {
-    let [s, t] = tangents.map(DVec3::normalize);
-    let n = s.cross(t);
-    let error = NORMAL_ERROR / n.length();
-    // What is no longer than a part of a vector turns it by the arc sine of that part at most.
-    if error < 1.0 { (n.normalize(), error.asin()) } else { (DVec3::Z, PI) }
+    Sample { center, normal, radius: f32::from_bits(words[0][3]).into() }
 }
 
 #[cfg(test)]
@@ -176,28 +161,6 @@ mod tests {
             }
             assert!(blocks.iter().all(|block| block.radius < 0.6 * scale && block.spread_rad < 0.6));
         }
-    }
-
-    /// Whatever a device makes of nearly parallel tangent vectors is in the cone: here of the same words in f32.
-    #[test]
-    fn a_cone_holds_normals_that_f32_finds_of_nearly_parallel_vectors() {
-        let mut random = crate::math::random::SplitMix(9);
-        let mut direction = || Vec3::from([(); 3].map(|()| 2.0 * random.unit() as f32 - 1.0)).normalize();
-        for k in 0..60_000 {
-            let sine = 10.0_f32.powf(-6.2 * (k as f32 / 60_000.0));
-            let s = direction();
-            let t = 0.7 * (s + sine * s.cross(direction()).normalize());
-            let in_f32 = s.normalize().cross(t.normalize()).normalize().as_dvec3();
-            let (normal, error_rad) = normal_of([s, t].map(|v| v.as_dvec3()));
-            let turn = in_f32.angle_between(normal);
-            assert!(turn <= error_rad + 1e-6, "sine {sine}: {turn} of {error_rad}");
-        }
-        let (blocks, _) = blocks_of(
-            Shapes::Ellipses { s: vec![Vec3::X; 3], t: vec![Vec3::Y, Vec3::Y, Vec3::new(1.0, -5e-7, 0.0)] },
-            vec![DVec3::ZERO; 3],
-            false,
-        );
-        assert_eq!(blocks[0].spread_rad, PI);
     }
 
     #[test]

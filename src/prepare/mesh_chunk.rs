@@ -37,8 +37,10 @@ pub struct MeshChunk {
     pub(crate) transparent: bool,
     /// One color for all.
     pub(crate) uniform_color: bool,
-    /// How far a corner is rounded at most, and how long edges are in the mean: world space.
-    rounding_and_edge: [f64; 2],
+    /// The largest coordinate of a corner, local space.
+    pub(crate) farthest: f64,
+    /// How long edges are in the mean, world space.
+    mean_edge: f64,
     /// The longest edge, world space.
     pub(crate) longest_edge: f64,
     /// Vertices, colors, indices, but where a frame is only listed.
@@ -115,11 +117,9 @@ impl PackedMesh {
         super::pieces(0..mesh.triangles.len(), triangles).map(move |range| Self::of(mesh, range, rebase))
     }
 
-    /// How far a corner is rounded at most, and how long edges are in the mean: world space.
-    fn rounding_and_edge(&self) -> [f64; 2] {
-        let total: f64 = self.edges().sum();
-        let farthest = self.vertices.iter().step_by(2).flatten().fold(0.0, |most, x| f32::max(most, x.abs()));
-        [f64::from(farthest) / 16_777_216.0 / self.rebase.scale, total / (3 * self.indices.len()) as f64]
+    /// The largest coordinate of a corner, local space.
+    fn farthest(&self) -> f64 {
+        self.vertices.iter().step_by(2).flatten().fold(0.0, |most, x| f32::max(most, x.abs())).into()
     }
 
     /// The lengths of its triangles' edges, world space.
@@ -176,7 +176,8 @@ impl MeshChunk {
             closed,
             transparent,
             uniform_color: packed.colors.len() == 1,
-            rounding_and_edge: packed.rounding_and_edge(),
+            farthest: packed.farthest(),
+            mean_edge: packed.edges().sum::<f64>() / (3 * packed.indices.len()) as f64,
             longest_edge: packed.edges().fold(0.0, f64::max),
             memory: uploader.map(|uploader| packed.upload(uploader, number)).transpose()?,
         })
@@ -184,8 +185,8 @@ impl MeshChunk {
 
     /// How far a corner is rounded at most, and how long edges are in the mean, where that is too much: world space.
     pub fn rounding(&self) -> Option<[f64; 2]> {
-        let [rounding, edge] = self.rounding_and_edge;
-        (rounding * 16_777_216.0 > HOME * edge).then_some(self.rounding_and_edge)
+        let farthest = self.farthest / self.rebase.scale;
+        (farthest > HOME * self.mean_edge).then_some([farthest / 16_777_216.0, self.mean_edge])
     }
 
     /// The descriptor set; null without memory.

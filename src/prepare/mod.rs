@@ -7,6 +7,8 @@
 mod as_packed;
 mod blocks;
 mod chunk;
+mod cut;
+mod far_apart;
 mod memory;
 mod mesh_chunk;
 mod pack;
@@ -27,14 +29,12 @@ pub use rebase::{Rebase, ViewFromLocal};
 
 use std::ops::Range;
 
+use cut::cut;
 use memory::Uploader;
-use mesh_chunk::PackedMesh;
-use sequence::Sequence;
-use sites::sites;
 
 use crate::{
     error::Result,
-    scene::{DefectCounts, Light, Opacity, Scene, Storage},
+    scene::{DefectCounts, Light, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 
@@ -73,10 +73,6 @@ impl PreparedScene {
     }
 }
 
-/// How many splats are packed and uploaded at once: 3.7 MB at most, so that neither the host nor the device holds a
-/// second copy of a scene on its way.
-const BATCH_SPLATS: usize = 1 << 16;
-
 /// Uploads a scene, in chunks within `limits`. Splats with a defect are left out and counted. `submit` runs one batch of
 /// uploads, of which a chunk has several: our own queue, or the host's, which may defer it as long as it comes before the
 /// first frame and the batch lives until then. `progress` is called with splats done and splats in all.
@@ -100,77 +96,6 @@ pub fn prepare(
 /// None today.
 pub(crate) fn prepare_without_device(limits: &Limits, scene: &Scene) -> Result<PreparedScene> {
     cut(None, limits, scene, &|_, _| {})
-}
-
-fn cut(
-    mut uploader: Option<Uploader<'_>>,
-    limits: &Limits,
-    scene: &Scene,
-    progress: &dyn Fn(u64, u64),
-) -> Result<PreparedScene> {
-    let total = scene.splat_count() as u64;
-    let capacity = chunk::capacity(limits.max_storage_buffer_range);
-    let mut prepared = PreparedScene {
-        chunks: Vec::new(),
-        meshes: Vec::new(),
-        lights: scene.lights.clone(),
-        storage: scene.storage,
-        mean_transparent_radius: 0.0,
-        defects: DefectCounts::default(),
-    };
-    let mut done = 0;
-    let (mut transparent_splats, mut transparent_radii) = (0, 0.0);
-    for object in &scene.objects {
-        let splats = &object.splats;
-        let opacity = splats.colors.opacity();
-        if opacity == Opacity::Invisible {
-            done += splats.len() as u64;
-            progress(done, total);
-            continue;
-        }
-        let transparent = opacity == Opacity::Transparent;
-        // Before it is cut, so that chunks are compact.
-        let sequence = Sequence::of(splats, scene.storage.order);
-        for piece in pieces(0..sequence.len(), capacity) {
-            for site in sites(splats, &sequence, &piece, scene.storage.format) {
-                for range in pieces(0..site.len(&piece), chunk::part_of(capacity, site.fine)) {
-                    let which = |places: Range<usize>| site.at(&sequence, &piece, places);
-                    let survey = site.survey(splats, which(range.clone()));
-                    prepared.defects.merge(&survey.defects);
-                    if survey.count > 0 {
-                        if transparent {
-                            transparent_splats += survey.count;
-                            transparent_radii += survey.sum_of_radii;
-                        }
-                        let number = prepared.chunks.len();
-                        let traits = (object.closed, transparent);
-                        let mut chunk = Chunk::new(uploader.as_ref(), number, traits, &survey)?;
-                        let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
-                        let packed = batches.map(|which| pack::pack(splats, which, &survey));
-                        let mut uploaded = |count| progress(done + count, total);
-                        chunk.fill(uploader.as_mut(), packed, &survey, &mut uploaded)?;
-                        chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
-                        prepared.chunks.push(chunk);
-                    }
-                    done += range.len() as u64;
-                    progress(done, total);
-                }
-            }
-        }
-    }
-    prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
-    for object in &scene.meshes {
-        let opacity = object.mesh.colors.opacity();
-        if opacity == Opacity::Invisible {
-            continue;
-        }
-        for packed in PackedMesh::pieces(&object.mesh, capacity).filter(|packed| !packed.is_empty()) {
-            let number = prepared.meshes.len();
-            let traits = (object.closed, opacity == Opacity::Transparent);
-            prepared.meshes.push(MeshChunk::new(uploader.as_mut(), number, traits, &packed)?);
-        }
-    }
-    Ok(prepared)
 }
 
 /// A range cut into pieces of a size, the last one shorter.

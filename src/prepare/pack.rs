@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::{
+    far_apart::far_apart,
     packed,
     radii::{RadiusCounts, RadiusStep},
     rebase::Rebase,
@@ -191,26 +192,6 @@ pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey
         packed.count += 1;
     }
     packed
-}
-
-/// Tangent vectors of the same ellipse with more than 14° between them: where these have less, its axes, since a vector's rounding, 6e-8
-/// of it, is divided by the sine in all that is found of both.
-fn far_apart(s: DVec3, t: DVec3) -> [DVec3; 2] {
-    const LEAST_SINE: f64 = 0.25;
-    let [length_s, length_t] = [s.length(), t.length()];
-    if s.cross(t).length() >= LEAST_SINE * length_s * length_t {
-        return [s, t];
-    }
-    // Rotating the parametrization moves the rim along itself: tan 2θ = 2 s·t / (s·s − t·t). In units of the longer one.
-    let unit = length_s.max(length_t);
-    let [a, b] = [s / unit, t / unit];
-    let angle_rad = 0.5 * (2.0 * a.dot(b)).atan2(a.length_squared() - b.length_squared());
-    let (sin, cos) = angle_rad.sin_cos();
-    let major = a * cos + b * sin;
-    // The shorter one by area and direction: of the difference little would be left.
-    let normal = a.cross(b);
-    let minor = normal.cross(major) / major.length_squared();
-    [major * unit, minor * unit]
 }
 
 /// A color as 16-bit fractions; what is no number is 0.

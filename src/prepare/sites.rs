@@ -1,8 +1,8 @@
 //! Which splats of an object share a local space.
 //!
 //! A device has coordinates in f32: half a step of one is up to 2⁻²⁴ of it. So a splat is *at home* in a local space if none of its
-//! coordinates there is above 2¹¹ of its smaller half axes: it is then placed within 2⁻¹³ of it, along each axis. Of a larger splat than
-//! most those of most count: a wall is looked at from as near as what stands before it. Splats that are not at
+//! coordinates there is above 2¹¹ of its smaller half axes: it is then placed within 2⁻¹³ of it, along each axis. A splat that is larger
+//! than most is measured by the half axis of most: a wall is looked at from as near as what stands before it. Splats that are not at
 //! home where most of an object is get a local space of their own: a second site in the same file, a stray point. What has no such
 //! place, a road of many kilometers, becomes *fine*: its coordinates have a second f32, with which 2³⁵ half axes are at
 //! home.
@@ -106,7 +106,7 @@ pub(super) fn sites(
             (home, away) = split(&rebase, FINE_HOME);
         }
         if last {
-            (home, away) = (rest.clone(), Vec::new());
+            (home, away) = (std::mem::take(&mut rest), Vec::new());
         }
         sites.push(Site { rebase, fine, packed, listed: Some(home) });
         rest = away;

@@ -142,7 +142,7 @@ impl Renderer {
         let drawn = [&frame.opaque, &frame.transparent].map(|surface| surface.explained(settings));
         Explanation {
             drawn,
-            notes: passes::notes_of_digits(&frame, camera, settings),
+            notes: passes::notes_of_digits(scene, &frame, camera),
             chunks: chunks.collect(),
             meshes: meshes.collect(),
             point_cap_px: limits.point_size_range[1],

@@ -101,8 +101,8 @@ impl Settings {
         self.filter == Filter::Ewa || by_area
     }
 
-    /// What a splat weighs at least. Tiles sum in registers of 32 bits, whatever `accumulate` says; `auto` is taken for them, whose picture is
-    /// the truer one.
+    /// What a splat weighs at least. Tiles sum in 32 bits where splats have weights of their own, whatever `accumulate` says. So `auto` has
+    /// none here; where it draws points with 16-bit sums they have, as `--explain` says.
     pub fn floors(&self) -> Floors {
         let by_tiles = matches!(self.rasterizer, Rasterizer::Auto | Rasterizer::Compute);
         if self.accumulate == Accumulate::F16 && !by_tiles { Floors::HALF } else { Floors::NONE }

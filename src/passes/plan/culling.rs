@@ -13,6 +13,9 @@ use crate::{
 /// Points of an indexed draw; more would need `fullDrawIndexUint32`.
 const MOST_INDICES: u32 = 1 << 24;
 
+/// Other surfaces count from this part of all splats on.
+const LEAST_PART: u64 = 64;
+
 /// Whether some splats face away and are not drawn, or may lie outside of the view.
 pub(crate) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
     splats.iter().any(|draw| culls(&draw.variant) || !draw.wholly_in_view)
@@ -48,8 +51,12 @@ fn list_has_room(splats: &[Draw<'_>], limits: &Limits) -> bool {
 pub(crate) fn tiles_cull_hidden(splats: &[Draw<'_>], polygons: bool, settings: &Settings) -> bool {
     let wanted = match settings.cull {
         // One surface hides little of itself, so that to look for it costs more than it gains. (One of more than a chunk is
-        // taken for several: 3% of a frame.)
-        Cull::Auto => splats.len() > 1,
+        // taken for several: 3% of a frame; but not for a few that are far from the rest and so have a chunk of their own.)
+        Cull::Auto => {
+            let counts = || splats.iter().map(|draw| u64::from(draw.chunk.count));
+            let (all, most) = (counts().sum::<u64>(), counts().max().unwrap_or(0));
+            (all - most) * LEAST_PART > all
+        }
         Cull::Setup | Cull::List => false,
         Cull::Hidden => true,
     };

@@ -1,17 +1,15 @@
 //! What of a frame is beyond f32: refused where the picture would be wrong, told where it is less exact.
 
-use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, draws::Draw};
+use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw};
 use crate::{
     error::{Error, Result},
-    prepare::{PreparedScene, Rebase},
-    scene::{Accumulate, Camera, Settings},
+    prepare::{Chunk, PreparedScene, Rebase},
+    scene::Camera,
+    shaders::config::LEAST_SHIFT,
 };
 
 /// Depth is near / z, in f32, which ends at 1e-38.
 const LEAST_NEAR: f64 = 1e-36;
-
-/// The least part of its depth by which a splat is shifted: `LEAST_SHIFT` of `glsl/inc/mapping.glsl`.
-const LEAST_SHIFT: f64 = 1e-6;
 
 /// One in so many splats may be anywhere.
 const STRAYS: u64 = 1000;
@@ -24,10 +22,21 @@ const LARGEST_EDGE: f64 = 1e6;
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] with the nearest that it may be.
 pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
-    let near_in_units = |rebase: &Rebase, radius: f64| {
+    // Depths that are handed out have the world's unit, and 32 bits.
+    let near = camera.near() as f32;
+    if near == 0.0 || near.is_infinite() {
+        let problem = format!("near {:e}: expected {:e} to {:e}", camera.near(), f32::from_bits(1), f32::MAX);
+        return Err(Error::option("camera", problem));
+    }
+    // Over the distance of what is farthest, or the radius of what is larger than far and has a unit of its own.
+    let near_in_units = |rebase: &Rebase, reach: f64| {
         let view = rebase.view_from_local(camera);
-        // A splat that is larger than far has a unit of its own, which is larger, too.
-        camera.near() * view.view_from_world_scale / (radius * view.view_from_local_scale).max(1.0)
+        let farthest = view.translation.length() + reach * view.view_from_local_scale;
+        camera.near() * view.view_from_world_scale / farthest.max(1.0)
+    };
+    let reach_of = |chunk: &Chunk| {
+        let [lo, hi] = chunk.bounds;
+        lo.abs().max(hi.abs()).length() + chunk.largest_radius
     };
     // A stray point beyond all measure, which is seen as nothing, must not refuse the rest.
     let total = scene.splat_count();
@@ -36,8 +45,8 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
         .chunks
         .iter()
         .filter(|chunk| counts(chunk.count))
-        .map(|chunk| near_in_units(&chunk.rebase, chunk.largest_radius));
-    let meshes = scene.meshes.iter().map(|mesh| near_in_units(&mesh.rebase, 0.0));
+        .map(|chunk| near_in_units(&chunk.rebase, reach_of(chunk)));
+    let meshes = scene.meshes.iter().map(|mesh| near_in_units(&mesh.rebase, 3_f64.sqrt() * mesh.farthest));
     let least = splats.chain(meshes).fold(1.0, f64::min);
     if least < LEAST_NEAR {
         let (near, needed) = (camera.near(), camera.near() / least * LEAST_NEAR);
@@ -51,7 +60,7 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
 }
 
 /// What a frame can't tell apart, or weighs otherwise than asked, in a sentence each.
-pub fn notes(frame: &FramePlan<'_>, camera: &Camera, settings: &Settings) -> Vec<String> {
+pub fn notes(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> Vec<String> {
     let mut notes = Vec::new();
     let splats = || frame.opaque.splats.iter().chain(&frame.transparent.splats);
     if let Some(depth) = splats().filter_map(depth_without_epsilon).reduce(f64::max) {
@@ -60,25 +69,20 @@ pub fn notes(frame: &FramePlan<'_>, camera: &Camera, settings: &Settings) -> Vec
              millionth of their distance apart are one"
         ));
     }
-    let by_points = |part: &SurfacePlan<'_>| {
-        !part.splats.is_empty() && matches!(part.method, SplatMethod::Primitives { .. })
-    };
-    if settings.weighs_splats()
-        && settings.accumulate == Accumulate::F16
-        && (by_points(&frame.opaque) || by_points(&frame.transparent))
-    {
+    let has_floors = |part: &SurfacePlan<'_>| part.splats.iter().any(|draw| draw.half_sums);
+    if has_floors(&frame.opaque) || has_floors(&frame.transparent) {
         notes.push("sums of 16 bits: a filter leaves each splat a 16th of its weight at least, or the smallest would lose \
                     their color; --accumulate f32 has no such floor".to_owned());
     }
-    for (number, mesh) in frame.opaque.meshes.iter().chain(&frame.transparent.meshes).enumerate() {
-        let (longest, distance) = (mesh.chunk.longest_edge, camera.eye.distance(camera.target));
+    for (number, mesh) in scene.meshes.iter().enumerate() {
+        let (longest, distance) = (mesh.longest_edge, camera.eye.distance(camera.target));
         if longest > LARGEST_EDGE * distance {
             notes.push(format!(
                 "mesh {number}: an edge of {longest:.1e} is over a million times as long as the target is far: near the eye such a \
                  polygon has no digits"
             ));
         }
-        if let Some([rounding, edge]) = mesh.chunk.rounding() {
+        if let Some([rounding, edge]) = mesh.rounding() {
             notes.push(format!(
                 "mesh {number}: its corners are rounded by up to {rounding:.1e}, and its mean edge is {edge:.1e} long: it is too \
                  extended for f32"
@@ -94,7 +98,8 @@ fn depth_without_epsilon(draw: &Draw<'_>) -> Option<f64> {
     let depth = draw.farthest_z();
     let radius = draw.chunk.largest_radius * draw.view.view_from_local_scale;
     let epsilon = f64::from(constants.epsilon_radii) * radius + f64::from(constants.epsilon_length);
-    (epsilon > 0.0 && epsilon < LEAST_SHIFT * depth).then(|| depth / draw.view.view_from_world_scale)
+    (epsilon > 0.0 && epsilon < f64::from(LEAST_SHIFT) * depth)
+        .then(|| depth / draw.view.view_from_world_scale)
 }
 
 #[cfg(test)]
@@ -104,7 +109,10 @@ mod tests {
     use super::*;
     use crate::{
         prepare::prepare_without_device,
-        scene::{Colors, Epsilon, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Shapes, Splats},
+        scene::{
+            Accumulate, Colors, Epsilon, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Settings,
+            Shapes, Splats,
+        },
         vk::Limits,
     };
 
@@ -126,7 +134,7 @@ mod tests {
     fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {
         let limits = Limits::plain();
         let prepared = prepare_without_device(&limits, scene).unwrap();
-        notes(&FramePlan::new(&prepared, &camera(1e-3), settings, &limits), &camera(1e-3), settings)
+        notes(&prepared, &FramePlan::new(&prepared, &camera(1e-3), settings, &limits), &camera(1e-3))
     }
 
     #[test]
@@ -137,8 +145,18 @@ mod tests {
         };
         assert_eq!(problem_of(&disks(&[1.0, 3.0], 0.1), 1e-30), Ok(()));
         assert_eq!(problem_of(&disks(&[1e6], 0.1), 1e-20), Ok(()));
+        for near in [1e-50, 1e40] {
+            let problem = problem_of(&disks(&[1.0], 1.0), near).unwrap_err();
+            assert!(problem.contains("expected 1e-45 to 3.4028235e38"), "{problem}");
+        }
         for (scene, near) in
-            [(disks(&[1.0], 0.1), 1e-37), (disks(&[1e12], 0.1), 1e-25), (disks(&[1.0], 1e12), 1e-25)]
+            // The last has its local space's origin near the eye: most of it is there.
+            [
+                (disks(&[1.0], 0.1), 1e-37),
+                (disks(&[1e12], 0.1), 1e-25),
+                (disks(&[1.0], 1e12), 1e-25),
+                (disks(&[1.0, 1.0, 1e7], 1e4), 1e-30),
+            ]
         {
             let problem = problem_of(&scene, near).unwrap_err();
             assert!(problem.starts_with("camera: near ") && problem.contains("or more"), "{problem}");

@@ -27,7 +27,7 @@ use crate::passes::plan::{
 };
 use crate::{
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Settings, Transition},
+    scene::{Accumulate, Camera, Rasterizer, Settings, Transition},
     vk::Limits,
 };
 
@@ -53,6 +53,8 @@ pub struct SurfacePlan<'a> {
     pub method: SplatMethod<'a>,
     /// Why they are drawn so; empty where there are none.
     pub reason: &'static str,
+    /// The settings they are drawn with: as asked for, but for the precision of sums that tiles leave.
+    pub settings: Settings,
 }
 
 /// How splats are drawn.
@@ -102,15 +104,23 @@ impl<'a> SurfacePlan<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
+        let mut settings = settings.clone();
         if splats.is_empty() {
-            return Self { meshes, ..Self::default() };
+            return Self { meshes, settings, ..Self::default() };
         }
         let polygons = !meshes.is_empty();
-        let (method, reason) = match method::tiles(&splats, polygons, settings, limits) {
+        let transparent = splats.iter().any(|draw| draw.chunk.transparent);
+        let tiles = method::tiles(&splats, polygons, &settings, limits);
+        // Tiles weigh splats without floors. Their sums stay in registers, unless others add to them; layers do where all are tiles.
+        let exact = settings.rasterizer == Rasterizer::Compute || tiles.is_ok() && !transparent;
+        if exact && settings.weighs_splats() {
+            settings.accumulate = Accumulate::F32;
+        }
+        let (method, reason) = match tiles {
             Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
-            Err(reason) => (method::primitives(&mut splats, polygons, settings, limits), reason),
+            Err(reason) => (method::primitives(&mut splats, polygons, &settings, limits), reason),
         };
-        Self { splats, meshes, method, reason }
+        Self { splats, meshes, method, reason, settings }
     }
 
     /// Bands of tiles; none where the graphics pipeline draws the splats.

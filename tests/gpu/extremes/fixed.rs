@@ -1,9 +1,11 @@
-//! The same three hundred scenes in every run of the tests.
+//! The same three hundred scenes in every run of the tests; with `SURFEL_SCENES` as many of each row as it says.
 
 use super::{
     draw::draw,
+    errors::Errors,
     method::Method,
     rows::{self, Row},
+    sweep::asked,
 };
 use crate::common::shared;
 
@@ -16,15 +18,16 @@ const FEWEST_PX: usize = 2000;
 /// Scenes by one method each, which take turns: nothing is missed, nothing too much, and no figure beyond its row's bound.
 fn agree(theme: &str) {
     let mut headless = shared();
-    let (mut compared, mut beyond) = (0, Vec::new());
+    let scenes = asked("SURFEL_SCENES", SCENES_A_ROW);
+    let (mut worst, mut beyond) = (Errors::default(), Vec::new());
     let all = rows::all();
     for (place, row) in all.iter().enumerate().filter(|(_, row)| row.theme == theme) {
-        for number in 0..SCENES_A_ROW {
+        for number in 0..scenes {
             // So that each row has each method, and not each the same ones first.
             let turn = number as usize + 3 * place;
             let one = |methods: Vec<Method>| vec![methods[turn % methods.len()]];
             for drawn in draw(&mut headless, row, &row.case(number, true), one) {
-                compared += drawn.errors.compared;
+                worst = worst.and(drawn.errors);
                 if !drawn.beyond.is_empty() {
                     let (name, method) = (row.name, drawn.name());
                     beyond.push(format!("{name}: {number} by {method}: {}", drawn.beyond));
@@ -32,8 +35,8 @@ fn agree(theme: &str) {
             }
         }
     }
-    println!("{theme}: {compared} pixels");
-    assert!(compared > FEWEST_PX, "{theme}: {compared} pixels: too little is seen");
+    println!("{theme}: {worst:?}");
+    assert!(worst.compared > FEWEST_PX, "{theme}: {} pixels: too little is seen", worst.compared);
     assert!(beyond.is_empty(), "{} scenes: {beyond:#?}", beyond.len());
 }
 

@@ -1,0 +1,148 @@
+//! A scene cut into chunks: each object into pieces that a buffer holds, each piece into sites, which have an origin of their own.
+
+use std::ops::Range;
+
+use super::{
+    MeshChunk, PreparedScene,
+    chunk::{self, Chunk},
+    memory::Uploader,
+    mesh_chunk::PackedMesh,
+    pack, pieces,
+    sequence::Sequence,
+    sites::{Site, sites},
+};
+use crate::{
+    error::Result,
+    scene::{DefectCounts, MeshObject, Object, Opacity, Scene},
+    vk::Limits,
+};
+
+/// How many splats are packed and uploaded at once: 72 bytes each at most, 4.7 MB, so that neither the host nor the device holds a
+/// second copy of a scene on its way.
+const BATCH_SPLATS: usize = 1 << 16;
+
+/// Cuts a scene; uploads it where there is an uploader.
+///
+/// # Errors
+/// Whatever the uploader answers.
+pub(super) fn cut(
+    uploader: Option<Uploader<'_>>,
+    limits: &Limits,
+    scene: &Scene,
+    progress: &dyn Fn(u64, u64),
+) -> Result<PreparedScene> {
+    let mut cut = Cut {
+        uploader,
+        capacity: chunk::capacity(limits.max_storage_buffer_range),
+        done: 0,
+        total: scene.splat_count() as u64,
+        progress,
+        transparent_splats: 0,
+        transparent_radii: 0.0,
+        prepared: PreparedScene {
+            chunks: Vec::new(),
+            meshes: Vec::new(),
+            lights: scene.lights.clone(),
+            storage: scene.storage,
+            mean_transparent_radius: 0.0,
+            defects: DefectCounts::default(),
+        },
+    };
+    scene.objects.iter().try_for_each(|object| cut.object(object))?;
+    scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
+    let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
+    prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
+    Ok(prepared)
+}
+
+/// What is done so far.
+struct Cut<'u, 'a> {
+    uploader: Option<Uploader<'u>>,
+    /// Splats of a chunk.
+    capacity: usize,
+    done: u64,
+    total: u64,
+    progress: &'a dyn Fn(u64, u64),
+    transparent_splats: u32,
+    transparent_radii: f64,
+    prepared: PreparedScene,
+}
+
+/// An object on its way.
+struct Part<'a> {
+    object: &'a Object,
+    sequence: Sequence,
+    transparent: bool,
+}
+
+impl Cut<'_, '_> {
+    fn step(&mut self, count: usize) {
+        self.done += count as u64;
+        (self.progress)(self.done, self.total);
+    }
+
+    fn object(&mut self, object: &Object) -> Result<()> {
+        let splats = &object.splats;
+        let opacity = splats.colors.opacity();
+        if opacity == Opacity::Invisible {
+            self.step(splats.len());
+            return Ok(());
+        }
+        let storage = self.prepared.storage;
+        // Before it is cut, so that chunks are compact.
+        let sequence = Sequence::of(splats, storage.order);
+        let part = Part { object, sequence, transparent: opacity == Opacity::Transparent };
+        for piece in pieces(0..part.sequence.len(), self.capacity) {
+            for site in sites(splats, &part.sequence, &piece, storage.format) {
+                for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
+                    self.chunk(&part, &piece, &site, range)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The splats at `range` of a site of a piece.
+    fn chunk(
+        &mut self,
+        part: &Part<'_>,
+        piece: &Range<usize>,
+        site: &Site,
+        range: Range<usize>,
+    ) -> Result<()> {
+        let splats = &part.object.splats;
+        let which = |places: Range<usize>| site.at(&part.sequence, piece, places);
+        let survey = site.survey(splats, which(range.clone()));
+        self.prepared.defects.merge(&survey.defects);
+        if survey.count > 0 {
+            if part.transparent {
+                self.transparent_splats += survey.count;
+                self.transparent_radii += survey.sum_of_radii;
+            }
+            let number = self.prepared.chunks.len();
+            let traits = (part.object.closed, part.transparent);
+            let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, &survey)?;
+            let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
+            let packed = batches.map(|which| pack::pack(splats, which, &survey));
+            let mut uploaded = |count| (self.progress)(self.done + count, self.total);
+            chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
+            chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
+            self.prepared.chunks.push(chunk);
+        }
+        self.step(range.len());
+        Ok(())
+    }
+
+    fn mesh(&mut self, object: &MeshObject) -> Result<()> {
+        let opacity = object.mesh.colors.opacity();
+        if opacity == Opacity::Invisible {
+            return Ok(());
+        }
+        for packed in PackedMesh::pieces(&object.mesh, self.capacity).filter(|packed| !packed.is_empty()) {
+            let number = self.prepared.meshes.len();
+            let traits = (object.closed, opacity == Opacity::Transparent);
+            self.prepared.meshes.push(MeshChunk::new(self.uploader.as_mut(), number, traits, &packed)?);
+        }
+        Ok(())
+    }
+}
