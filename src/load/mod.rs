@@ -15,6 +15,8 @@ mod input;
 mod las;
 mod lines;
 mod loaded;
+#[cfg(test)]
+mod mutate;
 mod obj;
 mod off;
 mod options;

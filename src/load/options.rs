@@ -25,7 +25,7 @@ pub struct Limits {
     pub line_bytes: usize,
     /// Bytes of a header of text.
     pub header_bytes: usize,
-    /// Items of one list, such as the corners of a polygon.
+    /// Corners of one polygon. A strip of triangles may have as many as `faces` allows.
     pub list_items: usize,
     /// Bytes of standard input, of which no size is known beforehand.
     pub piped_bytes: u64,

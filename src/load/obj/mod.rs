@@ -1,99 +1,137 @@
-//! OBJ files: the mesh in them, through the crate `tobj`, or their vertices where no row is a face. Materials, texture coordinates, points and lines are left
-//! out; no other file is opened.
+//! OBJ files: the mesh in them with the colors of its materials, or their vertices where no row is a face. Texture
+//! coordinates are left out; points, lines, free forms and textures, too, with a note.
+//!
+//! Rows are read here and not by the crate `tobj` (4.0.5), with which the tests compare: it holds 104 bytes for a face
+//! of 8 bytes and a mesh for each change of the material, moves colors that only some vertices have to others, refuses a
+//! file for one normal that is missing, knows no continued lines, names no line, and panics where a `Kd` has two numbers.
 
-mod rows;
+mod faces;
+mod lines;
+mod materials;
 #[cfg(test)]
 mod tests;
+mod vertices;
 
-use std::io::{self, BufRead};
+use std::mem;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::{Input, Loaded, Model};
 use crate::{
     error::{Error, Result},
-    math::srgb::linear_from_srgb,
     notes::Deed,
     scene::{Colors, Mesh, Points},
 };
-use rows::Rows;
+use faces::Faces;
+use vertices::Vertices;
 
 pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
-    let Input { path, bytes, .. } = *input;
-    let mut rows = Rows::new(bytes, |done| input.step(done));
-    let options =
-        tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, single_index: false };
-    let loaded = tobj::load_obj_buf(&mut rows, &options, |_| Err(tobj::LoadError::OpenFileFailed));
-    if let Some(fault) = rows.fault() {
-        return Err(Error::input(path, format!("line {}", fault.line), fault.problem));
-    }
-    let (models, _) = loaded.map_err(|e| Error::input(path, "", e.to_string()))?;
-    // Without `g`, `o` and `usemtl` rows, all faces are in one model and share its vertices.
-    let Some(model) = models.into_iter().next().filter(|m| !m.mesh.indices.is_empty()) else {
-        if rows.vertices() == 0 || rows.has_faces() {
-            return Err(Error::input(path, "", "neither a face nor a point; expected a mesh or points"));
-        }
-        let points = points(bytes).map(Model::Points);
-        return points.map(|model| Loaded::new(model, "OBJ")).map_err(|e| Error::file(path, "read", e));
-    };
-    let mesh = model.mesh;
-    let left_out = rows.vertices() - (mesh.positions.len() / 3) as u64;
-    let colors = if rows.has_colors() {
-        Colors::Each(mesh.vertex_color.chunks_exact(3).map(linear_color).collect())
-    } else {
-        Colors::unknown()
-    };
-    let mesh = Mesh {
-        normals: rows.all_corners_have_normals().then(|| vertex_normals(&mesh)),
-        positions: mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect(),
-        colors,
-        triangles: mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect(),
-    };
-    let mut loaded = Loaded::new(Model::Mesh(mesh), "OBJ");
-    loaded.note(Deed::Dropped, left_out, "vertices without a face");
+    let mut file = Vertices::read(input)?;
+    let mut loaded = if file.has_faces { mesh(input, &file)? } else { points(input, &mut file)? };
+    input.step(input.bytes.len());
+    loaded.note(Deed::Ignored, file.lines_and_points, "rows of lines and points");
+    loaded.note(Deed::Ignored, file.free_forms, "free-form curves and surfaces");
+    loaded.note(Deed::Ignored, file.materials.outside, "material files outside of the model's folder");
+    loaded.note(Deed::Ignored, file.materials.unreadable, "material files that can't be read");
+    let strange = "colors of materials that are not red, green and blue";
+    loaded.note(Deed::Ignored, file.materials.strange_colors, strange);
     Ok(loaded)
 }
 
-/// The vertices of a file without faces. Normals are theirs where there are as many.
-fn points(bytes: &[u8]) -> io::Result<Points> {
-    let mut rows = Rows::new(bytes, |_| {});
-    let (mut positions, mut colors, mut normals) = (Vec::new(), Vec::new(), Vec::new());
-    let mut row = String::new();
-    while rows.read_line(&mut row)? > 0 {
-        let mut words = row.split_ascii_whitespace();
-        let is_vertex = words.next() == Some("v");
-        let mut numbers = words.map(|word| word.parse::<f64>().unwrap_or(f64::NAN));
-        let mut next = || numbers.next().unwrap_or(f64::NAN);
-        let first = DVec3::new(next(), next(), next());
-        if is_vertex {
-            positions.push(first);
-            colors.push(linear_color(&[next(), next(), next()]));
-        } else {
-            normals.push(first.as_vec3());
+fn nothing(input: &Input<'_>) -> Error {
+    input.fault("", "neither a face nor a point; expected a mesh or points")
+}
+
+fn mesh(input: &Input<'_>, file: &Vertices) -> Result<Loaded> {
+    let Faces { triangles, origins, paints, palette, normals, counts, .. } = Faces::read(input, file)?;
+    if triangles.is_empty() {
+        return Err(nothing(input));
+    }
+    let mut beyond = 0;
+    let colors = if file.have_colors() {
+        let linear = |&origin: &u32| {
+            let (color, is_beyond) = file.color(origin as usize);
+            beyond += u64::from(is_beyond);
+            color
+        };
+        Colors::Each(origins.iter().map(linear).collect())
+    } else {
+        painted(&paints, palette)
+    };
+    let left_out = unused(&origins, file.positions.len());
+    let normals: Vec<Vec3> = normals.iter().map(|sum| sum.normalize_or_zero().as_vec3()).collect();
+    let mesh = Mesh {
+        positions: origins
+            .iter()
+            .filter_map(|&origin| file.positions.get(origin as usize).copied())
+            .collect(),
+        // Where a vertex has none, its faces give it one.
+        normals: normals.iter().any(|normal| *normal != Vec3::ZERO).then_some(normals),
+        colors,
+        triangles,
+    };
+    let mut loaded = Loaded::new(Model::Mesh(mesh), "OBJ");
+    loaded.note(Deed::Dropped, left_out, "vertices without a face");
+    loaded.note(Deed::Dropped, counts.small, "faces with fewer than 3 corners");
+    loaded.note(Deed::Dropped, counts.not_finite, "faces with a coordinate that is not finite");
+    loaded.note(
+        Deed::Ignored,
+        counts.unusable_normals,
+        "faces' normals that are zero, not finite or not there",
+    );
+    loaded.note(Deed::Clamped, beyond, "colors beyond 0 to 1");
+    loaded.note(Deed::Ignored, counts.unknown_materials, "uses of materials that no file describes");
+    loaded.note(Deed::Ignored, counts.overruled, "faces' materials, whose vertices have colors,");
+    loaded.note(Deed::Ignored, counts.textures, "textures of materials");
+    loaded.note(Deed::Ignored, counts.transparent, "transparencies of materials");
+    Ok(loaded)
+}
+
+/// The colors of materials; vertices of faces without one look like a surface without colors.
+fn painted(paints: &[u32], mut palette: Vec<[f32; 4]>) -> Colors {
+    if palette.len() < 2 {
+        return Colors::unknown();
+    }
+    if let (Some(first), Some(gray)) = (palette.first_mut(), Colors::unknown().get(0)) {
+        *first = gray;
+    }
+    Colors::Each(paints.iter().filter_map(|&paint| palette.get(paint as usize).copied()).collect())
+}
+
+/// How many of the file's vertices have no copy.
+fn unused(origins: &[u32], count: usize) -> u64 {
+    let mut is_used = vec![false; count];
+    for &origin in origins {
+        if let Some(is_used) = is_used.get_mut(origin as usize) {
+            *is_used = true;
         }
-        row.clear();
     }
-    Ok(Points {
-        normals: (normals.len() == positions.len()).then_some(normals),
-        positions,
-        radii: None,
-        colors: if rows.has_colors() { Colors::Each(colors) } else { Colors::unknown() },
-        viewpoint: None,
-    })
+    is_used.into_iter().filter(|is_used| !is_used).count() as u64
 }
 
-/// Vertex colors are not part of the format; programs that write them write sRGB values 0–1.
-fn linear_color(srgb: &[f64]) -> [f32; 4] {
-    let linear = |i: usize| linear_from_srgb(srgb[i].clamp(0.0, 1.0) as f32);
-    [linear(0), linear(1), linear(2), 1.0]
-}
-
-/// Corners have their own normals in this format; those of one vertex are averaged.
-fn vertex_normals(mesh: &tobj::Mesh) -> Vec<Vec3> {
-    let mut sums = vec![DVec3::ZERO; mesh.positions.len() / 3];
-    for (&vertex, &normal) in mesh.indices.iter().zip(&mesh.normal_indices) {
-        let normal = DVec3::from_slice(&mesh.normals[3 * normal as usize..]);
-        sums[vertex as usize] += normal.normalize_or_zero();
+/// The vertices of a file without faces. Normals are theirs where there are as many.
+fn points(input: &Input<'_>, file: &mut Vertices) -> Result<Loaded> {
+    let count = file.positions.len();
+    if count == 0 {
+        return Err(nothing(input));
     }
-    sums.into_iter().map(|sum| sum.normalize_or_zero().as_vec3()).collect()
+    let mut beyond = 0;
+    let colors = if file.have_colors() {
+        let linear = |vertex: usize| {
+            let (color, is_beyond) = file.color(vertex);
+            beyond += u64::from(is_beyond);
+            color
+        };
+        Colors::Each((0..count).map(linear).collect())
+    } else {
+        Colors::unknown()
+    };
+    let other_normals = if file.normals.len() == count { 0 } else { file.normals.len() as u64 };
+    let normals = (file.normals.len() == count).then(|| mem::take(&mut file.normals));
+    let positions = mem::take(&mut file.positions);
+    let points = Points { positions, normals, radii: None, colors, viewpoint: None };
+    let mut loaded = Loaded::new(Model::Points(points), "OBJ");
+    loaded.note(Deed::Ignored, other_normals, "normals, of which there is not one for each point,");
+    loaded.note(Deed::Clamped, beyond, "colors beyond 0 to 1");
+    Ok(loaded)
 }

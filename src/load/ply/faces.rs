@@ -1,146 +1,118 @@
 //! The elements `face` and `tristrips`: lists of vertex numbers, made into triangles.
 
-use std::path::Path;
+use super::{
+    body::{Body, Items},
+    schema::{Element, Kind, Scalar},
+};
+use crate::{error::Result, load::Input};
 
-use ply_rs_bw::ply::{BeginList, ElementDef, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType};
-
-use crate::error::{Error, Result};
-
-/// The names that programs give to the list of a face's corners.
-fn is_index_list(name: &str) -> bool {
-    matches!(name, "vertex_indices" | "vertex_index")
+/// What an element's list of vertex numbers is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Corners {
+    /// Of a polygon.
+    Polygon { list: usize },
+    /// Of triangle strips.
+    Strips { list: usize },
 }
 
-/// Whether this element is a `face` or `tristrips` with corners.
-pub(super) fn index_list(path: &Path, def: &ElementDef) -> Result<bool> {
-    if !matches!(def.name.as_str(), "face" | "tristrips") || def.count == 0 {
-        return Ok(false);
+/// The list of corners, if this element is a `face` or `tristrips`.
+pub(super) fn corners(input: &Input<'_>, def: &Element) -> Result<Option<Corners>> {
+    if !matches!(def.name.as_str(), "face" | "faces" | "tristrips") || def.count == 0 {
+        return Ok(None);
     }
-    let refuse = |problem: &str| Err(Error::input(path, format!("element {}", def.name), problem));
-    let mut lists = def.properties.values().filter(|p| is_index_list(&p.name));
-    let (Some(list), None) = (lists.next(), lists.next()) else {
+    let refuse = |problem: &str| Err(input.fault(format!("element {}", def.name), problem));
+    let is_list = |name: &str| matches!(name, "vertex_indices" | "vertex_index");
+    let mut lists = def.properties.iter().enumerate().filter(|(_, p)| is_list(&p.name));
+    let (Some((list, property)), None) = (lists.next(), lists.next()) else {
         return refuse("expected one list named vertex_indices or vertex_index");
     };
-    match list.data_type {
-        PropertyType::List(_, ScalarType::Float | ScalarType::Double) | PropertyType::Scalar(_) => {
-            refuse(&format!("'{}' must be a list of an integer type", list.name))
+    match property.kind {
+        Kind::List { item: Scalar::Float | Scalar::Double, .. } | Kind::One(_) => {
+            refuse(&format!("'{}' must be a list of an integer type", property.name))
         }
-        PropertyType::List(..) => Ok(true),
-    }
-}
-
-/// The corners of one face or strip as the file has them; at most one of the two is filled.
-#[derive(Debug, Default)]
-pub(super) struct FaceRecord {
-    signed: Vec<i32>,
-    unsigned: Vec<u32>,
-}
-
-impl FaceRecord {
-    fn corners(&self) -> impl Iterator<Item = i64> + '_ {
-        let signed = self.signed.iter().map(|&i| i64::from(i));
-        signed.chain(self.unsigned.iter().map(|&i| i64::from(i)))
-    }
-
-    fn keep<T: Into<i32>>(&mut self, name: &str, values: Vec<T>) -> PropertyAccessResult {
-        if !is_index_list(name) {
-            return PropertyAccessResult::Ignored;
-        }
-        self.signed = values.into_iter().map(Into::into).collect();
-        PropertyAccessResult::Set
-    }
-}
-
-/// The setters of lists whose items all fit an `i32`.
-macro_rules! signed_setters {
-    ($($setter:ident: $type:ty,)+) => {
-        $(fn $setter(&mut self, name: &str, values: Vec<$type>) -> PropertyAccessResult {
-            self.keep(name, values)
-        })+
-    };
-}
-
-impl PropertyAccess for FaceRecord {
-    fn new() -> Self {
-        Self::default()
-    }
-
-    signed_setters! {
-        set_list_char: i8,
-        set_list_uchar: u8,
-        set_list_short: i16,
-        set_list_ushort: u16,
-        set_list_int: i32,
-    }
-
-    fn set_list_uint(&mut self, name: &str, values: Vec<u32>) -> PropertyAccessResult {
-        if !is_index_list(name) {
-            return PropertyAccessResult::Ignored;
-        }
-        self.unsigned = values;
-        PropertyAccessResult::Set
-    }
-    fn begin_list_int(&mut self, name: &str, _len: usize) -> BeginList<'_, i32> {
-        if is_index_list(name) { BeginList::Fill(&mut self.signed) } else { BeginList::UseSetter }
-    }
-    fn begin_list_uint(&mut self, name: &str, _len: usize) -> BeginList<'_, u32> {
-        if is_index_list(name) { BeginList::Fill(&mut self.unsigned) } else { BeginList::UseSetter }
+        Kind::List { .. } if def.name == "tristrips" => Ok(Some(Corners::Strips { list })),
+        Kind::List { .. } => Ok(Some(Corners::Polygon { list })),
     }
 }
 
 /// The triangles of all faces and strips.
 pub(super) struct Triangles<'a> {
-    path: &'a Path,
-    vertex_count: usize,
-    corners: Vec<u32>,
+    input: &'a Input<'a>,
+    vertex_count: u64,
     /// Counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// The file has faces or strips, even if none gave a triangle.
-    pub declared: bool,
     /// Faces with fewer than 3 corners.
-    pub small_polygons: usize,
+    pub small_polygons: u64,
 }
 
 impl<'a> Triangles<'a> {
-    pub(super) fn new(path: &'a Path, vertex_count: usize) -> Self {
-        let (corners, triangles) = (Vec::new(), Vec::new());
-        Self { path, vertex_count, corners, triangles, declared: false, small_polygons: 0 }
+    pub(super) fn new(input: &'a Input<'a>, vertex_count: u64) -> Self {
+        Self { input, vertex_count, triangles: Vec::new(), small_polygons: 0 }
+    }
+
+    /// Reads all elements of this kind.
+    pub(super) fn read(&mut self, body: &mut Body<'_>, def: &Element, corners: Corners) -> Result<()> {
+        let (Corners::Polygon { list } | Corners::Strips { list }) = corners;
+        // Corners of one byte each become triangles of twelve: an array that doubled its length would take twice that. A
+        // corner of an ascii file takes two bytes at least, and to count them costs as much as to read them.
+        if !body.is_ascii() {
+            let mut most = 0_u64;
+            let mut ahead = *body;
+            ahead.lists(def, list, &mut |_, items| {
+                most += items.len().saturating_sub(2) as u64;
+                Ok(())
+            })?;
+            let most = most.min(self.input.options.limits.faces);
+            self.triangles.reserve_exact(usize::try_from(most).unwrap_or(0));
+        }
+        body.lists(def, list, &mut |i, items| {
+            let added = match corners {
+                Corners::Polygon { .. } => self.add_polygon(items),
+                Corners::Strips { .. } => self.add_strips(items),
+            };
+            added.map_err(|problem| self.input.fault(format!("{} {i}", def.name), problem))
+        })
     }
 
     /// A polygon as a fan around its first corner: right for convex ones.
-    pub(super) fn add_polygon(&mut self, face: usize, record: FaceRecord) -> Result<()> {
-        self.declared = true;
-        self.corners.clear();
-        for index in record.corners() {
-            let index = self.vertex(index).map_err(|problem| self.refuse("face", face, problem))?;
-            self.corners.push(index);
+    fn add_polygon(&mut self, items: Items<'_>) -> Result<(), String> {
+        let most = self.input.options.limits.list_items;
+        if items.len() > most {
+            return Err(format!("{} corners; expected at most {most}", items.len()));
         }
-        if self.corners.len() < 3 {
-            self.small_polygons += 1;
-        }
-        for pair in self.corners.get(1..).unwrap_or_default().windows(2) {
-            self.triangles.push([self.corners[0], pair[0], pair[1]]);
+        self.small_polygons += u64::from(items.len() < 3);
+        let mut fan: [Option<u32>; 2] = [None; 2];
+        for index in items {
+            let c = self.vertex(index?)?;
+            fan = match fan {
+                [Some(a), Some(b)] => {
+                    self.push([a, b, c])?;
+                    [Some(a), Some(c)]
+                }
+                [Some(a), None] => [Some(a), Some(c)],
+                _ => [Some(c), None],
+            };
         }
         Ok(())
     }
 
     /// Triangle strips, one after the other; −1 starts the next. Every second triangle of a strip is turned around.
     /// A repeated corner only joins two parts of a strip, and gives no triangle.
-    pub(super) fn add_strip(&mut self, element: usize, record: FaceRecord) -> Result<()> {
-        self.declared = true;
+    fn add_strips(&mut self, items: Items<'_>) -> Result<(), String> {
         let mut last: [Option<u32>; 2] = [None; 2];
         let mut odd = false;
-        for (entry, index) in record.corners().enumerate() {
+        for (entry, index) in items.enumerate() {
+            let index = index?;
             if index == -1 {
                 (last, odd) = ([None; 2], false);
                 continue;
             }
-            let c = self.vertex(index).map_err(|problem| {
-                self.refuse("tristrips", element, format!("entry {entry}: {problem}, or -1 for a new strip"))
-            })?;
+            let c = self
+                .vertex(index)
+                .map_err(|problem| format!("entry {entry}: {problem}, or -1 for a new strip"))?;
             if let [Some(a), Some(b)] = last {
                 if a != b && b != c && c != a {
-                    self.triangles.push(if odd { [b, a, c] } else { [a, b, c] });
+                    self.push(if odd { [b, a, c] } else { [a, b, c] })?;
                 }
                 odd = !odd;
             }
@@ -149,15 +121,20 @@ impl<'a> Triangles<'a> {
         Ok(())
     }
 
+    fn push(&mut self, triangle: [u32; 3]) -> Result<(), String> {
+        let most = self.input.options.limits.faces;
+        if self.triangles.len() as u64 >= most {
+            return Err(format!("more than {most} triangles; expected at most that many"));
+        }
+        self.triangles.push(triangle);
+        Ok(())
+    }
+
     fn vertex(&self, index: i64) -> Result<u32, String> {
         match u32::try_from(index) {
-            Ok(i) if (i as usize) < self.vertex_count => Ok(i),
+            Ok(i) if u64::from(i) < self.vertex_count => Ok(i),
             _ if self.vertex_count == 0 => Err(format!("corner {index}, but the file has no vertices")),
             _ => Err(format!("corner {index}, expected 0 to {}", self.vertex_count - 1)),
         }
-    }
-
-    fn refuse(&self, element: &str, number: usize, problem: String) -> Error {
-        Error::input(self.path, format!("{element} {number}"), problem)
     }
 }

@@ -1,14 +1,50 @@
 mod faults;
+mod forms;
+mod gaussians;
+mod limits;
 mod meshes;
+mod mutations;
+mod other_reader;
 mod splats;
 
+use std::path::Path;
+
 use crate::{
-    load::{Model, input::of_bytes},
-    scene::{Mesh, Splats},
+    error::Result,
+    load::{Limits, LoadOptions, Loaded, Model, input::Input},
+    scene::{Colors, Mesh, Points, Splats},
 };
 
-fn parse(bytes: &[u8]) -> crate::error::Result<Model> {
-    of_bytes("a.ply", bytes, super::parse).map(|loaded| loaded.model)
+fn load_within(bytes: &[u8], limits: Limits) -> Result<Loaded> {
+    let options = LoadOptions { limits, ..LoadOptions::default() };
+    super::parse(&Input { path: Path::new("a.ply"), folder: None, bytes, options: &options, progress: &() })
+}
+
+fn load(bytes: &[u8]) -> Result<Loaded> {
+    load_within(bytes, Limits::DEFAULT)
+}
+
+fn parse(bytes: &[u8]) -> Result<Model> {
+    load(bytes).map(|loaded| loaded.model)
+}
+
+/// What was noted of a file.
+fn notes(bytes: &[u8]) -> Vec<String> {
+    load(bytes).unwrap().notes.iter().map(ToString::to_string).collect()
+}
+
+fn points(bytes: &[u8]) -> Points {
+    match parse(bytes).unwrap() {
+        Model::Points(points) => points,
+        _ => panic!("no points"),
+    }
+}
+
+fn each_color(colors: &Colors) -> Vec<[f32; 4]> {
+    match colors {
+        Colors::Each(colors) => colors.clone(),
+        Colors::Uniform(_) => panic!("one color"),
+    }
 }
 
 fn splats(bytes: &[u8]) -> Splats {

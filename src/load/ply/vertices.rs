@@ -1,226 +1,115 @@
 //! The element `vertex`: positions and what makes them splats.
 
-use std::path::Path;
+use std::iter::repeat;
 
 use glam::{DVec3, Vec3};
-use ply_rs_bw::ply::{ElementDef, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType};
 
-use crate::{
-    error::{Error, Result},
-    math::srgb::linear_from_srgb,
-    scene::UNKNOWN_SRGB,
+use super::{
+    body::Table,
+    colors::{FileColors, Meaning, White, unknown},
+    gaussian,
+    layout::Layout,
+    schema::Scalar,
 };
-
-/// Which properties the file's vertices have.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct VertexLayout {
-    pub normals: bool,
-    pub radius: bool,
-    /// `su_x … sv_z`, the scaled tangent vectors.
-    pub tangents: bool,
-    pub rgb: bool,
-    pub alpha: bool,
-    /// Some `clip_…` property.
-    pub clip_curves: bool,
-}
-
-impl VertexLayout {
-    /// Finds the groups of properties. A group is there as a whole or not at all.
-    pub(super) fn of(path: &Path, def: &ElementDef) -> Result<Self> {
-        let refuse = |problem: String| Err(Error::input(path, "element vertex", problem));
-        for (name, property) in &def.properties {
-            if is_known(name) && !matches!(property.data_type, PropertyType::Scalar(_)) {
-                return refuse(format!("'{name}' is a list, expected one value"));
-            }
-            let color_type = matches!(
-                property.data_type,
-                PropertyType::Scalar(
-                    ScalarType::UChar | ScalarType::UShort | ScalarType::Float | ScalarType::Double
-                )
-            );
-            if matches!(name.as_str(), "red" | "green" | "blue" | "alpha") && !color_type {
-                return refuse(format!("'{name}' must be of type uchar, ushort, float or double"));
-            }
-        }
-        let group = |names: &[&str]| -> Result<bool> {
-            let missing: Vec<&str> =
-                names.iter().copied().filter(|&n| !def.properties.contains_key(n)).collect();
-            match missing.as_slice() {
-                [] => Ok(true),
-                some if some.len() == names.len() => Ok(false),
-                [first, ..] => {
-                    let problem = format!("'{first}' is missing, its group is {}", names.join(" "));
-                    Err(Error::input(path, "element vertex", problem))
-                }
-            }
-        };
-        if !group(&["x", "y", "z"])? {
-            return refuse("'x' is missing, its group is x y z".to_owned());
-        }
-        Ok(Self {
-            normals: group(&["nx", "ny", "nz"])?,
-            radius: def.properties.contains_key("radius"),
-            tangents: group(&["su_x", "su_y", "su_z", "sv_x", "sv_y", "sv_z"])?,
-            rgb: group(&["red", "green", "blue"])?,
-            alpha: def.properties.contains_key("alpha"),
-            clip_curves: def.properties.keys().any(|name| name.starts_with("clip_")),
-        })
-    }
-}
-
-fn is_known(name: &str) -> bool {
-    VertexRecord::default().store(name, 0.0, 1.0) == PropertyAccessResult::Set
-}
-
-/// One vertex as the file has it; colors as sRGB values 0–1.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct VertexRecord {
-    position: DVec3,
-    normal: Vec3,
-    radius: f32,
-    s: Vec3,
-    t: Vec3,
-    color_srgb: [f32; 4],
-}
-
-impl Default for VertexRecord {
-    fn default() -> Self {
-        let gray = UNKNOWN_SRGB;
-        Self {
-            position: DVec3::ZERO,
-            normal: Vec3::ZERO,
-            radius: 0.0,
-            s: Vec3::ZERO,
-            t: Vec3::ZERO,
-            color_srgb: [gray, gray, gray, 1.0],
-        }
-    }
-}
-
-impl VertexRecord {
-    /// `full` is the value that means 1 in a color of the property's type.
-    fn store(&mut self, name: &str, value: f64, full: f64) -> PropertyAccessResult {
-        let single = value as f32;
-        match name {
-            "x" => self.position.x = value,
-            "y" => self.position.y = value,
-            "z" => self.position.z = value,
-            "nx" => self.normal.x = single,
-            "ny" => self.normal.y = single,
-            "nz" => self.normal.z = single,
-            "radius" => self.radius = single,
-            "su_x" => self.s.x = single,
-            "su_y" => self.s.y = single,
-            "su_z" => self.s.z = single,
-            "sv_x" => self.t.x = single,
-            "sv_y" => self.t.y = single,
-            "sv_z" => self.t.z = single,
-            "red" => self.color_srgb[0] = (value / full) as f32,
-            "green" => self.color_srgb[1] = (value / full) as f32,
-            "blue" => self.color_srgb[2] = (value / full) as f32,
-            "alpha" => self.color_srgb[3] = (value / full) as f32,
-            _ => return PropertyAccessResult::Ignored,
-        }
-        PropertyAccessResult::Set
-    }
-}
-
-/// The setters of properties of each type, with the value that means 1 in a color of it.
-macro_rules! setters {
-    ($($setter:ident: $type:ty = $full:literal,)+) => {
-        $(fn $setter(&mut self, name: &str, value: $type) -> PropertyAccessResult {
-            self.store(name, value.into(), $full)
-        })+
-    };
-}
-
-impl PropertyAccess for VertexRecord {
-    fn new() -> Self {
-        Self::default()
-    }
-
-    setters! {
-        set_char: i8 = 1.0,
-        set_uchar: u8 = 255.0,
-        set_short: i16 = 1.0,
-        set_ushort: u16 = 65_535.0,
-        set_int: i32 = 1.0,
-        set_uint: u32 = 1.0,
-        set_float: f32 = 1.0,
-        set_double: f64 = 1.0,
-    }
-}
 
 /// All vertices, an array for each group that the file has.
 pub(super) struct Vertices {
     pub positions: Vec<DVec3>,
+    /// Beside tangent vectors, a normal gives only the side, and is not kept.
     pub normals: Option<Vec<Vec3>>,
     pub radii: Option<Vec<f32>>,
     pub tangents: Option<(Vec<Vec3>, Vec<Vec3>)>,
-    pub colors: Option<Vec<[f32; 4]>>,
-    /// The linear value of each 8-bit sRGB value: bytes are the common case, and a power costs more than the rest.
-    linear_of_byte: [f32; 256],
-    side_from_normals: bool,
+    pub colors: Option<FileColors>,
+    /// Which of the file's Gaussians are part of a surface.
+    pub solid: Option<Vec<bool>>,
 }
 
 impl Vertices {
-    pub(super) fn new(layout: VertexLayout) -> Self {
+    /// No vertices, but room for `count`, a number that was checked against the file's size.
+    pub(super) fn new(layout: &Layout, count: usize) -> Self {
+        let has_tangents = layout.tangents.is_some() || layout.gaussian.is_some();
         Self {
-            positions: Vec::new(),
-            // Beside tangent vectors, a normal gives only the side.
-            normals: layout.normals.then(Vec::new),
-            radii: layout.radius.then(Vec::new),
-            tangents: layout.tangents.then(|| (Vec::new(), Vec::new())),
-            colors: (layout.rgb || layout.alpha).then(Vec::new),
-            linear_of_byte: std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0)),
-            side_from_normals: layout.normals && layout.tangents,
+            positions: Vec::with_capacity(count),
+            normals: (layout.normal.is_some() && !has_tangents).then(|| Vec::with_capacity(count)),
+            radii: layout.radius.map(|_| Vec::with_capacity(count)),
+            tangents: has_tangents.then(|| (Vec::with_capacity(count), Vec::with_capacity(count))),
+            colors: colors(layout, count),
+            solid: layout.gaussian.map(|_| Vec::with_capacity(count)),
         }
     }
 
-    /// Makes room for `count` vertices, a number that was checked against the file's size.
-    pub(super) fn reserve(&mut self, count: usize) {
-        self.positions.reserve_exact(count);
-        if let Some(normals) = &mut self.normals {
-            normals.reserve_exact(count);
+    /// Adds the vertices of a table.
+    pub(super) fn extend(&mut self, layout: &Layout, table: &Table) {
+        self.positions.extend(table.vectors(layout.position));
+        if let (Some(normals), Some(columns)) = (&mut self.normals, layout.normal) {
+            normals.extend(table.vectors(columns).map(|normal| normal.as_vec3()));
         }
-        if let Some(radii) = &mut self.radii {
-            radii.reserve_exact(count);
+        if let (Some(radii), Some(column)) = (&mut self.radii, layout.radius) {
+            radii.extend(table.column(column).iter().map(|&radius| radius as f32));
         }
-        if let Some((s, t)) = &mut self.tangents {
-            s.reserve_exact(count);
-            t.reserve_exact(count);
+        self.extend_tangents(layout, table);
+        if let (Some(solid), Some(gaussian)) = (&mut self.solid, &layout.gaussian) {
+            solid.extend(gaussian::are_solid(gaussian, table));
         }
         if let Some(colors) = &mut self.colors {
-            colors.reserve_exact(count);
+            extend_colors(colors, layout, table);
         }
     }
 
-    pub(super) fn push(&mut self, vertex: VertexRecord) {
-        self.positions.push(vertex.position);
-        if let Some(normals) = &mut self.normals {
-            normals.push(vertex.normal);
+    fn extend_tangents(&mut self, layout: &Layout, table: &Table) {
+        let Some((all_s, all_t)) = &mut self.tangents else { return };
+        let old = all_s.len();
+        if let Some(gaussian) = &layout.gaussian {
+            for [s, t] in gaussian::tangents(gaussian, table) {
+                all_s.push(s);
+                all_t.push(t);
+            }
+        } else if let Some([s, t]) = layout.tangents {
+            all_s.extend(table.vectors(s).map(|s| s.as_vec3()));
+            all_t.extend(table.vectors(t).map(|t| t.as_vec3()));
         }
-        if let Some(radii) = &mut self.radii {
-            radii.push(vertex.radius);
-        }
-        if let Some((s, t)) = &mut self.tangents {
-            let away = self.side_from_normals
-                && vertex.s.as_dvec3().cross(vertex.t.as_dvec3()).dot(vertex.normal.as_dvec3()) < 0.0;
-            s.push(vertex.s);
-            // −t spans the same disk and turns the normal s×t around.
-            t.push(if away { -vertex.t } else { vertex.t });
-        }
-        if let Some(colors) = &mut self.colors {
-            let [r, g, b, alpha] = vertex.color_srgb;
-            let linear = |encoded: f32| linear(&self.linear_of_byte, encoded);
-            colors.push([linear(r), linear(g), linear(b), alpha.clamp(0.0, 1.0)]);
+        if let Some(columns) = layout.normal {
+            let new = all_t.iter_mut().zip(all_s.iter()).skip(old);
+            for ((t, s), normal) in new.zip(table.vectors(columns)) {
+                // −t spans the same disk and turns the normal s×t around.
+                if s.as_dvec3().cross(t.as_dvec3()).dot(normal) < 0.0 {
+                    *t = -*t;
+                }
+            }
         }
     }
 }
 
-/// Linear light of an sRGB value, clamped to 0–1; NaN stays NaN, so that the vertex is counted as defective.
-fn linear(of_byte: &[f32; 256], encoded: f32) -> f32 {
-    let encoded = encoded.clamp(0.0, 1.0);
-    let byte = (encoded * 255.0).round();
-    if byte / 255.0 == encoded { of_byte[byte as usize] } else { linear_from_srgb(encoded) }
+/// No colors, but room for `count`, if the file has some.
+fn colors(layout: &Layout, count: usize) -> Option<FileColors> {
+    let white = |meaning: Meaning, column: usize| {
+        White::new(meaning, layout.types.get(column).copied().unwrap_or(Scalar::Float))
+    };
+    let meaning = if layout.exact_colors { Meaning::Exact } else { Meaning::Color };
+    let rgb = match (layout.rgb, layout.intensity) {
+        (Some(columns), _) => Some(columns.map(|column| white(meaning, column))),
+        (None, Some(column)) => Some([white(Meaning::Intensity, column); 3]),
+        (None, None) => layout.gaussian.and_then(|gaussian| gaussian.color).map(|_| [White::UNIT; 3]),
+    };
+    if rgb.is_none() && layout.alpha.is_none() {
+        return None;
+    }
+    let [red, green, blue] = rgb.unwrap_or([White::UNIT; 3]);
+    let alpha = layout.alpha.map_or(White::UNIT, |column| white(meaning, column));
+    Some(FileColors::new([red, green, blue, alpha], count))
+}
+
+/// Adds the colors of a table's vertices.
+fn extend_colors(colors: &mut FileColors, layout: &Layout, table: &Table) {
+    let of_gaussians = layout.gaussian.and_then(|gaussian| gaussian.color);
+    let rgb = layout.rgb.or(layout.intensity.map(|column| [column; 3]));
+    match (of_gaussians, rgb, layout.alpha) {
+        (Some(columns), ..) => colors.extend(gaussian::colors(columns, table), repeat(1.0)),
+        (_, Some(rgb), Some(alpha)) => {
+            colors.extend(table.vectors(rgb), table.column(alpha).iter().copied());
+        }
+        (_, Some(rgb), None) => colors.extend(table.vectors(rgb), repeat(1.0)),
+        (_, None, Some(alpha)) => colors.extend(unknown(), table.column(alpha).iter().copied()),
+        (_, None, None) => {}
+    }
 }

@@ -1,44 +1,24 @@
 //! The element `camera`, in which the Point Cloud Library writes where a scan was taken from.
 
 use glam::DVec3;
-use ply_rs_bw::ply::{ElementDef, PropertyAccess, PropertyAccessResult};
 
-/// The place of the scanner; its axes and its lens, which the element has, too, are not kept.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Viewpoint(DVec3);
+use super::{body::Body, schema::Element};
+use crate::error::Result;
 
-impl Viewpoint {
-    /// Whether an element has the properties.
-    pub(super) fn is_in(def: &ElementDef) -> bool {
-        ["view_px", "view_py", "view_pz"].iter().all(|name| def.properties.contains_key(*name))
+/// The properties that tell the place of the scanner; its axes and its lens, which the element has, too, are not kept.
+pub(super) fn place(def: &Element) -> Option<[usize; 3]> {
+    if def.name != "camera" {
+        return None;
     }
-
-    /// The place, if the element tells one: 0 0 0 is what the library writes where it knows none.
-    pub(super) fn place(self) -> Option<DVec3> {
-        (self.0.is_finite() && self.0 != DVec3::ZERO).then_some(self.0)
-    }
-
-    fn store(&mut self, name: &str, value: f64) -> PropertyAccessResult {
-        match name {
-            "view_px" => self.0.x = value,
-            "view_py" => self.0.y = value,
-            "view_pz" => self.0.z = value,
-            _ => return PropertyAccessResult::Ignored,
-        }
-        PropertyAccessResult::Set
-    }
+    Some([def.scalar("view_px")?, def.scalar("view_py")?, def.scalar("view_pz")?])
 }
 
-impl PropertyAccess for Viewpoint {
-    fn new() -> Self {
-        Self(DVec3::ZERO)
-    }
-
-    fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        self.store(name, value.into())
-    }
-
-    fn set_double(&mut self, name: &str, value: f64) -> PropertyAccessResult {
-        self.store(name, value)
-    }
+/// The first place that the elements tell, if they tell one: 0 0 0 is what the library writes where it knows none.
+pub(super) fn read(body: &mut Body<'_>, def: &Element, place: [usize; 3]) -> Result<Option<DVec3>> {
+    let mut found = None;
+    body.tables(def, &place, &mut |table| {
+        let told = table.vectors([0, 1, 2]).find(|place| place.is_finite() && *place != DVec3::ZERO);
+        found = found.or(told);
+    })?;
+    Ok(found)
 }

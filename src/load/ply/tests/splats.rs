@@ -130,3 +130,18 @@ fn numbers_as_c_programs_write_them_blank_lines_and_a_crlf_header() {
     file[body..body + 8].copy_from_slice(&x.to_le_bytes());
     assert_eq!(super::splats(&file).positions[0].x, x);
 }
+
+#[test]
+fn dark_colors_of_our_own_files_are_no_bytes() {
+    let header = "ply\nformat ENCODING 1.0\ncomment splats: disks with radius, or tangent vectors\nelement vertex 1\n\
+        property float x\nproperty float y\nproperty float z\nproperty ushort red\nproperty float green\n\
+        property float blue\nproperty ushort alpha\nend_header\n";
+    let vertex = vec![Float(0.0), Float(0.0), Float(0.0), UShort(255), Float(1.0), Float(3.0), UShort(51)];
+    for file in encodings(header, &[vertex]) {
+        let [red, green, blue, alpha] = each_color(&points(&file).colors)[0];
+        assert_eq!(
+            [red, green, blue, alpha],
+            [linear_from_srgb(255.0 / 65_535.0), 1.0, 1.0, 51.0 / 65_535.0]
+        );
+    }
+}
