@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use surfel::load::{LoadOptions, Representation, Samples};
+use surfel::load::{Columns, LoadOptions, Representation, Samples};
 
 use crate::parse;
 
 /// The manual of inputs.
-pub const INPUTS: &str = "Inputs are PLY files (splats, meshes or points), OBJ files (meshes or points), and scene files (.toml: objects, each \
+pub const INPUTS: &str = "Inputs are models (PLY, OBJ, glTF and GLB, STL, OFF), scans (PLY, LAS, LAZ, COPC, E57, PCD; XYZ, PTS, CSV and other rows of numbers), all of them also compressed by gzip or zstd, `-` for standard input, and scene files (.toml: objects, each \
 with its place and looks, lights and a camera; `surfel render --help` has their keys). A mesh is drawn as what shows it best: as \
 disks at its vertices where it is dense or smooth, as disks spread evenly over it where its vertices are too uneven for that, and as its triangles \
 where it is coarse, as furniture and machine parts are; --representation decides it otherwise. Points become disks that close their \
@@ -18,7 +18,7 @@ done. Lengths are in the files' own unit. The camera looks at the whole scene un
 /// The inputs.
 #[derive(Args)]
 pub struct InputArguments {
-    /// PLY, OBJ or scene files (.toml); none is the built-in model
+    /// Models, scans or scene files (.toml), - for standard input; none is the built-in model
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 
@@ -39,7 +39,11 @@ pub struct InputArguments {
     #[arg(long)]
     strict: bool,
 
-    /// Scene files may name files outside of their folder
+    /// The columns of rows of numbers, such as x,y,z,-,r,g,b; all: x y z r g b nx ny nz i (intensity) and - [default: as the file tells]
+    #[arg(long, value_name = "LIST", value_parser = str::parse::<Columns>)]
+    columns: Option<Columns>,
+
+    /// Scene files and models may name files outside of their folder
     #[arg(long)]
     allow_outside: bool,
 }
@@ -88,7 +92,11 @@ impl InputArguments {
                 Primitives::Mesh => Representation::Mesh,
             },
             samples: self.resample.map(|count| Samples { count, seed: self.seed.unwrap_or(0) }),
-            options: LoadOptions { allow_outside: self.allow_outside, ..LoadOptions::default() },
+            options: LoadOptions {
+                allow_outside: self.allow_outside,
+                columns: self.columns.clone(),
+                ..LoadOptions::default()
+            },
             strict: self.strict,
         }
     }
@@ -107,6 +115,7 @@ impl InputArguments {
         self.representation != Primitives::Auto
             || self.resample.is_some()
             || self.strict
+            || self.columns.is_some()
             || self.allow_outside
     }
 }

@@ -6,11 +6,13 @@ use ash::vk;
 
 use crate::passes::pipeline::{
     cache::Shaders,
+    formats::sum_format,
     key::{ComputeKey, GraphicsKey, Layout},
     splat_shaders::Stages,
 };
 use crate::{
     error::Result,
+    scene::Accumulate,
     shaders::{Shader, config::*},
 };
 
@@ -75,6 +77,12 @@ impl PipelineRecipe {
     /// Whether it has this specialization constant.
     pub fn has(&self, constant: u32) -> bool {
         self.constants().iter().any(|(number, _)| *number == constant)
+    }
+
+    /// Whether it adds to sums of 32 bits.
+    pub fn sums_in_f32(&self) -> bool {
+        let Key::Graphics(key) = &self.key else { return false };
+        key.color_formats == [sum_format(Accumulate::F32); 2]
     }
 
     /// Whether it projects splats or draws them, and so depends on rasterizer and filter.

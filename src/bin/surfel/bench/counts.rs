@@ -146,6 +146,8 @@ fn every_settings(all: bool) -> Vec<Settings> {
         every.extend(every.iter().map(with_f32).collect::<Vec<_>>());
         every.extend(shadings.map(|shading| Settings { shading, ..Settings::default() }));
     }
+    // Tiles sum what they leave to others in 32 bits, as `--accumulate f32` does with points, after which that is named.
+    every.sort_by_key(|settings| settings.rasterizer == Rasterizer::Compute);
     every
 }
 
@@ -221,8 +223,8 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
     // Each pipeline is named where it is found first: another precision finds those alone that depend on it.
-    if settings.accumulate != Accumulate::default() {
-        names.accumulate = settings.accumulate.name().to_owned();
+    if settings.accumulate == Accumulate::F32 || recipe.sums_in_f32() {
+        names.accumulate = Accumulate::F32.name().to_owned();
     }
     if recipe.has(SPEC_SHADING) {
         names.shading = settings.shading.name().to_owned();

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// The options that `--zoom` decides by itself.
-const ZOOM_HAS_ITS_OWN: &str = "inputs representation resample seed strict allow_outside time_size camera eye target up fov rasterizer accumulate kernel_eval \
+const ZOOM_HAS_ITS_OWN: &str = "inputs representation resample seed strict columns allow_outside time_size camera eye target up fov rasterizer accumulate kernel_eval \
     quick backfaces frames pictures";
 
 const HELP: &str = "\
