@@ -17,7 +17,7 @@ const NO_COLOR: [f32; 3] = [f32::NEG_INFINITY; 3];
 pub(super) struct Vertices {
     pub positions: Vec<DVec3>,
     pub normals: Vec<Vec3>,
-    /// sRGB values as they are written, one a position; empty where no vertex has one.
+    /// sRGB values as they are written, up to the last vertex that has one.
     colors: Vec<[f32; 3]>,
     /// The largest of them.
     largest: f32,
@@ -77,8 +77,6 @@ impl Vertices {
             let rgb = rgb.map(|value| value as f32);
             self.largest = rgb.into_iter().filter(|value| value.is_finite()).fold(self.largest, f32::max);
             self.colors.push(rgb);
-        } else if !self.colors.is_empty() {
-            self.colors.push(NO_COLOR);
         }
         self.positions.push(DVec3::new(x / w, y / w, z / w));
         Ok(())

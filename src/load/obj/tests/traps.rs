@@ -34,8 +34,9 @@ fn a_backslash_continues_a_row() {
 #[test]
 fn faces_with_unusable_normals_go_without_them() {
     for normal in ["9", "0", "-9", "2", "3", "4294967297"] {
-        let text =
-            format!("{SQUARE}vn 0 0 1\nvn 0 0 0\nvn nan 0 1\nf 1//1 2//1 3//1\nf 1//1 3//1 4//{normal}\n");
+        let text = format!(
+            "{SQUARE}vn 0 0 1\nvn 0 0 0\nvn nan 0 1\nvn 1 0 0\nf 1//1 2//1 3//1\nf 1//4 3//4 4//{normal}\n"
+        );
         let normals = mesh(&text).normals.unwrap();
         assert_eq!(normals, [Vec3::Z, Vec3::Z, Vec3::Z, Vec3::ZERO], "{normal}");
         assert_eq!(notes(&text), ["1 faces' normals that are zero, not finite or not there ignored"]);
