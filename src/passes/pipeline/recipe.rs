@@ -79,10 +79,10 @@ impl PipelineRecipe {
         self.constants().iter().any(|(number, _)| *number == constant)
     }
 
-    /// Whether it adds to sums of 32 bits.
-    pub fn sums_in_f32(&self) -> bool {
+    /// Whether colors that it draws have 32 bits.
+    pub fn draws_into_f32(&self) -> bool {
         let Key::Graphics(key) = &self.key else { return false };
-        key.color_formats == [sum_format(Accumulate::F32); 2]
+        key.color_formats.first() == Some(&sum_format(Accumulate::F32))
     }
 
     /// Whether it projects splats or draws them, and so depends on rasterizer and filter.

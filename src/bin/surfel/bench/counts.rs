@@ -223,7 +223,8 @@ fn names(settings: &Settings, traits: Traits, recipe: &PipelineRecipe) -> Pipeli
         names.splats = if traits.closed { "closed" } else { "open" }.to_owned();
     }
     // Each pipeline is named where it is found first: another precision finds those alone that depend on it.
-    if settings.accumulate == Accumulate::F32 || recipe.sums_in_f32() {
+    let beside_tiles = settings.rasterizer == Rasterizer::Compute && recipe.draws_into_f32();
+    if settings.accumulate == Accumulate::F32 || beside_tiles {
         names.accumulate = Accumulate::F32.name().to_owned();
     }
     if recipe.has(SPEC_SHADING) {
