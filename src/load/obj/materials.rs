@@ -1,7 +1,4 @@
 //! The colors of materials, from the files that `mtllib` rows name.
-//!
-//! Such a file is opened only if it lies in the model's folder or below, links followed, unless the user allows more: a
-//! model from elsewhere can't make the program read what its sender may not see.
 
 use std::{
     collections::{HashMap, HashSet},
@@ -10,7 +7,14 @@ use std::{
 };
 
 use super::lines::Lines;
-use crate::{error::Result, load::Input, math::srgb::linear_from_srgb};
+use crate::{
+    error::Result,
+    load::{
+        Input,
+        beside::{self, Refusal},
+    },
+    math::srgb::linear_from_srgb,
+};
 
 /// How many `mtllib` rows are followed, and how long the files may be.
 const MOST_LIBRARIES: u64 = 64;
@@ -54,27 +58,25 @@ impl Materials {
             self.unreadable += 1;
             return;
         };
-        if folder.join(names).exists() {
-            return self.read_file(input, folder, names);
-        }
-        for name in names.split_ascii_whitespace().take(MOST_LIBRARIES as usize) {
-            self.read_file(input, folder, name);
+        let find = |name: &str| beside::find(folder, name, input.options.allow_outside);
+        match find(names) {
+            Ok(path) => self.read_file(input, path),
+            Err(_) => {
+                for name in names.split_ascii_whitespace().take(MOST_LIBRARIES as usize) {
+                    match find(name) {
+                        Ok(path) => self.read_file(input, path),
+                        Err(Refusal::Missing(..)) => self.unreadable += 1,
+                        Err(Refusal::Rooted | Refusal::Outside) => self.outside += 1,
+                    }
+                }
+            }
         }
     }
 
-    fn read_file(&mut self, input: &Input<'_>, folder: &Path, name: &str) {
-        let is_below = |path: &Path| fs::canonicalize(folder).is_ok_and(|folder| path.starts_with(folder));
-        let leads_out = Path::new(name).is_absolute() || Path::new(name).has_root();
-        match fs::canonicalize(folder.join(name)) {
-            Ok(path) if input.options.allow_outside || !leads_out && is_below(&path) => {
-                if self.read.insert(path.clone()) {
-                    self.unreadable += u64::from(self.read_path(input, &path).is_none());
-                }
-            }
-            Ok(_) => self.outside += 1,
-            // Whether there is a file elsewhere is nobody's business.
-            Err(_) if leads_out || name.contains("..") => self.outside += 1,
-            Err(_) => self.unreadable += 1,
+    fn read_file(&mut self, input: &Input<'_>, path: PathBuf) {
+        if !self.read.contains(&path) {
+            self.unreadable += u64::from(self.read_path(input, &path).is_none());
+            self.read.insert(path);
         }
     }
 
