@@ -64,6 +64,8 @@ fn a_row_may_name_several_files_and_one_number_is_gray() {
     let gray = linear_from_srgb(0.2);
     assert_eq!(colors, [[gray, gray, gray, 1.0]; 3]);
     assert_eq!(notes[1], "1 material files that can't be read ignored");
+    // The file that has two names is read once.
+    assert_eq!(notes[2], "2 colors of materials that are not red, green and blue ignored");
 }
 
 #[test]
@@ -133,7 +135,7 @@ fn materials(bytes: &[u8]) -> Option<Materials> {
 fn one_faulty_row_spoils_no_other_one() {
     let text = "Kd 1 1 1\nnewmtl\nKd 1 0 0\nnewmtl a\nKd 1 0 0\nKd 1 1\nKd\nKd 1 x 1\nKd 1 1 nan\nKd 1 1 1 1\n\
         Kd 1\u{a0}1 1 1\nKa 1 1\nKs x\nNs\nillum -\nd\nd -halo 1\nTr x\nmap_Kd\nmap_Ka\nbump\n\
-        newmtl b\nKd 1e300 -1 0\nmap_Kd x\nTr 0.5\nnewmtl c\nd 0.9\nnewmtl d\nd 1\nTr 0\n";
+        newmtl b\nKd 1e300 -1 0\nmap_Kd x\nTr 0.5\nnewmtl c\nd 0.9\nnewmtl d\nd 1\nTr 0\nnewmtl\nKd 0 1 0\n";
     let found = materials(text.as_bytes()).unwrap();
     let red = Some([1.0, 0.0, 0.0, 1.0]);
     let material = |color, has_texture, is_transparent| Some(Material { color, has_texture, is_transparent });
