@@ -1,8 +1,9 @@
 //! Models from files, and the one that needs none.
 //!
-//! The format is told by the content, not by the name alone. No file is opened because another one names it, but for
-//! those of a scene file, which lie in its folder or below.
+//! The format is told by the content, not by the name alone. Files that another one names are opened in its folder or
+//! below, and elsewhere only if the user allows it.
 
+mod beside;
 pub mod builtin;
 #[cfg(feature = "e57")]
 mod e57;

@@ -4,7 +4,7 @@ use std::{
     collections::HashMap,
     fs::{self, File},
     io::Read,
-    path::{Path, PathBuf},
+    path::PathBuf,
     rc::Rc,
 };
 
@@ -17,7 +17,11 @@ use base64::{
 use super::document::{Buffer, Document};
 use crate::{
     error::{Error, Result},
-    load::{Input, lines::shown},
+    load::{
+        Input,
+        beside::{self, Refusal},
+        lines::shown,
+    },
 };
 
 /// The bytes of one buffer.
@@ -105,7 +109,7 @@ impl<'a> Buffers<'a> {
         Ok(Bytes::Read(bytes))
     }
 
-    /// The one name of a file in the folder of the glTF file or below. Links are followed first, so that none leads out.
+    /// The file that a buffer names.
     fn find(&self, i: u32, uri: &str) -> Result<PathBuf> {
         let name = shown(uri.as_bytes());
         let Some(folder) = self.input.folder else {
@@ -116,17 +120,16 @@ impl<'a> Buffers<'a> {
         let Some(decoded) = percent_decoded(uri) else {
             return Err(self.fault(i, format!("'{name}'; expected the name of a file")));
         };
-        let one_name = |path: &Path| {
-            fs::canonicalize(path).map_err(|e| self.fault(i, format!("'{name}': cannot read: {e}")))
-        };
-        let (folder, found) = (one_name(folder)?, one_name(&folder.join(decoded))?);
-        match found.starts_with(&folder) || self.input.options.allow_outside {
-            true => Ok(found),
-            false => {
-                let problem = format!("'{name}' is outside of the file's folder; expected it there or below");
-                Err(self.fault(i, problem))
-            }
-        }
+        beside::find(folder, &decoded, self.input.options.allow_outside).map_err(|refusal| {
+            let problem = match refusal {
+                Refusal::Missing(_, e) => format!("'{name}': cannot read: {e}"),
+                Refusal::Rooted => format!("'{name}'; expected a path relative to the file's folder"),
+                Refusal::Outside => {
+                    format!("'{name}' is outside of the file's folder; expected it there or below")
+                }
+            };
+            self.fault(i, problem)
+        })
     }
 }
 

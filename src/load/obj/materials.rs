@@ -1,7 +1,4 @@
 //! The colors of materials, from the files that `mtllib` rows name.
-//!
-//! Such a file is opened only if it lies in the model's folder or below, links followed, unless the user allows more: a
-//! model from elsewhere can't make the program read what its sender may not see.
 
 use std::{
     collections::{HashMap, HashSet},
@@ -10,11 +7,21 @@ use std::{
 };
 
 use super::lines::Lines;
-use crate::{error::Result, load::Input, math::srgb::linear_from_srgb};
+use crate::{
+    error::Result,
+    load::{
+        Input,
+        beside::{self, Refusal},
+    },
+    math::srgb::linear_from_srgb,
+};
 
 /// How many `mtllib` rows are followed, and how long the files may be.
 const MOST_LIBRARIES: u64 = 64;
 const MOST_LIBRARY_BYTES: u64 = 16 << 20;
+
+/// How many bytes of rows are parsed at once, up to the end of a material.
+const BLOCK_BYTES: usize = 1 << 16;
 
 /// What is drawn of a material.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,27 +61,25 @@ impl Materials {
             self.unreadable += 1;
             return;
         };
-        if folder.join(names).exists() {
-            return self.read_file(input, folder, names);
-        }
-        for name in names.split_ascii_whitespace().take(MOST_LIBRARIES as usize) {
-            self.read_file(input, folder, name);
+        let find = |name: &str| beside::find(folder, name, input.options.allow_outside);
+        match find(names) {
+            Ok(path) => self.read_file(input, path),
+            Err(_) => {
+                for name in names.split_ascii_whitespace().take(MOST_LIBRARIES as usize) {
+                    match find(name) {
+                        Ok(path) => self.read_file(input, path),
+                        Err(Refusal::Missing(..)) => self.unreadable += 1,
+                        Err(Refusal::Rooted | Refusal::Outside) => self.outside += 1,
+                    }
+                }
+            }
         }
     }
 
-    fn read_file(&mut self, input: &Input<'_>, folder: &Path, name: &str) {
-        let is_below = |path: &Path| fs::canonicalize(folder).is_ok_and(|folder| path.starts_with(folder));
-        let leads_out = Path::new(name).is_absolute() || Path::new(name).has_root();
-        match fs::canonicalize(folder.join(name)) {
-            Ok(path) if input.options.allow_outside || !leads_out && is_below(&path) => {
-                if self.read.insert(path.clone()) {
-                    self.unreadable += u64::from(self.read_path(input, &path).is_none());
-                }
-            }
-            Ok(_) => self.outside += 1,
-            // Whether there is a file elsewhere is nobody's business.
-            Err(_) if leads_out || name.contains("..") => self.outside += 1,
-            Err(_) => self.unreadable += 1,
+    fn read_file(&mut self, input: &Input<'_>, path: PathBuf) {
+        if !self.read.contains(&path) {
+            self.unreadable += u64::from(self.read_path(input, &path).is_none());
+            self.read.insert(path);
         }
     }
 
@@ -89,45 +94,69 @@ impl Materials {
     }
 
     /// The rows of a file that tell colors.
+    ///
+    /// The crate that parses them refuses a file for one row, panics where a `Kd` has two numbers, and holds half a
+    /// kilobyte for a material: what it gets is sound, and a block at a time.
     pub(super) fn read_bytes(&mut self, input: &Input<'_>) -> Result<()> {
         let mut lines = Lines::new(input);
-        let mut current: Option<(String, Material)> = None;
+        let (mut block, mut has_name) = (String::new(), false);
         while let Some(line) = lines.next()? {
             let rest = line.rest().map_err(|problem| lines.fault(problem))?;
-            let material = current.as_mut().map(|(_, material)| material);
-            match (line.keyword(), material) {
-                (b"newmtl", _) => {
-                    let last = current.replace((rest.to_owned(), Material::default()));
-                    self.named.extend(last);
+            match line.keyword() {
+                b"newmtl" => {
+                    if block.len() >= BLOCK_BYTES {
+                        self.add(input, &block)?;
+                        block.clear();
+                    }
+                    has_name = !rest.is_empty();
+                    if has_name {
+                        block.extend(["newmtl ", rest, "\n"]);
+                    }
                 }
-                (b"Kd", Some(material)) => match color(rest) {
-                    Some(color) => material.color = Some(color),
+                _ if !has_name => {}
+                b"Kd" => match color(rest) {
+                    Some([r, g, b]) => block.extend(["Kd ", r, " ", g, " ", b, "\n"]),
                     None => self.strange_colors += 1,
                 },
-                (b"map_Kd", Some(material)) => material.has_texture = true,
-                (b"d", Some(material)) => {
-                    material.is_transparent = rest.parse::<f64>().is_ok_and(|d| d < 1.0)
-                }
-                (b"Tr", Some(material)) => {
-                    material.is_transparent = rest.parse::<f64>().is_ok_and(|tr| tr > 0.0);
-                }
+                b"map_Kd" if !rest.is_empty() => block.extend(["map_Kd ", rest, "\n"]),
+                b"d" if is_number(rest) => block.extend(["d ", rest, "\n"]),
+                b"Tr" if is_number(rest) => block.extend(["Tr ", rest, "\n"]),
                 _ => {}
             }
         }
-        self.named.extend(current);
+        self.add(input, &block)
+    }
+
+    /// Adds the materials of sound rows.
+    fn add(&mut self, input: &Input<'_>, rows: &str) -> Result<()> {
+        let (materials, _) =
+            tobj::load_mtl_buf(&mut rows.as_bytes()).map_err(|e| input.fault("", e.to_string()))?;
+        for tobj::Material { name, diffuse, dissolve, diffuse_texture, unknown_param, .. } in materials {
+            // The crate knows no `Tr`.
+            let transparency: Option<f64> = unknown_param.get("Tr").and_then(|tr| tr.parse().ok());
+            let linear = |value: f64| linear_from_srgb(value.clamp(0.0, 1.0) as f32);
+            let material = Material {
+                color: diffuse.map(|[r, g, b]| [linear(r), linear(g), linear(b), 1.0]),
+                has_texture: diffuse_texture.is_some(),
+                is_transparent: dissolve.is_some_and(|d| d < 1.0) || transparency.is_some_and(|tr| tr > 0.0),
+            };
+            self.named.insert(name, material);
+        }
         Ok(())
     }
 }
 
 /// `r g b`, or one number for all: sRGB values, as the programs show them that write these files.
-fn color(row: &str) -> Option<[f32; 4]> {
-    let numbers: Option<Vec<f32>> =
-        row.split_ascii_whitespace().take(4).map(|word| word.parse().ok()).collect();
-    let (r, g, b) = match numbers?.as_slice() {
-        [gray] => (*gray, *gray, *gray),
-        [r, g, b] => (*r, *g, *b),
+fn color(row: &str) -> Option<[&str; 3]> {
+    let words: Vec<&str> = row.split_ascii_whitespace().take(4).collect();
+    let color = match *words.as_slice() {
+        [gray] => [gray; 3],
+        [r, g, b] => [r, g, b],
         _ => return None,
     };
-    let linear = |value: f32| linear_from_srgb(value.clamp(0.0, 1.0));
-    [r, g, b].iter().all(|value| value.is_finite()).then_some([linear(r), linear(g), linear(b), 1.0])
+    color.into_iter().all(is_number).then_some(color)
+}
+
+fn is_number(word: &str) -> bool {
+    word.parse().is_ok_and(f64::is_finite)
 }

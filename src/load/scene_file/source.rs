@@ -1,9 +1,6 @@
 //! Where an object's model comes from.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use super::{
     description::{BuiltIn, MOST_BUILT_IN_SPLATS, Source},
@@ -11,7 +8,10 @@ use super::{
 };
 use crate::{
     error::Result,
-    load::builtin::{DEFAULT_SPHERE_TRIANGLES, MOST_SPHERE_TRIANGLES},
+    load::{
+        beside::{self, Refusal},
+        builtin::{DEFAULT_SPHERE_TRIANGLES, MOST_SPHERE_TRIANGLES},
+    },
 };
 
 /// `outside`: files may lie outside of the scene file's folder.
@@ -34,24 +34,18 @@ pub(super) fn read(table: &Table<'_>, outside: bool) -> Result<Source> {
     }
 }
 
-/// The one name of a file in the scene file's folder or below, or anywhere. Links are followed first, so that none leads out.
+/// The file that the scene file names.
 fn find(scene_file: &Path, file: &Value<'_>, outside: bool) -> Result<PathBuf> {
-    let name = Path::new(file.text("the name of a PLY or OBJ file")?);
-    if !outside && (name.is_absolute() || name.has_root()) {
-        return Err(file.expected("a path relative to the scene file's folder, or --allow-outside"));
-    }
+    let name = file.text("the name of a PLY or OBJ file")?;
     let folder = match scene_file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let one_name = |path: &Path| {
-        fs::canonicalize(path).map_err(|e| file.fault(&format!("{}: cannot read: {e}", path.display())))
-    };
-    let (folder, found) = (one_name(folder)?, one_name(&folder.join(name))?);
-    match outside || found.starts_with(&folder) {
-        true => Ok(found),
-        false => {
-            Err(file.expected("a file within the scene file's folder, links followed, or --allow-outside"))
+    beside::find(folder, name, outside).map_err(|refusal| match refusal {
+        Refusal::Rooted => file.expected("a path relative to the scene file's folder, or --allow-outside"),
+        Refusal::Outside => {
+            file.expected("a file within the scene file's folder, links followed, or --allow-outside")
         }
-    }
+        Refusal::Missing(path, e) => file.fault(&format!("{}: cannot read: {e}", path.display())),
+    })
 }

@@ -3,6 +3,10 @@ use std::fs;
 use temp_dir::TempDir;
 
 use super::*;
+use crate::load::{
+    mutate::Dice,
+    obj::materials::{Material, Materials},
+};
 
 const MATERIALS: &str = "# two\nnewmtl red \nKd 1 0 0\nd 0.5\nnewmtl dark blue\n Kd 0 0 0.2\nmap_Kd sky.png\n\
     newmtl none\nKs 1 1 1\nnewmtl short\nKd 1 1\nnewmtl spectral\nKd spectral file.rfl\nnewmtl gray\nKd 0.2\n";
@@ -60,6 +64,8 @@ fn a_row_may_name_several_files_and_one_number_is_gray() {
     let gray = linear_from_srgb(0.2);
     assert_eq!(colors, [[gray, gray, gray, 1.0]; 3]);
     assert_eq!(notes[1], "1 material files that can't be read ignored");
+    // The file that has two names is read once.
+    assert_eq!(notes[2], "2 colors of materials that are not red, green and blue ignored");
 }
 
 #[test]
@@ -110,4 +116,56 @@ fn many_and_long_material_files_are_not_all_read() {
     let text = format!("mtllib long.mtl\nmtllib folder.mtl\nmtllib \n{rows}{SQUARE}f 1 2 3 4\n");
     let (_, _, notes) = load_in(&folder, &text, false);
     assert_eq!(notes, ["103 material files that can't be read ignored"]);
+}
+
+/// The materials of a file and its strange colors; `None` where it is refused.
+fn materials(bytes: &[u8]) -> Option<Materials> {
+    let input = Input {
+        path: Path::new("a.mtl"),
+        folder: None,
+        bytes,
+        options: &LoadOptions::default(),
+        progress: &(),
+    };
+    let mut materials = Materials::default();
+    materials.read_bytes(&input).ok().map(|()| materials)
+}
+
+#[test]
+fn one_faulty_row_spoils_no_other_one() {
+    let text = "Kd 1 1 1\nnewmtl\nKd 1 0 0\nnewmtl a\nKd 1 0 0\nKd 1 1\nKd\nKd 1 x 1\nKd 1 1 nan\nKd 1 1 1 1\n\
+        Kd 1\u{a0}1 1 1\nKa 1 1\nKs x\nNs\nillum -\nd\nd -halo 1\nTr x\nmap_Kd\nmap_Ka\nbump\n\
+        newmtl b\nKd 1e300 -1 0\nmap_Kd x\nTr 0.5\nnewmtl c\nd 0.9\nnewmtl d\nd 1\nTr 0\nnewmtl\nKd 0 1 0\n";
+    let found = materials(text.as_bytes()).unwrap();
+    let red = Some([1.0, 0.0, 0.0, 1.0]);
+    let material = |color, has_texture, is_transparent| Some(Material { color, has_texture, is_transparent });
+    assert_eq!(found.get("a").cloned(), material(red, false, false));
+    assert_eq!(found.get("b").cloned(), material(red, true, true));
+    assert_eq!(found.get("c").cloned(), material(None, false, true));
+    assert_eq!(found.get("d").cloned(), material(None, false, false));
+    assert_eq!((found.get(""), found.strange_colors), (None, 6));
+}
+
+#[test]
+fn all_materials_of_many_blocks_are_read() {
+    let text: String = (0..20_000).map(|i| format!("newmtl {i}\nKd {} 0 0\n", i % 2)).collect();
+    let found = materials(text.as_bytes()).unwrap();
+    for i in 0..20_000 {
+        let color = Some([(i % 2) as f32, 0.0, 0.0, 1.0]);
+        assert_eq!(found.get(&i.to_string()).map(|material| material.color), Some(color), "{i}");
+    }
+}
+
+#[test]
+fn only_what_is_no_text_is_refused_whatever_the_bytes() {
+    let words = ["newmtl", "Kd", "map_Kd", "d", "Tr", "nan", "1e999", "-1", "\\\n", "#", "\u{a0}", "\r"];
+    let mut dice = Dice::new(0x371);
+    for _ in 0..20_000 {
+        let mut bytes = MATERIALS.as_bytes().to_vec();
+        for _ in 0..=dice.below(4) {
+            dice.mutate(&mut bytes, &words);
+        }
+        let is_text = str::from_utf8(&bytes).is_ok();
+        assert!(materials(&bytes).is_some() || !is_text, "{}", bytes.escape_ascii());
+    }
 }
