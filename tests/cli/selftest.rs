@@ -115,7 +115,10 @@ fn faults_are_found_before_the_cases_are_run() {
     let cases: [(&[&str], &str); 10] = [
         (&["--known", "typo.txt"], "typo.txt: line 3: methods.perspectiv: matches no case"),
         (&["--known", "word.txt"], "word.txt: line 1: 'xfail': expected driver, fail, flake or skip"),
-        (&["--known", "bytes.txt"], "bytes.txt: line 1: not UTF-8; expected a list of what is known of drivers"),
+        (
+            &["--known", "bytes.txt"],
+            "bytes.txt: line 1: not UTF-8; expected a list of what is known of drivers",
+        ),
         (&["--known", "none.txt"], "none.txt: cannot read: No such file"),
         (
             &["--case", "methods.cube"],
