@@ -11,8 +11,8 @@ mod cells;
 pub mod compare;
 mod frames;
 mod grid;
-#[cfg(feature = "compare")]
 mod model;
+#[cfg(feature = "compare")]
 mod plot;
 mod probe;
 mod run;

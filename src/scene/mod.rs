@@ -33,6 +33,7 @@ pub use methods::{
     TileInvocations, Transition,
 };
 pub use opacity::Opacity;
+#[cfg(feature = "files")]
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
 pub use points::Points;
