@@ -55,7 +55,24 @@ pub use text::{Column, Columns};
 /// [`crate::ErrorKind::File`] if the file can't be read; [`crate::ErrorKind::Input`], naming element and number or the line, if
 /// its content is not what its format demands, or is of a format that surfel does not know.
 pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Loaded> {
-    let source = source::read(path, &options.limits)?;
+    parse(source::read(path, &options.limits)?, options, progress)
+}
+
+/// As [`load`], of a file that is in memory. `name` is its name in messages, and its ending tells the format where the
+/// content leaves that open. No other file is opened.
+///
+/// # Errors
+/// [`crate::ErrorKind::Input`], as [`load`].
+pub fn load_bytes(
+    name: &Path,
+    bytes: Vec<u8>,
+    options: &LoadOptions,
+    progress: &dyn Progress,
+) -> Result<Loaded> {
+    parse(source::unpacked(name.to_owned(), None, bytes, &options.limits)?, options, progress)
+}
+
+fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress) -> Result<Loaded> {
     let folder = source.folder.as_deref();
     let input = Input { path: &source.path, folder, bytes: &source.bytes, options, progress };
     let format = sniff::format(&source.path, &source.name, &source.bytes)?;
@@ -79,10 +96,26 @@ pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Resu
                 .fault("", format!("a {name} file, which needs the Cargo feature `{}`", name.to_lowercase())))
         }
     }?;
+    refuse_nothing(&input, &loaded)?;
     if let Some(packing) = source.packing {
         loaded.format = format!("{} in {}", loaded.format, packing.name());
     }
     Ok(loaded)
+}
+
+/// A model of nothing is no scene, and all that would be said of it later is beside the point.
+fn refuse_nothing(input: &Input<'_>, loaded: &Loaded) -> Result<()> {
+    let is_empty = match &loaded.model {
+        Model::Splats { splats, .. } => splats.positions.is_empty(),
+        Model::Mesh(mesh) => mesh.triangles.is_empty(),
+        Model::Points(points) => points.positions.is_empty(),
+    };
+    if !is_empty {
+        return Ok(());
+    }
+    let why = loaded.notes.first().map(|note| format!(" ({note})")).unwrap_or_default();
+    let contents = loaded.model.contents();
+    Err(input.fault("", format!("a {} file without {contents}{why}; expected some", loaded.format)))
 }
 
 /// The file's own name, without its folder.

@@ -50,7 +50,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     let room = lines.left() as u64 + 1;
     if vertices > room / 6 || faces > room / 2 {
         let problem =
-            format!("{vertices} vertices and {faces} faces, but only {} bytes follow", lines.left());
+            format!("{} bytes follow; expected {vertices} vertices and {faces} faces", lines.left());
         return Err(lines.fault(place, problem));
     }
     input.options.limits.check_points(input, vertices)?;

@@ -4,12 +4,15 @@
 //! memory.
 
 use std::{
-    io::Read,
+    io::{self, Read},
     path::{Path, PathBuf},
 };
 
 use super::Limits;
 use crate::error::{Error, Result};
+
+/// How many bytes are decoded at once.
+const PART_BYTES: usize = 64 << 10;
 
 /// How a file is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,48 +49,79 @@ impl Packing {
     }
 
     /// What is inside.
+    ///
+    /// It is decoded twice, and only counted at first: what expands too far takes no memory, and what is kept takes its
+    /// size, of which a vector that grows holds up to three times as much.
     pub fn unpack(self, path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+        let most = limits.expanded(bytes.len(), limits.expansion);
+        let mut size = 0_usize;
+        self.decode(path, bytes, limits, &mut |part| {
+            size = size.saturating_add(part.len());
+            match size as u64 > most {
+                true => {
+                    let (name, compressed) = (self.name(), bytes.len());
+                    let problem = format!(
+                        "{name} of {compressed} bytes expands to more than {most}; unpack it first if you trust it"
+                    );
+                    Err(Error::input(path, "", problem))
+                }
+                false => Ok(()),
+            }
+        })?;
+        let mut unpacked = Vec::new();
+        unpacked
+            .try_reserve_exact(size)
+            .map_err(|_| Error::file(path, "read", io::ErrorKind::OutOfMemory.into()))?;
+        self.decode(path, bytes, limits, &mut |part| {
+            unpacked.extend_from_slice(part);
+            Ok(())
+        })?;
+        Ok(unpacked)
+    }
+
+    /// Gives what is inside to `take`, part by part.
+    fn decode(self, path: &Path, bytes: &[u8], limits: &Limits, take: &mut Take<'_>) -> Result<()> {
         match self {
-            Self::Gzip => gzip(path, bytes, limits),
-            Self::Zstd => zstd(path, bytes, limits),
+            Self::Gzip => gzip(path, bytes, take),
+            Self::Zstd => zstd(path, bytes, limits, take),
         }
     }
 }
 
+/// What is done with a part of what is inside.
+type Take<'a> = dyn FnMut(&[u8]) -> Result<()> + 'a;
+
 #[cfg(feature = "gzip")]
-fn gzip(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+fn gzip(path: &Path, bytes: &[u8], take: &mut Take<'_>) -> Result<()> {
     // A file may be several, one after the other.
-    limited(flate2::read::MultiGzDecoder::new(bytes), Packing::Gzip, path, bytes.len(), limits)
+    each_part(flate2::read::MultiGzDecoder::new(bytes), Packing::Gzip, path, take)
 }
 
 #[cfg(not(feature = "gzip"))]
-fn gzip(path: &Path, _: &[u8], _: &Limits) -> Result<Vec<u8>> {
+fn gzip(path: &Path, _: &[u8], _: &mut Take<'_>) -> Result<()> {
     Err(not_built(Packing::Gzip, path))
 }
 
 #[cfg(feature = "zstd")]
-fn zstd(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+fn zstd(path: &Path, bytes: &[u8], limits: &Limits, take: &mut Take<'_>) -> Result<()> {
     use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
 
-    let most = limits.expanded(bytes.len(), limits.expansion);
     // The decoder keeps a window beside its output, of a size that the file names.
     let largest_window = limits.expanded(bytes.len(), limits.expansion / 3);
     let mut rest = bytes;
-    let mut unpacked = Vec::new();
     // A file may be several, one after the other.
     while !rest.is_empty() {
         let mut decoder = FrameDecoder::new();
         decoder.set_max_window_size(largest_window);
         let decoder = StreamingDecoder::new_with_decoder(&mut rest, decoder)
             .map_err(|e| damaged(Packing::Zstd, path, &e.to_string()))?;
-        let left = Limits { expanded_bytes: most - unpacked.len() as u64, expansion: 0, ..*limits };
-        unpacked.append(&mut limited(decoder, Packing::Zstd, path, bytes.len(), &left)?);
+        each_part(decoder, Packing::Zstd, path, take)?;
     }
-    Ok(unpacked)
+    Ok(())
 }
 
 #[cfg(not(feature = "zstd"))]
-fn zstd(path: &Path, _: &[u8], _: &Limits) -> Result<Vec<u8>> {
+fn zstd(path: &Path, _: &[u8], _: &Limits, _: &mut Take<'_>) -> Result<()> {
     Err(not_built(Packing::Zstd, path))
 }
 
@@ -95,28 +129,15 @@ fn zstd(path: &Path, _: &[u8], _: &Limits) -> Result<Vec<u8>> {
     not(any(feature = "gzip", feature = "zstd")),
     allow(dead_code, reason = "nothing can be unpacked")
 )]
-fn limited(
-    stream: impl Read,
-    packing: Packing,
-    path: &Path,
-    compressed: usize,
-    limits: &Limits,
-) -> Result<Vec<u8>> {
-    let most = limits.expanded(compressed, limits.expansion);
-    let mut unpacked = Vec::new();
-    stream
-        .take(most.saturating_add(1))
-        .read_to_end(&mut unpacked)
-        .map_err(|e| damaged(packing, path, &e.to_string()))?;
-    match unpacked.len() as u64 > most {
-        true => {
-            let problem = format!(
-                "{} of {compressed} bytes expands to more than {most}; unpack it first if you trust it",
-                packing.name()
-            );
-            Err(Error::input(path, "", problem))
+fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Take<'_>) -> Result<()> {
+    let mut part = vec![0; PART_BYTES];
+    loop {
+        match stream.read(&mut part) {
+            Ok(0) => return Ok(()),
+            Ok(length) => take(part.get(..length).unwrap_or_default())?,
+            Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+            Err(e) => return Err(damaged(packing, path, &e.to_string())),
         }
-        false => Ok(unpacked),
     }
 }
 

@@ -39,6 +39,16 @@ pub(super) fn read(path: &Path, limits: &Limits) -> Result<Source> {
             (path.to_owned(), Some(folder.unwrap_or(Path::new(".")).to_owned()), read_file(path)?)
         }
     };
+    unpacked(path, folder, bytes, limits)
+}
+
+/// What was read, without what compresses it as a whole.
+pub(super) fn unpacked(
+    path: PathBuf,
+    folder: Option<PathBuf>,
+    bytes: Vec<u8>,
+    limits: &Limits,
+) -> Result<Source> {
     match packed::Packing::of(&bytes) {
         None => Ok(Source { name: path.clone(), path, folder, bytes, packing: None }),
         Some(packing) => {

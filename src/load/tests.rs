@@ -1,10 +1,10 @@
 //! One scene in every format that can hold it, and it is the same whichever of them it comes from.
 
-use std::{fmt::Write as _, fs, io::Cursor};
+use std::{fmt::Write as _, fs, io::Cursor, path::Path};
 
 use glam::{DVec3, Vec3};
 
-use super::{LoadOptions, Loaded, Model, load};
+use super::{LoadOptions, Loaded, Model, load, load_bytes};
 use crate::{math::srgb::linear_from_srgb, scene::Colors};
 
 /// Where scans lie that come in metres of a map.
@@ -282,4 +282,16 @@ fn points_of_e57_are_the_same() {
         let keeps = Keeps { step: 0.0, normals: false, colors: true };
         check("a.e57", read("a.e57", &bytes.into_inner()), &samples(origin), &keeps);
     }
+}
+
+#[test]
+fn a_file_in_memory_is_read_as_one_on_disk() {
+    let rows = b"0 0 0\n1 0 0\n0 1 0\n".to_vec();
+    let of = |name: &str, bytes: Vec<u8>| load_bytes(Path::new(name), bytes, &LoadOptions::default(), &());
+    let loaded = of("a.xyz", rows.clone()).unwrap();
+    assert_eq!(loaded.format, read("a.xyz", &rows).format);
+    let Model::Points(points) = loaded.model else { panic!("no points") };
+    assert_eq!(points.positions, [DVec3::ZERO, DVec3::X, DVec3::Y]);
+    let refused = of("a.ply", b"plywood".to_vec()).unwrap_err().to_string();
+    assert!(refused.starts_with("a.ply: named .ply"), "{refused}");
 }

@@ -8,10 +8,12 @@ mod counts;
 mod faults;
 mod figure;
 mod files;
+mod formats;
 mod growth;
 mod inputs;
 mod outputs;
 mod program;
+mod refusals;
 mod report;
 mod scene_file;
 mod selftest;
@@ -275,21 +277,9 @@ fn splats(lines: &str) -> String {
 fn passes_without_draws_are_no_reason_for_a_flag() {
     let folder = Folder::new();
     // So near that large splats are listed in compute passes.
-    let words = [
-        "render",
-        "--size",
-        "64x64",
-        "--eye",
-        "0,0,0.2",
-        "--target",
-        "0,0,3",
-        "--rasterizer",
-        "perspective",
-        "--timings",
-        "t.json",
-        "--frames",
-        "2",
-    ];
+    let view = ["--eye", "0,0,0.2", "--target", "0,0,3", "--rasterizer", "perspective"];
+    let timed = ["--timings", "t.json", "--frames", "2"];
+    let words = [&["render"], &SMALL[..], &view, &timed].concat();
     done(&folder, &words);
     let report = folder.json("t.json");
     let passes = report["frames"]["passes"].as_array().unwrap();

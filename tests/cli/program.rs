@@ -2,8 +2,9 @@
 
 use std::{
     fs,
+    io::Write as _,
     path::{Path, PathBuf},
-    process::{Command, Stdio},
+    process::{Command, Output, Stdio},
 };
 
 /// A folder that goes away with its content.
@@ -69,16 +70,36 @@ pub fn done(folder: &Folder, arguments: &[&str]) -> Run {
 
 /// With these environment variables.
 pub fn surfel_with(folder: &Folder, arguments: &[&str], environment: &[(&str, &str)]) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_surfel"))
+    run(command(folder, arguments).envs(environment.iter().copied()).output().unwrap())
+}
+
+/// With these bytes as standard input.
+pub fn surfel_reading(folder: &Folder, arguments: &[&str], bytes: &[u8]) -> Run {
+    let mut child = command(folder, arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(bytes).unwrap();
+    run(child.wait_with_output().unwrap())
+}
+
+/// The program in the folder, without standard input.
+pub fn command(folder: &Folder, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_surfel"));
+    command
         .args(arguments)
         .current_dir(folder.0.path())
         .stdin(Stdio::null())
         // Tests don't fill the user's cache.
         .env_remove("XDG_CACHE_HOME")
-        .env_remove("HOME")
-        .envs(environment.iter().copied())
-        .output()
-        .unwrap();
+        .env_remove("HOME");
+    command
+}
+
+/// What has ended.
+pub fn run(output: Output) -> Run {
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     Run {
         code: output.status.code().expect("the program was killed"),

@@ -61,7 +61,7 @@ fn uncompressed<'a>(input: &Input<'a>, header: &Header) -> Result<Vec<Chunk<'a>>
     let Some(records) = records else {
         let (points, size) = (header.points, header.record_bytes);
         let problem =
-            format!("{points} points of {size} bytes, but only {} bytes follow the header", data.len());
+            format!("{} bytes follow the header; expected {points} points of {size} bytes", data.len());
         return Err(input.fault("", problem));
     };
     let pieces = records.chunks(CHUNK_POINTS * header.record_bytes).zip((0..).step_by(CHUNK_POINTS));

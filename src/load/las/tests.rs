@@ -105,7 +105,7 @@ fn counts_beyond_the_file_are_refused_before_memory_is_taken() {
     many[COUNTS[1].clone()].fill(0xff);
     refuses(&many, "18446744073709551615 points; expected at most 4294967295");
     many[COUNTS[0].clone()].fill(0xff);
-    refuses(&many, "4294967295 points of 20 bytes, but only 60 bytes follow the header");
+    refuses(&many, "60 bytes follow the header; expected 4294967295 points of 20 bytes");
     let mut packed = file(6, true, 3, |_, _| {});
     packed[COUNTS[0].clone()].fill(0xff);
     let error = of_bytes("a.laz", &packed, parse).unwrap_err().to_string();

@@ -62,7 +62,7 @@ fn faults_name_their_line() {
     refuses("OFF", "line 1: the file ends; expected the numbers of vertices and faces");
     refuses("OFF\n3\n", "line 2: the line ends; expected the number of faces");
     refuses("OFF\n-3 1 0\n", "line 2: '-3'; expected the number of vertices");
-    let counts = "353535235358 vertices and 0 faces, but only 6 bytes follow";
+    let counts = "6 bytes follow; expected 353535235358 vertices and 0 faces";
     refuses("OFF\n353535235358 0 0\n0 0 0\n", &format!("line 2: {counts}"));
     refuses("OFF\n1 0 0\n0 x 0\n", "line 3: 'x'; expected a coordinate");
     refuses("COFF\n1 0 0\n0 0 0 1\n", "line 3: a color of 1 numbers; expected 3 or 4");

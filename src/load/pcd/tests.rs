@@ -104,11 +104,11 @@ fn refuses(bytes: &[u8], expected: &str) {
 #[test]
 fn faults_are_named() {
     let whole = binary();
-    refuses(&whole[..whole.len() - 1], "2 points of 39 bytes, but only 77 bytes follow");
+    refuses(&whole[..whole.len() - 1], "77 bytes of points; expected 2 points of 39 bytes");
     let packed = compressed();
     let short = &packed[..packed.len() - 1];
     assert!(
-        of_bytes("a.pcd", short, parse).unwrap_err().to_string().contains(" compressed bytes, but only ")
+        of_bytes("a.pcd", short, parse).unwrap_err().to_string().contains(" compressed bytes; expected ")
     );
     let rows = ascii();
     refuses(&rows[..rows.len() - 3], "line 13: 10 numbers; expected 11");
@@ -135,7 +135,7 @@ fn faults_are_named() {
         with("DATA ascii", "DATA zip").as_bytes(),
         "line 11: DATA 'zip'; expected ascii, binary or binary_compressed",
     );
-    refuses(header("ascii", 4_000_000_000).as_bytes(), "4000000000 points, but only 0 bytes follow");
+    refuses(header("ascii", 4_000_000_000).as_bytes(), "0 bytes of points; expected 4000000000 points");
     let huge = header("binary_compressed", 1 << 40);
     refuses(
         &[huge.as_bytes(), &[1, 0, 0, 0, 0, 0, 0, 0, 0]].concat(),

@@ -37,8 +37,11 @@ pub(super) fn each<const N: usize>(
     let points = header.points;
     let size = points.checked_mul(header.record_bytes);
     if size.is_none_or(|size| size > data.len()) {
-        let problem =
-            format!("{points} points of {} bytes, but only {} bytes follow", header.record_bytes, data.len());
+        let problem = format!(
+            "{} bytes of points; expected {points} points of {} bytes",
+            data.len(),
+            header.record_bytes
+        );
         return Err(input.fault("", problem));
     }
     let read = |i: usize| {
@@ -99,7 +102,7 @@ fn unpack(input: &Input<'_>, header: &Header) -> Result<Vec<u8>> {
         _ if size as u64 > most => {
             format!("{} compressed bytes are said to expand to {size}; expected at most {most}", data.len())
         }
-        None => format!("{packed} compressed bytes, but only {} follow", data.len()),
+        None => format!("{} compressed bytes; expected {packed}", data.len()),
         Some(_) if size == 0 => return Ok(Vec::new()),
         Some(packed) => match lzf::decompress(packed, size) {
             Ok(points) if points.len() == size => return Ok(points),
@@ -122,7 +125,7 @@ fn each_of_text<const N: usize>(
     // The shortest number is a digit and what ends it, which only the last may lack.
     let least = header.record_numbers.max(1).saturating_mul(2);
     if header.points > (lines.left() + 1) / least {
-        let problem = format!("{} points, but only {} bytes follow", header.points, lines.left());
+        let problem = format!("{} bytes of points; expected {} points", lines.left(), header.points);
         return Err(input.fault("", problem));
     }
     let mut left = header.points;

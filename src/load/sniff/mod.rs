@@ -78,7 +78,12 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         return refuse(&format!("this is {what}"));
     }
     let probe = bytes.get(..PROBE_BYTES).unwrap_or(bytes);
+    let words = words::by_words(probe);
     if probe.contains(&0) {
+        // Their header is text, whatever follows it.
+        if words == Some(Format::Pcd) {
+            return Ok(Format::Pcd);
+        }
         if extension == "stl" {
             return Ok(Format::Stl);
         }
@@ -87,7 +92,7 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
             _ => format!("named .{}, but its content is binary of another format", extension.escape_debug()),
         });
     }
-    match (words::by_words(probe), extension.as_str()) {
+    match (words, extension.as_str()) {
         (Some(format), _) => Ok(format),
         (None, "toml") => refuse("this is a scene file"),
         (None, "obj") => Ok(Format::Obj),

@@ -38,6 +38,20 @@ fn the_content_decides_then_the_name() {
 }
 
 #[test]
+fn a_header_of_pcd_tells_also_a_body_that_is_binary() {
+    for comment in ["", "# .PCD v0.7 - Point Cloud Data file format\n", "# by a program of its own\n"] {
+        let header = format!(
+            "{comment}VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nDATA binary\n"
+        );
+        let bytes = [header.as_bytes(), &[0; 24]].concat();
+        for name in ["a", "a.pcd", "a.stl"] {
+            let Ok(Model::Points(points)) = load_bytes(name, &bytes) else { panic!("{name}") };
+            assert_eq!(points.positions.len(), 2);
+        }
+    }
+}
+
+#[test]
 fn what_is_no_model_is_named() {
     let cases: [(&str, &[u8], &str); 17] = [
         ("a.ply", b"", "the file is empty"),
@@ -109,4 +123,23 @@ fn compressed_files_are_told_by_what_is_in_them() {
     assert_eq!(twice, "/a.gz: compressed twice, by gzip and zstd; expected once");
     let empty = load_bytes("a.ply.gz", &gzip(b"")).unwrap_err();
     assert!(empty.starts_with("/a.ply.gz: the file is empty; expected "), "{empty}");
+}
+
+#[test]
+fn a_file_of_nothing_is_refused_and_says_why() {
+    let of = |count: usize, row: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\n\
+            {row}end_header\n"
+        )
+    };
+    let cases = [
+        ("a.ply", of(0, ""), "without points; expected some"),
+        ("a.off", "OFF\n0 0 0\n".to_owned(), "without points; expected some"),
+        ("a.stl", "solid a\nendsolid a\n".to_owned(), "without triangles; expected some"),
+    ];
+    for (name, text, words) in cases {
+        let error = load_bytes(name, text.as_bytes()).unwrap_err();
+        assert!(error.starts_with(&format!("/{name}: a ")) && error.ends_with(words), "{error}");
+    }
 }
