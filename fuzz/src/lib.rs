@@ -7,7 +7,8 @@ use surfel::{
     load::{LoadOptions, load_bytes},
 };
 
-/// Reads it as a file of this name. It may be refused, in one line that names it; the fuzzer sees panics, hangs and memory.
+/// Reads it as a file of this name. It may be refused, in one line that names it; the fuzzer sees panics, hangs and
+/// memory.
 pub fn read(name: &str, bytes: &[u8]) {
     if let Err(error) = load_bytes(Path::new(name), bytes.to_vec(), &LoadOptions::default(), &()) {
         let text = error.to_string();

@@ -58,8 +58,8 @@ pub fn load(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Resu
     parse(source::read(path, &options.limits)?, options, progress)
 }
 
-/// As [`load`], of a file that is in memory. `name` is its name in messages, and its ending tells the format where the
-/// content leaves that open. No other file is opened.
+/// As [`load`], of a file that is in memory. `name` is its name in messages, and its ending tells the format where
+/// the content leaves that open. No other file is opened.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Input`], as [`load`].

@@ -50,8 +50,8 @@ impl Packing {
 
     /// What is inside.
     ///
-    /// It is decoded twice, and only counted at first: what expands too far takes no memory, and what is kept takes its
-    /// size, of which a vector that grows holds up to three times as much.
+    /// It is decoded twice, and only counted at first: what expands too far takes no memory, and what is kept takes
+    /// its size, of which a vector that grows holds up to three times as much.
     pub fn unpack(self, path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
         let most = limits.expanded(bytes.len(), limits.expansion);
         let mut size = 0_usize;
@@ -127,7 +127,7 @@ fn zstd(path: &Path, _: &[u8], _: &Limits, _: &mut Take<'_>) -> Result<()> {
 
 #[cfg_attr(
     not(any(feature = "gzip", feature = "zstd")),
-    allow(dead_code, reason = "nothing can be unpacked")
+    expect(dead_code, reason = "nothing can be unpacked")
 )]
 fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Take<'_>) -> Result<()> {
     let mut part = vec![0; PART_BYTES];
@@ -143,7 +143,7 @@ fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Ta
 
 #[cfg_attr(
     not(any(feature = "gzip", feature = "zstd")),
-    allow(dead_code, reason = "nothing can be unpacked")
+    expect(dead_code, reason = "nothing can be unpacked")
 )]
 fn damaged(packing: Packing, path: &Path, why: &str) -> Error {
     Error::input(path, "", format!("damaged {}: {why}", packing.name()))

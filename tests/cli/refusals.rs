@@ -12,10 +12,11 @@ use super::program::{Folder, Run, command, run};
 /// Beside 16 times the file, the program may take this much.
 const KIB: u64 = 64 << 10;
 
-/// Runs `info` on the file, and tells the most memory that it was seen to hold, in KiB; 0 where the system does not tell.
+/// Runs `info` on the file, and tells the most memory that it was seen to hold, in KiB; 0 where the system does not
+/// tell.
 ///
-/// The system keeps the peak, not just the present value, so that what is missed is at most what was taken within the
-/// last moment.
+/// The system keeps the peak, not just the present value, so that what is missed is at most what was taken within
+/// the last moment.
 fn watched(folder: &Folder, name: &str) -> (Run, u64) {
     let mut child =
         command(folder, &["info", name]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

@@ -17,8 +17,8 @@ const CORNERS: [[f64; 3]; 6] = [
 const FACES: [[usize; 3]; TRIANGLES] =
     [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
 
-/// The files' names and contents, around `origin`. None has colors or normals. The corners of STL are f32, so that it
-/// has the mesh only where these hold it.
+/// The files' names and contents, around `origin`. None has colors or normals. The corners of STL are f32, so that
+/// it has the mesh only where these hold it.
 pub fn files(origin: DVec3) -> Vec<(&'static str, Vec<u8>)> {
     let rows = |start: &str| -> String {
         let row = |corner: [f64; 3]| {

@@ -1,4 +1,5 @@
-//! Every format through the program: the same scene has the same counts and the same picture, wherever it comes from.
+//! Every format through the program: the same scene has the same counts and the same picture, wherever it comes
+//! from.
 
 mod meshes;
 mod points;
