@@ -170,7 +170,7 @@ fn gaussians(read: Read, format: String) -> (Loaded, u64) {
     let kept = splats.len();
     let mut loaded = Loaded::new(Model::Splats { splats, closed: false }, format);
     loaded.note(Deed::Dropped, (all - kept) as u64, "Gaussians with an opacity below one half");
-    loaded.note(Deed::Replaced, kept as u64, "Gaussians, by opaque disks of two standard deviations,");
+    loaded.note(Deed::Replaced, kept as u64, "Gaussians (by opaque disks of two standard deviations)");
     (loaded, beyond)
 }
 

@@ -114,7 +114,7 @@ fn the_mean_color_is_srgb_and_what_is_clamped_or_left_out_is_noted() {
             notes(&file),
             [
                 "2 Gaussians with an opacity below one half left out",
-                "2 Gaussians, by opaque disks of two standard deviations, replaced",
+                "2 Gaussians (by opaque disks of two standard deviations) replaced",
                 "3 colors beyond 0 to 1 clamped",
                 "4 Gaussians' view-dependent colors, but for their means, ignored",
             ]
