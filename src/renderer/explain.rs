@@ -20,7 +20,9 @@ pub struct Explanation {
     /// How opaque splats are drawn and why so, where there are any; then transparent ones.
     pub drawn: [Option<String>; 2],
     /// What is beyond f32, a sentence each.
-    pub notes: Vec<String>,
+    pub beyond_f32: Vec<String>,
+    /// What 16-bit sums ask of weights, in a sentence.
+    pub floors: Option<String>,
     /// The passes, in order.
     pub passes: Vec<ExplainedPass>,
     /// Passes that were declared and left out, because nobody reads their results.
@@ -142,7 +144,8 @@ impl Renderer {
         let drawn = [&frame.opaque, &frame.transparent].map(|surface| surface.explained(settings));
         Explanation {
             drawn,
-            notes: passes::notes_of_digits(scene, &frame, camera),
+            beyond_f32: passes::beyond_f32(scene, &frame, camera),
+            floors: passes::floors(&frame),
             chunks: chunks.collect(),
             meshes: meshes.collect(),
             point_cap_px: limits.point_size_range[1],

@@ -174,3 +174,21 @@ fn info_tells_what_is_in_files_without_a_device() {
     let refused = surfel(&folder, &["info", "--up", "z"]);
     assert!(refused.code == 1 && refused.stderr.contains("but no file"), "{}", refused.stderr);
 }
+
+#[test]
+fn what_f32_has_no_digits_for_is_told_without_being_asked() {
+    let folder = Folder::new();
+    let words =
+        ["render", "plain.obj", "--eye", "0,0,0", "--target", "0,-0.2,-1", "--size", "32x32", "-o", "a.png"];
+    let told = |scale: &str| {
+        folder.write(
+            "plain.obj",
+            format!("v -{scale} -1 -{scale}\nv {scale} -1 -{scale}\nv 0 -1 {scale}\nf 1 2 3\n"),
+        );
+        let run = surfel(&folder, &words);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        run.stderr.contains("mesh 0: an edge of 2.")
+    };
+    assert!(told("1e7"));
+    assert!(!told("1e3"));
+}

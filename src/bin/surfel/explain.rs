@@ -42,7 +42,7 @@ fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
     if !culled.is_empty() {
         writeln!(text, "passes left out, because nobody reads their results: {}", culled.join(", "))?;
     }
-    for note in &explanation.notes {
+    for note in explanation.beyond_f32.iter().chain(&explanation.floors) {
         writeln!(text, "note: {note}")?;
     }
     writeln!(text, "pipelines: {}", pipelines.len())?;

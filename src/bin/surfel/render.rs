@@ -154,10 +154,11 @@ fn write(
     if let Some(folder) = &picture.dump {
         dump(headless, view)?.write(folder)?;
     }
+    let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
     if arguments.explain {
-        let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
-        console::print(&explain::text(&explanation))?;
+        return console::print(&explain::text(&explanation));
     }
+    explanation.beyond_f32.iter().for_each(|note| console::say(note));
     Ok(())
 }
 

@@ -59,8 +59,8 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
     Ok(())
 }
 
-/// What a frame can't tell apart, or weighs otherwise than asked, in a sentence each.
-pub fn notes(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> Vec<String> {
+/// What f32 can't tell apart in a frame, or has no digits for, in a sentence each.
+pub fn beyond_f32(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> Vec<String> {
     let mut notes = Vec::new();
     let splats = || frame.opaque.splats.iter().chain(&frame.transparent.splats);
     if let Some(depth) = splats().filter_map(depth_without_epsilon).reduce(f64::max) {
@@ -68,11 +68,6 @@ pub fn notes(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> V
             "epsilon is less than a millionth of the depth of what is {depth:.3e} away: surfaces there that are less than a \
              millionth of their distance apart are one"
         ));
-    }
-    let has_floors = |part: &SurfacePlan<'_>| part.splats.iter().any(|draw| draw.half_sums);
-    if has_floors(&frame.opaque) || has_floors(&frame.transparent) {
-        notes.push("sums of 16 bits: a filter leaves each splat a 16th of its weight at least, or the smallest would lose \
-                    their color; --accumulate f32 has no such floor".to_owned());
     }
     for (number, mesh) in scene.meshes.iter().enumerate() {
         let (longest, distance) = (mesh.longest_edge, camera.eye.distance(camera.target));
@@ -90,6 +85,17 @@ pub fn notes(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> V
         }
     }
     notes
+}
+
+/// What 16-bit sums ask of weights, in a sentence.
+pub fn floors(frame: &FramePlan<'_>) -> Option<String> {
+    let has_floors = |part: &SurfacePlan<'_>| part.splats.iter().any(|draw| draw.half_sums);
+    let has_any = has_floors(&frame.opaque) || has_floors(&frame.transparent);
+    has_any.then(|| {
+        "sums of 16 bits: a filter leaves each splat a 16th of its weight at least, or the smallest would lose their color; \
+         --accumulate f32 has no such floor"
+            .to_owned()
+    })
 }
 
 /// The depth, in the world's unit, of the farthest splats of a chunk, if their ε is less than [`LEAST_SHIFT`] of it.
@@ -134,7 +140,8 @@ mod tests {
     fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {
         let limits = Limits::plain();
         let prepared = prepare_without_device(&limits, scene).unwrap();
-        notes(&prepared, &FramePlan::new(&prepared, &camera(1e-3), settings, &limits), &camera(1e-3))
+        let frame = FramePlan::new(&prepared, &camera(1e-3), settings, &limits);
+        beyond_f32(&prepared, &frame, &camera(1e-3)).into_iter().chain(super::floors(&frame)).collect()
     }
 
     #[test]
