@@ -150,8 +150,15 @@ fn what_cannot_be_drawn_is_written_as_it_is() {
         assert_eq!(read.defect(i), splats.defect(i), "{i}");
         assert!(read.color(i)[0].is_nan());
     }
-    let none = disks(Vec::new(), Colors::unknown());
-    assert!(round_trip(&none, true).0.is_empty());
+}
+
+#[test]
+fn a_file_of_no_splats_is_written_and_refused_when_it_is_read() {
+    let folder = temp_dir::TempDir::new().unwrap();
+    let path = folder.path().join("none.ply");
+    save::splats(&path, &disks(Vec::new(), Colors::unknown()), true, &()).unwrap();
+    let refused = load(&path, &LoadOptions::default(), &()).unwrap_err().to_string();
+    assert!(refused.ends_with("file without splats; expected some"), "{refused}");
 }
 
 #[test]
