@@ -50,32 +50,29 @@ impl Packing {
 
     /// What is inside.
     ///
-    /// It is decoded twice, and only counted at first: what expands too far takes no memory, and what is kept takes
-    /// its size, of which a vector that grows holds up to three times as much.
+    /// Its parts are kept by themselves until their size is known: a vector that grows holds up to three times what it is
+    /// given.
     pub fn unpack(self, path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
         let most = limits.expanded(bytes.len(), limits.expansion);
-        let mut size = 0_usize;
+        let (mut parts, mut size) = (Vec::new(), 0_usize);
         self.decode(path, bytes, limits, &mut |part| {
             size = size.saturating_add(part.len());
-            match size as u64 > most {
-                true => {
-                    let (name, compressed) = (self.name(), bytes.len());
-                    let problem = format!(
-                        "{name} of {compressed} bytes expands to more than {most}; unpack it first if you trust it"
-                    );
-                    Err(Error::input(path, "", problem))
-                }
-                false => Ok(()),
+            if size as u64 > most {
+                let (name, compressed) = (self.name(), bytes.len());
+                let problem = format!(
+                    "{name} of {compressed} bytes expands to more than {most}; unpack it first if you trust it"
+                );
+                return Err(Error::input(path, "", problem));
             }
+            parts.push(part.to_vec());
+            Ok(())
         })?;
         let mut unpacked = Vec::new();
         unpacked
             .try_reserve_exact(size)
             .map_err(|_| Error::file(path, "read", io::ErrorKind::OutOfMemory.into()))?;
-        self.decode(path, bytes, limits, &mut |part| {
-            unpacked.extend_from_slice(part);
-            Ok(())
-        })?;
+        // Each is given back as soon as it is copied.
+        parts.into_iter().for_each(|part| unpacked.extend_from_slice(&part));
         Ok(unpacked)
     }
 
@@ -127,7 +124,7 @@ fn zstd(path: &Path, _: &[u8], _: &Limits, _: &mut Take<'_>) -> Result<()> {
 
 #[cfg_attr(
     not(any(feature = "gzip", feature = "zstd")),
-    expect(dead_code, reason = "nothing can be unpacked")
+    allow(dead_code, reason = "nothing can be unpacked")
 )]
 fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Take<'_>) -> Result<()> {
     let mut part = vec![0; PART_BYTES];
@@ -143,7 +140,7 @@ fn each_part(mut stream: impl Read, packing: Packing, path: &Path, take: &mut Ta
 
 #[cfg_attr(
     not(any(feature = "gzip", feature = "zstd")),
-    expect(dead_code, reason = "nothing can be unpacked")
+    allow(dead_code, reason = "nothing can be unpacked")
 )]
 fn damaged(packing: Packing, path: &Path, why: &str) -> Error {
     Error::input(path, "", format!("damaged {}: {why}", packing.name()))
