@@ -1,9 +1,10 @@
 // Marks the splats that may be seen: not those that face away where such are not drawn, nor those outside of the view, told by
 // a sphere around them (inc/list.glsl).
 //
-// Whoever projects a marked splat decides anew, and exactly: what is left out here must be what all of them leave out. Facing is the
-// sign of the same expression as theirs (mapping.glsl), which nothing may contract. So is p_z, and a sum rounds in the order of what is added:
-// p_z + 2 R < near here is p_z + depth radius < near there.
+// Whoever projects a marked splat decides anew, and exactly (mapping.glsl): what is left out here must be what all of them leave out, and
+// what is in doubt is marked. Facing is the sign of n . p, and in doubt where rounding could turn a sum of three products: 3 roundings
+// of 6e-8 and what f32 left of the center, or a product below f32. A sum rounds in the order of what is added: p_z + 2 R < near here is
+// p_z + depth radius < near there, whose unit is a power of two.
 //
 // Outside: all points of a splat are within its radius R of its center, however skew its vectors are (R is the larger singular value of
 // the two). A point p + d is seen (d_x - c_x d_z) / (p_z + d_z) from the center's image c, which is R sqrt(1 + c_x^2) / (p_z - R) at
@@ -19,10 +20,10 @@
 layout(local_size_x = LIST_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint visible_bits[]; };
 
-bool is_outside(vec3 p, float radius, float near)
+bool is_outside(vec3 p, float radius)
 {
     float reach = 2.0 * radius;
-    if (p.z + reach < near) {
+    if (p.z + reach < frame.near) {
         return true;
     }
     if (!(reach <= 0.25 * p.z)) {
@@ -37,23 +38,20 @@ bool is_outside(vec3 p, float radius, float near)
     return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
 }
 
-// Exactly where rounding could turn a sum of three products: 3 roundings of 6e-8 and what f32 left of the center, or a product below
-// f32. A loop of one turn at most: of a condition CPU drivers compute both sides.
-bool faces_away(Splat splat)
+bool faces_away(vec3 n, vec3 from_eye)
 {
-    vec3 parts = splat.n * splat.from_eye.high;
-    float facing = parts.x + parts.y + parts.z;
+    vec3 parts = n * from_eye;
     float doubt = 1e-6 * (abs(parts.x) + abs(parts.y) + abs(parts.z)) + 1e-36;
-    for (bool in_doubt = !(abs(facing) > doubt); in_doubt; in_doubt = false) {
-        facing = normal_dot_center(splat);
-    }
-    return facing > 0.0;
+    return parts.x + parts.y + parts.z > doubt;
 }
 
 bool may_be_seen(uint index)
 {
-    Splat splat = load_splat(index);
-    return !(CULL_BACKFACES && faces_away(splat)) && !is_outside(splat.p, splat.radius, frame.near * splat.unit);
+    Stored stored = load_stored(index);
+    FromEye d = from_eye(stored.position_radius.xyz, stored.position_low);
+    vec3 p = center_of(stored.position_radius.xyz, d);
+    float radius = frame.view_from_local_scale * stored.position_radius.w;
+    return !(CULL_BACKFACES && faces_away(normal_of(stored), d.high)) && !is_outside(p, radius);
 }
 
 void main()

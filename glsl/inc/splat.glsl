@@ -143,71 +143,78 @@ float normal_dot_center(Splat splat)
     return exact_dot(splat.n, splat.unit * splat.from_eye.high, splat.unit * splat.from_eye.low);
 }
 
-Splat load_ellipse(uint index)
-{
-    uint first = SHAPE_VECTORS * index;
-    vec4 position_radius = shapes[first];
-    vec3 s = shapes[first + 1].xyz;
-    vec3 t = shapes[first + 2].xyz;
-    FromEye d = from_eye(position_radius.xyz, FINE ? shapes[first + 3].xyz : vec3(0.0));
-    Splat splat;
-    splat.p = center_of(position_radius.xyz, d);
-    splat.radius = frame.view_from_local_scale * position_radius.w;
-    splat.unit = unit_of(max(largest(splat.p), splat.radius));
-    float scale = splat.unit * frame.view_from_local_scale;
-    // About 1 long each, so that their product has a direction whatever their lengths.
-    vec2 units = vec2(unit_of(largest(s)), unit_of(largest(t)));
-    vec3 n = exact_cross(units.x * s, units.y * t);
-    splat.from_eye = d;
-    splat.n = n;
-    splat.area = (scale / units.x) * (scale / units.y);
-    splat.normal = rotated(safe_normalize(n));
-    splat.s = scale * FORMULA(FORMULA_TANGENT_FRAME, rotated(s));
-    splat.t = scale * rotated(t);
-    splat.p *= splat.unit;
-    splat.radius *= splat.unit;
-    return splat;
-}
-
-Splat load_disk(uint index)
-{
+// A splat as it lies in memory.
+struct Stored {
     vec4 position_radius;
-    vec3 n_local;
-    vec3 low = vec3(0.0);
+    vec3 position_low;
+    vec3 s; // of a disk its normal
+    vec3 t;
+};
+
+Stored load_stored(uint index)
+{
     if (PACKED) {
         uvec4 words = packed_shapes[index];
-        position_radius = vec4(unpacked_coordinate(words.x), unpacked_coordinate(words.y),
-            unpacked_coordinate(words.z), unpacked_radius(words.xyz));
-        n_local = unpacked_normal(words.w);
-    } else {
-        uint first = SHAPE_VECTORS * index;
-        position_radius = shapes[first];
-        n_local = shapes[first + 1].xyz;
-        low = FINE ? shapes[first + 2].xyz : vec3(0.0);
+        vec3 position = vec3(unpacked_coordinate(words.x), unpacked_coordinate(words.y), unpacked_coordinate(words.z));
+        return Stored(vec4(position, unpacked_radius(words.xyz)), vec3(0.0), unpacked_normal(words.w), vec3(0.0));
     }
-    FromEye d = from_eye(position_radius.xyz, low);
-    Splat splat;
-    splat.p = center_of(position_radius.xyz, d);
-    splat.radius = frame.view_from_local_scale * position_radius.w;
-    splat.unit = unit_of(max(largest(splat.p), splat.radius));
-    splat.p *= splat.unit;
-    splat.radius *= splat.unit;
-    vec3 n = rotated(n_local);
+    uint first = SHAPE_VECTORS * index;
+    vec3 low = FINE ? shapes[first + SHAPE_VECTORS - 1].xyz : vec3(0.0);
+    return Stored(shapes[first], low, shapes[first + 1].xyz, ELLIPSES ? shapes[first + 2].xyz : vec3(0.0));
+}
+
+// Of an ellipse's tangent vectors, that make them about 1 long, so that their product has a direction whatever their lengths.
+vec2 units_of_tangents(Stored stored)
+{
+    return vec2(unit_of(largest(stored.s)), unit_of(largest(stored.t)));
+}
+
+// About 1 long.
+vec3 normal_of(Stored stored)
+{
+    vec2 units = units_of_tangents(stored);
+    return ELLIPSES ? exact_cross(units.x * stored.s, units.y * stored.t) : stored.s;
+}
+
+void set_ellipse(inout Splat splat, Stored stored)
+{
+    float scale = splat.unit * frame.view_from_local_scale;
+    vec2 units = units_of_tangents(stored);
+    splat.area = (scale / units.x) * (scale / units.y);
+    splat.normal = rotated(safe_normalize(splat.n));
+    splat.s = scale * FORMULA(FORMULA_TANGENT_FRAME, rotated(stored.s));
+    splat.t = scale * rotated(stored.t);
+}
+
+void set_disk(inout Splat splat)
+{
+    vec3 n = rotated(splat.n);
     float side = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (side + n.z);
     float b = n.x * n.y * a;
     splat.s = splat.radius * FORMULA(FORMULA_TANGENT_FRAME, vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x));
     splat.t = splat.radius * vec3(b, side + n.y * n.y * a, -n.y);
     splat.normal = n;
-    splat.from_eye = d;
-    splat.n = n_local;
     splat.area = splat.radius * splat.radius;
-    return splat;
 }
 
 Splat load_splat(uint index)
 {
-    return ELLIPSES ? load_ellipse(index) : load_disk(index);
+    Stored stored = load_stored(index);
+    Splat splat;
+    splat.from_eye = from_eye(stored.position_radius.xyz, stored.position_low);
+    splat.p = center_of(stored.position_radius.xyz, splat.from_eye);
+    splat.radius = frame.view_from_local_scale * stored.position_radius.w;
+    splat.unit = unit_of(max(largest(splat.p), splat.radius));
+    splat.p *= splat.unit;
+    splat.radius *= splat.unit;
+    splat.n = normal_of(stored);
+    if (ELLIPSES) {
+        set_ellipse(splat, stored);
+    } else {
+        set_disk(splat);
+    }
+    return splat;
 }
 
 // Where each splat has its own color: one for all is never packed.
