@@ -11,7 +11,7 @@ use super::{
 use crate::{
     error::Result,
     geometry::{
-        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Suited, fitting_splats, shaded_mesh,
+        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Suited, creased_mesh, fitting_splats,
         splats_from_mesh,
     },
     load::{ObjectDescription, Representation, Samples},
@@ -92,12 +92,12 @@ fn splats_at_vertices(mesh: &Mesh, name: String, progress: &dyn Progress) -> (Ob
 fn at_vertices(mesh: &Mesh, name: String, (splats, report): (Splats, MeshReport)) -> (Object, InputReport) {
     let head = format!("{}; {}", mesh_head(counts(mesh), &report), radii_computed(&report, splats.len()));
     let (object, told) = finish(Object { name, splats, closed: report.closed }, head, Some(counts(mesh)));
-    (object, with_notes(told, mesh, &report))
+    (object, with_notes(told, mesh.positions.len(), &report))
 }
 
 /// With what was done with the mesh before its splats were looked at.
-fn with_notes(mut told: InputReport, mesh: &Mesh, report: &MeshReport) -> InputReport {
-    let mut notes = report.notes(mesh.positions.len());
+fn with_notes(mut told: InputReport, vertices: usize, report: &MeshReport) -> InputReport {
+    let mut notes = report.notes(vertices);
     notes.append(&mut told.notes);
     InputReport { notes, ..told }
 }
@@ -115,16 +115,16 @@ pub fn resampled(
     let (splats, report) = geometry::resample(mesh, samples.count, samples.seed, progress)?;
     let head = format!("{}; resampled with seed {}", mesh_head(counts(mesh), &report), samples.seed);
     let (object, told) = finish(Object { name, splats, closed: report.closed }, head, Some(counts(mesh)));
-    Ok((object, with_notes(told, mesh, &report)))
+    Ok((object, with_notes(told, mesh.positions.len(), &report)))
 }
 
 /// `why` goes on from what it is drawn as.
 fn triangles(mesh: Mesh, name: String, why: &str) -> Parts {
     let counts = counts(&mesh);
-    let (mesh, report) = shaded_mesh(mesh);
+    let (mesh, report) = creased_mesh(mesh);
     let head = format!("{}; {}", mesh_head(counts, &report), normals_computed(&report, counts[0]));
     let object = MeshObject { name, mesh, closed: report.closed };
-    let report = with_notes(finish_triangles(&object, &head, counts, why), &object.mesh, &report);
+    let report = with_notes(finish_triangles(&object, &head, counts, why), counts[0], &report);
     Parts { splats: None, triangles: Some(object), report }
 }
 
@@ -140,7 +140,7 @@ fn both(
         geometry::hybrid(mesh, &stays_polygon, options, progress)?;
     let head = format!("{}; {}", mesh_head(counts(mesh), &report.mesh), split_into(&report, splats.len()));
     let (object, told) = finish(Object { name: name.clone(), splats, closed }, head, Some(counts(mesh)));
-    let mut report = with_notes(told, mesh, &report.mesh);
+    let mut report = with_notes(told, mesh.positions.len(), &report.mesh);
     report.drawn_as = "splats and triangles";
     let triangles = MeshObject { name, mesh: polygons, closed };
     // A part may have everything.

@@ -1,6 +1,7 @@
 //! CPU preparation: what turns other models into splats.
 
 mod cloud;
+mod creases;
 mod fitness;
 mod hybrid;
 mod mesh_splats;
@@ -21,7 +22,7 @@ pub use hybrid::{EDGE_SPACING, Hybrid, HybridOptions, HybridReport, hybrid};
 pub use mesh_splats::{DEFAULT_OVERLAP, fitting_splats, splats_from_mesh};
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};
 pub use seams::{Seam, seams};
-pub use shaded_mesh::shaded_mesh;
+pub use shaded_mesh::{creased_mesh, shaded_mesh};
 pub use spacing::{mean_edge, mean_spacing};
 pub use surface::MeshReport;
 pub use up::{FoundUp, up_of_shape};

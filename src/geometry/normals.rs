@@ -25,12 +25,8 @@ pub(super) fn vertex_normals(mesh: &Mesh) -> VertexNormals {
             degenerate_faces += 1;
             continue;
         };
-        let [ab, bc, ca] = [p[1] - p[0], p[2] - p[1], p[0] - p[2]];
-        let doubled_area_normal = ab.cross(-ca);
-        let doubled_area = doubled_area_normal.length();
-        let normal = doubled_area_normal / doubled_area;
-        let angle = |to_next: DVec3, to_last: DVec3| doubled_area.atan2(to_next.dot(to_last));
-        for (vertex, angle) in triangle.into_iter().zip([angle(ab, -ca), angle(bc, -ab), angle(ca, -bc)]) {
+        let (normal, angles) = corner_angles(p);
+        for (vertex, angle) in triangle.into_iter().zip(angles) {
             normals[vertex as usize] += angle * normal;
             used[vertex as usize] = true;
         }
@@ -40,4 +36,13 @@ pub(super) fn vertex_normals(mesh: &Mesh) -> VertexNormals {
         *normal = if normal.length() > 1e-12 { normal.normalize() } else { DVec3::ZERO };
     }
     VertexNormals { normals, used, degenerate_faces }
+}
+
+/// A triangle's unit normal, and its angles in radians. It has an area.
+pub(super) fn corner_angles(p: [DVec3; 3]) -> (DVec3, [f64; 3]) {
+    let [ab, bc, ca] = [p[1] - p[0], p[2] - p[1], p[0] - p[2]];
+    let doubled_area_normal = ab.cross(-ca);
+    let doubled_area = doubled_area_normal.length();
+    let angle = |to_next: DVec3, to_last: DVec3| doubled_area.atan2(to_next.dot(to_last));
+    (doubled_area_normal / doubled_area, [angle(ab, -ca), angle(bc, -ab), angle(ca, -bc)])
 }

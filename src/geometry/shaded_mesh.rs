@@ -1,10 +1,12 @@
 //! A mesh becomes one that can be shaded: normals at its vertices, on the side from which it is seen.
 
 use super::{
+    creases,
     normals::vertex_normals,
     surface::{MeshReport, Surface},
 };
 use crate::scene::Mesh;
+use glam::Vec3;
 
 /// The mesh with a normal at each vertex: the file's where it has usable ones, else the mean of the faces weighted by
 /// angle; unit, or zero where the faces cancel or there is none. They are on the side from which the faces are
@@ -31,10 +33,22 @@ pub fn shaded_mesh(mut mesh: Mesh) -> (Mesh, MeshReport) {
     (mesh, report)
 }
 
+/// [`shaded_mesh`], cut apart at its creases (`creases.rs`): vertices where faces meet at an angle become several, at the end of
+/// the list. What has the file's normal stays.
+pub fn creased_mesh(mesh: Mesh) -> (Mesh, MeshReport) {
+    let usable = |normal: &Vec3| normal.as_dvec3().try_normalize().is_some();
+    let of_file = mesh.normals.as_ref().filter(|normals| normals.len() == mesh.positions.len());
+    let fixed = of_file
+        .map_or_else(|| vec![false; mesh.positions.len()], |normals| normals.iter().map(usable).collect());
+    let (mut mesh, report) = shaded_mesh(mesh);
+    creases::split(&mut mesh, &fixed);
+    (mesh, report)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{DVec3, Vec3};
+    use glam::DVec3;
 
     #[test]
     fn normals_are_on_the_side_of_the_faces_and_what_has_no_area_is_gone() {
