@@ -10,6 +10,7 @@ mod figure;
 mod files;
 mod formats;
 mod growth;
+mod hard_files;
 mod inputs;
 mod outputs;
 mod program;

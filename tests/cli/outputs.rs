@@ -74,11 +74,24 @@ fn writing(folder: &Folder) -> Option<Child> {
     Some(child)
 }
 
+/// Whether whoever started the tests ignores a signal, as shells do with SIGINT for what they run in the background; the
+/// program then ignores it, too.
+fn is_ignored(signal: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
 #[test]
 fn signals_leave_nothing_half_written() {
     let folder = Folder::new();
     large(&folder);
     for (name, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        if is_ignored(number as u32) {
+            eprintln!("SIG{name} is ignored here: not tried");
+            continue;
+        }
         // On a machine that is fast, or busy with others, a run may end before the signal comes.
         let stopped = (0..20).any(|_| {
             let _ = fs::remove_file(folder.path("out.ply"));

@@ -18,26 +18,30 @@
 //! | N14 pixels covered by rims alone | `numbers.rs` |
 //! | N15 ε: parallel sheets | `depth.rs`; below a step of f32: `range.rs` |
 //! | N16 depth of a tilted splat | `depth.rs` |
-//! | N17 equal depths in peeling | cannot occur: layers are not peeled |
+//! | N17 equal depths in peeling | the self-test: "coincident transparent sheets"; the proof: `glsl/inc/peel.glsl` |
 //! | N18 order and repetition | `large.rs` |
 //! | N19 orthographic camera | cannot occur: the camera is a pinhole |
 //! | N20 radius 0, negative, infinite; needles | `shape.rs`; dropped radii: `numbers.rs`, N12 |
 //! | N21 culling by center | cannot occur: only whole splats behind the near plane are left out; N5 would see it |
 //! | N22 large targets | `large.rs` |
 //! | N23 counts beyond 32 bits | arithmetic, in `src/prepare/chunk.rs`: a chunk has at most 2²² splats |
-//! | N24 mirrored transforms | cannot occur: objects have no transform; slanted and left-handed tangents: `shape.rs` |
+//! | N24 mirrored transforms | in f64 before drawing: `src/scene/transform/tests.rs`; slanted and left-handed tangents: `shape.rs` |
 //! | N25 extreme fields of view | `shape.rs` |
 //! | N26 denormals | `numbers.rs` |
 //! | N27 other devices' last bits | tolerances are those of f32, byte equality is asked only of one device |
 //! | N28 thin walls | `oracle.rs`: back faces; N15 |
 //! | N29 image edges | `large.rs` |
 //! | N30 attributes at the ends of their range | `numbers.rs` |
+//! | triangles seen exactly edge-on | `triangles.rs` |
+//!
+//! What files bring of N9 to N12, N20 and N30 is in `tests/cli/hard_files.rs`.
 
 mod depth;
 mod large;
 mod numbers;
 mod range;
 mod shape;
+mod triangles;
 
 use crate::common::{
     builder::{Builder, camera, settings},

@@ -55,22 +55,24 @@ impl fmt::Display for CloudReport {
             _ => "radii",
         };
         let neighbors = if self.noisy { MOST_NEIGHBORS } else { NEIGHBORS };
-        write!(f, "{} points: {found} found from {neighbors} neighbors each", self.points)?;
+        let number =
+            |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+        write!(
+            f,
+            "{}: {found} found from {neighbors} neighbors each",
+            number(self.points, "point", "points")
+        )?;
         let parts = [
-            (self.duplicates, "merged", "duplicate"),
-            (self.isolated, "left out", "isolated point"),
-            (self.not_finite, "left out", "point not finite"),
-            (self.limited, "limited", "radius"),
+            (self.duplicates, "duplicate", "duplicates", "merged"),
+            (self.isolated, "isolated point", "isolated points", "left out"),
+            (self.not_finite, "point not finite", "points not finite", "left out"),
+            (self.limited, "radius", "radii", "limited"),
         ];
-        for (i, (count, done, what)) in parts.into_iter().filter(|part| part.0 > 0).enumerate() {
-            let separator = if i == 0 { ';' } else { ',' };
-            let what = if count == 1 { what.to_owned() } else { what.replace("point", "points") };
-            let what = match what.as_str() {
-                "duplicate" if count > 1 => "duplicates".to_owned(),
-                "radius" if count > 1 => "radii".to_owned(),
-                _ => what,
-            };
-            write!(f, "{separator} {count} {what} {done}")?;
+        let told = parts.into_iter().filter(|part| part.0 > 0);
+        let told: Vec<_> =
+            told.map(|(count, one, many, done)| format!("{} {done}", number(count, one, many))).collect();
+        if !told.is_empty() {
+            write!(f, "; {}", told.join(", "))?;
         }
         Ok(())
     }

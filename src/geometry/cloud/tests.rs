@@ -1,5 +1,7 @@
 mod surfaces;
 
+use std::path::Path;
+
 use glam::{DVec3, Vec3};
 
 use super::{CloudReport, splats_from_points};
@@ -141,12 +143,23 @@ fn surfaces_are_oriented_and_closed() {
     }
 }
 
+/// The points and their true normals, six numbers a row, for other programs (benches/README.md).
+fn write(folder: &Path, case: &Case, count: usize) {
+    let rows = case.samples.iter().map(|(p, n)| format!("{} {} {} {} {} {}\n", p.x, p.y, p.z, n.x, n.y, n.z));
+    let file = folder.join(format!("{} {count}.xyz", case.name));
+    std::fs::write(file, rows.collect::<String>()).expect("a folder that can be written to");
+}
+
 #[test]
 #[ignore = "a minute of work; prints figures"]
 fn large_surfaces_are_oriented_and_closed() {
-    for count in [100_000, 1_000_000] {
+    let folder = std::env::var_os("SURFEL_CLOUDS");
+    for count in [10_000, 100_000, 1_000_000] {
         println!("{count} points");
         for case in cases(count) {
+            if let Some(folder) = &folder {
+                write(Path::new(folder), &case, count);
+            }
             check(&case);
         }
     }
