@@ -1,8 +1,8 @@
 //! How coarse a cloud must be looked at so that its noise is small against what is looked at.
 //!
 //! Where the 12 nearest neighbors of most points are as thick as wide, planes through them mean nothing. Planes are then fitted
-//! to the 48 nearest of all points, of every 4th or of every 16th: the first of these in which most are flat. That is as many
-//! points a plane at any coarseness, and so the same time.
+//! to the 48 nearest of all points, of every 4th, of every 16th and so on: the first of these in which most are flat. That is as
+//! many points a plane at any coarseness, and so the same time. A million points of a ball with 1% noise need every 64th.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use super::plane::{FLAT, MOST_NEIGHBORS, NEIGHBORS, Plane};
 use crate::geometry::neighbors::{Point, Tree};
 
 /// Every so manieth point is in a coarser tree, in the order of the finer one, in which neighbors lie near each other.
-const STRIDES: [usize; 3] = [1, 4, 16];
+const STRIDES: [usize; 5] = [1, 4, 16, 64, 256];
 
 /// So many points tell of all.
 const SAMPLES: usize = 500;
