@@ -189,7 +189,7 @@ impl Read {
                 normals,
                 radii: None,
                 colors,
-                viewpoint: None,
+                viewpoints: Vec::new(),
             }),
             false => {
                 Model::Mesh(Mesh { positions: self.positions, normals, colors, triangles: self.triangles })

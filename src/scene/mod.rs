@@ -36,7 +36,7 @@ pub use opacity::Opacity;
 #[cfg(feature = "files")]
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
-pub use points::Points;
+pub use points::{Points, Viewpoint};
 pub use settings::{Settings, with_each};
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};

@@ -15,6 +15,23 @@ pub struct Points {
     pub radii: Option<Vec<f32>>,
     /// Colors of the points; [`Colors::unknown`] where the file has none.
     pub colors: Colors,
-    /// The place from which all of them were seen, where the file tells one.
-    pub viewpoint: Option<DVec3>,
+    /// The places from which they were seen, in their order, where the file tells all of them: the last one's `end` is the number
+    /// of points. Empty where it does not.
+    pub viewpoints: Vec<Viewpoint>,
+}
+
+/// A place from which points were seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// One more than the number of its last point; its first is the `end` of the viewpoint before.
+    pub end: usize,
+    /// Where the scanner stood, in world space.
+    pub place: DVec3,
+}
+
+impl Viewpoint {
+    /// One place for so many points; none where it is not known.
+    pub fn of_all(count: usize, place: Option<DVec3>) -> Vec<Self> {
+        place.map(|place| Self { end: count, place }).into_iter().collect()
+    }
 }

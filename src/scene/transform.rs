@@ -71,7 +71,9 @@ impl Points {
     #[must_use]
     pub fn transformed(mut self, world_from_object: &DAffine3) -> Self {
         let linear = Linear::of(&world_from_object.matrix3);
-        for position in self.positions.iter_mut().chain(&mut self.viewpoint) {
+        for position in
+            self.positions.iter_mut().chain(self.viewpoints.iter_mut().map(|view| &mut view.place))
+        {
             *position = world_from_object.transform_point3(*position);
         }
         for normal in self.normals.iter_mut().flatten() {

@@ -21,8 +21,8 @@ pub struct PictureArguments {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
-    /// Also write weight, albedo, normal and depth of the opaque splats' surface, and the final picture, as .exr into this
-    /// folder, linear 32-bit floats
+    /// Also write weight (the sum), albedo (linear color), normal (view space: x right, y down, z forward) and depth (along
+    /// z, in the files' unit) of the opaque splats' surface, and the final picture, as .exr into this folder, 32-bit floats
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
 

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::scene::{Colors, Points};
+use crate::scene::{Colors, Points, Viewpoint};
 
 /// What was left of the points.
 pub(super) struct Merged {
@@ -38,6 +38,11 @@ pub(super) fn merge(points: Points) -> Merged {
         let sum: f64 = group.iter().map(|&i| f64::from(radii[i as usize])).sum();
         (sum / group.len() as f64) as f32
     };
+    // Groups are in the order of their first points.
+    let ends =
+        points.viewpoints.iter().map(|view| groups.partition_point(|group| (group[0] as usize) < view.end));
+    let viewpoints =
+        points.viewpoints.iter().zip(ends).map(|(view, end)| Viewpoint { end, ..*view }).collect();
     let merged = Points {
         positions: groups.iter().map(|group| position(&group[0])).collect(),
         normals: points.normals.as_ref().map(|n| groups.iter().map(|group| sum_normal(n, group)).collect()),
@@ -46,7 +51,7 @@ pub(super) fn merge(points: Points) -> Merged {
             Colors::Uniform(color) => Colors::Uniform(*color),
             Colors::Each(colors) => Colors::Each(groups.iter().map(|group| mean(colors, group)).collect()),
         },
-        viewpoint: points.viewpoint,
+        viewpoints,
     };
     Merged { points: merged, duplicates, not_finite }
 }
@@ -78,11 +83,13 @@ mod tests {
             normals: Some(vec![Vec3::X, Vec3::Z, Vec3::Z, 3.0 * Vec3::Y, Vec3::Z, Vec3::Z]),
             radii: None,
             colors: Colors::Each([0.0, 1.0, 0.5, 0.5, 1.0, 0.25].map(|v| [v; 4]).into()),
-            viewpoint: None,
+            viewpoints: vec![Viewpoint { end: 4, place: DVec3::X }, Viewpoint { end: 6, place: DVec3::Y }],
         };
         let merged = merge(points);
         assert_eq!((merged.duplicates, merged.not_finite), (2, 1));
         assert_eq!(merged.points.positions, [DVec3::X, DVec3::ZERO, DVec3::Y]);
+        let ends: Vec<usize> = merged.points.viewpoints.iter().map(|view| view.end).collect();
+        assert_eq!(ends, [2, 3]);
         assert_eq!(merged.points.normals.unwrap()[0], Vec3::new(1.0, 1.0, 0.0));
         let Colors::Each(colors) = merged.points.colors else { panic!("one color") };
         assert_eq!(colors, [[0.25; 4], [1.0; 4], [0.25; 4]]);

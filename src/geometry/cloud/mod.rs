@@ -190,10 +190,13 @@ impl Cloud {
 
     /// The sides of normals that are not the file's.
     fn choose_sides(&mut self, points: &Points, given: &[bool], report: &CloudReport) {
-        if let Some(viewpoint) = points.viewpoint {
+        if !points.viewpoints.is_empty() {
             let origin = points.positions.first().copied().unwrap_or_default();
+            let views = &points.viewpoints;
             for (place, point) in self.tree.points().iter().enumerate() {
-                let toward = viewpoint - origin - point.position;
+                let view =
+                    views.partition_point(|view| view.end <= point.number as usize).min(views.len() - 1);
+                let toward = views[view].place - origin - point.position;
                 if !given[place] && self.normals[place].dot(toward) < 0.0 {
                     self.normals[place] = -self.normals[place];
                 }

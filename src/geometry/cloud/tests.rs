@@ -8,7 +8,7 @@ use super::{CloudReport, splats_from_points};
 use crate::{
     geometry::neighbors::{Point, Tree},
     math::random::SplitMix,
-    scene::{Points, Shapes, Splats},
+    scene::{Points, Shapes, Splats, Viewpoint},
 };
 use surfaces::{Sample, Surfaces};
 
@@ -268,9 +268,18 @@ fn normals_face_the_viewpoint_where_there_is_one() {
     let mut s = Surfaces(SplitMix(8));
     // From inside.
     let samples = s.many(3000, Surfaces::sphere);
-    let inside = Points { viewpoint: Some(0.2 * DVec3::X), ..points(samples.iter().map(|s| s.0)) };
+    let viewpoints = Viewpoint::of_all(3000, Some(0.2 * DVec3::X));
+    let inside = Points { viewpoints, ..points(samples.iter().map(|s| s.0)) };
     let (splats, _) = splats_from_points(inside, &());
     assert_eq!(errors(&splats, &samples).1, 3000);
+    // A sheet, the first third of which is seen from above and the rest from below; some are there twice.
+    let at = |i: usize| DVec3::new((i % 60) as f64, (i / 60 % 49) as f64, 0.0);
+    let viewpoints = [(1000, 5.0), (3000, -5.0)]
+        .map(|(end, z)| Viewpoint { end, place: DVec3::new(500_000.0, 4_000_000.0, z) });
+    let sheet = points((0..3000).map(|i| at(i) + DVec3::new(500_000.0, 4_000_000.0, 0.0)));
+    let (splats, report) = splats_from_points(Points { viewpoints: viewpoints.into(), ..sheet }, &());
+    assert_eq!(report.duplicates, 60);
+    assert!(disks(&splats).0.iter().enumerate().all(|(i, n)| (n.z > 0.0) == (i < 1000)));
 }
 
 #[test]

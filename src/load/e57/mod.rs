@@ -13,7 +13,7 @@ use super::{Input, Loaded, Model, shade};
 use crate::{
     error::Result,
     notes::Deed,
-    scene::{Colors, Points, UNKNOWN_SRGB},
+    scene::{Colors, Points, UNKNOWN_SRGB, Viewpoint},
 };
 
 /// How many points are read between two steps of progress.
@@ -40,6 +40,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     check::sizes(input, &clouds)?;
     let mut scans = Scans::default();
     let mut ignored = Vec::new();
+    let mut viewpoints = Vec::new();
     for (i, cloud) in clouds.iter().enumerate() {
         let fault = |e: e57::Error| input.fault(format!("scan {i}"), one_line(&e));
         let reader = reader.pointcloud_simple(cloud).map_err(fault)?;
@@ -52,14 +53,18 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
                 input.step(before + share as usize);
             }
         }
+        viewpoints.extend(viewpoint(cloud).map(|place| Viewpoint { end: scans.positions.len(), place }));
         ignored.extend(unread(cloud).filter(|name| !ignored.contains(name)).collect::<Vec<_>>());
     }
     input.step(input.bytes.len());
+    if viewpoints.len() < clouds.len() {
+        viewpoints.clear();
+    }
     let format = match clouds.len() {
         1 => "E57, 1 scan".to_owned(),
         scans => format!("E57, {scans} scans"),
     };
-    let mut loaded = Loaded::new(Model::Points(scans.points(viewpoint(&clouds))), format);
+    let mut loaded = Loaded::new(Model::Points(scans.points(viewpoints)), format);
     loaded.up = Some(DVec3::Z);
     loaded.metres_per_unit = Some(1.0);
     loaded.note(Deed::Dropped, scans.invalid, "points that are marked as invalid");
@@ -82,25 +87,21 @@ impl Scans {
     }
 
     /// What was read, which is taken out.
-    fn points(&mut self, viewpoint: Option<DVec3>) -> Points {
+    fn points(&mut self, viewpoints: Vec<Viewpoint>) -> Points {
         let srgb = std::mem::take(&mut self.colors);
         let colors = match self.has_colors {
             true => Colors::Each(shade::from_srgb(&srgb, 1.0).0),
             false => Colors::unknown(),
         };
         let positions = std::mem::take(&mut self.positions);
-        Points { positions, normals: None, radii: None, colors, viewpoint }
+        Points { positions, normals: None, radii: None, colors, viewpoints }
     }
 }
 
-/// Where the scanner stood, if it was one place for all scans: the origin of their own coordinates.
-fn viewpoint(clouds: &[PointCloud]) -> Option<DVec3> {
-    let place = |cloud: &PointCloud| {
-        let place = &cloud.transform.as_ref()?.translation;
-        Some(DVec3::new(place.x, place.y, place.z)).filter(|place| place.is_finite())
-    };
-    let first = place(clouds.first()?)?;
-    clouds.iter().all(|cloud| place(cloud) == Some(first)).then_some(first)
+/// Where the scanner stood: the origin of the scan's own coordinates, if it has any.
+fn viewpoint(cloud: &PointCloud) -> Option<DVec3> {
+    let place = &cloud.transform.as_ref()?.translation;
+    Some(DVec3::new(place.x, place.y, place.z)).filter(|place| place.is_finite())
 }
 
 /// Fields of extensions, which may be normals or names of objects.

@@ -102,14 +102,16 @@ fn scans_are_joined_in_their_poses() {
     let color = points.colors.get(0).unwrap();
     assert!(color.iter().zip([1.0, 0.0, linear_from_srgb(0.2), 1.0]).all(|(a, b)| (a - b).abs() < 1e-6));
     assert_eq!(points.colors.get(2), Some([1.0; 4]));
-    assert_eq!(points.viewpoint, None);
+    assert_eq!(points.viewpoints, [], "where one scan has no pose");
 }
 
 #[test]
 fn the_scanner_stood_at_the_origin_of_its_scans() {
-    let place = Some(DVec3::new(500_000.0, 4_600_000.0, 300.0));
-    for bytes in [file(1, None), file(2, Some(pose()))] {
-        assert_eq!(points(&of_bytes("a.e57", &bytes, parse).unwrap()).viewpoint, place);
+    let first = Viewpoint { end: 2, place: DVec3::new(500_000.0, 4_600_000.0, 300.0) };
+    let other = Transform { translation: Translation { x: 1.0, y: 2.0, z: 3.0 }, ..pose() };
+    let second = Viewpoint { end: 3, place: DVec3::new(1.0, 2.0, 3.0) };
+    for (bytes, places) in [(file(1, None), vec![first]), (file(2, Some(other)), vec![first, second])] {
+        assert_eq!(points(&of_bytes("a.e57", &bytes, parse).unwrap()).viewpoints, places);
     }
 }
 

@@ -158,7 +158,7 @@ impl<'a> Surface<'a> {
                         }
                         uniform => uniform,
                     },
-                    viewpoint: None,
+                    viewpoints: Vec::new(),
                 })
             }
             false => {

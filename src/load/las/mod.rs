@@ -76,7 +76,8 @@ fn uncompressed<'a>(input: &Input<'a>, header: &Header) -> Result<Vec<Chunk<'a>>
 
 fn loaded(columns: Columns, header: &Header) -> Loaded {
     let (colors, words) = colors(&columns);
-    let points = Points { positions: columns.positions, normals: None, radii: None, colors, viewpoint: None };
+    let points =
+        Points { positions: columns.positions, normals: None, radii: None, colors, viewpoints: Vec::new() };
     let mut loaded = Loaded::new(Model::Points(points), format!("{}{words}", header.words));
     loaded.up = Some(DVec3::Z);
     loaded.note(Deed::Dropped, columns.noise, "points of the classes for noise (7 and 18)");

@@ -11,7 +11,7 @@ use super::{Input, Loaded, Model, shade};
 use crate::{
     error::Result,
     notes::Deed,
-    scene::{Colors, Points},
+    scene::{Colors, Points, Viewpoint},
 };
 use header::{Encoding, Field, Header, Kind};
 
@@ -81,13 +81,9 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
         (false, true) => (Colors::Each(shade::gray(&grays)), 0),
         (false, false) => (Colors::unknown(), 0),
     };
-    let points = Points {
-        positions,
-        normals: has_normals.then_some(normals),
-        radii: None,
-        colors,
-        viewpoint: header.viewpoint,
-    };
+    let viewpoints = Viewpoint::of_all(positions.len(), header.viewpoint);
+    let points =
+        Points { positions, normals: has_normals.then_some(normals), radii: None, colors, viewpoints };
     let used = |field: &Field| wanted.iter().flatten().any(|used| used.index == field.index);
     let ignored: Vec<&str> = header
         .fields

@@ -73,7 +73,8 @@ fn all_encodings_are_the_same_points() {
         assert_eq!(points.normals, Some(vec![2.0 * Vec3::Z, Vec3::X]));
         let Colors::Each(colors) = points.colors else { panic!("colors") };
         assert_eq!(colors, [[1.0, 0.0, linear_from_srgb(0.2), 1.0], [0.0, 1.0, 0.0, 1.0]], "{words}");
-        assert_eq!(points.viewpoint, Some(DVec3::new(1.0, 2.0, 3.0)));
+        let place = DVec3::new(1.0, 2.0, 3.0);
+        assert_eq!(points.viewpoints, Viewpoint::of_all(points.positions.len(), Some(place)));
     }
 }
 
@@ -87,7 +88,7 @@ fn channels_intensities_and_whole_numbers_are_read() {
         };
         assert_eq!(points.positions, [DVec3::new(-1.0, 2.0, 3.0)]);
         assert_eq!(points.colors.get(0), Some([1.0, 0.0, linear_from_srgb(0.2), 1.0]));
-        assert!(points.viewpoint.is_none() && points.normals.is_none());
+        assert!(points.viewpoints.is_empty() && points.normals.is_none());
     }
     let gray =
         "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nPOINTS 2\nDATA ascii\nnan 0 0 1\n0 0 0 2\n";

@@ -21,7 +21,7 @@ use super::{Input, Loaded, Model};
 use crate::{
     error::Result,
     notes::Deed,
-    scene::{Colors, Mesh, Points, Shapes, Splats},
+    scene::{Colors, Mesh, Points, Shapes, Splats, Viewpoint},
 };
 use body::Body;
 use faces::{Triangles, corners};
@@ -149,7 +149,8 @@ fn splats_or_points(read: Read, closed: bool, format: String) -> (Loaded, u64) {
         (Some((s, t)), ..) => Shapes::Ellipses { s, t },
         (None, Some(normals), Some(radii)) => Shapes::Disks { normals, radii },
         (None, normals, radii) => {
-            let points = Points { positions, normals, radii, colors, viewpoint: read.viewpoint };
+            let viewpoints = Viewpoint::of_all(positions.len(), read.viewpoint);
+            let points = Points { positions, normals, radii, colors, viewpoints };
             return (Loaded::new(Model::Points(points), format), beyond);
         }
     };

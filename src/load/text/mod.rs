@@ -49,7 +49,7 @@ fn loaded(rows: Rows, layout: &Layout) -> Loaded {
         normals: (!rows.normals.is_empty()).then_some(rows.normals),
         radii: (!rows.radii.is_empty()).then_some(rows.radii),
         colors,
-        viewpoint: None,
+        viewpoints: Vec::new(),
     };
     let format = format!("rows of {}{what}", layout.columns);
     let mut loaded = Loaded::new(Model::Points(points), format);

@@ -172,7 +172,7 @@ impl BenchReport {
     pub fn text(&self) -> String {
         let mut text = match &self.device {
             Some(DeviceReport { name, driver, .. }) => {
-                format!("{name} ({driver}); {} frames of each, in turn\n\n", self.frames)
+                format!("{name} ({driver}); {}\n\n", self.what_was_timed())
             }
             None => String::new(),
         };
@@ -182,13 +182,19 @@ impl BenchReport {
         text
     }
 
+    /// The models, the size where all have one, and how often.
+    fn what_was_timed(&self) -> String {
+        let names = self.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>().join(" and ");
+        let size = self.settings.get("size").map(|size| format!(", {size}")).unwrap_or_default();
+        format!("{names}{size}, {} frames of each, in turn", self.frames)
+    }
+
     /// As Markdown.
     pub fn markdown(&self) -> String {
         let commit = self.commit.as_ref().map_or_else(String::new, |commit| format!(" ({commit})"));
         let mut text = format!("surfel {}{commit}", self.surfel);
         if let Some(DeviceReport { name, driver, api_version, .. }) = &self.device {
-            let frames = self.frames;
-            text += &format!(" on {name}, {driver}, Vulkan {api_version}; {frames} frames of each, in turn");
+            text += &format!(" on {name}, {driver}, Vulkan {api_version}; {}", self.what_was_timed());
         }
         text += ".\n";
         text.extend(self.grids().map(|grid| format!("\n{}", grid.markdown())));

@@ -178,7 +178,7 @@ fn points_that_lack_something_are_points_with_what_they_have() {
         let camera = "element camera 1\nproperty float view_px\nproperty float view_py\nproperty float view_pz\n\
             property int viewportx\nend_header\n1 2 3\n";
         match parse(format!("{bare}{camera}{place} 640\n").as_bytes()) {
-            Ok(Model::Points(points)) => points.viewpoint,
+            Ok(Model::Points(points)) => points.viewpoints.first().map(|view| view.place),
             _ => panic!("no points"),
         }
     };
