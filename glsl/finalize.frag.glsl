@@ -22,22 +22,26 @@ layout(set = 0, binding = BIND_SUMS_LAYERS) uniform texture2D layers; // alpha t
 
 layout(location = 0) out vec4 color;
 
+// `above`: light with its alpha multiplied in. `below`, and what is answered: straight.
+vec4 over(vec4 above, vec4 below)
+{
+    float left = FORMULA(FORMULA_OVER, 1.0 - above.a) * below.a;
+    float alpha = above.a + left;
+    return alpha > 0.0 ? vec4((above.rgb + left * below.rgb) / alpha, alpha) : vec4(0.0);
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     color = push.background;
     if (SHADED) {
-        vec4 shaded_color = texelFetch(color_sums, pixel, 0); // linear light; 1: something is there
-        color = shaded_color.a > 0.0 ? shaded_color : color;
+        color = over(texelFetch(color_sums, pixel, 0), color);
     } else if (SPLATS || POLYGONS) {
         Resolved opaque = resolve(pixel, to_eye());
         // 16-bit sums may flush the weight of a pixel that only a rim touches: 2^-24 is their smallest number.
         color = opaque.covered ? vec4(opaque.color, 1.0) : color;
     }
     if (LAYERED) {
-        vec4 above = texelFetch(layers, pixel, 0);
-        float left = FORMULA(FORMULA_OVER, 1.0 - above.a) * color.a;
-        float alpha = above.a + left;
-        color = alpha > 0.0 ? vec4((above.rgb + left * color.rgb) / alpha, alpha) : vec4(0.0);
+        color = over(texelFetch(layers, pixel, 0), color);
     }
 }

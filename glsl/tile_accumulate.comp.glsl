@@ -16,6 +16,7 @@
 #include "tile/lanes.glsl"
 #include "tile/work.glsl"
 #define PEELS false
+#define OF_LAYERS false
 #include "tile/surface.glsl"
 #include "tile/hidden.glsl"
 
@@ -55,6 +56,8 @@ void load(bool goes_on)
             colors[row] = texelFetch(color_sums_before, place, 0);
             normals[row] = texelFetch(normal_sums_before, place, 0);
         }
+        summed[row] = normals[row].w;
+        own_part[row] = 0.0;
         polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel, 0).r : 0.0;
     }
 }
@@ -91,6 +94,9 @@ void main()
     if (SUMS) {
         sum(unhidden(range), false);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            if (COVERAGE_EDGES && !WITH_DEPTH) {
+                normals[row].w = summed[row];
+            }
             if (HALF_FLOATS) {
                 fit_half_floats(row);
             }

@@ -15,15 +15,86 @@
 #include "tile/constants.glsl"
 #include "tile/lanes.glsl"
 #include "tile/work.glsl"
-#define PEELS false
+// Opaque surfaces are peeled where edges let what is behind them through.
+#define PEELS COVERAGE_EDGES
+#define OF_LAYERS false
 #include "tile/surface.glsl"
 #include "tile/hidden.glsl"
 
-layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light; 1: something is there
+layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light and opacity, which multiplies it
+
+layout(constant_id = SPEC_KEEPS_DEPTH) const bool KEEPS_DEPTH = false;
+layout(set = 0, binding = BIND_VISIBLE_DEPTH) writeonly uniform image2D visible_depth;
 
 // WITH_POLYGONS: these were drawn and shaded as if there were no splats.
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D shown_before;
 layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform texture2D polygon_depth;
+
+void begin_surface()
+{
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        visible[row] = 0.0;
+        colors[row] = vec4(0.0);
+        normals[row] = vec4(0.0);
+        summed[row] = 0.0;
+        own_part[row] = 0.0;
+    }
+}
+
+// What a polygon shows at the pixel, behind all splats that it does not hide.
+vec4 polygon_behind(int row)
+{
+    return WITH_POLYGONS ? texelFetch(shown_before, pixel_within_image(row), 0) : vec4(0.0);
+}
+
+// Surface after surface, until each pixel of the tile is covered or nothing is left: what lies side by side in a pixel adds up.
+void shade_edges(Range range)
+{
+    vec4 light[ROWS];
+    float nearest_polygon[ROWS];
+    float hiding[ROWS]; // depth of what covers half of a pixel, for transparent layers
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        light[row] = vec4(0.0);
+        hiding[row] = 0.0;
+        before[row] = INFINITELY_NEAR;
+        nearest_polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel_within_image(row), 0).r : 0.0;
+    }
+    for (uint number = 0; number < MOST_EDGE_SURFACES; number++) {
+        begin_surface();
+        see(range);
+        [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            polygon[row] = max(nearest_polygon[row], visible[row]);
+        }
+        sum(range, false);
+        bool left = false;
+        [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            Surface surface = normalized(colors[row], normals[row].xyz);
+            vec3 color = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row + row))));
+            float opacity = opacity_of(row);
+            bool beside = nearest_polygon[row] > visible[row];
+            if (WITH_POLYGONS && beside) {
+                // The polygon is the nearest surface; splats of the same one blend with it (inc/resolve.glsl).
+                opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
+            }
+            float part = surface.weight > 0.0 ? min(opacity, 1.0 - light[row].a) : 0.0;
+            hiding[row] = light[row].a < 0.5 && light[row].a + part >= 0.5 ? visible[row] : hiding[row];
+            light[row] += part * vec4(color, 1.0);
+            before[row] = surface.weight > 0.0 && !(WITH_POLYGONS && beside) && light[row].a < 1.0 ? visible[row] : NOTHING_LEFT;
+            left = left || before[row] > NOTHING_LEFT;
+        }
+        if (votes_of_tile(left).y == 0) {
+            break;
+        }
+    }
+    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+        vec4 seen = light[row] + (1.0 - light[row].a) * polygon_behind(row);
+        seen.rgb = HALF_FLOATS ? min(seen.rgb, HALF_FLOAT_MAX) : seen.rgb;
+        imageStore(shown, pixel_of(row), seen);
+        if (KEEPS_DEPTH) {
+            imageStore(visible_depth, pixel_of(row), vec4(hiding[row]));
+        }
+    }
+}
 
 void main()
 {
@@ -31,11 +102,11 @@ void main()
     if (!find_work(true, range)) {
         return;
     }
-    [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        visible[row] = 0.0;
-        colors[row] = vec4(0.0);
-        normals[row] = vec4(0.0);
+    if (COVERAGE_EDGES) {
+        shade_edges(range);
+        return;
     }
+    begin_surface();
     see(range);
     if (WITH_POLYGONS) {
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {

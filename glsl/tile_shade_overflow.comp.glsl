@@ -14,10 +14,11 @@ layout(local_size_x = TILE_WIDTH, local_size_y_id = SPEC_TILE_HEIGHT) in;
 #define LIGHTS_SET 0
 #define LIGHTS_BINDING BIND_LIGHTS
 #include "inc/shading.glsl"
+#include "inc/edges.glsl"
 
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D color_sums;
 layout(set = 0, binding = BIND_NORMALS_BEFORE) uniform texture2D normal_sums;
-layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light; 1: something is there
+layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light and opacity, which multiplies it
 
 void main()
 {
@@ -26,8 +27,10 @@ void main()
         return;
     }
     ivec2 in_slot = pixel_in_slot(0);
-    Surface surface = normalized(texelFetch(color_sums, in_slot, 0), texelFetch(normal_sums, in_slot, 0).xyz);
+    vec4 normal_sum = texelFetch(normal_sums, in_slot, 0);
+    Surface surface = normalized(texelFetch(color_sums, in_slot, 0), normal_sum.xyz);
     vec3 light = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row))));
     light = HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light;
-    imageStore(shown, pixel_of(0), surface.weight > 0.0 ? vec4(light, 1.0) : vec4(0.0));
+    float opacity = COVERAGE_EDGES ? edge_opacity(WEIGHTED ? surface.weight : normal_sum.w, 0.0) : 1.0;
+    imageStore(shown, pixel_of(0), surface.weight > 0.0 ? opacity * vec4(light, 1.0) : vec4(0.0));
 }

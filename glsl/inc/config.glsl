@@ -36,6 +36,7 @@
 #define SPEC_ATOMICS 49       // Constant: each invocation adds atomically.
 #define SPEC_LARGE_LIST 50    // Constant: a list is that of large splats.
 #define SPEC_FILTERED 51      // Constant: the paper's own visibility is filtered.
+#define SPEC_COVERAGE_EDGES 52 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // Values of SPEC_SUMMED.
 #define SUMMED_OPAQUE 0 // Opaque splats.
@@ -204,4 +205,7 @@
 #define HALF_FLOAT_FITS 60000.0     // Sums above it are scaled to it, so that their rounding cannot end beyond the largest.
 #define LEAST_HALF_FLOAT 5.9604645e-8 // 2^-24, the smallest 16-bit float above 0; kernels end there.
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
+#define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
+#define EDGE_LENGTHENING 8.0        // How much more a filter lengthens epsilon where edges are covered in part (`inc/mapping.glsl`).
+#define WHOLE_EDGE_SUM 0.85         // From this sum on a pixel is covered.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

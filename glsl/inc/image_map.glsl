@@ -211,11 +211,14 @@ ImageMap regular_map(Mapping m)
     }
 }
 
-// Of its weight, the part that the filter leaves to a splat.
+// Of its weight, the part that the filter leaves to a splat; where edges are covered in part, over the surface's overlap.
 float share_of(Mapping m)
 {
+    float share = 1.0;
     if (FILTER == FILTER_EWA && m.regular) {
-        return stretched(m).share;
+        share = stretched(m).share;
+    } else if (WEIGHT_BY_AREA || COVERAGE_EDGES) {
+        share = m.share;
     }
-    return WEIGHT_BY_AREA ? m.share : 1.0;
+    return COVERAGE_EDGES ? share * INVERSE_OVERLAP : share;
 }

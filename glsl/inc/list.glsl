@@ -25,7 +25,7 @@ layout(set = 1, binding = LIST_BLOCKS, std430) readonly buffer Blocks {
 
 uint words_of_chunk()
 {
-    return frame.listed_blocks * BLOCK_WORDS;
+    return LISTED_BLOCKS * BLOCK_WORDS;
 }
 
 uint first_word_of_chunk()

@@ -18,6 +18,7 @@ layout(constant_id = SPEC_IN_LAYERS) const bool IN_LAYERS = false;
 layout(constant_id = SPEC_PACKED) const bool PACKED = false;
 layout(constant_id = SPEC_FINE) const bool FINE = false;
 layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
+layout(constant_id = SPEC_COVERAGE_EDGES) const bool COVERAGE_EDGES = false;
 
 // Regular splats (see mapping.glsl) are mapped by an affine map: u and v are linear in the image.
 const bool AFFINE = RASTERIZER == RASTERIZER_AFFINE_CENTER || RASTERIZER == RASTERIZER_AFFINE_CONTOUR

@@ -38,7 +38,8 @@ Splat broadcast(Splat own, uint place)
 SplatAttributes broadcast(SplatAttributes own, uint place)
 {
     return SplatAttributes(subgroupShuffle(own.color, place), subgroupShuffle(own.alpha, place),
-        subgroupShuffle(own.normal, place), subgroupShuffle(own.share, place));
+        subgroupShuffle(own.normal, place), subgroupShuffle(own.share, place),
+        COVERAGE_EDGES ? subgroupShuffle(own.own_part, place) : vec2(0.0));
 }
 
 float least_of_tile(float own)

@@ -4,15 +4,13 @@
 #include "tile/lanes.glsl"
 #include "tile/work.glsl"
 #define PEELS true
+#define OF_LAYERS true
 #include "tile/surface.glsl"
 #include "inc/normalized.glsl"
 
 layout(constant_id = SPEC_DEPTH_PRELOADED) const bool DEPTH_PRELOADED = false; // opaque things hide what is behind them
 layout(set = 0, binding = BIND_DEPTH_BEFORE) uniform texture2D opaque_depth;
 layout(constant_id = SPEC_STACKED) const bool STACKED = false; // as in layer.frag.glsl
-
-const float INFINITELY_NEAR = 2.0; // nearer than any depth, which is 1 at most
-const float NOTHING_LEFT = 0.0;    // no depth is below
 
 // Of the invocation's pixels.
 vec4 light[ROWS];          // alpha * linear color, alpha
@@ -33,6 +31,8 @@ void begin_surface()
 {
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         visible[row] = opaque[row];
+        summed[row] = 0.0;
+        own_part[row] = 0.0;
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
     }
@@ -54,6 +54,7 @@ void compose()
         vec3 albedo = FORMULA(FORMULA_NORMALIZED_COLOR, colors[row].rgb / weight);
         float alpha = normals[row].w / weight;
         vec3 shown = shaded(albedo, turned(normal, v), v);
+        alpha *= COVERAGE_EDGES ? opacity_of(row) : 1.0;
         light[row] = covered ? under(light[row], vec4(alpha * shown, alpha)) : light[row];
         before[row] = covered ? visible[row] : NOTHING_LEFT;
         weight_before[row] = weight;
@@ -72,6 +73,7 @@ void compose_rest()
             float surfaces = clamp(weight / max(weight_before[row], 1.0), 1.0, MOST_STACKED_SURFACES);
             alpha = 1.0 - pow(1.0 - alpha, FORMULA(FORMULA_STACKED, surfaces));
         }
+        alpha *= COVERAGE_EDGES ? opacity_of(row) : 1.0;
         vec4 layer = vec4(alpha * (colors[row].rgb / weighted_alpha), alpha);
         light[row] = covered ? under(light[row], layer) : light[row];
     }

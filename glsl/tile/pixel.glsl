@@ -3,17 +3,25 @@
 //
 // A splat's own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
 
+#include "inc/edges.glsl"
+
 layout(constant_id = SPEC_WITH_DEPTH) const bool WITH_DEPTH = false;
 layout(constant_id = SPEC_WITH_POLYGONS) const bool WITH_POLYGONS = false;
 // The paper's transition shifts for all fragments, not only where there are polygons: the polygons' test is the only one.
 layout(constant_id = SPEC_SHIFTED_FOR_ALL) const bool SHIFTED_FOR_ALL = false;
+
+const float INFINITELY_NEAR = 2.0; // nearer than any depth, which is 1 at most
+const float NOTHING_LEFT = 0.0;    // no depth is below
 
 // The invocation's pixels, in registers.
 float visible[ROWS]; // depth of the surface, shifted by epsilon
 float before[ROWS];  // PEELS: depth of the layer before
 float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
 vec4 colors[ROWS];   // weighted color, weight
-vec4 normals[ROWS];  // weighted normal; PEELS: weighted alpha; WITH_DEPTH: weighted depth
+vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
+// COVERAGE_EDGES (inc/edges.glsl):
+float summed[ROWS];  // sum of weights over the overlap; where splats are WEIGHTED, that of colors
+float own_part[ROWS];     // the most that a splat covers by itself
 
 // A splat along the column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy. Rows are computed from the splat's center,
 // not stepped from the row above: three multiplications more, and no error adds up.
@@ -52,14 +60,10 @@ bool covers(vec3 uvw, float depth, int row)
     return inside && beyond_near && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, before[row]));
 }
 
-// What it weighs there, and 0 outside.
-float weight_of(vec3 uvw, float share, bool inside)
+float r2_of(vec3 uvw)
 {
     float r2 = dot(uvw.xy, uvw.xy);
-    r2 = AFFINE ? r2 : r2 / (uvw.z * uvw.z);
-    float weight = kernel_weight(r2);
-    weight = WEIGHTED ? max(weight * share, LEAST_WEIGHT) : weight;
-    return inside ? weight : 0.0;
+    return AFFINE ? r2 : r2 / (uvw.z * uvw.z);
 }
 
 // The nearest depth, shifted by epsilon.
@@ -68,6 +72,12 @@ void see(Splat splat, Column column, int row)
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     visible[row] = covers(uvw, depth, row) ? max(visible[row], depth * splat.inverse_shift) : visible[row];
+}
+
+// The part of the pixel that the surface covers.
+float opacity_of(int row)
+{
+    return edge_opacity(WEIGHTED ? colors[row].w : summed[row], own_part[row]);
 }
 
 // Adds what a splat is at a pixel.
@@ -82,10 +92,19 @@ void add(Splat splat, SplatAttributes attributes, Column column, int row)
     } else {
         inside = inside && depth >= visible[row];
     }
-    float weight = weight_of(uvw, attributes.share, inside);
+    float r2 = r2_of(uvw);
+    float kernel = kernel_weight(r2);
+    float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
+    float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
+    if (COVERAGE_EDGES) {
+        if (!WEIGHTED) {
+            summed[row] += inside ? shared_weight : 0.0;
+        }
+        own_part[row] = inside ? max(own_part[row], attributes.own_part.x - attributes.own_part.y * r2) : own_part[row];
+    }
     colors[row] += weight * vec4(attributes.color, 1.0);
     normals[row].xyz += weight * attributes.normal;
-    if (PEELS) {
+    if (OF_LAYERS) {
         normals[row].w += weight * attributes.alpha;
     } else if (WITH_DEPTH) {
         // Where the splat is not inside, depth may be 0.

@@ -22,4 +22,5 @@ struct SplatAttributes {
     float alpha;
     vec3 normal;
     float share;
+    vec2 own_part; // COVERAGE_EDGES: what it covers by itself is x - y r^2
 };

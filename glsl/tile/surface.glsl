@@ -32,6 +32,7 @@ SplatAttributes load_attributes(Splat splat)
     attributes.alpha = FORMULA(FORMULA_ALPHA, blue_alpha.y);
     attributes.normal = vec3(r2.w, uintBitsToFloat(r3.xy));
     attributes.share = r2.z;
+    attributes.own_part = COVERAGE_EDGES ? own_coverage(splat.uv) : vec2(0.0);
     return attributes;
 }
 

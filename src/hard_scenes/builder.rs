@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
 use crate::scene::{
-    Accumulate, Camera, Colors, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Settings, Shapes, Splats,
+    Accumulate, Camera, Colors, Edges, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Settings, Shapes, Splats,
 };
 
 pub use crate::math::random::SplitMix as Random;
@@ -136,7 +136,8 @@ pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
 /// How hard scenes are drawn: small, with exact sums, by the graphics pipeline on every device.
 pub fn settings() -> Settings {
     let rasterizer = Rasterizer::Perspective;
-    Settings { size_px: [256, 256], rasterizer, accumulate: Accumulate::F32, ..Settings::default() }
+    let edges = Edges::Hard; // of surfaces as data; what covers pixels in part has tests of its own
+    Settings { size_px: [256, 256], rasterizer, edges, accumulate: Accumulate::F32, ..Settings::default() }
 }
 
 /// These settings without a filter.

@@ -14,6 +14,23 @@ pub fn psi_e_coverage_r2(a: f64, n: f64) -> f64 {
     q.powf(2.0 / n)
 }
 
+/// The mean over the unit disk of `exp(−r²/2σ²)`, which ends at `coverage_r2`.
+pub fn gaussian_mean(sigma: f64, coverage_r2: f64) -> f64 {
+    let twice_variance = 2.0 * sigma * sigma;
+    twice_variance * -(-coverage_r2 / twice_variance).exp_m1()
+}
+
+/// The same of ψ_E.
+pub fn psi_e_mean(a: f64, n: f64, coverage_r2: f64) -> f64 {
+    const STEPS: u32 = 256;
+    let step = coverage_r2 / f64::from(STEPS);
+    let weight = |i| {
+        let q = (step * (f64::from(i) + 0.5)).powf(n / 2.0);
+        (-a * q / (1.0 - q)).exp()
+    };
+    step * (0..STEPS).map(weight).sum::<f64>()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,6 +46,28 @@ mod tests {
             let q = r2.powf(n / 2.0);
             assert!(((-a * q / (1.0 - q)).exp() / smallest - 1.0).abs() < 1e-9, "{a} {n}");
             assert!(r2 < 1.0);
+        }
+    }
+
+    #[test]
+    fn means_are_those_of_a_sum_over_the_disk() {
+        let mean = |coverage_r2: f64, weight: &dyn Fn(f64) -> f64| {
+            let steps = 100_000;
+            let r2 = |i| (f64::from(i) + 0.5) / f64::from(steps);
+            (0..steps).map(r2).filter(|r2| *r2 <= coverage_r2).map(weight).sum::<f64>() / f64::from(steps)
+        };
+        for sigma in [0.1, 0.5, 2.0] {
+            let end = gaussian_coverage_r2(sigma);
+            let expected = mean(end, &|r2: f64| (-r2 / (2.0 * sigma * sigma)).exp());
+            assert!((gaussian_mean(sigma, end) - expected).abs() < 1e-4, "{sigma}");
+        }
+        for (a, n) in [(6.0_f64, 3.0_f64), (1.0, 1.0), (0.5, 8.0)] {
+            let end = psi_e_coverage_r2(a, n);
+            let expected = mean(end, &|r2: f64| {
+                let q = r2.powf(n / 2.0);
+                (-a * q / (1.0 - q)).exp()
+            });
+            assert!((psi_e_mean(a, n, end) - expected).abs() < 1e-3, "{a} {n}");
         }
     }
 }

@@ -16,8 +16,6 @@ pub(crate) mod tiles;
 
 use ash::vk;
 
-use crate::passes::pipeline::formats::sum_format;
-
 pub use crate::passes::inputs::Inputs;
 pub use crate::passes::pass::Source;
 pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
@@ -43,7 +41,6 @@ use crate::passes::{cull::lists::Lists, plan::Outputs, resolve::finalize::Opaque
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
-    scene::Accumulate,
 };
 
 /// The whole frame. What a scene does not have takes no pass: splats, polygons, transparent things; large splats are listed
@@ -71,9 +68,8 @@ pub fn frame<'a>(
     let opaque_inputs = inputs.of(&plan.opaque);
     let opaque = if plan.opaque.bands().is_empty() {
         by_primitives(graph, opaque_inputs, kernel.as_ref(), outputs)?
-    } else if !outputs.reads_whole_images() && plan.opaque.tiles_can_shade(inputs.settings) {
-        let precision = outputs.shaded_precision(inputs.settings);
-        shaded_by_tiles(graph, opaque_inputs, lights.as_ref(), precision)?
+    } else if outputs.may_be_shaded(&plan.opaque) {
+        shaded_by_tiles(graph, opaque_inputs, lights.as_ref(), outputs)?
     } else {
         summed_by_tiles(graph, opaque_inputs, outputs)?
     };
@@ -135,20 +131,19 @@ fn by_primitives<'a>(
     Ok(opaque)
 }
 
-/// Opaque things by tiles that are shaded at once, for a frame of which nobody reads sums or depth: polygons; then, band by band,
-/// lists, and the tiles.
+/// Opaque things by tiles that are shaded at once, for a frame of which nobody reads sums: polygons; then, band by band, lists, and
+/// the tiles. Transparent layers want the depth, too, and all of both images.
 fn shaded_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     lights: Option<&Handle<Buffer>>,
-    precision: Accumulate,
+    outputs: Outputs,
 ) -> Result<Opaque<'a>> {
-    let image = graph.create_image("shaded tiles", inputs.image(sum_format(precision)));
-    let mut shown = tiles::ShadedTiles { image, precision };
+    let mut shown = tiles::ShadedTiles::create(graph, inputs, outputs);
     let mut opaque = Opaque::default();
-    let mut start = TileStart::Empty;
+    let mut start = if outputs.layers { TileStart::Cleared } else { TileStart::Empty };
     if !inputs.meshes.is_empty() {
-        let depth = polygons::draw::shaded(graph, inputs, (&mut shown.image, precision), lights)?;
+        let depth = polygons::draw::shaded(graph, inputs, (&mut shown.image, shown.precision), lights)?;
         (opaque.polygon_depth, start) = (Some(depth), TileStart::Polygons);
     }
     for (band, inputs, plan) in inputs.of_bands() {
@@ -156,6 +151,10 @@ fn shaded_by_tiles<'a>(
         let polygons = opaque.polygon_depth.as_ref();
         tiles::shaded(graph, inputs, &band, &mut tiles, &mut shown, (polygons, lights), start)?;
         start = start.after_a_band();
+        if let Some(depth) = &shown.depth {
+            let before = opaque.polygon_depth.take().or(opaque.splat_depth.take());
+            opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, &band, &tiles, depth, before)?);
+        }
         opaque.tiles.push(tiles);
     }
     opaque.shown = Some(shown.image);

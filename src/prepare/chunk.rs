@@ -44,6 +44,8 @@ pub struct Chunk {
     pub uniform_color: bool,
     /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
     pub packed: bool,
+    /// The sum of weights that the object leaves inside of its surface; 1 or more.
+    pub overlap: f64,
     /// The box of the centers, local space.
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
@@ -90,6 +92,7 @@ impl Chunk {
             fine: survey.fine,
             uniform_color: survey.uniform_color,
             packed: survey.packed,
+            overlap: 1.0,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
             radii: survey.radii.clone(),

@@ -7,6 +7,7 @@ use super::{
     chunk::{self, Chunk},
     memory::Uploader,
     mesh_chunk::PackedMesh,
+    overlap::overlap,
     pack, pieces,
     sequence::Sequence,
     sites::{Site, sites},
@@ -73,6 +74,7 @@ struct Part<'a> {
     object: &'a Object,
     sequence: Sequence,
     transparent: bool,
+    overlap: f64,
 }
 
 impl Cut<'_, '_> {
@@ -91,7 +93,8 @@ impl Cut<'_, '_> {
         let storage = self.prepared.storage;
         // Before it is cut, so that chunks are compact.
         let sequence = Sequence::of(splats, storage.order);
-        let part = Part { object, sequence, transparent: opacity == Opacity::Transparent };
+        let transparent = opacity == Opacity::Transparent;
+        let part = Part { object, sequence, transparent, overlap: overlap(splats) };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
                 for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
@@ -126,6 +129,7 @@ impl Cut<'_, '_> {
             let packed = batches.map(|which| pack::pack(splats, which, &survey));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
+            chunk.overlap = part.overlap;
             chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
             self.prepared.chunks.push(chunk);
         }

@@ -7,8 +7,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::edges;
 use super::front::Front;
-use super::kernel::limit_r2;
+use super::kernel::{limit_r2, weight};
 use super::layers::{Source, Translucent, Transparent};
 use super::picture::Pixel;
 use super::polygons;
@@ -40,16 +41,21 @@ pub(super) struct Frame<'a> {
     pub has_opaque_polygons: bool,
     /// The ε of transparent polygons: a length.
     pub polygon_epsilon: f64,
+    /// Linear color and alpha of what is behind all.
+    pub background: [f64; 4],
 }
 
 /// Renders `rows` into `pixels`, which must be empty pixels of exactly these rows.
 pub(super) fn render(frame: &Frame, rows: Range<u32>, pixels: &mut [Pixel]) {
-    let fronts = fronts(frame, &rows, pixels);
+    let mut fronts = fronts(frame, &rows, pixels);
     let sums = accumulate(frame, &rows, &fronts, pixels);
     for (i, (pixel, sums)) in pixels.iter_mut().zip(&sums).enumerate() {
         finish_opaque(frame, frame.ray(&rows, i), &fronts[i], sums, pixel);
     }
     polygons::mark_borders(frame, &frame.triangles, &rows, &fronts, pixels);
+    if frame.settings.covers_in_part() {
+        cover_edges(frame, &rows, &mut fronts, pixels);
+    }
     if !frame.transparent_splats.things.is_empty() || !frame.transparent_triangles.things.is_empty() {
         put_layers(frame, &rows, &fronts, pixels);
     }
@@ -147,6 +153,43 @@ fn finish_opaque(frame: &Frame, ray: DVec3, front: &Front, sums: &Sums, pixel: &
     }
 }
 
+/// Shows as much of each opaque surface as covers the pixel, over what is behind it.
+fn cover_edges(frame: &Frame, rows: &Range<u32>, fronts: &mut [Front], pixels: &mut [Pixel]) {
+    let mut fragments = vec![Vec::new(); pixels.len()];
+    for_each_candidate(frame, &frame.splats.boxes, rows, |splat_index, i, column, row| {
+        let fragment = translucent(frame, &frame.splats.things[splat_index], splat_index, [column, row]);
+        fragments[i].extend(fragment);
+    });
+    for (i, fragments) in fragments.into_iter().enumerate() {
+        let ray = frame.ray(rows, i);
+        let opaque = edges::surfaces(frame, ray, &fronts[i], fragments);
+        pixels[i].color = opaque.over(frame.background);
+        pixels[i].note_margin(opaque.margin);
+        fronts[i].hide_beyond(opaque.hides_beyond);
+    }
+}
+
+/// A splat's fragment in a pixel; `None` where it does not cover.
+fn translucent(
+    frame: &Frame,
+    splat: &DrawnSplat,
+    splat_index: usize,
+    [column, row]: [u32; 2],
+) -> Option<Translucent> {
+    let (ray, near, kernel) = (frame.view.ray(column, row), frame.view.near, frame.settings.kernel);
+    let fragment = splat.fragment(ray, near, kernel)?;
+    // With the filter `max`, where the disk is not, the low-pass filter is.
+    let r2 = splat.hit(ray, near).map_or(1.0, |hit| hit.r2);
+    Some(Translucent {
+        z: fragment.z,
+        z_shifted: fragment.z * splat.shift,
+        weight: fragment.weight,
+        kernel: weight(kernel, r2),
+        r2,
+        source: Source::Splat(splat_index),
+    })
+}
+
 /// Puts what is transparent, and not behind something opaque, over the pixels' colors.
 fn put_layers(frame: &Frame, rows: &Range<u32>, fronts: &[Front], pixels: &mut [Pixel]) {
     let mut fragments = vec![Vec::new(); pixels.len()];
@@ -187,12 +230,11 @@ fn collect_splats(
         {
             pixels[i].rim = true;
         }
-        let Some(fragment) = splat.fragment(ray, view.near, frame.settings.kernel) else { return };
+        let Some(fragment) = translucent(frame, splat, splat_index, [column, row]) else { return };
         let seen = fronts[i].shows(fragment.z);
         pixels[i].note_margin(seen.margin);
         if seen.holds {
-            let (z, weight, source) = (fragment.z, fragment.weight, Source::Splat(splat_index));
-            fragments[i].push(Translucent { z, z_shifted: z * splat.shift, weight, source });
+            fragments[i].push(fragment);
         }
     });
 }

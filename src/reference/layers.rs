@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::decision::Decision;
+use super::edges::covered;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
@@ -20,6 +21,9 @@ pub(super) struct Translucent {
     pub z_shifted: f64,
     /// 1 for a polygon.
     pub weight: f64,
+    /// Of a splat, the kernel's value, and the squared radius.
+    pub kernel: f64,
+    pub r2: f64,
     pub source: Source,
 }
 
@@ -99,18 +103,23 @@ impl Transparent<'_> {
         while !remaining.is_empty() {
             if stack.layers == surfaces && blends_rest {
                 let blended = self.blend(ray, &remaining);
-                stack.put_behind(match (self.settings.last_layer, weight_before) {
+                let rest = match (self.settings.last_layer, weight_before) {
                     (LastLayer::Stack, Some(before)) => {
                         stacked(blended, weight_of(&remaining) / f64::max(before, 1.0))
                     }
                     _ => blended,
-                });
+                };
+                let part = if self.settings.covers_in_part() { self.covered(&remaining).0 } else { 1.0 };
+                stack.put_behind(Premultiplied { color: part * rest.color, alpha: part * rest.alpha });
             }
             let (layer, margin) = take_nearest(&mut remaining);
             weight_before = Some(weight_of(&layer));
             if stack.layers < surfaces {
                 stack.put_behind(self.surface(ray, &layer));
                 stack.margin = stack.margin.min(margin);
+                if self.settings.covers_in_part() {
+                    stack.margin = stack.margin.min(self.covered(&layer).1);
+                }
             }
             stack.layers += 1;
         }
@@ -134,8 +143,22 @@ impl Transparent<'_> {
             weight: sums.weight,
         });
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
+        if self.settings.covers_in_part() {
+            let Some(splats) = splats else { return Premultiplied::NONE };
+            let alpha = splats.attributes.alpha * self.covered(layer).0;
+            return Premultiplied { color: alpha * shade(&splats.attributes), alpha };
+        }
         let polygons = mean(&polygons).map(|polygon| turned(polygon, ray));
         join(self.settings.transition, splats, polygons, shade)
+    }
+
+    /// The part of the pixel that they cover.
+    fn covered(&self, fragments: &[Translucent]) -> (f64, f64) {
+        let splat_of = |fragment: &Translucent| match fragment.source {
+            Source::Splat(i) => &self.splats[i],
+            Source::Triangle(_) => unreachable!("edges beside polygons in layers are hard"),
+        };
+        covered(&fragments.iter().collect::<Vec<_>>(), splat_of)
     }
 
     /// All fragments at once, each lit by itself, as the last layer: `C = Σ wα·shade / Σ wα`, `α = Σ wα / Σ w`, whose

@@ -28,6 +28,7 @@ mod affine;
 mod band;
 mod bands;
 mod decision;
+mod edges;
 mod ewa;
 mod filter;
 mod fragment;
@@ -39,6 +40,7 @@ mod layers;
 mod low_pass;
 mod low_pass_taps;
 mod mesh;
+mod overlap;
 mod paper_filter;
 mod picture;
 mod polygons;
@@ -137,20 +139,25 @@ fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<Draw
         transparent_triangles: drawn_triangles(triangles.transparent),
         has_opaque_polygons: triangles.has_opaque,
         polygon_epsilon: splat::mean_epsilon(scene, settings.epsilon),
+        background: background(settings),
     }
 }
 
 /// A picture of background only.
 fn empty_pixels(settings: &Settings) -> Result<Vec<Pixel>> {
     let [width, height] = settings.size_px;
-    let background = settings.background.map_or([0.0; 4], |srgb| {
-        let [red, green, blue] = srgb.map(|c| shade::linear_from_srgb(f64::from(c)));
-        [red, green, blue, 1.0]
-    });
     let too_large = || Error::option("--size", format!("{width}x{height}: memory can't hold the picture"));
     let count = usize::try_from(u64::from(width) * u64::from(height)).map_err(|_| too_large())?;
     let mut pixels = Vec::new();
     pixels.try_reserve_exact(count).map_err(|_| too_large())?;
-    pixels.resize(count, Pixel::empty(background));
+    pixels.resize(count, Pixel::empty(background(settings)));
     Ok(pixels)
+}
+
+/// Its linear color and alpha.
+fn background(settings: &Settings) -> [f64; 4] {
+    settings.background.map_or([0.0; 4], |srgb| {
+        let [red, green, blue] = srgb.map(|c| shade::linear_from_srgb(f64::from(c)));
+        [red, green, blue, 1.0]
+    })
 }

@@ -6,10 +6,12 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
+use super::edges::Covering;
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
+use super::overlap::overlap;
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
 use super::tangents::tangents;
@@ -49,6 +51,8 @@ pub(super) struct DrawnSplat {
     pub map: Map,
     /// The factor of the kernel's value, above 0 and at most 1; coverage does not depend on it.
     pub share: f64,
+    /// What it covers of pixels where its surface ends, if edges are not hard.
+    pub covering: Option<Covering>,
     /// The least weight of a fragment that covers.
     pub least_weight: f64,
     /// The low-pass filter beside it, for [`Filter::Max`].
@@ -80,6 +84,10 @@ const REGULAR_DEPTH_RATIO: f64 = 0.9;
 /// Farther away than 1e6 ε, surfaces closer to each other than a millionth of their distance are one.
 const LEAST_SHIFT: f64 = 1e-6;
 
+/// How much more than in layers ε grows with the filter where edges are not hard: near a silhouette a surface bends away from the plane of
+/// its nearest splat within the filter's reach.
+const EDGE_LENGTHENING: f64 = 8.0;
+
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
 /// Objects whose every alpha is 0 have none.
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
@@ -88,11 +96,12 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     for object in &scene.objects {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
+        let overlap = if settings.covers_in_part() { overlap(&object.splats, settings.kernel) } else { 1.0 };
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
-                let splat = prepare_one(object, i, (cull, opacity), view, settings);
+                let splat = prepare_one(object, i, (cull, opacity, overlap), view, settings);
                 drawn.extend(
                     splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
                 );
@@ -134,7 +143,7 @@ pub(super) fn culls(backfaces: Backfaces, closed: bool, opacity: Opacity) -> boo
 fn prepare_one(
     object: &Object,
     i: usize,
-    (cull, opacity): (bool, Opacity),
+    (cull, opacity, overlap): (bool, Opacity, f64),
     view: &View,
     settings: &Settings,
 ) -> Option<DrawnSplat> {
@@ -162,6 +171,9 @@ fn prepare_one(
     let is_layered = opacity == Opacity::Transparent;
     let thickness = match settings.filter {
         Filter::None => 1.0,
+        _ if settings.covers_in_part() && regular => {
+            1.0 + EDGE_LENGTHENING * (thickened(center, s, t, h) - 1.0)
+        }
         _ if is_layered && regular => thickened(center, s, t, h),
         _ => 1.0,
     };
@@ -180,6 +192,13 @@ fn prepare_one(
     let share = match &map {
         Map::Stretched(stretched) => stretched.share,
         _ if in_front && settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area => {
+            area_share(center, original, (s, t), settings.floors().share)
+        }
+        _ => 1.0,
+    };
+    let area = match &map {
+        Map::Stretched(stretched) => stretched.share,
+        _ if in_front && settings.filter.adjusts() => {
             area_share(center, original, (s, t), settings.floors().share)
         }
         _ => 1.0,
@@ -215,7 +234,10 @@ fn prepare_one(
         transparent: false,
         shift,
         map,
-        share,
+        share: if settings.weighs_splats() { share / overlap } else { share },
+        covering: settings
+            .covers_in_part()
+            .then_some(Covering { share: area / overlap, minor_px: view.focal_px * minor }),
         least_weight: settings.floors().weight,
         low_pass,
         square,

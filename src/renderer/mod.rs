@@ -20,7 +20,7 @@ use crate::{
     },
     passes::{self, Exported, FramePlan, Inputs, Shaders, Source},
     prepare::{PreparedScene, prepare},
-    scene::{Accumulate, Camera, Scene, Settings},
+    scene::{Accumulate, Camera, Edges, Scene, Settings},
     vk::{Device, Limits, Staging},
 };
 
@@ -149,6 +149,9 @@ impl Renderer {
         readbacks: Readbacks,
         profile: Option<Profile>,
     ) -> Result<Arc<Plan>> {
+        // The surface as data has no opacity of its own: a pixel is of it or not.
+        let edges = if readbacks.surface.is_some() { Edges::Hard } else { settings.edges };
+        let settings = &Settings { edges, ..settings.clone() };
         let frame = self.frame_plan(scene, camera, settings)?;
         let [width, height] = settings.size_px;
         if target.extent != (vk::Extent2D { width, height }) {

@@ -93,6 +93,17 @@ named! {
 }
 
 named! {
+    /// What a pixel shows where a surface ends.
+    Edges {
+        /// As much of the surface as covers the pixel under the filter, over what is behind it. With filters that widen splats by a
+        /// convolution (`adjust`, `adjust-paper`, `ewa`), where splats are drawn by tiles; else as `hard`.
+        Coverage = "coverage",
+        /// All of the surface, as in the papers: a pixel is covered or not.
+        Hard = "hard",
+    }
+}
+
+named! {
     /// How a fragment's weight is found.
     KernelEval {
         /// Arithmetic.

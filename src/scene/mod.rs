@@ -29,7 +29,7 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::Mesh;
 pub use methods::{
-    Accumulate, Backfaces, Cull, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer, Shading,
+    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer, Shading,
     TileInvocations, Transition,
 };
 pub use opacity::Opacity;

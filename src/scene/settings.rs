@@ -3,7 +3,7 @@
 use super::{
     Layers, Light, MOST_LIGHTS, Object, Scene, Shapes, TileMemory,
     methods::{
-        Accumulate, Backfaces, Cull, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
+        Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
     },
     option::{OptionTable as _, settings},
@@ -30,6 +30,8 @@ settings! {
         "filter" "NAME" filter: Filter,
         /// The weight of a splat that tangent adjustment has enlarged.
         "filter-weight" "HOW" filter_weight: FilterWeight,
+        /// What a pixel shows where a surface ends.
+        "edges" "HOW" edges: Edges,
         /// The weight within a splat: `gaussian:S` (S in radii) or `psi_e:A,B,N`, whose small weights are for `--accumulate f32`:
         /// sums of 16 bits lose the colors at its rim.
         "kernel" "KERNEL" kernel: Kernel,
@@ -99,6 +101,15 @@ impl Settings {
     pub fn weighs_splats(&self) -> bool {
         let by_area = self.filter.adjusts() && self.filter_weight == FilterWeight::Area;
         self.filter == Filter::Ewa || by_area
+    }
+
+    /// Whether surfaces cover pixels in part where they end, as far as settings tell. A frame has hard edges all the same where tiles
+    /// leave sums in place of shading: beside splats that are large.
+    pub fn covers_in_part(&self) -> bool {
+        let by_tiles = matches!(self.rasterizer, Rasterizer::Auto | Rasterizer::Compute);
+        let widens = self.filter.adjusts() || self.filter == Filter::Ewa;
+        let blends_colors = matches!(self.transition, Transition::Color | Transition::None);
+        self.edges == Edges::Coverage && by_tiles && widens && blends_colors && self.why_not_tiles().is_none()
     }
 
     /// What a splat weighs at least. Tiles sum in 32 bits where splats have weights of their own, whatever `accumulate` says. So `auto` has

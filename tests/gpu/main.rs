@@ -8,6 +8,7 @@ mod bands;
 mod by_design;
 mod cull;
 mod culling;
+mod edges;
 mod embedding;
 mod extremes;
 mod f16;

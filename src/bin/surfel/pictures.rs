@@ -24,7 +24,7 @@ pub fn write_picture(
 ) -> Result<()> {
     match (format, colors) {
         (PictureFormat::Exr, Colors::Linear(linear)) => {
-            save::exr(path, size_px, &["R", "G", "B", "A"], linear.as_flattened())
+            save::exr(path, size_px, &["R", "G", "B", "A"], premultiplied(linear).as_flattened())
         }
         (PictureFormat::Exr, Colors::Srgb(_)) => {
             Err(Error::option("picture", "8-bit colors are not written as linear floats"))
@@ -49,6 +49,11 @@ fn write_png(path: &Path, size_px: [u32; 2], transparent: bool, srgb: &[[u8; 4]]
             save::png(path, size_px, 3, opaque.as_flattened())
         }
     }
+}
+
+/// With alpha multiplied in, as files of linear light have it.
+fn premultiplied(colors: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    colors.iter().map(|[red, green, blue, alpha]| [red * alpha, green * alpha, blue * alpha, *alpha]).collect()
 }
 
 /// The nearest 8-bit color, of a linear one.
@@ -89,7 +94,7 @@ impl Dump {
         write("albedo.exr", &["R", "G", "B"], self.albedo.as_flattened())?;
         write("normal.exr", &["X", "Y", "Z"], self.normal.as_flattened())?;
         write("depth.exr", &["Z"], &self.depth)?;
-        write("final.exr", &["R", "G", "B", "A"], self.color.as_flattened())
+        write("final.exr", &["R", "G", "B", "A"], premultiplied(&self.color).as_flattened())
     }
 }
 

@@ -148,7 +148,10 @@ fn write(
     };
     let transparent = view.settings.background.is_none();
     pictures::write_picture(output, *format, frame.size_px, transparent, colors)?;
-    if let Some(hint) = emptiness::hint(&frame.srgb, view.settings.background, view.camera, ball) {
+    // Of a linear picture, which alone an EXR is of.
+    let encoded: Vec<[u8; 4]> = frame.linear.iter().map(|color| pictures::encode(*color)).collect();
+    let shown = if frame.srgb.is_empty() { &encoded } else { &frame.srgb };
+    if let Some(hint) = emptiness::hint(shown, view.settings.background, view.camera, ball) {
         console::say(&hint);
     }
     if let Some(folder) = &picture.dump {
@@ -162,9 +165,11 @@ fn write(
     Ok(())
 }
 
-/// The surface, in a frame of its own: the picture is the same with and without it.
+/// The picture, and the surface in a frame of its own, whose edges are hard.
 fn dump(headless: &mut Headless, view: View<'_>) -> Result<Dump> {
-    let wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
+    let picture = Wanted { picture: true, linear: true, surface: false, profile: None };
+    let color = headless.render(view.scene, view.camera, view.settings, picture)?.linear;
+    let wanted = Wanted { surface: true, ..picture };
     let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
     let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
     Ok(Dump {
@@ -173,6 +178,6 @@ fn dump(headless: &mut Headless, view: View<'_>) -> Result<Dump> {
         normal: three(&frame.normal),
         weight: frame.weight,
         depth: frame.depth,
-        color: frame.linear,
+        color,
     })
 }

@@ -108,12 +108,8 @@ pub(crate) fn list_large<'a>(
             for (chunk, draw, pipeline) in chunks {
                 let blocks = blocks_of(draw);
                 // Its lists are its own.
-                let constants = FrameConstants {
-                    first_record: 0,
-                    listed_blocks: blocks,
-                    chunk_color: 0,
-                    ..draw.constants
-                };
+                let mut constants = FrameConstants { first_record: 0, chunk_color: 0, ..draw.constants };
+                constants.list_blocks(blocks);
                 let groups = if step == 1 { [1, 1] } else { groups_of(blocks) };
                 dispatch(pass, draw, &constants, pipeline, pass.set(Place::Lists(chunk))?, groups)?;
             }

@@ -35,7 +35,7 @@ const ARGUMENT_WORDS: u64 = 8;
 const DISPATCH_OFFSET: u64 = 20;
 
 fn words_of(draws: &[Draw<'_>]) -> u64 {
-    let blocks: u64 = draws.iter().map(|draw| u64::from(draw.constants.listed_blocks)).sum();
+    let blocks: u64 = draws.iter().map(|draw| u64::from(draw.constants.listed_blocks())).sum();
     blocks * u64::from(BLOCK_SPLATS / WORD)
 }
 
@@ -138,7 +138,7 @@ fn dispatch_chunks(
 ) -> Result<()> {
     let set = pass.set(Place::Lists(0))?;
     for (chunk, draw) in inputs.draws.iter().enumerate() {
-        let groups = groups_of(draw.constants.listed_blocks);
+        let groups = groups_of(draw.constants.listed_blocks());
         dispatch(pass, draw, &draw.constants, pipeline(chunk), set, groups)?;
     }
     Ok(())

@@ -39,11 +39,21 @@ pub struct FrameConstants {
     pub origin_from_eye: [f32; 6],
     /// The number of the chunk's first splat among those of all chunks; of listed blocks, among theirs.
     pub first_record: u32,
-    /// Blocks of the chunk that are looked at for splats that may be seen.
-    pub listed_blocks: u32,
+    /// Blocks of the chunk that are looked at for splats that may be seen, below 2¹⁶; in the upper half, 65535 over its overlap.
+    pub blocks_overlap: u32,
 }
 
 impl FrameConstants {
+    /// Blocks of the chunk that are looked at for splats that may be seen.
+    pub(crate) fn listed_blocks(&self) -> u32 {
+        self.blocks_overlap & 0xffff
+    }
+
+    /// Lets so many blocks of the chunk be looked at; a chunk has 2¹⁴ at most.
+    pub(crate) fn list_blocks(&mut self, blocks: u32) {
+        self.blocks_overlap = self.blocks_overlap & 0xffff_0000 | blocks;
+    }
+
     /// Gives the chunk its number in its part of the frame.
     pub(crate) fn number_chunk(&mut self, number: u32) {
         self.chunk_color = 2 * number + self.chunk_color % 2;

@@ -58,11 +58,12 @@ pub enum Formula {
     LitSpecular,
     Stacked,
     Lengthened,
+    EdgeOpacity,
 }
 
 impl Formula {
     /// Those of transparency, polygons and lights.
-    pub const OF_LAYERS: [Self; 11] = [
+    pub const OF_LAYERS: [Self; 12] = [
         Self::Alpha,
         Self::Peeled,
         Self::TowardViewer,
@@ -74,6 +75,7 @@ impl Formula {
         Self::LitSpecular,
         Self::Stacked,
         Self::Lengthened,
+        Self::EdgeOpacity,
     ];
 
     /// Those of opaque splats.

@@ -3,7 +3,7 @@
 use std::f64::consts::LOG2_E;
 
 use crate::{
-    math::kernel::{gaussian_coverage_r2, psi_e_coverage_r2},
+    math::kernel::{gaussian_coverage_r2, gaussian_mean, psi_e_coverage_r2, psi_e_mean},
     scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, Transition},
     shaders::config::*,
 };
@@ -66,6 +66,17 @@ fn may_count_from_corner(settings: &Settings) -> bool {
     const LARGEST_PX: u32 = 8192;
     matches!(settings.filter, Filter::Adjust | Filter::Ewa)
         && settings.size_px.iter().all(|side| *side <= LARGEST_PX)
+}
+
+/// What splats sum to inside of a surface where they overlap by so much under the default kernel ([`crate::prepare::Chunk::overlap`]): each
+/// weighs 1 at its own center, and the others on the mean as much as their kernel is.
+pub(crate) fn overlap_under(kernel: Kernel, overlap: f64) -> f64 {
+    let end = coverage_r2(kernel);
+    let mean = match kernel {
+        Kernel::Gaussian { sigma } => gaussian_mean(sigma.into(), end),
+        Kernel::PsiE { a, n, .. } => psi_e_mean(a.into(), n.into(), end),
+    };
+    1.0 + (overlap - 1.0) * mean / gaussian_mean(0.5, 1.0)
 }
 
 /// The largest u² + v² that covers.

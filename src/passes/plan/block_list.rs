@@ -30,7 +30,7 @@ impl ListedBlocks {
                 // There is one in any case, for whoever counts what is listed: behind all splats.
                 words.push(u32::MAX / BLOCK_SPLATS);
             }
-            draw.constants.listed_blocks = (words.len() - before) as u32;
+            draw.constants.list_blocks((words.len() - before) as u32);
         }
         Self(words)
     }

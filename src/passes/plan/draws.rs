@@ -6,7 +6,7 @@ use crate::passes::{
     pipeline::{
         constants::FrameConstants,
         splat_shaders::Primitive,
-        variant::{Constants, culls, splat_constants},
+        variant::{Constants, culls, overlap_under, splat_constants},
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
@@ -132,6 +132,7 @@ pub fn draws<'a>(
         let mut constants = FrameConstants {
             splat_count: chunk.count,
             chunk_color: u32::from(chunk.uniform_color),
+            blocks_overlap: ((65_535.0 / overlap_under(settings.kernel, chunk.overlap)).round() as u32) << 16,
             ..frame_constants(&view, camera, settings, limits, epsilon)
         };
         if chunk.fine {
@@ -205,7 +206,7 @@ pub(crate) fn frame_constants(
         view_from_local_scale: view.view_from_local_scale as f32,
         origin_from_eye: in_two_parts(view.origin_from_eye),
         first_record: 0,
-        listed_blocks: 0,
+        blocks_overlap: 0,
     }
 }
 

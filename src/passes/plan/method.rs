@@ -112,6 +112,9 @@ fn bands<'a>(
 fn wants_tiles(few: bool, settings: &Settings, limits: &Limits) -> std::result::Result<Reason, Reason> {
     match settings.rasterizer {
         Rasterizer::Compute => can_do_tiles(settings, limits).map(|()| "asked for"),
+        Rasterizer::Auto if settings.covers_in_part() => {
+            can_do_tiles(settings, limits).map(|()| "auto: they cover pixels in part where surfaces end")
+        }
         Rasterizer::Auto if !limits.is_cpu => Err("auto: not measured on this kind of device"),
         Rasterizer::Auto if !Invocations::has_columns(limits) => {
             Err("auto: on a CPU tiles gain by shuffles among 8 invocations, which the device lacks")
@@ -154,12 +157,12 @@ pub fn check(settings: &Settings, limits: &Limits) -> Result<()> {
 mod tests {
     use super::*;
     use crate::passes::plan::few::is_few;
-    use crate::scene::{Filter, KernelEval};
+    use crate::scene::{Edges, Filter, KernelEval};
 
     #[test]
     fn auto_takes_tiles_on_a_cpu_alone_and_only_for_what_they_can_draw() {
         let cpu = Limits { is_cpu: true, shuffles: true, max_texels: u32::MAX, ..Limits::plain() };
-        let auto = Settings::default();
+        let auto = Settings { edges: Edges::Hard, ..Settings::default() };
         assert!(wants_tiles(false, &auto, &cpu).is_ok());
         assert!(wants_tiles(false, &auto, &Limits::plain()).is_err());
         assert!(wants_tiles(false, &Settings { filter: Filter::Max, ..auto.clone() }, &cpu).is_err());
@@ -168,6 +171,11 @@ mod tests {
         assert!(wants_tiles(false, &auto, &Limits { first_instance: false, ..cpu }).is_err());
         assert!(wants_tiles(true, &auto, &cpu).is_err());
         assert!(wants_tiles(false, &auto, &Limits { shuffles: false, ..cpu }).is_err());
+        // Nothing else covers pixels in part.
+        let covers = Settings::default();
+        assert!(wants_tiles(true, &covers, &Limits::plain()).is_ok());
+        let textured = Settings { kernel_eval: KernelEval::Texture, ..covers };
+        assert!(wants_tiles(false, &textured, &Limits::plain()).is_err());
         // An image of this size has a pixel more than a thousand for each of 1048 splats.
         assert!(is_few(1048, &auto) && !is_few(1049, &auto));
         let named = |rasterizer| Settings { rasterizer, ..Settings::default() };

@@ -27,7 +27,8 @@ use crate::passes::plan::{
 };
 use crate::{
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Rasterizer, Settings, Transition},
+    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
+    shaders::config::SPEC_COVERAGE_EDGES,
     vk::Limits,
 };
 
@@ -120,7 +121,24 @@ impl<'a> SurfacePlan<'a> {
             Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
             Err(reason) => (method::primitives(&mut splats, polygons, &settings, limits), reason),
         };
-        Self { splats, meshes, method, reason, settings }
+        let mut plan = Self { splats, meshes, method, reason, settings };
+        plan.choose_edges(transparent);
+        plan
+    }
+
+    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not.
+    fn choose_edges(&mut self, transparent: bool) {
+        let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
+        if !shades || !self.settings.covers_in_part() {
+            self.settings.edges = Edges::Hard;
+            return;
+        }
+        for band in self.bands_mut() {
+            band.splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_COVERAGE_EDGES, 1)));
+            if !transparent {
+                band.plan = band.plan.clone().with_edges();
+            }
+        }
     }
 
     /// Bands of tiles; none where the graphics pipeline draws the splats.
@@ -176,6 +194,13 @@ impl Outputs {
     /// Sums and depth are read everywhere, not only where finalization shades.
     pub fn reads_whole_images(self) -> bool {
         self.surface || self.layers
+    }
+
+    /// Whether tiles of these opaque things can be shaded at once. Where they cover pixels in part, they leave layers a depth beside
+    /// what they show.
+    pub fn may_be_shaded(self, opaque: &SurfacePlan<'_>) -> bool {
+        let read = self.surface || self.layers && opaque.settings.edges == Edges::Hard;
+        !read && opaque.tiles_can_shade(&opaque.settings)
     }
 
     /// The format of tiles that are shaded at once: a target of 32 bits loses nothing by them.

@@ -100,7 +100,15 @@ pub(crate) fn finalize<'a>(
         Pass::new(graph, inputs.source, "finalize", WHY).attach(target, Access::ColorAttachment, background);
     if let Some(shown) = &opaque.shown {
         let pass = pass.read(sums(BIND_SUMS_COLORS), shown, Access::SampledFragment);
-        return finalize_shown(pass, opaque, target_format, constants);
+        return match layers {
+            None => finalize_shown(pass, opaque, target_format, constants),
+            Some(layers) => {
+                let pass = pass.read(sums(BIND_SUMS_LAYERS), layers, Access::SampledFragment);
+                let pipeline = pass.graphics(layered_resolve_key(target_format))?;
+                pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));
+                Ok(())
+            }
+        };
     }
     let (splats, polygons) = (opaque.splats.as_ref(), opaque.polygons.as_ref());
     let lights = lights.filter(|_| splats.is_some() || polygons.is_some());
@@ -179,6 +187,15 @@ fn tile_resolve_key(target_format: vk::Format, beside: bool) -> GraphicsKey {
         color_formats: vec![target_format],
         depth: beside.then_some((vk::CompareOp::ALWAYS, false)),
         ..runs_key(&shaders::FINALIZE_FRAG, vec![(SPEC_SHADED, 1)])
+    }
+}
+
+/// What it is where transparent layers lie over them.
+fn layered_resolve_key(target_format: vk::Format) -> GraphicsKey {
+    let constants = vec![(SPEC_SHADED, 1), (SPEC_LAYERED, 1)];
+    GraphicsKey {
+        color_formats: vec![target_format],
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, constants)
     }
 }
 

@@ -53,7 +53,8 @@ pub(crate) fn depth_buffer<'a>(
         .attach(&mut depth, Access::DepthAttachment, start);
     let (pass, runs) = read_runs(pass, slice::from_ref(tiles));
     let pipeline = pass.graphics(GraphicsKey {
-        depth: Some((vk::CompareOp::ALWAYS, true)),
+        // What is there before may be nearer: polygons.
+        depth: Some((vk::CompareOp::GREATER_OR_EQUAL, true)),
         ..runs_key(&shaders::TILE_DEPTH_FRAG, Vec::new())
     })?;
     let constants = inputs.finalize_constants();

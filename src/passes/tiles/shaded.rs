@@ -7,13 +7,15 @@ use crate::passes::{
     pass::Pass,
     pipeline::variant::resolve_constants,
     pipeline::{key::ComputeKey, variant::shading_constants},
+    pipeline::formats::sum_format,
     place::tiles as at,
-    plan::tiles::TilePlan,
+    plan::{Outputs, tiles::TilePlan},
     tiles::{
         dispatch,
         lists::Tiles,
         overflow,
-        splat::{self, TileImages, TileStart, beside_polygons},
+        clear::clear,
+        splat::{self, TileImages, TileStart, VISIBLE_FORMAT, beside_polygons},
     },
 };
 use crate::{
@@ -28,12 +30,31 @@ pub(crate) struct ShadedTiles {
     pub image: Handle<Image>,
     /// The image's.
     pub precision: Accumulate,
+    /// The depth that hides transparent layers, where there are any.
+    pub depth: Option<Handle<Image>>,
+}
+
+impl ShadedTiles {
+    /// Images with nothing in them yet; where layers read all of them, and no polygons are drawn before, 0 everywhere.
+    pub fn create<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, outputs: Outputs) -> Self {
+        let precision = outputs.shaded_precision(inputs.settings);
+        let mut image = graph.create_image("shaded tiles", inputs.image(sum_format(precision)));
+        let depth =
+            outputs.layers.then(|| graph.create_image("visible depth", inputs.image(VISIBLE_FORMAT)));
+        if outputs.layers && inputs.meshes.is_empty() {
+            let why = "transparent layers lie over all of what tiles show";
+            clear(graph, inputs.source, "clear shaded tiles", why, &mut [&mut image]);
+        }
+        Self { image, precision, depth }
+    }
 }
 
 /// Beside what tiles are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Beside {
     polygons: bool,
+    /// Transparent layers, which read the depth.
+    layers: bool,
     /// The scene's own lights.
     lights: u32,
 }
@@ -43,7 +64,7 @@ fn key(
     settings: &Settings,
     plan: &TilePlan,
     precision: Accumulate,
-    Beside { polygons, lights }: Beside,
+    Beside { polygons, layers, lights }: Beside,
 ) -> ComputeKey {
     let shader = plan.invocations.shader(match plan.hidden {
         false => [&shaders::TILE_SHADE_COLUMN_COMP, &shaders::TILE_SHADE_PIXEL_COMP],
@@ -54,6 +75,7 @@ fn key(
     if polygons {
         constants.extend(beside_polygons(settings));
     }
+    constants.push((SPEC_KEEPS_DEPTH, layers.into()));
     dispatch::key(shader, constants)
 }
 
@@ -69,7 +91,8 @@ pub(crate) fn shaded<'a>(
     start: TileStart,
 ) -> Result<()> {
     let plan = tiles.plan;
-    let beside = Beside { polygons: polygons.is_some(), lights: inputs.lights };
+    let layers = shown.depth.is_some();
+    let beside = Beside { polygons: polygons.is_some(), layers, lights: inputs.lights };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
     let pass =
@@ -84,6 +107,11 @@ pub(crate) fn shaded<'a>(
     if beside.polygons {
         pass = pass.also(at(BIND_COLORS_BEFORE));
     }
+    // An image that is not written has to be one that may be: a stand-in is only read.
+    pass = match &mut shown.depth {
+        Some(depth) => pass.write(at(BIND_VISIBLE_DEPTH), depth, access, content),
+        None => pass.also(at(BIND_VISIBLE_DEPTH)),
+    };
     let key = key(inputs.settings, plan, shown.precision, beside);
     dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
     match plan.may_overflow() {

@@ -24,7 +24,7 @@ use crate::passes::{
 use crate::{
     error::Result,
     graph::{Access, Graph, Handle, Image, ImageDesc, Role, Start, execute::Body},
-    scene::{Accumulate, Settings, Transition},
+    scene::{Accumulate, Edges, Settings, Transition},
     shaders::{self, config::*},
 };
 
@@ -150,6 +150,9 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
         (SPEC_HALF_FLOATS, u32::from(images == Accumulate::F16)),
     ]);
+    if settings.edges == Edges::Coverage {
+        constants.push((SPEC_COVERAGE_EDGES, 1));
+    }
     constants
 }
 

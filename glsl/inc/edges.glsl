@@ -1,0 +1,45 @@
+// What part of a pixel a surface covers, where it ends: its opacity there. (In none of the papers, to which a pixel is covered or not.)
+//
+// The filter widens a splat by the convolution with the low-pass filter G, and leaves it its area as weight. So the sum of weights is
+// (G * K), with K(x) = sum of k(u, v) the unfiltered splats' own. Inside of a surface K is about constant, for splats lie about evenly:
+// it is the surface's *overlap*, which the host finds when a scene is prepared (src/prepare/overlap.rs). Outside, K is 0. With weights over
+// the overlap the sum is A = (G * [inside]): the share of the pixel, under the filter, that the surface covers. So slivers near a
+// silhouette, each of which covers little, cover a pixel together.
+//
+// A falls short where one splat covers a pixel alone: at the rim of a large splat k is far below the overlap. There its own part C is a
+// lower bound, of the distance d of the pixel to the rim of the unfiltered ellipse: the normal distribution of d / (sigma h), here a ramp of
+// its slope. In units of the widened ellipse the rim is at rho = l2 / L2, with rho^2 = 1 - h^2 / L2^2, and d = (rho^2 - r^2) L2 / 2, as near
+// the end of the minor axis. So C = 1/2 + (rho^2 - r^2) L2 / (2 sqrt(2 pi) sigma h); for splats below h, of which that is not true,
+// it goes to 0. The opacity is max(A, C).
+//
+// Limits: surfaces that overlap unevenly, or of which several lie within a few epsilon; A of a thin line of splats is too small.
+
+const float ROOT_TWO_PI = 2.5066283;
+
+// Sigma h in pixels: h is sqrt(2), the filter's own sigma 1/2.
+const float LOW_PASS_PX = 0.70710678;
+
+// What is covered to all but so little is covered.
+const float NEARLY_WHOLE = 0.98;
+
+// C = x - y r^2 of a splat whose map has this change of u along x and y, and of v, per pixel.
+vec2 own_coverage(vec4 uv)
+{
+    // The larger singular value, squared, is 1 / L2^2.
+    float sum = dot(uv, uv);
+    float det = uv.x * uv.w - uv.y * uv.z;
+    float inverse_minor2 = 0.5 * (sum + sqrt(max(sum * sum - 4.0 * det * det, 0.0)));
+    float minor_px = inversesqrt(inverse_minor2);
+    float rho2 = max(1.0 - 2.0 * inverse_minor2, 0.0);
+    float sureness = smoothstep(0.5, 1.0, sqrt(rho2) * minor_px * 0.70710678);
+    float slope = sureness * minor_px / (2.0 * ROOT_TWO_PI * LOW_PASS_PX);
+    return vec2(0.5 * sureness + slope * rho2, slope);
+}
+
+// `summed`: A. `own`: the largest C.
+float edge_opacity(float summed, float own)
+{
+    float above_half = max(summed - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));
+    float opacity = FORMULA(FORMULA_EDGE_OPACITY, clamp(max(min(summed, 0.5) + above_half, own), 0.0, 1.0));
+    return opacity > NEARLY_WHOLE ? 1.0 : opacity;
+}

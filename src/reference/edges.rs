@@ -1,0 +1,157 @@
+//! What part of a pixel a surface covers, where it ends; and the opaque surfaces of a pixel, as many as are seen side by side.
+//!
+//! The weights of widened splats, which keep their area, are the unfiltered ones convolved with the low-pass filter. Over what a whole
+//! surface sums to (`overlap`) they are the part A of the filter in which there is a surface. A large splat alone is seen to end at its rim,
+//! where its weight is far below that: there its own part counts, that of a half plane at the distance of the rim. All fragments of a pixel
+//! are at hand here, and surfaces are groups of them (`layers`).
+
+use glam::DVec3;
+
+use super::band::Frame;
+use super::front::Front;
+use super::layers::{Source, Translucent, take_nearest};
+use super::splat::DrawnSplat;
+use super::surface::Sums;
+use super::fragment::Fragment;
+use crate::scene::Transition;
+
+/// The most surfaces of a pixel.
+const MOST_SURFACES: usize = 3;
+
+/// From this sum on a pixel is covered; sums of a whole surface are not all 1.
+const WHOLE_SUM: f64 = 0.85;
+
+/// What is covered to all but so little is covered.
+const NEARLY_WHOLE: f64 = 0.98;
+
+/// What a splat covers of pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Covering {
+    /// The factor of the kernel's value in A: the area that the filter leaves, over the overlap.
+    pub share: f64,
+    /// The minor semi-axis of its image as it is drawn, in pixels.
+    pub minor_px: f64,
+}
+
+impl Covering {
+    /// The part of a pixel that it covers by itself, at squared radius `r2`.
+    fn alone(&self, r2: f64) -> f64 {
+        let h_px = std::f64::consts::SQRT_2;
+        // Of the splat as it was: its rim, in radii of the splat as it is drawn.
+        let rim2 = (1.0 - (h_px / self.minor_px).powi(2)).max(0.0);
+        let own_minor_px = rim2.sqrt() * self.minor_px;
+        let x = ((own_minor_px / h_px - 0.5) / 0.5).clamp(0.0, 1.0);
+        let is_large = x * x * (3.0 - 2.0 * x);
+        // A half plane at distance d, under a Gaussian of standard deviation h / 2: to first order 1/2 + d / (√(2π) h / 2).
+        let distance_px = (rim2 - r2) * self.minor_px / 2.0;
+        is_large * (0.5 + distance_px / ((2.0 * std::f64::consts::PI).sqrt() * h_px / 2.0))
+    }
+}
+
+/// The part of a pixel that fragments of one surface cover together: each a splat's, its kernel's value and its squared radius. The second
+/// value is how far it is from what counts as the whole, where there is a step.
+pub(super) fn opacity<'a>(fragments: impl Iterator<Item = (&'a Covering, f64, f64)>) -> (f64, f64) {
+    let (mut sum, mut alone) = (0.0, 0.0_f64);
+    for (covering, kernel, r2) in fragments {
+        sum += covering.share * kernel;
+        alone = alone.max(covering.alone(r2));
+    }
+    let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (WHOLE_SUM - 0.5) };
+    let part = part.max(alone).min(1.0);
+    let margin = (part - NEARLY_WHOLE).abs();
+    (if part > NEARLY_WHOLE { 1.0 } else { part }, margin)
+}
+
+/// What is opaque in a pixel.
+pub(super) struct Opaque {
+    /// Linear, multiplied by alpha.
+    pub color: DVec3,
+    pub alpha: f64,
+    /// The shifted depth of what covers half of it: beyond it transparent things are hidden.
+    pub hides_beyond: f64,
+    /// The smallest margin of a decision.
+    pub margin: f64,
+}
+
+/// All opaque surfaces of a pixel, those of splats in front of the polygon, and the polygon. `fragments`: of all opaque splats.
+pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: Vec<Translucent>) -> Opaque {
+    let mut seen = Opaque { color: DVec3::ZERO, alpha: 0.0, hides_beyond: f64::INFINITY, margin: f64::INFINITY };
+    let polygon_z = front.nearest_polygon.map_or(f64::INFINITY, |polygon| polygon.z);
+    for _ in 0..MOST_SURFACES {
+        let nearest = fragments.iter().map(|fragment| fragment.z_shifted).fold(f64::INFINITY, f64::min);
+        if fragments.is_empty() || seen.alpha >= 1.0 {
+            break;
+        }
+        let beside = polygon_z < nearest;
+        let near_polygon = (polygon_z - nearest).abs() / nearest;
+        seen.margin = seen.margin.min(near_polygon);
+        let (layer, margin) = take_nearest(&mut fragments);
+        seen.margin = seen.margin.min(margin);
+        let mut sums = Sums::default();
+        let splat_of = |fragment: &Translucent| match fragment.source {
+            Source::Splat(i) => &frame.splats.things[i],
+            Source::Triangle(_) => unreachable!("polygons are not among the fragments of splats"),
+        };
+        // Behind the polygon, shifted toward the eye, they are another surface.
+        let threshold = polygon_z.min(nearest);
+        let of_surface: Vec<_> = layer
+            .iter()
+            .filter(|fragment| {
+                let behind = (fragment.z * fragment.z / fragment.z_shifted - threshold) / threshold;
+                if polygon_z.is_finite() {
+                    seen.margin = seen.margin.min(behind.abs());
+                }
+                behind <= 0.0 || !polygon_z.is_finite()
+            })
+            .collect();
+        for fragment in &of_surface {
+            sums.add(Fragment { z: fragment.z, weight: fragment.weight }, splat_of(fragment));
+        }
+        let (part, margin) = match frame.settings.transition {
+            Transition::None if beside => (0.0, f64::INFINITY),
+            _ if beside => (sums.weight.min(1.0), f64::INFINITY),
+            _ => covered(&of_surface, splat_of),
+        };
+        seen.margin = seen.margin.min(margin);
+        if let Some(surface) = sums.surface(&frame.shader, ray) {
+            let part = part.min(1.0 - seen.alpha);
+            if seen.alpha < 0.5 && seen.alpha + part >= 0.5 {
+                seen.hides_beyond = nearest;
+            }
+            seen.color += part * surface.color;
+            seen.alpha += part;
+        } else {
+            break;
+        }
+        if beside {
+            break;
+        }
+    }
+    seen.hides_beyond = seen.hides_beyond.min(polygon_z);
+    if let Some(polygon) = front.nearest_polygon {
+        let attributes = frame.triangles.things[polygon.triangle].attributes(ray, polygon.z);
+        seen.color += (1.0 - seen.alpha) * frame.shader.shade(attributes.albedo, attributes.normal, ray);
+        seen.alpha = 1.0;
+    }
+    seen
+}
+
+/// [`opacity`] of fragments of splats.
+pub(super) fn covered<'a>(
+    fragments: &[&Translucent],
+    splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
+) -> (f64, f64) {
+    opacity(fragments.iter().filter_map(|fragment| {
+        let covering = splat_of(fragment).covering.as_ref()?;
+        Some((covering, fragment.kernel, fragment.r2))
+    }))
+}
+
+impl Opaque {
+    /// Over a straight color with alpha, straight again; black where nothing is seen.
+    pub fn over(&self, [red, green, blue, alpha]: [f64; 4]) -> [f64; 4] {
+        let color = self.color + (1.0 - self.alpha) * alpha * DVec3::new(red, green, blue);
+        let alpha = 1.0 - (1.0 - self.alpha) * (1.0 - alpha);
+        if alpha > 0.0 { (color / alpha).extend(alpha).to_array() } else { [0.0; 4] }
+    }
+}

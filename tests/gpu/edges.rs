@@ -1,0 +1,154 @@
+//! Surfaces that cover pixels in part where they end: GPU against the oracle's A-buffer, and both against what there is: the surface itself,
+//! low-passed.
+
+use crate::common::{
+    PICTURE, builder, oracle_of, passes, render_as,
+    scenes::{self, Hard, transparent},
+    shared, with,
+};
+use glam::DVec3;
+use surfel::{
+    math::srgb::linear_from_srgb,
+    reference::ground_truth,
+    renderer::{Headless, Wanted},
+    scene::{Edges, Filter, FilterWeight, Kernel, Rasterizer, Settings, TileInvocations, Transition},
+    selftest::{light::compare_light, tolerance::LIGHT},
+};
+
+/// As data there is no background, and sums are exact.
+fn covering(hard: Hard) -> Hard {
+    with(&hard, |settings| {
+        settings.edges = Edges::Coverage;
+        settings.rasterizer = Rasterizer::Compute;
+        settings.background = None;
+    })
+}
+
+/// Two balls, one partly before the other, of splats around a pixel large.
+fn balls(count: usize) -> Hard {
+    let mut scene = builder::Builder::default().scene(true);
+    scene.objects = vec![
+        scenes::sphere(count, DVec3::ZERO),
+        transparent::tinted(scenes::sphere(count, DVec3::new(0.9, 0.5, -1.5)), [0.9, 0.3, 0.1, 1.0]),
+    ];
+    covering(Hard::seen_from([0.0, 0.0, 5.0], "two balls", scene))
+}
+
+/// An open plate, seen slanted, of disks from far below a pixel to many pixels.
+fn plate(radius: f64) -> Hard {
+    let mut builder = builder::Builder::default();
+    let steps = (1.0 / radius) as i32;
+    for x in -steps..=steps {
+        for y in -steps..=steps {
+            let place = DVec3::new(f64::from(x), f64::from(y), 0.0) * radius;
+            builder.disk(place, DVec3::Z, 1.5 * radius, [0.5, 0.6, 0.7, 1.0]);
+        }
+    }
+    covering(Hard::seen_from([2.0, 1.0, 2.5], "plate", builder.scene(false)))
+}
+
+fn agrees(headless: &mut Headless, hard: &Hard, seen: usize) {
+    let frame = render_as(headless, hard, PICTURE);
+    let errors = compare_light(&frame, &oracle_of(hard));
+    println!("{}", errors.row(hard.name));
+    assert!(errors.worst <= LIGHT && errors.not_finite == 0, "{}: {errors:?}", hard.name);
+    assert!(errors.seen >= seen && errors.compared >= 40_000, "{}: {errors:?}", hard.name);
+}
+
+/// Pixels that are neither empty nor covered.
+fn partly_covered(pixels: &[[f32; 4]]) -> usize {
+    pixels.iter().filter(|pixel| pixel[3] > 0.01 && pixel[3] < 0.97).count()
+}
+
+#[test]
+fn opaque_surfaces_agree_with_the_oracle_by_every_filter_kernel_and_tile() {
+    let mut headless = shared();
+    for hard in [balls(1_000), balls(20_000), plate(0.2), plate(0.02)] {
+        agrees(&mut headless, &hard, 1_000);
+        let frame = render_as(&mut headless, &hard, PICTURE);
+        assert!(partly_covered(&frame.linear) > 200, "{}", hard.name);
+        assert!(!passes(&frame).contains(&"accumulate"));
+    }
+    let changes: [fn(&mut Settings); 6] = [
+        |settings| settings.filter = Filter::Ewa,
+        |settings| settings.filter = Filter::AdjustPaper,
+        |settings| settings.filter_weight = FilterWeight::Unit,
+        |settings| settings.kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
+        |settings| settings.tile_invocations = TileInvocations::Pixel,
+        |settings| settings.tile_invocations = TileInvocations::Column,
+    ];
+    for change in changes {
+        agrees(&mut headless, &with(&balls(5_000), change), 1_000);
+    }
+}
+
+#[test]
+fn layers_over_what_is_opaque_agree_with_the_oracle() {
+    let mut headless = shared();
+    for hard in [transparent::spheres(), transparent::upon_the_opaque()] {
+        agrees(&mut headless, &covering(hard), 1_000);
+    }
+}
+
+#[test]
+fn splats_cover_polygons_behind_them_in_part() {
+    let mut headless = shared();
+    for transition in [Transition::Color, Transition::None] {
+        agrees(&mut headless, &covering(transparent::hybrid(transition)), 1_000);
+    }
+}
+
+/// What none of it asks for has the edges of the papers.
+#[test]
+fn edges_are_hard_where_they_are_asked_for_so_and_where_nothing_widens() {
+    let mut headless = shared();
+    let changes: [fn(&mut Settings); 4] = [
+        |settings| settings.edges = Edges::Hard,
+        |settings| settings.filter = Filter::None,
+        |settings| settings.rasterizer = Rasterizer::Perspective,
+        |settings| settings.transition = Transition::Attributes,
+    ];
+    for change in changes {
+        let frame = render_as(&mut headless, &with(&balls(5_000), change), PICTURE);
+        assert!(frame.linear.iter().all(|pixel| pixel[3] == 0.0 || pixel[3] == 1.0));
+    }
+    // The surface as data has no opacity, nor has the picture beside it.
+    let surface = render_as(&mut headless, &balls(5_000), Wanted { surface: true, ..PICTURE });
+    assert_eq!(partly_covered(&surface.linear), 0);
+}
+
+/// How far pictures over white are from the surface itself: RMS of the pixels where it ends, and of all.
+fn against_the_truth(headless: &mut Headless, hard: &Hard) -> [f64; 2] {
+    let truth = ground_truth(&hard.scene, &hard.camera, &hard.settings, 16, &|_, _| {}).unwrap();
+    let frame = render_as(headless, hard, PICTURE);
+    let white = f64::from(linear_from_srgb(1.0));
+    let (mut sums, mut counts) = ([0.0; 2], [0.0; 2]);
+    for (pixel, truth) in frame.linear.iter().zip(&truth.pixels) {
+        let [red, _, _, alpha] = pixel.map(f64::from);
+        let got = alpha * red + (1.0 - alpha) * white;
+        let wanted = truth.coverage * truth.color[0] + (1.0 - truth.coverage) * white;
+        let ends = truth.coverage < 254.0 / 255.0 && (truth.coverage > 1.0 / 255.0 || alpha > 0.0);
+        for (of, counts_here) in [(0, ends), (1, true)] {
+            if counts_here {
+                sums[of] += (got - wanted).powi(2);
+                counts[of] += 1.0;
+            }
+        }
+    }
+    [(sums[0] / counts[0]).sqrt(), (sums[1] / counts[1]).sqrt()]
+}
+
+/// A fifth of the error at silhouettes, whatever the size of splats, and a third of all.
+#[test]
+fn silhouettes_are_several_times_nearer_to_the_truth_than_hard_ones() {
+    let mut headless = shared();
+    for (count, side_px) in [(1_000, 64), (20_000, 64), (20_000, 128), (5_000, 256)] {
+        let mut hard = balls(count);
+        hard.scene.objects.truncate(1);
+        let hard = with(&hard, |settings| settings.size_px = [side_px; 2]);
+        let [covering, crisp] = [Edges::Coverage, Edges::Hard]
+            .map(|edges| against_the_truth(&mut headless, &with(&hard, |settings| settings.edges = edges)));
+        println!("{count} splats, {side_px} px: {covering:.4?}, hard {crisp:.4?}");
+        assert!(4.0 * covering[0] < crisp[0] && 3.0 * covering[1] < crisp[1], "{covering:?} {crisp:?}");
+    }
+}
