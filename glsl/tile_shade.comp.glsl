@@ -74,7 +74,7 @@ void shade_edges(Range range)
             bool beside = nearest_polygon[row] > visible[row];
             if (WITH_POLYGONS && beside) {
                 // The polygon is the nearest surface; splats of the same one blend with it (inc/resolve.glsl).
-                opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight), 1.0);
+                opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight / WHOLE_SEAM_SUM), 1.0);
             }
             float part = surface.weight > 0.0 ? min(opacity, 1.0 - light[row].a) : 0.0;
             hiding[row] = light[row].a < 0.5 && light[row].a + part >= 0.5 ? visible[row] : hiding[row];

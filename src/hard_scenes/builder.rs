@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
 use crate::scene::{
-    Accumulate, Camera, Colors, Edges, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Settings, Shapes, Splats,
+    Accumulate, Camera, Colors, Edges, Filter, Mesh, MeshObject, Object, Rasterizer, Scene, Settings, Shapes,
+    Splats,
 };
 
 pub use crate::math::random::SplitMix as Random;

@@ -84,7 +84,8 @@ mod tests {
     #[test]
     fn a_grid_overlaps_by_the_sum_of_its_weights_on_its_own_side_alone() {
         let sum = |radius: f64| -> f64 {
-            let places = (-9..=9).flat_map(|x| (-9..=9).map(move |y| f64::from(x * x + y * y) / radius.powi(2)));
+            let places =
+                (-9..=9).flat_map(|x| (-9..=9).map(move |y| f64::from(x * x + y * y) / radius.powi(2)));
             places.filter(|r2| *r2 <= 1.0).map(|r2| (-2.0 * r2).exp()).sum()
         };
         for radius in [0.5, 1.5, 2.75] {

@@ -41,6 +41,8 @@ pub(super) struct Frame<'a> {
     pub has_opaque_polygons: bool,
     /// The ε of transparent polygons: a length.
     pub polygon_epsilon: f64,
+    /// Transparent surfaces cover pixels in part where they end.
+    pub layers_cover_in_part: bool,
     /// Linear color and alpha of what is behind all.
     pub background: [f64; 4],
 }
@@ -200,6 +202,7 @@ fn put_layers(frame: &Frame, rows: &Range<u32>, fronts: &[Front], pixels: &mut [
         splats: &frame.transparent_splats.things,
         triangles: &frame.transparent_triangles.things,
         settings: frame.settings,
+        covers_in_part: frame.layers_cover_in_part,
         shader: &frame.shader,
     };
     for (i, (pixel, fragments)) in pixels.iter_mut().zip(fragments).enumerate() {

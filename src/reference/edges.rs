@@ -8,12 +8,12 @@
 use glam::DVec3;
 
 use super::band::Frame;
+use super::fragment::Fragment;
 use super::front::Front;
 use super::layers::{Source, Translucent, take_nearest};
 use super::splat::DrawnSplat;
 use super::surface::Sums;
-use super::fragment::Fragment;
-use crate::scene::Transition;
+use crate::scene::{MeshObject, Opacity, Scene, Settings, Transition};
 
 /// The most surfaces of a pixel.
 const MOST_SURFACES: usize = 3;
@@ -23,6 +23,16 @@ const WHOLE_SUM: f64 = 0.85;
 
 /// What is covered to all but so little is covered.
 const NEARLY_WHOLE: f64 = 0.98;
+
+/// From this sum on, splats hide polygons of the same surface: at a seam half of a whole surface's splats are there.
+const WHOLE_SEAM_SUM: f64 = 0.4;
+
+/// Whether surfaces cover pixels in part: all that is opaque, and what is transparent where there are no polygons in its layers.
+pub(super) fn covers_in_part(scene: &Scene, settings: &Settings, opacity: Opacity) -> bool {
+    let is_transparent = |object: &MeshObject| object.mesh.colors.opacity() == Opacity::Transparent;
+    let beside_polygons = opacity == Opacity::Transparent && scene.meshes.iter().any(is_transparent);
+    settings.covers_in_part() && !beside_polygons
+}
 
 /// What a splat covers of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +85,8 @@ pub(super) struct Opaque {
 
 /// All opaque surfaces of a pixel, those of splats in front of the polygon, and the polygon. `fragments`: of all opaque splats.
 pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: Vec<Translucent>) -> Opaque {
-    let mut seen = Opaque { color: DVec3::ZERO, alpha: 0.0, hides_beyond: f64::INFINITY, margin: f64::INFINITY };
+    let mut seen =
+        Opaque { color: DVec3::ZERO, alpha: 0.0, hides_beyond: f64::INFINITY, margin: f64::INFINITY };
     let polygon_z = front.nearest_polygon.map_or(f64::INFINITY, |polygon| polygon.z);
     for _ in 0..MOST_SURFACES {
         let nearest = fragments.iter().map(|fragment| fragment.z_shifted).fold(f64::INFINITY, f64::min);
@@ -109,7 +120,7 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         }
         let (part, margin) = match frame.settings.transition {
             Transition::None if beside => (0.0, f64::INFINITY),
-            _ if beside => (sums.weight.min(1.0), f64::INFINITY),
+            _ if beside => ((sums.weight / WHOLE_SEAM_SUM).min(1.0), f64::INFINITY),
             _ => covered(&of_surface, splat_of),
         };
         seen.margin = seen.margin.min(margin);

@@ -39,6 +39,8 @@ pub(super) struct Transparent<'a> {
     pub splats: &'a [DrawnSplat],
     pub triangles: &'a [DrawnTriangle],
     pub settings: &'a Settings,
+    /// Where they end, layers cover pixels in part.
+    pub covers_in_part: bool,
     pub shader: &'a Shader,
 }
 
@@ -109,7 +111,7 @@ impl Transparent<'_> {
                     }
                     _ => blended,
                 };
-                let part = if self.settings.covers_in_part() { self.covered(&remaining).0 } else { 1.0 };
+                let part = if self.covers_in_part { self.covered(&remaining).0 } else { 1.0 };
                 stack.put_behind(Premultiplied { color: part * rest.color, alpha: part * rest.alpha });
             }
             let (layer, margin) = take_nearest(&mut remaining);
@@ -117,7 +119,7 @@ impl Transparent<'_> {
             if stack.layers < surfaces {
                 stack.put_behind(self.surface(ray, &layer));
                 stack.margin = stack.margin.min(margin);
-                if self.settings.covers_in_part() {
+                if self.covers_in_part {
                     stack.margin = stack.margin.min(self.covered(&layer).1);
                 }
             }
@@ -143,7 +145,7 @@ impl Transparent<'_> {
             weight: sums.weight,
         });
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
-        if self.settings.covers_in_part() {
+        if self.covers_in_part {
             let Some(splats) = splats else { return Premultiplied::NONE };
             let alpha = splats.attributes.alpha * self.covered(layer).0;
             return Premultiplied { color: alpha * shade(&splats.attributes), alpha };

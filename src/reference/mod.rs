@@ -71,7 +71,7 @@ use self::splat::DrawnSplat;
 use self::triangle::DrawnTriangle;
 use self::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Scene, Settings};
+use crate::scene::{Camera, Opacity, Scene, Settings};
 
 /// Rows that a thread takes at a time: enough that the boxes of all splats are not walked too often, few enough
 /// that every thread stays busy.
@@ -139,6 +139,7 @@ fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<Draw
         transparent_triangles: drawn_triangles(triangles.transparent),
         has_opaque_polygons: triangles.has_opaque,
         polygon_epsilon: splat::mean_epsilon(scene, settings.epsilon),
+        layers_cover_in_part: edges::covers_in_part(scene, settings, Opacity::Transparent),
         background: background(settings),
     }
 }

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
-use super::edges::Covering;
+use super::edges::{Covering, covers_in_part};
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
@@ -96,7 +96,8 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     for object in &scene.objects {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
-        let overlap = if settings.covers_in_part() { overlap(&object.splats, settings.kernel) } else { 1.0 };
+        let overlap =
+            covers_in_part(scene, settings, opacity).then(|| overlap(&object.splats, settings.kernel));
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
@@ -143,7 +144,7 @@ pub(super) fn culls(backfaces: Backfaces, closed: bool, opacity: Opacity) -> boo
 fn prepare_one(
     object: &Object,
     i: usize,
-    (cull, opacity, overlap): (bool, Opacity, f64),
+    (cull, opacity, overlap): (bool, Opacity, Option<f64>),
     view: &View,
     settings: &Settings,
 ) -> Option<DrawnSplat> {
@@ -171,9 +172,7 @@ fn prepare_one(
     let is_layered = opacity == Opacity::Transparent;
     let thickness = match settings.filter {
         Filter::None => 1.0,
-        _ if settings.covers_in_part() && regular => {
-            1.0 + EDGE_LENGTHENING * (thickened(center, s, t, h) - 1.0)
-        }
+        _ if overlap.is_some() && regular => 1.0 + EDGE_LENGTHENING * (thickened(center, s, t, h) - 1.0),
         _ if is_layered && regular => thickened(center, s, t, h),
         _ => 1.0,
     };
@@ -234,10 +233,8 @@ fn prepare_one(
         transparent: false,
         shift,
         map,
-        share: if settings.weighs_splats() { share / overlap } else { share },
-        covering: settings
-            .covers_in_part()
-            .then_some(Covering { share: area / overlap, minor_px: view.focal_px * minor }),
+        share: share / overlap.filter(|_| settings.weighs_splats()).unwrap_or(1.0),
+        covering: overlap.map(|overlap| Covering { share: area / overlap, minor_px: view.focal_px * minor }),
         least_weight: settings.floors().weight,
         low_pass,
         square,

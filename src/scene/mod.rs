@@ -29,8 +29,8 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use mesh::Mesh;
 pub use methods::{
-    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer, Shading,
-    TileInvocations, Transition,
+    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
+    Shading, TileInvocations, Transition,
 };
 pub use opacity::Opacity;
 #[cfg(feature = "files")]

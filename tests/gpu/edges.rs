@@ -85,7 +85,12 @@ fn opaque_surfaces_agree_with_the_oracle_by_every_filter_kernel_and_tile() {
 #[test]
 fn layers_over_what_is_opaque_agree_with_the_oracle() {
     let mut headless = shared();
-    for hard in [transparent::spheres(), transparent::upon_the_opaque()] {
+    for hard in [
+        transparent::spheres(),
+        transparent::interpenetrating(),
+        transparent::glass(),
+        transparent::upon_the_opaque(),
+    ] {
         agrees(&mut headless, &covering(hard), 1_000);
     }
 }

@@ -53,7 +53,10 @@ fn write_png(path: &Path, size_px: [u32; 2], transparent: bool, srgb: &[[u8; 4]]
 
 /// With alpha multiplied in, as files of linear light have it.
 fn premultiplied(colors: &[[f32; 4]]) -> Vec<[f32; 4]> {
-    colors.iter().map(|[red, green, blue, alpha]| [red * alpha, green * alpha, blue * alpha, *alpha]).collect()
+    colors
+        .iter()
+        .map(|[red, green, blue, alpha]| [red * alpha, green * alpha, blue * alpha, *alpha])
+        .collect()
 }
 
 /// The nearest 8-bit color, of a linear one.

@@ -5,22 +5,22 @@
 use crate::passes::{
     inputs::Inputs,
     pass::Pass,
+    pipeline::formats::sum_format,
     pipeline::variant::resolve_constants,
     pipeline::{key::ComputeKey, variant::shading_constants},
-    pipeline::formats::sum_format,
     place::tiles as at,
     plan::{Outputs, tiles::TilePlan},
     tiles::{
+        clear::clear,
         dispatch,
         lists::Tiles,
         overflow,
-        clear::clear,
         splat::{self, TileImages, TileStart, VISIBLE_FORMAT, beside_polygons},
     },
 };
 use crate::{
     error::Result,
-    graph::{Access, Buffer, Graph, Handle, Image, Role, execute::Body},
+    graph::{Access, Buffer, Graph, Handle, Image, Role, Start, execute::Body},
     scene::{Accumulate, Settings},
     shaders::{self, config::*},
 };
@@ -32,6 +32,8 @@ pub(crate) struct ShadedTiles {
     pub precision: Accumulate,
     /// The depth that hides transparent layers, where there are any.
     pub depth: Option<Handle<Image>>,
+    /// What the depth holds when the next band's tiles write to it.
+    depth_start: Start,
 }
 
 impl ShadedTiles {
@@ -39,13 +41,12 @@ impl ShadedTiles {
     pub fn create<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, outputs: Outputs) -> Self {
         let precision = outputs.shaded_precision(inputs.settings);
         let mut image = graph.create_image("shaded tiles", inputs.image(sum_format(precision)));
-        let depth =
-            outputs.layers.then(|| graph.create_image("visible depth", inputs.image(VISIBLE_FORMAT)));
+        let depth = outputs.layers.then(|| graph.create_image("visible depth", inputs.image(VISIBLE_FORMAT)));
         if outputs.layers && inputs.meshes.is_empty() {
             let why = "transparent layers lie over all of what tiles show";
             clear(graph, inputs.source, "clear shaded tiles", why, &mut [&mut image]);
         }
-        Self { image, precision, depth }
+        Self { image, precision, depth, depth_start: Start::Discard }
     }
 }
 
@@ -109,9 +110,16 @@ pub(crate) fn shaded<'a>(
     }
     // An image that is not written has to be one that may be: a stand-in is only read.
     pass = match &mut shown.depth {
-        Some(depth) => pass.write(at(BIND_VISIBLE_DEPTH), depth, access, content),
+        Some(depth) => {
+            let access = match shown.depth_start {
+                Start::Discard => Access::StorageWriteCompute,
+                _ => Access::StorageReadWriteCompute,
+            };
+            pass.write(at(BIND_VISIBLE_DEPTH), depth, access, shown.depth_start)
+        }
         None => pass.also(at(BIND_VISIBLE_DEPTH)),
     };
+    shown.depth_start = Start::Load;
     let key = key(inputs.settings, plan, shown.precision, beside);
     dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
     match plan.may_overflow() {
