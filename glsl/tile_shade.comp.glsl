@@ -62,11 +62,17 @@ void shade_edges(Range range)
     for (uint number = 0; number < MOST_EDGE_SURFACES; number++) {
         begin_surface();
         see(range);
+        bool left = false;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            left = left || visible[row] > 0.0;
             polygon[row] = max(nearest_polygon[row], visible[row]);
         }
+        // Behind most silhouettes of a tile there is nothing.
+        if (number > 0 && votes_of_tile(left).y == 0) {
+            break;
+        }
         sum(range, false);
-        bool left = false;
+        left = false;
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             Surface surface = normalized(colors[row], normals[row].xyz);
             vec3 color = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row + row))));

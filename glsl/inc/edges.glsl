@@ -20,7 +20,7 @@ const float ROOT_TWO_PI = 2.5066283;
 const float LOW_PASS_PX = 0.70710678;
 
 // What is covered to all but so little is covered.
-const float NEARLY_WHOLE = 0.98;
+const float NEARLY_WHOLE = 0.96;
 
 // C = x - y r^2 of a splat whose map has this change of u along x and y, and of v, per pixel.
 vec2 own_coverage(vec4 uv)

@@ -22,7 +22,7 @@ const MOST_SURFACES: usize = 3;
 const WHOLE_SUM: f64 = 0.85;
 
 /// What is covered to all but so little is covered.
-const NEARLY_WHOLE: f64 = 0.98;
+const NEARLY_WHOLE: f64 = 0.96;
 
 /// From this sum on, splats hide polygons of the same surface: at a seam half of a whole surface's splats are there.
 const WHOLE_SEAM_SUM: f64 = 0.4;

@@ -84,9 +84,9 @@ const REGULAR_DEPTH_RATIO: f64 = 0.9;
 /// Farther away than 1e6 ε, surfaces closer to each other than a millionth of their distance are one.
 const LEAST_SHIFT: f64 = 1e-6;
 
-/// How much more than in layers ε grows with the filter where edges are not hard: near a silhouette a surface bends away from the plane of
-/// its nearest splat within the filter's reach.
-const EDGE_LENGTHENING: f64 = 8.0;
+/// How much more than by itself ε grows, where edges are not hard, as a filter lengthens a splat that is as deep as it is large: near a
+/// silhouette a surface bends away from the plane of its nearest splat within the filter's reach.
+const EDGE_LENGTHENING: f64 = 16.0;
 
 /// Every splat of the scene that can be seen from the front or is to be turned, and what was left out as defective.
 /// Objects whose every alpha is 0 have none.
@@ -172,8 +172,11 @@ fn prepare_one(
     let is_layered = opacity == Opacity::Transparent;
     let thickness = match settings.filter {
         Filter::None => 1.0,
-        _ if overlap.is_some() && regular => 1.0 + EDGE_LENGTHENING * (thickened(center, s, t, h) - 1.0),
-        _ if is_layered && regular => thickened(center, s, t, h),
+        _ if overlap.is_some() && regular => {
+            let slant = depth_radius / splats.major_radius(i);
+            1.0 + (lengthened(center, s, t, h) - 1.0) * (1.0 + EDGE_LENGTHENING * slant)
+        }
+        _ if is_layered && regular => 1.0 + 2.0 * (lengthened(center, s, t, h) - 1.0),
         _ => 1.0,
     };
     let epsilon = match settings.epsilon {
@@ -264,12 +267,13 @@ fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
 /// How much thicker a surface of transparent splats is in a pixel, in radii, where a filter of radius `h` (image plane) lengthens
 /// the minor axis of their images from l to L = √(l² + h²), at most to 16 l. A splat whose center is L away, where the surface
 /// is r L / l deeper, makes up r of that by its slant: fragments are up to r (L / l − 1) off, to either side.
-fn thickened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
+///
+/// This is L / l.
+fn lengthened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
     // The singular values of the projection's Jacobian at the center, applied to s and t.
     let image = |v: DVec3| (v.truncate() - center.truncate() / center.z * v.z) / center.z;
     let (a, b) = (image(s), image(t));
     let (sum, area) = (a.length_squared() + b.length_squared(), a.perp_dot(b).abs());
     let minor = ((sum + 2.0 * area).sqrt() - (sum - 2.0 * area).max(0.0).sqrt()) / 2.0;
-    let lengthened = if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 };
-    1.0 + 2.0 * (lengthened - 1.0)
+    if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 }
 }

@@ -8,8 +8,8 @@ use surfel::{
     load::builtin::sphere_mesh,
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Camera, Colors, Filter, Kernel, Mesh, MeshObject, Object, Scene, Settings, Shading,
-        Transition,
+        Accumulate, Camera, Colors, Edges, Filter, Kernel, Mesh, MeshObject, Object, Scene, Settings,
+        Shading, Transition,
     },
 };
 
@@ -56,6 +56,8 @@ fn settings(transition: Transition) -> Settings {
         filter: Filter::Adjust,
         accumulate: Accumulate::F32,
         shading: Shading::Albedo,
+        // Splats alone end before a background, which is not what lies beside them in the hybrid.
+        edges: Edges::Hard,
         ..Settings::default()
     }
 }

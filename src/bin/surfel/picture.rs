@@ -52,8 +52,8 @@ impl PictureArguments {
 mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
-        Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
-        Rasterizer, Shading, TileInvocations, TileMemory, Transition,
+        Accumulate, Backfaces, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer,
+        Layers, Rasterizer, Shading, TileInvocations, TileMemory, Transition,
     };
 
     use super::*;
@@ -78,6 +78,7 @@ mod tests {
             tile_memory: TileMemory::Most(12_500_000),
             filter: Filter::AdjustPaper,
             filter_weight: FilterWeight::Unit,
+            edges: Edges::Hard,
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
             kernel_eval: KernelEval::Texture,
             cull: Cull::List,
