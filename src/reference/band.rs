@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::edges;
+use super::covering;
 use super::front::Front;
 use super::kernel::{limit_r2, weight};
 use super::layers::{Source, Translucent, Transparent};
@@ -164,7 +164,7 @@ fn cover_edges(frame: &Frame, rows: &Range<u32>, fronts: &mut [Front], pixels: &
     });
     for (i, fragments) in fragments.into_iter().enumerate() {
         let ray = frame.ray(rows, i);
-        let opaque = edges::surfaces(frame, ray, &fronts[i], fragments);
+        let opaque = covering::surfaces(frame, ray, &fronts[i], fragments);
         pixels[i].color = opaque.over(frame.background);
         pixels[i].note_margin(opaque.margin);
         fronts[i].hide_beyond(opaque.hides_beyond);

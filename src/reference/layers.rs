@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::decision::Decision;
-use super::edges::covered;
+use super::covering::covered;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;

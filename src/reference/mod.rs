@@ -28,7 +28,7 @@ mod affine;
 mod band;
 mod bands;
 mod decision;
-mod edges;
+mod covering;
 mod ewa;
 mod filter;
 mod fragment;
@@ -139,7 +139,7 @@ fn frame<'a>(scene: &Scene, view: View, settings: &'a Settings, splats: Vec<Draw
         transparent_triangles: drawn_triangles(triangles.transparent),
         has_opaque_polygons: triangles.has_opaque,
         polygon_epsilon: splat::mean_epsilon(scene, settings.epsilon),
-        layers_cover_in_part: edges::covers_in_part(scene, settings, Opacity::Transparent),
+        layers_cover_in_part: covering::covers_in_part(scene, settings, Opacity::Transparent),
         background: background(settings),
     }
 }

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
-use super::edges::{Covering, covers_in_part};
+use super::covering::{Covering, covers_in_part};
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
