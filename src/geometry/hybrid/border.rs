@@ -9,7 +9,10 @@
 
 use glam::DVec3;
 
-use crate::{geometry::resample::vertex_colors, scene::Mesh};
+use crate::{
+    geometry::{resample::vertex_colors, turns::first_at_place},
+    scene::Mesh,
+};
 
 /// The transition edges, and the places that they join.
 pub(super) struct Border {
@@ -34,8 +37,19 @@ pub(super) struct Joint {
 pub(super) struct Edge {
     /// Numbers of joints, the lower one first.
     pub ends: [usize; 2],
-    /// The unit normal of a triangle of the splat part, for where the joints' normals cancel.
+    /// The triangles at it.
+    pub beside: Beside,
+}
+
+/// The triangles beside a transition edge, one of each part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    /// The unit normal of that of the splat part, for where the joints' normals cancel.
     pub face: DVec3,
+    /// The unit normal of that which stays a polygon.
+    pub polygon: DVec3,
+    /// Unit, in the polygon's plane, from the edge into the polygon.
+    pub toward: DVec3,
 }
 
 /// An edge as one triangle has it.
@@ -84,9 +98,17 @@ impl Border {
         let joints = groups.map(|group| joint(mesh, group)).collect();
         let number = |place: u32| places.partition_point(|&p| p < place);
         let edges = sides.chunk_by(|a, b| a.places == b.places).map(|group| {
-            let of_splats = group.iter().find(|side| !polygon[side.triangle]).unwrap_or(&group[0]);
-            let [a, b, c] = mesh.triangles[of_splats.triangle].map(|v| mesh.positions[v as usize]);
-            Edge { ends: group[0].places.map(number), face: (b - a).cross(c - a).normalize_or_zero() }
+            let of_part = |wanted: bool| {
+                let side = group.iter().find(|side| polygon[side.triangle] == wanted).unwrap_or(&group[0]);
+                mesh.triangles[side.triangle].map(|v| mesh.positions[v as usize])
+            };
+            let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize_or_zero();
+            let ends = group[0].places.map(|place| mesh.positions[place as usize]);
+            let (corners, along) = (of_part(true), (ends[1] - ends[0]).normalize_or_zero());
+            let inward = (corners[0] + corners[1] + corners[2]) / 3.0 - ends[0];
+            let toward = (inward - along * inward.dot(along)).normalize_or_zero();
+            let beside = Beside { face: normal(of_part(false)), polygon: normal(corners), toward };
+            Edge { ends: group[0].places.map(number), beside }
         });
         Self { edges: edges.collect(), joints }
     }
@@ -133,18 +155,4 @@ fn sides(mesh: &Mesh, polygon: &[bool], first: &[u32]) -> Vec<Side> {
 
 fn sorted(a: u32, b: u32) -> [u32; 2] {
     [a.min(b), a.max(b)]
-}
-
-/// For each vertex the first one at the same place.
-fn first_at_place(positions: &[DVec3]) -> Vec<u32> {
-    // Adding 0 turns −0 into 0.
-    let bits = |vertex: u32| positions[vertex as usize].to_array().map(|x| (x + 0.0).to_bits());
-    // Triangles name no vertex beyond 32 bits.
-    let mut order: Vec<u32> = (0..=u32::MAX).take(positions.len()).collect();
-    let mut first = order.clone();
-    order.sort_unstable_by_key(|&vertex| (bits(vertex), vertex));
-    for group in order.chunk_by(|&a, &b| bits(a) == bits(b)) {
-        group.iter().for_each(|&vertex| first[vertex as usize] = group[0]);
-    }
-    first
 }

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::border::{Border, Joint};
+use super::border::{Beside, Border, Joint};
 use crate::geometry::resample::SHORTEST_NORMAL;
 
 /// A place on a transition edge.
@@ -15,11 +15,13 @@ pub(super) struct Place {
     /// Unit; zero only if the face that should stand in for it has none.
     pub normal: DVec3,
     pub color: [f64; 4],
+    /// The triangles beside the edge here.
+    pub beside: Beside,
 }
 
 /// Edges end to end. It ends where other than two transition edges meet, or where it began.
 struct Chain {
-    /// In the order of walking, with how far it is to each and with the normal of the edge's face before it.
+    /// In the order of walking, with how far it is to each and with the triangles beside the edge before it.
     stops: Vec<Stop>,
 }
 
@@ -27,16 +29,16 @@ struct Stop {
     joint: usize,
     /// Along the chain.
     at: f64,
-    /// The normal of the face of the edge that ends here.
-    face: DVec3,
+    /// The triangles beside the edge that ends here.
+    beside: Beside,
 }
 
 /// All transition edges as chains.
 pub(super) struct Chains<'a> {
     border: &'a Border,
     chains: Vec<Chain>,
-    /// Joints where chains end, and the first one of each loop that passes no other; with a face normal.
-    ends: Vec<(usize, DVec3)>,
+    /// Joints where chains end, and the first one of each loop that passes no other; with the triangles beside an edge.
+    ends: Vec<(usize, Beside)>,
 }
 
 impl<'a> Chains<'a> {
@@ -60,7 +62,7 @@ impl<'a> Chains<'a> {
                     }
                 }
                 if !loops || chains.len() > before {
-                    ends.push((joint, border.edges[edges[0]].face));
+                    ends.push((joint, border.edges[edges[0]].beside));
                 }
             }
         }
@@ -82,9 +84,9 @@ impl<'a> Chains<'a> {
     /// once.
     pub(super) fn places(&self, spacing: f64) -> Vec<Place> {
         let mut places = Vec::new();
-        for &(joint, face) in &self.ends {
+        for &(joint, beside) in &self.ends {
             let joint = &self.border.joints[joint];
-            places.push(between(joint, joint, 0.0, face));
+            places.push(between(joint, joint, 0.0, beside));
         }
         for chain in &self.chains {
             let intervals = chain.intervals(spacing);
@@ -98,7 +100,7 @@ impl<'a> Chains<'a> {
                 let Some([from, to]) = stops.peek() else { break };
                 let [a, b] = [from, to].map(|stop| &self.border.joints[stop.joint]);
                 let t = ((at - from.at) / (to.at - from.at)).clamp(0.0, 1.0);
-                places.push(between(a, b, t, to.face));
+                places.push(between(a, b, t, to.beside));
                 i += 1.0;
             }
         }
@@ -114,7 +116,7 @@ impl Chain {
         incident: &Incident,
         walked: &mut [bool],
     ) -> Self {
-        let mut stops = vec![Stop { joint, at: 0.0, face: border.edges[edge].face }];
+        let mut stops = vec![Stop { joint, at: 0.0, beside: border.edges[edge].beside }];
         let mut at = 0.0;
         let mut next = Some(edge);
         while let Some(edge) = next {
@@ -124,7 +126,7 @@ impl Chain {
             let [from, to] = [joint, other].map(|joint| border.joints[joint].position);
             at += from.distance(to);
             joint = other;
-            stops.push(Stop { joint, at, face: border.edges[edge].face });
+            stops.push(Stop { joint, at, beside: border.edges[edge].beside });
             let onward = incident.edges_of(joint);
             next = onward.iter().copied().find(|&edge| onward.len() == 2 && !walked[edge]);
         }
@@ -144,11 +146,11 @@ impl Chain {
 }
 
 /// At the fraction `t` of the way from one joint to another.
-fn between(a: &Joint, b: &Joint, t: f64, face: DVec3) -> Place {
+fn between(a: &Joint, b: &Joint, t: f64, beside: Beside) -> Place {
     let normal = a.normal.lerp(b.normal, t);
-    let normal = if normal.length() > SHORTEST_NORMAL { normal.normalize() } else { face };
+    let normal = if normal.length() > SHORTEST_NORMAL { normal.normalize() } else { beside.face };
     let color = std::array::from_fn(|channel| a.color[channel] + t * (b.color[channel] - a.color[channel]));
-    Place { position: a.position.lerp(b.position, t), normal, color }
+    Place { position: a.position.lerp(b.position, t), normal, color, beside }
 }
 
 /// The edges of each joint.
