@@ -165,28 +165,23 @@ fn report(name: &str, mesh: &Mesh, views: &[(u32, u32)]) -> Vec<Counts> {
     views.iter().map(each).collect()
 }
 
-fn ok(b: bool) {
-    if !b {
-        println!("NOT OK");
-    }
-}
 /// Bounds are between what the ellipses leave and what round disks left.
 #[test]
 fn splats_of_a_mesh_that_turns_have_no_hole_and_keep_to_its_outline() {
     for counts in report("cube of 12² squares a side", &cube(12), &[(50, 256), (4, 1024)]) {
-        ok(counts.holes == 0);
+        assert_eq!(counts.holes, 0, "{counts:?}");
     }
     for counts in report("ball of 5120 triangles", &sphere_mesh(5120), &[(50, 256)]) {
-        ok(counts.holes == 0);
+        assert_eq!(counts.holes, 0, "{counts:?}");
     }
     if let Some(fandisk) = real_mesh("fandisk.obj") {
         for counts in report("fandisk", &fandisk, &[(50, 256), (4, 1024)]) {
-            ok(counts.holes == 0);
+            assert_eq!(counts.holes, 0, "{counts:?}");
         }
     }
     if let Some(igea) = real_mesh("igea.ply") {
         for counts in report("igea", &igea, &[(8, 256), (1, 1024)]) {
-            ok(counts.holes == 0);
+            assert_eq!(counts.holes, 0, "{counts:?}");
         }
     }
 }
