@@ -4,11 +4,10 @@
 //! The renderer fades from splats to polygons by the sum of the splats' weights, which falls from 1 to 0 beyond the edge of
 //! the splat part. For that the sum must have reached 1 **on** the edge: splats are centered on the *transition edges*,
 //! which a polygon and a splat triangle share, evenly and near enough (`spacing`). What the splat part has too close to
-//! them anyway is removed. Where the mesh bends, splats end before they stand visibly off the polygons (`fins`).
+//! them anyway is removed.
 
 mod border;
 mod chains;
-mod fins;
 mod near;
 mod spacing;
 #[cfg(test)]
@@ -151,7 +150,6 @@ fn splat_part(
     }
     near.correct_radii(&mut splats, &places, area_per_sample, progress);
     add(&mut splats, &places, edge_radius);
-    fins::end(&mut splats, places.len(), &near);
     Ok(splats)
 }
 

@@ -11,7 +11,6 @@ mod culling;
 mod embedding;
 mod extremes;
 mod f16;
-mod fins;
 mod floor;
 mod frame_graph;
 mod hard_cases;

@@ -37,19 +37,8 @@ pub(super) struct Joint {
 pub(super) struct Edge {
     /// Numbers of joints, the lower one first.
     pub ends: [usize; 2],
-    /// The triangles at it.
-    pub beside: Beside,
-}
-
-/// The triangles beside a transition edge, one of each part.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Beside {
-    /// The unit normal of that of the splat part, for where the joints' normals cancel.
+    /// The unit normal of a triangle of the splat part, for where the joints' normals cancel.
     pub face: DVec3,
-    /// The unit normal of that which stays a polygon.
-    pub polygon: DVec3,
-    /// Unit, in the polygon's plane, from the edge into the polygon.
-    pub toward: DVec3,
 }
 
 /// An edge as one triangle has it.
@@ -98,17 +87,9 @@ impl Border {
         let joints = groups.map(|group| joint(mesh, group)).collect();
         let number = |place: u32| places.partition_point(|&p| p < place);
         let edges = sides.chunk_by(|a, b| a.places == b.places).map(|group| {
-            let of_part = |wanted: bool| {
-                let side = group.iter().find(|side| polygon[side.triangle] == wanted).unwrap_or(&group[0]);
-                mesh.triangles[side.triangle].map(|v| mesh.positions[v as usize])
-            };
-            let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize_or_zero();
-            let ends = group[0].places.map(|place| mesh.positions[place as usize]);
-            let (corners, along) = (of_part(true), (ends[1] - ends[0]).normalize_or_zero());
-            let inward = (corners[0] + corners[1] + corners[2]) / 3.0 - ends[0];
-            let toward = (inward - along * inward.dot(along)).normalize_or_zero();
-            let beside = Beside { face: normal(of_part(false)), polygon: normal(corners), toward };
-            Edge { ends: group[0].places.map(number), beside }
+            let of_splats = group.iter().find(|side| !polygon[side.triangle]).unwrap_or(&group[0]);
+            let [a, b, c] = mesh.triangles[of_splats.triangle].map(|v| mesh.positions[v as usize]);
+            Edge { ends: group[0].places.map(number), face: (b - a).cross(c - a).normalize_or_zero() }
         });
         Self { edges: edges.collect(), joints }
     }

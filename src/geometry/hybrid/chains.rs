@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::border::{Beside, Border, Joint};
+use super::border::{Border, Joint};
 use crate::geometry::resample::SHORTEST_NORMAL;
 
 /// A place on a transition edge.
@@ -15,13 +15,11 @@ pub(super) struct Place {
     /// Unit; zero only if the face that should stand in for it has none.
     pub normal: DVec3,
     pub color: [f64; 4],
-    /// The triangles beside the edge here.
-    pub beside: Beside,
 }
 
 /// Edges end to end. It ends where other than two transition edges meet, or where it began.
 struct Chain {
-    /// In the order of walking, with how far it is to each and with the triangles beside the edge before it.
+    /// In the order of walking, with how far it is to each and with the normal of the edge's face before it.
     stops: Vec<Stop>,
 }
 
@@ -29,16 +27,16 @@ struct Stop {
     joint: usize,
     /// Along the chain.
     at: f64,
-    /// The triangles beside the edge that ends here.
-    beside: Beside,
+    /// The normal of the face of the edge that ends here.
+    face: DVec3,
 }
 
 /// All transition edges as chains.
 pub(super) struct Chains<'a> {
     border: &'a Border,
     chains: Vec<Chain>,
-    /// Joints where chains end, and the first one of each loop that passes no other; with the triangles beside an edge.
-    ends: Vec<(usize, Beside)>,
+    /// Joints where chains end, and the first one of each loop that passes no other; with a face normal.
+    ends: Vec<(usize, DVec3)>,
 }
 
 impl<'a> Chains<'a> {
@@ -62,7 +60,7 @@ impl<'a> Chains<'a> {
                     }
                 }
                 if !loops || chains.len() > before {
-                    ends.push((joint, border.edges[edges[0]].beside));
+                    ends.push((joint, border.edges[edges[0]].face));
                 }
             }
         }
@@ -84,9 +82,9 @@ impl<'a> Chains<'a> {
     /// once.
     pub(super) fn places(&self, spacing: f64) -> Vec<Place> {
         let mut places = Vec::new();
-        for &(joint, beside) in &self.ends {
+        for &(joint, face) in &self.ends {
             let joint = &self.border.joints[joint];
-            places.push(between(joint, joint, 0.0, beside));
+            places.push(between(joint, joint, 0.0, face));
         }
         for chain in &self.chains {
             let intervals = chain.intervals(spacing);
@@ -100,7 +98,7 @@ impl<'a> Chains<'a> {
                 let Some([from, to]) = stops.peek() else { break };
                 let [a, b] = [from, to].map(|stop| &self.border.joints[stop.joint]);
                 let t = ((at - from.at) / (to.at - from.at)).clamp(0.0, 1.0);
-                places.push(between(a, b, t, to.beside));
+                places.push(between(a, b, t, to.face));
                 i += 1.0;
             }
         }
@@ -116,7 +114,7 @@ impl Chain {
         incident: &Incident,
         walked: &mut [bool],
     ) -> Self {
-        let mut stops = vec![Stop { joint, at: 0.0, beside: border.edges[edge].beside }];
+        let mut stops = vec![Stop { joint, at: 0.0, face: border.edges[edge].face }];
         let mut at = 0.0;
         let mut next = Some(edge);
         while let Some(edge) = next {
@@ -126,7 +124,7 @@ impl Chain {
             let [from, to] = [joint, other].map(|joint| border.joints[joint].position);
             at += from.distance(to);
             joint = other;
-            stops.push(Stop { joint, at, beside: border.edges[edge].beside });
+            stops.push(Stop { joint, at, face: border.edges[edge].face });
             let onward = incident.edges_of(joint);
             next = onward.iter().copied().find(|&edge| onward.len() == 2 && !walked[edge]);
         }
@@ -146,11 +144,11 @@ impl Chain {
 }
 
 /// At the fraction `t` of the way from one joint to another.
-fn between(a: &Joint, b: &Joint, t: f64, beside: Beside) -> Place {
+fn between(a: &Joint, b: &Joint, t: f64, face: DVec3) -> Place {
     let normal = a.normal.lerp(b.normal, t);
-    let normal = if normal.length() > SHORTEST_NORMAL { normal.normalize() } else { beside.face };
+    let normal = if normal.length() > SHORTEST_NORMAL { normal.normalize() } else { face };
     let color = std::array::from_fn(|channel| a.color[channel] + t * (b.color[channel] - a.color[channel]));
-    Place { position: a.position.lerp(b.position, t), normal, color, beside }
+    Place { position: a.position.lerp(b.position, t), normal, color }
 }
 
 /// The edges of each joint.

@@ -50,7 +50,6 @@ const BORDER: f64 = 2.0;
 /// The places nearest to samples on transition edges.
 pub(super) struct Near {
     marks: Tree,
-    places: Vec<Place>,
     radius: f64,
 }
 
@@ -58,18 +57,7 @@ impl Near {
     /// `marks` are [`MARKS_PER_RADIUS`], of the splats on the edges, which have the given radius.
     pub(super) fn of(marks: &[Place], radius: f64) -> Self {
         let points = (0..).zip(marks).map(|(number, mark)| Point { position: mark.position, number });
-        Self { marks: Tree::new(points.collect()), places: marks.to_vec(), radius }
-    }
-
-    /// The marks nearer to a place than `reach`; of more than 48 the nearest.
-    pub(super) fn within(&self, target: DVec3, reach: f64) -> Vec<Place> {
-        if self.marks.nearest_to(target, reach).is_none() {
-            return Vec::new();
-        }
-        let mut found = [(0.0, 0); 48];
-        self.marks.nearest_places_to(target, &mut found);
-        let near = found.iter().filter(|(squared, _)| *squared < reach * reach);
-        near.map(|(_, place)| self.places[self.marks.points()[*place as usize].number as usize]).collect()
+        Self { marks: Tree::new(points.collect()), radius }
     }
 
     /// Removes what is too near, and tells how many that were.

@@ -120,8 +120,7 @@ fn where_normals_cancel_the_splats_on_the_edge_have_those_of_a_face() {
     mesh.normals = Some(seam.polygon.iter().flat_map(of_triangle).collect());
     let hybrid = hybrid(&mesh, &|triangle| seam.polygon[triangle], &options(5000, true), &()).unwrap();
     assert!((0..hybrid.splats.len()).all(|i| hybrid.splats.defect(i).is_none()));
-    let normals = disks(&hybrid.splats).0;
-    let (inside, on_edge) = normals.split_at(hybrid.splats.len() - hybrid.report.edge_splats);
+    let (inside, on_edge) = disks(&hybrid.splats).0.split_at(hybrid.splats.len() - hybrid.report.edge_splats);
     assert!(inside.iter().all(|normal| *normal == Vec3::NEG_X));
     assert!(on_edge.len() > 50 && on_edge.iter().all(|normal| *normal == Vec3::Z));
 }

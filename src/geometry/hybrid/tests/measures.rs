@@ -136,9 +136,8 @@ fn radii_do_not_grow_toward_the_edge() {
             let hybrid = of_seam(&seam, &options(20_000, sample_edges));
             let radius = hybrid.report.edge_radius;
             let distances = distances(&hybrid.splats.positions, &along_edges(&seam, 0.1 * radius));
-            let (_, radii) = disks(&hybrid.splats);
             let mean = |from: f64, to: f64| {
-                let radii = radii.iter().zip(&distances).zip(&hybrid.splats.positions);
+                let radii = disks(&hybrid.splats).1.iter().zip(&distances).zip(&hybrid.splats.positions);
                 let of_inside = radii.filter(|((_, distance), position)| {
                     (from..to).contains(&(**distance / radius)) && position.abs().max_element() < 0.95
                 });

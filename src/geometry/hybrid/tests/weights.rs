@@ -25,25 +25,15 @@ pub(in super::super) fn psi_e(r: f64) -> f64 {
 
 /// Σw at each point of the surface, seen along each splat's normal.
 pub(super) fn sums(splats: &Splats, w: Kernel, at: &[DVec3]) -> Vec<f64> {
-    let tangents: Vec<[DVec3; 2]> = match &splats.shapes {
-        Shapes::Disks { normals, radii } => {
-            let scaled = |(normal, radius): (&glam::Vec3, &f32)| {
-                let s = normal.as_dvec3().any_orthonormal_vector();
-                [s, normal.as_dvec3().cross(s)].map(|axis| f64::from(*radius) * axis)
-            };
-            normals.iter().zip(radii).map(scaled).collect()
-        }
-        Shapes::Ellipses { s, t } => s.iter().zip(t).map(|(s, t)| [s.as_dvec3(), t.as_dvec3()]).collect(),
-    };
-    let radius = |i: usize| tangents[i][0].length().max(tangents[i][1].length());
+    let Shapes::Disks { normals, radii } = &splats.shapes else { panic!("disks") };
     // Splats from left to right, so that only a strip of them is looked at for each point.
     let mut order: Vec<usize> = (0..splats.len()).collect();
     order.sort_by(|&a, &b| splats.positions[a].x.total_cmp(&splats.positions[b].x));
-    let reach = 1.5 * (0..splats.len()).map(radius).fold(0.0, f64::max);
+    let reach = 1.5 * f64::from(radii.iter().copied().fold(0.0, f32::max));
     let weight = |i: usize, at: DVec3| {
-        let away = at - splats.positions[i];
-        let [u, v] = tangents[i].map(|axis| away.dot(axis) / axis.length_squared());
-        if away.length() <= 1.5 * radius(i) { w(u.hypot(v)) } else { 0.0 }
+        let (away, radius, normal) = (at - splats.positions[i], f64::from(radii[i]), normals[i].as_dvec3());
+        let near = away.length() <= 1.5 * radius;
+        if near { w((away - normal * away.dot(normal)).length() / radius) } else { 0.0 }
     };
     let strip = |at: DVec3| {
         let from = order.partition_point(|&i| splats.positions[i].x < at.x - reach);
