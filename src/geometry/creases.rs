@@ -13,16 +13,16 @@ use crate::scene::{Colors, Mesh};
 
 /// Cosine of the smallest bend of a crease, 40°: a ball of 80 triangles and a tube of 10 sides are smooth, a tube of 8 is not.
 /// Modelers' defaults are 20° to 60°.
-const COS_CREASE: f64 = 0.766;
+pub(super) const COS_CREASE: f64 = 0.766;
 
 /// Each face at an edge is compared with so many next ones: where hundreds share an edge there is no surface to tell.
 const MOST_AT_AN_EDGE: usize = 8;
 
 /// A triangle's corner at some vertex.
 #[derive(Clone, Copy)]
-struct Corner {
-    triangle: u32,
-    place: u8,
+pub(super) struct Corner {
+    pub triangle: u32,
+    pub place: u8,
 }
 
 /// Cuts a mesh apart at its creases. `normals` of the mesh are of its vertices and `fixed` are those that stay; its
@@ -33,7 +33,9 @@ pub(super) fn split(mesh: &mut Mesh, fixed: &[bool]) {
     let mut surfaces = Surfaces::default();
     for vertex in (0..fixed.len()).filter(|&vertex| !fixed[vertex]) {
         let around = &of_vertices[starts[vertex]..starts[vertex + 1]];
-        let Some(count) = surfaces.find(mesh, &faces, around).checked_sub(1).filter(|more| *more > 0) else {
+        let Some(count) =
+            surfaces.find(mesh, &faces, around, COS_CREASE).checked_sub(1).filter(|more| *more > 0)
+        else {
             continue;
         };
         // Vertices have 32-bit numbers.
@@ -69,22 +71,24 @@ fn add_copies(mesh: &mut Mesh, vertex: usize, normals: &mut dyn Iterator<Item = 
     }
 }
 
-struct Face {
-    normal: DVec3,
-    angles: [f64; 3],
+/// A triangle's unit normal, and its angles.
+pub(super) struct Face {
+    pub normal: DVec3,
+    pub angles: [f64; 3],
 }
 
 impl Face {
-    fn of(mesh: &Mesh, triangle: [u32; 3]) -> Option<Self> {
+    pub(super) fn of(mesh: &Mesh, triangle: [u32; 3]) -> Option<Self> {
         let (normal, angles) = corner_angles(corners(mesh, triangle)?);
         Some(Self { normal, angles })
     }
 }
 
-/// Where each vertex's corners begin in the list, and the list.
-fn corners_of_vertices(mesh: &Mesh) -> (Vec<usize>, Vec<Corner>) {
+/// Where each vertex's corners begin in the list, and the list. Vertices that the mesh does not have have none.
+pub(super) fn corners_of_vertices(mesh: &Mesh) -> (Vec<usize>, Vec<Corner>) {
     let mut starts = vec![0; mesh.positions.len() + 1];
-    for &vertex in mesh.triangles.iter().flatten() {
+    let has = |vertex: u32| (vertex as usize) < mesh.positions.len();
+    for &vertex in mesh.triangles.iter().flatten().filter(|vertex| has(**vertex)) {
         starts[vertex as usize + 1] += 1;
     }
     for vertex in 1..starts.len() {
@@ -93,7 +97,7 @@ fn corners_of_vertices(mesh: &Mesh) -> (Vec<usize>, Vec<Corner>) {
     let mut next = starts.clone();
     let mut list = vec![Corner { triangle: 0, place: 0 }; mesh.triangles.len() * 3];
     for (triangle, vertices) in mesh.triangles.iter().enumerate() {
-        for (place, &vertex) in vertices.iter().enumerate() {
+        for (place, &vertex) in vertices.iter().enumerate().filter(|(_, vertex)| has(**vertex)) {
             let to = &mut next[vertex as usize];
             list[*to] = Corner { triangle: triangle as u32, place: place as u8 };
             *to += 1;
@@ -104,9 +108,9 @@ fn corners_of_vertices(mesh: &Mesh) -> (Vec<usize>, Vec<Corner>) {
 
 /// The surfaces that meet at one vertex.
 #[derive(Default)]
-struct Surfaces {
+pub(super) struct Surfaces {
     /// The surface of each corner, numbered from 0 in the order of their first corners.
-    of_corners: Vec<usize>,
+    pub of_corners: Vec<usize>,
     /// The other end of each edge, and the corner that has it.
     edges: Vec<(u32, usize)>,
     /// A corner of the same surface; itself at last.
@@ -114,8 +118,14 @@ struct Surfaces {
 }
 
 impl Surfaces {
-    /// Tells the surfaces apart; how many there are.
-    fn find(&mut self, mesh: &Mesh, faces: &[Option<Face>], around: &[Corner]) -> usize {
+    /// Tells the surfaces apart, where a bend with a cosine of at most `cos_crease` is a crease; how many there are.
+    pub(super) fn find(
+        &mut self,
+        mesh: &Mesh,
+        faces: &[Option<Face>],
+        around: &[Corner],
+        cos_crease: f64,
+    ) -> usize {
         self.edges.clear();
         for (i, corner) in around.iter().enumerate() {
             let (triangle, place) = (mesh.triangles[corner.triangle as usize], usize::from(corner.place));
@@ -129,7 +139,7 @@ impl Surfaces {
             let last = self.edges.len().min(first + 1 + MOST_AT_AN_EDGE);
             for second in first + 1..last {
                 let [(end, a), (other_end, b)] = [self.edges[first], self.edges[second]];
-                let smooth = || normal(a).zip(normal(b)).is_some_and(|(a, b)| a.dot(b) > COS_CREASE);
+                let smooth = || normal(a).zip(normal(b)).is_some_and(|(a, b)| a.dot(b) > cos_crease);
                 if end == other_end && smooth() {
                     let (a, b) = (self.root(a), self.root(b));
                     self.parents[a.max(b)] = a.min(b);

@@ -5,7 +5,8 @@
 //! it stands out by r. So density and curvature are one number: a dense mesh may be sharp, since its disks are small, and a coarse one
 //! may be splats where it is smooth. A vertex is *rough* where that is more than [`VISIBLE`] of the mesh's size (the diagonal of its
 //! box), and the mesh's roughness is the share of its area at such vertices: a floor of two triangles below a dense
-//! statue counts as what is seen of it, not as 4 of 100 000 vertices.
+//! statue counts as what is seen of it, not as 4 of 100 000 vertices. Measured are the round disks, as if none ended where the mesh
+//! turns (`flat_splats.rs`): they tell what the mesh is like, and edges are triangles' to show.
 //!
 //! **The rule.** At most [`MOST_ROUGH`] of the area: disks at the vertices. More, but less than [`MOST_SPREAD`], and hardly any of it
 //! because of folds and borders: the mesh is smooth and uneven (long or very different edges), and disks that are

@@ -1,15 +1,14 @@
-//! A mesh becomes disks at its vertices.
-
-use glam::DVec3;
+//! A mesh becomes splats at its vertices.
 
 use super::{
     fitness::Fitness,
+    flat_splats::{FlatSplat, flat_splats, shapes},
     radii::hole_free_radii,
     surface::{MeshReport, Surface},
 };
 use crate::{
     progress::Progress,
-    scene::{Colors, Mesh, Shapes, Splats},
+    scene::{Colors, Mesh, Splats},
 };
 
 /// How much larger than the smallest hole-free radius disks are made: so that their kernels blend.
@@ -19,56 +18,52 @@ use crate::{
 /// costs fragments and gains nothing. The test `more_overlap_gives_smoother_normals` prints these figures.
 pub const DEFAULT_OVERLAP: f64 = 1.5;
 
-/// Makes a disk of every vertex that has a face.
+/// Makes a splat of every vertex that has a face, and several where its faces don't lie flat.
 ///
-/// Normals are the file's, where it has usable ones, else the mean of the faces weighted by angle. Radii are `overlap`
-/// times the smallest that leave no hole seen along the faces' normals; 1 is already free of holes, [`DEFAULT_OVERLAP`]
-/// is a good value. Order and colors are those of the vertices.
+/// Normals are the file's, where it has usable ones, else the mean of the faces weighted by angle. A splat is a round disk
+/// with a radius of `overlap` times the smallest that leaves no hole seen along the faces' normals; 1 is already free of
+/// holes, [`DEFAULT_OVERLAP`] is a good value. Where the surface turns or ends below that disk, a splat is an ellipse
+/// for each flat part around the vertex, and ends there (`flat_splats.rs`). Where no vertex has one, all splats are
+/// [`Shapes::Disks`](crate::scene::Shapes::Disks). Order and colors are those of the vertices.
 ///
 /// A vertex whose faces cancel has normal zero: [`Splats::drop_defective`] removes it.
 pub fn splats_from_mesh(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Splats, MeshReport) {
-    let (surface, radii) = disks(mesh, overlap, progress);
-    (collect(mesh, &surface.used, &surface.normals, &radii), surface.report)
+    let (surface, _, splats) = made(mesh, overlap, progress);
+    (splats, surface.report)
 }
 
-/// As [`splats_from_mesh`], and how well these splats show the mesh.
+/// As [`splats_from_mesh`], and how well round disks at the vertices would show the mesh.
 pub fn fitting_splats(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Splats, MeshReport, Fitness) {
-    let (surface, radii) = disks(mesh, overlap, progress);
+    let (surface, radii, splats) = made(mesh, overlap, progress);
     let fitness = Fitness::of(mesh, &surface.normals, &radii, surface.report.boundary_edges > 0);
-    (collect(mesh, &surface.used, &surface.normals, &radii), surface.report, fitness)
+    (splats, surface.report, fitness)
 }
 
-/// The surface at the vertices, and the radii of disks there.
-fn disks(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Surface, Vec<f64>) {
+/// The surface at the vertices, the radii of round disks there, and the splats.
+fn made(mesh: &Mesh, overlap: f64, progress: &dyn Progress) -> (Surface, Vec<f64>, Splats) {
     const TASK: &str = "splats from the mesh";
     let mut done = 0;
     let mut step = || {
         done += 1;
-        progress.step(TASK, done, 3);
+        progress.step(TASK, done, 4);
     };
     let surface = Surface::of(mesh, &mut step);
     let mut radii = hole_free_radii(mesh, &surface.normals);
     radii.iter_mut().for_each(|radius| *radius *= overlap);
     step();
-    (surface, radii)
+    let splats = collect(mesh, &flat_splats(mesh, &surface, &radii, overlap));
+    step();
+    (surface, radii, splats)
 }
 
-fn collect(mesh: &Mesh, used: &[bool], normals: &[DVec3], radii: &[f64]) -> Splats {
-    let kept = || used.iter().enumerate().filter(|(_, used)| **used).map(|(i, _)| i);
+fn collect(mesh: &Mesh, splats: &[FlatSplat]) -> Splats {
     let colors = match &mesh.colors {
-        Colors::Each(colors) if colors.len() == used.len() => {
-            Colors::Each(kept().map(|i| colors[i]).collect())
+        Colors::Each(colors) if colors.len() == mesh.positions.len() => {
+            Colors::Each(splats.iter().map(|splat| colors[splat.vertex]).collect())
         }
         _ => one_color(mesh),
     };
-    Splats {
-        positions: kept().map(|i| mesh.positions[i]).collect(),
-        shapes: Shapes::Disks {
-            normals: kept().map(|i| normals[i].as_vec3()).collect(),
-            radii: kept().map(|i| radii[i] as f32).collect(),
-        },
-        colors,
-    }
+    Splats { positions: splats.iter().map(|splat| splat.position).collect(), shapes: shapes(splats), colors }
 }
 
 /// The color of all splats of a mesh that has none at its vertices.

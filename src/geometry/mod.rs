@@ -1,8 +1,11 @@
 //! CPU preparation: what turns other models into splats.
 
+mod bounded;
+mod cells;
 mod cloud;
 mod creases;
 mod fitness;
+mod flat_splats;
 mod hybrid;
 mod mesh_splats;
 mod neighbors;
@@ -10,10 +13,12 @@ mod normals;
 mod radii;
 mod resample;
 mod seams;
+mod sectors;
 mod shaded_mesh;
 mod spacing;
 mod surface;
 mod topology;
+mod turns;
 mod up;
 
 pub use cloud::{CloudReport, splats_from_points};

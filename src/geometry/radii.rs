@@ -16,7 +16,7 @@ use super::corners;
 use crate::scene::Mesh;
 
 /// cos 60°.
-const MIN_COS_TILT: f64 = 0.5;
+pub(super) const MIN_COS_TILT: f64 = 0.5;
 
 /// For each vertex the smallest radius that leaves no hole; 0 without faces. `normals` are unit or zero.
 pub(super) fn hole_free_radii(mesh: &Mesh, normals: &[DVec3]) -> Vec<f64> {
@@ -31,6 +31,12 @@ pub(super) fn hole_free_radii(mesh: &Mesh, normals: &[DVec3]) -> Vec<f64> {
         }
     }
     radii
+}
+
+/// The smallest radius that corner `place` of one triangle needs of a disk with that unit normal.
+pub(super) fn hole_free_radius(p: [DVec3; 3], place: usize, normal: DVec3) -> f64 {
+    let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize();
+    reaches(p)[place] / normal.dot(face).abs().max(MIN_COS_TILT)
 }
 
 /// How far each corner's disk must reach in the triangle's plane.

@@ -28,3 +28,4 @@ mod stability;
 mod tiles;
 mod transparency;
 mod validation;
+mod vertex_splats;

@@ -9,7 +9,10 @@
 
 use glam::DVec3;
 
-use crate::{geometry::resample::vertex_colors, scene::Mesh};
+use crate::{
+    geometry::{resample::vertex_colors, turns::first_at_place},
+    scene::Mesh,
+};
 
 /// The transition edges, and the places that they join.
 pub(super) struct Border {
@@ -133,18 +136,4 @@ fn sides(mesh: &Mesh, polygon: &[bool], first: &[u32]) -> Vec<Side> {
 
 fn sorted(a: u32, b: u32) -> [u32; 2] {
     [a.min(b), a.max(b)]
-}
-
-/// For each vertex the first one at the same place.
-fn first_at_place(positions: &[DVec3]) -> Vec<u32> {
-    // Adding 0 turns −0 into 0.
-    let bits = |vertex: u32| positions[vertex as usize].to_array().map(|x| (x + 0.0).to_bits());
-    // Triangles name no vertex beyond 32 bits.
-    let mut order: Vec<u32> = (0..=u32::MAX).take(positions.len()).collect();
-    let mut first = order.clone();
-    order.sort_unstable_by_key(|&vertex| (bits(vertex), vertex));
-    for group in order.chunk_by(|&a, &b| bits(a) == bits(b)) {
-        group.iter().for_each(|&vertex| first[vertex as usize] = group[0]);
-    }
-    first
 }
