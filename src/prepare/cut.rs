@@ -7,13 +7,13 @@ use super::{
     chunk::{self, Chunk},
     memory::Uploader,
     mesh_chunk::PackedMesh,
-    pack, pieces,
+    near_surfaces, pack, pieces,
     sequence::Sequence,
     sites::{Site, sites},
 };
 use crate::{
     error::Result,
-    scene::{DefectCounts, MeshObject, Object, Opacity, Scene},
+    scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -46,9 +46,14 @@ pub(super) fn cut(
             storage: scene.storage,
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
+            has_transparent_triangles: scene.has_transparent_triangles(),
         },
     };
-    scene.objects.iter().try_for_each(|object| cut.object(object))?;
+    for (number, object) in scene.objects.iter().enumerate() {
+        let epsilon = scene.own_epsilon(number);
+        let auto = epsilon.map_or(!scene.without_auto_epsilon, |epsilon| epsilon == Epsilon::Auto);
+        cut.object(object, epsilon, auto)?;
+    }
     scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
     let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
     prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
@@ -73,6 +78,9 @@ struct Part<'a> {
     object: &'a Object,
     sequence: Sequence,
     transparent: bool,
+    epsilon: Option<Epsilon>,
+    /// Of the object's splats, where they have any.
+    shares: Option<Vec<f32>>,
 }
 
 impl Cut<'_, '_> {
@@ -81,7 +89,8 @@ impl Cut<'_, '_> {
         (self.progress)(self.done, self.total);
     }
 
-    fn object(&mut self, object: &Object) -> Result<()> {
+    /// `auto`: ε is to fit what is near each splat.
+    fn object(&mut self, object: &Object, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
         let splats = &object.splats;
         let opacity = splats.colors.opacity();
         if opacity == Opacity::Invisible {
@@ -91,7 +100,15 @@ impl Cut<'_, '_> {
         let storage = self.prepared.storage;
         // Before it is cut, so that chunks are compact.
         let sequence = Sequence::of(splats, storage.order);
-        let part = Part { object, sequence, transparent: opacity == Opacity::Transparent };
+        let transparent = opacity == Opacity::Transparent;
+        // Packed disks have no room for a share.
+        let exact = storage.format == SplatFormat::Exact;
+        let both_sides = auto && exact && (transparent || !object.closed);
+        let shares = match both_sides {
+            true => near_surfaces::shares(splats, Epsilon::auto_radii(self.prepared.sets_back(object.closed, transparent))),
+            false => None,
+        };
+        let part = Part { object, sequence, transparent, epsilon, shares };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
                 for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
@@ -122,8 +139,10 @@ impl Cut<'_, '_> {
             let number = self.prepared.chunks.len();
             let traits = (part.object.closed, part.transparent);
             let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, &survey)?;
+            chunk.epsilon = part.epsilon;
+            chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
-            let packed = batches.map(|which| pack::pack(splats, which, &survey));
+            let packed = batches.map(|which| pack::pack(splats, which, &survey, part.shares.as_deref()));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
             chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;

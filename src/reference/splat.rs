@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
+use super::epsilon::EpsilonRule;
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
@@ -85,14 +86,16 @@ const LEAST_SHIFT: f64 = 1e-6;
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
     let mut drawn = Vec::new();
     let mut defects = DefectCounts::default();
-    for object in &scene.objects {
+    let polygons = scene.has_transparent_triangles();
+    for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
+        let rule = EpsilonRule::of(scene, number, settings, opacity, polygons);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
-                let splat = prepare_one(object, i, (cull, opacity), view, settings);
+                let splat = prepare_one(object, i, (cull, opacity), &rule, view, settings);
                 drawn.extend(
                     splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
                 );
@@ -108,6 +111,7 @@ pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
     let factor = match epsilon {
         Epsilon::Length(length) => return length,
         Epsilon::Radii(factor) => factor,
+        Epsilon::Auto => 1.0,
     };
     let (mut sum, mut count) = (0.0, 0_u64);
     let transparent =
@@ -135,6 +139,7 @@ fn prepare_one(
     object: &Object,
     i: usize,
     (cull, opacity): (bool, Opacity),
+    rule: &EpsilonRule,
     view: &View,
     settings: &Settings,
 ) -> Option<DrawnSplat> {
@@ -165,16 +170,22 @@ fn prepare_one(
         _ if is_layered && regular => thickened(center, s, t, h),
         _ => 1.0,
     };
-    let epsilon = match settings.epsilon {
-        Epsilon::Radii(factor) => factor * splats.major_radius(i) * thickness,
-        Epsilon::Length(length) => length,
-    };
+    let epsilon = rule.epsilon(i, splats.major_radius(i) * thickness);
     let shift = if epsilon > 0.0 { 1.0 + (epsilon / center.z.max(epsilon)).max(LEAST_SHIFT) } else { 1.0 };
     let (s, t) = match settings.filter {
         Filter::Adjust if regular => adjust(center, s, t, h),
         Filter::AdjustPaper if regular => adjust_paper(center, s, t, h),
         _ => original,
     };
+
+    // Along its projectors, so that its image stays.
+    let back = if rule.sets_back && faces_away && regular {
+        let cosine = outward.dot(center.normalize());
+        1.0 + (shift - 1.0) * (1.0 - 2.0 * cosine * cosine).max(0.0)
+    } else {
+        1.0
+    };
+    let (center, s, t, original) = (back * center, back * s, back * t, (back * original.0, back * original.1));
 
     let map = if regular { map(center, s, t, h, settings) } else { Map::Projective };
     let share = match &map {

@@ -27,10 +27,23 @@ pub enum Kernel {
 /// The depth ε within which a fragment belongs to the nearest surface of its pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Epsilon {
+    /// The splat's larger radius, or less where another surface is near that faces the other way: what
+    /// [`crate::prepare::prepare`] found there ([`Scene::epsilons`](super::Scene::epsilons)). Of what is closed and transparent twice that, and splats
+    /// that face away are set back by up to as much where they are seen edge-on: so a layer holds one side of it.
+    Auto,
     /// A multiple of the splat's larger radius, at least 0.
     Radii(f64),
     /// A length in world units, at least 0.
     Length(f64),
+}
+
+impl Epsilon {
+    /// What [`Self::Auto`] is in radii, where no other surface is near. In layers that hold one side of a surface each it is two: fragments of a ball are
+    /// within one radius of each other but where the surface bends away within a pixel, and within two everywhere
+    /// (`benches/ACCURACY.md`).
+    pub(crate) fn auto_radii(layer_holds_one_side: bool) -> f64 {
+        if layer_holds_one_side { 2.0 } else { 1.0 }
+    }
 }
 
 /// The most pixels along a side.
@@ -96,23 +109,27 @@ impl OptionValue for Kernel {
 impl OptionValue for Epsilon {
     fn word(&self) -> String {
         match self {
+            Self::Auto => "auto".to_owned(),
             Self::Radii(radii) => format!("{radii}r"),
             Self::Length(length) => format!("{length}"),
         }
     }
 
     fn parse(word: &str) -> Result<Self, String> {
+        if word == "auto" {
+            return Ok(Self::Auto);
+        }
         let parsed = match word.strip_suffix('r') {
             Some(radii) => radii.parse().map(Self::Radii),
             None => word.parse().map(Self::Length),
         };
         parsed.map_err(|_| {
-            "expected multiples of a splat's radius, such as 1r, or a length, such as 0.02".to_owned()
+            "expected auto, multiples of a splat's radius, such as 1r, or a length, such as 0.02".to_owned()
         })
     }
 
     fn check(&self) -> Result<(), String> {
-        let (Self::Radii(depth) | Self::Length(depth)) = self;
+        let (Self::Radii(depth) | Self::Length(depth)) = self else { return Ok(()) };
         match *depth >= 0.0 && depth.is_finite() {
             true => Ok(()),
             false => Err(format!("{depth}: expected a finite number, at least 0")),
@@ -175,7 +192,7 @@ mod tests {
     fn every_value_is_read_from_its_own_word() {
         assert_read_again(&[[1, 65_536], [1024, 768]]);
         assert_read_again(&[Kernel::Gaussian { sigma: 0.5 }, Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }]);
-        assert_read_again(&[Epsilon::Radii(1.0), Epsilon::Length(0.02), Epsilon::Radii(-1.0)]);
+        assert_read_again(&[Epsilon::Auto, Epsilon::Radii(1.0), Epsilon::Length(0.02), Epsilon::Radii(-1.0)]);
         assert_read_again(&[None, Some([1.0, 0.5, 0.0])]);
         assert_read_again(&[Layers::Fixed(7), Layers::Auto(16)]);
         assert_read_again(&[TileMemory::Auto, TileMemory::Most(0), TileMemory::Most(12_500_000)]);
@@ -194,7 +211,7 @@ mod tests {
         let triples = ["", "1,2", "1,2,3,4", "1,,2", "a,b,c"];
         refused(|word| <[f64; 3]>::parse(word).is_ok(), &triples);
         refused(|word| Option::<[f32; 3]>::parse(word).is_ok(), &triples);
-        refused(|word| Epsilon::parse(word).is_ok(), &["", "r", "1rr", "one", "1 r"]);
+        refused(|word| Epsilon::parse(word).is_ok(), &["", "r", "1rr", "one", "1 r", "Auto"]);
         let kernels = ["", "gaussian", "gaussian:", "gaussian:a", "psi_e:1,2", "box:1"];
         refused(|word| Kernel::parse(word).is_ok(), &kernels);
         refused(|word| Layers::parse(word).is_ok(), &["", "auto", "auto:", "-1", "1.5"]);

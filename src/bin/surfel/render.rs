@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Settings, Storage},
+    scene::{Ball, Epsilon, Settings, Storage},
 };
 
 use crate::{
@@ -108,6 +108,7 @@ fn draw(
     let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
+    scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);
