@@ -57,17 +57,6 @@ float thickened(vec3 p, vec3 s, vec3 t)
     return 2.0 * min(sqrt(1.0 + ratio * ratio), MOST_LENGTHENED) - 1.0;
 }
 
-// SETS_BACK: at the rim of something closed and transparent its front and its back come nearer to each other than one surface's
-// fragments lie apart, and no epsilon tells them apart. Which side a splat is of does: those that face away are moved along their
-// projectors, which leaves their image as it is, by epsilon where they are seen edge-on, and by nothing from 45 degrees on, where
-// both sides are apart by themselves and something opaque behind them may be near: 1 - 2 cos^2 of epsilon.
-float set_back(Splat splat, float relative)
-{
-    float along = dot(splat.normal, splat.p);
-    float cosine2 = along * along / dot(splat.p, splat.p);
-    return 1.0 + relative * max(1.0 - 2.0 * cosine2, 0.0);
-}
-
 // False where nothing of the splat can be seen.
 bool map_splat(uint index, out Mapping m)
 {
@@ -147,16 +136,6 @@ bool map_splat(uint index, out Mapping m)
     float relative = frame.epsilon_radii + frame.epsilon_length > 0.0 ? max(part, LEAST_SHIFT) : 0.0;
     // Exactly 1 without epsilon: a division need not be.
     m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;
-    if (SETS_BACK && faces_away && m.regular) {
-        float f = set_back(splat, relative);
-        m.p *= f;
-        m.s *= f;
-        m.t *= f;
-        m.n0 *= f * f;
-        m.n1 *= f * f;
-        m.n2 *= f * f;
-        m.scale /= f * f * f;
-    }
     return true;
 }
 

@@ -46,7 +46,6 @@ pub(super) fn cut(
             storage: scene.storage,
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
-            has_transparent_triangles: scene.has_transparent_triangles(),
         },
     };
     for (number, object) in scene.objects.iter().enumerate() {
@@ -105,7 +104,7 @@ impl Cut<'_, '_> {
         let exact = storage.format == SplatFormat::Exact;
         let both_sides = auto && exact && (transparent || !object.closed);
         let shares = match both_sides {
-            true => near_surfaces::shares(splats, Epsilon::auto_radii(self.prepared.sets_back(object.closed, transparent))),
+            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
             false => None,
         };
         let part = Part { object, sequence, transparent, epsilon, shares };

@@ -54,8 +54,6 @@ pub struct PreparedScene {
     pub mean_transparent_radius: f64,
     /// The splats that were left out, in all objects together.
     pub defects: DefectCounts,
-    /// Some triangles are transparent.
-    pub has_transparent_triangles: bool,
 }
 
 impl PreparedScene {
@@ -67,12 +65,6 @@ impl PreparedScene {
     /// How many triangles are drawn.
     pub fn triangle_count(&self) -> u64 {
         self.meshes.iter().map(|chunk| u64::from(chunk.triangles)).sum()
-    }
-
-    /// Whether [`Epsilon::Auto`](crate::scene::Epsilon::Auto) sets splats back that face away, of what is closed and transparent or not. What
-    /// is at a rim belongs to one layer with the polygons of the same surface there, which nothing sets back.
-    pub(crate) fn sets_back(&self, closed: bool, transparent: bool) -> bool {
-        closed && transparent && !self.has_transparent_triangles
     }
 
     /// Bytes of device memory in buffers of splats and meshes.

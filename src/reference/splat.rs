@@ -86,11 +86,10 @@ const LEAST_SHIFT: f64 = 1e-6;
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
     let mut drawn = Vec::new();
     let mut defects = DefectCounts::default();
-    let polygons = scene.has_transparent_triangles();
     for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
-        let rule = EpsilonRule::of(scene, number, settings, opacity, polygons);
+        let rule = EpsilonRule::of(scene, number, settings, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
@@ -111,7 +110,7 @@ pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
     let factor = match epsilon {
         Epsilon::Length(length) => return length,
         Epsilon::Radii(factor) => factor,
-        Epsilon::Auto => 1.0,
+        Epsilon::Auto => 2.0,
     };
     let (mut sum, mut count) = (0.0, 0_u64);
     let transparent =
@@ -177,15 +176,6 @@ fn prepare_one(
         Filter::AdjustPaper if regular => adjust_paper(center, s, t, h),
         _ => original,
     };
-
-    // Along its projectors, so that its image stays.
-    let back = if rule.sets_back && faces_away && regular {
-        let cosine = outward.dot(center.normalize());
-        1.0 + (shift - 1.0) * (1.0 - 2.0 * cosine * cosine).max(0.0)
-    } else {
-        1.0
-    };
-    let (center, s, t, original) = (back * center, back * s, back * t, (back * original.0, back * original.1));
 
     let map = if regular { map(center, s, t, h, settings) } else { Map::Projective };
     let share = match &map {

@@ -83,8 +83,8 @@ pub struct Scene {
     /// The ε of objects of splats that have one of their own, by their place in [`Self::objects`]; others, and those beyond its end, have
     /// [`Settings::epsilon`].
     pub epsilons: Vec<Option<Epsilon>>,
-    /// No frame asks for [`Epsilon::Auto`] where an object has no ε of its own: nothing need be looked for near its splats when the
-    /// scene is prepared.
+    /// No frame asks for [`Epsilon::Auto`] of objects that have no ε of their own: nothing is looked for near their splats when the scene is
+    /// prepared.
     pub without_auto_epsilon: bool,
 }
 
@@ -102,11 +102,6 @@ impl Scene {
     /// The ε that an object of splats has of its own.
     pub fn own_epsilon(&self, object: usize) -> Option<Epsilon> {
         self.epsilons.get(object).copied().flatten()
-    }
-
-    /// Whether some of its triangles are transparent.
-    pub fn has_transparent_triangles(&self) -> bool {
-        self.meshes.iter().any(|object| object.mesh.colors.opacity() == Opacity::Transparent)
     }
 
     /// The box around all disks and triangles; `None` where there is neither.

@@ -41,7 +41,7 @@ settings! {
         /// The precision of the sums; the reference sums in 64 bits whatever is given here.
         "accumulate" "TYPE" accumulate: Accumulate,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
-        /// length; `auto` is a radius, less where the other side of something thin is near, and in layers fits both sides of what is closed.
+        /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near.
         "epsilon" "auto|1r|LENGTH" epsilon: Epsilon = Epsilon::Auto,
         /// The treatment of splats that face away.
         "backfaces" "WHAT" backfaces: Backfaces,

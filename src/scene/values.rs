@@ -27,9 +27,8 @@ pub enum Kernel {
 /// The depth ε within which a fragment belongs to the nearest surface of its pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Epsilon {
-    /// The splat's larger radius, or less where another surface is near that faces the other way: what
-    /// [`crate::prepare::prepare`] found there ([`Scene::epsilons`](super::Scene::epsilons)). Of what is closed and transparent twice that, and splats
-    /// that face away are set back by up to as much where they are seen edge-on: so a layer holds one side of it.
+    /// The splat's larger radius, of what is transparent twice that; and less where another surface is near that faces the other way, so that
+    /// the sides of a plate stay two: so much as [`prepare`](crate::prepare::prepare) found room for.
     Auto,
     /// A multiple of the splat's larger radius, at least 0.
     Radii(f64),
@@ -38,11 +37,11 @@ pub enum Epsilon {
 }
 
 impl Epsilon {
-    /// What [`Self::Auto`] is in radii, where no other surface is near. In layers that hold one side of a surface each it is two: fragments of a ball are
-    /// within one radius of each other but where the surface bends away within a pixel, and within two everywhere
-    /// (`benches/ACCURACY.md`).
-    pub(crate) fn auto_radii(layer_holds_one_side: bool) -> f64 {
-        if layer_holds_one_side { 2.0 } else { 1.0 }
+    /// What [`Self::Auto`] is in radii, where no other surface is near. In one radius from the nearest one there are not all fragments of a
+    /// surface that bends away within the pixel: what is left would be a layer more, a dark dot. Within two there are
+    /// (`benches/ACCURACY.md`), and at the rim of a ball only pixels that it covers in part have its front and its back in one layer.
+    pub(crate) fn auto_radii(transparent: bool) -> f64 {
+        if transparent { 2.0 } else { 1.0 }
     }
 }
 

@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Epsilon, Settings, Storage},
+    scene::{Ball, Epsilon, Storage},
 };
 
 use crate::{
@@ -88,14 +88,13 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {
         headless.renderer.check_settings(&settings)?;
-        draw(headless, arguments, &settings, &camera, &output, steps)
+        draw(headless, arguments, &camera, &output, steps)
     })
 }
 
 fn draw(
     headless: &mut Headless,
     arguments: &RenderArguments,
-    settings: &Settings,
     camera: &CameraChoice,
     output: &(PathBuf, PictureFormat),
     mut steps: Steps,
@@ -103,6 +102,8 @@ fn draw(
     let picture = &arguments.picture;
     let bars = Bars::new();
     let loaded = load_scene(&picture.input.inputs(), &bars)?;
+    // What belongs to no scene was checked before it was loaded.
+    let settings = &picture.settings_in(&loaded.picture);
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
     let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;

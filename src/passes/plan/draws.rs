@@ -107,9 +107,8 @@ pub fn draws<'a>(
         let view = chunk.rebase.view_from_local(camera);
         let near = near_in_view(camera, &view);
         let wanted = chunk.epsilon.unwrap_or(settings.epsilon);
-        let sets_back = wanted == Epsilon::Auto && scene.sets_back(chunk.closed, chunk.transparent);
         let epsilon = match wanted {
-            Epsilon::Auto => (Epsilon::auto_radii(sets_back), 0.0),
+            Epsilon::Auto => (Epsilon::auto_radii(chunk.transparent), 0.0),
             Epsilon::Radii(radii) => (radii, 0.0),
             Epsilon::Length(length) => (0.0, length),
         };
@@ -161,9 +160,6 @@ pub fn draws<'a>(
                 let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);
                 if chunk.transparent {
                     constants.extend([(SPEC_OUTWARD, u32::from(chunk.closed)), (SPEC_IN_LAYERS, 1)]);
-                }
-                if sets_back {
-                    constants.push((SPEC_SETS_BACK, 1));
                 }
                 if wanted == Epsilon::Auto && chunk.own_epsilon {
                     constants.push((SPEC_OWN_EPSILON, 1));
