@@ -102,6 +102,8 @@ impl Cut<'_, '_> {
         let transparent = opacity == Opacity::Transparent;
         // Packed disks have no room for a share.
         let exact = storage.format == SplatFormat::Exact;
+        // So that a bar is there meanwhile.
+        self.step(0);
         let both_sides = auto && exact && (transparent || !object.closed);
         let shares = match both_sides {
             true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),

@@ -1,15 +1,15 @@
 //! How much room there is for ε near each splat: another surface that faces the other way, as the other side of a plate, a rib or a leaf
 //! does, must not be taken for the splat's own.
 //!
-//! Of the splats whose centers are within the radius and that face about the same way (normals within 60°), the largest distance of a
+//! Of the splats whose centers are within 1.5 radii and that face about the same way (normals within 60°), the largest distance of a
 //! center from the splat's plane is the *spread* of its own surface, by curvature, spacing and noise. Of those within twice ε that face
 //! the other way (beyond 120°) the smallest such distance is the *gap*. ε is half the gap, but at least twice the spread, and at most what
 //! it is without another surface: where the gap is that, half of it is ε, so that nothing jumps.
-//! A gap of less than three spreads, or of less than a 20th of the radius, is none: normals of one surface that look to both sides, as
-//! those of a cloud nobody oriented, are not a plate.
+//! A gap of less than three spreads, of its own surface or of what faces the other way within 1.5 radii, or of less than a 20th of the
+//! radius, is none: normals of one surface that look to both sides, as those of a cloud nobody oriented, are not a plate.
 //!
-//! The splats lie in a grid whose cells are as large as the neighborhood of the median radius. Cells near which no two
-//! normals are more than 120° apart, most of any scan, are done with a look at each neighbor.
+//! The splats lie in a grid whose cells are as large as the neighborhood of the median radius, each with a cone around its normals. Cells
+//! near which no two normals can be 120° apart, most of any scan, are done with a look at the cones.
 
 use std::ops::Range;
 
@@ -21,6 +21,9 @@ use crate::scene::{Shapes, Splats};
 /// The cosine of the angle up to which normals face the same way, and, negative, from which on the other.
 const SAME_WAY: f64 = 0.5;
 
+/// How far close centers are, in radii.
+const CLOSE: f64 = 1.5;
+
 /// The least gap, in spreads.
 const LEAST_SPREADS: f64 = 3.0;
 
@@ -29,6 +32,9 @@ const LEAST_RADII: f64 = 0.05;
 
 /// So many cells are a task.
 const CELLS_AT_ONCE: usize = 256;
+
+/// A splat that reaches farther than this many cells is one among much smaller ones; it is taken to reach so far.
+const MOST_CELLS: f64 = 64.0;
 
 /// More candidates than this near a cell are a heap in which nothing is told apart.
 const MOST_CANDIDATES: usize = 1 << 13;
@@ -67,12 +73,19 @@ struct Place {
     splat: u32,
 }
 
+/// A cell that is not empty.
+struct Cell {
+    places: Range<usize>,
+    /// A cone around its normals: unit axis, angle.
+    axis: DVec3,
+    angle_rad: f64,
+}
+
 /// The splats by cells, which are sorted.
 struct Grid {
     cell: f64,
     places: Vec<Place>,
-    /// The places of each cell that is not empty.
-    cells: Vec<Range<usize>>,
+    cells: Vec<Cell>,
 }
 
 impl Grid {
@@ -80,29 +93,34 @@ impl Grid {
         let place = |splat: u32| Place { cell: cell_of(splats.positions[splat as usize], cell), splat };
         let mut places: Vec<Place> = numbers.into_par_iter().map(place).collect();
         places.par_sort_unstable_by_key(|place| (place.cell, place.splat));
-        let mut cells: Vec<Range<usize>> = Vec::new();
+        let mut ranges: Vec<Range<usize>> = Vec::new();
         for (i, place) in places.iter().enumerate() {
-            match cells.last_mut() {
+            match ranges.last_mut() {
                 Some(last) if places[last.start].cell == place.cell => last.end = i + 1,
-                _ => cells.push(i..i + 1),
+                _ => ranges.push(i..i + 1),
             }
         }
+        let cone = |range: Range<usize>| {
+            let normal = |place: &Place| normal_of(splats, place.splat as usize);
+            let axis = normal(&places[range.start]);
+            let least = places[range.clone()].iter().map(|place| normal(place).dot(axis)).fold(1.0, f64::min);
+            Cell { places: range, axis, angle_rad: least.clamp(-1.0, 1.0).acos() }
+        };
+        let cells = ranges.into_par_iter().map(cone).collect();
         Self { cell, places, cells }
     }
 
-    /// Calls `take` for the places in a box of cells, row by row, until it answers false.
-    fn within(&self, [lo, hi]: [[i32; 3]; 2], mut take: impl FnMut(Range<usize>) -> bool) {
-        let first = |cell: [i32; 3]| self.cells.partition_point(|range| self.places[range.start].cell < cell);
-        for x in lo[0]..=hi[0] {
-            for y in lo[1]..=hi[1] {
-                let cells = self.cells[first([x, y, lo[2]])..].iter();
-                let row = cells.take_while(|range| self.places[range.start].cell <= [x, y, hi[2]]);
-                let Some(places) = row.cloned().reduce(|a, b| a.start..b.end) else { continue };
-                if !take(places) {
-                    return;
-                }
-            }
-        }
+    fn at(&self, cell: &Cell) -> [i32; 3] {
+        self.places[cell.places.start].cell
+    }
+
+    /// The cells of a box.
+    fn within(&self, [lo, hi]: [[i32; 3]; 2]) -> impl Iterator<Item = &Cell> {
+        let rows = (lo[0]..=hi[0]).flat_map(move |x| (lo[1]..=hi[1]).map(move |y| [x, y]));
+        rows.flat_map(move |[x, y]| {
+            let first = self.cells.partition_point(|cell| self.at(cell) < [x, y, lo[2]]);
+            self.cells[first..].iter().take_while(move |cell| self.at(cell) <= [x, y, hi[2]])
+        })
     }
 }
 
@@ -138,14 +156,12 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// The splats of some cells that have less than all of ε, and their shares.
-    fn less_than_all(&self, cells: &[Range<usize>]) -> Vec<(u32, f32)> {
-        let (mut found, mut near) = (Vec::new(), Vec::new());
+    fn less_than_all(&self, cells: &[Cell]) -> Vec<(u32, f32)> {
+        let mut found = Vec::new();
         for cell in cells {
-            let own = &self.grid.places[cell.clone()];
-            if !self.candidates(own, &mut near) {
-                continue;
-            }
-            for place in own {
+            let near = self.near(cell);
+            let own = if near.is_empty() { 0..0 } else { cell.places.clone() };
+            for place in &self.grid.places[own] {
                 let share = self.share(place.splat as usize, &near);
                 if share < 1.0 {
                     found.push((place.splat, share as f32));
@@ -155,26 +171,29 @@ impl Work<'_> {
         found
     }
 
-    /// Finds all that is near the splats of a cell; false where none of it faces another way than the rest.
-    fn candidates(&self, own: &[Place], near: &mut Vec<Neighbor>) -> bool {
+    /// All that is near the splats of a cell; nothing where none of it can face the other way.
+    fn near(&self, cell: &Cell) -> Vec<Neighbor> {
+        let own = &self.grid.places[cell.places.clone()];
         let radius = |place: &Place| self.splats.major_radius(place.splat as usize);
         let reach = 2.0 * self.radii * own.iter().map(radius).fold(0.0, f64::max);
-        let cells = (reach / self.grid.cell).ceil().clamp(1.0, 64.0) as i32;
-        let [lo, hi] = [-cells, cells].map(|by| own[0].cell.map(|x| x + by));
-        let first = normal_of(self.splats, own[0].splat as usize);
-        let mut turned = false;
-        near.clear();
-        self.grid.within([lo, hi], |places| {
-            near.extend(self.grid.places[places].iter().map(|place| {
-                let i = place.splat as usize;
-                let normal = normal_of(self.splats, i);
-                // Two normals within 60° of a third are not 120° apart.
-                turned |= normal.dot(first) < SAME_WAY;
-                Neighbor { position: self.splats.positions[i], normal, splat: place.splat }
-            }));
-            near.len() <= MOST_CANDIDATES
-        });
-        turned && near.len() <= MOST_CANDIDATES
+        let cells = (reach / self.grid.cell).ceil().clamp(1.0, MOST_CELLS) as i32;
+        let corners = [-cells, cells].map(|by| own[0].cell.map(|x| x + by));
+        let near = || self.grid.within(corners);
+        let other_way = (-SAME_WAY).acos();
+        let may_face_the_other_way = |other: &Cell| {
+            let between = other.axis.dot(cell.axis).clamp(-1.0, 1.0).acos();
+            // With room for rounding.
+            between + cell.angle_rad + other.angle_rad > other_way - 1e-6
+        };
+        let count: usize = near().map(|other| other.places.len()).sum();
+        if count > MOST_CANDIDATES || !near().any(may_face_the_other_way) {
+            return Vec::new();
+        }
+        let neighbor = |place: &Place| {
+            let i = place.splat as usize;
+            Neighbor { position: self.splats.positions[i], normal: normal_of(self.splats, i), splat: place.splat }
+        };
+        near().flat_map(|other| self.grid.places[other.places.clone()].iter().map(neighbor)).collect()
     }
 
     fn share(&self, i: usize, near: &[Neighbor]) -> f64 {
@@ -182,21 +201,103 @@ impl Work<'_> {
         let normal = normal_of(self.splats, i);
         let whole = self.radii * radius;
         let (mut spread, mut gap) = (0.0_f64, f64::INFINITY);
+        let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         for neighbor in near {
             let to = neighbor.position - position;
             if to.length_squared() > 4.0 * whole * whole || neighbor.splat as usize == i {
                 continue;
             }
-            let (facing, off) = (neighbor.normal.dot(normal), to.dot(normal).abs());
-            if facing >= SAME_WAY && to.length_squared() <= radius * radius {
-                spread = spread.max(off);
+            let (facing, off) = (neighbor.normal.dot(normal), to.dot(normal));
+            let is_close = to.length_squared() <= CLOSE * CLOSE * radius * radius;
+            if facing >= SAME_WAY && is_close {
+                spread = spread.max(off.abs());
             } else if facing <= -SAME_WAY {
-                gap = gap.min(off);
+                gap = gap.min(off.abs());
+                if is_close {
+                    (lowest, highest) = (lowest.min(off), highest.max(off));
+                }
             }
         }
-        if gap < LEAST_SPREADS * spread || gap < LEAST_RADII * radius {
+        let range = highest - lowest; // -∞ of none
+        if gap < LEAST_SPREADS * spread.max(range) || gap < LEAST_RADII * radius {
             return 1.0;
         }
         (f64::max(0.5 * gap, 2.0 * spread) / whole).min(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{math::random::SplitMix, scene::Colors};
+
+    /// Two sides of a plate so thick, spaced 0.8 radii of 1, with normals that look outward, or to both sides at random.
+    fn plate(thick: f64, noise: f64, oriented: bool) -> Splats {
+        let mut random = SplitMix(11);
+        let mut splats = Splats {
+            positions: Vec::new(),
+            shapes: Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
+            colors: Colors::Uniform([1.0; 4]),
+        };
+        for side in [1.0, -1.0] {
+            for i in 0..900 {
+                let mut jitter = || 0.2 * (random.unit() - 0.5);
+                let [x, y] = [f64::from(i % 30), f64::from(i / 30)].map(|at| 0.8 * at + jitter());
+                let z = side * 0.5 * thick + 2.0 * noise * (random.unit() - 0.5);
+                splats.positions.push(DVec3::new(x, y, z));
+                let Shapes::Disks { normals, radii } = &mut splats.shapes else { unreachable!() };
+                let sign = if oriented || random.unit() < 0.5 { side } else { -side };
+                normals.push(Vec3::Z * sign as f32);
+                radii.push(1.0);
+            }
+        }
+        splats
+    }
+
+    #[test]
+    fn epsilon_is_half_of_what_is_between_two_sides() {
+        for radii in [1.0, 2.0] {
+            for thick in [0.1, 0.5, 1.0, 1.9 * radii] {
+                let shares = shares(&plate(thick, 0.0, true), radii).unwrap();
+                let expected = (0.5 * thick / radii) as f32;
+                assert!(shares.iter().all(|share| (share - expected).abs() < 1e-6), "{thick}: {shares:?}");
+            }
+            assert_eq!(shares(&plate(2.1 * radii, 0.0, true), radii), None);
+        }
+    }
+
+    #[test]
+    fn one_surface_is_no_plate_whatever_way_its_normals_look() {
+        for noise in [0.0, 0.01, 0.1] {
+            let mut one = plate(0.0, noise, false);
+            one.keep(&[vec![true; 900], vec![false; 900]].concat());
+            let cut = shares(&one, 1.0).map_or(0, |all| all.iter().filter(|share| **share < 1.0).count());
+            assert!(cut <= 2, "{noise}: {cut} of 900");
+        }
+        assert_eq!(shares(&crate::load::builtin::sphere(20_000).splats, 2.0), None);
+    }
+
+    #[test]
+    fn noise_is_not_cut_off() {
+        let noisy = shares(&plate(0.8, 0.05, true), 1.0).unwrap();
+        // Spreads are up to 0.1, the gap is 0.7 to 0.8.
+        assert!(noisy.iter().all(|share| (0.34..=0.4).contains(share)), "{noisy:?}");
+    }
+
+    #[test]
+    fn strays_heaps_and_giants_end() {
+        let mut heap = plate(0.5, 0.0, true);
+        heap.positions[..450].fill(DVec3::splat(1e9));
+        heap.positions[1400] = DVec3::splat(1e300);
+        heap.positions[1401] = DVec3::splat(-1e300);
+        heap.positions[1402] = DVec3::splat(f64::NAN);
+        if let Shapes::Disks { radii, .. } = &mut heap.shapes {
+            radii[1403] = 1e30;
+        }
+        let found = shares(&heap, 1.0).unwrap();
+        assert!(found.iter().all(|share| *share > 0.0 && *share <= 1.0));
+        let many = plate(0.5, 0.0, true);
+        let at_one_place = Splats { positions: vec![DVec3::ONE; many.len()], ..many };
+        assert_eq!(shares(&at_one_place, 1.0), None);
     }
 }

@@ -226,7 +226,7 @@ mod tests {
             colors: Colors::Uniform([1.0; 4]),
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 1e-3 };
-        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase));
+        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase), None);
         let unit = SHORTEST_TANGENT as f32;
         let expected = [[1e-3, 0.0, 0.0], [0.0, unit, 0.0], [0.6 * unit, 0.8 * unit, 0.0], [0.0, 0.0, unit]];
         for (i, expected) in [1, 2, 4, 5].into_iter().zip(expected) {

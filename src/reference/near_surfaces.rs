@@ -14,8 +14,9 @@ struct Oriented {
 }
 
 /// The share of ε, which is so many radii, for each splat. With g, the least distance from its plane of the centers that are within 2ε and
-/// face the other way (normals beyond 120°), and d, the largest of those that are within its radius and face the same way (within 60°): the
-/// larger of g/2 and 2d, at most ε; all of ε where there is none, and where g is less than 3d or a 20th of the radius.
+/// face the other way (normals beyond 120°), and d, the largest of those that are within 1.5 radii and face the same way (within 60°): the
+/// larger of g/2 and 2d, at most ε; all of ε where there is none, and where g is less than 3d, less than thrice the range in which those lie
+/// that are within 1.5 radii and face the other way, or less than a 20th of the radius.
 pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
     let mut all: Vec<Oriented> = (0..splats.len())
         .filter(|&i| splats.defect(i).is_none())
@@ -34,18 +35,24 @@ pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
         let slab = all[first..].iter().take_while(|other| other.center.x <= of.center.x + 2.0 * epsilon);
         let others = slab.filter(|other| other.number != of.number);
         let (mut spread, mut gap) = (0.0_f64, f64::INFINITY);
+        let mut close_others = Vec::new();
         for other in others {
             let distance = other.center.distance(of.center);
-            let from_plane = (other.center - of.center).dot(of.normal).abs();
+            let from_plane = (other.center - of.center).dot(of.normal);
             let cosine = other.normal.dot(of.normal);
-            if cosine >= 0.5 && distance <= of.radius {
-                spread = spread.max(from_plane);
+            if cosine >= 0.5 && distance <= 1.5 * of.radius {
+                spread = spread.max(from_plane.abs());
             }
             if cosine <= -0.5 && distance <= 2.0 * epsilon {
-                gap = gap.min(from_plane);
+                gap = gap.min(from_plane.abs());
+                if distance <= 1.5 * of.radius {
+                    close_others.push(from_plane);
+                }
             }
         }
-        if gap >= 3.0 * spread && gap >= 0.05 * of.radius {
+        let highest = close_others.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = close_others.iter().copied().fold(f64::INFINITY, f64::min);
+        if gap >= 3.0 * spread.max(highest - lowest) && gap >= 0.05 * of.radius {
             shares[of.number] = ((gap / 2.0).max(2.0 * spread) / epsilon).min(1.0);
         }
     }
