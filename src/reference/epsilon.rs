@@ -30,9 +30,7 @@ impl EpsilonRule {
     pub fn epsilon(&self, i: usize, thickness: f64) -> f64 {
         match self {
             Self::Length(length) => *length,
-            Self::Radii(radii, shares) => {
-                radii * thickness * shares.as_ref().map_or(1.0, |shares| shares[i])
-            }
+            Self::Radii(radii, shares) => radii * thickness * shares.as_ref().map_or(1.0, |shares| shares[i]),
         }
     }
 }

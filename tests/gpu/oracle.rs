@@ -252,7 +252,9 @@ fn the_sides_of_a_thin_plate_stay_two_by_every_path() {
                 picture.pixels.iter().filter(|pixel| pixel.albedo[2] > 1.2 * pixel.albedo[0]).count()
             };
             let mixed = |picture: &Picture| {
-                let is = |pixel: &&surfel::reference::Pixel| pixel.is_covered() && (0.2..0.7).contains(&pixel.albedo[0]);
+                let is = |pixel: &&surfel::reference::Pixel| {
+                    pixel.is_covered() && (0.2..0.7).contains(&pixel.albedo[0])
+                };
                 picture.pixels.iter().filter(is).count()
             };
             if alpha == 1.0 {

@@ -7,8 +7,8 @@ use surfel::{
     compose::{build, make, resampled},
     geometry::{FoundUp, up_of_shape},
     load::{
-        BuiltIn, LoadOptions, Model, ObjectDescription, PictureDescription, Representation, Samples, Source, file_name,
-        is_scene_file, load_scene_file,
+        BuiltIn, LoadOptions, Model, ObjectDescription, PictureDescription, Representation, Samples, Source,
+        file_name, is_scene_file, load_scene_file,
     },
     prepare::PreparedScene,
     renderer::Headless,

@@ -219,5 +219,8 @@ fn what_is_no_epsilon_background_or_shading() {
     let error = read(&format!("shading = \"albdo\"\n{sphere}")).unwrap_err();
     assert!(error.starts_with("scene.toml: line 1, shading: \"albdo\": expected 'albedo'"), "{error}");
     let error = read(&format!("{sphere}representation = \"mesh\"\nepsilon = 1\n")).unwrap_err();
-    assert!(error.contains("line 4, object 1, epsilon: has no meaning for a model drawn as triangles"), "{error}");
+    assert!(
+        error.contains("line 4, object 1, epsilon: has no meaning for a model drawn as triangles"),
+        "{error}"
+    );
 }
