@@ -131,7 +131,7 @@ bool map_splat(uint index, out Mapping m)
     m.n2 = n2;
     m.scale = scale;
 
-    float thickness = splat.radius;
+    float thickness = splat.radius * splat.epsilon_share;
     if ((IN_LAYERS || COVERAGE_EDGES) && FILTER != FILTER_NONE && m.regular) {
         thickness *= FORMULA(FORMULA_LENGTHENED, thickened(splat.p, splat.s, splat.t, depth_radius / splat.radius));
     }

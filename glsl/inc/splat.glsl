@@ -91,6 +91,7 @@ struct Splat {
     FromEye from_eye; // the center again, view units
     vec3 n;        // the normal in the axes of local space, about 1 long
     float area;    // s x t over n, rotated
+    float epsilon_share; // OWN_EPSILON: of epsilon, what the neighborhood has room for; above 0, at most 1
 };
 
 // Knuth's two-sum of what is moved and the origin: exact but for the sum of what both left.
@@ -149,6 +150,7 @@ struct Stored {
     vec3 position_low;
     vec3 s; // of a disk its normal
     vec3 t;
+    float less_epsilon; // 1 less the share of epsilon: buffers have 0 where nobody looked
 };
 
 Stored load_stored(uint index)
@@ -156,11 +158,12 @@ Stored load_stored(uint index)
     if (PACKED) {
         uvec4 words = packed_shapes[index];
         vec3 position = vec3(unpacked_coordinate(words.x), unpacked_coordinate(words.y), unpacked_coordinate(words.z));
-        return Stored(vec4(position, unpacked_radius(words.xyz)), vec3(0.0), unpacked_normal(words.w), vec3(0.0));
+        return Stored(vec4(position, unpacked_radius(words.xyz)), vec3(0.0), unpacked_normal(words.w), vec3(0.0), 0.0);
     }
     uint first = SHAPE_VECTORS * index;
     vec3 low = FINE ? shapes[first + SHAPE_VECTORS - 1].xyz : vec3(0.0);
-    return Stored(shapes[first], low, shapes[first + 1].xyz, ELLIPSES ? shapes[first + 2].xyz : vec3(0.0));
+    vec4 second = shapes[first + 1];
+    return Stored(shapes[first], low, second.xyz, ELLIPSES ? shapes[first + 2].xyz : vec3(0.0), second.w);
 }
 
 // Of an ellipse's tangent vectors, that make them about 1 long, so that their product has a direction whatever their lengths.
@@ -209,6 +212,7 @@ Splat load_splat(uint index)
     splat.p *= splat.unit;
     splat.radius *= splat.unit;
     splat.n = normal_of(stored);
+    splat.epsilon_share = OWN_EPSILON ? 1.0 - stored.less_epsilon : 1.0;
     if (ELLIPSES) {
         set_ellipse(splat, stored);
     } else {

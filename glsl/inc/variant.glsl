@@ -15,6 +15,7 @@ layout(constant_id = SPEC_FROM_CORNER) const bool FROM_CORNER = false;
 layout(constant_id = SPEC_TRANSITION) const uint TRANSITION = TRANSITION_COLOR;
 layout(constant_id = SPEC_OUTWARD) const bool OUTWARD = false;
 layout(constant_id = SPEC_IN_LAYERS) const bool IN_LAYERS = false;
+layout(constant_id = SPEC_OWN_EPSILON) const bool OWN_EPSILON = false;
 layout(constant_id = SPEC_PACKED) const bool PACKED = false;
 layout(constant_id = SPEC_FINE) const bool FINE = false;
 layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;

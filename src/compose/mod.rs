@@ -21,7 +21,7 @@ pub use words::{finish, splats_kind};
 
 use crate::{
     error::Result,
-    load::{LoadOptions, ObjectDescription, load_scene_file},
+    load::{LoadOptions, ObjectDescription, PictureDescription, load_scene_file},
     progress::Progress,
     report::InputReport,
     scene::{CameraParts, Light, Scene},
@@ -34,6 +34,8 @@ pub struct Composed {
     pub scene: Scene,
     /// The parts of its camera: [`CameraParts::camera`] makes one for [`Scene::ball`].
     pub camera: CameraParts,
+    /// What it says of the picture: [`PictureDescription::over`] gives the settings.
+    pub picture: PictureDescription,
     /// The reports of what was done, one an object of the file.
     pub reports: Vec<InputReport>,
 }
@@ -45,7 +47,7 @@ pub struct Composed {
 pub fn compose(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Composed> {
     let file = load_scene_file(path, options)?;
     let (scene, reports) = build(&file.objects, file.lights, options, progress, &mut |_| {})?;
-    Ok(Composed { scene, camera: file.camera.unwrap_or_default(), reports })
+    Ok(Composed { scene, camera: file.camera.unwrap_or_default(), picture: file.picture, reports })
 }
 
 /// Makes all objects and puts them into a scene; tells of each when it is made. With it what was done, one an object.
@@ -66,6 +68,9 @@ pub fn build(
         let built = make(object, options, progress)?;
         tell(&built);
         reports.push(built.report);
+        if built.splats.is_some() {
+            scene.epsilons.push(object.epsilon);
+        }
         scene.objects.extend(built.splats);
         scene.meshes.extend(built.triangles);
     }

@@ -46,7 +46,7 @@ fn a_scene_file_becomes_a_scene() {
         [[object]]\nfile = \"mesh.obj\"\nrepresentation = \"mesh\"\nalpha = 0.5\ntranslate = [0, 0, 5]\n\
         [[object]]\nbuiltin = \"sphere\"\nsplats = 500\n";
     fs::write(&path, text).unwrap();
-    let Composed { scene, camera, reports } = compose(&path, &LoadOptions::default(), &()).unwrap();
+    let Composed { scene, camera, reports, .. } = compose(&path, &LoadOptions::default(), &()).unwrap();
     assert_eq!(camera, CameraParts { fov_y_rad: Some(30_f64.to_radians()), ..CameraParts::default() });
     assert_eq!(scene.lights[0].color, [0.5; 3]);
     assert_eq!((scene.objects.len(), scene.meshes.len(), scene.splat_count()), (2, 1, 502));

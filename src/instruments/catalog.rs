@@ -163,6 +163,7 @@ fn scene_of(traits: Traits) -> Scene {
         meshes: polygons.iter().map(|alpha| mesh(*alpha)).collect(),
         lights: if traits.lit { vec![light; 2] } else { Vec::new() },
         storage: Storage::default(),
+        ..Scene::default()
     }
 }
 

@@ -41,8 +41,8 @@ use input::Input;
 pub use loaded::{Loaded, Model};
 pub use options::{Limits, LoadOptions};
 pub use scene_file::{
-    BuiltIn, MOST_BUILT_IN_SPLATS, MOST_OBJECTS, MOST_SCENE_FILE_BYTES, ObjectDescription, Polygons,
-    Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
+    BuiltIn, MOST_BUILT_IN_SPLATS, MOST_OBJECTS, MOST_SCENE_FILE_BYTES, ObjectDescription,
+    PictureDescription, Polygons, Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,
 };
 pub use text::{Column, Columns};
 

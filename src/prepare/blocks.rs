@@ -125,7 +125,7 @@ mod tests {
         let mut maker = BlockMaker::default();
         // Batches end anywhere.
         for first in (0..count).step_by(1500) {
-            maker.add(&pack::pack(&splats, first..count.min(first + 1500), &survey), &survey);
+            maker.add(&pack::pack(&splats, first..count.min(first + 1500), &survey, None), &survey);
         }
         (maker.finish(), survey.rebase.scale)
     }

@@ -10,7 +10,7 @@ use super::{
     radii::RadiusStep,
     rebase::Rebase,
 };
-use crate::{error::Result, vk::Staging};
+use crate::{error::Result, scene::Epsilon, vk::Staging};
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
 const MAX_SPLATS: usize = 1 << 22;
@@ -42,6 +42,10 @@ pub struct Chunk {
     pub fine: bool,
     /// One color for all.
     pub uniform_color: bool,
+    /// The ε that the object has of its own.
+    pub epsilon: Option<Epsilon>,
+    /// Some of its splats have less ε than others: where another surface is near.
+    pub own_epsilon: bool,
     /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
     pub packed: bool,
     /// The sum of weights that the object leaves inside of its surface; 1 or more.
@@ -91,6 +95,8 @@ impl Chunk {
             transparent,
             fine: survey.fine,
             uniform_color: survey.uniform_color,
+            epsilon: None,
+            own_epsilon: false,
             packed: survey.packed,
             overlap: 1.0,
             bounds: survey.bounds,

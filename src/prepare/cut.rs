@@ -7,6 +7,7 @@ use super::{
     chunk::{self, Chunk},
     memory::Uploader,
     mesh_chunk::PackedMesh,
+    near_surfaces,
     overlap::overlap,
     pack, pieces,
     sequence::Sequence,
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{DefectCounts, MeshObject, Object, Opacity, Scene},
+    scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -49,7 +50,11 @@ pub(super) fn cut(
             defects: DefectCounts::default(),
         },
     };
-    scene.objects.iter().try_for_each(|object| cut.object(object))?;
+    for (number, object) in scene.objects.iter().enumerate() {
+        let epsilon = scene.own_epsilon(number);
+        let auto = epsilon.map_or(!scene.without_auto_epsilon, |epsilon| epsilon == Epsilon::Auto);
+        cut.object(object, epsilon, auto)?;
+    }
     scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
     let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
     prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
@@ -75,6 +80,9 @@ struct Part<'a> {
     sequence: Sequence,
     transparent: bool,
     overlap: f64,
+    epsilon: Option<Epsilon>,
+    /// Of the object's splats, where they have any.
+    shares: Option<Vec<f32>>,
 }
 
 impl Cut<'_, '_> {
@@ -83,7 +91,8 @@ impl Cut<'_, '_> {
         (self.progress)(self.done, self.total);
     }
 
-    fn object(&mut self, object: &Object) -> Result<()> {
+    /// `auto`: ε is to fit what is near each splat.
+    fn object(&mut self, object: &Object, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
         let splats = &object.splats;
         let opacity = splats.colors.opacity();
         if opacity == Opacity::Invisible {
@@ -94,7 +103,16 @@ impl Cut<'_, '_> {
         // Before it is cut, so that chunks are compact.
         let sequence = Sequence::of(splats, storage.order);
         let transparent = opacity == Opacity::Transparent;
-        let part = Part { object, sequence, transparent, overlap: overlap(splats) };
+        // Packed disks have no room for a share.
+        let exact = storage.format == SplatFormat::Exact;
+        // So that a bar is there meanwhile.
+        self.step(0);
+        let both_sides = auto && exact && (transparent || !object.closed);
+        let shares = match both_sides {
+            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
+            false => None,
+        };
+        let part = Part { object, sequence, transparent, overlap: overlap(splats), epsilon, shares };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
                 for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
@@ -125,8 +143,10 @@ impl Cut<'_, '_> {
             let number = self.prepared.chunks.len();
             let traits = (part.object.closed, part.transparent);
             let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, &survey)?;
+            chunk.epsilon = part.epsilon;
+            chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
-            let packed = batches.map(|which| pack::pack(splats, which, &survey));
+            let packed = batches.map(|which| pack::pack(splats, which, &survey, part.shares.as_deref()));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
             chunk.overlap = part.overlap;

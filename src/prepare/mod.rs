@@ -11,6 +11,7 @@ mod cut;
 mod far_apart;
 mod memory;
 mod mesh_chunk;
+mod near_surfaces;
 mod overlap;
 mod pack;
 mod packed;

@@ -1,7 +1,7 @@
 //! The layout of splats in GPU buffers.
 //!
-//! Disks, 32 bytes: `position radius`, `normal 0`. Ellipses, 48 bytes: `position major-radius`, `s 0`, `t 0`. Local
-//! space, f32. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
+//! Disks, 32 bytes: `position radius`, `normal less`. Ellipses, 48 bytes: `position major-radius`, `s less`, `t 0`. Local
+//! space, f32; `less` is 1 less the splat's share of ε (`near_surfaces.rs`), 0 without one. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
 use glam::DVec3;
@@ -148,8 +148,13 @@ fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defe
 }
 
 /// Packs some of the splats of a survey in their order, without those that have a defect. Where one color is for all, it is
-/// packed once.
-pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey: &Survey) -> Packed {
+/// packed once. `shares`: of all splats in the input, their shares of ε.
+pub fn pack(
+    splats: &Splats,
+    which: impl ExactSizeIterator<Item = usize>,
+    survey: &Survey,
+    shares: Option<&[f32]>,
+) -> Packed {
     let (rebase, uniform_color) = (survey.rebase, survey.uniform_color);
     let room = which.len();
     let mut packed = Packed {
@@ -160,23 +165,24 @@ pub fn pack(splats: &Splats, which: impl ExactSizeIterator<Item = usize>, survey
     let bits = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array().map(f32::to_bits);
     for i in which {
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
+        let less = shares.map_or(0.0, |shares| 1.0 - f64::from(shares[i]));
         match &splats.shapes {
             Shapes::Disks { normals, .. } => {
                 // In f64: a normal may have any length that f32 has.
                 let normal = normals[i].as_dvec3().normalize();
                 match survey.packed {
                     true => packed.shapes.push(packed::disk(position, normal, radius)),
-                    false => packed.shapes.extend([bits(position, radius), bits(normal, 0.0)]),
+                    false => packed.shapes.extend([bits(position, radius), bits(normal, less)]),
                 }
             }
             Shapes::Ellipses { s, t } => {
                 let [s, t] = far_apart(s[i].as_dvec3(), t[i].as_dvec3());
-                let local = |v: DVec3| {
+                let local = |v: DVec3, w: f64| {
                     let v = v * rebase.scale;
                     let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
-                    bits(v, 0.0)
+                    bits(v, w)
                 };
-                packed.shapes.extend([bits(position, radius), local(s), local(t)]);
+                packed.shapes.extend([bits(position, radius), local(s, less), local(t, 0.0)]);
             }
         }
         if survey.fine {
@@ -220,7 +226,7 @@ mod tests {
             colors: Colors::Uniform([1.0; 4]),
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 1e-3 };
-        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase));
+        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase), None);
         let unit = SHORTEST_TANGENT as f32;
         let expected = [[1e-3, 0.0, 0.0], [0.0, unit, 0.0], [0.6 * unit, 0.8 * unit, 0.0], [0.0, 0.0, unit]];
         for (i, expected) in [1, 2, 4, 5].into_iter().zip(expected) {
@@ -240,7 +246,7 @@ mod tests {
         let survey = survey(&splats, 0..10, rebase);
         assert_eq!((survey.count, survey.defects.of(Defect::Position)), (9, 1));
         assert!(survey.bounds.iter().all(|corner| corner.as_vec3().is_finite()));
-        assert_eq!(pack(&splats, 0..10, &survey).shapes.len(), 2 * 9);
+        assert_eq!(pack(&splats, 0..10, &survey, None).shapes.len(), 2 * 9);
     }
 
     #[test]
@@ -256,7 +262,7 @@ mod tests {
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
         let survey = survey(&splats, 0..5, rebase);
-        let packed = pack(&splats, 0..5, &survey);
+        let packed = pack(&splats, 0..5, &survey, None);
         assert_eq!((survey.count, survey.defects.total(), survey.largest_radius), (3, 2, 1.5));
         assert_eq!((packed.count, packed.shapes.len()), (3, 2 * 3));
         assert_eq!(bytemuck::cast_slice::<_, u16>(&packed.colors), [0, 32768, 65535, 65535]);

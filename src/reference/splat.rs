@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::affine::ImageEllipse;
 use super::covering::{Covering, covers_in_part};
+use super::epsilon::EpsilonRule;
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
@@ -93,16 +94,17 @@ const EDGE_LENGTHENING: f64 = 16.0;
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
     let mut drawn = Vec::new();
     let mut defects = DefectCounts::default();
-    for object in &scene.objects {
+    for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
         let overlap =
             covers_in_part(scene, settings, opacity).then(|| overlap(&object.splats, settings.kernel));
+        let rule = EpsilonRule::of(scene, number, settings, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
-                let splat = prepare_one(object, i, (cull, opacity, overlap), view, settings);
+                let splat = prepare_one(object, i, (cull, opacity, overlap), &rule, view, settings);
                 drawn.extend(
                     splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
                 );
@@ -118,6 +120,7 @@ pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
     let factor = match epsilon {
         Epsilon::Length(length) => return length,
         Epsilon::Radii(factor) => factor,
+        Epsilon::Auto => 2.0,
     };
     let (mut sum, mut count) = (0.0, 0_u64);
     let transparent =
@@ -145,6 +148,7 @@ fn prepare_one(
     object: &Object,
     i: usize,
     (cull, opacity, overlap): (bool, Opacity, Option<f64>),
+    rule: &EpsilonRule,
     view: &View,
     settings: &Settings,
 ) -> Option<DrawnSplat> {
@@ -179,10 +183,7 @@ fn prepare_one(
         _ if is_layered && regular => 1.0 + 2.0 * (lengthened(center, s, t, h) - 1.0),
         _ => 1.0,
     };
-    let epsilon = match settings.epsilon {
-        Epsilon::Radii(factor) => factor * splats.major_radius(i) * thickness,
-        Epsilon::Length(length) => length,
-    };
+    let epsilon = rule.epsilon(i, splats.major_radius(i) * thickness);
     let shift = if epsilon > 0.0 { 1.0 + (epsilon / center.z.max(epsilon)).max(LEAST_SHIFT) } else { 1.0 };
     let (s, t) = match settings.filter {
         Filter::Adjust if regular => adjust(center, s, t, h),

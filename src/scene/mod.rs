@@ -80,12 +80,28 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// How the splats are kept on a device.
     pub storage: Storage,
+    /// The ε of objects of splats that have one of their own, by their place in [`Self::objects`]; others, and those beyond its end, have
+    /// [`Settings::epsilon`].
+    pub epsilons: Vec<Option<Epsilon>>,
+    /// No frame asks for [`Epsilon::Auto`] of objects that have no ε of their own: nothing is looked for near their splats when the scene is
+    /// prepared.
+    pub without_auto_epsilon: bool,
 }
 
 impl Scene {
     /// How many splats all objects have together.
     pub fn splat_count(&self) -> usize {
         self.objects.iter().map(|object| object.splats.len()).sum()
+    }
+
+    /// The ε of an object of splats in a frame with these settings.
+    pub fn epsilon(&self, object: usize, settings: &Settings) -> Epsilon {
+        self.own_epsilon(object).unwrap_or(settings.epsilon)
+    }
+
+    /// The ε that an object of splats has of its own.
+    pub fn own_epsilon(&self, object: usize) -> Option<Epsilon> {
+        self.epsilons.get(object).copied().flatten()
     }
 
     /// The box around all disks and triangles; `None` where there is neither.

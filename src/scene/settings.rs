@@ -43,8 +43,8 @@ settings! {
         /// The precision of the sums; the reference sums in 64 bits whatever is given here.
         "accumulate" "TYPE" accumulate: Accumulate,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
-        /// length.
-        "epsilon" "1r|LENGTH" epsilon: Epsilon = Epsilon::Radii(1.0),
+        /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near.
+        "epsilon" "auto|1r|LENGTH" epsilon: Epsilon = Epsilon::Auto,
         /// The treatment of splats that face away.
         "backfaces" "WHAT" backfaces: Backfaces,
         /// The number of layers in which transparent things are drawn, the nearest first; `auto:MAX` is as many as the view needs.

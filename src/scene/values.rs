@@ -27,10 +27,22 @@ pub enum Kernel {
 /// The depth ε within which a fragment belongs to the nearest surface of its pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Epsilon {
+    /// The splat's larger radius, of what is transparent twice that; and less where another surface is near that faces the other way, so that
+    /// the sides of a plate stay two: so much as [`prepare`](crate::prepare::prepare) found room for.
+    Auto,
     /// A multiple of the splat's larger radius, at least 0.
     Radii(f64),
     /// A length in world units, at least 0.
     Length(f64),
+}
+
+impl Epsilon {
+    /// What [`Self::Auto`] is in radii, where no other surface is near. In one radius from the nearest one there are not all fragments of a
+    /// surface that bends away within the pixel: what is left would be a layer more, a dark dot. Within two there are
+    /// (`benches/ACCURACY.md`), and at the rim of a ball only pixels that it covers in part have its front and its back in one layer.
+    pub(crate) fn auto_radii(transparent: bool) -> f64 {
+        if transparent { 2.0 } else { 1.0 }
+    }
 }
 
 /// The most pixels along a side.
@@ -96,23 +108,27 @@ impl OptionValue for Kernel {
 impl OptionValue for Epsilon {
     fn word(&self) -> String {
         match self {
+            Self::Auto => "auto".to_owned(),
             Self::Radii(radii) => format!("{radii}r"),
             Self::Length(length) => format!("{length}"),
         }
     }
 
     fn parse(word: &str) -> Result<Self, String> {
+        if word == "auto" {
+            return Ok(Self::Auto);
+        }
         let parsed = match word.strip_suffix('r') {
             Some(radii) => radii.parse().map(Self::Radii),
             None => word.parse().map(Self::Length),
         };
         parsed.map_err(|_| {
-            "expected multiples of a splat's radius, such as 1r, or a length, such as 0.02".to_owned()
+            "expected auto, multiples of a splat's radius, such as 1r, or a length, such as 0.02".to_owned()
         })
     }
 
     fn check(&self) -> Result<(), String> {
-        let (Self::Radii(depth) | Self::Length(depth)) = self;
+        let (Self::Radii(depth) | Self::Length(depth)) = self else { return Ok(()) };
         match *depth >= 0.0 && depth.is_finite() {
             true => Ok(()),
             false => Err(format!("{depth}: expected a finite number, at least 0")),
@@ -175,7 +191,7 @@ mod tests {
     fn every_value_is_read_from_its_own_word() {
         assert_read_again(&[[1, 65_536], [1024, 768]]);
         assert_read_again(&[Kernel::Gaussian { sigma: 0.5 }, Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 }]);
-        assert_read_again(&[Epsilon::Radii(1.0), Epsilon::Length(0.02), Epsilon::Radii(-1.0)]);
+        assert_read_again(&[Epsilon::Auto, Epsilon::Radii(1.0), Epsilon::Length(0.02), Epsilon::Radii(-1.0)]);
         assert_read_again(&[None, Some([1.0, 0.5, 0.0])]);
         assert_read_again(&[Layers::Fixed(7), Layers::Auto(16)]);
         assert_read_again(&[TileMemory::Auto, TileMemory::Most(0), TileMemory::Most(12_500_000)]);
@@ -194,7 +210,7 @@ mod tests {
         let triples = ["", "1,2", "1,2,3,4", "1,,2", "a,b,c"];
         refused(|word| <[f64; 3]>::parse(word).is_ok(), &triples);
         refused(|word| Option::<[f32; 3]>::parse(word).is_ok(), &triples);
-        refused(|word| Epsilon::parse(word).is_ok(), &["", "r", "1rr", "one", "1 r"]);
+        refused(|word| Epsilon::parse(word).is_ok(), &["", "r", "1rr", "one", "1 r", "Auto"]);
         let kernels = ["", "gaussian", "gaussian:", "gaussian:a", "psi_e:1,2", "box:1"];
         refused(|word| Kernel::parse(word).is_ok(), &kernels);
         refused(|word| Layers::parse(word).is_ok(), &["", "auto", "auto:", "-1", "1.5"]);

@@ -7,13 +7,16 @@ use crate::common::{
     scenes::{self, Hard},
     shared,
 };
+use glam::DVec3;
 use surfel::{
+    math::random::SplitMix,
+    reference::Picture,
     renderer::Frame,
     scene::{
-        Accumulate, Backfaces, Epsilon, Filter, Kernel, KernelEval, Order, Rasterizer, Settings, Shading,
-        Storage,
+        Accumulate, Backfaces, Colors, Epsilon, Filter, Kernel, KernelEval, LastLayer, Layers, Object, Order,
+        Rasterizer, Settings, Shading, Shapes, Splats, Storage,
     },
-    selftest::tolerance,
+    selftest::{light::compare_light, tolerance},
 };
 
 const PSI_E: Kernel = Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 };
@@ -169,6 +172,7 @@ fn each_rule_for_back_faces_agrees_with_the_oracle() {
 fn every_epsilon_agrees_with_the_oracle_and_zero_leaves_no_pixel_empty() {
     let mut headless = shared();
     for (name, epsilon) in [
+        ("epsilon that fits", Epsilon::Auto),
         ("epsilon 0", Epsilon::Radii(0.0)),
         ("epsilon of length 0", Epsilon::Length(0.0)),
         ("epsilon 3 r", Epsilon::Radii(3.0)),
@@ -191,4 +195,93 @@ fn every_epsilon_agrees_with_the_oracle_and_zero_leaves_no_pixel_empty() {
             }
         }
     }
+}
+
+/// Two sides of a plate half a radius thick, in two colors, bent; as disks or ellipses, opaque or not.
+fn thin_plate(ellipses: bool, alpha: f32) -> Hard {
+    let mut random = SplitMix(17);
+    let mut splats = Splats {
+        positions: Vec::new(),
+        shapes: Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
+        colors: Colors::Each(Vec::new()),
+    };
+    let (mut all_s, mut all_t) = (Vec::new(), Vec::new());
+    let (radius, half_thick) = (0.08, 0.02);
+    for (side, color) in [(1.0, [0.9, 0.4, 0.1, alpha]), (-1.0, [0.1, 0.3, 0.9, alpha])] {
+        for i in 0..900 {
+            let mut jitter = || 0.02 * (random.unit() - 0.5);
+            let [x, y] = [f64::from(i % 30), f64::from(i / 30)].map(|at| (at - 14.5) * 0.065 + jitter());
+            let tangent = DVec3::new(1.0, 0.0, 0.6 * x);
+            let normal = tangent.cross(DVec3::Y).normalize() * side;
+            splats.positions.push(DVec3::new(x, y, 0.3 * x * x) + half_thick * normal);
+            let Shapes::Disks { normals, radii } = &mut splats.shapes else { unreachable!() };
+            normals.push(normal.as_vec3());
+            radii.push(radius as f32);
+            all_s.push((0.9 * radius * side * tangent.normalize()).as_vec3());
+            all_t.push((radius * DVec3::Y).as_vec3());
+            let Colors::Each(colors) = &mut splats.colors else { unreachable!() };
+            colors.push(color);
+        }
+    }
+    if ellipses {
+        splats.shapes = Shapes::Ellipses { s: all_s, t: all_t };
+    }
+    let mut hard = scenes::sphere_of_disks();
+    hard.name = "thin plate";
+    hard.scene.objects = vec![Object { name: "thin plate".to_owned(), splats, closed: false }];
+    hard.settings.backfaces = Backfaces::Auto;
+    (hard.settings.layers, hard.settings.last_layer) = (Layers::Fixed(24), LastLayer::Drop);
+    hard
+}
+
+#[test]
+fn the_sides_of_a_thin_plate_stay_two_by_every_path() {
+    let mut headless = shared();
+    for (ellipses, alpha) in [(false, 1.0), (true, 1.0), (false, 0.5), (true, 0.5)] {
+        for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute, Rasterizer::Quad] {
+            let of = |epsilon| {
+                with(thin_plate(ellipses, alpha), "thin plate", |s| {
+                    (s.epsilon, s.rasterizer, s.accumulate) = (epsilon, rasterizer, Accumulate::F32);
+                })
+            };
+            if alpha < 1.0 {
+                let hard = of(Epsilon::Auto);
+                let errors = compare_light(&render(&mut headless, &hard), &oracle_of(&hard));
+                assert!(errors.worst <= tolerance::LIGHT && errors.seen > 1000, "{rasterizer:?}: {errors:?}");
+                // With two radii both sides would be one layer.
+                let radii = oracle_of(&of(Epsilon::Radii(2.0)));
+                let layers = |picture: &Picture| picture.pixels.iter().map(|pixel| pixel.layers).sum::<u32>();
+                assert!(layers(&oracle_of(&hard)) > 3 * layers(&radii) / 2, "{rasterizer:?}");
+                continue;
+            }
+            let (_, oracle, errors) = against_oracle(&mut headless, &of(Epsilon::Auto));
+            let beyond = errors.beyond(&tolerance::of(&of(Epsilon::Auto)));
+            assert!(beyond.is_empty(), "{ellipses} {alpha} {rasterizer:?}: {beyond:?}");
+            // The oracle sees the difference, too.
+            let mixed = |picture: &Picture| {
+                let is = |pixel: &&surfel::reference::Pixel| {
+                    pixel.is_covered() && (0.2..0.7).contains(&pixel.albedo[0])
+                };
+                picture.pixels.iter().filter(is).count()
+            };
+            let counts = [mixed(&oracle), mixed(&oracle_of(&of(Epsilon::Radii(1.0))))];
+            assert!(10 * counts[0] < counts[1], "{counts:?}");
+        }
+    }
+}
+
+#[test]
+fn an_object_has_an_epsilon_of_its_own() {
+    let mut headless = shared();
+    let picture = |headless: &mut _, own: Option<Epsilon>, of_frame| {
+        let mut hard = with(thin_plate(false, 1.0), "own epsilon", |s| s.epsilon = of_frame);
+        hard.scene.epsilons = vec![own];
+        let (frame, _) = assert_agrees(headless, &hard, 1000);
+        frame.albedo
+    };
+    let radius = picture(&mut headless, None, Epsilon::Radii(1.0));
+    let auto = picture(&mut headless, None, Epsilon::Auto);
+    assert_ne!(radius, auto);
+    assert_eq!(picture(&mut headless, Some(Epsilon::Auto), Epsilon::Radii(1.0)), auto);
+    assert_eq!(picture(&mut headless, Some(Epsilon::Radii(1.0)), Epsilon::Auto), radius);
 }

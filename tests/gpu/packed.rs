@@ -27,6 +27,8 @@ fn unpacked(scene: &Scene) -> Option<Scene> {
     for object in &mut scene.objects {
         object.splats = as_packed(&object.splats)?;
     }
+    // Packed splats have no ε of their own.
+    scene.storage.format = SplatFormat::Packed;
     Some(scene)
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Arg, Args};
-use surfel::scene::Settings;
+use surfel::{load::PictureDescription, scene::Settings};
 
 use crate::{
     camera::CameraArguments,
@@ -45,6 +45,11 @@ impl PictureArguments {
     /// The settings, not yet checked.
     pub fn settings(&self) -> Settings {
         self.settings.over(Settings::default())
+    }
+
+    /// The settings where a scene file says something of the picture, not yet checked.
+    pub fn settings_in(&self, scene_file: &PictureDescription) -> Settings {
+        self.settings.said_over(scene_file.over(self.settings()))
     }
 }
 

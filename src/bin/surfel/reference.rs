@@ -44,6 +44,7 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();
     let loaded = load_scene(&picture.input.inputs(), &bars)?;
+    let settings = picture.settings_in(&loaded.picture);
     let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);

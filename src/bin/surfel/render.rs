@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Settings, Storage},
+    scene::{Ball, Epsilon, Storage},
 };
 
 use crate::{
@@ -88,14 +88,13 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {
         headless.renderer.check_settings(&settings)?;
-        draw(headless, arguments, &settings, &camera, &output, steps)
+        draw(headless, arguments, &camera, &output, steps)
     })
 }
 
 fn draw(
     headless: &mut Headless,
     arguments: &RenderArguments,
-    settings: &Settings,
     camera: &CameraChoice,
     output: &(PathBuf, PictureFormat),
     mut steps: Steps,
@@ -103,11 +102,14 @@ fn draw(
     let picture = &arguments.picture;
     let bars = Bars::new();
     let loaded = load_scene(&picture.input.inputs(), &bars)?;
+    // What belongs to no scene was checked before it was loaded.
+    let settings = &picture.settings_in(&loaded.picture);
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let camera = camera.camera(&loaded, settings.size_px)?;
     let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
+    scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);

@@ -7,8 +7,8 @@ use surfel::{
     compose::{build, make, resampled},
     geometry::{FoundUp, up_of_shape},
     load::{
-        BuiltIn, LoadOptions, Model, ObjectDescription, Representation, Samples, Source, file_name,
-        is_scene_file, load_scene_file,
+        BuiltIn, LoadOptions, Model, ObjectDescription, PictureDescription, Representation, Samples, Source,
+        file_name, is_scene_file, load_scene_file,
     },
     prepare::PreparedScene,
     renderer::Headless,
@@ -30,6 +30,8 @@ pub struct Loaded {
     pub ball: Ball,
     /// The scene file that has a camera, and that camera.
     pub camera: Option<(PathBuf, CameraParts)>,
+    /// What scene files say of the picture.
+    pub picture: PictureDescription,
     /// The direction that is up, where a file or the scene's shape tells it.
     pub up: Option<FoundUp>,
     /// One an object.
@@ -45,7 +47,7 @@ pub struct Loaded {
 /// As [`load_scene_file`] and [`build`]; two scene files that both have a camera; with `strict`, anything that is not drawn as
 /// its file says it.
 pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
-    let Described { objects, lights, camera } = describe(inputs)?;
+    let Described { objects, lights, camera, picture: (_, picture) } = describe(inputs)?;
     let mut steps = Vec::new();
     let mut ups = Vec::new();
     let mut lines = Repeated::default();
@@ -64,7 +66,7 @@ pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
     let up = up::of(ups).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
-    Ok(Loaded { scene, ball, camera, up, inputs: reports, steps })
+    Ok(Loaded { scene, ball, camera, picture, up, inputs: reports, steps })
 }
 
 /// Refuses what is not drawn as its file says it.
@@ -123,14 +125,17 @@ pub fn resample_mesh(
 }
 
 /// The descriptions in the inputs.
+#[derive(Default)]
 struct Described {
     objects: Vec<ObjectDescription>,
     lights: Vec<Light>,
     camera: Option<(PathBuf, CameraParts)>,
+    /// With the file that says it.
+    picture: (PathBuf, PictureDescription),
 }
 
 fn describe(inputs: &Inputs) -> Result<Described> {
-    let mut described = Described { objects: Vec::new(), lights: Vec::new(), camera: None };
+    let mut described = Described::default();
     let (representation, samples) = (inputs.representation, inputs.samples);
     let built_in = "the built-in model is made of splats; expected an input";
     match (inputs.files.is_empty(), representation, samples) {
@@ -155,6 +160,14 @@ fn describe(inputs: &Inputs) -> Result<Described> {
         let file = load_scene_file(path, &inputs.options)?;
         described.objects.extend(file.objects);
         described.lights.extend(file.lights);
+        if file.picture != PictureDescription::default() {
+            let (other, said) = &described.picture;
+            if *said != PictureDescription::default() {
+                let problem = format!("{} has some too; expected them in one file", other.display());
+                return Err(Error::input(path, "epsilon, background or shading", problem));
+            }
+            described.picture = (file.path.clone(), file.picture);
+        }
         if let Some(camera) = file.camera {
             if let Some((other, _)) = &described.camera {
                 let problem = format!("{} has one too; expected one camera", other.display());

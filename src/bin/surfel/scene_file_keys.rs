@@ -10,6 +10,9 @@ space; colors are sRGB from 0 to 1.
   eye, target, up          as the options
   fov_deg = 45             the vertical field of view in degrees
   near                     the depth of the near plane
+epsilon = \"auto\"           as the option, or a number: a length; these three stand above all
+background = [1, 1, 1]     or \"none\"; tables, and options replace each of them
+shading = \"phong\"          as the option
 [[light]]                  at most 16; without any, a white one at the eye
   kind = \"eye\"             or \"directional\"
   direction                in which a directional light travels
@@ -39,7 +42,8 @@ space; colors are sRGB from 0 to 1.
   matrix                   in place of these three: three rows of four numbers, the last of which
                            move, or four rows of three: where x, y, z and the origin go
   color                    replaces the object's own
-  alpha = 1                multiplies its own, 0 to 1";
+  alpha = 1                multiplies its own, 0 to 1
+  epsilon                  of its splats, in place of the picture's";
 
 #[cfg(test)]
 mod tests {

@@ -6,6 +6,7 @@ use clap::{
     Arg, ArgMatches, Args, Command, FromArgMatches,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser},
     error::ErrorKind,
+    parser::ValueSource,
 };
 use surfel::scene::{OptionTable, OptionValue, Setting};
 
@@ -24,6 +25,8 @@ pub trait Taken {
 pub struct Given<T: Taken> {
     values: T::Table,
     given: Vec<&'static Setting<T::Table>>,
+    /// Of these, what is given by no default.
+    said: Vec<&'static Setting<T::Table>>,
     taken: PhantomData<T>,
 }
 
@@ -31,6 +34,14 @@ impl<T: Taken> Given<T> {
     /// `base` but for what is given.
     pub fn over(&self, mut base: T::Table) -> T::Table {
         for setting in &self.given {
+            (setting.copy)(&self.values, &mut base);
+        }
+        base
+    }
+
+    /// `base` but for what is given by no default.
+    pub fn said_over(&self, mut base: T::Table) -> T::Table {
+        for setting in &self.said {
             (setting.copy)(&self.values, &mut base);
         }
         base
@@ -50,15 +61,18 @@ impl<T: Taken> Args for Given<T> {
 
 impl<T: Taken> FromArgMatches for Given<T> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let (mut values, mut given) = (T::Table::default(), Vec::new());
+        let (mut values, mut given, mut said) = (T::Table::default(), Vec::new(), Vec::new());
         for setting in T::Table::OPTIONS {
             if let Ok(Some(word)) = matches.try_get_one::<String>(setting.name) {
                 let refused = |problem| clap::Error::raw(ErrorKind::ValueValidation, problem);
                 (setting.set)(&mut values, word).map_err(refused)?;
                 given.push(setting);
+                if matches.value_source(setting.name) != Some(ValueSource::DefaultValue) {
+                    said.push(setting);
+                }
             }
         }
-        Ok(Self { values, given, taken: PhantomData })
+        Ok(Self { values, given, said, taken: PhantomData })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::{
     load::builtin::{DEFAULT_RELIEF_SPLATS, DEFAULT_SPHERE_SPLATS},
-    scene::{CameraParts, Light, named},
+    scene::{CameraParts, Epsilon, Light, Settings, Shading, named},
 };
 
 /// A scene file: what is drawn, under which light and from where.
@@ -20,6 +20,29 @@ pub struct SceneFile {
     pub lights: Vec<Light>,
     /// At least one, at most [`super::MOST_OBJECTS`], in the order of the file.
     pub objects: Vec<ObjectDescription>,
+    /// What it says of the picture.
+    pub picture: PictureDescription,
+}
+
+/// What a scene file says of the picture: of settings those that belong to a scene. Options replace them key by key.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PictureDescription {
+    /// As [`Settings::epsilon`](crate::scene::Settings::epsilon).
+    pub epsilon: Option<Epsilon>,
+    /// As [`Settings::background`](crate::scene::Settings::background).
+    pub background: Option<Option<[f32; 3]>>,
+    /// As [`Settings::shading`](crate::scene::Settings::shading).
+    pub shading: Option<Shading>,
+}
+
+impl PictureDescription {
+    /// These settings, but for what it says.
+    pub fn over(&self, mut settings: Settings) -> Settings {
+        settings.epsilon = self.epsilon.unwrap_or(settings.epsilon);
+        settings.background = self.background.unwrap_or(settings.background);
+        settings.shading = self.shading.unwrap_or(settings.shading);
+        settings
+    }
 }
 
 /// One object: a model, and how it is placed, colored and drawn. [`crate::compose::make`] makes it.
@@ -40,6 +63,8 @@ pub struct ObjectDescription {
     pub color: Option<[f32; 3]>,
     /// Multiplies its own alpha: 0–1.
     pub alpha: f32,
+    /// Of its splats, in place of the picture's.
+    pub epsilon: Option<Epsilon>,
 }
 
 /// Where a model comes from.
@@ -153,6 +178,7 @@ impl ObjectDescription {
             world_from_object: DAffine3::IDENTITY,
             color: None,
             alpha: 1.0,
+            epsilon: None,
         }
     }
 }

@@ -10,6 +10,7 @@ mod document;
 mod light;
 mod nearest;
 mod object;
+mod picture;
 mod source;
 #[cfg(test)]
 mod tests;
@@ -20,7 +21,8 @@ use std::path::Path;
 use toml::de::DeTable;
 
 pub use description::{
-    BuiltIn, MOST_BUILT_IN_SPLATS, ObjectDescription, Polygons, Representation, Samples, SceneFile, Source,
+    BuiltIn, MOST_BUILT_IN_SPLATS, ObjectDescription, PictureDescription, Polygons, Representation, Samples,
+    SceneFile, Source,
 };
 
 use super::LoadOptions;
@@ -55,7 +57,13 @@ fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
         let at = e.span().map_or(0, |span| span.start);
         document.fault(at, "", &format!("not TOML: {}", one_line(e.message())))
     })?;
-    let root = Table::of(&document, parsed.get_ref(), 0, "", &["camera", "light", "object"])?;
+    let root = Table::of(
+        &document,
+        parsed.get_ref(),
+        0,
+        "",
+        &["camera", "light", "object", "epsilon", "background", "shading"],
+    )?;
     let camera = root.table("camera", camera::KEYS)?.map(|table| camera::read(&table)).transpose()?;
     let lights = root.tables("light", light::KEYS, crate::scene::MOST_LIGHTS)?;
     let lights = lights.iter().map(light::read).collect::<Result<_>>()?;
@@ -65,5 +73,5 @@ fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
     }
     let objects =
         objects.iter().map(|object| object::read(object, options.allow_outside)).collect::<Result<_>>()?;
-    Ok(SceneFile { path: path.to_owned(), camera, lights, objects })
+    Ok(SceneFile { path: path.to_owned(), camera, lights, objects, picture: picture::read(&root)? })
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{
     description::{ObjectDescription, Polygons, Representation, Samples, Source},
     document::Table,
-    light, source, transform,
+    light, picture, source, transform,
 };
 use crate::error::Result;
 
@@ -26,6 +26,7 @@ pub(super) const KEYS: &[&str] = &[
     "matrix",
     "color",
     "alpha",
+    "epsilon",
 ];
 
 /// The most letters of a name: it is a part of messages.
@@ -48,6 +49,7 @@ pub(super) fn read(table: &Table<'_>, outside: bool) -> Result<ObjectDescription
         world_from_object: transform::read(table)?,
         color: table.get("color").map(|value| light::color(&value)).transpose()?,
         alpha,
+        epsilon: table.get("epsilon").map(|value| picture::epsilon(&value)).transpose()?,
     })
 }
 
@@ -68,7 +70,8 @@ fn check_together(table: &Table<'_>, source: &Source, representation: Representa
         Representation::Mesh => {
             let why = "for a model drawn as triangles";
             table.refuse("splats", why)?;
-            table.refuse("resample", why)
+            table.refuse("resample", why)?;
+            table.refuse("epsilon", why)
         }
         Representation::Hybrid { .. } => Ok(()),
     }

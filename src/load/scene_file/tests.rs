@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::*;
 use crate::{
     math::srgb::linear_from_srgb,
-    scene::{CameraParts, Light, LightKind},
+    scene::{CameraParts, Epsilon, Light, LightKind, Settings, Shading},
 };
 
 /// A folder with a model beside and below the scene file, and one outside.
@@ -108,6 +108,27 @@ fn everything_that_can_be_said() {
     ];
     assert_eq!(file.objects, expected);
     assert_eq!(file.path, place.path("scene/scene.toml"));
+}
+
+#[test]
+fn what_is_said_of_the_picture_replaces_settings_key_by_key() {
+    let sphere = "[[object]]\nbuiltin = \"sphere\"\n";
+    let settings = |keys: &str| {
+        let file = read(&format!("{keys}{sphere}")).unwrap();
+        file.picture.over(Settings { epsilon: Epsilon::Radii(3.0), ..Settings::default() })
+    };
+    assert_eq!(settings("").epsilon, Epsilon::Radii(3.0));
+    assert_eq!(settings("epsilon = \"auto\"\n").epsilon, Epsilon::Auto);
+    assert_eq!(settings("epsilon = 1\n").epsilon, Epsilon::Length(1.0));
+    let all = settings("epsilon = \"0.5r\"\nbackground = [0, 0.5, 1]\nshading = \"albedo\"\n");
+    assert_eq!(
+        (all.epsilon, all.background, all.shading),
+        (Epsilon::Radii(0.5), Some([0.0, 0.5, 1.0]), Shading::Albedo)
+    );
+    assert_eq!(settings("background = \"none\"\n").background, None);
+    let own = read(&format!("{sphere}epsilon = 0.25\n{sphere}")).unwrap();
+    let own: Vec<_> = own.objects.iter().map(|object| object.epsilon).collect();
+    assert_eq!(own, [Some(Epsilon::Length(0.25)), None]);
 }
 
 #[test]

@@ -106,7 +106,9 @@ pub fn draws<'a>(
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
         let near = near_in_view(camera, &view);
-        let epsilon = match settings.epsilon {
+        let wanted = chunk.epsilon.unwrap_or(settings.epsilon);
+        let epsilon = match wanted {
+            Epsilon::Auto => (Epsilon::auto_radii(chunk.transparent), 0.0),
             Epsilon::Radii(radii) => (radii, 0.0),
             Epsilon::Length(length) => (0.0, length),
         };
@@ -159,6 +161,9 @@ pub fn draws<'a>(
                 let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);
                 if chunk.transparent {
                     constants.extend([(SPEC_OUTWARD, u32::from(chunk.closed)), (SPEC_IN_LAYERS, 1)]);
+                }
+                if wanted == Epsilon::Auto && chunk.own_epsilon {
+                    constants.push((SPEC_OWN_EPSILON, 1));
                 }
                 if chunk.packed {
                     constants.push((SPEC_PACKED, 1));

@@ -25,6 +25,7 @@ pub fn mesh_draws<'a>(
     limits: &Limits,
 ) -> Vec<MeshDraw<'a>> {
     let epsilon = match settings.epsilon {
+        Epsilon::Auto => Epsilon::auto_radii(true) * scene.mean_transparent_radius,
         Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
         Epsilon::Length(length) => length,
     };

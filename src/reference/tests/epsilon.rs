@@ -89,11 +89,15 @@ fn a_thin_wall_mixes_its_sides_unless_it_is_known_to_be_closed() {
     let front = facing_disk(DVec3::Z * 2.0, 0.5, RED);
     let back = (DVec3::Z * 2.1, glam::Vec3::X * 0.5, glam::Vec3::Y * 0.5, BLUE);
     let mut scene = ellipses(&[front, back]);
-    let open = *picture(&scene, &settings(33)).pixel(16, 16).unwrap();
+    let radius = Settings { epsilon: Epsilon::Radii(1.0), ..settings(33) };
+    let open = *picture(&scene, &radius).pixel(16, 16).unwrap();
     assert_eq!(open.albedo, [0.5, 0.0, 0.5]);
     assert_eq!(open.normal, [0.0, 0.0, -1.0]);
+    // Half of 0.1 has no room for both.
+    let fits = *picture(&scene, &Settings { epsilon: Epsilon::Auto, ..settings(33) }).pixel(16, 16).unwrap();
+    assert_eq!(fits.albedo, [1.0, 0.0, 0.0]);
     scene.objects[0].closed = true;
-    let closed = *picture(&scene, &settings(33)).pixel(16, 16).unwrap();
+    let closed = *picture(&scene, &radius).pixel(16, 16).unwrap();
     assert_eq!(closed.albedo, [1.0, 0.0, 0.0]);
 }
 

@@ -4,7 +4,7 @@ use surfel::{
     Error, Result,
     compose::finish,
     geometry::check_memory_for,
-    load::{LoadOptions, Model, builtin, load},
+    load::{LoadOptions, Model, PictureDescription, builtin, load},
     report::InputReport,
     scene::{Ball, Mesh, Object, Scene},
 };
@@ -49,6 +49,14 @@ impl Source {
         };
         let scene = Scene { objects: vec![object], ..Scene::default() };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
-        Ok(Loaded { scene, ball, camera: None, up: None, inputs: vec![report], steps: Vec::new() })
+        Ok(Loaded {
+            scene,
+            ball,
+            camera: None,
+            picture: PictureDescription::default(),
+            up: None,
+            inputs: vec![report],
+            steps: Vec::new(),
+        })
     }
 }

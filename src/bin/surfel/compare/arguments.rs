@@ -157,7 +157,7 @@ impl Taken for Common {
                 return Some(option.default_value("256x256").help(help));
             }
             "kernel" | "backfaces" => option,
-            "epsilon" => zoom(option, "1r; with --zoom: 1000r"),
+            "epsilon" => zoom(option, "auto; with --zoom: 1000r"),
             "shading" => zoom(option, "phong; with --zoom: albedo"),
             _ => return None,
         };

@@ -199,3 +199,28 @@ fn mutilated_scene_files_are_refused_or_read() {
         let _ = place.read(bytes);
     }
 }
+
+#[test]
+fn what_is_no_epsilon_background_or_shading() {
+    let sphere = "[[object]]\nbuiltin = \"sphere\"\n";
+    let epsilon = "expected \"auto\", multiples of a splat's radius, such as \"1r\", or a length, at least 0";
+    for value in ["\"-1r\"", "\"0.1\"", "\"big\"", "-0.5", "[1]", "inf"] {
+        let shown = if value == "[1]" { "[1]" } else { value };
+        let error = read(&format!("epsilon = {value}\n{sphere}")).unwrap_err();
+        assert_eq!(error, format!("scene.toml: line 1, epsilon: {shown}: {epsilon}"));
+        let error = read(&format!("{sphere}epsilon = {value}\n")).unwrap_err();
+        assert_eq!(error, format!("scene.toml: line 3, object 1, epsilon: {shown}: {epsilon}"));
+    }
+    for value in ["\"white\"", "[1, 1]", "[1, 1, 1.5]", "1"] {
+        let error = read(&format!("background = {value}\n{sphere}")).unwrap_err();
+        let expected = "expected red, green and blue from 0 to 1, or \"none\"";
+        assert_eq!(error, format!("scene.toml: line 1, background: {value}: {expected}"));
+    }
+    let error = read(&format!("shading = \"albdo\"\n{sphere}")).unwrap_err();
+    assert!(error.starts_with("scene.toml: line 1, shading: \"albdo\": expected 'albedo'"), "{error}");
+    let error = read(&format!("{sphere}representation = \"mesh\"\nepsilon = 1\n")).unwrap_err();
+    assert!(
+        error.contains("line 4, object 1, epsilon: has no meaning for a model drawn as triangles"),
+        "{error}"
+    );
+}

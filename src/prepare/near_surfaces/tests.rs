@@ -1,0 +1,74 @@
+//! Plates, clouds that nobody oriented, and what is hostile.
+
+use super::*;
+use crate::{math::random::SplitMix, scene::Colors};
+
+/// Two sides of a plate so thick, spaced 0.8 radii of 1, with normals that look outward, or to both sides at random.
+fn plate(thick: f64, noise: f64, oriented: bool) -> Splats {
+    let mut random = SplitMix(11);
+    let mut splats = Splats {
+        positions: Vec::new(),
+        shapes: Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
+        colors: Colors::Uniform([1.0; 4]),
+    };
+    for side in [1.0, -1.0] {
+        for i in 0..900 {
+            let mut jitter = || 0.2 * (random.unit() - 0.5);
+            let [x, y] = [f64::from(i % 30), f64::from(i / 30)].map(|at| 0.8 * at + jitter());
+            let z = side * 0.5 * thick + 2.0 * noise * (random.unit() - 0.5);
+            splats.positions.push(DVec3::new(x, y, z));
+            let Shapes::Disks { normals, radii } = &mut splats.shapes else { unreachable!() };
+            let sign = if oriented || random.unit() < 0.5 { side } else { -side };
+            normals.push(Vec3::Z * sign as f32);
+            radii.push(1.0);
+        }
+    }
+    splats
+}
+
+#[test]
+fn epsilon_is_half_of_what_is_between_two_sides() {
+    for radii in [1.0, 2.0] {
+        for thick in [0.1, 0.5, 1.0, 1.9 * radii] {
+            let shares = shares(&plate(thick, 0.0, true), radii).unwrap();
+            let expected = (0.5 * thick / radii) as f32;
+            assert!(shares.iter().all(|share| (share - expected).abs() < 1e-6), "{thick}: {shares:?}");
+        }
+        assert_eq!(shares(&plate(2.1 * radii, 0.0, true), radii), None);
+    }
+}
+
+#[test]
+fn one_surface_is_no_plate_whatever_way_its_normals_look() {
+    for noise in [0.0, 0.01, 0.1] {
+        let mut one = plate(0.0, noise, false);
+        one.keep(&[vec![true; 900], vec![false; 900]].concat());
+        let cut = shares(&one, 1.0).map_or(0, |all| all.iter().filter(|share| **share < 1.0).count());
+        assert!(cut <= 2, "{noise}: {cut} of 900");
+    }
+    assert_eq!(shares(&crate::load::builtin::sphere(20_000).splats, 2.0), None);
+}
+
+#[test]
+fn noise_is_not_cut_off() {
+    let noisy = shares(&plate(0.8, 0.05, true), 1.0).unwrap();
+    // Spreads are up to 0.1, the gap is 0.7 to 0.8.
+    assert!(noisy.iter().all(|share| (0.34..=0.4).contains(share)), "{noisy:?}");
+}
+
+#[test]
+fn strays_heaps_and_giants_end() {
+    let mut heap = plate(0.5, 0.0, true);
+    heap.positions[..450].fill(DVec3::splat(1e9));
+    heap.positions[1400] = DVec3::splat(1e300);
+    heap.positions[1401] = DVec3::splat(-1e300);
+    heap.positions[1402] = DVec3::splat(f64::NAN);
+    if let Shapes::Disks { radii, .. } = &mut heap.shapes {
+        radii[1403] = 1e30;
+    }
+    let found = shares(&heap, 1.0).unwrap();
+    assert!(found.iter().all(|share| *share > 0.0 && *share <= 1.0));
+    let many = plate(0.5, 0.0, true);
+    let at_one_place = Splats { positions: vec![DVec3::ONE; many.len()], ..many };
+    assert_eq!(shares(&at_one_place, 1.0), None);
+}

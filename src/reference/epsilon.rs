@@ -1,0 +1,36 @@
+//! How far behind the nearest splat others belong to one surface, for each splat by itself.
+
+use super::near_surfaces::shares;
+use crate::scene::{Epsilon, Opacity, Scene, Settings, SplatFormat};
+
+/// The rule for the splats of an object.
+pub(super) enum EpsilonRule {
+    Length(f64),
+    /// So many radii, and of them for each splat so much, where they differ.
+    Radii(f64, Option<Vec<f64>>),
+}
+
+impl EpsilonRule {
+    pub fn of(scene: &Scene, object: usize, settings: &Settings, opacity: Opacity) -> Self {
+        match scene.epsilon(object, settings) {
+            Epsilon::Length(length) => Self::Length(length),
+            Epsilon::Radii(radii) => Self::Radii(radii, None),
+            Epsilon::Auto => {
+                let object = &scene.objects[object];
+                let radii = if opacity == Opacity::Transparent { 2.0 } else { 1.0 };
+                // The far side of what is closed and opaque is not drawn. Packed splats have no room for a share.
+                let sides = opacity == Opacity::Transparent || !object.closed;
+                let exact = scene.storage.format == SplatFormat::Exact;
+                Self::Radii(radii, (sides && exact).then(|| shares(&object.splats, radii)))
+            }
+        }
+    }
+
+    /// Of splat `i`, whose surface is so thick: its larger radius, or more where a filter makes it thicker.
+    pub fn epsilon(&self, i: usize, thickness: f64) -> f64 {
+        match self {
+            Self::Length(length) => *length,
+            Self::Radii(radii, shares) => radii * thickness * shares.as_ref().map_or(1.0, |shares| shares[i]),
+        }
+    }
+}

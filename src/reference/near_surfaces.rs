@@ -1,0 +1,60 @@
+//! How much room ε has near each splat, beside another surface that faces the other way, by looking at each pair of splats.
+
+use glam::DVec3;
+
+use super::tangents::tangents;
+use crate::scene::Splats;
+
+/// A splat among others.
+struct Oriented {
+    number: usize,
+    center: DVec3,
+    normal: DVec3,
+    radius: f64,
+}
+
+/// The share of ε, which is so many radii, for each splat. With g, the least distance from its plane of the centers that are within 2ε and
+/// face the other way (normals beyond 120°), and d, the largest of those that are within 1.5 radii and face the same way (within 60°): the
+/// larger of g/2 and 2d, at most ε; all of ε where there is none, and where g is less than 3d, less than thrice the range in which those lie
+/// that are within 1.5 radii and face the other way, or less than a 20th of the radius.
+pub(super) fn shares(splats: &Splats, radii: f64) -> Vec<f64> {
+    let mut all: Vec<Oriented> = (0..splats.len())
+        .filter(|&i| splats.defect(i).is_none())
+        .map(|i| {
+            let (s, t) = tangents(&splats.shapes, i);
+            let normal = s.normalize().cross(t.normalize()).normalize();
+            Oriented { number: i, center: splats.positions[i], normal, radius: splats.major_radius(i) }
+        })
+        .collect();
+    // Along x, so that only a slab of them is looked at.
+    all.sort_by(|a, b| a.center.x.total_cmp(&b.center.x));
+    let mut shares = vec![1.0; splats.len()];
+    for of in &all {
+        let epsilon = radii * of.radius;
+        let first = all.partition_point(|other| other.center.x < of.center.x - 2.0 * epsilon);
+        let slab = all[first..].iter().take_while(|other| other.center.x <= of.center.x + 2.0 * epsilon);
+        let others = slab.filter(|other| other.number != of.number);
+        let (mut spread, mut gap) = (0.0_f64, f64::INFINITY);
+        let mut close_others = Vec::new();
+        for other in others {
+            let distance = other.center.distance(of.center);
+            let from_plane = (other.center - of.center).dot(of.normal);
+            let cosine = other.normal.dot(of.normal);
+            if cosine >= 0.5 && distance <= 1.5 * of.radius {
+                spread = spread.max(from_plane.abs());
+            }
+            if cosine <= -0.5 && distance <= 2.0 * epsilon {
+                gap = gap.min(from_plane.abs());
+                if distance <= 1.5 * of.radius {
+                    close_others.push(from_plane);
+                }
+            }
+        }
+        let highest = close_others.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = close_others.iter().copied().fold(f64::INFINITY, f64::min);
+        if gap >= 3.0 * spread.max(highest - lowest) && gap >= 0.05 * of.radius {
+            shares[of.number] = ((gap / 2.0).max(2.0 * spread) / epsilon).min(1.0);
+        }
+    }
+    shares
+}
