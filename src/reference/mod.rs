@@ -28,6 +28,7 @@ mod affine;
 mod band;
 mod bands;
 mod decision;
+mod edges;
 mod ewa;
 mod filter;
 mod fragment;
@@ -58,6 +59,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+pub use edges::Edge;
 pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
 pub use picture::{Picture, Pixel};
 pub use true_pixel::{GroundTruth, TruePixel};

@@ -8,6 +8,7 @@ mod coverage;
 mod depth;
 mod diagnostics;
 mod edge_on;
+mod edges;
 mod epsilon;
 mod ewa;
 mod facing;
