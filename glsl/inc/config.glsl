@@ -204,4 +204,5 @@
 #define HALF_FLOAT_FITS 60000.0     // Sums above it are scaled to it, so that their rounding cannot end beyond the largest.
 #define LEAST_HALF_FLOAT 5.9604645e-8 // 2^-24, the smallest 16-bit float above 0; kernels end there.
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
+#define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

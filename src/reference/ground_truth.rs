@@ -25,7 +25,7 @@ use super::surface::{Nearest, Sums};
 use super::true_pixel::{Channels, GroundTruth, TruePixel, add, channels};
 use super::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings};
+use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings, Shading};
 
 /// Pixel rows that a thread takes at a time. The sample rows that the filter reaches beyond them are sampled twice.
 const BAND_ROWS: usize = 32;
@@ -65,7 +65,7 @@ struct Field<'a> {
 /// `progress(done, total)` is called from several threads, with rows.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for a number of samples
+/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for eye-dome lighting, for a number of samples
 /// outside 1–256 or more than 2³⁴ in all, and for a size that memory can't hold.
 pub fn ground_truth(
     scene: &Scene,
@@ -76,6 +76,10 @@ pub fn ground_truth(
 ) -> Result<GroundTruth> {
     settings.validate()?;
     camera.validate()?;
+    if settings.shading == Shading::EyeDome {
+        let problem = "edl: is of pixels, and the ground truth's samples have other neighbors; expected another shading";
+        return Err(Error::option("--shading", problem));
+    }
     let [width, height] = settings.size_px;
     check_samples(settings.size_px, samples_per_side)?;
     let taps = Taps::new(settings.kernel, samples_per_side)?;

@@ -22,7 +22,7 @@
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
 //! Of [`crate::scene::Accumulate`] only the floors are modelled that 16-bit sums ask for ([`Settings::floors`]): the sums are `f64` whatever
-//! it says. Not modelled, because they are to change nothing: [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
+//! it says. Eye-dome lighting is a step behind all others (`eye_dome`). Not modelled, because they are to change nothing: [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
 
 mod affine;
 mod band;
@@ -30,6 +30,7 @@ mod bands;
 mod decision;
 mod edges;
 mod ewa;
+mod eye_dome;
 mod filter;
 mod fragment;
 mod front;
@@ -71,7 +72,7 @@ use self::splat::DrawnSplat;
 use self::triangle::DrawnTriangle;
 use self::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Scene, Settings};
+use crate::scene::{Camera, Scene, Settings, Shading};
 
 /// Rows that a thread takes at a time: enough that the boxes of all splats are not walked too often, few enough
 /// that every thread stays busy.
@@ -109,6 +110,9 @@ pub fn render(
         let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
         progress(done, u64::from(height));
     });
+    if settings.shading == Shading::EyeDome {
+        eye_dome::shade(&view, &mut pixels);
+    }
     Ok(Picture { size_px: settings.size_px, pixels, defects })
 }
 

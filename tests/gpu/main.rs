@@ -10,6 +10,7 @@ mod cull;
 mod culling;
 mod embedding;
 mod extremes;
+mod eye_dome;
 mod f16;
 mod floor;
 mod frame_graph;

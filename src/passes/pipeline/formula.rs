@@ -58,6 +58,7 @@ pub enum Formula {
     LitSpecular,
     Stacked,
     Lengthened,
+    EyeDome,
 }
 
 impl Formula {
@@ -75,6 +76,9 @@ impl Formula {
         Self::Stacked,
         Self::Lengthened,
     ];
+
+    /// That of eye-dome lighting.
+    pub const OF_EYE_DOME: [Self; 1] = [Self::EyeDome];
 
     /// Those of opaque splats.
     pub const ALL: [Self; 42] = [

@@ -11,6 +11,7 @@ mod edge_on;
 mod edges;
 mod epsilon;
 mod ewa;
+mod eye_dome;
 mod facing;
 mod ground_truth;
 mod hostile;
