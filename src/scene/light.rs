@@ -98,10 +98,10 @@ impl Light {
 /// As many numbers as there are to be.
 fn numbers<const N: usize>(words: &[&str], key: &str) -> std::result::Result<[f64; N], String> {
     let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
-    let plural = if N == 1 { "one number" } else { "three numbers with commas between" };
+    let expected = if N == 1 { "one number" } else { "three numbers with commas between" };
     numbers
         .and_then(|numbers| numbers.try_into().ok())
-        .ok_or_else(|| format!("{key}={}: expected {plural}", words.join(",")))
+        .ok_or_else(|| format!("{key}={}: expected {expected}", words.join(",")))
 }
 
 /// Linear light of sRGB values.

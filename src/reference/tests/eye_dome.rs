@@ -39,7 +39,7 @@ fn what_is_nearer_darkens_what_is_behind_it_within_a_knights_move_and_not_itself
     for (x, y, pixel) in pixels_at(&seen) {
         let from_rim_px = 32.5 * x.hypot(y) - 10.16;
         let is_plain = (pixel.color[1] - 0.5).abs() < 1e-9;
-        if from_rim_px < -0.1 || from_rim_px > 2.5 {
+        if !(-0.1..=2.5).contains(&from_rim_px) {
             assert!(is_plain, "{x}, {y}: {pixel:?}");
         } else if (0.1..1.0).contains(&from_rim_px) {
             // One neighbor at least: a slope of ln 2 · 32.5 / √5 over 8.

@@ -198,7 +198,7 @@ fn sums(row: &MethodRow) -> String {
 }
 
 /// The errors of the picture as columns.
-fn by_place<'a>(mut table: Table<'a, MethodRow>) -> Table<'a, MethodRow> {
+fn by_place(mut table: Table<'_, MethodRow>) -> Table<'_, MethodRow> {
     let places: [(&str, fn(&PictureError) -> &RegionError); 3] = [
         ("whole", |error| &error.whole),
         ("inside", |error| &error.inside),

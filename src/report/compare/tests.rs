@@ -132,6 +132,16 @@ fn the_table_of_all_methods_fits_a_terminal_of_120_columns() {
 }
 
 #[test]
+fn the_nearest_filter_is_told_first_whatever_the_order_of_methods() {
+    let mut report = report();
+    let told = report.why.clone();
+    assert_eq!(told.len(), 2);
+    report.methods.reverse();
+    report.judge();
+    assert_eq!(report.why, told);
+}
+
+#[test]
 fn what_was_not_measured_is_a_dash() {
     let mut report = report();
     report.methods.truncate(1);
