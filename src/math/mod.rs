@@ -5,3 +5,4 @@ pub mod morton;
 pub mod random;
 pub mod size;
 pub mod srgb;
+pub mod tonemap;

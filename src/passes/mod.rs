@@ -41,6 +41,7 @@ use crate::passes::{cull::lists::Lists, plan::Outputs, resolve::finalize::Opaque
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
+    scene::Shading,
 };
 
 /// The whole frame. What a scene does not have takes no pass: splats, polygons, transparent things; large splats are listed
@@ -63,7 +64,9 @@ pub fn frame<'a>(
     };
     let lights = resolve::lights::lights(graph, inputs.source, &plan.lights);
     let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
-    let outputs = Outputs { surface: export, layers: !plan.transparent.is_empty(), target_format };
+    let by_depth = inputs.settings.shading == Shading::EyeDome;
+    let outputs =
+        Outputs { surface: export || by_depth, layers: !plan.transparent.is_empty(), target_format };
 
     let opaque_inputs = inputs.of(&plan.opaque);
     let opaque = if plan.opaque.bands().is_empty() {
@@ -86,16 +89,19 @@ pub fn frame<'a>(
             }
         }
     };
-    resolve::finalize::finalize(
-        graph,
-        inputs,
-        &opaque,
-        layers.as_ref(),
-        lights.as_ref(),
-        target,
-        target_format,
-    )?;
     let surface = opaque.splats.as_ref().zip(opaque.splat_depth.as_ref());
+    match surface.filter(|_| by_depth) {
+        Some(surface) => resolve::eye_dome::eye_dome(graph, inputs, surface, target, target_format)?,
+        None => resolve::finalize::finalize(
+            graph,
+            inputs,
+            &opaque,
+            layers.as_ref(),
+            lights.as_ref(),
+            target,
+            target_format,
+        )?,
+    }
     export.then(|| resolve::export::export(graph, inputs, surface)).transpose()
 }
 

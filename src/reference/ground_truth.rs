@@ -13,6 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec3;
 
 use super::bands;
+use super::edges::{Edge, Edges, Seen};
 use super::fragment::Fragment;
 use super::kernel::limit_r2;
 use super::low_pass_taps::Taps;
@@ -24,7 +25,7 @@ use super::surface::{Nearest, Sums};
 use super::true_pixel::{Channels, GroundTruth, TruePixel, add, channels};
 use super::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings};
+use crate::scene::{Camera, Filter, FilterWeight, Kernel, Rasterizer, Scene, Settings, Shading};
 
 /// Pixel rows that a thread takes at a time. The sample rows that the filter reaches beyond them are sampled twice.
 const BAND_ROWS: usize = 32;
@@ -64,7 +65,7 @@ struct Field<'a> {
 /// `progress(done, total)` is called from several threads, with rows.
 ///
 /// # Errors
-/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for a number of samples
+/// [`crate::error::ErrorKind::Option`] for settings or a camera out of range, for eye-dome lighting, for a number of samples
 /// outside 1–256 or more than 2³⁴ in all, and for a size that memory can't hold.
 pub fn ground_truth(
     scene: &Scene,
@@ -75,6 +76,10 @@ pub fn ground_truth(
 ) -> Result<GroundTruth> {
     settings.validate()?;
     camera.validate()?;
+    if settings.shading == Shading::EyeDome {
+        let problem = "edl: is of pixels, and the ground truth's samples have other neighbors; expected another shading";
+        return Err(Error::option("--shading", problem));
+    }
     let [width, height] = settings.size_px;
     check_samples(settings.size_px, samples_per_side)?;
     let taps = Taps::new(settings.kernel, samples_per_side)?;
@@ -155,10 +160,17 @@ impl Field<'_> {
         let strip_rows = (STRIP_SAMPLES / self.columns.len()).clamp(1, n);
         let mut sums = vec![Channels::default(); pixels.len()];
         let mut line = vec![Channels::default(); self.width_px];
+        let (mut edges, mut found) = (self.edges(), vec![Edge::None; pixels.len()]);
         for start in (first..end).step_by(strip_rows) {
             let rows = start..(start + strip_rows).min(end);
-            let Some(samples) = self.sample(&here, rows.start as u32..rows.end as u32) else { continue };
-            for (row, samples) in rows.zip(samples.chunks(self.columns.len())) {
+            let Some((samples, seen)) = self.sample(&here, rows.start as u32..rows.end as u32) else {
+                // Nothing in all of its rows, which the next row's neighbors are, too.
+                edges.mark(start - first, &vec![Seen::NOTHING; self.columns.len()], &mut found);
+                continue;
+            };
+            let lines = samples.chunks(self.columns.len()).zip(seen.chunks(self.columns.len()));
+            for (row, (samples, seen)) in rows.zip(lines) {
+                edges.mark(row - first, seen, &mut found);
                 self.filter_along(samples, &mut line);
                 for (i, sums) in sums.chunks_mut(self.width_px).enumerate() {
                     let tap = (row - first).checked_sub(i * n).and_then(|tap| self.taps.weights.get(tap));
@@ -168,13 +180,24 @@ impl Field<'_> {
                 }
             }
         }
-        for (pixel, sums) in pixels.iter_mut().zip(&sums) {
-            *pixel = TruePixel::from_sums(sums);
+        for ((pixel, sums), edge) in pixels.iter_mut().zip(&sums).zip(found) {
+            *pixel = TruePixel { edge, ..TruePixel::from_sums(sums) };
         }
     }
 
-    /// The surface in each sample of `rows`, seen by the splats of the list `here`; `None` where none is near.
-    fn sample(&self, here: &[usize], rows: Range<u32>) -> Option<Vec<Channels>> {
+    fn edges(&self) -> Edges {
+        Edges {
+            pixel: self.samples_per_side as f64 / self.view.focal_px,
+            samples_per_side: self.samples_per_side,
+            margin_px: self.taps.reach_px as usize,
+            width_px: self.width_px,
+            above: Vec::new(),
+        }
+    }
+
+    /// The surface in each sample of `rows`, seen by the splats of the list `here`, and what matters of it for edges; `None` where
+    /// none is near.
+    fn sample(&self, here: &[usize], rows: Range<u32>) -> Option<(Vec<Channels>, Vec<Seen>)> {
         let count = rows.len() * self.columns.len();
         let mut nearest = vec![Nearest::NONE; count];
         let mut any = false;
@@ -195,16 +218,16 @@ impl Field<'_> {
             }
         });
         let mut samples = vec![Channels::default(); count];
-        for ((row, samples), sums) in
-            rows.zip(samples.chunks_mut(self.columns.len())).zip(sums.chunks(self.columns.len()))
-        {
-            let y = self.view.ray(0, row).y;
-            for ((sample, sums), x) in samples.iter_mut().zip(sums).zip(&self.columns) {
-                let Some(surface) = sums.surface(&self.shader, DVec3::new(*x, y, 1.0)) else { continue };
-                *sample = channels(&surface);
-            }
+        let mut seen = vec![Seen::NOTHING; count];
+        for (i, sums) in sums.iter().enumerate() {
+            let (row, column) = (rows.start + (i / self.columns.len()) as u32, i % self.columns.len());
+            let ray = DVec3::new(self.columns[column], self.view.ray(0, row).y, 1.0);
+            let Some(surface) = sums.surface(&self.shader, ray) else { continue };
+            samples[i] = channels(&surface);
+            let (z, z_shifted) = (surface.depth, nearest[i].z_shifted);
+            seen[i] = Seen::surface(z, z_shifted, surface.normal, ray, 1.0 / self.view.focal_px);
         }
-        Some(samples)
+        Some((samples, seen))
     }
 
     /// Calls `f(sample within the rows, splat index, splat, fragment)` for every fragment.

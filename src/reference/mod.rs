@@ -22,15 +22,17 @@
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
 //! Of [`crate::scene::Accumulate`] only the floors are modelled that 16-bit sums ask for ([`Settings::floors`]): the sums are `f64` whatever
-//! it says. Not modelled, because they are to change nothing: [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
+//! it says. Eye-dome lighting is a step behind all others (`eye_dome`). Not modelled, because they are to change nothing: [`crate::scene::KernelEval`] (the kernel is arithmetic) and [`crate::scene::TileInvocations`].
 
 mod affine;
 mod band;
 mod bands;
 mod decision;
 mod covering;
+mod edges;
 mod epsilon;
 mod ewa;
+mod eye_dome;
 mod filter;
 mod fragment;
 mod front;
@@ -62,6 +64,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+pub use edges::Edge;
 pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
 pub use picture::{Picture, Pixel};
 pub use true_pixel::{GroundTruth, TruePixel};
@@ -73,7 +76,7 @@ use self::splat::DrawnSplat;
 use self::triangle::DrawnTriangle;
 use self::view::View;
 use crate::error::{Error, Result};
-use crate::scene::{Camera, Opacity, Scene, Settings};
+use crate::scene::{Camera, Opacity, Scene, Settings, Shading};
 
 /// Rows that a thread takes at a time: enough that the boxes of all splats are not walked too often, few enough
 /// that every thread stays busy.
@@ -111,6 +114,9 @@ pub fn render(
         let done = rows_done.fetch_add(u64::from(rows), Ordering::Relaxed) + u64::from(rows);
         progress(done, u64::from(height));
     });
+    if settings.shading == Shading::EyeDome {
+        eye_dome::shade(&view, &mut pixels);
+    }
     Ok(Picture { size_px: settings.size_px, pixels, defects })
 }
 

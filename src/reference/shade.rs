@@ -47,7 +47,7 @@ impl Shader {
             Shading::Lambert => self.lambert(albedo, normal, to_eye),
             Shading::Phong => self.lambert(albedo, normal, to_eye) + 0.2 * self.highlights(normal, to_eye),
             Shading::Normals => 0.5 * DVec3::new(normal.x, -normal.y, -normal.z) + 0.5,
-            Shading::Albedo => albedo,
+            Shading::Albedo | Shading::EyeDome => albedo,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::edges::Edge;
 use super::surface::{Surface, direction};
 use crate::scene::DefectCounts;
 
@@ -16,7 +17,7 @@ pub struct GroundTruth {
     pub defects: DefectCounts,
 }
 
-/// One pixel of the low-passed surface. All but the coverage are means over the samples that see a surface,
+/// One pixel of the low-passed surface. All but coverage and edge are means over the samples that see a surface,
 /// weighted by the filter: over a background, the image is `coverage · color + (1 − coverage) · background`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruePixel {
@@ -32,6 +33,8 @@ pub struct TruePixel {
     pub color: [f64; 3],
     /// The splats' own alpha, 0–1; 0 where empty.
     pub alpha: f64,
+    /// The edge of the surface that passes through the pixel itself, before the filter.
+    pub edge: Edge,
 }
 
 /// The channels of a sample that are low-passed: whether it sees a surface, then albedo, normal, color, depth and alpha.
@@ -58,9 +61,10 @@ impl TruePixel {
         depth: f64::INFINITY,
         color: [0.0; 3],
         alpha: 0.0,
+        edge: Edge::None,
     };
 
-    /// The pixel of the filter's sums.
+    /// The pixel of the filter's sums, without its edge.
     pub(super) fn from_sums(sums: &Channels) -> Self {
         let coverage = sums[0];
         if coverage <= 0.0 {
@@ -75,6 +79,7 @@ impl TruePixel {
             depth: sums[10] / coverage,
             color: (three(7) / coverage).to_array(),
             alpha: sums[11] / coverage,
+            edge: Edge::None,
         }
     }
 }

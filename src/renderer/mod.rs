@@ -20,7 +20,7 @@ use crate::{
     },
     passes::{self, Exported, FramePlan, Inputs, Shaders, Source},
     prepare::{PreparedScene, prepare},
-    scene::{Accumulate, Camera, Edges, Scene, Settings},
+    scene::{Accumulate, Camera, Edges, Scene, Settings, Shading},
     vk::{Device, Limits, Staging},
 };
 
@@ -104,6 +104,10 @@ impl Renderer {
                 format!("{width}x{height}: the device '{}' draws at most {side}x{side}", facts.name),
             ));
         }
+        if settings.shading == Shading::EyeDome && !facts.blend_f32 {
+            let problem = format!("edl: the device '{}' can't blend 32-bit floats", facts.name);
+            return Err(Error::option("--shading", problem));
+        }
         if settings.accumulate == Accumulate::F32 && !facts.blend_f32 {
             let problem = format!("f32: the device '{}' can't blend 32-bit floats; use f16", facts.name);
             return Err(Error::option("--accumulate", problem));
@@ -121,6 +125,12 @@ impl Renderer {
         self.check(camera, settings)?;
         for chunk in &scene.chunks {
             settings.check_object("the scene", chunk.ellipses)?;
+            if chunk.transparent {
+                settings.check_eye_dome("the scene", "transparent in part")?;
+            }
+        }
+        if !scene.meshes.is_empty() {
+            settings.check_eye_dome("the scene", "drawn as triangles in part")?;
         }
         passes::check_digits(scene, camera)?;
         Ok(FramePlan::new(scene, camera, settings, &self.limits))

@@ -12,6 +12,7 @@ pub mod compare;
 mod frames;
 mod grid;
 mod model;
+pub mod picture;
 #[cfg(feature = "compare")]
 mod plot;
 mod probe;

@@ -172,6 +172,9 @@ named! {
         Normals = "normals",
         /// The albedo itself.
         Albedo = "albedo",
+        /// Eye-dome lighting: the albedo, darker where what is around it in the picture is nearer. It needs no normals, for clouds whose
+        /// normals are not to be trusted; for opaque splats. Sums have 32 bits.
+        EyeDome = "edl",
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Layers, Light, MOST_LIGHTS, Object, Scene, Shapes, TileMemory,
+    Layers, Light, MOST_LIGHTS, Object, Opacity, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -115,6 +115,9 @@ impl Settings {
     /// What a splat weighs at least. Tiles sum in 32 bits where splats have weights of their own, whatever `accumulate` says. So `auto` has
     /// none here; where it draws points with 16-bit sums they have, as `--explain` says.
     pub fn floors(&self) -> Floors {
+        if self.shading == Shading::EyeDome {
+            return Floors::NONE; // Its sums have 32 bits.
+        }
         let by_tiles = matches!(self.rasterizer, Rasterizer::Auto | Rasterizer::Compute);
         if self.accumulate == Accumulate::F16 && !by_tiles { Floors::HALF } else { Floors::NONE }
     }
@@ -123,15 +126,33 @@ impl Settings {
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] for `adjust-paper` where an object has elliptic splats; for lights that are
-    /// none, or too many.
+    /// none, or too many; as [`Self::check_eye_dome`].
     pub fn check_scene(&self, scene: &Scene) -> Result<()> {
         scene.lights.iter().try_for_each(Light::validate)?;
         if scene.lights.len() > MOST_LIGHTS {
             let problem = format!("{}: expected at most {MOST_LIGHTS}", scene.lights.len());
             return Err(Error::option("lights", problem));
         }
+        let splats = scene.objects.iter().map(|object| (&object.name, object.splats.colors.opacity()));
+        splats
+            .filter(|(_, opacity)| *opacity == Opacity::Transparent)
+            .try_for_each(|(name, _)| self.check_eye_dome(name, "transparent"))?;
+        scene.meshes.iter().try_for_each(|mesh| self.check_eye_dome(&mesh.name, "drawn as triangles"))?;
         let is_elliptic = |object: &Object| matches!(object.splats.shapes, Shapes::Ellipses { .. });
         scene.objects.iter().try_for_each(|object| self.check_object(&object.name, is_elliptic(object)))
+    }
+
+    /// Refuses eye-dome lighting of an object of this name that is `what`, and not opaque splats.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub fn check_eye_dome(&self, object: &str, what: &str) -> Result<()> {
+        if self.shading != Shading::EyeDome {
+            return Ok(());
+        }
+        let problem =
+            format!("edl: {object} is {what}, it holds for opaque splats; expected another shading");
+        Err(Error::option("--shading", problem))
     }
 
     /// Whether an object of this name, whose splats are ellipses or not, can be drawn so.

@@ -39,8 +39,8 @@ fn methods_stand_side_by_side_with_times_and_both_errors() {
         "times and fragments at 64x64, 3 frames each",
         "errors at 48x48",
         "4 samples a pixel",
-        "ssim",
-        "VP/FP",
+        "frame ms   own   whole   FLIP  inside   FLIP   edges   FLIP  dark",
+        "% of its square at hard edges",
     ] {
         assert!(run.stdout.contains(text), "'{text}' is not in\n{}", run.stdout);
     }
@@ -73,7 +73,16 @@ fn methods_stand_side_by_side_with_times_and_both_errors() {
         // The filter blurs what the truth still shows; without it the splats are where the truth has them.
         let least = if method["filter"] == "none" { 0.5 } else { 0.2 };
         assert!(truth["ssim"].as_f64() > Some(least) && truth["psnr_db"].as_f64() > Some(10.0), "{truth}");
+        let picture = &method["picture_error"];
+        let rms = |place: &str| picture[place]["over_white"]["rms"].as_f64().unwrap();
+        assert!(rms("inside") < rms("whole") && rms("whole") < rms("silhouette"), "{picture}");
     }
+    assert_eq!(report["why"].as_array().unwrap().len(), 2);
+    assert!(
+        run.stdout.lines().all(|line| line.starts_with("note: ") || line.chars().count() <= 120),
+        "{}",
+        run.stdout
+    );
     // 16 bits cost exactness, which is told apart from what the filter costs.
     let rms = |i: usize| methods[i]["implementation_error"]["color"]["rms"].as_f64().unwrap();
     assert!(rms(0) > 10.0 * rms(1) && rms(2) > 10.0 * rms(3));

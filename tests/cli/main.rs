@@ -18,6 +18,7 @@ mod refusals;
 mod report;
 mod scene_file;
 mod selftest;
+mod shown;
 
 use std::fs;
 

@@ -101,9 +101,9 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
     assert!(of("img").iter().all(|image| image.value("alt").is_some_and(|alt| alt.len() > 5)));
     assert_eq!(of("svg").len(), 4, "speed against error, error over distance, two plots of kernels");
     assert!(of("svg").iter().all(|plot| plot.value("aria-label").is_some_and(|alt| alt.len() > 20)));
-    // Costs, errors of the implementation, errors of the method; three over distance; the floor, limits, bounds; layers, and an empty one; instructions; five of stability. A
+    // Costs, errors of the picture, of the method, and of the implementation; three over distance; the floor, limits, bounds; layers, and an empty one; instructions; five of stability. A
     // file of splats has neither table 1 nor halves.
-    assert_eq!(of("table").len(), 3 + 3 + 3 + 2 + 1 + 5);
+    assert_eq!(of("table").len(), 4 + 3 + 3 + 2 + 1 + 5);
     assert!(page.contains("Not on this page: ") && page.contains("the file holds splats"));
     for (id, title) in PARTS {
         assert!(page.contains(&format!("<section id=\"{id}\"><h2>{title}</h2>")), "{id}");

@@ -20,7 +20,7 @@ use surfel::{
     passes::Formula,
     reference::Picture,
     renderer::{Frame, Headless, Wanted},
-    scene::{Cull, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Scene, Transition},
+    scene::{Cull, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Scene, Shading, Transition},
     selftest::{agreement::compare, light::compare_light, tolerance},
 };
 
@@ -161,6 +161,19 @@ fn every_formula_of_layers_is_seen() {
     assert_seen(&mut shared(), &scenes, &Formula::OF_LAYERS, &|headless, hard, oracle| {
         light(&render_as(headless, hard, ALL), hard, oracle)
     });
+}
+
+#[test]
+fn the_formula_of_eye_dome_lighting_is_seen_by_points_and_by_tiles() {
+    for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute] {
+        let ground = with(&scenes::ground(), |s| (s.shading, s.rasterizer) = (Shading::EyeDome, rasterizer));
+        assert_seen(
+            &mut shared(),
+            &with_oracles([ground]),
+            &Formula::OF_EYE_DOME,
+            &|headless, hard, oracle| light(&render_as(headless, hard, PICTURE), hard, oracle),
+        );
+    }
 }
 
 /// Draws by tiles, which a frame shows in a pass of this name.

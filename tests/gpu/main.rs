@@ -11,6 +11,7 @@ mod culling;
 mod edges;
 mod embedding;
 mod extremes;
+mod eye_dome;
 mod f16;
 mod floor;
 mod frame_graph;

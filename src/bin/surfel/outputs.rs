@@ -10,6 +10,7 @@ use surfel::{
     Error, Result,
     load::{LoadOptions, ObjectDescription, Source, is_scene_file, load_scene_file},
     save,
+    scene::{Encoding, OptionTable as _},
 };
 
 use crate::picture::PictureArguments;
@@ -41,7 +42,27 @@ pub fn check(
     let inputs = input.inputs.iter().chain(&camera.camera);
     check_places([&output].into_iter().chain(timings), dump.as_deref(), &DUMPED, inputs)?;
     let is_exr = output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+    check_encoding(&arguments.encoding(), is_exr.then_some(&output))?;
     Ok((output, if is_exr { PictureFormat::Exr } else { PictureFormat::Png }))
+}
+
+/// Refuses an encoding out of range, and one that is not plain for a picture that stays linear.
+///
+/// # Errors
+/// In the name of the option.
+fn check_encoding(encoding: &Encoding, linear: Option<&PathBuf>) -> Result<()> {
+    let plain = Encoding::default();
+    for option in Encoding::OPTIONS {
+        let problem = match linear {
+            Some(file) if (option.get)(encoding) != (option.get)(&plain) => {
+                let value = (option.get)(encoding);
+                Err(format!("{value}: {} stays linear; expected a picture in .png", file.display()))
+            }
+            _ => (option.check)(encoding),
+        };
+        problem.map_err(|problem| Error::option(format!("--{}", option.name), problem))?;
+    }
+    Ok(())
 }
 
 /// Refuses a file whose name has none of these endings.

@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Arg, Args};
-use surfel::{load::PictureDescription, scene::Settings};
+use surfel::{
+    load::PictureDescription,
+    scene::{Encoding, Light, Scene, Settings},
+};
 
 use crate::{
     camera::CameraArguments,
@@ -29,8 +32,16 @@ pub struct PictureArguments {
     #[command(flatten)]
     pub camera: CameraArguments,
 
+    /// A light in place of those of scene files, and of the one at the eye: eye, or the direction in which it travels, with color (sRGB)
+    /// and intensity where they are not 1, such as direction=0,-1,-1,color=1,0.9,0.8,intensity=2; once for each light
+    #[arg(long = "light", value_name = "LIGHT", value_parser = Light::parse, allow_hyphen_values = true, help_heading = "Method")]
+    lights: Vec<Light>,
+
     #[command(flatten)]
     settings: Given<Settings>,
+
+    #[command(flatten)]
+    encoding: Given<Encoding>,
 }
 
 impl Taken for Settings {
@@ -41,7 +52,27 @@ impl Taken for Settings {
     }
 }
 
+impl Taken for Encoding {
+    type Table = Self;
+
+    fn option(_name: &str, option: Arg) -> Option<Arg> {
+        Some(option.help_heading("Method"))
+    }
+}
+
 impl PictureArguments {
+    /// How linear light becomes the picture, not yet checked.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding.over(Encoding::default())
+    }
+
+    /// Puts the lights in the place of the scene's, where there are any.
+    pub fn light(&self, scene: &mut Scene) {
+        if !self.lights.is_empty() {
+            scene.lights.clone_from(&self.lights);
+        }
+    }
+
     /// The settings, not yet checked.
     pub fn settings(&self) -> Settings {
         self.settings.over(Settings::default())
@@ -108,6 +139,16 @@ mod tests {
             let words: Vec<String> = options.flat_map(|(name, value)| [format!("--{name}"), value]).collect();
             assert_eq!(picture(&words).settings(), settings);
         }
+    }
+
+    #[test]
+    fn lights_are_as_many_as_are_given_and_take_the_place_of_the_scenes() {
+        let words = ["--light", "direction=0,-1,-1,intensity=2", "--light", "eye"].map(str::to_owned);
+        let mut scene = Scene { lights: vec![Light::DEFAULT; 3], ..Scene::default() };
+        picture(&[]).light(&mut scene);
+        assert_eq!(scene.lights.len(), 3);
+        picture(&words).light(&mut scene);
+        assert_eq!(scene.lights.iter().map(|light| light.color[0]).collect::<Vec<_>>(), [2.0, 1.0]);
     }
 
     #[test]

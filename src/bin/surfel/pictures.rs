@@ -2,7 +2,12 @@
 
 use std::{fs, path::Path};
 
-use surfel::{Error, Result, math::srgb::srgb_from_linear, save};
+use surfel::{
+    Error, Result,
+    math::srgb::{linear_from_srgb, srgb_from_linear},
+    save,
+    scene::Encoding,
+};
 
 use crate::{console, outputs::PictureFormat};
 
@@ -67,6 +72,27 @@ pub fn encode([red, green, blue, alpha]: [f32; 4]) -> [u8; 4] {
     [srgb(red), srgb(green), srgb(blue), byte(alpha)]
 }
 
+/// The bytes of what was drawn without a background, as it is shown over one (sRGB), which keeps its color.
+pub fn encode_shown(encoding: &Encoding, drawn: &[[f32; 4]], background: Option<[f32; 3]>) -> Vec<[u8; 4]> {
+    let shown = drawn.iter().map(|[red, green, blue, alpha]| {
+        let [red, green, blue] = encoding.shown([*red, *green, *blue]);
+        over([red, green, blue, *alpha], background)
+    });
+    shown.map(encode).collect()
+}
+
+/// A linear color with straight alpha over a background (sRGB).
+pub fn over([red, green, blue, alpha]: [f32; 4], background: Option<[f32; 3]>) -> [f32; 4] {
+    let Some(background) = background.map(|color| color.map(linear_from_srgb)) else {
+        return [red, green, blue, alpha];
+    };
+    let [red, green, blue] = match alpha {
+        1.0 => [red, green, blue],
+        _ => [0, 1, 2].map(|c| alpha * [red, green, blue][c] + (1.0 - alpha) * background[c]),
+    };
+    [red, green, blue, 1.0]
+}
+
 /// The normalized surface and the picture of it, linear, row by row from the top left.
 pub struct Dump {
     /// Width and height in pixels.
@@ -103,11 +129,25 @@ impl Dump {
 
 #[cfg(test)]
 mod tests {
+    use surfel::scene::{Stops, Tonemap};
+
     use super::*;
 
     #[test]
     fn colors_are_encoded_to_the_nearest_byte() {
         assert_eq!(encode([0.0, 1.0, 0.215_861, 0.5]), [0, 255, 128, 128]);
         assert_eq!(encode([-1.0, 2.0, f32::NAN, 1.0]), [0, 255, 0, 255]);
+    }
+
+    #[test]
+    fn the_background_keeps_its_color_whatever_the_curve() {
+        let encoding = Encoding { exposure: Stops(-1.0), tonemap: Tonemap::None };
+        let drawn = [[1.0, 0.5, 0.0, 1.0], [0.0; 4], [1.0, 1.0, 1.0, 0.5]];
+        let over_gray = encode_shown(&encoding, &drawn, Some([0.5; 3]));
+        // Half of 0.5, and half of 0.214041, which is 128.
+        assert_eq!(over_gray, [[188, 137, 0, 255], [128, 128, 128, 255], [161, 161, 161, 255]]);
+        assert_eq!(encode_shown(&encoding, &drawn, None)[1..], [[0, 0, 0, 0], [188, 188, 188, 128]]);
+        let aces = Encoding { tonemap: Tonemap::Aces, ..encoding };
+        assert_eq!(encode_shown(&aces, &drawn, Some([1.0; 3]))[1], [255; 4]);
     }
 }

@@ -4,6 +4,7 @@ use clap::Args;
 use surfel::{
     Progress as _, Result,
     reference::{self, Picture, Pixel},
+    scene::Settings,
 };
 
 use crate::{
@@ -11,7 +12,7 @@ use crate::{
     console::{self, Bars},
     emptiness,
     inputs::INPUTS,
-    outputs,
+    outputs::{self, PictureFormat},
     picture::PictureArguments,
     pictures::{self, Colors, Dump},
     scene::load_scene,
@@ -43,17 +44,27 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let camera = CameraChoice::of(&picture.camera)?;
     let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.input.inputs(), &bars)?;
+    let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
+    picture.light(&mut loaded.scene);
     let settings = picture.settings_in(&loaded.picture);
     let camera = camera.camera(&loaded, settings.size_px)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
+    let (encoding, background) = (picture.encoding(), settings.background);
+    // A curve is of what is drawn alone; the background is put under it after that.
+    let drawn_over = if encoding.is_plain() { background } else { None };
+    let settings = Settings { background: drawn_over, ..settings };
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);
     bars.clear();
-    let dump = dump(&drawn?);
-    let transparent = settings.background.is_none();
-    pictures::write_picture(&output, format, dump.size_px, transparent, Colors::Linear(&dump.color))?;
-    let srgb: Vec<[u8; 4]> = dump.color.iter().map(|color| pictures::encode(*color)).collect();
-    if let Some(hint) = emptiness::hint(&srgb, settings.background, &camera, &loaded.ball) {
+    let mut dump = dump(&drawn?);
+    let under = background.filter(|_| drawn_over.is_none());
+    let bytes = pictures::encode_shown(&encoding, &dump.color, under);
+    dump.color.iter_mut().for_each(|color| *color = pictures::over(*color, under));
+    let colors = match format {
+        PictureFormat::Png => Colors::Srgb(&bytes),
+        PictureFormat::Exr => Colors::Linear(&dump.color),
+    };
+    pictures::write_picture(&output, format, dump.size_px, background.is_none(), colors)?;
+    if let Some(hint) = emptiness::hint(&bytes, background, &camera, &loaded.ball) {
         console::say(&hint);
     }
     match &picture.dump {

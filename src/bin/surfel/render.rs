@@ -35,6 +35,7 @@ const EXAMPLES: &str = "Examples:
   surfel render a.ply b.obj --eye 0,1,4 --target 0,0,0 --fov 60
   surfel render scene.toml              all keys of scene files: surfel render --help
   surfel render igea.ply --shading normals --background none -o normals.exr
+  surfel render igea.ply --light direction=1,-1,-1 --light eye,intensity=0.2 --tonemap agx --exposure 1
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
 
@@ -101,7 +102,8 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let loaded = load_scene(&picture.input.inputs(), &bars)?;
+    let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
+    picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
     let settings = &picture.settings_in(&loaded.picture);
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
@@ -142,18 +144,24 @@ fn write(
     (output, format): &(PathBuf, PictureFormat),
 ) -> Result<()> {
     let picture = &arguments.picture;
-    let wanted = Wanted { picture: true, linear: *format == PictureFormat::Exr, ..Wanted::default() };
-    let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
+    let (encoding, background) = (picture.encoding(), view.settings.background);
+    let linear = *format == PictureFormat::Exr || !encoding.is_plain();
+    let wanted = Wanted { picture: true, linear, ..Wanted::default() };
+    // A curve is of what is drawn alone; the background is put under it after that.
+    let without = (!encoding.is_plain()).then(|| Settings { background: None, ..view.settings.clone() });
+    let settings = without.as_ref().unwrap_or(view.settings);
+    let frame = headless.render(view.scene, view.camera, settings, wanted)?;
+    let bytes = match linear {
+        true => pictures::encode_shown(&encoding, &frame.linear, without.and(background)),
+        false => frame.srgb,
+    };
     let colors = match format {
-        PictureFormat::Png => Colors::Srgb(&frame.srgb),
+        PictureFormat::Png => Colors::Srgb(&bytes),
         PictureFormat::Exr => Colors::Linear(&frame.linear),
     };
-    let transparent = view.settings.background.is_none();
+    let transparent = background.is_none();
     pictures::write_picture(output, *format, frame.size_px, transparent, colors)?;
-    // Of a linear picture, which alone an EXR is of.
-    let encoded: Vec<[u8; 4]> = frame.linear.iter().map(|color| pictures::encode(*color)).collect();
-    let shown = if frame.srgb.is_empty() { &encoded } else { &frame.srgb };
-    if let Some(hint) = emptiness::hint(shown, view.settings.background, view.camera, ball) {
+    if let Some(hint) = emptiness::hint(&bytes, background, view.camera, ball) {
         console::say(&hint);
     }
     if let Some(folder) = &picture.dump {

@@ -58,6 +58,7 @@ pub enum Formula {
     LitSpecular,
     Stacked,
     Lengthened,
+    EyeDome,
     EdgeOpacity,
 }
 
@@ -77,6 +78,9 @@ impl Formula {
         Self::Lengthened,
         Self::EdgeOpacity,
     ];
+
+    /// That of eye-dome lighting.
+    pub const OF_EYE_DOME: [Self; 1] = [Self::EyeDome];
 
     /// Those of opaque splats.
     pub const ALL: [Self; 42] = [

@@ -116,7 +116,8 @@ pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
         Shading::Phong => SHADING_PHONG,
         Shading::Lambert => SHADING_LAMBERT,
         Shading::Normals => SHADING_NORMALS,
-        Shading::Albedo => SHADING_ALBEDO,
+        // What eye-dome lighting makes darker.
+        Shading::Albedo | Shading::EyeDome => SHADING_ALBEDO,
     };
     vec![(SPEC_SHADING, number), (SPEC_LIGHTS, lights)]
 }

@@ -27,7 +27,7 @@ use crate::passes::plan::{
 };
 use crate::{
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
+    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Shading, Transition},
     shaders::config::SPEC_COVERAGE_EDGES,
     vk::Limits,
 };
@@ -106,6 +106,9 @@ impl<'a> SurfacePlan<'a> {
         limits: &Limits,
     ) -> Self {
         let mut settings = settings.clone();
+        if settings.shading == Shading::EyeDome {
+            settings.accumulate = Accumulate::F32; // 16 bits would make steps of every slope.
+        }
         if splats.is_empty() {
             return Self { meshes, settings, ..Self::default() };
         }
@@ -182,7 +185,7 @@ impl<'a> SurfacePlan<'a> {
 /// What is wanted of a frame beside its picture, and in which format that is.
 #[derive(Clone, Copy)]
 pub(crate) struct Outputs {
-    /// The opaque surface as data: sums, of depth too, are exported.
+    /// The opaque surface as data: sums, of depth too, are read everywhere.
     pub surface: bool,
     /// Transparent layers lie before the opaque surface.
     pub layers: bool,

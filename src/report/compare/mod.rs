@@ -2,7 +2,8 @@
 //!
 //! Two errors are told apart. The **implementation error** is that against the oracle of the same method: what 32 or 16
 //! bits, a texture in place of arithmetic, or a fault in a shader cost. The **method error** is that against the ground
-//! truth, the filtered continuous surface that every method approximates.
+//! truth, the filtered continuous surface that every method approximates; the **picture error** is that of all that is seen, told
+//! apart by place ([`super::picture`]).
 
 mod errors;
 mod method;
@@ -11,6 +12,7 @@ mod plot;
 mod ssim;
 mod surface;
 mod table;
+mod why;
 
 use std::collections::BTreeMap;
 
@@ -22,7 +24,9 @@ pub use pareto::pareto_front;
 pub use ssim::ssim;
 pub use surface::Surface;
 
-use super::{CameraReport, DeviceReport, FrameTimes, InputReport, PassFigures, Spread};
+use super::{
+    CameraReport, DeviceReport, FrameTimes, InputReport, PassFigures, Spread, picture::PictureError,
+};
 
 /// Everything that a comparison found out.
 #[derive(Clone, Debug, Serialize)]
@@ -51,6 +55,8 @@ pub struct CompareReport {
     pub methods: Vec<MethodRow>,
     /// The methods that could not be compared.
     pub skipped: Vec<Skipped>,
+    /// Why each filter ranks as it does, a line each, the nearest to the truth first.
+    pub why: Vec<String>,
     /// Notes for a reader of these figures, a sentence each.
     pub notes: Vec<String>,
 }
@@ -67,11 +73,13 @@ pub struct MethodRow {
     pub frame_ms: Option<Spread>,
     /// Against the oracle of the same method.
     pub implementation_error: ErrorFigures,
-    /// Against the ground truth.
+    /// Against the ground truth, where both have a surface.
     pub method_error: ErrorFigures,
+    /// Against the ground truth, of the picture as a whole and by place.
+    pub picture_error: PictureError,
     /// Contradictions of its times, a sentence each.
     pub flags: Vec<String>,
-    /// No other method is at least as good in the median of `frame_ms` and in the RMS of the method error's image and
+    /// No other method is at least as good in the median of `frame_ms` and in the RMS of the whole picture's error and
     /// better in one of them.
     pub pareto: bool,
 }
@@ -113,6 +121,7 @@ impl MethodRow {
         times: FrameTimes,
         implementation_error: ErrorFigures,
         method_error: ErrorFigures,
+        picture_error: PictureError,
     ) -> Self {
         let pass = |figures| PassRow { figures, vertex_instructions: None, fragment_instructions: None };
         Self {
@@ -122,13 +131,14 @@ impl MethodRow {
             flags: times.flags,
             implementation_error,
             method_error,
+            picture_error,
             pareto: false,
         }
     }
 
-    /// Milliseconds of a frame (median) and the RMS of the method error's image; `None` where one is missing.
+    /// Milliseconds of a frame (median) and the RMS of the whole picture's error; `None` where one is missing.
     pub fn speed_and_error(&self) -> Option<[f64; 2]> {
-        Some([self.frame_ms?.median, self.method_error.image?.rms])
+        Some([self.frame_ms?.median, self.picture_error.whole.rms()?])
     }
 
     /// Takes over what was counted of its passes.
@@ -149,12 +159,13 @@ impl MethodRow {
 }
 
 impl CompareReport {
-    /// Marks the methods that are on the Pareto front of speed and error.
-    pub fn mark_front(&mut self) {
+    /// Marks the methods that are on the Pareto front of speed and error, and says why the filters rank as they do.
+    pub fn judge(&mut self) {
         let figures: Vec<_> = self.methods.iter().map(MethodRow::speed_and_error).collect();
         for (row, on_front) in self.methods.iter_mut().zip(pareto_front(&figures)) {
             row.pareto = on_front;
         }
+        self.why = self.why_of_filters();
     }
 }
 

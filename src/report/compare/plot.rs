@@ -9,7 +9,7 @@ use crate::{
 };
 
 impl CompareReport {
-    /// Milliseconds of a frame against the RMS of the method error's color; both axes are logarithmic, the Pareto front is a
+    /// Milliseconds of a frame against the RMS of the whole picture's error; both axes are logarithmic, the Pareto front is a
     /// line with the names of its methods. Methods without one of the figures are not in it.
     pub fn plot(&self) -> Plot {
         let dots: Vec<(&MethodRow, Place)> =
@@ -40,7 +40,7 @@ impl CompareReport {
             self.device.name, self.splats
         );
         let x = Axis::logarithmic("milliseconds a frame (median)", dots.iter().map(|(_, at)| at.0));
-        let name = "RMS of the linear image against the ground truth";
+        let name = "RMS of the whole picture in linear light, against the ground truth";
         let y = Axis::logarithmic(name, dots.iter().map(|(_, at)| at.1));
         let charts = vec![Chart { caption, x, y, marks }];
         Plot { charts, legend: legend(), ..Plot::default() }

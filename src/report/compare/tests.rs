@@ -2,8 +2,11 @@
 
 use super::*;
 use crate::{
-    report::{FrameSample, PLOT_SIZE_PX},
-    scene::{Accumulate, Camera, Filter, KernelEval, Rasterizer, Settings},
+    report::{
+        FrameSample, PLOT_SIZE_PX,
+        picture::{Figures, RegionError},
+    },
+    scene::{Accumulate, Camera, Filter, FilterWeight, KernelEval, Rasterizer, Settings},
 };
 
 fn method(rasterizer: Rasterizer, filter: Filter) -> Method {
@@ -29,6 +32,22 @@ fn figures(rms: f64) -> ErrorFigures {
     }
 }
 
+fn picture(rms: f64) -> PictureError {
+    let region = |px: u64, rms: f64| {
+        let over = |rms: f64| Some(Figures { rms, flip: 2.0 * rms });
+        RegionError { px, over_white: over(rms), over_black: over(0.5 * rms) }
+    };
+    PictureError {
+        whole: region(1000, rms),
+        inside: region(800, 0.5 * rms * rms / 0.01),
+        silhouette: region(150, 2.0 * rms),
+        dark_fringe: 1000.0 * rms,
+        bright_fringe: 0.0,
+        wider_px: Some(10.0 * rms),
+        partial_px: if rms > 0.015 { 1 } else { 100 },
+    }
+}
+
 fn times(ms: f64) -> FrameTimes {
     let sample = |ms: f64| FrameSample {
         passes_ms: vec![Some(ms), Some(2.0 * ms), Some(0.5), Some(0.25)],
@@ -43,7 +62,8 @@ fn times(ms: f64) -> FrameTimes {
 
 fn report() -> CompareReport {
     let row = |rasterizer, filter, ms, rms| {
-        MethodRow::new(method(rasterizer, filter), times(ms), figures(1e-5), figures(rms))
+        let row = method(rasterizer, filter);
+        MethodRow::new(row, times(ms), figures(1e-5), figures(rms), picture(rms))
     };
     let skip = |rasterizer, reason: &str| Skipped {
         method: method(rasterizer, Filter::Ewa),
@@ -77,12 +97,13 @@ fn report() -> CompareReport {
             skip(Rasterizer::Triangle, "no map"),
             skip(Rasterizer::Quad, "lost"),
         ],
+        why: Vec::new(),
         notes: vec!["a note".to_owned()],
     };
     for (pass, [vertex, fragment]) in report.methods[0].passes.iter_mut().zip([[433, 9], [431, 14]]) {
         (pass.vertex_instructions, pass.fragment_instructions) = (Some(vertex), Some(fragment));
     }
-    report.mark_front();
+    report.judge();
     report
 }
 
@@ -94,21 +115,52 @@ fn the_table_is_the_same_to_the_letter() {
 }
 
 #[test]
+fn the_table_of_all_methods_fits_a_terminal_of_120_columns() {
+    let mut report = report();
+    let longest = WeightedFilter { filter: Filter::AdjustPaper, filter_weight: FilterWeight::Unit };
+    report.methods[0].method = Method {
+        rasterizer: Rasterizer::RaycastApproximate,
+        filter: longest,
+        kernel_eval: KernelEval::Texture,
+        ..report.methods[0].method
+    };
+    report.methods[0].frame_ms = times(12_345.0).frame_ms;
+    report.judge();
+    let widest = |lines: &str| lines.lines().map(|line| line.chars().count()).max();
+    assert!(widest(&report.summary().to_string()) <= Some(120), "{}", report.summary());
+    assert!(widest(&report.why.join("\n")) <= Some(160), "{:?}", report.why);
+}
+
+#[test]
+fn the_nearest_filter_is_told_first_whatever_the_order_of_methods() {
+    let mut report = report();
+    let told = report.why.clone();
+    assert_eq!(told.len(), 2);
+    report.methods.reverse();
+    report.judge();
+    assert_eq!(report.why, told);
+}
+
+#[test]
 fn what_was_not_measured_is_a_dash() {
     let mut report = report();
     report.methods.truncate(1);
     let row = &mut report.methods[0];
     row.frame_ms = None;
     row.passes.iter_mut().for_each(|pass| (pass.figures.ms, pass.figures.fragments) = (None, None));
-    row.method_error =
-        ErrorFigures { color: None, image: None, psnr_db: None, ssim: None, ..row.method_error };
-    report.mark_front();
+    let nothing = RegionError::default();
+    row.picture_error =
+        PictureError { whole: nothing, inside: nothing, silhouette: nothing, ..row.picture_error };
+    report.judge();
     assert!(!report.methods[0].pareto);
     let table = report.to_string();
     let dashes = |line: &str| line.split_whitespace().filter(|word| *word == "-").count();
     let rows: Vec<usize> =
         table.lines().filter(|line| line.starts_with("  perspective")).map(dashes).collect();
-    assert_eq!(rows, [9, 0, 5], "{table}");
+    assert_eq!(rows, [7], "{table}");
+    assert!(report.why.is_empty());
+    let pages = report.grids().map(|grid| grid.rows[0].iter().filter(|cell| *cell == "-").count());
+    assert_eq!(pages, [9, 6, 0, 0]);
     assert!(report.plot().svg(PLOT_SIZE_PX).unwrap().contains("Pareto front"));
 }
 
@@ -123,6 +175,8 @@ fn json_has_names_units_and_null_for_what_is_not_counted() {
     assert_eq!(first["passes"][1]["fragment_instructions"], 14);
     assert_eq!((&first["pareto"], &json["methods"][2]["pareto"]), (&true.into(), &false.into()));
     assert_eq!(first["method_error"]["color"]["rms"], 0.01);
+    assert_eq!(first["picture_error"]["silhouette"]["over_black"]["rms"], 0.01);
+    assert!(json["why"][1].as_str().unwrap().starts_with("none: 0.0200"), "{}", json["why"]);
     assert_eq!(json["skipped"][2]["reason"], "lost");
 }
 

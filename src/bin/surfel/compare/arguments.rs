@@ -28,13 +28,15 @@ truth, the continuous surface at many samples a pixel under the filter's Gaussia
 --quick shows what each option changes by itself. Meshes are disks at their vertices here, unless --representation or --resample \
 say otherwise.
 
-Columns: milliseconds a pass and a frame (median, smallest, largest); fragments a pass; linear color, where white is 1 (largest \
-and root mean square) over the pixels that both pictures cover; PSNR in decibels below white; SSIM, 1 for equal pictures; \
-pixels that only one of them covers; image, the root mean square over all that either picture touches, over white; normals \
-in degrees; depth relative to itself; out, the share of pixels left out of the implementation error, because rounding alone \
-may turn a rim or the epsilon test there (their error is in the JSON). A star marks the Pareto front: no other \
-method is at least as good in milliseconds a frame and in image (equal within 1%) and better in one. Two runs differ \
-in times, what is told of them, and the stars, in nothing else.
+The table has a row for each method: milliseconds a frame (median); own, the root of the mean square by which its linear color is \
+off the oracle's; then the picture against the ground truth, as the root of the mean square in linear light and as the mean \
+of FLIP, which is how much of the difference a person sees (0 to 1), over a white or a black background, whichever is worse: the \
+whole of it, what is inside of surfaces, and edges, which are all pixels within 2 of an edge of the ground truth; and how much \
+darker than the truth a pixel of an edge is at most, in 255ths of sRGB. A star marks the Pareto front: no other method is at \
+least as good in milliseconds a frame and in the whole (equal within 1%) and better in one. A line for each filter says why it \
+ranks as it does. --json has everything else: passes, fragments and instructions; PSNR, SSIM, normals and depth; the \
+pixels that are covered in one and empty in the other; those left out of own, because rounding alone may turn a rim or the epsilon test there. Two \
+runs differ in times, what is told of them, and the stars, in nothing else.
 
 With --zoom, a tilted checkerboard is drawn from many distances in place of a scene, by each filter, against the \
 ground truth.";

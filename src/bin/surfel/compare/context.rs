@@ -3,7 +3,7 @@
 use surfel::{
     Progress as _, Result,
     prepare::PreparedScene,
-    reference,
+    reference::{self, GroundTruth},
     renderer::{Headless, Wanted},
     report::compare::{Method, Surface},
     scene::{Camera, Scene, Settings},
@@ -22,19 +22,34 @@ pub struct CompareContext<'a> {
     pub bars: &'a Bars,
 }
 
+/// A picture by the device.
+pub struct Drawn {
+    pub surface: Surface,
+    /// Linear, with straight alpha; without a background.
+    pub rgba: Vec<[f32; 4]>,
+}
+
 impl CompareContext<'_> {
     /// The picture of a method by the device.
-    pub fn draw(&self, headless: &mut Headless, method: &Method) -> Result<Surface> {
+    pub fn draw(&self, headless: &mut Headless, method: &Method) -> Result<Drawn> {
         let wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
-        let frame = headless.render(self.prepared, self.camera, &method.settings(self.base), wanted)?;
+        // What is missing of a pixel is the alpha's to say.
+        let settings = Settings { background: None, ..method.settings(self.base) };
+        let frame = headless.render(self.prepared, self.camera, &settings, wanted)?;
         let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
-        Ok(Surface {
+        let surface = Surface {
             size_px: frame.size_px,
-            coverage: frame.weight.iter().map(|weight| f32::from(u8::from(*weight > 0.0))).collect(),
+            coverage: frame
+                .weight
+                .iter()
+                .zip(&frame.linear)
+                .map(|(weight, [_, _, _, alpha])| if *weight > 0.0 { *alpha } else { 0.0 })
+                .collect(),
             normal: three(&frame.normal),
             color: three(&frame.linear),
             depth: frame.depth,
-        })
+        };
+        Ok(Drawn { surface, rgba: frame.linear })
     }
 
     /// The exact picture of a method, and which pixels rounding may turn.
@@ -45,9 +60,8 @@ impl CompareContext<'_> {
     }
 
     /// The picture that every filter aims at.
-    pub fn truth(&self, samples_per_side: u32, task: &str) -> Result<Surface> {
+    pub fn truth(&self, samples_per_side: u32, task: &str) -> Result<GroundTruth> {
         let progress = |done, total| self.bars.step(task, done, total);
         reference::ground_truth(self.scene, self.camera, self.base, samples_per_side, &progress)
-            .map(|truth| Surface::of_truth(&truth))
     }
 }

@@ -6,7 +6,8 @@ use surfel::{
     renderer::Headless,
     report::{
         TimedFrames,
-        compare::{CompareReport, ErrorFigures, Method, MethodRow, Skipped, errors},
+        compare::{CompareReport, ErrorFigures, Method, MethodRow, Skipped, Surface, errors},
+        picture::{PictureError, picture_error},
     },
     scene::{Camera, Settings},
 };
@@ -14,7 +15,7 @@ use surfel::{
 use super::{
     arguments::CompareArguments,
     candidates,
-    context::CompareContext,
+    context::{CompareContext, Drawn},
     pictures::{BACKGROUND, Show, Shown},
 };
 use crate::{
@@ -91,10 +92,10 @@ pub fn gather(
 
     let closed = scene.objects.iter().all(|object| object.closed);
     let mut rows = Vec::new();
-    for ((method, [own, truth]), times) in found.into_iter().zip(turns) {
+    for ((method, (own, truth, picture)), times) in found.into_iter().zip(turns) {
         match times.as_ref().map(TimedFrames::times) {
             Ok(times) => {
-                let mut row = MethodRow::new(method, times, own, truth);
+                let mut row = MethodRow::new(method, times, own, truth, picture);
                 row.set_instructions(&counts_of(&method.settings(base), closed)?);
                 rows.push(row);
             }
@@ -115,9 +116,10 @@ pub fn gather(
         timed_frames: arguments.frames,
         methods: rows,
         skipped,
+        why: Vec::new(),
         notes: notes(arguments),
     };
-    report.mark_front();
+    report.judge();
     Ok(report)
 }
 
@@ -130,7 +132,10 @@ fn notes(arguments: &CompareArguments) -> Vec<String> {
     notes
 }
 
-/// The implementation error and the method error of each method, in their order; what fails goes to `skipped`.
+/// The implementation error, the method error, and that of the picture.
+type Errors = (ErrorFigures, ErrorFigures, PictureError);
+
+/// The errors of each method, in their order; what fails goes to `skipped`.
 fn find_errors(
     headless: &mut Headless,
     context: &CompareContext<'_>,
@@ -138,8 +143,9 @@ fn find_errors(
     methods: &[Method],
     skipped: &mut Vec<Skipped>,
     show: Show<'_>,
-) -> Result<Vec<(Method, [ErrorFigures; 2])>> {
-    let truth = context.truth(samples_per_side, "ground truth")?;
+) -> Result<Vec<(Method, Errors)>> {
+    let ground_truth = context.truth(samples_per_side, "ground truth")?;
+    let truth = Surface::of_truth(&ground_truth);
     show(Shown::Truth(&truth))?;
     let mut exact: Vec<Method> = Vec::new();
     for method in methods.iter().map(Method::exact) {
@@ -147,7 +153,7 @@ fn find_errors(
             exact.push(method);
         }
     }
-    let mut found: Vec<Option<[ErrorFigures; 2]>> = vec![None; methods.len()];
+    let mut found: Vec<Option<Errors>> = vec![None; methods.len()];
     // One oracle at a time: its pictures are large.
     for (number, of) in exact.iter().enumerate() {
         let task = format!("oracle {} of {}", number + 1, exact.len());
@@ -168,9 +174,11 @@ fn find_errors(
             };
             match context.draw(headless, method) {
                 Ok(drawn) => {
-                    let own = errors(&drawn, picture, undecided, BACKGROUND);
-                    *figures = Some([own, errors(&drawn, &truth, &[], BACKGROUND)]);
-                    show(Shown::Method { method, drawn: &drawn, oracle: picture, truth: &truth })?;
+                    let Drawn { surface: drawn, rgba } = &drawn;
+                    let own = errors(drawn, picture, undecided, BACKGROUND);
+                    let from_truth = errors(drawn, &truth, &[], BACKGROUND);
+                    *figures = Some((own, from_truth, picture_error(rgba, &ground_truth)));
+                    show(Shown::Method { method, drawn, oracle: picture, truth: &truth })?;
                 }
                 Err(error) => skip(&error),
             }

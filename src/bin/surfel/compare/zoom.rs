@@ -7,7 +7,7 @@ use surfel::{
     load::builtin::{CHECKERBOARD_FIELD, CHECKERBOARD_RADIUS, checkerboard},
     renderer::{Headless, Wanted},
     report::{
-        compare::{Method, errors},
+        compare::{Method, Surface, errors},
         zoom::{Board, DEFAULT_TILT_DEG, ZoomFigures, ZoomReport, ZoomStep, samples_per_side, zoom_path},
     },
     scene::{Camera, Scene, Settings},
@@ -123,13 +123,13 @@ fn step(
     (pixels_per_splat, samples_per_side): (f64, u32),
     task: &str,
 ) -> Result<ZoomStep> {
-    let truth = context.truth(samples_per_side, task)?;
+    let truth = Surface::of_truth(&context.truth(samples_per_side, task)?);
     let mut figures = Vec::new();
     for method in methods {
         let mut drawn = || -> Result<ZoomFigures> {
             let drawn = context.draw(headless, method)?;
             let fragments = fragments(headless, context, method)?;
-            Ok(ZoomFigures { fragments, error: errors(&drawn, &truth, &[], BACKGROUND) })
+            Ok(ZoomFigures { fragments, error: errors(&drawn.surface, &truth, &[], BACKGROUND) })
         };
         figures.push(match drawn() {
             Ok(figures) => Some(figures),

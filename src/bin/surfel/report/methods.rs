@@ -33,7 +33,8 @@ pub fn gather(session: &mut Session<'_>) -> Result<Part> {
     ];
     blocks.extend(report.grids().map(|grid| Block::Table(grid, front.clone())));
     let reason = |(reason, count)| format!("{count} combinations do not exist or were left out: {reason}");
-    let notes = report.notes.iter().cloned().chain(report.reasons().into_iter().map(reason));
+    let notes =
+        report.why.iter().chain(&report.notes).cloned().chain(report.reasons().into_iter().map(reason));
     blocks.push(Block::List(notes.collect()));
     Ok(Part {
         finding: finding(report),
