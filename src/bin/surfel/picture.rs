@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Arg, Args};
-use surfel::scene::Settings;
+use surfel::{
+    Result,
+    scene::{Camera, Crop, CropView, OptionValue as _, Settings},
+};
 
 use crate::{
     camera::CameraArguments,
@@ -26,6 +29,11 @@ pub struct PictureArguments {
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
 
+    /// Draw only this part of the picture, in pixels from its top left corner: it may be larger than the device can draw. The pixels are
+    /// those of the whole picture where points draw both, or tiles with --cull setup; else but for rounding
+    #[arg(long, value_name = "X,Y,W,H", value_parser = Crop::parse, allow_hyphen_values = true)]
+    pub crop: Option<Crop>,
+
     #[command(flatten)]
     pub camera: CameraArguments,
 
@@ -46,6 +54,40 @@ impl PictureArguments {
     pub fn settings(&self) -> Settings {
         self.settings.over(Settings::default())
     }
+
+    /// What is drawn, of a picture with those settings: the whole of it, or a part.
+    ///
+    /// # Errors
+    /// A part that is not within the picture.
+    pub fn drawn(&self, settings: Settings) -> Result<Drawn> {
+        settings.validate()?;
+        let whole_px = settings.size_px;
+        let crop = self.crop.unwrap_or(Crop { corner_px: [0; 2], size_px: whole_px });
+        let drawn_px = crop.view(whole_px, &Camera::default())?.drawn_px;
+        let settings = Settings { size_px: drawn_px, ..settings };
+        Ok(Drawn { whole_px, crop: self.crop, settings })
+    }
+}
+
+/// What is drawn of a picture.
+pub struct Drawn {
+    /// The size of the whole picture.
+    pub whole_px: [u32; 2],
+    /// The part that is wanted, if not all.
+    pub crop: Option<Crop>,
+    /// With the size that is drawn.
+    pub settings: Settings,
+}
+
+impl Drawn {
+    /// The camera of what is drawn, of that of the whole picture; and what is cut out then.
+    ///
+    /// # Errors
+    /// A part that is not within the picture.
+    pub fn view(&self, camera: Camera) -> Result<(Camera, Option<CropView>)> {
+        let view = self.crop.map(|crop| crop.view(self.whole_px, &camera)).transpose()?;
+        Ok((view.map_or(camera, |view| view.camera), view))
+    }
 }
 
 #[cfg(test)]
@@ -53,7 +95,7 @@ mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
         Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer, Layers,
-        Rasterizer, Shading, TileInvocations, TileMemory, Transition,
+        Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
     };
 
     use super::*;
@@ -73,6 +115,7 @@ mod tests {
     fn settings_that_a_report_prints_can_be_given_again() {
         let settings = Settings {
             size_px: [7, 9],
+            samples: Samples(16),
             rasterizer: Rasterizer::AffineContour,
             tile_invocations: TileInvocations::Pixel,
             tile_memory: TileMemory::Most(12_500_000),

@@ -38,21 +38,22 @@ pub struct ReferenceArguments {
 /// Whatever goes wrong; what can be known before the long work is found before it.
 pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let picture = &arguments.picture;
-    let settings = picture.settings();
-    settings.validate()?;
+    let part = picture.drawn(picture.settings())?;
+    let settings = &part.settings;
     let camera = CameraChoice::of(&picture.camera)?;
     let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();
     let loaded = load_scene(&picture.input.inputs(), &bars)?;
-    let camera = camera.camera(&loaded, settings.size_px)?;
+    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
-    let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);
+    let drawn = reference::render(&loaded.scene, &camera, settings, &progress);
     bars.clear();
-    let dump = dump(&drawn?);
+    let dump = dump(&drawn?).cut(crop);
     let transparent = settings.background.is_none();
     pictures::write_picture(&output, format, dump.size_px, transparent, Colors::Linear(&dump.color))?;
     let srgb: Vec<[u8; 4]> = dump.color.iter().map(|color| pictures::encode(*color)).collect();
-    if let Some(hint) = emptiness::hint(&srgb, settings.background, &camera, &loaded.ball) {
+    let hint = || emptiness::hint(&srgb, settings.background, &camera, &loaded.ball);
+    if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }
     match &picture.dump {

@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Settings, Storage},
+    scene::{Ball, CropView, Storage},
 };
 
 use crate::{
@@ -20,7 +20,7 @@ use crate::{
     measure::{self, View},
     outputs::{self, PictureFormat},
     parse,
-    picture::PictureArguments,
+    picture::{Drawn, PictureArguments},
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
     scene::{Loaded, load_scene, upload},
@@ -80,31 +80,30 @@ const DEFAULT_TIMED_FRAMES: u32 = 10;
 /// # Errors
 /// Whatever goes wrong; what can be known before the long work is found before it.
 pub fn run(arguments: &RenderArguments) -> Result<()> {
-    let settings = arguments.picture.settings();
-    settings.validate()?;
+    let part = arguments.picture.drawn(arguments.picture.settings())?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
     let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {
-        headless.renderer.check_settings(&settings)?;
-        draw(headless, arguments, &settings, &camera, &output, steps)
+        headless.renderer.check_settings(&part.settings)?;
+        draw(headless, arguments, &part, &camera, &output, steps)
     })
 }
 
 fn draw(
     headless: &mut Headless,
     arguments: &RenderArguments,
-    settings: &Settings,
+    part: &Drawn,
     camera: &CameraChoice,
     output: &(PathBuf, PictureFormat),
     mut steps: Steps,
 ) -> Result<()> {
-    let picture = &arguments.picture;
+    let (picture, settings) = (&arguments.picture, &part.settings);
     let bars = Bars::new();
     let loaded = load_scene(&picture.input.inputs(), &bars)?;
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
-    let camera = camera.camera(&loaded, settings.size_px)?;
+    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
     let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
@@ -128,7 +127,7 @@ fn draw(
         console::print(&report.to_string())?;
         write_json(arguments.timings.as_deref(), &report)?;
     }
-    write(headless, arguments, view, &ball, output)
+    write(headless, arguments, view, crop, &ball, output)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.
@@ -136,23 +135,29 @@ fn write(
     headless: &mut Headless,
     arguments: &RenderArguments,
     view: View<'_>,
+    crop: Option<CropView>,
     ball: &Ball,
     (output, format): &(PathBuf, PictureFormat),
 ) -> Result<()> {
     let picture = &arguments.picture;
     let wanted = Wanted { picture: true, linear: *format == PictureFormat::Exr, ..Wanted::default() };
-    let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
+    let mut frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
+    if let Some(crop) = crop {
+        frame.size_px = crop.size_px();
+        (frame.srgb, frame.linear) = (crop.cut(&frame.srgb), crop.cut(&frame.linear));
+    }
     let colors = match format {
         PictureFormat::Png => Colors::Srgb(&frame.srgb),
         PictureFormat::Exr => Colors::Linear(&frame.linear),
     };
     let transparent = view.settings.background.is_none();
     pictures::write_picture(output, *format, frame.size_px, transparent, colors)?;
-    if let Some(hint) = emptiness::hint(&frame.srgb, view.settings.background, view.camera, ball) {
+    let hint = || emptiness::hint(&frame.srgb, view.settings.background, view.camera, ball);
+    if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }
     if let Some(folder) = &picture.dump {
-        dump(headless, view)?.write(folder)?;
+        dump(headless, view)?.cut(crop).write(folder)?;
     }
     let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
     if arguments.explain {

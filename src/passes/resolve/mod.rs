@@ -5,3 +5,4 @@ pub(crate) mod finalize;
 pub(crate) mod fullscreen;
 pub(crate) mod lights;
 pub(crate) mod readback;
+pub(crate) mod samples;
