@@ -2,14 +2,14 @@
 
 use crate::common::{PICTURE, oracle_of, render_as, scenes, shared, with};
 use surfel::{
-    hard_scenes::Hard,
+    hard_scenes::{Hard, transparent},
     load::builtin,
     reference,
     scene::{Camera, Filter, Samples, Scene, Settings, Transition},
 };
 
 /// Mean and share of pixels off by more than 1/255, of color times alpha, and alpha.
-fn errors(colors: &[[f32; 4]], exact: impl Iterator<Item = [f64; 4]>) -> [f64; 2] {
+pub fn errors(colors: &[[f32; 4]], exact: impl Iterator<Item = [f64; 4]>) -> [f64; 2] {
     let light = |[red, green, blue, alpha]: [f64; 4]| [alpha * red, alpha * green, alpha * blue, alpha];
     let of = |(color, exact): (&[f32; 4], [f64; 4])| {
         let (color, exact) = (light(color.map(f64::from)), light(exact));
@@ -25,9 +25,9 @@ fn the_mean_of_samples_is_the_oracles() {
     let mut headless = shared();
     let all = [
         scenes::sphere_of_disks(),
-        scenes::spheres(),
-        scenes::hybrid(Transition::Color),
-        scenes::transparent_hybrid(Transition::Color),
+        transparent::spheres(),
+        transparent::hybrid(Transition::Color),
+        transparent::transparent_hybrid(Transition::Color),
     ];
     for hard in all {
         for background in [None, Some([1.0, 0.5, 0.25])] {
