@@ -1,4 +1,4 @@
-//! How near pictures of several samples are to the ground truth, and what a sample costs.
+//! How near pictures of several samples are to the ground truth.
 
 use surfel::{
     Error, Progress as _, Result,
@@ -38,16 +38,12 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Plot> {
     bars.clear();
     let prepared = context.prepare(&scene)?;
     let mut curves = Vec::new();
-    let mut costs = Vec::new();
     for filter in [Filter::Adjust, Filter::None] {
         let (mut all, mut inside) = (Vec::new(), Vec::new());
         for count in COUNTS {
             let settings = Settings { filter, samples: Samples(count), ..base.clone() };
             let wanted = Wanted { picture: true, linear: true, ..Wanted::default() };
-            // The first makes pipelines and images.
-            context.headless.render(&prepared, &camera, &settings, wanted)?;
             let drawn = context.headless.render(&prepared, &camera, &settings, wanted)?;
-            costs.push((filter, count, drawn.wall_secs));
             all.push((count.into(), rms(&drawn.linear, &truth, |_| true)));
             inside.push((count.into(), rms(&drawn.linear, &truth, |pixel| pixel.coverage > INSIDE)));
         }
@@ -59,18 +55,13 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Plot> {
         Axis::logarithmic("samples of a pixel", values().map(|(count, _)| *count)),
         Axis::logarithmic("RMS of linear color times alpha", values().map(|(_, error)| *error)),
     ];
-    let cost = |count: u32| {
-        let of =
-            |count| costs.iter().find(|cost| cost.0 == Filter::Adjust && cost.1 == count).map(|cost| cost.2);
-        of(count).zip(of(1)).map_or(0.0, |(all, one)| all / one / f64::from(count))
-    };
     let [width, height] = PICTURE_PX;
     let title = vec![
         "Supersampling: the error against the ground truth over samples".to_owned(),
         format!(
             "Built-in model, {SPLATS} splats, {width}x{height}; truth of {SAMPLES_PER_SIDE}² samples; inside: covered by {INSIDE}"
         ),
-        format!("A sample of 16 costs {:.2} of a frame of one, of 256 {:.2} (adjust)", cost(16), cost(256)),
+        "Of N samples each has a filter of the radius h / √N, and they lie as a Gaussian of the variance that this leaves".to_owned(),
     ];
     Ok(Plot::of_curves(title, axes, curves))
 }
