@@ -99,7 +99,7 @@ mod tests {
         assert_eq!(view.camera.middle_px(view.drawn_px), [2.0, -6.5]);
         let drawn: Vec<u32> = (0..15).collect();
         assert_eq!(view.cut(&drawn), [3, 4, 8, 9, 13, 14]);
-        assert_eq!(view.cut::<u8>(&[]), []);
+        assert!(view.cut::<u8>(&[]).is_empty());
         for outside in ["19,0,2,1", "0,17,1,3", "4294967295,0,1,1"] {
             let error = Crop::parse(outside).unwrap().view([20, 19], &Camera::default()).unwrap_err();
             assert_eq!(
