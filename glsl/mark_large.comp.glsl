@@ -5,6 +5,8 @@
 #include "inc/triangle.glsl"
 #include "inc/list.glsl"
 
+layout(constant_id = SPEC_POINT_CAP) const float POINT_CAP_PX = 64.0; // the largest point of the device
+
 layout(local_size_x = LIST_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint large_bits[]; };
 
@@ -24,7 +26,7 @@ bool is_drawn_as_quad(uint index)
     // One pixel below the cap: the vertex stage may round a box differently than this stage, by one pixel at most. Also
     // for a box that holds no pixel's center here: a sliver may hold some there.
     pixel_box(splat_box(m), px);
-    return square_side_px(px) > frame.point_cap_px - 1.0;
+    return square_side_px(px) > POINT_CAP_PX - 1.0;
 }
 
 void main()

@@ -28,7 +28,7 @@ bool is_hidden(uint index)
     if (!m.regular || !pixel_box(splat_box(m), px)) {
         return false;
     }
-    ivec2 size = ivec2(frame.size_px);
+    ivec2 size = ivec2(SIZE_PX);
     ivec2 first = max(px.first - 1, ivec2(0)) / DEPTH_CELLS_SIDE;
     ivec2 last = min(px.last + 1, size - 1) / DEPTH_CELLS_SIDE;
     bool by_blocks = any(greaterThanEqual(last - first, ivec2(MOST_CELLS)));

@@ -32,9 +32,9 @@ bool is_outside(vec3 p, float radius)
     vec2 c = p.xy / p.z;
     vec2 away = reach / p.z * (1.0 + abs(c)) + 2.0 * frame.filter_radius;
     vec2 low_px = vec2(0.0, BAND_ROW * visible_rows.x);
-    vec2 high_px = vec2(frame.size_px.x, min(frame.size_px.y, BAND_ROW * visible_rows.y));
-    vec2 low = (low_px - 0.5 * frame.size_px) / frame.focal_px;
-    vec2 high = (high_px - 0.5 * frame.size_px) / frame.focal_px;
+    vec2 high_px = vec2(SIZE_PX.x, min(SIZE_PX.y, BAND_ROW * visible_rows.y));
+    vec2 low = (low_px - frame.middle_px) / frame.focal_px;
+    vec2 high = (high_px - frame.middle_px) / frame.focal_px;
     return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
 }
 

@@ -16,7 +16,8 @@ void main()
 {
     vec3 translation = vec3(frame.view_from_local_x.w, frame.view_from_local_y.w, frame.view_from_local_z.w);
     vec3 p = frame.view_from_local_scale * rotated(vertices[2 * gl_VertexIndex].xyz) + translation;
-    gl_Position = vec4(2.0 * frame.focal_px / frame.size_px * p.xy, FORMULA(FORMULA_POLYGON_DEPTH, frame.near), p.z);
+    vec2 xy = 2.0 * frame.focal_px / SIZE_PX * p.xy + clip_from_axis() * p.z;
+    gl_Position = vec4(xy, FORMULA(FORMULA_POLYGON_DEPTH, frame.near), p.z);
     uvec2 packed = colors[UNIFORM_COLOR ? 0 : gl_VertexIndex];
     color_alpha = vec4(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y));
     normal = rotated(vertices[2 * gl_VertexIndex + 1].xyz);

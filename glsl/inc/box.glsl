@@ -91,17 +91,18 @@ struct PixelBox {
     ivec2 last; // inclusive
 };
 
-// The box is enlarged by more than its own rounding (4e-6 of a coordinate, with room for inexact division). Pixels are counted by their centers, so points and
+// The box is enlarged by more than its own rounding (4e-6 of a coordinate; twice as much of the largest, with room for inexact division). Pixels are counted by their centers, so points and
 // quads end on pixel borders, half a pixel from the nearest center: no subpixel rounding of theirs can lose one.
 const float BOX_MARGIN_PX = 1.0 / 256.0;
 
 // False where the box holds no pixel's center.
 bool pixel_box(Box box, out PixelBox px)
 {
-    vec2 half_px = 0.5 * frame.size_px;
-    float margin_px = max(BOX_MARGIN_PX, 4e-6 * max(frame.size_px.x, frame.size_px.y));
-    px.lo = clamp(box.lo * frame.focal_px + (half_px - margin_px), vec2(0.0), frame.size_px);
-    px.hi = clamp(box.hi * frame.focal_px + (half_px + margin_px), vec2(0.0), frame.size_px);
+    vec2 size_px = SIZE_PX;
+    vec2 most_px = max(abs(frame.middle_px), abs(size_px - frame.middle_px)); // of the image, from where places are counted
+    float margin_px = max(BOX_MARGIN_PX, 8e-6 * max(most_px.x, most_px.y));
+    px.lo = clamp(box.lo * frame.focal_px + (frame.middle_px - margin_px), vec2(0.0), size_px);
+    px.hi = clamp(box.hi * frame.focal_px + (frame.middle_px + margin_px), vec2(0.0), size_px);
     px.first = ivec2(ceil(px.lo - 0.5));
     px.last = ivec2(floor(px.hi - 0.5));
     return all(lessThanEqual(px.first, px.last));

@@ -37,7 +37,10 @@
 #define SPEC_ATOMICS 49       // Constant: each invocation adds atomically.
 #define SPEC_LARGE_LIST 50    // Constant: a list is that of large splats.
 #define SPEC_FILTERED 51      // Constant: the paper's own visibility is filtered.
-#define SPEC_COVERAGE_EDGES 52 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
+#define SPEC_POINT_CAP 52     // Constant: the device's largest point, pixels.
+#define SPEC_POINT_STEP 53    // Constant: the step of its point sizes, pixels.
+#define SPEC_SAMPLES 54       // Constant: samples of each pixel.
+#define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // Values of SPEC_SUMMED.
 #define SUMMED_OPAQUE 0 // Opaque splats.

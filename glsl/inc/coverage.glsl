@@ -15,10 +15,10 @@ struct Covered {
     float w; // depth
 };
 
-// From the middle of the image: exact, both are multiples of a half.
+// From the middle of the image: exact, both are multiples of a half, or of a 256th where the camera is off by a part of a pixel.
 vec2 at_px()
 {
-    return gl_FragCoord.xy - 0.5 * frame.size_px;
+    return gl_FragCoord.xy - frame.middle_px;
 }
 
 // From a place as the vertex stage hands it over (`handed_over_px`).

@@ -112,7 +112,7 @@ void emit(Mapping m, vec4 extra, float depth_factor)
     float z = FORMULA(FORMULA_CENTER_CONSTANTS, m.near) * depth_factor;
     // Depth is this position's: bit-equal in both passes but for the factor. (gl_Position itself can't be `invariant`: Mesa
     // 22.3 warns of it.)
-    vec2 xy = 2.0 * frame.focal_px / frame.size_px * q.xy;
+    vec2 xy = 2.0 * frame.focal_px / SIZE_PX * q.xy + clip_from_axis() * q.z;
     gl_Position = vec4(xy, z, q.z);
     triangle_uv = uv;
     triangle_extra = extra;

@@ -4,6 +4,7 @@
 struct FinalizeConstants {
     vec4 background; // linear, straight alpha
     vec2 half_size_px;
+    vec2 middle_px;   // where the view's axis meets the image
     float focal_px;
     uint tile_height; // pixels; 0 without tiles
     float near;       // world unit

@@ -9,14 +9,14 @@ struct FrameConstants {
     vec4 view_from_local_x; // row of the rotation, then the translation, view unit
     vec4 view_from_local_y;
     vec4 view_from_local_z;
-    vec2 size_px;
+    vec2 middle_px;         // where the view's axis meets the image: its middle, unless the camera is off-center
     float focal_px;         // image-plane unit in pixels
     float near;             // depth of the near plane, view unit
     float filter_radius;    // h = sqrt(2) pixels, image-plane unit
     float epsilon_radii;    // epsilon as a multiple of the splat's larger radius ...
     float epsilon_length;   // ... plus a length, view unit; one of the two is 0
-    float point_cap_px;     // the largest point of the device
-    float point_step_px;    // the step of point sizes
+    uint size_less_1_px;    // the image's: width - 1, and height - 1 in the upper half
+    uint corner_px;         // the image's, in the whole picture: whole pixels to the right, and down in the upper half
     uint splat_count;       // of this chunk
     uint chunk_color;       // twice the chunk's number in the frame's part; plus 1 where all its splats have color 0
     float view_from_local_scale; // what local lengths are multiplied by: a power of two
@@ -26,6 +26,17 @@ struct FrameConstants {
 };
 
 layout(push_constant, std430) uniform Frame { FrameConstants frame; };
+
+#define SIZE_PX (vec2(frame.size_less_1_px & 0xffffu, frame.size_less_1_px >> 16) + 1.0)
+
+// The image's corner in the whole picture of which it is a part; (0, 0) of a whole one.
+#define CORNER_PX vec2(frame.corner_px & 0xffffu, frame.corner_px >> 16)
+
+// What z is multiplied by in clip space: 0, unless the camera is off-center.
+vec2 clip_from_axis()
+{
+    return 2.0 * frame.middle_px / SIZE_PX - 1.0;
+}
 
 #define CHUNK (frame.chunk_color >> 1)
 #define LISTED_BLOCKS (frame.blocks_overlap & 0xffff)

@@ -4,6 +4,8 @@
 // shorter side the box stays centered, up to half a pixel. A regular splat's center projects safely, also when it lies
 // outside of the viewport: the disk reaches the viewport, so the offsets stay within the disk's own size.
 
+layout(constant_id = SPEC_POINT_STEP) const float POINT_STEP_PX = 0.0625; // of the device
+
 const float INSIDE = 1.0 - 2.4e-7;
 
 struct Square {
@@ -29,10 +31,10 @@ vec2 clip_middle(Square square)
 {
     vec2 middle_px = FORMULA(FORMULA_POINT_CENTER, square.middle_px);
     // A center on the very edge must not be rounded out of the clip volume: 2^-22 is 0.002 pixels of 16384.
-    return clamp(2.0 * middle_px / frame.size_px - 1.0, -INSIDE, INSIDE);
+    return clamp(2.0 * middle_px / SIZE_PX - 1.0, -INSIDE, INSIDE);
 }
 
 float point_size_px(Square square)
 {
-    return FORMULA_LESS(FORMULA_POINT_SIZE, ceil(square.side_px / frame.point_step_px) * frame.point_step_px);
+    return FORMULA_LESS(FORMULA_POINT_SIZE, ceil(square.side_px / POINT_STEP_PX) * POINT_STEP_PX);
 }

@@ -16,7 +16,7 @@ bool quad_of(Mapping m, int corner, out Quad quad)
     }
     ivec2 right_down = ivec2(corner & 1, corner >> 1);
     vec2 corner_px = FORMULA(FORMULA_QUAD_CORNER, vec2(px.first + right_down * (px.last - px.first + 1)));
-    quad.clip_corner = 2.0 * corner_px / frame.size_px - 1.0;
+    quad.clip_corner = 2.0 * corner_px / SIZE_PX - 1.0;
     quad.lo = px.lo;
     quad.hi = px.hi;
     return true;
@@ -40,8 +40,8 @@ ImageMap quad_map(Mapping m, Quad quad)
     if (m.regular && AFFINE || m.edge_on) {
         return regular_map(m);
     }
-    vec2 lo_px = quad.lo - 0.5 * frame.size_px;
-    vec2 hi_px = quad.hi - 0.5 * frame.size_px;
+    vec2 lo_px = quad.lo - frame.middle_px;
+    vec2 hi_px = quad.hi - frame.middle_px;
     vec2 center_px = projected_center_px(m);
     bool near_center = m.regular || is_near_center(m, center_px, lo_px, hi_px);
     if (RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER) {

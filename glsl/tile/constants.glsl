@@ -13,6 +13,7 @@
 
 struct TileConstants {
     vec2 half_size_px;
+    vec2 middle_px;      // where the view's axis meets the image
     uint tiles_x;        // tiles in a row
     uint first_tile;     // of the band of rows that lists are of: all of the image, or as much as memory is meant for
     uint tile_count;     // of the band; all tiles are numbered from its first one

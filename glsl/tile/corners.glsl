@@ -21,8 +21,8 @@ uint corners_outside(ImageMap map, uvec2 first, uvec2 last, vec2 tile_px)
     vec3 along_x = map.affine ? vec3(map.along_x.xy, 0.0) : map.along_x / w0;
     vec3 along_y = map.affine ? vec3(map.along_y.xy, 0.0) : map.along_y / w0;
     // The centers of the last pixels of the first tiles, and of the first of the last ones, from the map's middle: rounded once.
-    vec2 near_px = (vec2(first + 1) * tile_px - 0.5 - 0.5 * frame.size_px) - map.x0_px;
-    vec2 far_px = (vec2(last) * tile_px + 0.5 - 0.5 * frame.size_px) - map.x0_px;
+    vec2 near_px = (vec2(first + 1) * tile_px - 0.5 - frame.middle_px) - map.x0_px;
+    vec2 far_px = (vec2(last) * tile_px + 0.5 - frame.middle_px) - map.x0_px;
     vec2 most_px = max(abs(near_px), abs(far_px)) + 1.0;
     vec3 most = abs(along_x) * most_px.x + abs(along_y) * most_px.y + vec3(0.0, 0.0, 1.0);
     float margin = 9.765625e-4 * (dot(most.xy, most.xy) + limit * most.z * most.z);

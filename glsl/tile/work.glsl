@@ -25,7 +25,7 @@ void enter_tile(uint tile)
     top = ivec2(TILE_WIDTH, TILE_HEIGHT) * ivec2(of_image % push.tiles_x, of_image / push.tiles_x);
     int rows_above = TILE_HEIGHT < MOST_TILE_HEIGHT ? top.y % MOST_TILE_HEIGHT : 0;
     top += ivec2(gl_LocalInvocationID.x, -rows_above);
-    top_px = vec2(top) + 0.5 - push.half_size_px;
+    top_px = vec2(top) + 0.5 - push.middle_px;
     first_row = rows_above + OWN_ROW;
 }
 

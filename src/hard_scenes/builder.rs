@@ -130,7 +130,7 @@ pub fn camera(eye: [f64; 3], target: [f64; 3]) -> Camera {
         target: target.into(),
         up: DVec3::Y,
         fov_y_rad: 45.0_f64.to_radians(),
-        near: None,
+        ..Camera::default()
     }
 }
 

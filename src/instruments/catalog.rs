@@ -118,8 +118,13 @@ fn listed(
     // A CPU's, whose tiles are drawn by columns unless asked otherwise.
     let limits = Limits { is_cpu: true, shuffles: true, max_texels: 1 << 27, ..Limits::plain() };
     let (scene, eye) = (scene_of(traits), DVec3::new(0.0, 0.0, 10.0));
-    let camera =
-        Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: Camera::DEFAULT_FOV_Y_RAD, near: None };
+    let camera = Camera {
+        eye,
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        fov_y_rad: Camera::DEFAULT_FOV_Y_RAD,
+        ..Camera::default()
+    };
     let prepared = prepare_without_device(&limits, &scene)?;
     let plan = FramePlan::new(&prepared, &camera, settings, &limits);
     let list = RefCell::default();

@@ -106,7 +106,7 @@ fn paper_constants(draw: &Draw<'_>) -> PaperConstants {
     let scale = frame.view_from_local_scale;
     let row = |[x, y, z, translation]: [f32; 4]| [x, y, z, translation / scale];
     let near = frame.near / scale;
-    let [width, height] = frame.size_px;
+    let [width, height] = frame.middle_px.map(|half| 2.0 * half); // no camera of an instrument is off-center
     PaperConstants {
         view_from_local_x: row(frame.view_from_local_x),
         view_from_local_y: row(frame.view_from_local_y),

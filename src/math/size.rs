@@ -13,6 +13,8 @@ pub struct SizeBound {
     pub focal_px: f64,
     /// Width and height of the image in pixels.
     pub size_px: [f64; 2],
+    /// Where the view's axis meets the image.
+    pub middle_px: [f64; 2],
     /// Radius of the low-pass filter in pixels; 0 without.
     pub filter_px: f64,
 }
@@ -31,7 +33,7 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// near the eye plane.
 ///
 /// Two points of a splat at x₁, x₂ in the image plane with depths z₁, z₂: `x₁ − x₂ = ((X₁ − X₂) − x₂ (z₁ − z₂)) / z₁`,
-/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image where the box is clamped to it: a splat is connected, so
+/// so that `|x₁ − x₂| ≤ 2r (1 + |x₂|) / z₁`, and `|x₂|` is at most half the image (of one off-center, the farthest side) where the box is clamped to it: a splat is connected, so
 /// that the clamped ends of its box are places of points of it. Nothing of that asks how the tangent vectors lie, if r is the larger
 /// singular value of the two. A filter adds its covariance, or less: of half an axis l it makes √(l² + h²) at the center's depth p (1%
 /// more here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. (`adjust-paper` lengthens each vector by
@@ -52,7 +54,9 @@ pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;
     }
-    let half_image = 0.5 * bound.size_px[0].max(bound.size_px[1]) / bound.focal_px;
+    // From the axis to the farthest side.
+    let most_px = (0..2).map(|i| bound.middle_px[i].abs().max((bound.size_px[i] - bound.middle_px[i]).abs()));
+    let half_image = most_px.fold(0.0, f64::max) / bound.focal_px;
     let splat_px = 2.0 * radius * (1.0 + half_image.min(most_x)) / bound.nearest_z * bound.focal_px;
     let filter_px = 2.0 * bound.filter_px * (1.0 + radius / bound.nearest_z);
     1.01 * splat_px.hypot(filter_px) + 3.0
@@ -84,7 +88,7 @@ mod tests {
             prop_assume!(nearest_z > 0.1);
             let bound = SizeBound {
                 nearest_z, largest_radius: s.length().hypot(t.length()), near: 0.01,
-                focal_px: 100.0, size_px: [200.0, 100.0], filter_px: 0.0,
+                focal_px: 100.0, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], filter_px: 0.0,
             };
             let half = [1.0, 0.5];
             for axis in 0..2 {
@@ -139,6 +143,7 @@ mod tests {
                 near: 1e-3,
                 focal_px,
                 size_px: [480.0; 2],
+                middle_px: [240.0; 2],
                 filter_px: std::f64::consts::SQRT_2,
             };
             // Three pixels of the bound are for rounding.
@@ -160,6 +165,7 @@ mod tests {
             near: 0.1,
             focal_px: 100.0,
             size_px: [100.0; 2],
+            middle_px: [50.0; 2],
             filter_px: 0.0,
         };
         assert_eq!(largest_box_px(&bound), f64::INFINITY);

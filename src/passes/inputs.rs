@@ -103,6 +103,7 @@ impl<'a> Inputs<'a> {
                 [r, g, b, 1.0]
             }),
             half_size_px: [0.5 * width as f32, 0.5 * height as f32],
+            middle_px: self.camera.middle_px(self.settings.size_px).map(|at| at as f32),
             focal_px: self.camera.focal_px(height) as f32,
             tile_height: 0, // quads of tiles bring their own
             near: self.camera.near() as f32,

@@ -32,6 +32,7 @@ pub use crate::passes::plan::needs::{Needs, needs};
 pub use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, method::check as check_method};
 pub use crate::passes::resolve::export::Exported;
 pub use crate::passes::resolve::readback::{readback, readback_buffer};
+pub(crate) use crate::passes::resolve::samples::{SAMPLE_FORMAT, add_sample, resolve_samples};
 pub use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS as TILE_STORAGE_BUFFERS,
     plan::{bands::Band, invocations::Invocations, tiles::TilePlan},

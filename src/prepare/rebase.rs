@@ -165,7 +165,8 @@ mod tests {
             assert!((0.25..=1.0).contains(&(0.6 * size * rebase.scale)), "{size}: {rebase:?}");
             for distance in [1e-3, 1.0, 1e15] {
                 let eye = rebase.origin + DVec3::Z * distance * size;
-                let camera = Camera { eye, target: rebase.origin, up: DVec3::Y, fov_y_rad: 1.0, near: None };
+                let camera =
+                    Camera { eye, target: rebase.origin, up: DVec3::Y, fov_y_rad: 1.0, ..Camera::default() };
                 let view = rebase.view_from_local(&camera);
                 let z = view.translation.z;
                 assert!((distance * size * view.view_from_world_scale / z - 1.0).abs() < 1e-6);

@@ -90,9 +90,7 @@ pub fn ground_truth(
         filter_weight: FilterWeight::Unit,
         ..settings.clone()
     };
-    let mut view = View::new(camera, settings.size_px);
-    view.size_px = view.size_px.map(|side| (side + 2 * taps.reach_px) * samples_per_side);
-    view.focal_px *= f64::from(samples_per_side);
+    let view = View::new(camera, settings.size_px).sampled(taps.reach_px, samples_per_side);
     let (splats, defects) = splat::prepare(scene, &view, &plain);
     let limit_r2 = limit_r2(settings.kernel);
     let field = Field {

@@ -49,6 +49,7 @@ mod paper_filter;
 mod picture;
 mod polygons;
 mod row_span;
+mod samples;
 mod search_box;
 mod shade;
 mod splat;
@@ -99,8 +100,20 @@ pub fn render(
     settings.validate()?;
     camera.validate()?;
     settings.check_scene(scene)?;
+    if settings.samples.0 > 1 {
+        return samples::render(scene, camera, settings, progress);
+    }
+    render_view(scene, View::new(camera, settings.size_px), settings, progress)
+}
+
+/// One sample of each pixel.
+fn render_view(
+    scene: &Scene,
+    view: View,
+    settings: &Settings,
+    progress: &(dyn Fn(u64, u64) + Sync),
+) -> Result<Picture> {
     let [width, height] = settings.size_px;
-    let view = View::new(camera, settings.size_px);
     let (splats, defects) = splat::prepare(scene, &view, settings);
     let frame = frame(scene, view, settings, splats);
 

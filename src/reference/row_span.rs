@@ -41,7 +41,7 @@ pub(super) fn row_span(
         return 0..0;
     }
     let half = (discriminant.max(0.0) + 1e-9 * scale).sqrt();
-    let column = |x: f64| x * view.focal_px + view.middle_px()[0] - 0.5;
+    let column = |x: f64| x * view.focal_px + view.middle_px[0] - 0.5;
     let (first, last) = (column((-b - half) / a).floor(), column((-b + half) / a).ceil());
     if first.is_nan() || last.is_nan() {
         return all;

@@ -20,7 +20,7 @@ impl SearchBox {
     /// Holds every pixel whose `r²` is at most `limit_r2` plus the margin of [`DrawnSplat::r2_margin`], of the
     /// splat or of the low-pass filter beside it.
     pub fn of(splat: &DrawnSplat, limit_r2: f64, view: &View) -> Self {
-        let [middle_x, middle_y] = view.middle_px();
+        let [middle_x, middle_y] = view.middle_px;
         let farthest_px = middle_x.hypot(middle_y);
         match &splat.map {
             Map::Projective => {
@@ -105,7 +105,7 @@ impl SearchBox {
             let end = (high * view.focal_px + middle_px + 1.5).ceil().clamp(0.0, limit);
             first as u32..end as u32
         };
-        let ([width, height], [middle_x, middle_y]) = (view.size_px, view.middle_px());
+        let ([width, height], [middle_x, middle_y]) = (view.size_px, view.middle_px);
         Self { columns: range(low.x, high.x, middle_x, width), rows: range(low.y, high.y, middle_y, height) }
     }
 

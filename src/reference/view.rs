@@ -11,10 +11,14 @@ pub(super) struct View {
     pub from_world: ViewFromWorld,
     /// Width and height.
     pub size_px: [u32; 2],
+    /// Where the view's axis meets the image, in pixels from its top left corner.
+    pub middle_px: [f64; 2],
     /// Pixels per unit of the image plane.
     pub focal_px: f64,
     /// Depth of the near plane in world units.
     pub near: f64,
+    /// The radius of the low-pass filter: √2 pixels, or what samples leave of it.
+    pub filter_px: f64,
 }
 
 impl View {
@@ -22,20 +26,28 @@ impl View {
         Self {
             from_world: camera.view_from_world(),
             size_px,
+            middle_px: axis_px(camera, size_px),
             focal_px: camera.focal_px(size_px[1]),
             near: camera.near(),
+            filter_px: std::f64::consts::SQRT_2,
         }
     }
 
-    /// The middle of the image in pixels from the top left corner.
-    pub fn middle_px(&self) -> [f64; 2] {
-        self.size_px.map(|n| 0.5 * f64::from(n))
+    /// From the view's axis to the center of a pixel, in pixels.
+    pub fn offset_px(&self, column: u32, row: u32) -> [f64; 2] {
+        let [x_px, y_px] = self.middle_px;
+        [f64::from(column) + 0.5 - x_px, f64::from(row) + 0.5 - y_px]
     }
 
-    /// From the middle of the image to the center of a pixel, in pixels.
-    pub fn offset_px(&self, column: u32, row: u32) -> [f64; 2] {
-        let middle_px = self.middle_px();
-        [f64::from(column) + 0.5 - middle_px[0], f64::from(row) + 0.5 - middle_px[1]]
+    /// The same view of an image that is wider by so many pixels on every side, and has so many samples along a pixel's side.
+    pub fn sampled(&self, more_px: u32, samples_per_side: u32) -> Self {
+        let samples = f64::from(samples_per_side);
+        Self {
+            size_px: self.size_px.map(|side| (side + 2 * more_px) * samples_per_side),
+            middle_px: self.middle_px.map(|at| (at + f64::from(more_px)) * samples),
+            focal_px: self.focal_px * samples,
+            ..*self
+        }
     }
 
     /// The view-space direction `(x, y, 1)` through the center of a pixel.
@@ -44,8 +56,15 @@ impl View {
         DVec3::new(x_px / self.focal_px, y_px / self.focal_px, 1.0)
     }
 
-    /// The radius of the low-pass filter, √2 pixels, in units of the image plane.
+    /// The radius of the low-pass filter in units of the image plane.
     pub fn filter_radius(&self) -> f64 {
-        std::f64::consts::SQRT_2 / self.focal_px
+        self.filter_px / self.focal_px
     }
+}
+
+/// The target is in the middle of the whole picture; the image is a part of that, or moved.
+fn axis_px(camera: &Camera, size_px: [u32; 2]) -> [f64; 2] {
+    let [width, height] = camera.window.whole_px.unwrap_or(size_px).map(f64::from);
+    let [left, top] = camera.window.corner_px;
+    [width / 2.0 - left, height / 2.0 - top]
 }

@@ -132,7 +132,7 @@ impl Renderer {
                 .bands()
                 .is_empty(),
         });
-        let meshes = passes::mesh_draws(scene, camera, settings, limits);
+        let meshes = passes::mesh_draws(scene, camera, settings);
         let meshes = meshes.iter().map(|draw| ExplainedMesh {
             triangles: draw.chunk.triangles,
             vertices: draw.chunk.vertices,

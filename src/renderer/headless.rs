@@ -4,9 +4,9 @@ use std::{path::PathBuf, sync::Arc, time::Instant};
 
 use ash::vk;
 
-use super::{Readbacks, Renderer, bytes_per_pixel};
+use super::{Readbacks, Renderer, SampleSum, bytes_per_pixel};
 use crate::{
-    error::Result,
+    error::{Error, Result},
     frame::{FrameSlot, HeadlessTarget},
     graph::{
         Plan,
@@ -14,8 +14,8 @@ use crate::{
     },
     passes::Exported,
     prepare::PreparedScene,
-    scene::{Camera, Scene, Settings},
-    vk::{Buffer, BufferDesc, CommandPool, Device, Instance, MemoryUse, Queue, Validation},
+    scene::{Camera, Samples, Scene, Settings},
+    vk::{Buffer, BufferDesc, CommandPool, Device, Image, ImageDesc, Instance, MemoryUse, Queue, Validation},
 };
 
 /// How a [`Headless`] is set up.
@@ -47,6 +47,8 @@ struct Targets {
     target: HeadlessTarget,
     picture: Option<Buffer>,
     surface: Option<[Buffer; 4]>,
+    /// Where samples are added up, once there are some.
+    samples: Option<Image>,
 }
 
 /// What is wanted of a frame, beside its being drawn.
@@ -137,7 +139,8 @@ impl Headless {
         self.renderer.prepare(scene, &mut submit, progress)
     }
 
-    /// Renders one frame and waits for it.
+    /// Renders one frame and waits for it; of a picture with several samples one for each. Its times are those of all samples together, its
+    /// plan and profile those of the last one; the surface is that of one sample in the middle.
     ///
     /// # Errors
     /// As [`Renderer::record`].
@@ -147,6 +150,56 @@ impl Headless {
         camera: &Camera,
         settings: &Settings,
         wanted: Wanted,
+    ) -> Result<Frame> {
+        if settings.samples.0 > 1 {
+            return self.render_samples(scene, camera, settings, wanted);
+        }
+        self.render_frame(scene, camera, settings, wanted, None)
+    }
+
+    fn render_samples(
+        &mut self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        wanted: Wanted,
+    ) -> Result<Frame> {
+        let surface = match wanted.surface {
+            true => {
+                let one = Settings { samples: Samples(1), ..settings.clone() };
+                Some(self.render_frame(scene, camera, &one, Wanted { profile: None, ..wanted }, None)?)
+            }
+            false => None,
+        };
+        let wanted = Wanted { surface: false, ..wanted };
+        let offsets_px = settings.samples.offsets_px(settings.kernel);
+        let mut before = [0.0; 2];
+        let mut last = None;
+        for (number, offset_px) in offsets_px.iter().enumerate() {
+            let ends = (number == 0, number + 1 == offsets_px.len());
+            let frame = self.render_frame(scene, &camera.sample(*offset_px), settings, wanted, Some(ends))?;
+            before = [before[0] + frame.wall_secs, before[1] + frame.record_secs];
+            last = Some(frame);
+        }
+        let Some(frame) = last else { return Err(Error::option("--samples", "0: expected 1 or more")) };
+        let [wall_secs, record_secs] = before;
+        let frame = Frame { wall_secs, record_secs, ..frame };
+        Ok(match surface {
+            Some(Frame { weight, albedo, normal, depth, .. }) => {
+                Frame { weight, albedo, normal, depth, ..frame }
+            }
+            None => frame,
+        })
+    }
+
+    /// `sample`: whether it is the first one, and the last one.
+    fn render_frame(
+        &mut self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        wanted: Wanted,
+        sample: Option<(bool, bool)>,
     ) -> Result<Frame> {
         // Before any image of that size is made.
         self.renderer.check(camera, settings)?;
@@ -159,6 +212,7 @@ impl Headless {
             Some(targets) => targets,
             none => none.insert(Targets::new(&self.device, settings.size_px, read)?),
         };
+        let sample = sample.map(|ends| targets.sample(&self.device, ends)).transpose()?;
         // Once more, in case that the wait for the frame before failed.
         self.queue.wait_submitted()?;
         let begun = Instant::now();
@@ -173,7 +227,7 @@ impl Headless {
                 camera,
                 settings,
                 &targets.target.target(),
-                targets.readbacks(),
+                Readbacks { sample, ..targets.readbacks() },
                 wanted.profile,
             )
         }?;
@@ -185,7 +239,8 @@ impl Headless {
         self.queue.wait(epoch)?;
         let wall_secs = submitted.elapsed().as_secs_f64();
         let profile = self.slot.profiler().map(|profiler| profiler.read()).transpose()?;
-        Ok(targets.frame(plan, profile, wall_secs, record_secs))
+        let is_read = sample.is_none_or(|sample| sample.last);
+        Ok(targets.frame(plan, profile, is_read, wall_secs, record_secs))
     }
 }
 
@@ -216,13 +271,35 @@ impl Targets {
             target: HeadlessTarget::new(device, format, size_px)?,
             picture: wanted.picture.then(|| buffer("read-back of target", format)).transpose()?,
             surface: wanted.surface.then(surface).transpose()?,
+            samples: None,
         })
+    }
+
+    /// The sum of samples, for the first one, the last one, or one in between.
+    fn sample(&mut self, device: &Device, (first, last): (bool, bool)) -> Result<SampleSum> {
+        let [width, height] = self.size_px;
+        let image = match self.samples.take() {
+            Some(image) => image,
+            None => Image::new(
+                device,
+                ImageDesc {
+                    name: "sum of samples",
+                    format: vk::Format::R32G32B32A32_SFLOAT,
+                    extent: vk::Extent2D { width, height },
+                    usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+                },
+            )?,
+        };
+        let sum = SampleSum { image: image.raw(), view: image.view(), first, last };
+        self.samples = Some(image);
+        Ok(sum)
     }
 
     fn readbacks(&self) -> Readbacks {
         Readbacks {
             target: self.picture.as_ref().map(Buffer::raw),
             surface: self.surface.as_ref().map(|buffers| buffers.each_ref().map(Buffer::raw)),
+            sample: None,
         }
     }
 
@@ -231,10 +308,11 @@ impl Targets {
         &self,
         plan: Arc<Plan>,
         profile: Option<FrameProfile>,
+        is_read: bool,
         wall_secs: f64,
         record_secs: f64,
     ) -> Frame {
-        let picture = self.picture.as_ref().map(Buffer::bytes).unwrap_or_default();
+        let picture = self.picture.as_ref().filter(|_| is_read).map(Buffer::bytes).unwrap_or_default();
         let (srgb, linear) = match self.wanted.linear {
             false => (copied(picture), Vec::new()),
             true => (Vec::new(), copied(picture)),

@@ -15,7 +15,8 @@ use crate::{
     error::{Error, Result},
     frame::{FrameSlot, SlotParts, Target},
     graph::{
-        Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, ImageDesc, Plan, ResourceId,
+        Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, Image, ImageDesc, ImageState, Plan,
+        ResourceId,
         execute::{Body, Physical, Profile},
     },
     passes::{self, Exported, FramePlan, Inputs, Shaders, Source},
@@ -40,6 +41,22 @@ pub struct Readbacks {
     pub target: Option<vk::Buffer>,
     /// Weight (R32F), albedo (RGBA32F), normal (RGBA32F), depth (R32F), as [`Exported`] has them.
     pub surface: Option<[vk::Buffer; 4]>,
+    /// The frame is one of several samples of a picture ([`crate::scene::Samples`]).
+    pub sample: Option<SampleSum>,
+}
+
+/// Where the samples of a picture are added up, for frames each of which is one of them: its camera is [`Camera::sample`], its settings say
+/// how many there are. The target is written with the last one; before, neither it nor buffers are touched.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleSum {
+    /// An image of the target's size, R32G32B32A32_SFLOAT, that may be a color attachment and sampled.
+    pub image: vk::Image,
+    /// A view of all of it.
+    pub view: vk::ImageView,
+    /// Whether this is the first sample: nothing is in it yet.
+    pub first: bool,
+    /// Whether this is the last one.
+    pub last: bool,
 }
 
 impl Renderer {
@@ -111,6 +128,10 @@ impl Renderer {
         if settings.accumulate == Accumulate::F32 && !facts.blend_f32 {
             let problem = format!("f32: the device '{}' can't blend 32-bit floats; use f16", facts.name);
             return Err(Error::option("--accumulate", problem));
+        }
+        if settings.samples.0 > 1 && !facts.blend_f32 {
+            let problem = format!("the device '{}' can't blend 32-bit floats; expected 1", facts.name);
+            return Err(Error::option("--samples", problem));
         }
         passes::check_method(settings, &self.limits)
     }
@@ -196,12 +217,28 @@ pub(crate) fn declare<'a>(
 ) -> Result<(Graph<Body<'a>>, Imports)> {
     let mut graph = Graph::new();
     let mut imports = Imports::new();
+    let sum = match readbacks.sample {
+        None => None,
+        Some(sample) => {
+            let image = one_sample(&mut graph, &mut imports, inputs, plan, target.extent, sample)?;
+            if !sample.last {
+                return Ok((graph, imports));
+            }
+            Some(image)
+        }
+    };
     let desc = ImageDesc { format: target.format, extent: target.extent };
     let mut image = graph.import_image("target", desc, target.initial, target.last);
     imports.push((image.id(), Physical::Image(target.image, target.view)));
 
-    let exported =
-        passes::frame(&mut graph, inputs, plan, &mut image, target.format, readbacks.surface.is_some())?;
+    let export = readbacks.surface.is_some();
+    let exported = match &sum {
+        None => passes::frame(&mut graph, inputs, plan, &mut image, target.format, export)?,
+        Some(sum) => {
+            passes::resolve_samples(&mut graph, inputs, sum, (&mut image, target.format))?;
+            None
+        }
+    };
 
     let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
         let mut destination = import_readback(graph, what, format, target.extent);
@@ -222,6 +259,35 @@ pub(crate) fn declare<'a>(
         }
     }
     Ok((graph, imports))
+}
+
+/// A frame into an image of its own, which is added to the sum of samples; the sum.
+fn one_sample<'a>(
+    graph: &mut Graph<Body<'a>>,
+    imports: &mut Imports,
+    inputs: Inputs<'a>,
+    plan: &'a FramePlan<'a>,
+    extent: vk::Extent2D,
+    sample: SampleSum,
+) -> Result<Handle<Image>> {
+    let format = passes::SAMPLE_FORMAT;
+    let desc = ImageDesc { format, extent };
+    let mut drawn = graph.create_image("sample", desc);
+    passes::frame(graph, inputs, plan, &mut drawn, format, false)?;
+    let between = ImageState {
+        stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+        access: vk::AccessFlags2::COLOR_ATTACHMENT_READ | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
+        layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+    };
+    let initial = match sample.first {
+        // Of the picture before, it may still be read.
+        true => ImageState { layout: vk::ImageLayout::UNDEFINED, ..between },
+        false => between,
+    };
+    let mut sum = graph.import_image("sum of samples", desc, initial, Some(between));
+    imports.push((sum.id(), Physical::Image(sample.image, sample.view)));
+    passes::add_sample(graph, inputs, &drawn, &mut sum, sample.first)?;
+    Ok(sum)
 }
 
 /// A host-visible buffer for an image: the frame before may still write it; the host reads it after.

@@ -54,6 +54,12 @@ pub struct CameraReport {
     pub fov_deg: f64,
     /// The depth of the near plane in world units.
     pub near: f64,
+    /// Of a part of a picture: width and height of the whole in pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole_px: Option<[u32; 2]>,
+    /// And where the drawn image's corner lies in it, pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner_px: Option<[f64; 2]>,
 }
 
 /// A scene that was drawn.
@@ -120,6 +126,8 @@ impl From<&Camera> for CameraReport {
             up: camera.up.into(),
             fov_deg: camera.fov_y_rad.to_degrees(),
             near: camera.near(),
+            whole_px: camera.window.whole_px,
+            corner_px: camera.window.whole_px.map(|_| camera.window.corner_px),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Ball;
+use super::{Ball, Window};
 use crate::error::{Error, Result};
 
 /// A pinhole camera in world space.
@@ -19,6 +19,8 @@ pub struct Camera {
     pub fov_y_rad: f64,
     /// The depth of the near plane in world units; `None` is 1e-6 of the distance from eye to target.
     pub near: Option<f64>,
+    /// Where the drawn image lies in the picture that this field of view has.
+    pub window: Window,
 }
 
 /// The rigid motion from world to view space: `view = rotation · (world − eye)`.
@@ -51,7 +53,7 @@ impl Camera {
         let smallest = 16.0 * f64::EPSILON * ball.center.abs().max_element();
         let radius = if ball.radius > smallest { ball.radius } else { 1.0 };
         let eye = ball.center + DVec3::Z * (FIT_MARGIN * radius / half.sin());
-        Self { eye, target: ball.center, up: DVec3::Y, fov_y_rad, near: None }
+        Self { eye, target: ball.center, fov_y_rad, ..Self::default() }
     }
 
     /// The depth of the near plane in world units.
@@ -59,10 +61,32 @@ impl Camera {
         self.near.unwrap_or_else(|| 1e-6 * self.eye.distance(self.target))
     }
 
-    /// The focal length in pixels for an image of this height: an image-plane coordinate times this is a pixel
-    /// distance from the middle.
+    /// The focal length in pixels for a drawn image of this height: an image-plane coordinate times this is a pixel
+    /// distance from [`Self::middle_px`].
     pub fn focal_px(&self, height_px: u32) -> f64 {
-        0.5 * f64::from(height_px) / (0.5 * self.fov_y_rad).tan()
+        let whole_px = self.window.whole_px.map_or(height_px, |[_, height_px]| height_px);
+        0.5 * f64::from(whole_px) / (0.5 * self.fov_y_rad).tan()
+    }
+
+    /// Where the view's axis meets a drawn image of this size, in pixels from its top left corner: its middle, unless the
+    /// camera is off-center.
+    pub fn middle_px(&self, size_px: [u32; 2]) -> [f64; 2] {
+        let (whole_px, corner_px) = (self.window.whole_px.unwrap_or(size_px), self.window.corner_px);
+        [0, 1].map(|i| 0.5 * f64::from(whole_px[i]) - corner_px[i])
+    }
+
+    /// Where the drawn image's corner lies in the whole picture, in whole pixels.
+    pub(crate) fn corner_px(&self) -> [u32; 2] {
+        match self.window.whole_px {
+            Some(_) => self.window.corner_px.map(|at| at.clamp(0.0, 65_535.0) as u32),
+            None => [0; 2],
+        }
+    }
+
+    /// As a sample of a picture is seen, with pixels sampled so far to the right and down of their centers; see [`super::Samples`].
+    #[must_use]
+    pub fn sample(&self, offset_px: [f64; 2]) -> Self {
+        Self { window: self.window.shifted(offset_px), ..*self }
     }
 
     /// The motion from world to view space.
@@ -78,7 +102,7 @@ impl Camera {
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] for values that are not finite, an eye at the target, an angle outside (0°,
-    /// 180°), a near plane not above zero.
+    /// 180°), a near plane not above zero; as [`Window::validate`].
     pub fn validate(&self) -> Result<()> {
         let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
         if !finite {
@@ -98,7 +122,21 @@ impl Camera {
         if !(self.near() > 0.0 && self.near().is_finite()) {
             return Err(Error::option("camera", "near must be above zero"));
         }
-        Ok(())
+        self.window.validate()
+    }
+}
+
+impl Default for Camera {
+    /// Looks from (0, 0, 1) along −z, with +y up.
+    fn default() -> Self {
+        Self {
+            eye: DVec3::Z,
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            fov_y_rad: Self::DEFAULT_FOV_Y_RAD,
+            near: None,
+            window: Window::default(),
+        }
     }
 }
 
@@ -142,7 +180,7 @@ mod tests {
     #[test]
     fn up_parallel_to_the_view_still_gives_a_rotation() {
         for up in [DVec3::Y, DVec3::NEG_Y, DVec3::ZERO] {
-            let camera = Camera { eye: DVec3::Y, target: DVec3::ZERO, up, fov_y_rad: 1.0, near: None };
+            let camera = Camera { eye: DVec3::Y, up, fov_y_rad: 1.0, ..Camera::default() };
             assert!((camera.view_from_world().rotation.determinant() - 1.0).abs() < 1e-12);
         }
     }

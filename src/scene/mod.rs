@@ -7,6 +7,7 @@ mod bounds;
 mod camera;
 mod camera_parts;
 mod colors;
+mod crop;
 mod encoding;
 mod layers;
 mod light;
@@ -15,17 +16,20 @@ mod methods;
 mod opacity;
 mod option;
 mod points;
+mod samples;
 mod settings;
 mod splats;
 mod storage;
 mod tile_memory;
 mod transform;
 mod values;
+mod window;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::CameraParts;
 pub use colors::{Colors, UNKNOWN_SRGB};
+pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
 pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
@@ -39,12 +43,14 @@ pub use opacity::Opacity;
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
 pub use points::{Points, Viewpoint};
+pub use samples::{MOST_SAMPLES, Samples};
 pub use settings::{Settings, with_each};
 pub use splats::{Defect, DefectCounts, Shapes, Splats};
 pub use storage::{Order, SplatFormat, Storage};
 pub use tile_memory::TileMemory;
 pub use transform::is_invertible;
 pub use values::{Epsilon, Kernel};
+pub use window::{LARGEST_WHOLE_PX, Window};
 
 /// One thing in a scene: splats and how they are to be treated.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Layers, Light, MOST_LIGHTS, Object, Opacity, Scene, Shapes, TileMemory,
+    Layers, Light, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -17,6 +17,9 @@ settings! {
     Settings {
         /// Width and height in pixels.
         "size" "WxH" size_px: [u32; 2] = [1024, 1024],
+        /// The number of samples of each pixel, 1 to 256: so many pictures are drawn, moved by parts of a pixel and filtered the less, and
+        /// their mean is taken in linear light. A device that cannot add in 32 bits refuses more than one.
+        "samples" "N" samples: Samples,
         /// How splats become fragments. All draw the same picture but `raycast-approximate` and the affine ones.
         "rasterizer" "NAME" rasterizer: Rasterizer,
         /// The part of a tile of 8x8 pixels that one invocation draws where splats are drawn by tiles (`--rasterizer compute`).
@@ -76,6 +79,10 @@ impl Settings {
         if let (Rasterizer::Compute, Some((option, reason))) = (self.rasterizer, self.why_not_tiles()) {
             let problem = format!("{reason}; expected another value, or a --rasterizer other than compute");
             return Err(Error::option(option, problem));
+        }
+        if self.filter == Filter::Max && self.samples.0 > 1 {
+            let problem = "max: its disk is of one size, which samples cannot share out; expected another filter, or --samples 1";
+            return Err(Error::option("--filter", problem));
         }
         if self.filter == Filter::Ewa && !matches!(self.kernel, Kernel::Gaussian { .. }) {
             let problem = "ewa: adds covariances, which psi_e has none of; expected --kernel gaussian:S";
@@ -221,6 +228,9 @@ mod tests {
             ("--filter", Settings { filter: Filter::Ewa, rasterizer: Rasterizer::Raycast, ..good() }),
             ("--filter", Settings { filter: Filter::Max, rasterizer: Rasterizer::Compute, ..good() }),
             ("--kernel-eval", textured_tiles),
+            ("--samples", Settings { samples: Samples(0), ..good() }),
+            ("--samples", Settings { samples: Samples(257), ..good() }),
+            ("--filter", Settings { filter: Filter::Max, samples: Samples(2), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Radii(-1e-9), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::NAN), ..good() }),
             ("--epsilon", Settings { epsilon: Epsilon::Length(f64::INFINITY), ..good() }),

@@ -92,7 +92,7 @@ fn without_a_name_the_figures_are_listed() {
     let run = surfel(&folder, &["figure"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let names: Vec<_> = run.stdout.lines().filter_map(|line| line.split(' ').next()).collect();
-    assert_eq!(names, ["g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19"]);
+    assert_eq!(names, ["g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19", "samples"]);
     assert!(folder.names().is_empty());
 }
 
@@ -258,7 +258,7 @@ fn faults_are_one_line_and_leave_nothing() {
     folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n"));
     let before = folder.names();
     let cases: [(&[&str], &str); 10] = [
-        (&["g2"], "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19"),
+        (&["g2"], "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19, samples"),
         (&["--size", "64x64"], "required arguments"),
         (&["g3", "-o", "a.svg"], "--output: a.svg: expected a name in .png for g3"),
         (&["p9", "-o", "a.png"], "--output: a.png: expected a name in .svg for p9"),

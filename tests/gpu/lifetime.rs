@@ -165,7 +165,7 @@ fn record(device: &Device, (renderer, prepared): &(Renderer, PreparedScene)) -> 
     let mut slot = FrameSlot::new(device);
     let target = HeadlessTarget::new(device, FORMAT, SIZE_PX)?;
     let picture = pixels(device, "picture", 4)?;
-    let readbacks = Readbacks { target: Some(picture.raw()), surface: None };
+    let readbacks = Readbacks { target: Some(picture.raw()), surface: None, sample: None };
     let camera = builder::camera([0.0, 0.0, 3.2], [0.0; 3]);
     let (target, settings) = (target.target(), settings());
     // SAFETY: recording; never submitted.

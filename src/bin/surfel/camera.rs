@@ -154,6 +154,7 @@ fn read(path: &Path) -> Result<Camera> {
         up: file.up.into(),
         fov_y_rad: file.fov_deg.to_radians(),
         near: file.near,
+        ..Camera::default()
     };
     camera.validate().map_err(|error| match error.kind() {
         ErrorKind::Option { option, problem } => {

@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     fn hint_of(eye: DVec3, target: DVec3) -> String {
-        let camera = Camera { eye, target, up: DVec3::Y, fov_y_rad: 0.8, near: None };
+        let camera = Camera { eye, target, up: DVec3::Y, fov_y_rad: 0.8, ..Camera::default() };
         hint(&[[255; 4]; 9], Some([1.0; 3]), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 }).unwrap()
     }
 
@@ -61,7 +61,8 @@ mod tests {
         assert!(hint_of(DVec3::new(0.0, 0.1, 0.0), far).contains("inside of the scene"));
         assert!(hint_of(1e6 * far, DVec3::ZERO).contains("smaller than a pixel"));
         assert!(hint_of(far, DVec3::ZERO).contains("edge-on"));
-        let camera = Camera { eye: far, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.8, near: None };
+        let camera =
+            Camera { eye: far, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.8, ..Camera::default() };
         let ball = Ball { center: DVec3::ZERO, radius: 1.0 };
         let seen = |pixels: &[[u8; 4]], background| hint(pixels, background, &camera, &ball).is_none();
         assert!(seen(&[[255; 4], [200, 255, 255, 255]], Some([1.0; 3])) && seen(&[[0, 0, 0, 1]], None));

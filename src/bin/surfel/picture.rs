@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Arg, Args};
 use surfel::{
+    Result,
     load::PictureDescription,
-    scene::{Encoding, Light, Scene, Settings},
+    scene::{Camera, Crop, CropView, Encoding, Light, OptionValue as _, Scene, Settings},
 };
 
 use crate::{
@@ -28,6 +29,11 @@ pub struct PictureArguments {
     /// z, in the files' unit) of the opaque splats' surface, and the final picture, as .exr into this folder, 32-bit floats
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
+
+    /// Draw only this part of the picture, in pixels from its top left corner: it may be larger than the device can draw. The pixels are
+    /// those of the whole picture where points draw both, or tiles with --cull setup; else but for rounding
+    #[arg(long, value_name = "X,Y,W,H", value_parser = Crop::parse, allow_hyphen_values = true)]
+    pub crop: Option<Crop>,
 
     #[command(flatten)]
     pub camera: CameraArguments,
@@ -82,6 +88,40 @@ impl PictureArguments {
     pub fn settings_in(&self, scene_file: &PictureDescription) -> Settings {
         self.settings.said_over(scene_file.over(self.settings()))
     }
+
+    /// What is drawn, of a picture with those settings: the whole of it, or a part.
+    ///
+    /// # Errors
+    /// A part that is not within the picture.
+    pub fn drawn(&self, settings: Settings) -> Result<Drawn> {
+        settings.validate()?;
+        let whole_px = settings.size_px;
+        let crop = self.crop.unwrap_or(Crop { corner_px: [0; 2], size_px: whole_px });
+        let drawn_px = crop.view(whole_px, &Camera::default())?.drawn_px;
+        let settings = Settings { size_px: drawn_px, ..settings };
+        Ok(Drawn { whole_px, crop: self.crop, settings })
+    }
+}
+
+/// What is drawn of a picture.
+pub struct Drawn {
+    /// The size of the whole picture.
+    pub whole_px: [u32; 2],
+    /// The part that is wanted, if not all.
+    pub crop: Option<Crop>,
+    /// With the size that is drawn.
+    pub settings: Settings,
+}
+
+impl Drawn {
+    /// The camera of what is drawn, of that of the whole picture; and what is cut out then.
+    ///
+    /// # Errors
+    /// A part that is not within the picture.
+    pub fn view(&self, camera: Camera) -> Result<(Camera, Option<CropView>)> {
+        let view = self.crop.map(|crop| crop.view(self.whole_px, &camera)).transpose()?;
+        Ok((view.map_or(camera, |view| view.camera), view))
+    }
 }
 
 #[cfg(test)]
@@ -89,7 +129,7 @@ mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
         Accumulate, Backfaces, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer,
-        Layers, Rasterizer, Shading, TileInvocations, TileMemory, Transition,
+        Layers, Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
     };
 
     use super::*;
@@ -109,6 +149,7 @@ mod tests {
     fn settings_that_a_report_prints_can_be_given_again() {
         let settings = Settings {
             size_px: [7, 9],
+            samples: Samples(16),
             rasterizer: Rasterizer::AffineContour,
             tile_invocations: TileInvocations::Pixel,
             tile_memory: TileMemory::Most(12_500_000),

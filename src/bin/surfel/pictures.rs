@@ -6,7 +6,7 @@ use surfel::{
     Error, Result,
     math::srgb::{linear_from_srgb, srgb_from_linear},
     save,
-    scene::Encoding,
+    scene::{CropView, Encoding},
 };
 
 use crate::{console, outputs::PictureFormat};
@@ -110,6 +110,20 @@ pub struct Dump {
 }
 
 impl Dump {
+    /// The part that is wanted of it.
+    #[must_use]
+    pub fn cut(self, crop: Option<CropView>) -> Self {
+        let Some(view) = crop else { return self };
+        Self {
+            size_px: view.size_px(),
+            weight: view.cut(&self.weight),
+            albedo: view.cut(&self.albedo),
+            normal: view.cut(&self.normal),
+            depth: view.cut(&self.depth),
+            color: view.cut(&self.color),
+        }
+    }
+
     /// Writes its five files; makes the folder where it is missing.
     ///
     /// # Errors

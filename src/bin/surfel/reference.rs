@@ -39,15 +39,15 @@ pub struct ReferenceArguments {
 /// Whatever goes wrong; what can be known before the long work is found before it.
 pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let picture = &arguments.picture;
-    let settings = picture.settings();
-    settings.validate()?;
+    let part = picture.drawn(picture.settings())?;
+    let settings = &part.settings;
     let camera = CameraChoice::of(&picture.camera)?;
     let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();
     let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
     picture.light(&mut loaded.scene);
-    let settings = picture.settings_in(&loaded.picture);
-    let camera = camera.camera(&loaded, settings.size_px)?;
+    let settings = Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
+    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let (encoding, background) = (picture.encoding(), settings.background);
     // A curve is of what is drawn alone; the background is put under it after that.
@@ -55,7 +55,7 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let settings = Settings { background: drawn_over, ..settings };
     let drawn = reference::render(&loaded.scene, &camera, &settings, &progress);
     bars.clear();
-    let mut dump = dump(&drawn?);
+    let mut dump = dump(&drawn?).cut(crop);
     let under = background.filter(|_| drawn_over.is_none());
     let bytes = pictures::encode_shown(&encoding, &dump.color, under);
     dump.color.iter_mut().for_each(|color| *color = pictures::over(*color, under));
@@ -64,7 +64,8 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
         PictureFormat::Exr => Colors::Linear(&dump.color),
     };
     pictures::write_picture(&output, format, dump.size_px, background.is_none(), colors)?;
-    if let Some(hint) = emptiness::hint(&bytes, background, &camera, &loaded.ball) {
+    let hint = || emptiness::hint(&bytes, background, &camera, &loaded.ball);
+    if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }
     match &picture.dump {

@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Epsilon, Storage},
+    scene::{Ball, CropView, Epsilon, Settings, Storage},
 };
 
 use crate::{
@@ -20,7 +20,7 @@ use crate::{
     measure::{self, View},
     outputs::{self, PictureFormat},
     parse,
-    picture::PictureArguments,
+    picture::{Drawn, PictureArguments},
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
     scene::{Loaded, load_scene, upload},
@@ -81,21 +81,21 @@ const DEFAULT_TIMED_FRAMES: u32 = 10;
 /// # Errors
 /// Whatever goes wrong; what can be known before the long work is found before it.
 pub fn run(arguments: &RenderArguments) -> Result<()> {
-    let settings = arguments.picture.settings();
-    settings.validate()?;
+    let part = arguments.picture.drawn(arguments.picture.settings())?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
     let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
     arguments.device.watch(headless, |headless| {
-        headless.renderer.check_settings(&settings)?;
-        draw(headless, arguments, &camera, &output, steps)
+        headless.renderer.check_settings(&part.settings)?;
+        draw(headless, arguments, &part, &camera, &output, steps)
     })
 }
 
 fn draw(
     headless: &mut Headless,
     arguments: &RenderArguments,
+    part: &Drawn,
     camera: &CameraChoice,
     output: &(PathBuf, PictureFormat),
     mut steps: Steps,
@@ -105,9 +105,9 @@ fn draw(
     let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
-    let settings = &picture.settings_in(&loaded.picture);
+    let settings = &Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
     settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
-    let camera = camera.camera(&loaded, settings.size_px)?;
+    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
     let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
@@ -132,7 +132,7 @@ fn draw(
         console::print(&report.to_string())?;
         write_json(arguments.timings.as_deref(), &report)?;
     }
-    write(headless, arguments, view, &ball, output)
+    write(headless, arguments, view, crop, &ball, output)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.
@@ -140,6 +140,7 @@ fn write(
     headless: &mut Headless,
     arguments: &RenderArguments,
     view: View<'_>,
+    crop: Option<CropView>,
     ball: &Ball,
     (output, format): &(PathBuf, PictureFormat),
 ) -> Result<()> {
@@ -150,7 +151,11 @@ fn write(
     // A curve is of what is drawn alone; the background is put under it after that.
     let without = (!encoding.is_plain()).then(|| Settings { background: None, ..view.settings.clone() });
     let settings = without.as_ref().unwrap_or(view.settings);
-    let frame = headless.render(view.scene, view.camera, settings, wanted)?;
+    let mut frame = headless.render(view.scene, view.camera, settings, wanted)?;
+    if let Some(crop) = crop {
+        frame.size_px = crop.size_px();
+        (frame.srgb, frame.linear) = (crop.cut(&frame.srgb), crop.cut(&frame.linear));
+    }
     let bytes = match linear {
         true => pictures::encode_shown(&encoding, &frame.linear, without.and(background)),
         false => frame.srgb,
@@ -161,11 +166,12 @@ fn write(
     };
     let transparent = background.is_none();
     pictures::write_picture(output, *format, frame.size_px, transparent, colors)?;
-    if let Some(hint) = emptiness::hint(&bytes, background, view.camera, ball) {
+    let hint = || emptiness::hint(&bytes, background, view.camera, ball);
+    if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }
     if let Some(folder) = &picture.dump {
-        dump(headless, view)?.write(folder)?;
+        dump(headless, view)?.cut(crop).write(folder)?;
     }
     let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
     if arguments.explain {

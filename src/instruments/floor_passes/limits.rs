@@ -198,7 +198,7 @@ pub fn limit_dispatch<'a>(
 ) -> Result<()> {
     let LimitDispatch { shader, atomics, groups, .. } = dispatch;
     // Those that are not the shader's own have no effect.
-    let mut constants = splat_constants(inputs.settings, false, false);
+    let mut constants = splat_constants(inputs.settings, inputs.settings.size_px, false, false);
     constants.extend([(SPEC_LIMIT_SPLATS, KERNEL_SPLATS), (SPEC_ATOMICS, atomics.into())]);
     let pass = Pass::new(graph, inputs.source, limit.name(), WHY).write(
         lists(BIND_LIST_POINTS),

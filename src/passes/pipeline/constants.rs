@@ -12,8 +12,8 @@ pub struct FrameConstants {
     pub view_from_local_y: [f32; 4],
     /// As above.
     pub view_from_local_z: [f32; 4],
-    /// Width and height of the image.
-    pub size_px: [f32; 2],
+    /// Where the view's axis meets the image.
+    pub middle_px: [f32; 2],
     /// An image-plane unit in pixels.
     pub focal_px: f32,
     /// Depth of the near plane, view unit.
@@ -24,10 +24,10 @@ pub struct FrameConstants {
     pub epsilon_radii: f32,
     /// ε as a length, view unit.
     pub epsilon_length: f32,
-    /// The largest point of the device.
-    pub point_cap_px: f32,
-    /// The step of point sizes.
-    pub point_step_px: f32,
+    /// The image's width less 1, and in the upper half its height less 1.
+    pub size_less_1_px: u32,
+    /// Where the image's corner lies in the whole picture: whole pixels to the right, and in the upper half down.
+    pub corner_px: u32,
     /// Splats of the chunk.
     pub splat_count: u32,
     /// Twice the chunk's number in its part of the frame; plus 1 where all its splats have color 0.
@@ -58,6 +58,11 @@ impl FrameConstants {
     pub(crate) fn number_chunk(&mut self, number: u32) {
         self.chunk_color = 2 * number + self.chunk_color % 2;
     }
+}
+
+/// Two numbers below 2¹⁶ in one word, the first in its lower half.
+pub(crate) fn in_one_word([low, high]: [u32; 2]) -> u32 {
+    low | high << 16
 }
 
 /// What the paper's own programs are told; see `glsl/paper.vert.glsl`.
@@ -92,6 +97,8 @@ pub struct FinalizeConstants {
     pub background: [f32; 4],
     /// Half of width and height.
     pub half_size_px: [f32; 2],
+    /// Where the view's axis meets the image.
+    pub middle_px: [f32; 2],
     /// An image-plane unit in pixels.
     pub focal_px: f32,
     /// Pixels of a tile's column; 0 without tiles.
@@ -106,6 +113,8 @@ pub struct FinalizeConstants {
 pub struct TileConstants {
     /// Half of width and height.
     pub half_size_px: [f32; 2],
+    /// Where the view's axis meets the image.
+    pub middle_px: [f32; 2],
     /// Tiles in a row.
     pub tiles_x: u32,
     /// The first tile of the band.

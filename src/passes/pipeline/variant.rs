@@ -19,8 +19,8 @@ pub fn culls(constants: &Constants) -> bool {
     constants.contains(&(SPEC_CULL_BACKFACES, 1))
 }
 
-/// The constants of the splat passes for one kind of chunk.
-pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Constants {
+/// The constants of the splat passes for one kind of chunk, in an image that is a part of a whole picture of that size.
+pub fn splat_constants(settings: &Settings, whole_px: [u32; 2], ellipses: bool, closed: bool) -> Constants {
     let cull = match settings.backfaces {
         Backfaces::Auto => closed,
         Backfaces::Flip => false,
@@ -54,7 +54,7 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
             SPEC_WEIGHT_BY_AREA,
             u32::from(settings.filter.adjusts() && settings.filter_weight == FilterWeight::Area),
         ),
-        (SPEC_FROM_CORNER, u32::from(may_count_from_corner(settings))),
+        (SPEC_FROM_CORNER, u32::from(may_count_from_corner(settings, whole_px))),
         (SPEC_COVERAGE_R2, (coverage_r2(settings.kernel) as f32).to_bits()),
     ]);
     constants
@@ -62,10 +62,11 @@ pub fn splat_constants(settings: &Settings, ellipses: bool, closed: bool) -> Con
 
 /// Whether splats are so wide, and the image so small, that a place's rounding is nothing to them; see
 /// `glsl/inc/places.glsl`.
-fn may_count_from_corner(settings: &Settings) -> bool {
+fn may_count_from_corner(settings: &Settings, whole_px: [u32; 2]) -> bool {
     const LARGEST_PX: u32 = 8192;
-    matches!(settings.filter, Filter::Adjust | Filter::Ewa)
-        && settings.size_px.iter().all(|side| *side <= LARGEST_PX)
+    // Samples are filtered less.
+    let wide = matches!(settings.filter, Filter::Adjust | Filter::Ewa) && settings.samples.0 == 1;
+    wide && whole_px.iter().all(|side| *side <= LARGEST_PX)
 }
 
 /// What splats sum to inside of a surface where they overlap by so much under the default kernel ([`crate::prepare::Chunk::overlap`]): each

@@ -110,7 +110,7 @@ impl Ball {
 
     /// `None` where nothing of it may be seen.
     fn image(&self, look: &BlockCullView<'_>) -> Option<Image> {
-        let [width, height] = look.bound.size_px;
+        let ([width, height], [axis_x_px, axis_y_px]) = (look.bound.size_px, look.bound.middle_px);
         let all = 0..(height as u32).div_ceil(BAND_ROW);
         if self.z + self.reach < look.bound.near {
             return None;
@@ -124,11 +124,11 @@ impl Ball {
             let c = side / self.z;
             (c, self.reach / (self.z - self.reach) * (1.0 + c.abs()))
         });
-        let in_px = |(c, away): (f64, f64), side: f64| {
-            let (middle_px, away_px) = (0.5 * side + c * look.bound.focal_px, away * look.bound.focal_px);
+        let in_px = |(c, away): (f64, f64), axis_px: f64| {
+            let (middle_px, away_px) = (axis_px + c * look.bound.focal_px, away * look.bound.focal_px);
             [middle_px - away_px - FILTER_RESERVE_PX, middle_px + away_px + FILTER_RESERVE_PX]
         };
-        let (x_px, y_px) = (in_px(x, width), in_px(y, height));
+        let (x_px, y_px) = (in_px(x, axis_x_px), in_px(y, axis_y_px));
         if x_px[1] < 0.0 || x_px[0] > width || y_px[1] < 0.0 || y_px[0] > height {
             return None;
         }

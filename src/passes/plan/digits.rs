@@ -134,7 +134,14 @@ mod tests {
 
     fn camera(near: f64) -> Camera {
         let eye = DVec3::ZERO;
-        Camera { eye, target: DVec3::NEG_Z, up: DVec3::Y, fov_y_rad: 1.0, near: Some(near) }
+        Camera {
+            eye,
+            target: DVec3::NEG_Z,
+            up: DVec3::Y,
+            fov_y_rad: 1.0,
+            near: Some(near),
+            ..Camera::default()
+        }
     }
 
     fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {

@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4};
 
 use crate::passes::{
     pipeline::{
-        constants::FrameConstants,
+        constants::{FrameConstants, in_one_word},
         splat_shaders::Primitive,
         variant::{Constants, culls, overlap_under, splat_constants},
     },
@@ -87,9 +87,6 @@ pub(crate) fn by_variant<T: Copy>(
     Ok(all)
 }
 
-/// The low-pass filter's radius: √2 pixels (Guennebaud et al. 2006, section 4.1).
-const FILTER_RADIUS_PX: f64 = std::f64::consts::SQRT_2;
-
 /// Where ε stops to grow, in radii and in view units, of which the eye is about 1 away: everything belongs to the nearest
 /// surface long before, and f32 ends at 3e38.
 const LARGEST_EPSILON: f64 = 1e30;
@@ -102,6 +99,7 @@ pub fn draws<'a>(
     limits: &Limits,
 ) -> Vec<Draw<'a>> {
     let focal_px = camera.focal_px(settings.size_px[1]);
+    let filter_radius_px = settings.samples.filter_radius_px();
     let primitive = Primitive::of(settings.rasterizer);
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
@@ -118,11 +116,12 @@ pub fn draws<'a>(
             near,
             focal_px,
             size_px: settings.size_px.map(f64::from),
+            middle_px: camera.middle_px(settings.size_px),
             filter_px: match settings.filter {
                 Filter::None => 0.0,
                 // Its two axes may have one direction: together they reach √2 times as far as one.
-                Filter::AdjustPaper => std::f64::consts::SQRT_2 * FILTER_RADIUS_PX,
-                Filter::Adjust | Filter::Max | Filter::Ewa => FILTER_RADIUS_PX,
+                Filter::AdjustPaper => std::f64::consts::SQRT_2 * filter_radius_px,
+                Filter::Adjust | Filter::Max | Filter::Ewa => filter_radius_px,
             },
         };
         let point_cap_px = limits.point_size_range[1];
@@ -135,7 +134,7 @@ pub fn draws<'a>(
             splat_count: chunk.count,
             chunk_color: u32::from(chunk.uniform_color),
             blocks_overlap: ((65_535.0 / overlap_under(settings.kernel, chunk.overlap)).round() as u32) << 16,
-            ..frame_constants(&view, camera, settings, limits, epsilon)
+            ..frame_constants(&view, camera, settings, epsilon)
         };
         if chunk.fine {
             [constants.view_from_local_x, constants.view_from_local_y, constants.view_from_local_z] =
@@ -158,7 +157,9 @@ pub fn draws<'a>(
             half_sums: false,
             variant: {
                 let cull_closed = chunk.closed && !chunk.transparent;
-                let mut constants = splat_constants(settings, chunk.ellipses, cull_closed);
+                let whole_px = camera.window.whole_px.unwrap_or(settings.size_px);
+                let mut constants = splat_constants(settings, whole_px, chunk.ellipses, cull_closed);
+                constants.extend(point_constants(limits));
                 if chunk.transparent {
                     constants.extend([(SPEC_OUTWARD, u32::from(chunk.closed)), (SPEC_IN_LAYERS, 1)]);
                 }
@@ -188,7 +189,6 @@ pub(crate) fn frame_constants(
     view: &ViewFromLocal,
     camera: &Camera,
     settings: &Settings,
-    limits: &Limits,
     (epsilon_radii, epsilon_length): (f64, f64),
 ) -> FrameConstants {
     let focal_px = camera.focal_px(settings.size_px[1]);
@@ -198,14 +198,14 @@ pub(crate) fn frame_constants(
         view_from_local_x,
         view_from_local_y,
         view_from_local_z,
-        size_px: settings.size_px.map(|side| side as f32),
+        middle_px: camera.middle_px(settings.size_px).map(|at| at as f32),
         focal_px: focal_px as f32,
         near: near_in_view(camera, view) as f32,
-        filter_radius: (FILTER_RADIUS_PX / focal_px) as f32,
+        filter_radius: (settings.samples.filter_radius_px() / focal_px) as f32,
         epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
         epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
-        point_cap_px: limits.point_size_range[1],
-        point_step_px: point_step_px(limits.point_size_granularity),
+        size_less_1_px: in_one_word(settings.size_px.map(|side| side.saturating_sub(1).min(0xffff))),
+        corner_px: in_one_word(camera.corner_px()),
         splat_count: 0,
         chunk_color: 0,
         view_from_local_scale: view.view_from_local_scale as f32,
@@ -213,6 +213,12 @@ pub(crate) fn frame_constants(
         first_record: 0,
         blocks_overlap: 0,
     }
+}
+
+/// What shaders are told of the device's points.
+fn point_constants(limits: &Limits) -> Constants {
+    let step_px = point_step_px(limits.point_size_granularity);
+    vec![(SPEC_POINT_CAP, limits.point_size_range[1].to_bits()), (SPEC_POINT_STEP, step_px.to_bits())]
 }
 
 /// The step by which shaders round point sizes up. Devices may report 0, for any size; a square of pixels has a
@@ -246,14 +252,19 @@ fn nearest_z(chunk: &Chunk, view: &ViewFromLocal) -> f64 {
 /// Whether the box of the chunk's centers lies between the near plane and the four sides of the view.
 fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> bool {
     let [x, y, z] = [0, 1, 2].map(|i| view.rotation.row(i).extend(view.translation[i]));
-    let [edge_x, edge_y] = bound.size_px.map(|side| 0.5 * side / bound.focal_px);
+    // From the axis to the left and right side, and to the upper and lower one.
+    let sides = |i: usize| {
+        let (middle_px, side_px) = (bound.middle_px[i], bound.size_px[i]);
+        [middle_px / bound.focal_px, (side_px - middle_px) / bound.focal_px]
+    };
+    let ([left, right], [top, bottom]) = (sides(0), sides(1));
     let [center, half] = center_and_half(chunk);
     let least = |plane: DVec4| {
         let normal = plane.truncate();
         view.view_from_local_scale * (normal.dot(center) - normal.abs().dot(half)) + plane.w
     };
     least(z) >= bound.near
-        && [edge_x * z - x, edge_x * z + x, edge_y * z - y, edge_y * z + y]
+        && [right * z - x, left * z + x, bottom * z - y, top * z + y]
             .into_iter()
             .all(|side| least(side) >= 0.0)
 }

@@ -4,7 +4,6 @@ use crate::passes::{pipeline::constants::FrameConstants, plan::draws::frame_cons
 use crate::{
     prepare::{MeshChunk, PreparedScene},
     scene::{Backfaces, Camera, Epsilon, Settings},
-    vk::Limits,
 };
 
 /// A piece of a mesh in this frame.
@@ -18,12 +17,7 @@ pub struct MeshDraw<'a> {
 }
 
 /// All pieces of meshes as seen from a camera.
-pub fn mesh_draws<'a>(
-    scene: &'a PreparedScene,
-    camera: &Camera,
-    settings: &Settings,
-    limits: &Limits,
-) -> Vec<MeshDraw<'a>> {
+pub fn mesh_draws<'a>(scene: &'a PreparedScene, camera: &Camera, settings: &Settings) -> Vec<MeshDraw<'a>> {
     let epsilon = match settings.epsilon {
         Epsilon::Auto => Epsilon::auto_radii(true) * scene.mean_transparent_radius,
         Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
@@ -35,7 +29,7 @@ pub fn mesh_draws<'a>(
             chunk,
             constants: FrameConstants {
                 chunk_color: u32::from(chunk.uniform_color),
-                ..frame_constants(&view, camera, settings, limits, (0.0, epsilon))
+                ..frame_constants(&view, camera, settings, (0.0, epsilon))
             },
             cull: match settings.backfaces {
                 Backfaces::Auto => chunk.closed && !chunk.transparent,

@@ -83,7 +83,7 @@ impl<'a> FramePlan<'a> {
     pub fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
         let splats = draws(scene, camera, settings, limits).into_iter();
         let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
-        let meshes = mesh_draws(scene, camera, settings, limits).into_iter();
+        let meshes = mesh_draws(scene, camera, settings).into_iter();
         let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
         let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
         for band in transparent.bands_mut() {

@@ -35,7 +35,8 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     // and polygons.
     let reads = 3 + 2 * bands + 3 * layers;
     // Sums: for finalization, of tiles and of polygons, and for the export; the depth of tiles of each band; and each layer.
-    let sums = 3 + bands + layers;
+    // Those of samples, two more.
+    let sums = 3 + bands + layers + if settings.samples.0 > 1 { 2 } else { 0 };
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
     let tiles = bands_of_all.fold(PoolSizes::default(), |sum, _| sum.plus(&room_of_tiles()));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;

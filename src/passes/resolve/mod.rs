@@ -6,3 +6,4 @@ pub(crate) mod finalize;
 pub(crate) mod fullscreen;
 pub(crate) mod lights;
 pub(crate) mod readback;
+pub(crate) mod samples;

@@ -105,6 +105,7 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
     let [width, height] = inputs.settings.size_px;
     TileConstants {
         half_size_px: [0.5 * width as f32, 0.5 * height as f32],
+        middle_px: inputs.camera.middle_px(inputs.settings.size_px).map(|at| at as f32),
         tiles_x: plan.tiles_x,
         first_tile: plan.first_tile(),
         tile_count: plan.tile_count,

@@ -144,7 +144,7 @@ impl Step {
 
 /// The constants of what draws from the lists. What differs between chunks is in their records.
 pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate) -> Constants {
-    let mut constants = splat_constants(settings, false, false);
+    let mut constants = splat_constants(settings, settings.size_px, false, false);
     constants.extend([
         (SPEC_PART_LENGTH, plan.part_length),
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),

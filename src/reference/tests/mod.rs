@@ -43,7 +43,7 @@ pub(super) fn camera() -> Camera {
         target: DVec3::Z,
         up: DVec3::NEG_Y,
         fov_y_rad: std::f64::consts::FRAC_PI_2,
-        near: None,
+        ..Camera::default()
     }
 }
 

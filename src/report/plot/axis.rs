@@ -28,7 +28,7 @@ impl Axis {
 
     /// A logarithmic axis that holds these values, from a number 1, 2 or 5 · 10ⁿ to another, with a line at all such numbers.
     /// Values that have no logarithm are not on it.
-    pub(in crate::report) fn logarithmic(name: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+    pub fn logarithmic(name: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
         let (range, ticks) = powers(values);
         Self { name: name.into(), range, ticks, logarithmic: true }
     }

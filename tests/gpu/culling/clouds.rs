@@ -157,7 +157,7 @@ fn view(random: &mut Random, places: &[Place], kind: usize) -> (Camera, &'static
             "edge-on"
         }
     };
-    (Camera { eye, target, up, fov_y_rad, near }, what)
+    (Camera { eye, target, up, fov_y_rad, near, ..Camera::default() }, what)
 }
 
 /// A scene of one to six blocks, and its view; what is hard about it.

@@ -62,7 +62,7 @@ impl Looking {
 
     fn of(random: &mut Random, eye: DVec3, target: DVec3, fov_deg: f64) -> Self {
         let fov_y_rad = fov_deg.to_radians();
-        let camera = Camera { eye, target, up: random.direction(), fov_y_rad, near: None };
+        let camera = Camera { eye, target, up: random.direction(), fov_y_rad, ..Camera::default() };
         Self { camera, half: (0.5 * fov_y_rad).tan() }
     }
 

@@ -126,8 +126,11 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let target = HeadlessTarget::new(&device, FORMAT, SIZE_PX).unwrap();
     let picture = pixels(&device, "picture", 4).unwrap();
     let surface = [4, 16, 16, 4].map(|bytes| pixels(&device, "surface", bytes).unwrap());
-    let readbacks =
-        Readbacks { target: Some(picture.raw()), surface: Some(surface.each_ref().map(Buffer::raw)) };
+    let readbacks = Readbacks {
+        target: Some(picture.raw()),
+        surface: Some(surface.each_ref().map(Buffer::raw)),
+        sample: None,
+    };
     let commands = CommandPool::new(&device, "frame").unwrap();
     // SAFETY: all that is recorded is alive when it is submitted; what is dropped after that, while the device works,
     // is what this test is about: the drops hand over to the device's deferred destruction.

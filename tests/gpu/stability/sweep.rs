@@ -215,6 +215,7 @@ fn hard(
         up: -world_from_view.y_axis,
         fov_y_rad: 2.0 * (0.5 * f64::from(size_px[1]) / focal_px).atan(),
         near: Some(near),
+        ..Camera::default()
     };
     let settings = Settings { size_px, ..unfiltered() };
     Hard { name: "one splat of the sweep", scene: builder.scene(false), camera, settings }

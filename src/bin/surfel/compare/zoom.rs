@@ -80,7 +80,7 @@ fn zoom_options(base: &Settings, method: &Method) -> std::collections::BTreeMap<
 /// Looks at the board's middle, tilted, from where its splats are so far apart in the middle of the picture.
 fn camera(pixels_per_splat: f64, tilt_deg: f64, size_px: [u32; 2]) -> Camera {
     let fov_y_rad = Camera::DEFAULT_FOV_Y_RAD;
-    let mut camera = Camera { eye: DVec3::Z, target: SHIFT, up: DVec3::Z, fov_y_rad, near: None };
+    let mut camera = Camera { eye: DVec3::Z, target: SHIFT, up: DVec3::Z, fov_y_rad, ..Camera::default() };
     let distance = camera.focal_px(size_px[1]) / pixels_per_splat;
     let (sin_turn, cos_turn) = TURN_DEG.to_radians().sin_cos();
     let (sin_tilt, cos_tilt) = tilt_deg.to_radians().sin_cos();

@@ -28,7 +28,7 @@ pub struct FigureArguments {
     #[arg(value_name = "NAME")]
     pub name: Option<Figure>,
 
-    /// The file: .svg for p9 and p10, .png for the others [default: the figure's name, in the current folder]
+    /// The file: .svg for p9, p10 and samples, .png for the others [default: the figure's name, in the current folder]
     #[arg(short, long, value_name = "FILE", requires = "name")]
     pub output: Option<PathBuf>,
 
@@ -70,6 +70,8 @@ pub enum Figure {
     P18,
     /// P figure 19, a model with a narrow kernel and with one that has a plateau
     P19,
+    /// A figure of no paper: the error of pictures of 1 to 256 samples a pixel against the ground truth, as curves
+    Samples,
 }
 
 /// The sides that a panel or plot may have.
@@ -84,7 +86,7 @@ impl Figure {
     /// The ending of its file's name.
     pub fn extension(self) -> &'static str {
         match self {
-            Self::P9 | Self::P10 => "svg",
+            Self::P9 | Self::P10 | Self::Samples => "svg",
             _ => "png",
         }
     }
@@ -98,7 +100,7 @@ impl Figure {
             Self::G5 => [480, 400],
             Self::G6 => [480, 480],
             Self::Slides => [400, 400],
-            Self::P9 | Self::P10 => [900, 600],
+            Self::P9 | Self::P10 | Self::Samples => [900, 600],
             Self::P18 => [512, 400],
             Self::P19 => [512, 512],
         }

@@ -56,7 +56,7 @@ impl Board {
         let (sin_pitch, cos_pitch) = self.pitch_deg.to_radians().sin_cos();
         let forward = DVec3::new(sin_turn * cos_pitch, cos_turn * cos_pitch, -sin_pitch);
         let fov_y_rad = self.fov_y_deg.to_radians();
-        Camera { eye: self.eye, target: self.eye + forward, up: DVec3::Z, fov_y_rad, near: None }
+        Camera { eye: self.eye, target: self.eye + forward, up: DVec3::Z, fov_y_rad, ..Camera::default() }
     }
 
     /// A note on the board.

@@ -109,7 +109,7 @@ impl RoundSplat {
             // From the pixel's center, to the right and down.
             let offset_px = within.map(|i| (i as f64 + 0.5) / samples as f64 - 0.5);
             let eye = world(DVec3::new(offset_px[0], offset_px[1], 0.0) * (DEPTH / FOCAL_PX));
-            let camera = Camera { eye, target: eye - DVec3::Z, up: DVec3::Y, fov_y_rad, near: None };
+            let camera = Camera { eye, target: eye - DVec3::Z, up: DVec3::Y, fov_y_rad, ..Camera::default() };
             let drawn = context.weights(&scene, &camera, &settings)?;
             for row in 0..window {
                 // The center is between pixels, in the middle of the window.

@@ -69,7 +69,7 @@ impl Glass {
 
 fn camera(eye: [f64; 3], target: [f64; 3], fov_y_deg: f64) -> Camera {
     let fov_y_rad = fov_y_deg.to_radians();
-    Camera { eye: eye.into(), target: target.into(), up: DVec3::Y, fov_y_rad, near: None }
+    Camera { eye: eye.into(), target: target.into(), up: DVec3::Y, fov_y_rad, ..Camera::default() }
 }
 
 fn settings(size_px: [u32; 2], epsilon: f64, layers: Layers, last_layer: LastLayer) -> Settings {

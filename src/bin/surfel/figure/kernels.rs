@@ -70,8 +70,13 @@ impl KernelBench {
         let distance = 10.0;
         // In a picture one pixel high.
         let fov_y_rad = 2.0 * (0.5 / (RADIUS_PX * distance)).atan();
-        let camera =
-            Camera { eye: DVec3::Z * distance, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad, near: None };
+        let camera = Camera {
+            eye: DVec3::Z * distance,
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            fov_y_rad,
+            ..Camera::default()
+        };
         Ok(Self { scene: context.prepare(&Scene { objects: vec![object], ..Scene::default() })?, camera })
     }
 

@@ -13,6 +13,7 @@ mod glass;
 mod kernels;
 mod p19;
 mod raster;
+mod samples;
 mod sheet;
 
 use std::path::Path;
@@ -77,6 +78,7 @@ pub fn draw(
         Figure::P10 => kernels::p10(&mut context).map(Drawing::Plot),
         Figure::P18 => boards::p18(&mut context).map(Drawing::Sheet),
         Figure::P19 => p19::draw(&mut context).map(Drawing::Sheet),
+        Figure::Samples => samples::draw(&mut context).map(Drawing::Plot),
     };
     bars.clear();
     drawn

@@ -48,7 +48,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             largest_radius: radius,
         };
         let eye = DVec3::new(between(-0.5, 0.5), between(-0.5, 0.5), 3.0);
-        let camera = Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.7, near: None };
+        let camera = Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.7, ..Camera::default() };
         let view = Rebase { origin: DVec3::ZERO, scale: 1.0 }.view_from_local(&camera);
         let focal_px = camera.focal_px(SIZE_PX[1]);
         let near = camera.near() * view.view_from_world_scale;
@@ -58,6 +58,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             near,
             focal_px,
             size_px: SIZE_PX.map(f64::from),
+            middle_px: camera.middle_px(SIZE_PX),
             filter_px: std::f64::consts::SQRT_2,
         };
         let look = BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0 };
