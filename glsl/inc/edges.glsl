@@ -16,8 +16,7 @@
 
 const float ROOT_TWO_PI = 2.5066283;
 
-// Sigma h in pixels: h is sqrt(2), the filter's own sigma 1/2.
-const float LOW_PASS_PX = 0.70710678;
+layout(constant_id = SPEC_FILTER_PX) const float FILTER_PX = 1.41421356; // h; the filter's own sigma is 1/2
 
 // What is covered to all but so little is covered.
 const float NEARLY_WHOLE = 0.96;
@@ -30,9 +29,9 @@ vec2 own_coverage(vec4 uv)
     float det = uv.x * uv.w - uv.y * uv.z;
     float inverse_minor2 = 0.5 * (sum + sqrt(max(sum * sum - 4.0 * det * det, 0.0)));
     float minor_px = inversesqrt(inverse_minor2);
-    float rho2 = max(1.0 - 2.0 * inverse_minor2, 0.0);
-    float sureness = smoothstep(0.5, 1.0, sqrt(rho2) * minor_px * 0.70710678);
-    float slope = sureness * minor_px / (2.0 * ROOT_TWO_PI * LOW_PASS_PX);
+    float rho2 = max(1.0 - FILTER_PX * FILTER_PX * inverse_minor2, 0.0);
+    float sureness = smoothstep(0.5, 1.0, sqrt(rho2) * minor_px / FILTER_PX);
+    float slope = sureness * minor_px / (ROOT_TWO_PI * FILTER_PX);
     return vec2(0.5 * sureness + slope * rho2, slope);
 }
 

@@ -41,12 +41,14 @@ pub(super) struct Covering {
     pub share: f64,
     /// The minor semi-axis of its image as it is drawn, in pixels.
     pub minor_px: f64,
+    /// The filter's radius in pixels.
+    pub h_px: f64,
 }
 
 impl Covering {
     /// The part of a pixel that it covers by itself, at squared radius `r2`.
     fn alone(&self, r2: f64) -> f64 {
-        let h_px = std::f64::consts::SQRT_2;
+        let h_px = self.h_px;
         // Of the splat as it was: its rim, in radii of the splat as it is drawn.
         let rim2 = (1.0 - (h_px / self.minor_px).powi(2)).max(0.0);
         let own_minor_px = rim2.sqrt() * self.minor_px;

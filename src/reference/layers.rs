@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 
-use super::decision::Decision;
 use super::covering::covered;
+use super::decision::Decision;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;

@@ -27,8 +27,8 @@
 mod affine;
 mod band;
 mod bands;
-mod decision;
 mod covering;
+mod decision;
 mod edges;
 mod epsilon;
 mod ewa;

@@ -238,7 +238,11 @@ fn prepare_one(
         shift,
         map,
         share: share / overlap.filter(|_| settings.weighs_splats()).unwrap_or(1.0),
-        covering: overlap.map(|overlap| Covering { share: area / overlap, minor_px: view.focal_px * minor }),
+        covering: overlap.map(|overlap| Covering {
+            share: area / overlap,
+            minor_px: view.focal_px * minor,
+            h_px: view.focal_px * h,
+        }),
         least_weight: settings.floors().weight,
         low_pass,
         square,

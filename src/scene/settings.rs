@@ -116,7 +116,9 @@ impl Settings {
         let by_tiles = matches!(self.rasterizer, Rasterizer::Auto | Rasterizer::Compute);
         let widens = self.filter.adjusts() || self.filter == Filter::Ewa;
         let blends_colors = matches!(self.transition, Transition::Color | Transition::None);
-        self.edges == Edges::Coverage && by_tiles && widens && blends_colors && self.why_not_tiles().is_none()
+        let shades = self.shading != Shading::EyeDome; // which is of depths
+        let asked = self.edges == Edges::Coverage && self.why_not_tiles().is_none();
+        asked && by_tiles && widens && blends_colors && shades
     }
 
     /// What a splat weighs at least. Tiles sum in 32 bits where splats have weights of their own, whatever `accumulate` says. So `auto` has

@@ -151,7 +151,8 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         (SPEC_HALF_FLOATS, u32::from(images == Accumulate::F16)),
     ]);
     if settings.edges == Edges::Coverage {
-        constants.push((SPEC_COVERAGE_EDGES, 1));
+        let filter_px = settings.samples.filter_radius_px() as f32;
+        constants.extend([(SPEC_COVERAGE_EDGES, 1), (SPEC_FILTER_PX, filter_px.to_bits())]);
     }
     constants
 }
