@@ -169,7 +169,10 @@ fn read(path: &Path) -> Result<Camera> {
 mod tests {
     use std::{fs, path::PathBuf};
 
-    use surfel::scene::{Ball, Scene};
+    use surfel::{
+        load::PictureDescription,
+        scene::{Ball, Scene},
+    };
 
     use super::*;
 
@@ -228,6 +231,7 @@ mod tests {
             ball,
             camera: Some((PathBuf::from("a.toml"), parts)),
             up: None,
+            picture: PictureDescription::default(),
             inputs: Vec::new(),
             steps: Vec::new(),
         };

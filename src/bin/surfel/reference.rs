@@ -40,7 +40,6 @@ pub struct ReferenceArguments {
 pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let picture = &arguments.picture;
     let part = picture.drawn(picture.settings())?;
-    let settings = &part.settings;
     let camera = CameraChoice::of(&picture.camera)?;
     let (output, format) = outputs::check(picture, "reference.png", &None)?;
     let bars = Bars::new();

@@ -6,7 +6,7 @@ use surfel::{
     reference::{self, GroundTruth},
     renderer::{Headless, Wanted},
     report::compare::{Method, Surface},
-    scene::{Camera, Scene, Settings},
+    scene::{Camera, Edges, Scene, Settings},
 };
 
 use crate::console::Bars;
@@ -35,7 +35,15 @@ impl CompareContext<'_> {
         let wanted = Wanted { picture: true, linear: true, surface: true, profile: None };
         // What is missing of a pixel is the alpha's to say.
         let settings = Settings { background: None, ..method.settings(self.base) };
+        // The surface as data has hard edges, and so has the picture beside it.
         let frame = headless.render(self.prepared, self.camera, &settings, wanted)?;
+        let rgba = match settings.covers_in_part() {
+            true => {
+                let wanted = Wanted { surface: false, ..wanted };
+                headless.render(self.prepared, self.camera, &settings, wanted)?.linear
+            }
+            false => frame.linear.clone(),
+        };
         let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
         let surface = Surface {
             size_px: frame.size_px,
@@ -49,13 +57,14 @@ impl CompareContext<'_> {
             color: three(&frame.linear),
             depth: frame.depth,
         };
-        Ok(Drawn { surface, rgba: frame.linear })
+        Ok(Drawn { surface, rgba })
     }
 
     /// The exact picture of a method, and which pixels rounding may turn.
     pub fn oracle(&self, method: &Method, task: &str) -> Result<(Surface, Vec<bool>)> {
         let progress = |done, total| self.bars.step(task, done, total);
-        let picture = reference::render(self.scene, self.camera, &method.settings(self.base), &progress)?;
+        let settings = Settings { edges: Edges::Hard, ..method.settings(self.base) };
+        let picture = reference::render(self.scene, self.camera, &settings, &progress)?;
         Ok((Surface::of(&picture), Surface::undecided(&picture)))
     }
 
