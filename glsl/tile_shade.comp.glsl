@@ -59,7 +59,9 @@ void shade_edges(Range range)
         before[row] = INFINITELY_NEAR;
         nearest_polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel_within_image(row), 0).r : 0.0;
     }
-    for (uint number = 0; number < MOST_EDGE_SURFACES; number++) {
+    // A shader's loops have an end (tile/work.glsl): there are as many surfaces as it has walks over so many splats.
+    uint most = clamp(PART_LENGTH / max(range.end - range.first, 1), 1, MOST_EDGE_SURFACES);
+    for (uint number = 0; number < most; number++) {
         begin_surface();
         see(range);
         bool left = false;

@@ -30,7 +30,8 @@ vec2 own_coverage(vec4 uv)
     float inverse_minor2 = 0.5 * (sum + sqrt(max(sum * sum - 4.0 * det * det, 0.0)));
     float minor_px = inversesqrt(inverse_minor2);
     float rho2 = max(1.0 - FILTER_PX * FILTER_PX * inverse_minor2, 0.0);
-    float sureness = smoothstep(0.5, 1.0, sqrt(rho2) * minor_px / FILTER_PX);
+    float x = clamp(2.0 * sqrt(rho2) * minor_px / FILTER_PX - 1.0, 0.0, 1.0);
+    float sureness = x * x * (3.0 - 2.0 * x); // from none at l2 = h / 2 to all at h
     float slope = sureness * minor_px / (ROOT_TWO_PI * FILTER_PX);
     return vec2(0.5 * sureness + slope * rho2, slope);
 }

@@ -1,21 +1,25 @@
 //! A host of our own: a device, a queue, one frame at a time, pictures instead of a window.
 
+mod samples;
+mod targets;
+
 use std::{path::PathBuf, sync::Arc, time::Instant};
 
 use ash::vk;
 
-use super::{Readbacks, Renderer, SampleSum, bytes_per_pixel};
+use targets::Targets;
+
+use super::{Readbacks, Renderer};
 use crate::{
-    error::{Error, Result},
-    frame::{FrameSlot, HeadlessTarget},
+    error::Result,
+    frame::FrameSlot,
     graph::{
         Plan,
         execute::{FrameProfile, Profile},
     },
-    passes::Exported,
     prepare::PreparedScene,
-    scene::{Camera, Samples, Scene, Settings},
-    vk::{Buffer, BufferDesc, CommandPool, Device, Image, ImageDesc, Instance, MemoryUse, Queue, Validation},
+    scene::{Camera, Scene, Settings},
+    vk::{CommandPool, Device, Instance, Queue, Validation},
 };
 
 /// How a [`Headless`] is set up.
@@ -38,17 +42,6 @@ pub struct Headless {
     commands: CommandPool,
     slot: FrameSlot,
     targets: Option<Targets>,
-}
-
-/// The target and the buffers that it is read through, for one size and one choice of [`Wanted`].
-struct Targets {
-    size_px: [u32; 2],
-    wanted: Wanted,
-    target: HeadlessTarget,
-    picture: Option<Buffer>,
-    surface: Option<[Buffer; 4]>,
-    /// Where samples are added up, once there are some.
-    samples: Option<Image>,
 }
 
 /// What is wanted of a frame, beside its being drawn.
@@ -157,41 +150,6 @@ impl Headless {
         self.render_frame(scene, camera, settings, wanted, None)
     }
 
-    fn render_samples(
-        &mut self,
-        scene: &PreparedScene,
-        camera: &Camera,
-        settings: &Settings,
-        wanted: Wanted,
-    ) -> Result<Frame> {
-        let surface = match wanted.surface {
-            true => {
-                let one = Settings { samples: Samples(1), ..settings.clone() };
-                Some(self.render_frame(scene, camera, &one, Wanted { profile: None, ..wanted }, None)?)
-            }
-            false => None,
-        };
-        let wanted = Wanted { surface: false, ..wanted };
-        let offsets_px = settings.samples.offsets_px(settings.kernel);
-        let mut before = [0.0; 2];
-        let mut last = None;
-        for (number, offset_px) in offsets_px.iter().enumerate() {
-            let ends = (number == 0, number + 1 == offsets_px.len());
-            let frame = self.render_frame(scene, &camera.sample(*offset_px), settings, wanted, Some(ends))?;
-            before = [before[0] + frame.wall_secs, before[1] + frame.record_secs];
-            last = Some(frame);
-        }
-        let Some(frame) = last else { return Err(Error::option("--samples", "0: expected 1 or more")) };
-        let [wall_secs, record_secs] = before;
-        let frame = Frame { wall_secs, record_secs, ..frame };
-        Ok(match surface {
-            Some(Frame { weight, albedo, normal, depth, .. }) => {
-                Frame { weight, albedo, normal, depth, ..frame }
-            }
-            None => frame,
-        })
-    }
-
     /// `sample`: whether it is the first one, and the last one.
     fn render_frame(
         &mut self,
@@ -241,96 +199,6 @@ impl Headless {
         let profile = self.slot.profiler().map(|profiler| profiler.read()).transpose()?;
         let is_read = sample.is_none_or(|sample| sample.last);
         Ok(targets.frame(plan, profile, is_read, wall_secs, record_secs))
-    }
-}
-
-impl Targets {
-    fn new(device: &Device, size_px: [u32; 2], wanted: Wanted) -> Result<Self> {
-        let format = match wanted.linear {
-            true => vk::Format::R32G32B32A32_SFLOAT,
-            false => vk::Format::R8G8B8A8_SRGB,
-        };
-        let buffer = |name: &str, format| {
-            let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
-            let size = pixels * bytes_per_pixel(format);
-            let desc = BufferDesc { name, size, usage: vk::BufferUsageFlags::TRANSFER_DST };
-            Buffer::new(device, desc, MemoryUse::Readback)
-        };
-        let surface = || -> Result<[Buffer; 4]> {
-            let [weight, albedo, normal, depth] = Exported::FORMATS;
-            Ok([
-                buffer("read-back of weight", weight)?,
-                buffer("read-back of albedo", albedo)?,
-                buffer("read-back of normal", normal)?,
-                buffer("read-back of depth", depth)?,
-            ])
-        };
-        Ok(Self {
-            size_px,
-            wanted,
-            target: HeadlessTarget::new(device, format, size_px)?,
-            picture: wanted.picture.then(|| buffer("read-back of target", format)).transpose()?,
-            surface: wanted.surface.then(surface).transpose()?,
-            samples: None,
-        })
-    }
-
-    /// The sum of samples, for the first one, the last one, or one in between.
-    fn sample(&mut self, device: &Device, (first, last): (bool, bool)) -> Result<SampleSum> {
-        let [width, height] = self.size_px;
-        let image = match self.samples.take() {
-            Some(image) => image,
-            None => Image::new(
-                device,
-                ImageDesc {
-                    name: "sum of samples",
-                    format: vk::Format::R32G32B32A32_SFLOAT,
-                    extent: vk::Extent2D { width, height },
-                    usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
-                },
-            )?,
-        };
-        let sum = SampleSum { image: image.raw(), view: image.view(), first, last };
-        self.samples = Some(image);
-        Ok(sum)
-    }
-
-    fn readbacks(&self) -> Readbacks {
-        Readbacks {
-            target: self.picture.as_ref().map(Buffer::raw),
-            surface: self.surface.as_ref().map(|buffers| buffers.each_ref().map(Buffer::raw)),
-            sample: None,
-        }
-    }
-
-    /// Copies what was wanted out of the buffers.
-    fn frame(
-        &self,
-        plan: Arc<Plan>,
-        profile: Option<FrameProfile>,
-        is_read: bool,
-        wall_secs: f64,
-        record_secs: f64,
-    ) -> Frame {
-        let picture = self.picture.as_ref().filter(|_| is_read).map(Buffer::bytes).unwrap_or_default();
-        let (srgb, linear) = match self.wanted.linear {
-            false => (copied(picture), Vec::new()),
-            true => (Vec::new(), copied(picture)),
-        };
-        let surface = |i: usize| self.surface.as_ref().map(|buffers| buffers[i].bytes()).unwrap_or_default();
-        Frame {
-            size_px: self.size_px,
-            srgb,
-            linear,
-            weight: copied(surface(0)),
-            albedo: copied(surface(1)),
-            normal: copied(surface(2)),
-            depth: copied(surface(3)),
-            profile,
-            wall_secs,
-            record_secs,
-            plan,
-        }
     }
 }
 

@@ -4,7 +4,7 @@ use clap::Args;
 use surfel::{
     Progress as _, Result,
     reference::{self, Picture, Pixel},
-    scene::Settings,
+    scene::{Edges, Settings},
 };
 
 use crate::{
@@ -67,10 +67,15 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }
-    match &picture.dump {
-        Some(folder) => dump.write(folder),
-        None => Ok(()),
+    let Some(folder) = &picture.dump else { return Ok(()) };
+    if settings.covers_in_part() {
+        // The surface as data has hard edges.
+        let hard = Settings { edges: Edges::Hard, ..settings };
+        let surface = reference::render(&loaded.scene, &camera, &hard, &progress);
+        bars.clear();
+        dump = Dump { color: dump.color, ..self::dump(&surface?).cut(crop) };
     }
+    dump.write(folder)
 }
 
 fn dump(picture: &Picture) -> Dump {

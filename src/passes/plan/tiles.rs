@@ -187,11 +187,9 @@ impl TilePlan {
         Self { hidden: true, walk_length, part_length: walk_length, ..self }
     }
 
-    /// The plan for what covers pixels in part where it ends: the tile walks twice over its splats for each surface, and what one hides the
-    /// next may show.
+    /// The plan for what covers pixels in part where it ends: what one surface hides, the next may show.
     pub(crate) fn with_edges(self) -> Self {
-        let part_length = self.part_length / MOST_EDGE_SURFACES;
-        Self { hidden: false, part_length, ..self }
+        Self { hidden: false, ..self }
     }
 
     /// The bins of all lists: tiles, then chunks.
