@@ -214,7 +214,3 @@ pub(crate) fn submit_and_wait(
     let epoch = unsafe { headless.queue.submit(headless.commands.end()?) }?;
     headless.queue.wait(epoch)
 }
-
-fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
-    bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
-}

@@ -114,3 +114,7 @@ impl Targets {
         }
     }
 }
+
+fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+    bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+}
