@@ -73,10 +73,13 @@ fn a_mesh_is_placed_before_it_becomes_splats() {
     let made = make_one(&object, &()).unwrap();
     let splats = made.splats.unwrap();
     assert!(splats.closed && made.triangles.is_none());
-    let Shapes::Disks { normals, .. } = &splats.splats.shapes else { panic!("ellipses") };
-    assert_eq!(splats.splats.positions[0], DVec3::new(3.0, 0.0, 0.0));
-    for (position, normal) in splats.splats.positions.iter().zip(normals) {
-        assert!(normal.as_dvec3().dot(*position - DVec3::X) > 0.0, "mirrored, and still facing outward");
+    // It is sharp: each of its corners is ellipses, one to a side, that end where it turns.
+    let Shapes::Ellipses { s, t } = &splats.splats.shapes else { panic!("disks") };
+    let farthest = splats.splats.positions.iter().map(|position| position.x).fold(0.0, f64::max);
+    assert!(farthest > 2.0 && farthest <= 3.0, "{farthest}");
+    for ((position, s), t) in splats.splats.positions.iter().zip(s).zip(t) {
+        let normal = s.cross(*t).as_dvec3();
+        assert!(normal.dot(*position - DVec3::X) > 0.0, "mirrored, and still facing outward");
     }
     let samples = Some(Samples { count: 300, seed: 1 });
     let sampled = make_one(&ObjectDescription { samples, ..object.clone() }, &()).unwrap();

@@ -175,7 +175,7 @@ fn scene_of(traits: Traits) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::KernelEval;
+    use crate::scene::{Edges, KernelEval};
 
     #[test]
     fn a_frame_has_the_pipelines_of_its_passes() {
@@ -183,7 +183,7 @@ mod tests {
             let all = frame_pipelines(settings, traits).unwrap();
             all.iter().map(|recipe| format!("{} {}", recipe.pass, recipe.draws())).collect()
         };
-        let settings = Settings::default();
+        let settings = Settings { edges: Edges::Hard, ..Settings::default() };
         assert_eq!(of(&settings, Traits::default()), ["visibility points", "accumulate points", "finalize "]);
         let all = Traits { may_be_large: true, export: true, floor: true, ..Traits::default() };
         assert_eq!(

@@ -176,7 +176,7 @@ fn prepare_one(
     let is_layered = opacity == Opacity::Transparent;
     let thickness = match settings.filter {
         Filter::None => 1.0,
-        _ if overlap.is_some() && regular => {
+        _ if overlap.is_some() && !is_layered && regular => {
             let slant = depth_radius / splats.major_radius(i);
             1.0 + (lengthened(center, s, t, h) - 1.0) * (1.0 + EDGE_LENGTHENING * slant)
         }

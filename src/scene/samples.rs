@@ -46,15 +46,17 @@ impl Samples {
         let mut all: Vec<[f64; 2]> = (0..count).map(on_spiral).collect();
         let mean = [0, 1].map(|axis| all.iter().map(|at| at[axis]).sum::<f64>() / f64::from(count));
         all.iter_mut().for_each(|at| *at = [at[0] - mean[0], at[1] - mean[1]]);
-        let of_both = all.iter().map(|[x, y]| x * x + y * y).sum::<f64>() / f64::from(count);
+        // Of few samples, the spiral is wider one way than the other.
+        let square =
+            [0, 1].map(|axis| all.iter().map(|at| at[axis] * at[axis]).sum::<f64>() / f64::from(count));
         let sigma = match kernel {
             Kernel::Gaussian { sigma } => f64::from(sigma),
             Kernel::PsiE { .. } => 0.5,
         };
         let variance_px2 = 2.0 * sigma * sigma * (1.0 - 1.0 / f64::from(count));
-        let scale = if of_both > 0.0 { (2.0 * variance_px2 / of_both).sqrt() } else { 0.0 };
-        let rounded = |at: f64| (at * scale * STEPS_A_PX).round() / STEPS_A_PX;
-        all.into_iter().map(|at| at.map(|at| rounded(at).clamp(-FARTHEST_PX, FARTHEST_PX))).collect()
+        let scale = square.map(|square| if square > 0.0 { (variance_px2 / square).sqrt() } else { 0.0 });
+        let rounded = |at: f64| ((at * STEPS_A_PX).round() / STEPS_A_PX).clamp(-FARTHEST_PX, FARTHEST_PX);
+        all.into_iter().map(|[x, y]| [rounded(x * scale[0]), rounded(y * scale[1])]).collect()
     }
 
     /// The radius of each sample's own filter, h / √N, in pixels.

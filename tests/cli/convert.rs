@@ -38,8 +38,8 @@ fn picture(folder: &Folder, model: &str, options: &[&str]) -> Vec<u8> {
 fn a_converted_mesh_is_drawn_as_the_mesh_itself() {
     let folder = folder();
     let said = convert(&folder, &["octahedron.obj", "splats.ply"]);
-    let expected = "octahedron.obj: 6 vertices, 8 triangles: closed; normals and radii computed -> splats.ply: 6 \
-        disks, marked as closed, ";
+    let expected = "octahedron.obj: 6 vertices, 8 triangles: closed; normals and radii computed -> splats.ply: 24 \
+        ellipses, marked as closed, ";
     assert!(said.starts_with(expected), "{said}");
     // From inside, where culling shows: the far side faces away.
     let inside = ["--eye", "0,0,0.2", "--target", "0,0,-1"];

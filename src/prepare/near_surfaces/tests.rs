@@ -52,8 +52,8 @@ fn one_surface_is_no_plate_whatever_way_its_normals_look() {
 #[test]
 fn noise_is_not_cut_off() {
     let noisy = shares(&plate(0.8, 0.05, true), 1.0).unwrap();
-    // Spreads are up to 0.1, the gap is 0.7 to 0.8.
-    assert!(noisy.iter().all(|share| (0.34..=0.4).contains(share)), "{noisy:?}");
+    // Spreads are up to 0.1, the gap is 0.7 to 0.9.
+    assert!(noisy.iter().all(|share| (0.34..=0.45).contains(share)), "{noisy:?}");
 }
 
 #[test]

@@ -32,8 +32,8 @@ use super::splat::{DrawnSplat, prepare};
 use super::view::View;
 use super::{Picture, Pixel, render};
 use crate::scene::{
-    Camera, Colors, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Object, Rasterizer, Scene,
-    Settings, Shapes, Splats,
+    Camera, Colors, Edges, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Object, Rasterizer,
+    Scene, Settings, Shapes, Splats,
 };
 
 /// World space is view space; 90° in both directions for a square picture: the focal length is half its side.
@@ -50,7 +50,8 @@ pub(super) fn camera() -> Camera {
 /// No filter, so that the splat is drawn as it is.
 pub(super) fn settings(side_px: u32) -> Settings {
     let (filter, filter_weight) = (Filter::None, FilterWeight::Unit);
-    Settings { size_px: [side_px; 2], filter, filter_weight, ..Settings::default() }
+    let edges = Edges::Hard; // what covers in part has tests of its own
+    Settings { size_px: [side_px; 2], filter, filter_weight, edges, ..Settings::default() }
 }
 
 pub(super) const GRAY: [f32; 4] = [0.25, 0.5, 0.75, 1.0];
