@@ -18,7 +18,7 @@ const float ROOT_TWO_PI = 2.5066283;
 
 layout(constant_id = SPEC_FILTER_PX) const float FILTER_PX = 1.41421356; // h; the filter's own sigma is 1/2
 
-// What is covered to all but so little is covered.
+// What is covered to all but so little is covered: sums inside of a surface are not all the same.
 const float NEARLY_WHOLE = 0.96;
 
 // C = x - y r^2 of a splat whose map has this change of u along x and y, and of v, per pixel.
@@ -40,6 +40,6 @@ vec2 own_coverage(vec4 uv)
 float edge_opacity(float summed, float own)
 {
     float above_half = max(summed - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));
-    float opacity = FORMULA(FORMULA_EDGE_OPACITY, clamp(max(min(summed, 0.5) + above_half, own), 0.0, 1.0));
-    return opacity > NEARLY_WHOLE ? 1.0 : opacity;
+    float opacity = FORMULA(FORMULA_EDGE_OPACITY, max(min(summed, 0.5) + above_half, own) / NEARLY_WHOLE);
+    return clamp(opacity, 0.0, 1.0);
 }

@@ -60,18 +60,15 @@ impl Covering {
     }
 }
 
-/// The part of a pixel that fragments of one surface cover together: each a splat's, its kernel's value and its squared radius. The second
-/// value is how far it is from what counts as the whole, where there is a step.
-pub(super) fn opacity<'a>(fragments: impl Iterator<Item = (&'a Covering, f64, f64)>) -> (f64, f64) {
+/// The part of a pixel that fragments of one surface cover together: each a splat's, its kernel's value and its squared radius.
+pub(super) fn opacity<'a>(fragments: impl Iterator<Item = (&'a Covering, f64, f64)>) -> f64 {
     let (mut sum, mut alone) = (0.0, 0.0_f64);
     for (covering, kernel, r2) in fragments {
         sum += covering.share * kernel;
         alone = alone.max(covering.alone(r2));
     }
     let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (WHOLE_SUM - 0.5) };
-    let part = part.max(alone).min(1.0);
-    let margin = (part - NEARLY_WHOLE).abs();
-    (if part > NEARLY_WHOLE { 1.0 } else { part }, margin)
+    (part.max(alone) / NEARLY_WHOLE).min(1.0)
 }
 
 /// What is opaque in a pixel.
@@ -120,12 +117,11 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         for fragment in &of_surface {
             sums.add(Fragment { z: fragment.z, weight: fragment.weight }, splat_of(fragment));
         }
-        let (part, margin) = match frame.settings.transition {
-            Transition::None if beside => (0.0, f64::INFINITY),
-            _ if beside => ((sums.weight / WHOLE_SEAM_SUM).min(1.0), f64::INFINITY),
+        let part = match frame.settings.transition {
+            Transition::None if beside => 0.0,
+            _ if beside => (sums.weight / WHOLE_SEAM_SUM).min(1.0),
             _ => covered(&of_surface, splat_of),
         };
-        seen.margin = seen.margin.min(margin);
         if let Some(surface) = sums.surface(&frame.shader, ray) {
             let part = part.min(1.0 - seen.alpha);
             if seen.alpha < 0.5 && seen.alpha + part >= 0.5 {
@@ -153,7 +149,7 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
 pub(super) fn covered<'a>(
     fragments: &[&Translucent],
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
-) -> (f64, f64) {
+) -> f64 {
     opacity(fragments.iter().filter_map(|fragment| {
         let covering = splat_of(fragment).covering.as_ref()?;
         Some((covering, fragment.kernel, fragment.r2))

@@ -111,7 +111,7 @@ impl Transparent<'_> {
                     }
                     _ => blended,
                 };
-                let part = if self.covers_in_part { self.covered(&remaining).0 } else { 1.0 };
+                let part = if self.covers_in_part { self.covered(&remaining) } else { 1.0 };
                 stack.put_behind(Premultiplied { color: part * rest.color, alpha: part * rest.alpha });
             }
             let (layer, margin) = take_nearest(&mut remaining);
@@ -119,9 +119,6 @@ impl Transparent<'_> {
             if stack.layers < surfaces {
                 stack.put_behind(self.surface(ray, &layer));
                 stack.margin = stack.margin.min(margin);
-                if self.covers_in_part {
-                    stack.margin = stack.margin.min(self.covered(&layer).1);
-                }
             }
             stack.layers += 1;
         }
@@ -147,7 +144,7 @@ impl Transparent<'_> {
         let shade = |attributes: &Attributes| self.shader.shade(attributes.albedo, attributes.normal, ray);
         if self.covers_in_part {
             let Some(splats) = splats else { return Premultiplied::NONE };
-            let alpha = splats.attributes.alpha * self.covered(layer).0;
+            let alpha = splats.attributes.alpha * self.covered(layer);
             return Premultiplied { color: alpha * shade(&splats.attributes), alpha };
         }
         let polygons = mean(&polygons).map(|polygon| turned(polygon, ray));
@@ -155,7 +152,7 @@ impl Transparent<'_> {
     }
 
     /// The part of the pixel that they cover.
-    fn covered(&self, fragments: &[Translucent]) -> (f64, f64) {
+    fn covered(&self, fragments: &[Translucent]) -> f64 {
         let splat_of = |fragment: &Translucent| match fragment.source {
             Source::Splat(i) => &self.splats[i],
             Source::Triangle(_) => unreachable!("edges beside polygons in layers are hard"),

@@ -3,7 +3,8 @@
 use surfel::{
     renderer::Wanted,
     scene::{
-        Accumulate, Backfaces, Cull, Epsilon, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shapes,
+        Accumulate, Backfaces, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, Rasterizer, Settings,
+        Shapes,
     },
 };
 
@@ -86,6 +87,7 @@ pub fn settings(random: &mut Random, made: &Made, plain: bool) -> Settings {
     let backfaces = random.one_of(&[Backfaces::Auto, Backfaces::Auto, Backfaces::Flip, Backfaces::Cull]);
     let cull = random.one_of(&[Cull::Auto, Cull::Setup, Cull::List, Cull::Hidden]);
     let default = Settings {
+        edges: Edges::Hard, // of surfaces as data
         size_px: SIZE_PX,
         accumulate: Accumulate::F32,
         filter,
