@@ -56,9 +56,16 @@ fn pinned() -> Vec<Settings> {
         let filter = if *rasterizer == Rasterizer::Raycast { Filter::Max } else { Filter::default() };
         Settings { rasterizer: *rasterizer, filter, ..Settings::default() }
     });
-    let filters =
-        Filter::NAMES.iter().skip(1).map(|(_, filter)| Settings { filter: *filter, ..Settings::default() });
-    let textured = Settings { kernel_eval: KernelEval::Texture, ..Settings::default() };
+    let filters = Filter::NAMES.iter().skip(1).map(|(_, filter)| Settings {
+        filter: *filter,
+        rasterizer: Rasterizer::Perspective,
+        ..Settings::default()
+    });
+    let textured = Settings {
+        kernel_eval: KernelEval::Texture,
+        rasterizer: Rasterizer::Perspective,
+        ..Settings::default()
+    };
     let tile_invocations = TileInvocations::Pixel;
     let pixels = Settings { rasterizer: Rasterizer::Compute, tile_invocations, ..Settings::default() };
     rasterizers

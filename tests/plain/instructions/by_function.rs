@@ -12,7 +12,7 @@ use surfel::{
     count::count_by_line,
     instruments::{Counter, Traits, frame_pipelines},
     passes::PipelineRecipe,
-    scene::{Filter, Settings},
+    scene::{Filter, Rasterizer, Settings},
 };
 
 /// By file and function.
@@ -51,7 +51,7 @@ const BUYS: &[(&str, &str)] = &[
 pub fn table() -> String {
     let mut columns: Vec<(String, Counts)> = Vec::new();
     for filter in [Filter::None, Filter::Adjust] {
-        let settings = Settings { filter, ..Settings::default() };
+        let settings = Settings { filter, rasterizer: Rasterizer::Perspective, ..Settings::default() };
         for recipe in frame_pipelines(&settings, Traits::default()).unwrap() {
             if recipe.projects_splats() {
                 let counts = by_function(&recipe);
