@@ -1,6 +1,7 @@
 //! The renderer: records frames of prepared scenes into command buffers that it is given. It never submits and never
 //! waits, so that an embedding host keeps device, queue and submission to itself; [`Headless`] is such a host.
 
+mod declare;
 mod explain;
 pub(crate) mod headless;
 
@@ -8,18 +9,15 @@ use std::sync::Arc;
 
 use ash::vk;
 
+pub(crate) use declare::{bytes_per_pixel, declare, import_readback};
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
 pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
 
 use crate::{
     error::{Error, Result},
     frame::{FrameSlot, SlotParts, Target},
-    graph::{
-        Buffer as GraphBuffer, BufferDesc, BufferState, Graph, Handle, Image, ImageDesc, ImageState, Plan,
-        ResourceId,
-        execute::{Body, Physical, Profile},
-    },
-    passes::{self, Exported, FramePlan, Inputs, Shaders, Source},
+    graph::{Plan, execute::Profile},
+    passes::{self, FramePlan, Inputs, Shaders, Source},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Edges, Scene, Settings, Shading},
     vk::{Device, Limits, Staging},
@@ -203,115 +201,5 @@ impl Renderer {
             self.shaders.begin_frame(commands)?;
             execution.record(commands, graph, &imports)
         }
-    }
-}
-
-pub(crate) type Imports = Vec<(ResourceId, Physical)>;
-
-/// The whole frame: its passes, and a copy for each thing that the host wants to read.
-pub(crate) fn declare<'a>(
-    inputs: Inputs<'a>,
-    plan: &'a FramePlan<'a>,
-    target: &Target,
-    readbacks: Readbacks,
-) -> Result<(Graph<Body<'a>>, Imports)> {
-    let mut graph = Graph::new();
-    let mut imports = Imports::new();
-    let sum = match readbacks.sample {
-        None => None,
-        Some(sample) => {
-            let image = one_sample(&mut graph, &mut imports, inputs, plan, target.extent, sample)?;
-            if !sample.last {
-                return Ok((graph, imports));
-            }
-            Some(image)
-        }
-    };
-    let desc = ImageDesc { format: target.format, extent: target.extent };
-    let mut image = graph.import_image("target", desc, target.initial, target.last);
-    imports.push((image.id(), Physical::Image(target.image, target.view)));
-
-    let export = readbacks.surface.is_some();
-    let exported = match &sum {
-        None => passes::frame(&mut graph, inputs, plan, &mut image, target.format, export)?,
-        Some(sum) => {
-            passes::resolve_samples(&mut graph, inputs, sum, (&mut image, target.format))?;
-            None
-        }
-    };
-
-    let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
-        let mut destination = import_readback(graph, what, format, target.extent);
-        imports.push((destination.id(), Physical::Buffer(buffer)));
-        let (name, of) = (format!("read back {what}"), (format, target.extent));
-        passes::readback(graph, inputs.source, &name, source, of, &mut destination);
-    };
-    if let Some(buffer) = readbacks.target {
-        copy(&mut graph, "target", &image, target.format, buffer);
-    }
-    if let (Some(buffers), Some(exported)) = (readbacks.surface, &exported) {
-        let images = [&exported.weight, &exported.albedo, &exported.normal, &exported.depth];
-        let names = ["weight", "albedo", "normal", "depth"];
-        for (((what, source), format), buffer) in
-            names.into_iter().zip(images).zip(Exported::FORMATS).zip(buffers)
-        {
-            copy(&mut graph, what, source, format, buffer);
-        }
-    }
-    Ok((graph, imports))
-}
-
-/// A frame into an image of its own, which is added to the sum of samples; the sum.
-fn one_sample<'a>(
-    graph: &mut Graph<Body<'a>>,
-    imports: &mut Imports,
-    inputs: Inputs<'a>,
-    plan: &'a FramePlan<'a>,
-    extent: vk::Extent2D,
-    sample: SampleSum,
-) -> Result<Handle<Image>> {
-    let format = passes::SAMPLE_FORMAT;
-    let desc = ImageDesc { format, extent };
-    let mut drawn = graph.create_image("sample", desc);
-    passes::frame(graph, inputs, plan, &mut drawn, format, false)?;
-    let between = ImageState {
-        stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-        access: vk::AccessFlags2::COLOR_ATTACHMENT_READ | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
-        layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
-    };
-    let initial = match sample.first {
-        // Of the picture before, it may still be read.
-        true => ImageState { layout: vk::ImageLayout::UNDEFINED, ..between },
-        false => between,
-    };
-    let mut sum = graph.import_image("sum of samples", desc, initial, Some(between));
-    imports.push((sum.id(), Physical::Image(sample.image, sample.view)));
-    passes::add_sample(graph, inputs, &drawn, &mut sum, sample.first)?;
-    Ok(sum)
-}
-
-/// A host-visible buffer for an image: the frame before may still write it; the host reads it after.
-pub(crate) fn import_readback(
-    graph: &mut Graph<Body<'_>>,
-    what: &str,
-    format: vk::Format,
-    extent: vk::Extent2D,
-) -> Handle<GraphBuffer> {
-    let size_bytes = u64::from(extent.width) * u64::from(extent.height) * bytes_per_pixel(format);
-    let initial = BufferState {
-        stages: vk::PipelineStageFlags2::ALL_TRANSFER,
-        access: vk::AccessFlags2::TRANSFER_WRITE,
-    };
-    let last = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
-    let name = format!("read-back of {what}");
-    graph.import_buffer(&name, BufferDesc::of_bytes(size_bytes), initial, Some(last))
-}
-
-/// Bytes of a pixel, for the formats that are read back.
-pub(crate) fn bytes_per_pixel(format: vk::Format) -> u64 {
-    match format {
-        vk::Format::R32G32B32A32_SFLOAT => 16,
-        vk::Format::R16G16B16A16_SFLOAT => 8,
-        _ => 4,
     }
 }

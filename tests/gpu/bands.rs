@@ -8,8 +8,8 @@ use surfel::{
     prepare::PreparedScene,
     renderer::{Frame, Headless, Wanted},
     scene::{
-        Accumulate, Backfaces, Cull, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes, SplatFormat,
-        Storage, TileInvocations, TileMemory,
+        Accumulate, Backfaces, Cull, Edges, Filter, Object, Order, Rasterizer, Scene, Settings, Shapes,
+        SplatFormat, Storage, TileInvocations, TileMemory,
     },
 };
 
@@ -83,6 +83,8 @@ fn scenes_of_blocks() -> Vec<Hard> {
                 unreachable!()
             };
             radii.iter_mut().step_by(9000).for_each(|radius| *radius = 0.7);
+            // What is too large for tiles of the whole image, which then has hard edges, may not be so for a band's.
+            hard.settings.edges = Edges::Hard;
         }),
         with("unfiltered", &|hard| hard.settings.filter = Filter::None),
         with("ewa", &|hard| hard.settings.filter = Filter::Ewa),

@@ -5,7 +5,8 @@ use surfel::{
     hard_scenes::{Hard, transparent},
     load::builtin,
     reference,
-    scene::{Camera, Filter, Samples, Scene, Settings, Transition},
+    renderer::Headless,
+    scene::{Camera, Edges, Filter, Samples, Scene, Settings, Transition},
 };
 
 /// Mean and share of pixels off by more than 1/255, of color times alpha, and alpha.
@@ -61,7 +62,7 @@ fn model() -> Hard {
         name: "model",
         scene,
         camera,
-        settings: Settings { size_px, background: None, ..Settings::default() },
+        settings: Settings { size_px, edges: Edges::Hard, background: None, ..Settings::default() },
     }
 }
 
@@ -86,5 +87,23 @@ fn more_samples_are_nearer_to_the_ground_truth() {
         println!("{filter:?}: RMS {rms:.5?} at 1, 4, 16, 64, 256 samples");
         assert!(rms.windows(2).all(|pair| pair[1] < pair[0]), "{filter:?}: {rms:?}");
         assert!(rms[2] < 0.3 * rms[0] && rms[4] < 0.1 * rms[0], "{filter:?}: {rms:?}");
+        if filter == Filter::Adjust {
+            let of = |headless: &mut Headless, samples| {
+                let covering = |settings: &mut Settings| {
+                    (settings.samples, settings.edges) = (Samples(samples), Edges::Coverage);
+                };
+                let frame = render_as(headless, &with(&hard, covering), PICTURE);
+                let exact = truth.pixels.iter().map(|pixel| pixel.color.map(|color| pixel.coverage * color));
+                let square = |(color, exact): (&[f32; 4], [f64; 3])| {
+                    (0..3).map(|i| (f64::from(color[i] * color[3]) - exact[i]).powi(2)).sum::<f64>() / 3.0
+                };
+                let sum: f64 = frame.linear.iter().zip(exact).map(square).sum();
+                (sum / frame.linear.len() as f64).sqrt()
+            };
+            let covering = [1, 16, 256].map(|samples| of(&mut headless, samples));
+            println!("edges covered in part: RMS {covering:.5?} at 1, 16, 256 samples");
+            assert!(covering[0] < 0.5 * rms[0] && covering[2] < covering[1], "{covering:?}");
+            assert!(covering[1] < covering[0] && covering[2] < 0.2 * rms[0], "{covering:?}");
+        }
     }
 }

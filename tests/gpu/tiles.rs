@@ -13,7 +13,9 @@ use surfel::{
     hard_scenes::{Hard, sphere, transparent},
     passes::FramePlan,
     renderer::{Frame, Headless, Wanted},
-    scene::{Accumulate, Camera, Colors, Filter, Object, Rasterizer, Scene, Settings, TileInvocations},
+    scene::{
+        Accumulate, Camera, Colors, Edges, Filter, Object, Rasterizer, Scene, Settings, TileInvocations,
+    },
     vk::Limits,
 };
 
@@ -40,7 +42,9 @@ fn different(a: &Frame, b: &Frame) -> usize {
 }
 
 fn hard(objects: Vec<Object>, camera: Camera, size_px: [u32; 2]) -> Hard {
-    let settings = Settings { size_px, accumulate: Accumulate::F32, ..Settings::default() };
+    // What nothing but tiles draws has tests of its own (`edges`).
+    let edges = Edges::Hard;
+    let settings = Settings { size_px, edges, accumulate: Accumulate::F32, ..Settings::default() };
     Hard { name: "tiles", scene: Scene { objects, ..Scene::default() }, camera, settings }
 }
 

@@ -199,7 +199,8 @@ fn sums(row: &MethodRow) -> String {
 
 /// The errors of the picture as columns.
 fn by_place(mut table: Table<'_, MethodRow>) -> Table<'_, MethodRow> {
-    let places: [(&str, fn(&PictureError) -> &RegionError); 3] = [
+    type Of = fn(&PictureError) -> &RegionError;
+    let places: [(&str, Of); 3] = [
         ("whole", |error| &error.whole),
         ("inside", |error| &error.inside),
         ("edges", |error| &error.silhouette),

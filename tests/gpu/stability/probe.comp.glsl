@@ -83,7 +83,7 @@ void main()
     if (m.regular) {
         as_point = regular_map(m);
     }
-    vec2 middle_px = 0.5 * frame.size_px;
+    vec2 middle_px = frame.middle_px;
 
     vec3 naive_constants;
     vec3 naive_x;
