@@ -212,7 +212,7 @@
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.
 #define EDGE_LENGTHENING 16.0       // Of a slanted splat's epsilon where edges are covered in part (`inc/mapping.glsl`).
-#define WHOLE_EDGE_SUM 0.85         // From this sum over the overlap on a pixel is covered.
+#define WHOLE_EDGE_SUM 0.79         // From this sum over the overlap on a pixel is covered.
 #define WHOLE_SEAM_SUM 0.4          // From this sum on, splats hide the polygons of the same surface: at a seam half of a surface's are there.
 #define EYE_DOME_STRENGTH 0.7         // How much darker eye-dome lighting makes a slope of 1 all around, as an exponent.
 #define MOST_STACKED_SURFACES 8.0   // Surfaces that the last layer counts as, at most: a rim before it would count it as a thousand.

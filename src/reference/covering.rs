@@ -19,7 +19,7 @@ use crate::scene::{MeshObject, Opacity, Scene, Settings, Transition};
 const MOST_SURFACES: usize = 3;
 
 /// From this sum on a pixel is covered; sums of a whole surface are not all 1.
-const WHOLE_SUM: f64 = 0.85;
+const WHOLE_SUM: f64 = 0.79;
 
 /// What is covered to all but so little is covered.
 const NEARLY_WHOLE: f64 = 0.96;

@@ -37,7 +37,7 @@ pub struct Renderer {
 pub struct Readbacks {
     /// The target's pixels, in its format.
     pub target: Option<vk::Buffer>,
-    /// Weight (R32F), albedo (RGBA32F), normal (RGBA32F), depth (R32F), as [`Exported`] has them.
+    /// Weight (R32F), albedo (RGBA32F), normal (RGBA32F), depth (R32F), as [`crate::passes::Exported`] has them.
     pub surface: Option<[vk::Buffer; 4]>,
     /// The frame is one of several samples of a picture ([`crate::scene::Samples`]).
     pub sample: Option<SampleSum>,
