@@ -1,18 +1,22 @@
-// What part of a pixel a surface covers, where it ends: its opacity there. (In none of the papers, to which a pixel is covered or not.)
+// What part of a pixel a surface covers, where it ends: its opacity there. In none of the papers, to which a pixel is
+// covered or not.
 //
-// The filter widens a splat by the convolution with the low-pass filter G, and leaves it its area as weight. So the sum of weights is
-// (G * K), with K(x) = sum of k(u, v) the unfiltered splats' own. Inside of a surface K is about constant, for splats lie about evenly:
-// it is the surface's *overlap*, which the host finds when a scene is prepared (src/prepare/overlap.rs). Outside, K is 0. With weights over
-// the overlap the sum is A = (G * [inside]): the share of the pixel, under the filter, that the surface covers. So slivers near a
-// silhouette, each of which covers little, cover a pixel together.
+// The filter widens a splat by the convolution with the low-pass filter G, and leaves it its area as weight. So the sum of
+// weights is (G * K), with K(x) = sum of k(u, v) the unfiltered splats' own. Inside of a surface K is about constant, for
+// splats lie about evenly: it is the surface's *overlap*, whose median the host finds when a scene is prepared
+// (src/prepare/overlap.rs). Outside, K is 0. With weights over the overlap the sum is A = (G * [inside]): the share of the
+// pixel, under the filter, that the surface covers. So slivers near a silhouette, each of which covers little, cover a
+// pixel together. Sums inside of a surface vary: above one half A is stretched, so that it is whole from WHOLE_EDGE_SUM on.
 //
-// A falls short where one splat covers a pixel alone: at the rim of a large splat k is far below the overlap. There its own part C is a
-// lower bound, of the distance d of the pixel to the rim of the unfiltered ellipse: the normal distribution of d / (sigma h), here a ramp of
-// its slope. In units of the widened ellipse the rim is at rho = l2 / L2, with rho^2 = 1 - h^2 / L2^2, and d = (rho^2 - r^2) L2 / 2, as near
-// the end of the minor axis. So C = 1/2 + (rho^2 - r^2) L2 / (2 sqrt(2 pi) sigma h); for splats below h, of which that is not true,
-// it goes to 0. The opacity is max(A, C).
+// A falls short where one splat covers a pixel alone: at the rim of a large splat k is far below the overlap. There its own
+// part C is a lower bound, of the distance d of the pixel to the rim of the unfiltered ellipse: the normal distribution of
+// d / (sigma h), here a ramp of its slope. In units of the widened ellipse the rim is at rho = l2 / L2, with
+// rho^2 = 1 - h^2 / L2^2, and d = (rho^2 - r^2) L2 / 2, as near the end of the minor axis. So
+// C = 1/2 + (rho^2 - r^2) L2 / (2 sqrt(2 pi) sigma h); for splats below h, of which that is not true, it goes to 0. The
+// opacity is max(A, C), and whole where next to nothing is missing.
 //
-// Limits: surfaces that overlap unevenly, or of which several lie within a few epsilon; A of a thin line of splats is too small.
+// Limits: surfaces that overlap unevenly, or of which several lie within a few epsilon; A of a thin line of splats is too
+// small.
 
 const float ROOT_TWO_PI = 2.5066283;
 

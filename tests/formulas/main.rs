@@ -20,7 +20,7 @@ use surfel::{
     passes::Formula,
     reference::Picture,
     renderer::{Frame, Headless, Wanted},
-    scene::{Cull, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Scene, Shading, Transition},
+    scene::{Cull, Edges, Epsilon, Filter, Kernel, KernelEval, Rasterizer, Scene, Shading, Transition},
     selftest::{agreement::compare, light::compare_light, tolerance},
 };
 
@@ -160,6 +160,16 @@ fn every_formula_of_layers_is_seen() {
     ]);
     assert_seen(&mut shared(), &scenes, &Formula::OF_LAYERS, &|headless, hard, oracle| {
         light(&render_as(headless, hard, ALL), hard, oracle)
+    });
+}
+
+#[test]
+fn every_formula_of_edges_is_seen() {
+    let ball = with(&scenes::sphere_of_disks(), |settings| {
+        (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
+    });
+    assert_seen(&mut shared(), &with_oracles([ball]), &Formula::OF_EDGES, &|headless, hard, oracle| {
+        light(&render_as(headless, hard, PICTURE), hard, oracle)
     });
 }
 

@@ -64,7 +64,7 @@ pub enum Formula {
 
 impl Formula {
     /// Those of transparency, polygons and lights.
-    pub const OF_LAYERS: [Self; 12] = [
+    pub const OF_LAYERS: [Self; 11] = [
         Self::Alpha,
         Self::Peeled,
         Self::TowardViewer,
@@ -76,8 +76,10 @@ impl Formula {
         Self::LitSpecular,
         Self::Stacked,
         Self::Lengthened,
-        Self::EdgeOpacity,
     ];
+
+    /// Those of surfaces that cover pixels in part where they end.
+    pub const OF_EDGES: [Self; 3] = [Self::EdgeOpacity, Self::Share, Self::Lengthened];
 
     /// That of eye-dome lighting.
     pub const OF_EYE_DOME: [Self; 1] = [Self::EyeDome];
