@@ -150,7 +150,11 @@ impl<'a> Stage<'a> {
     /// The exact picture; cases that differ only in what it does not depend on share it.
     fn oracle(&mut self, scene: usize, hard: &Hard) -> Result<Rc<Picture>> {
         let mut key = Settings {
-            rasterizer: hard.settings.rasterizer.family(),
+            // Edges cover in part by tiles alone.
+            rasterizer: match hard.settings.covers_in_part() {
+                true => hard.settings.rasterizer,
+                false => hard.settings.rasterizer.family(),
+            },
             // The sums are f64; what a splat weighs at least is as it is on the device.
             accumulate: match hard.settings.floors() == Floors::HALF {
                 true => Accumulate::F16,

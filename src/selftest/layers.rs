@@ -6,7 +6,9 @@ use super::{
 };
 use crate::{
     hard_scenes::Hard,
-    scene::{Accumulate, Filter, Layers, Opacity, Rasterizer, Scene, Settings, TileInvocations, Transition},
+    scene::{
+        Accumulate, Edges, Filter, Layers, Opacity, Rasterizer, Scene, Settings, TileInvocations, Transition,
+    },
 };
 
 /// The scene that the quick form has with every rasterizer and with every filter: splats and polygons in each layer.
@@ -17,6 +19,10 @@ const SLOW: [&str; 2] = ["27 transparent spheres", "camera in transparent things
 
 /// One that takes ten times as long as others: the default method alone.
 const SLOWEST: &str = "64 layers";
+
+/// Those whose edges cover pixels in part: opaque splats behind a pane, splats beside polygons, layers.
+const WITH_EDGES: [&str; 3] =
+    ["glass before an opaque model", "splats and polygons of one surface", "interpenetrating shells"];
 
 /// All of them, group after group; `first` is the index of the first of `scenes` in the suite.
 pub(super) fn cases(first: usize, scenes: &[Hard]) -> Vec<Case> {
@@ -30,6 +36,7 @@ pub(super) fn cases(first: usize, scenes: &[Hard]) -> Vec<Case> {
     cases.extend(scenes().map(|(i, hard)| sums_16(i, hard)));
     cases.extend(scenes().filter_map(|(i, hard)| auto(i, hard)));
     cases.extend(scenes().filter_map(|(i, hard)| by_pixels(i, hard)));
+    cases.extend(scenes().filter_map(|(i, hard)| edges(i, hard)));
     cases
 }
 
@@ -77,6 +84,15 @@ fn by_pixels(scene: usize, hard: &Hard) -> Option<Case> {
     let settings = Settings { rasterizer, tile_invocations, ..by_default(hard) };
     let drawing = Drawing { scene, settings, check: Check::TileInvocations };
     (!hard.scene.objects.is_empty()).then(|| case("tile-invocations", hard, false, drawing))
+}
+
+/// Edges that cover pixels in part, by tiles, which alone draw them. `None` of other scenes, and of transitions that have hard ones.
+fn edges(scene: usize, hard: &Hard) -> Option<Case> {
+    let (rasterizer, edges) = (Rasterizer::Compute, Edges::Coverage);
+    let settings = Settings { rasterizer, edges, ..by_default(hard) };
+    let covers = WITH_EDGES.contains(&hard.name) && settings.covers_in_part();
+    let drawing = Drawing { scene, settings, check: Check::Light };
+    covers.then(|| case("edges", hard, true, drawing))
 }
 
 fn by_default(hard: &Hard) -> Settings {
