@@ -79,7 +79,7 @@ impl Formula {
     ];
 
     /// Those of surfaces that cover pixels in part where they end.
-    pub const OF_EDGES: [Self; 3] = [Self::EdgeOpacity, Self::Share, Self::Lengthened];
+    pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
 
     /// That of eye-dome lighting.
     pub const OF_EYE_DOME: [Self; 1] = [Self::EyeDome];
