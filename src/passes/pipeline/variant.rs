@@ -69,15 +69,15 @@ fn may_count_from_corner(settings: &Settings, whole_px: [u32; 2]) -> bool {
     wide && whole_px.iter().all(|side| *side <= LARGEST_PX)
 }
 
-/// What splats sum to inside of a surface where they overlap by so much under the default kernel ([`crate::prepare::Chunk::overlap`]): each
-/// weighs 1 at its own center, and the others on the mean as much as their kernel is.
-pub(crate) fn overlap_under(kernel: Kernel, overlap: f64) -> f64 {
+/// What all splats but one's own leave at its center, over what they leave there under the default kernel
+/// ([`crate::prepare::Chunk::overlap`], less the 1 of its own): on the mean, as much as their kernels are.
+pub(crate) fn others_under(kernel: Kernel) -> f64 {
     let end = coverage_r2(kernel);
     let mean = match kernel {
         Kernel::Gaussian { sigma } => gaussian_mean(sigma.into(), end),
         Kernel::PsiE { a, n, .. } => psi_e_mean(a.into(), n.into(), end),
     };
-    1.0 + (overlap - 1.0) * mean / gaussian_mean(0.5, 1.0)
+    mean / gaussian_mean(0.5, 1.0)
 }
 
 /// The largest u² + v² that covers.

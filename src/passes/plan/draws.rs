@@ -6,7 +6,7 @@ use crate::passes::{
     pipeline::{
         constants::{FrameConstants, in_one_word},
         splat_shaders::Primitive,
-        variant::{Constants, culls, overlap_under, splat_constants},
+        variant::{Constants, culls, others_under, splat_constants},
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
@@ -100,6 +100,7 @@ pub fn draws<'a>(
 ) -> Vec<Draw<'a>> {
     let focal_px = camera.focal_px(settings.size_px[1]);
     let filter_radius_px = settings.samples.filter_radius_px();
+    let others = others_under(settings.kernel);
     let primitive = Primitive::of(settings.rasterizer);
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
@@ -133,7 +134,7 @@ pub fn draws<'a>(
         let mut constants = FrameConstants {
             splat_count: chunk.count,
             chunk_color: u32::from(chunk.uniform_color),
-            blocks_overlap: ((65_535.0 / overlap_under(settings.kernel, chunk.overlap)).round() as u32) << 16,
+            blocks_overlap: ((65_535.0 / (1.0 + others * (chunk.overlap - 1.0))).round() as u32) << 16,
             ..frame_constants(&view, camera, settings, epsilon)
         };
         if chunk.fine {
