@@ -1,0 +1,88 @@
+//! A node's ellipse (Pajarola et al. 2003, section 3.4): in the plane through the centroid across the mean normal, with axes along those of the
+//! surface's covariance in that plane and as long as their square roots (the paper's text has the eigenvalues themselves, which are
+//! squared lengths), scaled by the least f for which the orthogonal projections of all disks below are inside.
+//!
+//! f is found over all disks below each node, O(n) a level, and is exact but for a thousandth (`farthest`), where the paper bounds a disk by
+//! a box.
+//!
+//! **Where normals cancel** (their mean is shorter than ½, that of a hemisphere) the surface turns back on itself below the node, and the mean
+//! normal is that of what is left over: of a plate, its rim. The plane is then the one to which the surface is nearest, whose
+//! normal is the covariance's smallest eigenvector.
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::{disks::Disk, farthest::Projected};
+use crate::geometry::eigen::eigen;
+
+/// The mean of unit normals below which they are taken to cancel: that of a hemisphere.
+const LEAST_MEAN_NORMAL: f64 = 0.5;
+
+/// The least ratio of an ellipse's axes: what rounding leaves of the shorter one is no less than that.
+const LEAST_AXIS_RATIO: f64 = 1.0 / 1024.0;
+
+/// More than f32 loses of an ellipse's axes and a disk's, in parts of f where the axes are equally long. The longer axis turns by as
+/// much, which the ratio of both makes larger beside the shorter one.
+const ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+
+/// Below so many disks f is found by one thread.
+const DISKS_AT_ONCE: usize = 1 << 14;
+
+/// An ellipse in its place, to be scaled.
+pub(super) struct Ellipse {
+    pub center: DVec3,
+    /// Unit.
+    pub normal: DVec3,
+    /// Unit, along the longer axis.
+    major: DVec3,
+    /// Unit, along the shorter one; `major × minor` is the normal.
+    minor: DVec3,
+    /// The lengths of both.
+    lengths: [f64; 2],
+}
+
+impl Ellipse {
+    /// `mean_normal` is that of unit normals; `covariance` about the center.
+    pub fn new(center: DVec3, mean_normal: DVec3, covariance: &DMat3) -> Self {
+        let normal = plane_normal(mean_normal, covariance);
+        let (x, y) = normal.any_orthonormal_pair();
+        let (along_x, along_y) = (*covariance * x, *covariance * y);
+        let (xx, xy, yy) = (x.dot(along_x), x.dot(along_y), y.dot(along_y));
+        let (middle, half) = (0.5 * (xx + yy), 0.5 * (xx - yy).hypot(2.0 * xy));
+        let (sin, cos) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
+        let longer = (middle + half).sqrt();
+        let shorter = (middle - half).max(0.0).sqrt().max(LEAST_AXIS_RATIO * longer);
+        let (major, minor) = (cos * x + sin * y, cos * y - sin * x);
+        Self { center, normal, major, minor, lengths: [longer, shorter] }
+    }
+
+    /// The ellipse's axes, scaled so that all these disks project into it.
+    pub fn axes_around(&self, disks: &[Disk]) -> (DVec3, DVec3) {
+        let square = if disks.len() <= DISKS_AT_ONCE {
+            self.largest_square(disks)
+        } else {
+            disks.par_chunks(DISKS_AT_ONCE).map(|part| self.largest_square(part)).reduce(|| 0.0, f64::max)
+        };
+        let [longer, shorter] = self.lengths;
+        let f = square.sqrt() * (1.0 + ROUNDING * longer / shorter);
+        (f * longer * self.major, f * shorter * self.minor)
+    }
+
+    /// f² for some disks; 0 for none.
+    fn largest_square(&self, disks: &[Disk]) -> f64 {
+        let (x, y) = (self.major / self.lengths[0], self.minor / self.lengths[1]);
+        disks.iter().fold(0.0, |largest, disk| {
+            let (center, s, t) = (disk.center - self.center, disk.s.as_dvec3(), disk.t.as_dvec3());
+            Projected::new(x.dot(center), y.dot(center), [x.dot(s), y.dot(s)], [x.dot(t), y.dot(t)])
+                .farthest_square(largest)
+        })
+    }
+}
+
+fn plane_normal(mean_normal: DVec3, covariance: &DMat3) -> DVec3 {
+    if mean_normal.length() >= LEAST_MEAN_NORMAL {
+        return mean_normal.normalize();
+    }
+    let (_, [least, ..]) = eigen(covariance);
+    if least.dot(mean_normal) < 0.0 { -least } else { least }
+}
