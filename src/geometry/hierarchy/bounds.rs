@@ -59,12 +59,12 @@ impl Bounds {
     pub(super) const NONE: Self =
         Self { error: ErrorBall::LEAF, cone: NormalCone { axis: Vec3::Z, cos: -1.0 } };
 
-    /// Around an ellipse with this center, unit normal and longer half axis, the children's bounds, and disks with centers from the same
-    /// origin.
-    pub(super) fn around(
+    /// Around an ellipse with this center (from the origin), unit normal and longer half axis, the children's bounds, and disks.
+    pub(super) fn around<'a>(
         (center, normal, half_axis): (DVec3, DVec3, f64),
         children: &[Self],
-        disks: impl Iterator<Item = (DVec3, Disk)>,
+        origin: DVec3,
+        disks: impl Iterator<Item = &'a Disk>,
     ) -> Self {
         let (ball_center, axis) = (center.as_vec3(), normal.as_vec3());
         let middle = ball_center.as_dvec3();
@@ -76,8 +76,8 @@ impl Bounds {
             extent = extent.max(f64::from(error.extent));
             angle_rad = angle_rad.max(angle_between(axis, cone.axis) + f64::from(cone.cos).acos());
         }
-        for (center, disk) in disks {
-            radius = radius.max(middle.distance(center) + disk.radius());
+        for disk in disks {
+            radius = radius.max(middle.distance(disk.center - origin) + disk.radius());
             angle_rad = angle_rad.max(angle_between(axis, disk.area_normal().normalize().as_vec3()));
         }
         let up = |length: f64| rounded_up(length * (1.0 + ROOM));

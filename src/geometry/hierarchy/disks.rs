@@ -1,5 +1,7 @@
 //! The splats along the tree, as all that is found about nodes reads them.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -26,6 +28,11 @@ impl Disks {
             Disk { center: splats.positions[i], s, t, number }
         };
         Self(order.par_iter().map(disk).collect())
+    }
+
+    /// Those at these places along the tree.
+    pub fn run(&self, places: &Range<u32>) -> &[Disk] {
+        &self.0[places.start as usize..places.end as usize]
     }
 }
 

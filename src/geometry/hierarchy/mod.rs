@@ -21,7 +21,7 @@ mod split;
 mod sums;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use std::ops::Range;
 
@@ -106,13 +106,14 @@ impl Hierarchy {
     /// [`LARGEST_COORDINATE`], and more than 2³² − 1 splats.
     pub fn build(splats: &Splats, progress: &dyn Progress) -> Result<Self> {
         check(splats)?;
-        let steps = Steps { progress, total: 3 * splats.len() as u64 };
-        let (tree, origin) = split::split(splats, &|done| steps.step(done));
+        let steps = Steps { progress, splats: splats.len() as u64 };
+        let (tree, origin) = split::split(splats, &|placed| steps.step(placed));
         let disks = Disks::of(splats, &tree.order);
         let (nodes, bounds) = sums::node_splats(&tree, &disks, &splats.colors, origin, &|done| {
-            steps.step((splats.len() + 2 * done) as u64);
+            let share = done as f64 / tree.levels.len() as f64;
+            steps.step(steps.splats + (2.0 * share * splats.len() as f64) as u64);
         });
-        steps.step(steps.total);
+        steps.step(3 * steps.splats);
         let split::Tree { nodes: tree, levels, order, leaf_parents } = tree;
         let nodes = as_splats(&nodes, &splats.colors);
         Ok(Self { nodes, tree, bounds, levels, order, leaf_parents, origin })
@@ -143,15 +144,15 @@ impl Node {
     }
 }
 
-/// Progress in splats, of all steps together.
+/// Progress in splats, which are looked at three times as it were: what is found about nodes takes twice as long as the tree.
 struct Steps<'a> {
     progress: &'a dyn Progress,
-    total: u64,
+    splats: u64,
 }
 
 impl Steps<'_> {
     fn step(&self, done: u64) {
-        self.progress.step("levels of detail", done.min(self.total), self.total);
+        self.progress.step("levels of detail", done, 3 * self.splats);
     }
 }
 

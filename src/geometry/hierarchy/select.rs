@@ -54,8 +54,8 @@ impl Projection {
         }
     }
 
-    /// The size on the screen in pixels: no less than the length that a node's ellipse has in the middle of the picture, however it is
-    /// turned and wherever in its ball.
+    /// The size on the screen in pixels: no less than the length of the node's ellipse in a picture in the middle of which it is, however
+    /// it is turned.
     pub fn size_px(&self, ball: &ErrorBall) -> f64 {
         let extent = f64::from(ball.extent);
         match *self {

@@ -4,10 +4,13 @@
 //! that the node is a pixel is that by area; by number, parts that are sampled more densely would show through. Colors weigh by
 //! alpha, too, as light does that passes through a surface.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::{
+    Node,
     bounds::Bounds,
     disks::{Disk, Disks},
     ellipse::Ellipse,
@@ -28,10 +31,10 @@ pub(super) struct NodeSplat {
 
 /// What a disk or a node adds to its parent.
 #[derive(Clone, Copy, Debug)]
-struct Sums {
+pub(super) struct Sums {
     /// About which the moments are; a node's is its centroid but for rounding.
-    center: DVec3,
-    moments: Moments,
+    pub center: DVec3,
+    pub moments: Moments,
     /// Of unit normals, by area.
     normal: DVec3,
     /// Red, green and blue by area and alpha; alpha by area.
@@ -39,7 +42,7 @@ struct Sums {
 }
 
 /// The splats and the bounds of all nodes, level by level from the lowest; `origin` is that of the bounds. `progress` is told how many
-/// disks are below the nodes that are done, as if all levels were equally large.
+/// levels are done.
 pub(super) fn node_splats(
     tree: &Tree,
     disks: &Disks,
@@ -51,30 +54,44 @@ pub(super) fn node_splats(
     let mut bounds = vec![Bounds::NONE; tree.nodes.len()];
     let mut sums_below: Vec<Sums> = Vec::new();
     for (done, level) in tree.levels.iter().rev().enumerate() {
-        progress(disks.0.len() * done / tree.levels.len());
+        progress(done);
+        let sums = of_level(tree, level, &sums_below, disks, colors);
         let (of_level, bounds_below) = bounds.split_at_mut(level.end);
-        let nodes = tree.nodes[level.clone()].par_iter();
         let targets = splats[level.clone()].par_iter_mut().zip(&mut of_level[level.start..]);
-        sums_below = nodes
-            .zip(targets)
-            .map(|(node, (splat, bounds))| {
-                let [first, end] = [node.children.start, node.children.end].map(|i| i as usize - level.end);
-                let runs = || node.leaf_runs(&tree.nodes);
-                let leaves = || runs().flat_map(|run| &disks.0[run.start as usize..run.end as usize]);
-                let sums = Sums::of(&sums_below[first..end], leaves, colors);
-                let (center, weight) = (sums.center, sums.moments.weight);
-                let ellipse = Ellipse::new(center, sums.normal / weight, &sums.moments.covariance());
-                let (s, t) =
-                    ellipse.axes_around(&disks.0[node.splats.start as usize..node.splats.end as usize]);
-                *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color: sums.mean_color() };
-                let leaves = leaves().map(|disk| (disk.center - origin, *disk));
-                let own = (center - origin, ellipse.normal, s.length());
-                *bounds = Bounds::around(own, &bounds_below[first..end], leaves);
-                sums
-            })
-            .collect();
+        let nodes = tree.nodes[level.clone()].par_iter().zip(&sums);
+        nodes.zip(targets).for_each(|((node, sums), (splat, bounds))| {
+            let center = sums.center;
+            let mean_normal = sums.normal / sums.moments.weight;
+            let ellipse = Ellipse::new(center, mean_normal, &sums.moments.covariance());
+            let (s, t) = ellipse.axes_around(disks.run(&node.splats));
+            *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color: sums.mean_color() };
+            let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
+            let own = (center - origin, ellipse.normal, s.length());
+            *bounds = Bounds::around(own, &bounds_below[below(node, level)], origin, leaves);
+        });
+        sums_below = sums;
     }
     (splats, bounds)
+}
+
+/// The sums of all nodes of a level, from those of the next.
+pub(super) fn of_level(
+    tree: &Tree,
+    level: &Range<usize>,
+    sums_below: &[Sums],
+    disks: &Disks,
+    colors: &Colors,
+) -> Vec<Sums> {
+    let sums = |node: &Node| {
+        let leaves = || node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
+        Sums::of(&sums_below[below(node, level)], leaves, colors)
+    };
+    tree.nodes[level.clone()].par_iter().map(sums).collect()
+}
+
+/// A node's children, counted from the begin of the next level.
+fn below(node: &Node, level: &Range<usize>) -> Range<usize> {
+    node.children.start as usize - level.end..node.children.end as usize - level.end
 }
 
 impl Sums {
@@ -93,7 +110,7 @@ impl Sums {
         };
         let parts = || children.iter().copied().chain(leaves().map(leaf));
         // Counted from one of them: the sum of coordinates far from the origin would lose digits.
-        let Some(start) = parts().next().map(|part| part.center) else { unreachable!("a node has children") };
+        let start = parts().next().map_or(DVec3::ZERO, |part| part.center);
         let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
         for part in parts() {
             sum += part.moments.weight * (part.center - start) + part.moments.first;
