@@ -70,7 +70,7 @@ impl Bounds {
         let middle = ball_center.as_dvec3();
         let mut radius = middle.distance(center) + half_axis;
         let mut extent = 2.0 * half_axis;
-        let mut angle_rad = 0.0_f64;
+        let (mut angle_rad, mut chord_square) = (0.0_f64, 0.0_f32);
         for Self { error, cone } in children {
             radius = radius.max(middle.distance(error.center.as_dvec3()) + f64::from(error.radius));
             extent = extent.max(f64::from(error.extent));
@@ -78,8 +78,10 @@ impl Bounds {
         }
         for disk in disks {
             radius = radius.max(middle.distance(disk.center - origin) + disk.radius());
-            angle_rad = angle_rad.max(angle_between(axis, disk.area_normal().normalize().as_vec3()));
+            let normal = disk.area_normal().normalize().as_vec3();
+            chord_square = chord_square.max(axis.distance_squared(normal));
         }
+        angle_rad = angle_rad.max(angle_over(chord_square));
         let up = |length: f64| rounded_up(length * (1.0 + ROOM));
         let cos = -rounded_up(-(angle_rad + ROOM_RAD).min(std::f64::consts::PI).cos());
         Self {
@@ -93,6 +95,12 @@ impl Bounds {
 fn angle_between(a: Vec3, b: Vec3) -> f64 {
     let (a, b) = (a.as_dvec3(), b.as_dvec3());
     2.0 * (a - b).length().atan2((a + b).length())
+}
+
+/// Of two unit vectors whose difference has this square; any angle near 180°, where the difference does not tell.
+fn angle_over(chord_square: f32) -> f64 {
+    let half_chord = 0.5 * f64::from(chord_square).sqrt();
+    if half_chord < 0.99 { 2.0 * half_chord.asin() } else { std::f64::consts::PI }
 }
 
 fn rounded_up(value: f64) -> f32 {

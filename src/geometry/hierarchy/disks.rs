@@ -46,7 +46,7 @@ impl Disk {
     pub fn radius(&self) -> f64 {
         let (s, t) = (self.s.as_dvec3(), self.t.as_dvec3());
         let (ss, tt, st) = (s.length_squared(), t.length_squared(), s.dot(t));
-        (0.5 * (ss + tt + (ss - tt).hypot(2.0 * st))).sqrt()
+        (0.5 * (ss + tt + ((ss - tt) * (ss - tt) + 4.0 * st * st).sqrt())).sqrt()
     }
 }
 

@@ -1,18 +1,23 @@
-//! A node's ellipse (Pajarola et al. 2003, section 3.4): in the plane through the centroid across the mean normal, with axes along those of the
-//! surface's covariance in that plane and as long as their square roots (the paper's text has the eigenvalues themselves, which are
-//! squared lengths), scaled by the least f for which the orthogonal projections of all disks below are inside.
+//! A node's ellipse (Pajarola et al. 2003, section 3.4): in the plane through the centroid across the mean normal, with axes along those of
+//! the surface's covariance in that plane and as long as their square roots (the paper's text has the eigenvalues themselves, which are
+//! squared lengths), scaled by the least f for which all disks below are inside, if they are projected into the plane.
 //!
-//! f is found over all disks below each node, O(n) a level, and is exact but for a thousandth (`farthest`), where the paper bounds a disk by
-//! a box.
+//! f is found over all disks below each node, O(n) a level (`farthest`), where the paper bounds a disk by a box.
+//!
+//! **Seen from where?** The paper projects at right angles. Seen from elsewhere, a disk at height h above the plane then is beside the ellipse's
+//! rim by up to `h tan θ`, and where no neighbor happens to be, there is a hole: on bends and edges. So each disk is moved in every
+//! direction by its height, too: *every line of sight that meets a disk below, at up to 45° from the ellipse's normal, meets the ellipse.* On smooth
+//! surfaces heights are of second order, and so is what this adds. Farther from the normal lies the silhouette, where a flat
+//! ellipse can't stand for what bends, and loses up to the height of the disks, which is pixels only for τ of many pixels.
 //!
 //! **Where normals cancel** (their mean is shorter than ½, that of a hemisphere) the surface turns back on itself below the node, and the mean
 //! normal is that of what is left over: of a plate, its rim. The plane is then the one to which the surface is nearest, whose
 //! normal is the covariance's smallest eigenvector.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{disks::Disk, farthest::Projected};
+use super::{disks::Disk, farthest::farthest_square};
 use crate::geometry::eigen::eigen;
 
 /// The mean of unit normals below which they are taken to cancel: that of a hemisphere.
@@ -56,7 +61,7 @@ impl Ellipse {
         Self { center, normal, major, minor, lengths: [longer, shorter] }
     }
 
-    /// The ellipse's axes, scaled so that all these disks project into it.
+    /// The ellipse's axes, scaled so that all these disks project into it, along lines up to 45° from the normal.
     pub fn axes_around(&self, disks: &[Disk]) -> (DVec3, DVec3) {
         let square = if disks.len() <= DISKS_AT_ONCE {
             self.largest_square(disks)
@@ -71,10 +76,13 @@ impl Ellipse {
     /// f² for some disks; 0 for none.
     fn largest_square(&self, disks: &[Disk]) -> f64 {
         let (x, y) = (self.major / self.lengths[0], self.minor / self.lengths[1]);
+        let in_plane = |v: DVec3| DVec2::new(x.dot(v), y.dot(v));
         disks.iter().fold(0.0, |largest, disk| {
             let (center, s, t) = (disk.center - self.center, disk.s.as_dvec3(), disk.t.as_dvec3());
-            Projected::new(x.dot(center), y.dot(center), [x.dot(s), y.dot(s)], [x.dot(t), y.dot(t)])
-                .farthest_square(largest)
+            let slant = DVec2::new(self.normal.dot(s), self.normal.dot(t)).length();
+            let height = self.normal.dot(center).abs() + slant;
+            let moved = height * DVec2::new(self.lengths[0].recip(), self.lengths[1].recip());
+            farthest_square(largest, in_plane(center), in_plane(s), in_plane(t), moved)
         })
     }
 }

@@ -5,8 +5,7 @@
 //! are about a center of its own, and a parent adds those of its children moved to its center, which is the paper's `T M' Tᵀ`.
 //!
 //! A splat is no point: its own covariance, ¼ (s sᵀ + t tᵀ) of a uniform disk, is added, so that no node's vanishes. Points are weighted
-//! by the splat's area where the paper counts them: the moments are then those of the surface, and do not change where a part of it is
-//! sampled more densely or two scans overlap in size of splats.
+//! by the splat's area where the paper counts them: the moments are then those of the surface, however densely its parts are sampled.
 
 use std::ops::AddAssign;
 
@@ -15,7 +14,7 @@ use glam::{DMat3, DVec3};
 use super::disks::Disk;
 
 /// The distinct entries of `M' = Σ w p' p'ᵀ`, with `p` counted from some center.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Moments {
     /// `Σ w`: area over π.
     pub weight: f64,
@@ -28,6 +27,10 @@ pub(super) struct Moments {
 }
 
 impl Moments {
+    /// Of nothing.
+    pub const NONE: Self =
+        Self { weight: 0.0, first: DVec3::ZERO, squares: DVec3::ZERO, products: DVec3::ZERO };
+
     /// Of one disk, about its own center.
     pub fn of(disk: &Disk) -> Self {
         let weight = disk.area_normal().length();

@@ -83,8 +83,13 @@ pub(super) fn of_level(
     colors: &Colors,
 ) -> Vec<Sums> {
     let sums = |node: &Node| {
-        let leaves = || node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
-        Sums::of(&sums_below[below(node, level)], leaves, colors)
+        // Parts of a cut or splats of a leaf, of both of which there are eight at most.
+        let mut parts = [Sums::NONE; 8];
+        let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
+        let leaves = leaves.map(|disk| Sums::of_disk(disk, colors));
+        let children = sums_below[below(node, level)].iter().copied();
+        let count = parts.iter_mut().zip(children.chain(leaves)).map(|(part, sums)| *part = sums).count();
+        Sums::of_parts(&parts[..count])
     };
     tree.nodes[level.clone()].par_iter().map(sums).collect()
 }
@@ -95,31 +100,28 @@ fn below(node: &Node, level: &Range<usize>) -> Range<usize> {
 }
 
 impl Sums {
-    fn of<'a, I: Iterator<Item = &'a Disk>>(
-        children: &[Self],
-        leaves: impl Fn() -> I,
-        colors: &Colors,
-    ) -> Self {
-        let leaf = |disk: &Disk| {
-            let moments = Moments::of(disk);
-            let [red, green, blue, alpha] =
-                colors.get(disk.number as usize).unwrap_or_default().map(f64::from);
-            let alpha = alpha.clamp(0.0, 1.0) * moments.weight;
-            let color = [alpha * red, alpha * green, alpha * blue, alpha];
-            Self { center: disk.center, moments, normal: disk.area_normal(), color }
-        };
-        let parts = || children.iter().copied().chain(leaves().map(leaf));
+    const NONE: Self =
+        Self { center: DVec3::ZERO, moments: Moments::NONE, normal: DVec3::ZERO, color: [0.0; 4] };
+
+    fn of_disk(disk: &Disk, colors: &Colors) -> Self {
+        let moments = Moments::of(disk);
+        let [red, green, blue, alpha] = colors.get(disk.number as usize).unwrap_or_default().map(f64::from);
+        let alpha = alpha.clamp(0.0, 1.0) * moments.weight;
+        let color = [alpha * red, alpha * green, alpha * blue, alpha];
+        Self { center: disk.center, moments, normal: disk.area_normal(), color }
+    }
+
+    fn of_parts(parts: &[Self]) -> Self {
         // Counted from one of them: the sum of coordinates far from the origin would lose digits.
-        let start = parts().next().map_or(DVec3::ZERO, |part| part.center);
+        let start = parts[0].center;
         let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
-        for part in parts() {
+        for part in parts {
             sum += part.moments.weight * (part.center - start) + part.moments.first;
             weight += part.moments.weight;
         }
-        let center = start + sum / weight;
-        let mut sums = Self { center, moments: Moments::default(), normal: DVec3::ZERO, color: [0.0; 4] };
-        for part in parts() {
-            sums.moments += part.moments.moved(part.center - center);
+        let mut sums = Self { center: start + sum / weight, ..Self::NONE };
+        for part in parts {
+            sums.moments += part.moments.moved(part.center - sums.center);
             sums.normal += part.normal;
             sums.color = std::array::from_fn(|i| sums.color[i] + part.color[i]);
         }

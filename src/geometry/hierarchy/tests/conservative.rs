@@ -13,6 +13,9 @@ use crate::{
 /// Points of each disk's rim that are looked at.
 const RIM: usize = 24;
 
+/// Directions from which each of them is looked at.
+const SIDES: usize = 8;
+
 #[test]
 fn every_node_bounds_every_disk_below_it() {
     for (name, splats) in models() {
@@ -27,6 +30,7 @@ fn every_node_bounds_every_disk_below_it() {
             let ball = bounds.error.center.as_dvec3();
             let radius = f64::from(bounds.error.radius);
             let axis = bounds.cone.axis.as_dvec3().normalize();
+            let normal_of_plane = s.cross(t).normalize();
             let mut farthest: f64 = 0.0;
             for disk in &disks[node.splats.start as usize..node.splats.end as usize] {
                 let normal = disk.area_normal().normalize();
@@ -38,8 +42,14 @@ fn every_node_bounds_every_disk_below_it() {
                     let from_origin = rim(disk.center - hierarchy.origin);
                     assert!(from_origin.distance(ball) <= radius, "{name}: node {i}, ball");
                     let from_center = rim(disk.center - center);
-                    let [u, v] = [s, t].map(|axis| axis.dot(from_center) / axis.length_squared());
-                    farthest = farthest.max(u.hypot(v));
+                    // Where lines at 45° to the normal through it meet the plane.
+                    let height = normal_of_plane.dot(from_center);
+                    for side in 0..SIDES {
+                        let (sin, cos) = (TAU * side as f64 / SIDES as f64).sin_cos();
+                        let met = from_center + height * (cos * s.normalize() + sin * t.normalize());
+                        let [u, v] = [s, t].map(|axis| axis.dot(met) / axis.length_squared());
+                        farthest = farthest.max(u.hypot(v));
+                    }
                 }
             }
             assert!(farthest <= 1.0, "{name}: node {i}: {farthest}");
@@ -56,8 +66,8 @@ fn every_node_bounds_every_disk_below_it() {
             at(0.99),
             at(1.0)
         );
-        // 24 points of a rim reach less far than the rim by 1/cos 7.5° at most.
-        assert!(at(1.0) <= 1.01, "{name}");
+        // Where the surface is flat, f is the least but for what 24 points of a rim leave out: 1/cos 7.5°.
+        assert!(at(0.5) <= 1.25 && (at(1.0) <= 1.01 || name != "sheet of two sides"), "{name}");
     }
 }
 

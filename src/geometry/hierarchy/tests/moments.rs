@@ -48,7 +48,7 @@ fn covariance_keeps_its_digits_at_1e7_and_about_one_origin_loses_them() {
             assert!(sums.center.distance(mean) <= 4.0 * f64::EPSILON * mean.length());
             worst = worst.max(relative_error(sums.moments.covariance(), truth));
 
-            let mut about_origin = Moments::default();
+            let mut about_origin = Moments::NONE;
             disks.iter().for_each(|disk| about_origin += Moments::of(disk).moved(disk.center));
             let covariance = about_origin.moved(-mean).covariance();
             least_about_origin = least_about_origin.min(relative_error(covariance, truth));
