@@ -37,7 +37,7 @@ impl<'a> Walk<'a> {
         tau_px: f64,
         culling: Culling,
     ) -> Self {
-        Self { hierarchy, splats, view: View::new(camera, size_px), tau_px, culling }
+        Self { hierarchy, splats, view: View::pinhole(camera, size_px), tau_px, culling }
     }
 
     /// All that is drawn, as [`Hierarchy::select`] numbers it.

@@ -47,6 +47,9 @@ pub struct Selection {
 impl Projection {
     /// That of a camera, for an image of this height.
     pub fn of_camera(camera: &Camera, height_px: u32, hierarchy: &Hierarchy) -> Self {
+        if camera.is_orthographic() {
+            return Self::Parallel { px_per_unit: camera.focal_px(height_px) };
+        }
         Self::Perspective {
             eye: camera.eye - hierarchy.origin,
             focal_px: camera.focal_px(height_px),

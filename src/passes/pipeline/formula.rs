@@ -60,6 +60,8 @@ pub enum Formula {
     Lengthened,
     EyeDome,
     EdgeOpacity,
+    /// The length that is τ on the screen.
+    Level,
 }
 
 impl Formula {

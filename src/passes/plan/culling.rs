@@ -34,14 +34,16 @@ pub(crate) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits:
         Cull::Setup => false,
         Cull::List | Cull::Hidden => Primitive::of(settings.rasterizer) == Primitive::Point,
     };
+    let has_levels = splats.iter().any(|draw| draw.levels.is_some());
+    let wanted = wanted || has_levels && Primitive::of(settings.rasterizer) == Primitive::Point;
     wanted
         && !splats.iter().any(|draw| draw.chunk.transparent)
-        && (may_leave_out(splats) || settings.cull == Cull::Hidden)
+        && (has_levels || may_leave_out(splats) || settings.cull == Cull::Hidden)
         && list_has_room(splats, limits)
         && splats.iter().all(|draw| draw.chunk.count <= MOST_INDICES)
 }
 
-fn list_has_room(splats: &[Draw<'_>], limits: &Limits) -> bool {
+pub(crate) fn list_has_room(splats: &[Draw<'_>], limits: &Limits) -> bool {
     let blocks: u64 = splats.iter().map(|draw| draw.chunk.blocks.len() as u64).sum();
     blocks * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
 }
