@@ -94,9 +94,11 @@ fn sort_by_octant(points: &mut [Point], center: DVec3) -> Ends {
     let mut ends = [0; 8];
     points.iter().for_each(|point| ends[octant(point)] += 1);
     let mut next = [0; 8];
-    for i in 1..8 {
-        next[i] = ends[i - 1];
-        ends[i] += ends[i - 1];
+    let mut before = 0;
+    for (next, end) in next.iter_mut().zip(&mut ends) {
+        *next = before;
+        before += *end;
+        *end = before;
     }
     for own in 0..8 {
         while next[own] < ends[own] {
