@@ -5,7 +5,7 @@
 //! `2.5 log2 n` nodes. It is made level by level, not depth-first as in the paper: the same cuts, and the order that a device wants.
 //!
 //! **A node's splat** (`ellipse`) is an ellipse in the plane through the surface's centroid below it: its axes are those of the surface's
-//! covariance (`moments`), its size the least for which it holds the orthogonal projections of all disks below. All means weigh by area
+//! covariance (`moments`), its size the least that hides all disks below from up to 45° to its normal. All means weigh by area
 //! (`sums`).
 //!
 //! **Any node decides alone whether it is drawn** (`bounds`, `select`): each has a ball and a length that make its size on the screen
@@ -50,7 +50,7 @@ pub const STEPS: [&str; 2] = ["cut into an octree", "fit ellipses of nodes"];
 /// A node takes 120 bytes here (104 with one color for all), a splat 8 beside its own.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
-    /// An ellipse for each node, in world space: conservative in its own plane, see [`self`]. Linear mean color and alpha by area; one
+    /// An ellipse for each node, in world space: every line at up to 45° to its normal that meets a disk below meets it. Linear mean color and alpha by area; one
     /// color for all where the input has one. The normal is the mean normal, where normals agree.
     pub nodes: Splats,
     /// Where each node lies in the tree.
