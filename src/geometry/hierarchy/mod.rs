@@ -5,7 +5,7 @@
 //! `2.5 log2 n` nodes. It is made level by level, not depth-first as in the paper: the same cuts, and the order that a device wants.
 //!
 //! **A node's splat** (`ellipse`) is an ellipse in the plane through the surface's centroid below it: its axes are those of the surface's
-//! covariance (`moments`), its size the least for which it holds the orthogonal projections of all disks below. All means weigh by area
+//! covariance (`moments`), its size the least that hides all disks below from up to 45° to its normal. All means weigh by area
 //! (`sums`).
 //!
 //! **Any node decides alone whether it is drawn** (`bounds`, `select`): each has a ball and a length that make its size on the screen
@@ -39,6 +39,9 @@ use crate::{
 use disks::Disks;
 use sums::NodeSplat;
 
+/// The two steps of [`Hierarchy::build`], as they are told to its progress.
+pub const STEPS: [&str; 2] = ["cut into an octree", "fit ellipses of nodes"];
+
 /// Splats in a tree, each node of which is a splat that stands for all those below it.
 ///
 /// Nodes are numbered by level from the root, and within a level along the tree; splats lie along the tree, too, so that what is below a
@@ -47,7 +50,7 @@ use sums::NodeSplat;
 /// A node takes 120 bytes here (104 with one color for all), a splat 8 beside its own.
 #[derive(Clone, Debug)]
 pub struct Hierarchy {
-    /// An ellipse for each node, in world space: conservative in its own plane, see [`self`]. Linear mean color and alpha by area; one
+    /// An ellipse for each node, in world space: every line at up to 45° to its normal that meets a disk below meets it. Linear mean color and alpha by area; one
     /// color for all where the input has one. The normal is the mean normal, where normals agree.
     pub nodes: Splats,
     /// Where each node lies in the tree.
@@ -96,27 +99,30 @@ pub struct Levels {
 }
 
 impl Hierarchy {
-    /// Puts splats into a tree. The same splats give the same bytes, however many threads there are; time is O(n log n) for any input,
+    /// Puts splats into a tree, and finds what its nodes look like, in two [`STEPS`]. The same splats give the same bytes, however many threads there are; time is O(n log n) for any input,
     /// also where all centers are equal.
     ///
-    /// Memory while it is built: 80 bytes a splat and 400 a node, of which there are about 0.3 a splat, and fewer than splats always.
+    /// Memory while it is built: 64 bytes a splat and 250 a node, of which there are a third as many on surfaces, and fewer always.
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`], a coordinate or radius above
     /// [`LARGEST_COORDINATE`], and more than 2³² − 1 splats.
     pub fn build(splats: &Splats, progress: &dyn Progress) -> Result<Self> {
         check(splats)?;
-        let steps = Steps { progress, splats: splats.len() as u64 };
-        let (tree, origin) = split::split(splats, &|placed| steps.step(placed));
+        let (tree, origin) = split::split(splats, progress);
         let disks = Disks::of(splats, &tree.order);
-        let (nodes, bounds) = sums::node_splats(&tree, &disks, &splats.colors, origin, &|done| {
-            let share = done as f64 / tree.levels.len() as f64;
-            steps.step(steps.splats + (2.0 * share * splats.len() as f64) as u64);
-        });
-        steps.step(3 * steps.splats);
+        let (nodes, bounds) = sums::node_splats(&tree, &disks, &splats.colors, origin, progress);
         let split::Tree { nodes: tree, levels, order, leaf_parents } = tree;
         let nodes = as_splats(&nodes, &splats.colors);
         Ok(Self { nodes, tree, bounds, levels, order, leaf_parents, origin })
+    }
+
+    /// Bytes of memory that it needs beside the splats: for a node [`Self::nodes`] as splats need, 20 for its place in the tree and 36 for
+    /// its bounds; for a splat 8.
+    pub fn bytes(&self) -> u64 {
+        let node = size_of::<Node>() + size_of::<Bounds>();
+        let (nodes, leaves) = (self.tree.len() * node, self.order.len() * 2 * size_of::<u32>());
+        self.nodes.bytes() + (nodes + leaves) as u64
     }
 
     /// By what node `i` is drawn.
@@ -141,18 +147,6 @@ impl Node {
         let begins = std::iter::once(self.splats.start).chain(children.iter().map(|child| child.splats.end));
         let ends = children.iter().map(|child| child.splats.start).chain([self.splats.end]);
         begins.zip(ends).map(|(begin, end)| begin..end)
-    }
-}
-
-/// Progress in splats, which are looked at three times as it were: what is found about nodes takes twice as long as the tree.
-struct Steps<'a> {
-    progress: &'a dyn Progress,
-    splats: u64,
-}
-
-impl Steps<'_> {
-    fn step(&self, done: u64) {
-        self.progress.step("levels of detail", done, 3 * self.splats);
     }
 }
 

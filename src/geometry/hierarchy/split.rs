@@ -11,8 +11,8 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{LEAF_SPLATS, NO_NODE, Node};
-use crate::scene::Splats;
+use super::{LEAF_SPLATS, NO_NODE, Node, STEPS};
+use crate::{progress::Progress, scene::Splats};
 
 /// The tree without what its nodes look like; see [`super::Hierarchy`].
 pub(super) struct Tree {
@@ -29,8 +29,8 @@ struct Point {
     number: u32,
 }
 
-/// The tree, and the mean of all centers. `progress` is told how many splats have found their place.
-pub(super) fn split(splats: &Splats, progress: &dyn Fn(u64)) -> (Tree, DVec3) {
+/// The tree, and the mean of all centers.
+pub(super) fn split(splats: &Splats, progress: &dyn Progress) -> (Tree, DVec3) {
     let point = |(i, &center): (usize, &DVec3)| Point { center, number: i as u32 };
     let mut points: Vec<Point> = splats.positions.par_iter().enumerate().map(point).collect();
     let origin = if points.is_empty() { DVec3::ZERO } else { mean(&points) };
@@ -43,7 +43,7 @@ pub(super) fn split(splats: &Splats, progress: &dyn Fn(u64)) -> (Tree, DVec3) {
     while !level.is_empty() {
         let runs = runs(&mut points, &nodes[level.clone()]);
         let open: u64 = runs.iter().map(|run| run.len() as u64).sum();
-        progress(splats.len() as u64 - open);
+        progress.step(STEPS[0], splats.len() as u64 - open, splats.len() as u64);
         let ends: Vec<Ends> = runs.into_par_iter().map(cut).collect();
         for (number, ends) in level.clone().zip(ends) {
             add_children(&mut nodes, number, &ends);
@@ -52,6 +52,7 @@ pub(super) fn split(splats: &Splats, progress: &dyn Fn(u64)) -> (Tree, DVec3) {
         level = level.end..nodes.len();
     }
     let leaf_parents = leaf_parents(&nodes, points.len());
+    progress.step(STEPS[0], splats.len() as u64, splats.len() as u64);
     let order = points.par_iter().map(|point| point.number).collect();
     (Tree { nodes, levels, order, leaf_parents }, origin)
 }
@@ -93,9 +94,11 @@ fn sort_by_octant(points: &mut [Point], center: DVec3) -> Ends {
     let mut ends = [0; 8];
     points.iter().for_each(|point| ends[octant(point)] += 1);
     let mut next = [0; 8];
-    for i in 1..8 {
-        next[i] = ends[i - 1];
-        ends[i] += ends[i - 1];
+    let mut before = 0;
+    for (next, end) in next.iter_mut().zip(&mut ends) {
+        *next = before;
+        before += *end;
+        *end = before;
     }
     for own in 0..8 {
         while next[own] < ends[own] {

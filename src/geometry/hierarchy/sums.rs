@@ -10,14 +10,14 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::{
-    Node,
+    Node, STEPS,
     bounds::Bounds,
     disks::{Disk, Disks},
     ellipse::Ellipse,
     moments::Moments,
     split::Tree,
 };
-use crate::scene::Colors;
+use crate::{progress::Progress, scene::Colors};
 
 /// What a node's own splat is.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,20 +41,19 @@ pub(super) struct Sums {
     color: [f64; 4],
 }
 
-/// The splats and the bounds of all nodes, level by level from the lowest; `origin` is that of the bounds. `progress` is told how many
-/// levels are done.
+/// The splats and the bounds of all nodes, level by level from the lowest; `origin` is that of the bounds.
 pub(super) fn node_splats(
     tree: &Tree,
     disks: &Disks,
     colors: &Colors,
     origin: DVec3,
-    progress: &dyn Fn(usize),
+    progress: &dyn Progress,
 ) -> (Vec<NodeSplat>, Vec<Bounds>) {
     let mut splats = vec![NodeSplat::default(); tree.nodes.len()];
     let mut bounds = vec![Bounds::NONE; tree.nodes.len()];
     let mut sums_below: Vec<Sums> = Vec::new();
     for (done, level) in tree.levels.iter().rev().enumerate() {
-        progress(done);
+        progress.step(STEPS[1], done as u64, tree.levels.len() as u64);
         let sums = of_level(tree, level, &sums_below, disks, colors);
         let (of_level, bounds_below) = bounds.split_at_mut(level.end);
         let targets = splats[level.clone()].par_iter_mut().zip(&mut of_level[level.start..]);
@@ -71,6 +70,7 @@ pub(super) fn node_splats(
         });
         sums_below = sums;
     }
+    progress.step(STEPS[1], tree.levels.len() as u64, tree.levels.len() as u64);
     (splats, bounds)
 }
 

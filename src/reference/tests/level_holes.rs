@@ -75,7 +75,8 @@ fn coverage(mut splats: Splats, view: View, settings: &Settings) -> Vec<bool> {
 #[test]
 fn no_surface_seen_at_up_to_45_degrees_has_a_hole() {
     let settings = Settings { backfaces: Backfaces::Flip, ..settings(SIDE_PX) };
-    for (name, splats) in models() {
+    // The oracle draws the scan for minutes.
+    for (name, splats) in models().into_iter().filter(|(name, _)| *name != "igea.ply") {
         let model = Model { hierarchy: Hierarchy::build(&splats, &()).unwrap(), splats };
         let (mut covered, mut lost, mut nodes) = (0, 0, 0);
         for seed in 0..VIEWS {

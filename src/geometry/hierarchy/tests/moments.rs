@@ -36,7 +36,7 @@ fn relative_error(covariance: DMat3, truth: DMat3) -> f64 {
 fn covariance_keeps_its_digits_at_1e7_and_about_one_origin_loses_them() {
     let mut splats = random_ellipses(5000, 1.0, 3);
     splats.positions.iter_mut().for_each(|position| *position += DVec3::new(1e7, -1e7, 1e7));
-    let (tree, _) = split(&splats, &|_| {});
+    let (tree, _) = split(&splats, &());
     let disks = Disks::of(&splats, &tree.order);
     let (mut worst, mut least_about_origin) = (0.0_f64, f64::INFINITY);
     let mut below: Vec<Sums> = Vec::new();

@@ -1,6 +1,6 @@
 //! The tree itself, and what its nodes are made of.
 
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 use rayon::ThreadPoolBuilder;
 
 use super::models::{models, plate, random_ellipses};
@@ -86,6 +86,19 @@ fn a_node_lies_in_its_surface_and_faces_as_that_does() {
     let sheet = Hierarchy::build(&plate(20, 0.0), &()).unwrap();
     let Shapes::Ellipses { s, t } = &sheet.nodes.shapes else { panic!("nodes are ellipses") };
     assert!(s.iter().zip(t).all(|(s, t)| s.cross(*t).normalize().z.abs() > 0.999));
+    // So it is at a plate's rim, the normals of which are all that does not cancel; turned, so that cuts do not lie between its sides.
+    let turn = DQuat::from_rotation_y(0.7) * DQuat::from_rotation_x(0.6);
+    let mut plate = plate(40, 0.02);
+    plate.positions.iter_mut().for_each(|position| *position = turn * *position);
+    let Shapes::Disks { normals, .. } = &mut plate.shapes else { panic!("a plate is of disks") };
+    normals.iter_mut().for_each(|normal| *normal = turn.as_quat() * *normal);
+    let across = (turn * DVec3::Z).as_vec3();
+    let plate = Hierarchy::build(&plate, &()).unwrap();
+    let Shapes::Ellipses { s, t } = &plate.nodes.shapes else { panic!("nodes are ellipses") };
+    let wide = (0..s.len()).filter(|&i| plate.tree[i].splats.len() >= 64);
+    for i in wide {
+        assert!(s[i].cross(t[i]).normalize().dot(across).abs() > 0.9, "{}", plate.nodes.positions[i]);
+    }
 }
 
 #[test]
