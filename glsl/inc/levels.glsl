@@ -1,15 +1,15 @@
 // Which splats of a hierarchy are drawn: those no larger on the screen than tau whose parent is (Pajarola, Sainz, Guidotti 2003, section
 // 5.1). Each decides alone.
 //
-// A node has a ball around all below it, and an extent, both within its parent's (src/geometry/hierarchy/select.rs, where that exactly one splat of every path
-// from the root down is drawn is proved). Its size is focal extent / max(d - r, near), with d from the eye to the ball's center and r its
-// radius; under parallel rays focal extent. So it is at most tau where extent <= tau / focal max(d - r, near). Both the parent's ball and a
+// A node has a ball around all below it, and how far it spreads, both within its parent's (src/geometry/hierarchy/select.rs, where that exactly one splat of every path
+// from the root down is drawn is proved). Its size is focal spread / max(d - r, near), with d from the eye to the ball's center and r its
+// radius; under parallel rays focal spread. So it is at most tau where spread <= tau / focal max(d - r, near). Both the parent's ball and a
 // node's own are the same bits wherever they lie, and this is one function of them: of a parent and its child exactly one is drawn, whatever rounding does.
 //
 // All in the space of the hierarchy: from its origin, scaled by a power of two.
 
 layout(constant_id = SPEC_LEVELS) const uint LEVELS = LEVELS_NONE;
-layout(set = 0, binding = BIND_SPLATS_LEVELS, std430) readonly buffer Levels { float levels[]; }; // the parent's ball, a node's own: center, radius, extent
+layout(set = 0, binding = BIND_SPLATS_LEVELS, std430) readonly buffer Levels { float levels[]; }; // the parent's ball, a node's own: center, radius, spread
 
 // How the camera sees a chunk's hierarchy.
 struct LevelView {

@@ -76,6 +76,8 @@ pub(super) struct BlockMaker {
     /// Of the chunk, where it has any; and the next block's.
     levels: Option<ChunkLevels>,
     next_levels: Vec<f32>,
+    /// Of lengths.
+    world_from_local: f64,
 }
 
 impl BlockMaker {
@@ -86,6 +88,7 @@ impl BlockMaker {
 
     /// Takes in the splats of a batch.
     pub fn add(&mut self, batch: &Packed, survey: &Survey) {
+        self.world_from_local = survey.rebase.scale.recip();
         let floats = batch.levels.len() / (batch.count as usize).max(1);
         for (i, words) in batch.shapes.chunks_exact(survey.shape_bytes() / 16).enumerate() {
             self.next.push(sample(words, survey));
@@ -97,7 +100,8 @@ impl BlockMaker {
     }
 
     fn end_block(&mut self) {
-        let levels = self.levels.map(|levels| BlockLevels::around(levels, &self.next_levels));
+        let half_axes = self.next.iter().map(|splat| splat.radius * self.world_from_local);
+        let levels = self.levels.map(|levels| BlockLevels::around(levels, &self.next_levels, half_axes));
         self.done.push(Block { levels, ..Block::around(&self.next) });
         self.next.clear();
         self.next_levels.clear();

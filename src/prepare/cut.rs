@@ -129,7 +129,7 @@ impl Cut<'_, '_> {
 
     /// Its own splats, then the nodes, which have ε in radii of their own.
     fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
-        let levels = |nodes: bool| Some((leveled, ChunkLevels { space: leveled.space, nodes }));
+        let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
         self.part_of(
             &leveled.leaves,
             (epsilon, auto),
@@ -224,6 +224,8 @@ impl Cut<'_, '_> {
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
             chunk.overlap = part.overlap;
             chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
+            chunk.scene_bytes +=
+                part.levels.map_or(0, |(_, levels)| levels.bytes_each()) * u64::from(survey.count);
             self.prepared.chunks.push(chunk);
         }
         self.step(range.len());

@@ -70,11 +70,11 @@ impl<'a> Walk<'a> {
         selection.leaves.extend(leaves.filter(|&place| !self.hides_leaf(place)));
     }
 
-    /// The length of its ellipse if that were seen at right angles, at the nearest point of its ball.
+    /// The spread of the surface below it, if that were seen at right angles at the nearest point of its ball.
     fn size_px(&self, bounds: &Bounds) -> f64 {
         let (center, radius) = self.ball(bounds);
         let nearest = (center.length() - radius).max(self.view.near);
-        self.view.focal_px * f64::from(bounds.error.extent) / nearest
+        self.view.focal_px * f64::from(bounds.error.spread) / nearest
     }
 
     /// In view space.

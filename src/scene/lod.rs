@@ -8,9 +8,10 @@ pub enum Lod {
     /// One pixel, where the scene has levels of detail.
     #[default]
     Auto,
-    /// So many pixels, at least 0: a splat's longer axis. With 0, what is drawn is the scene itself.
+    /// So many pixels, at least 0: how far what the splat stands for spreads, the root of the mean squared distance from its center. One pixel
+    /// is as far as the low-pass filter spreads what it sees. With 0, what is drawn is the scene itself.
     Px(f64),
-    /// So many percent of the picture's area, as the paper has it: the area of the circle around a splat.
+    /// So many percent of the picture's area, as the paper has it: of a disk, which spreads by its radius over √2.
     Percent(f64),
 }
 
@@ -25,7 +26,7 @@ impl Lod {
             Self::Px(px) => px,
             Self::Percent(percent) => {
                 let area = size_px.map(f64::from).iter().product::<f64>() * percent / 100.0;
-                2.0 * (area / std::f64::consts::PI).sqrt()
+                (0.5 * area / std::f64::consts::PI).sqrt()
             }
         }
     }
@@ -78,8 +79,8 @@ mod tests {
         assert_eq!(Lod::parse("auto"), Ok(Lod::Auto));
         assert_eq!([Lod::parse("2.5"), Lod::parse("2.5px")], [Ok(Lod::Px(2.5)), Ok(Lod::Px(2.5))]);
         let percent = Lod::parse("0.01%").unwrap();
-        // A circle of 104.86 pixels.
-        assert!((percent.tau_px([1024, 1024]) - 11.555).abs() < 1e-3, "{}", percent.tau_px([1024, 1024]));
+        // A disk of 104.86 pixels has a radius of 5.777.
+        assert!((percent.tau_px([1024, 1024]) - 4.0853).abs() < 1e-3, "{}", percent.tau_px([1024, 1024]));
         for word in ["", "px", "-", "1 px", "one", "1%%"] {
             assert!(Lod::parse(word).is_err(), "{word}");
         }

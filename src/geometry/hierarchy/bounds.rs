@@ -24,8 +24,9 @@ pub struct ErrorBall {
     pub center: Vec3,
     /// Of the ball around the node's ellipse, all disks below and the children's balls.
     pub radius: f32,
-    /// The length of the node's ellipse, twice its longer half axis; above those of the children, and above 0.
-    pub extent: f32,
+    /// How far the surface below spreads: the root of its mean squared distance from the node's center, or what a child has, if that is
+    /// more; above those of the children, and above 0.
+    pub spread: f32,
 }
 
 /// A cone of directions around an axis: all normals of the disks below, and the children's cones.
@@ -48,10 +49,10 @@ pub struct Bounds {
 
 impl ErrorBall {
     /// Of a splat of the input: of size 0 wherever it is seen from.
-    pub const LEAF: Self = Self { center: Vec3::ZERO, radius: 0.0, extent: 0.0 };
+    pub const LEAF: Self = Self { center: Vec3::ZERO, radius: 0.0, spread: 0.0 };
 
     /// Of the root's parent: larger than any screen.
-    pub const ABOVE_ROOT: Self = Self { center: Vec3::ZERO, radius: 0.0, extent: f32::INFINITY };
+    pub const ABOVE_ROOT: Self = Self { center: Vec3::ZERO, radius: 0.0, spread: f32::INFINITY };
 }
 
 impl Bounds {
@@ -59,9 +60,9 @@ impl Bounds {
     pub(super) const NONE: Self =
         Self { error: ErrorBall::LEAF, cone: NormalCone { axis: Vec3::Z, cos: -1.0 } };
 
-    /// Around an ellipse with this center (from the origin), unit normal and longer half axis, the children's bounds, and disks.
+    /// Around an ellipse with this center (from the origin), unit normal, longer half axis and spread, the children's bounds, and disks.
     pub(super) fn around<'a>(
-        (center, normal, half_axis): (DVec3, DVec3, f64),
+        (center, normal, half_axis, spread): (DVec3, DVec3, f64, f64),
         children: &[Self],
         origin: DVec3,
         disks: impl Iterator<Item = &'a Disk>,
@@ -69,11 +70,11 @@ impl Bounds {
         let (ball_center, axis) = (center.as_vec3(), normal.as_vec3());
         let middle = ball_center.as_dvec3();
         let mut radius = middle.distance(center) + half_axis;
-        let mut extent = 2.0 * half_axis;
+        let mut spread = spread;
         let (mut angle_rad, mut chord_square) = (0.0_f64, 0.0_f32);
         for Self { error, cone } in children {
             radius = radius.max(middle.distance(error.center.as_dvec3()) + f64::from(error.radius));
-            extent = extent.max(f64::from(error.extent));
+            spread = spread.max(f64::from(error.spread));
             angle_rad = angle_rad.max(angle_between(axis, cone.axis) + f64::from(cone.cos).acos());
         }
         for disk in disks {
@@ -85,7 +86,7 @@ impl Bounds {
         let up = |length: f64| rounded_up(length * (1.0 + ROOM));
         let cos = -rounded_up(-(angle_rad + ROOM_RAD).min(std::f64::consts::PI).cos());
         Self {
-            error: ErrorBall { center: ball_center, radius: up(radius), extent: up(extent) },
+            error: ErrorBall { center: ball_center, radius: up(radius), spread: up(spread) },
             cone: NormalCone { axis, cos },
         }
     }

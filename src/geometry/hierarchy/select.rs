@@ -1,10 +1,14 @@
 //! Which nodes are drawn: as many pixels large as asked for at most (Pajarola et al. 2003, section 5.1), decided by each for itself.
 //!
+//! The paper's size is the area of the projected ellipse. Here it is the *spread* of the surface below, the root of the mean squared distance from
+//! the node's center, which its covariance has: what merging displaces, whatever ellipse holds it. A picture whose nodes spread by no
+//! more than the filter does loses little by them.
+//!
 //! The paper walks down from the root. Here a node or splat is drawn if and only if its own size on the screen is at most τ and its
 //! parent's is above τ. **Exactly one on each path from the root to a splat is drawn, for every eye:** sizes never grow along the path.
-//! In perspective the size is `focal · extent / max(d − r, near)`, where d is the distance from the eye to the middle of the node's ball and r
+//! In perspective the size is `focal · spread / max(d − r, near)`, where d is the distance from the eye to the middle of the node's ball and r
 //! its radius. The ball lies within the parent's, so D − R ≤ d − r (the parent's; the nearest point of a larger ball is no farther),
-//! hence also of both with `near`; and the parent's extent is no smaller. In parallel projection it is the extent alone. The path begins above
+//! hence also of both with `near`; and the parent's spread is no smaller. In parallel projection it is the spread alone. The path begins above
 //! the root with a size of infinity, which is above τ, and ends at a splat with size 0, which is not. So there is one step where sizes
 //! pass τ, and what is below it is drawn. For τ = 0 all splats are drawn, and nothing else, for every node's size is above 0.
 //!
@@ -57,16 +61,16 @@ impl Projection {
         }
     }
 
-    /// The size on the screen in pixels: no less than the length of the node's ellipse in a picture in the middle of which it is, however
-    /// it is turned.
+    /// The size on the screen in pixels: how far what is below spreads, in a picture in the middle of which it is, if it were seen at right
+    /// angles. One pixel is as far as the low-pass filter itself spreads what it sees: its standard deviation is √½ along each axis.
     pub fn size_px(&self, ball: &ErrorBall) -> f64 {
-        let extent = f64::from(ball.extent);
+        let spread = f64::from(ball.spread);
         match *self {
             Self::Perspective { eye, focal_px, near } => {
                 let distance = eye.distance(ball.center.as_dvec3()) - f64::from(ball.radius);
-                focal_px * extent / distance.max(near)
+                focal_px * spread / distance.max(near)
             }
-            Self::Parallel { px_per_unit } => px_per_unit * extent,
+            Self::Parallel { px_per_unit } => px_per_unit * spread,
         }
     }
 

@@ -61,11 +61,13 @@ pub(super) fn node_splats(
         nodes.zip(targets).for_each(|((node, sums), (splat, bounds))| {
             let center = sums.center;
             let mean_normal = sums.normal / sums.moments.weight;
-            let ellipse = Ellipse::new(center, mean_normal, &sums.moments.covariance());
+            let covariance = sums.moments.covariance();
+            let spread = (covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z).sqrt();
+            let ellipse = Ellipse::new(center, mean_normal, &covariance);
             let (s, t) = ellipse.axes_around(disks.run(&node.splats));
             *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color: sums.mean_color() };
             let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
-            let own = (center - origin, ellipse.normal, s.length());
+            let own = (center - origin, ellipse.normal, s.length(), spread);
             *bounds = Bounds::around(own, &bounds_below[below(node, level)], origin, leaves);
         });
         sums_below = sums;

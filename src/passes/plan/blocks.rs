@@ -74,8 +74,10 @@ fn potentially_visible(
     let scale = look.view.view_from_local_scale;
     let largest_radius = block.largest_radius * scale;
     let bound = SizeBound { nearest_z: ball.z - ball.reach, largest_radius, ..*look.bound };
-    let of_level =
-        look.levels.and_then(|levels| levels.largest_box_px(look.bound.filter_px)).unwrap_or(f64::INFINITY);
+    let of_level = match (look.levels, &block.levels) {
+        (Some(view), Some(block)) => view.largest_box_px(block, look.bound.filter_px),
+        _ => f64::INFINITY,
+    };
     let of_chunk = box_within_px(look.bound, largest_radius, most_x);
     Some(PotentiallyVisibleBlock {
         number,

@@ -10,7 +10,7 @@ use crate::passes::{
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
-        levels::LevelView,
+        levels::{LevelView, OfBlock},
         range::DepthRange,
         seen::PotentiallyVisibleBlock,
     },
@@ -132,8 +132,12 @@ pub fn draws<'a>(
         };
         let point_cap_px = limits.point_size_range[1];
         let levels = chunk.levels.and_then(|levels| LevelView::new(levels, camera, settings));
-        let of_level =
-            levels.and_then(|levels| levels.largest_box_px(bound.filter_px)).unwrap_or(f64::INFINITY);
+        let of_level = |view: &LevelView| {
+            let blocks = chunk.blocks.iter().filter_map(|block| block.levels.as_ref());
+            let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
+            drawn.map(|block| view.largest_box_px(block, bound.filter_px)).fold(0.0, f64::max)
+        };
+        let of_level = levels.as_ref().map_or(f64::INFINITY, of_level);
         let largest_box_px = largest_box_px(&bound).min(of_level);
         let box_of = |step: &RadiusStep| {
             let radius = step.radius * view.view_from_local_scale;

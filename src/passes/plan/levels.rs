@@ -23,8 +23,8 @@ pub struct LevelView {
     is_orthographic: bool,
     /// The chunk holds nodes.
     pub nodes: bool,
-    /// What no box of a node that is drawn exceeds, but for its filter, in pixels.
-    node_px: f64,
+    /// What the image of a length does not exceed, in pixels, that would be 1 of τ in the middle of the picture.
+    stretched_px: f64,
 }
 
 /// What of a block is drawn.
@@ -46,7 +46,8 @@ impl LevelView {
         let focal_px = camera.focal_px(settings.size_px[1]);
         let is_orthographic = camera.is_orthographic();
         let unit = if is_orthographic { space.scale } else { 1.0 };
-        // A node of length τ at a distance d is d τ / focal long. Its image is longest off the axis, and where it is nearest to the eye plane.
+        // A node that spreads by τ at a distance d spreads by d τ / focal, and its ellipse is so many times as long. Its image is longest off
+        // the axis, and where it is nearest to the eye plane.
         let middle_px = camera.middle_px(settings.size_px);
         let most_px =
             (0..2).map(|i| middle_px[i].abs().max((f64::from(settings.size_px[i]) - middle_px[i]).abs()));
@@ -58,7 +59,7 @@ impl LevelView {
             near: (camera.near() * space.scale).max(1e-30),
             is_orthographic,
             nodes: levels.nodes,
-            node_px: tau_px * stretch,
+            stretched_px: tau_px * stretch,
         })
     }
 
@@ -68,28 +69,29 @@ impl LevelView {
         [x, y, z, self.share as f32, self.near as f32, 0.0, 0.0, 0.0].map(f32::to_bits)
     }
 
-    /// What no box of a node exceeds, in pixels, with this filter; `None` of the object's own splats.
-    pub fn largest_box_px(&self, filter_px: f64) -> Option<f64> {
+    /// What no box of a node of a block exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
+    pub fn largest_box_px(&self, block: &BlockLevels, filter_px: f64) -> f64 {
         // Three pixels for rounding, as in `math/size.rs`.
-        self.nodes.then(|| 1.01 * self.node_px.hypot(4.0 * filter_px) + 3.0)
+        let px = 2.0 * block.longest * self.stretched_px;
+        if self.nodes { 1.01 * px.hypot(4.0 * filter_px) + 3.0 } else { f64::INFINITY }
     }
 
     /// What of a block is drawn.
     pub fn of(&self, block: &BlockLevels) -> OfBlock {
         let distance = self.eye.distance(block.center);
-        // Between which the largest extents lie that are small, of balls within bounds.
+        // Between which the largest spreads lie that are small, of balls within bounds.
         let at =
             |distance: f64| self.share * if self.is_orthographic { 1.0 } else { distance.max(self.near) };
         let least = |balls: &BallBounds| at(distance - balls.reach) * (1.0 - RESERVE);
         let most = |balls: &BallBounds| at(distance + balls.far) * (1.0 + RESERVE);
         let (own, parent) = (&block.own, &block.parent);
-        let no_parent_is_large = parent.extents[1] <= least(parent);
-        let no_own_is_small = self.nodes && own.extents[0] > most(own);
+        let no_parent_is_large = parent.spreads[1] <= least(parent);
+        let no_own_is_small = self.nodes && own.spreads[0] > most(own);
         if no_parent_is_large || no_own_is_small {
             return OfBlock::None;
         }
-        let all_parents_are_large = parent.extents[0] > most(parent);
-        let all_own_are_small = !self.nodes || own.extents[1] <= least(own);
+        let all_parents_are_large = parent.spreads[0] > most(parent);
+        let all_own_are_small = !self.nodes || own.spreads[1] <= least(own);
         if all_parents_are_large && all_own_are_small { OfBlock::All } else { OfBlock::Some }
     }
 }

@@ -32,8 +32,12 @@ fn every_node_bounds_every_disk_below_it() {
             let axis = bounds.cone.axis.as_dvec3().normalize();
             let normal_of_plane = s.cross(t).normalize();
             let mut farthest: f64 = 0.0;
+            let (mut squares, mut area) = (0.0, 0.0);
             for disk in &disks[node.splats.start as usize..node.splats.end as usize] {
                 let normal = disk.area_normal().normalize();
+                let own = 0.25 * f64::from(disk.s.length_squared() + disk.t.length_squared());
+                squares += disk.area_normal().length() * (disk.center.distance_squared(center) + own);
+                area += disk.area_normal().length();
                 assert!(normal.dot(axis).max(-1.0) >= f64::from(bounds.cone.cos), "{name}: node {i}, cone");
                 for corner in 0..RIM {
                     let (sin, cos) = (TAU * corner as f64 / RIM as f64).sin_cos();
@@ -54,7 +58,12 @@ fn every_node_bounds_every_disk_below_it() {
             }
             assert!(farthest <= 1.0, "{name}: node {i}: {farthest}");
             slack.push(1.0 / farthest);
-            assert!(f64::from(bounds.error.extent) >= 2.0 * s.length().max(t.length()), "{name}: node {i}");
+            // How far what is below spreads: exactly where no child does more.
+            let spread = (squares / area).sqrt();
+            assert!(f64::from(bounds.error.spread) >= (1.0 - 1e-6) * spread, "{name}: node {i}, spread");
+            if node.children.is_empty() {
+                assert!(f64::from(bounds.error.spread) <= (1.0 + 1e-5) * spread, "{name}: node {i}, spread");
+            }
             assert!(s.length() >= t.length() && s.dot(t).abs() <= 1e-6 * s.length() * t.length());
         }
         slack.sort_by(f64::total_cmp);
@@ -79,7 +88,7 @@ fn bounds_of_children_lie_within_those_of_their_parents() {
             let (own, parent) = (&hierarchy.bounds[i], &hierarchy.bounds[node.parent as usize]);
             let apart = own.error.center.as_dvec3().distance(parent.error.center.as_dvec3());
             assert!(apart + f64::from(own.error.radius) < f64::from(parent.error.radius), "{name}: node {i}");
-            assert!(own.error.extent < parent.error.extent && own.error.extent > 0.0, "{name}: node {i}");
+            assert!(own.error.spread < parent.error.spread && own.error.spread > 0.0, "{name}: node {i}");
             let [own_rad, parent_rad] = [own, parent].map(|bounds| f64::from(bounds.cone.cos).acos());
             let turn = own.cone.axis.as_dvec3().angle_between(parent.cone.axis.as_dvec3());
             assert!(parent.cone.cos == -1.0 || turn + own_rad <= parent_rad, "{name}: node {i}");

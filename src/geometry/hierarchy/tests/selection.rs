@@ -82,9 +82,9 @@ fn size_px_f32(projection: &Projection, ball: &ErrorBall) -> f32 {
         Projection::Perspective { eye, focal_px, near } => {
             let to_eye: Vec3 = eye.as_vec3() - ball.center;
             let distance = to_eye.length() - ball.radius;
-            focal_px as f32 * ball.extent / distance.max(near as f32)
+            focal_px as f32 * ball.spread / distance.max(near as f32)
         }
-        Projection::Parallel { px_per_unit } => px_per_unit as f32 * ball.extent,
+        Projection::Parallel { px_per_unit } => px_per_unit as f32 * ball.spread,
     }
 }
 
