@@ -8,7 +8,6 @@
 //
 // All in the space of the hierarchy: from its origin, scaled by a power of two.
 
-layout(constant_id = SPEC_LEVELS) const uint LEVELS = LEVELS_NONE;
 layout(set = 0, binding = BIND_SPLATS_LEVELS, std430) readonly buffer Levels { float levels[]; }; // the parent's ball, a node's own: center, radius, spread
 
 // How the camera sees a chunk's hierarchy.
@@ -33,7 +32,7 @@ bool is_small(LevelView view, uint first)
 {
     vec3 from_eye = vec3(levels[first], levels[first + 1], levels[first + 2]) - view.eye;
     float nearest = max(sqrt(precise_dot(from_eye, from_eye)) - levels[first + 3], view.near);
-    return levels[first + 4] <= FORMULA(FORMULA_LEVEL, view.share * (ORTHOGRAPHIC ? 1.0 : nearest));
+    return levels[first + 4] <= view.share * (ORTHOGRAPHIC ? 1.0 : nearest);
 }
 
 bool is_of_level(LevelView view, uint index)

@@ -129,21 +129,10 @@ impl Cut<'_, '_> {
 
     /// Its own splats, then the nodes, which have ε in radii of their own.
     fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
+        let overlap = overlap(&leveled.leaves.splats);
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
-        self.part_of(
-            &leveled.leaves,
-            (epsilon, auto),
-            Order::Input,
-            overlap(&leveled.leaves.splats),
-            levels(false),
-        )?;
-        self.part_of(
-            &leveled.nodes,
-            (epsilon, false),
-            Order::Input,
-            overlap(&leveled.largest_level),
-            levels(true),
-        )
+        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, overlap, levels(false))?;
+        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, overlap, levels(true))
     }
 
     /// `auto`: ε is to fit what is near each splat.

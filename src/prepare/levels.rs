@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::{
     error::Result,
-    geometry::hierarchy::{ErrorBall, Hierarchy, Levels},
+    geometry::hierarchy::{ErrorBall, Hierarchy, Levels, Node},
     progress::Progress,
     scene::{Colors, Object, Shapes, Splats},
 };
@@ -72,8 +72,8 @@ pub(super) struct Leveled {
     pub nodes: Object,
     /// Their numbers.
     numbers: Vec<u32>,
-    /// The nodes of one level, the one that has most.
-    pub largest_level: Splats,
+    /// What each node weighs: the area of the disks below over its own.
+    weights: Vec<f32>,
 }
 
 impl ChunkLevels {
@@ -102,7 +102,7 @@ impl Leveled {
         };
         let places = by_spread(hierarchy.order.len(), |place| spread(hierarchy.leaf_parents[place]));
         let numbers = by_spread(hierarchy.tree.len(), |node| spread(node as u32));
-        let level = hierarchy.levels.iter().max_by_key(|level| level.len()).cloned().unwrap_or_default();
+        let weights = weights(&hierarchy, &object.splats);
         let of = |splats: Splats| Object { name: object.name.clone(), splats, closed: object.closed };
         Ok(Some(Self {
             space,
@@ -111,7 +111,7 @@ impl Leveled {
                 places.iter().map(|place| hierarchy.order[*place as usize] as usize),
             )),
             nodes: of(picked(&hierarchy.nodes, numbers.iter().map(|number| *number as usize))),
-            largest_level: picked(&hierarchy.nodes, level),
+            weights,
             places,
             numbers,
             hierarchy,
@@ -121,6 +121,11 @@ impl Leveled {
     /// What a chunk of it holds.
     pub fn chunk(&self, nodes: bool) -> ChunkLevels {
         ChunkLevels { space: self.space, nodes }
+    }
+
+    /// What splat `i` of the leaves or the nodes weighs.
+    pub fn weight(&self, levels: ChunkLevels, i: usize) -> f64 {
+        if levels.nodes { self.weights[self.numbers[i] as usize].into() } else { 1.0 }
     }
 
     /// The balls of splat `i` of the leaves or the nodes, as a device has them.
@@ -138,6 +143,28 @@ impl Leveled {
         if levels.nodes {
             push(own);
         }
+    }
+}
+
+/// Where nodes are drawn for splats, weights add up to what those would leave there: each node weighs by the area of the disks below it.
+fn weights(hierarchy: &Hierarchy, splats: &Splats) -> Vec<f32> {
+    let mut area = 0.0;
+    let mut areas_before = vec![area];
+    areas_before.extend(hierarchy.order.iter().map(|i| {
+        area += area_of(splats, *i as usize);
+        area
+    }));
+    let below =
+        |node: &Node| areas_before[node.splats.end as usize] - areas_before[node.splats.start as usize];
+    let nodes = (0..).zip(&hierarchy.tree);
+    nodes.map(|(i, node)| (below(node) / area_of(&hierarchy.nodes, i)) as f32).collect()
+}
+
+/// Over π.
+fn area_of(splats: &Splats, i: usize) -> f64 {
+    match &splats.shapes {
+        Shapes::Disks { radii, .. } => f64::from(radii[i]).powi(2),
+        Shapes::Ellipses { s, t } => s[i].as_dvec3().cross(t[i].as_dvec3()).length(),
     }
 }
 

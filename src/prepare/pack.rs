@@ -1,6 +1,6 @@
 //! The layout of splats in GPU buffers.
 //!
-//! Disks, 32 bytes: `position radius`, `normal less`. Ellipses, 48 bytes: `position major-radius`, `s less`, `t 0`. Local
+//! Disks, 32 bytes: `position radius`, `normal less`. Ellipses, 48 bytes: `position major-radius`, `s less`, `t weight`, the weight that of a node (`levels.rs`). Local
 //! space, f32; `less` is 1 less the splat's share of ε (`near_surfaces.rs`), 0 without one. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
@@ -198,7 +198,8 @@ pub(super) fn pack(
                     let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
                     bits(v, w)
                 };
-                packed.shapes.extend([bits(position, radius), local(s, less), local(t, 0.0)]);
+                let weight = beside.levels.map_or(0.0, |(leveled, levels)| leveled.weight(levels, i));
+                packed.shapes.extend([bits(position, radius), local(s, less), local(t, weight)]);
             }
         }
         if survey.fine {

@@ -34,7 +34,7 @@ pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
 pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
-pub use lod::{LOD_FROM_SPLATS, Lod};
+pub use lod::Lod;
 pub use mesh::Mesh;
 pub use methods::{
     Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,

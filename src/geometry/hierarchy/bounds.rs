@@ -14,6 +14,9 @@ use super::disks::Disk;
 /// By which parts of itself each bound is larger than it must be.
 const ROOM: f64 = 1.0 / (1 << 20) as f64;
 
+/// No node's longer half axis is more times its spread: it has to be no wider than what it stands for.
+pub const LONGEST: f64 = 4.0;
+
 /// More than f32 loses of the angle between two unit vectors.
 const ROOM_RAD: f64 = 1e-6;
 
@@ -24,8 +27,8 @@ pub struct ErrorBall {
     pub center: Vec3,
     /// Of the ball around the node's ellipse, all disks below and the children's balls.
     pub radius: f32,
-    /// How far the surface below spreads: the root of its mean squared distance from the node's center, or what a child has, if that is
-    /// more; above those of the children, and above 0.
+    /// How far what is below spreads: the root of the mean squared distance of the disks' centers from the node's, by area; or a
+    /// [`LONGEST`]th of the node's longer half axis, or what a child has, if that is more. Above those of the children, and above 0.
     pub spread: f32,
 }
 
@@ -70,7 +73,7 @@ impl Bounds {
         let (ball_center, axis) = (center.as_vec3(), normal.as_vec3());
         let middle = ball_center.as_dvec3();
         let mut radius = middle.distance(center) + half_axis;
-        let mut spread = spread;
+        let mut spread = spread.max(half_axis / LONGEST);
         let (mut angle_rad, mut chord_square) = (0.0_f64, 0.0_f32);
         for Self { error, cone } in children {
             radius = radius.max(middle.distance(error.center.as_dvec3()) + f64::from(error.radius));

@@ -57,6 +57,11 @@ impl Moments {
         }
     }
 
+    /// Of the squares: how far from the center in all.
+    pub fn trace(&self) -> f64 {
+        self.squares.element_sum()
+    }
+
     /// The covariance about the present center: the upper left 3 × 3 entries over the weight.
     pub fn covariance(&self) -> DMat3 {
         let DVec3 { x: xx, y: yy, z: zz } = self.squares / self.weight;

@@ -1,7 +1,7 @@
 //! Which nodes are drawn: as many pixels large as asked for at most (Pajarola et al. 2003, section 5.1), decided by each for itself.
 //!
 //! The paper's size is the area of the projected ellipse. Here it is the *spread* of the surface below, the root of the mean squared distance from
-//! the node's center, which its covariance has: what merging displaces, whatever ellipse holds it. A picture whose nodes spread by no
+//! centers below from the node's: what merging displaces, whatever ellipse holds it. A picture whose nodes spread by no
 //! more than the filter does loses little by them.
 //!
 //! The paper walks down from the root. Here a node or splat is drawn if and only if its own size on the screen is at most τ and its

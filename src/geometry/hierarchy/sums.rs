@@ -39,6 +39,8 @@ pub(super) struct Sums {
     normal: DVec3,
     /// Red, green and blue by area and alpha; alpha by area.
     color: [f64; 4],
+    /// Of the moments, what the disks have about their own centers: the trace.
+    own_squares: f64,
 }
 
 /// The splats and the bounds of all nodes, level by level from the lowest; `origin` is that of the bounds.
@@ -62,7 +64,8 @@ pub(super) fn node_splats(
             let center = sums.center;
             let mean_normal = sums.normal / sums.moments.weight;
             let covariance = sums.moments.covariance();
-            let spread = (covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z).sqrt();
+            let squares = covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z;
+            let spread = (squares - sums.own_squares / sums.moments.weight).max(0.0).sqrt();
             let ellipse = Ellipse::new(center, mean_normal, &covariance);
             let (s, t) = ellipse.axes_around(disks.run(&node.splats));
             *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color: sums.mean_color() };
@@ -102,15 +105,21 @@ fn below(node: &Node, level: &Range<usize>) -> Range<usize> {
 }
 
 impl Sums {
-    const NONE: Self =
-        Self { center: DVec3::ZERO, moments: Moments::NONE, normal: DVec3::ZERO, color: [0.0; 4] };
+    const NONE: Self = Self {
+        center: DVec3::ZERO,
+        moments: Moments::NONE,
+        normal: DVec3::ZERO,
+        color: [0.0; 4],
+        own_squares: 0.0,
+    };
 
     fn of_disk(disk: &Disk, colors: &Colors) -> Self {
         let moments = Moments::of(disk);
         let [red, green, blue, alpha] = colors.get(disk.number as usize).unwrap_or_default().map(f64::from);
         let alpha = alpha.clamp(0.0, 1.0) * moments.weight;
         let color = [alpha * red, alpha * green, alpha * blue, alpha];
-        Self { center: disk.center, moments, normal: disk.area_normal(), color }
+        let own_squares = moments.trace();
+        Self { center: disk.center, moments, normal: disk.area_normal(), color, own_squares }
     }
 
     fn of_parts(parts: &[Self]) -> Self {
@@ -125,6 +134,7 @@ impl Sums {
         for part in parts {
             sums.moments += part.moments.moved(part.center - sums.center);
             sums.normal += part.normal;
+            sums.own_squares += part.own_squares;
             sums.color = std::array::from_fn(|i| sums.color[i] + part.color[i]);
         }
         sums

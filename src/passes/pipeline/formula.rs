@@ -60,8 +60,6 @@ pub enum Formula {
     Lengthened,
     EyeDome,
     EdgeOpacity,
-    /// The length that is τ on the screen.
-    Level,
 }
 
 impl Formula {

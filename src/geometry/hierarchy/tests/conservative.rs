@@ -35,8 +35,7 @@ fn every_node_bounds_every_disk_below_it() {
             let (mut squares, mut area) = (0.0, 0.0);
             for disk in &disks[node.splats.start as usize..node.splats.end as usize] {
                 let normal = disk.area_normal().normalize();
-                let own = 0.25 * f64::from(disk.s.length_squared() + disk.t.length_squared());
-                squares += disk.area_normal().length() * (disk.center.distance_squared(center) + own);
+                squares += disk.area_normal().length() * disk.center.distance_squared(center);
                 area += disk.area_normal().length();
                 assert!(normal.dot(axis).max(-1.0) >= f64::from(bounds.cone.cos), "{name}: node {i}, cone");
                 for corner in 0..RIM {
@@ -59,7 +58,7 @@ fn every_node_bounds_every_disk_below_it() {
             assert!(farthest <= 1.0, "{name}: node {i}: {farthest}");
             slack.push(1.0 / farthest);
             // How far what is below spreads: exactly where no child does more.
-            let spread = (squares / area).sqrt();
+            let spread = (squares / area).sqrt().max(0.25 * s.length().max(t.length()));
             assert!(f64::from(bounds.error.spread) >= (1.0 - 1e-6) * spread, "{name}: node {i}, spread");
             if node.children.is_empty() {
                 assert!(f64::from(bounds.error.spread) <= (1.0 + 1e-5) * spread, "{name}: node {i}, spread");
