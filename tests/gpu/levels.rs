@@ -5,6 +5,7 @@ use glam::DVec3;
 use surfel::{
     geometry::hierarchy::{Hierarchy, Projection},
     hard_scenes::{Hard, transparent},
+    load::builtin,
     math::random::SplitMix,
     renderer::{Frame, Headless},
     scene::{Accumulate, Backfaces, Camera, Cull, Edges, Lod, Rasterizer, Settings, TileInvocations},
@@ -89,6 +90,39 @@ fn the_picture_is_that_of_the_scene_the_nearer_the_smaller_the_sizes_are() {
     assert!(errors.windows(2).all(|pair| pair[0] <= 1.1 * pair[1]), "{errors:?}");
     // An eighth of a step of 8 bits at 1/4 pixel; at one pixel, two of 255 steps of linear light.
     assert!(errors[0] < 5e-4 && errors[2] < 2.0 / 255.0, "{errors:?}");
+}
+
+/// Nodes overlap more or less than splats do, and unevenly. Each weighs as the splats that it stands for, so that sums are as large as theirs and
+/// the background shows through no more pixels inside than it does there: none but a few in ten thousand (with equal weights, 30 at one pixel).
+#[test]
+fn nothing_shows_through_a_surface_of_nodes() {
+    let mut headless = shared();
+    let size_px = [256, 256];
+    let object = builtin::relief(400_000);
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![object];
+    hard.settings.size_px = size_px;
+    hard.camera = Camera::fit(&hard.scene.ball().unwrap(), size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let whole = render_as(&mut headless, &hard, PICTURE);
+    hard.scene.levels = true;
+    for tau_px in [0.5, 1.0] {
+        hard.settings.lod = Lod::Px(tau_px);
+        let frame = render_as(&mut headless, &hard, PICTURE);
+        let [width, height] = size_px.map(|side| side as usize);
+        let is_inside = |i: usize| {
+            let (x, y) = (i % width, i / width);
+            let within = (4..width - 4).contains(&x) && (4..height - 4).contains(&y);
+            let around = [0, 4, 4 * width];
+            within
+                && around
+                    .iter()
+                    .all(|step| whole.linear[i - step][3] > 0.99 && whole.linear[i + step][3] > 0.99)
+        };
+        let inside: Vec<usize> = (0..width * height).filter(|i| is_inside(*i)).collect();
+        let thin = inside.iter().filter(|i| frame.linear[**i][3] < 0.97).count();
+        println!("{tau_px} px: {thin} of {} show what is behind", inside.len());
+        assert!(10_000 * thin <= 5 * inside.len(), "{tau_px}: {thin} of {}", inside.len());
+    }
 }
 
 /// With a size of 0 the scene itself is drawn, also where it has levels: without a pass, and without a bit, that it has not by itself.

@@ -85,26 +85,35 @@ fn bands<'a>(
     limits: &Limits,
 ) -> Option<Vec<Band<'a>>> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
-    let has_levels = splats.iter().any(|draw| draw.levels.is_some());
-    if has_levels && !culling::list_has_room(splats, limits) {
-        return None;
-    }
-    let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
-    let most_bytes = most_bytes(splats, settings.tile_memory);
-    // Bands are made of listed splats, too.
-    let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
-    let gains = culling::may_leave_out(splats) || whole.bytes() > most_bytes;
-    if !has_levels && (!gains || !culling::lists_tiles(splats, settings, limits)) {
-        let mut splats = splats.to_vec();
-        culling::number_splats(&mut splats);
-        return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
-    }
     let rows = rows_of_image(settings);
-    let seen = PotentiallyVisibleBlocks::new(
-        splats.iter().map(Draw::potentially_visible_blocks).collect(),
-        rows.end,
-    );
-    let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
+    let seen = || {
+        let blocks = splats.iter().map(Draw::potentially_visible_blocks).collect();
+        PotentiallyVisibleBlocks::new(blocks, rows.end)
+    };
+    let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
+    let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
+        // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
+        let seen = seen();
+        if !culling::list_has_room(seen.chunks.iter().map(Vec::len).sum(), limits) {
+            return None;
+        }
+        let of_blocks = TilePlan::of_blocks(splats, &seen, rows.clone(), culls_hidden, settings, limits);
+        let whole = of_blocks.or_else(|| TilePlan::of(splats, culls_hidden, settings, limits))?;
+        (seen, whole)
+    } else {
+        let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
+        // Bands are made of listed splats, too.
+        let gains =
+            culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);
+        if !gains || !culling::lists_tiles(splats, settings, limits) {
+            let mut splats = splats.to_vec();
+            culling::number_splats(&mut splats);
+            return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
+        }
+        let seen = seen();
+        let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
+        (seen, whole)
+    };
     if left_to_others(&whole) {
         return None;
     }
