@@ -33,7 +33,7 @@ void main()
         }
         emit(m, extra, false);
         bool outward = SUMMED == SUMMED_LAYER && OUTWARD && m.faces_away;
-        normal_weight = vec4(outward ? -m.normal : m.normal, WEIGHTED ? share_of(m) : 1.0);
+        normal_weight = vec4(outward ? -m.normal : m.normal, WEIGHTED ? share_of(m) * own_weight(index) : 1.0);
     } else {
         emit_nothing();
     }

@@ -1,4 +1,4 @@
-// Marks the splats that may be seen: not those that face away where such are not drawn, nor those outside of the view, told by
+// Marks the splats that may be seen: of levels of detail those of the level that is drawn (inc/levels.glsl); not those that face away where such are not drawn, nor those outside of the view, told by
 // a sphere around them (inc/list.glsl).
 //
 // Whoever projects a marked splat decides anew, and exactly (mapping.glsl): what is left out here must be what all of them leave out, and
@@ -16,6 +16,7 @@
 #version 460
 #include "inc/setup.glsl"
 #include "inc/list.glsl"
+#include "inc/levels.glsl"
 
 layout(local_size_x = LIST_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint visible_bits[]; };
@@ -66,9 +67,14 @@ void main()
     uint end = min(first + WORD, frame.splat_count);
     bool all_visible = is_all_visible(word);
     uint bits = all_visible && first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
+    LevelView view;
+    if (LEVELS != LEVELS_NONE) {
+        view = level_view();
+    }
     // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
     for (uint index = all_visible ? end : first; index < end; index++) {
-        bits |= may_be_seen(index) ? 1u << (index - first) : 0u;
+        bool is_drawn = LEVELS == LEVELS_NONE || is_of_level(view, index);
+        bits |= is_drawn && may_be_seen(index) ? 1u << (index - first) : 0u;
     }
     visible_bits[first_word_of_chunk() + word] = bits;
 }

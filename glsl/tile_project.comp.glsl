@@ -93,7 +93,7 @@ void main()
     }
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
-    float share = share_of(m);
+    float share = share_of(m) * own_weight(index);
     vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
     uvec2 color;
     if (PACKED && !UNIFORM_COLOR) {

@@ -41,6 +41,7 @@
 #define SPEC_POINT_STEP 53    // Constant: the step of its point sizes, pixels.
 #define SPEC_SAMPLES 54       // Constant: samples of each pixel.
 #define SPEC_FILTER_PX 56     // Constant: h of the low-pass filter, pixels.
+#define SPEC_LEVELS 58        // Constant: one of `LEVELS_*`: what splats of a chunk are to levels of detail.
 #define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
@@ -58,6 +59,7 @@
 // Bindings of set 0 of splats and polygons.
 #define BIND_SPLATS_SHAPES 0 // Binding: shapes of splats, or vertices.
 #define BIND_SPLATS_COLORS 1 // Binding: their colors.
+#define BIND_SPLATS_LEVELS 2 // Binding: what decides about their levels of detail.
 
 // Bindings of the set of lists.
 #define BIND_LIST_BITS 0      // Binding: a bit a splat.
@@ -89,6 +91,12 @@
 #define BIND_SUMS_LAYERS 4          // Binding: composed transparent layers.
 #define BIND_SUMS_LIGHTS 5          // Binding: the scene's own lights.
 #define BIND_SUMS_DEPTH 4           // Binding: for the export, the visible depth.
+
+// Values of SPEC_LEVELS.
+#define LEVELS_NONE 0   // All are drawn.
+#define LEVELS_LEAVES 1 // Splats of the object, below a node each.
+#define LEVELS_NODES 2  // Nodes, which stand for what is below them.
+#define LEVEL_WORDS 8   // Words of what a camera makes of a chunk's levels.
 
 // Values of SPEC_FILTER.
 #define FILTER_NONE 0         // No filter.

@@ -170,6 +170,13 @@ Stored load_stored(uint index)
     return Stored(shapes[first], low, second.xyz, ELLIPSES ? shapes[first + 2].xyz : vec3(0.0), second.w);
 }
 
+// What a splat weighs beside its filter: of a node as much more than the splats that it stands for as these have more area in all than it, so that it
+// leaves on the surface what they would.
+float own_weight(uint index)
+{
+    return LEVELS == LEVELS_NODES ? shapes[SHAPE_VECTORS * index + 2].w : 1.0;
+}
+
 // Of an ellipse's tangent vectors, that make them about 1 long, so that their product has a direction whatever their lengths.
 vec2 units_of_tangents(Stored stored)
 {

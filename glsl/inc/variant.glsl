@@ -20,6 +20,7 @@ layout(constant_id = SPEC_OWN_EPSILON) const bool OWN_EPSILON = false;
 layout(constant_id = SPEC_PACKED) const bool PACKED = false;
 layout(constant_id = SPEC_FINE) const bool FINE = false;
 layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
+layout(constant_id = SPEC_LEVELS) const uint LEVELS = LEVELS_NONE;
 layout(constant_id = SPEC_COVERAGE_EDGES) const bool COVERAGE_EDGES = false;
 
 // Regular splats (see mapping.glsl) are mapped by an affine map: u and v are linear in the image. Of an orthographic camera all are.

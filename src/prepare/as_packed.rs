@@ -14,7 +14,7 @@ use crate::scene::{Colors, Shapes, Splats};
 pub fn as_packed(splats: &Splats) -> Option<Splats> {
     let all = || 0..splats.len();
     let survey = pack::survey(splats, all(), Rebase::of(splats, all())).packed()?;
-    let packed = pack::pack(splats, all(), &survey, None);
+    let packed = pack::pack(splats, all(), &survey, pack::Beside::default());
     let disks = || packed.shapes.iter().map(|words| unpacked_disk(*words));
     let world = |length: f64| length / survey.rebase.scale;
     let colors = match &splats.colors {

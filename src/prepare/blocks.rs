@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, Vec3};
 
 use super::{
+    levels::{BlockLevels, ChunkLevels},
     pack::{Packed, Survey},
     packed,
 };
@@ -28,6 +29,8 @@ pub struct Block {
     /// The largest major radius: no point of a splat is farther from its center, however skew its tangent vectors (it is the larger
     /// singular value of the two, [`crate::scene::Splats::major_radius`]), but for a rounding to f32.
     pub largest_radius: f64,
+    /// What decides about levels of detail, where there are any.
+    pub levels: Option<BlockLevels>,
 }
 
 impl Block {
@@ -51,6 +54,7 @@ impl Block {
             axis: axis.unwrap_or(DVec3::Z),
             spread_rad: axis.map_or(PI, spread_of).min(PI),
             largest_radius: splats.iter().map(|splat| splat.radius).fold(0.0, f64::max),
+            levels: None,
         }
     }
 }
@@ -69,24 +73,44 @@ pub(super) struct BlockMaker {
     done: Vec<Block>,
     /// The next one's.
     next: Vec<Sample>,
+    /// Of the chunk, where it has any; and the next block's.
+    levels: Option<ChunkLevels>,
+    next_levels: Vec<f32>,
+    /// Of lengths.
+    world_from_local: f64,
 }
 
 impl BlockMaker {
+    /// Of a chunk with levels of detail, or without.
+    pub fn new(levels: Option<ChunkLevels>) -> Self {
+        Self { levels, ..Self::default() }
+    }
+
     /// Takes in the splats of a batch.
     pub fn add(&mut self, batch: &Packed, survey: &Survey) {
-        for words in batch.shapes.chunks_exact(survey.shape_bytes() / 16) {
+        self.world_from_local = survey.rebase.scale.recip();
+        let floats = batch.levels.len() / (batch.count as usize).max(1);
+        for (i, words) in batch.shapes.chunks_exact(survey.shape_bytes() / 16).enumerate() {
             self.next.push(sample(words, survey));
+            self.next_levels.extend(&batch.levels[i * floats..(i + 1) * floats]);
             if self.next.len() == BLOCK_SPLATS as usize {
-                self.done.push(Block::around(&self.next));
-                self.next.clear();
+                self.end_block();
             }
         }
+    }
+
+    fn end_block(&mut self) {
+        let half_axes = self.next.iter().map(|splat| splat.radius * self.world_from_local);
+        let levels = self.levels.map(|levels| BlockLevels::around(levels, &self.next_levels, half_axes));
+        self.done.push(Block { levels, ..Block::around(&self.next) });
+        self.next.clear();
+        self.next_levels.clear();
     }
 
     /// All of them.
     pub fn finish(mut self) -> Vec<Block> {
         if !self.next.is_empty() {
-            self.done.push(Block::around(&self.next));
+            self.end_block();
         }
         self.done
     }
@@ -125,7 +149,10 @@ mod tests {
         let mut maker = BlockMaker::default();
         // Batches end anywhere.
         for first in (0..count).step_by(1500) {
-            maker.add(&pack::pack(&splats, first..count.min(first + 1500), &survey, None), &survey);
+            maker.add(
+                &pack::pack(&splats, first..count.min(first + 1500), &survey, Default::default()),
+                &survey,
+            );
         }
         (maker.finish(), survey.rebase.scale)
     }

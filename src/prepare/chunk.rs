@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::{
     blocks::{Block, BlockMaker},
+    levels::ChunkLevels,
     memory::{ChunkMemory, Uploader},
     pack::{Packed, Survey, shape_bytes},
     radii::RadiusStep,
@@ -48,6 +49,8 @@ pub struct Chunk {
     pub own_epsilon: bool,
     /// Disks in 16 bytes, colors in 4: [`SplatFormat::Packed`](crate::scene::SplatFormat::Packed).
     pub packed: bool,
+    /// Its levels of detail, if it has any.
+    pub levels: Option<ChunkLevels>,
     /// The sum of weights that the object leaves inside of its surface; 1 or more.
     pub overlap: f64,
     /// The box of the centers, local space.
@@ -61,9 +64,9 @@ pub struct Chunk {
     /// Its splats in runs of [`BLOCK_SPLATS`](crate::shaders::config::BLOCK_SPLATS).
     pub blocks: Vec<Block>,
     /// Bytes of a shape and of a color.
-    bytes_each: [u64; 2],
+    bytes_each: [u64; 3],
     /// Shapes and colors, but where a frame is only listed.
-    memory: Option<ChunkMemory<2>>,
+    memory: Option<ChunkMemory>,
 }
 
 impl Chunk {
@@ -72,10 +75,11 @@ impl Chunk {
         uploader: Option<&Uploader<'_>>,
         number: usize,
         (closed, transparent): (bool, bool),
-        survey: &Survey,
+        (survey, levels): (&Survey, Option<ChunkLevels>),
     ) -> Result<Self> {
         let colors = if survey.uniform_color { 1 } else { survey.count };
-        let bytes_each = [survey.shape_bytes(), survey.color_bytes()].map(|bytes| bytes as u64);
+        let of_levels = levels.map_or(0, |levels| levels.bytes_each());
+        let bytes_each = [survey.shape_bytes() as u64, survey.color_bytes() as u64, of_levels];
         let memory = |uploader: &Uploader<'_>| {
             let buffer = |what: &str, count: u32, bytes_each: u64| {
                 // Shaders read 8 bytes of colors at once.
@@ -83,9 +87,15 @@ impl Chunk {
                 let name = format!("{what} of chunk {number}");
                 uploader.buffer(&name, size, vk::BufferUsageFlags::STORAGE_BUFFER)
             };
-            let buffers =
-                [buffer("shapes", survey.count, bytes_each[0])?, buffer("colors", colors, bytes_each[1])?];
-            ChunkMemory::new(uploader, &format!("chunk {number}"), buffers)
+            let mut buffers = vec![
+                buffer("shapes", survey.count, bytes_each[0])?,
+                buffer("colors", colors, bytes_each[1])?,
+            ];
+            if levels.is_some() {
+                buffers.push(buffer("levels", survey.count, bytes_each[2])?);
+            }
+            let named = buffers.len();
+            ChunkMemory::new(uploader, &format!("chunk {number}"), buffers, named)
         };
         Ok(Self {
             rebase: survey.rebase,
@@ -98,6 +108,7 @@ impl Chunk {
             epsilon: None,
             own_epsilon: false,
             packed: survey.packed,
+            levels,
             overlap: 1.0,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
@@ -117,7 +128,7 @@ impl Chunk {
         survey: &Survey,
         progress: &mut dyn FnMut(u64),
     ) -> Result<()> {
-        let (mut first, mut blocks) = (0, BlockMaker::default());
+        let (mut first, mut blocks) = (0, BlockMaker::new(self.levels));
         for packed in batches.filter(|packed| packed.count > 0) {
             blocks.add(&packed, survey);
             if let Some(uploader) = &mut uploader {
@@ -137,14 +148,23 @@ impl Chunk {
         let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
         // The one color comes with the first splats.
         let colors = if self.uniform_color && first > 0 { &[] } else { colors };
-        let bytes = (shapes.len() + colors.len()) as u64;
+        let levels: &[u8] = bytemuck::cast_slice(&packed.levels);
+        let bytes = (shapes.len() + colors.len() + levels.len()) as u64;
         let mut staging = Staging::new(uploader.device, "upload of splats", bytes)?;
         let first = u64::from(first);
         staging.push(&buffers[0], first * self.bytes_each[0], shapes)?;
         if !colors.is_empty() {
             staging.push(&buffers[1], first * self.bytes_each[1], colors)?;
         }
+        if !levels.is_empty() {
+            staging.push(&buffers[2], first * self.bytes_each[2], levels)?;
+        }
         (uploader.submit)(staging)
+    }
+
+    /// Whether its splats stand for others, and are drawn in their place.
+    pub fn stands_for_others(&self) -> bool {
+        self.levels.is_some_and(|levels| levels.nodes)
     }
 
     /// The descriptor set; null without memory.

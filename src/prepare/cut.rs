@@ -5,17 +5,20 @@ use std::ops::Range;
 use super::{
     MeshChunk, PreparedScene,
     chunk::{self, Chunk},
+    levels::{ChunkLevels, Leveled},
     memory::Uploader,
     mesh_chunk::PackedMesh,
     near_surfaces,
     overlap::overlap,
-    pack, pieces,
+    pack::{self, Beside},
+    pieces,
     sequence::Sequence,
     sites::{Site, sites},
 };
 use crate::{
     error::Result,
-    scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Scene, SplatFormat},
+    progress::Progress,
+    scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -53,7 +56,11 @@ pub(super) fn cut(
     for (number, object) in scene.objects.iter().enumerate() {
         let epsilon = scene.own_epsilon(number);
         let auto = epsilon.map_or(!scene.without_auto_epsilon, |epsilon| epsilon == Epsilon::Auto);
-        cut.object(object, epsilon, auto)?;
+        let leveled = if scene.levels { cut.leveled(object)? } else { None };
+        match &leveled {
+            None => cut.object(object, epsilon, auto)?,
+            Some(leveled) => cut.levels(leveled, epsilon, auto)?,
+        }
     }
     scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
     let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
@@ -83,12 +90,49 @@ struct Part<'a> {
     epsilon: Option<Epsilon>,
     /// Of the object's splats, where they have any.
     shares: Option<Vec<f32>>,
+    levels: Option<(&'a Leveled, ChunkLevels)>,
 }
+
+impl Part<'_> {
+    fn beside(&self) -> Beside<'_> {
+        Beside { shares: self.shares.as_deref(), levels: self.levels }
+    }
+}
+
+/// Progress of building levels of detail is that of one who waits for a chunk.
+struct Quiet;
+
+impl Progress for Quiet {}
 
 impl Cut<'_, '_> {
     fn step(&mut self, count: usize) {
         self.done += count as u64;
         (self.progress)(self.done, self.total);
+    }
+
+    /// An object in levels of detail, without its defects, which are counted; `None` where it has no room for any.
+    fn leveled(&mut self, object: &Object) -> Result<Option<Leveled>> {
+        if object.splats.colors.opacity() == Opacity::Invisible {
+            return Ok(None);
+        }
+        let mut whole = object.clone();
+        let defects = whole.splats.drop_defective();
+        self.step(0);
+        let leveled = Leveled::new(&whole, &Quiet)?;
+        if leveled.is_some() {
+            self.prepared.defects.merge(&defects);
+            self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.splats.len() as u64);
+            self.done += defects.total() as u64;
+        }
+        Ok(leveled)
+    }
+
+    /// Its own splats, then the nodes, which have ε in radii of their own.
+    fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
+        let overlap = overlap(&leveled.leaves.splats);
+        let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
+        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, overlap, levels(false))?;
+        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, overlap, levels(true))
     }
 
     /// `auto`: ε is to fit what is near each splat.
@@ -99,10 +143,23 @@ impl Cut<'_, '_> {
             self.step(splats.len());
             return Ok(());
         }
-        let storage = self.prepared.storage;
+        let order = self.prepared.storage.order;
+        self.part_of(object, (epsilon, auto), order, overlap(splats), None)
+    }
+
+    /// An object that can be seen, or one of its two parts.
+    fn part_of(
+        &mut self,
+        object: &Object,
+        (epsilon, auto): (Option<Epsilon>, bool),
+        order: Order,
+        overlap: f64,
+        levels: Option<(&Leveled, ChunkLevels)>,
+    ) -> Result<()> {
+        let (splats, storage) = (&object.splats, self.prepared.storage);
         // Before it is cut, so that chunks are compact.
-        let sequence = Sequence::of(splats, storage.order);
-        let transparent = opacity == Opacity::Transparent;
+        let sequence = Sequence::of(splats, order);
+        let transparent = splats.colors.opacity() == Opacity::Transparent;
         // Packed disks have no room for a share.
         let exact = storage.format == SplatFormat::Exact;
         // So that a bar is there meanwhile.
@@ -112,7 +169,7 @@ impl Cut<'_, '_> {
             true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
             false => None,
         };
-        let part = Part { object, sequence, transparent, overlap: overlap(splats), epsilon, shares };
+        let part = Part { object, sequence, transparent, overlap, epsilon, shares, levels };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
                 for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
@@ -136,21 +193,28 @@ impl Cut<'_, '_> {
         let survey = site.survey(splats, which(range.clone()));
         self.prepared.defects.merge(&survey.defects);
         if survey.count > 0 {
-            if part.transparent {
+            if part.transparent && !part.levels.is_some_and(|(_, levels)| levels.nodes) {
                 self.transparent_splats += survey.count;
                 self.transparent_radii += survey.sum_of_radii;
             }
             let number = self.prepared.chunks.len();
             let traits = (part.object.closed, part.transparent);
-            let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, &survey)?;
+            let mut chunk = Chunk::new(
+                self.uploader.as_ref(),
+                number,
+                traits,
+                (&survey, part.levels.map(|(_, levels)| levels)),
+            )?;
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
-            let packed = batches.map(|which| pack::pack(splats, which, &survey, part.shares.as_deref()));
+            let packed = batches.map(|which| pack::pack(splats, which, &survey, part.beside()));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
             chunk.overlap = part.overlap;
             chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
+            chunk.scene_bytes +=
+                part.levels.map_or(0, |(_, levels)| levels.bytes_each()) * u64::from(survey.count);
             self.prepared.chunks.push(chunk);
         }
         self.step(range.len());

@@ -1,4 +1,4 @@
-//! The memory of a chunk on the device: its buffers, and the descriptor set that shaders find the first two by.
+//! The memory of a chunk on the device: its buffers, and the descriptor set that shaders find them by.
 
 use ash::vk;
 
@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors.
+/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors, binding 2 levels of detail.
 pub struct SplatSetLayout(SetLayout);
 
 impl SplatSetLayout {
@@ -21,7 +21,7 @@ impl SplatSetLayout {
     pub fn new(device: &Device) -> Result<Self> {
         let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::COMPUTE;
         let binding = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages };
-        Ok(Self(SetLayout::new(device, "splats", &[binding, binding])?))
+        Ok(Self(SetLayout::new(device, "splats", &[binding; 3])?))
     }
 
     /// The set's layout.
@@ -38,11 +38,11 @@ pub(super) struct Uploader<'u> {
 }
 
 /// Buffers of a chunk, and their set.
-pub(super) struct ChunkMemory<const BUFFERS: usize> {
+pub(super) struct ChunkMemory {
     pub set: vk::DescriptorSet,
     _pool: SealedPool,
     // Not read by the host, but the set names them.
-    pub buffers: [Buffer; BUFFERS],
+    pub buffers: Vec<Buffer>,
 }
 
 impl Uploader<'_> {
@@ -53,14 +53,17 @@ impl Uploader<'_> {
     }
 }
 
-impl<const BUFFERS: usize> ChunkMemory<BUFFERS> {
-    /// The set of two buffers or more. `name`: the chunk's.
-    pub fn new(uploader: &Uploader<'_>, name: &str, buffers: [Buffer; BUFFERS]) -> Result<Self> {
-        let room = PoolSizes { sets: 1, buffers: 2, ..PoolSizes::default() };
+impl ChunkMemory {
+    /// The set of the first `named` of some buffers, one at least; the last of them stands in for those that are missing. `name`: the
+    /// chunk's.
+    pub fn new(uploader: &Uploader<'_>, name: &str, buffers: Vec<Buffer>, named: usize) -> Result<Self> {
+        let room = PoolSizes { sets: 1, buffers: 3, ..PoolSizes::default() };
         let pool = DescriptorPool::new(uploader.device, &format!("set of {name}"), room)?;
-        let named = (0..).zip(&buffers).take(2);
-        let given: Vec<_> =
-            named.map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw(), buffer.size()))).collect();
+        let named = &buffers[..named];
+        let bindings = (0..3).zip(named.iter().chain(named.last().into_iter().cycle()));
+        let given: Vec<_> = bindings
+            .map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw(), buffer.size())))
+            .collect();
         let set = pool.set(uploader.layout.set(), &given)?;
         Ok(Self { set, _pool: pool.seal(), buffers })
     }

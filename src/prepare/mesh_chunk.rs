@@ -44,7 +44,7 @@ pub struct MeshChunk {
     /// The longest edge, world space.
     pub(crate) longest_edge: f64,
     /// Vertices, colors, indices, but where a frame is only listed.
-    memory: Option<ChunkMemory<3>>,
+    memory: Option<ChunkMemory>,
 }
 
 /// A piece of a mesh as bytes for the device.
@@ -135,7 +135,7 @@ impl PackedMesh {
     }
 
     /// Buffers of device memory with all of it.
-    fn upload(&self, uploader: &mut Uploader<'_>, number: usize) -> Result<ChunkMemory<3>> {
+    fn upload(&self, uploader: &mut Uploader<'_>, number: usize) -> Result<ChunkMemory> {
         let buffer = |what: &str, size: usize, usage: vk::BufferUsageFlags| {
             uploader.buffer(&format!("{what} of mesh {number}"), size as u64, usage)
         };
@@ -145,7 +145,7 @@ impl PackedMesh {
             bytemuck::cast_slice(&self.colors),
             bytemuck::cast_slice(&self.indices),
         ];
-        let buffers = [
+        let buffers = vec![
             buffer("vertices", contents[0].len(), storage)?,
             buffer("colors", contents[1].len(), storage)?,
             buffer("indices", contents[2].len(), vk::BufferUsageFlags::INDEX_BUFFER)?,
@@ -157,7 +157,7 @@ impl PackedMesh {
                 (uploader.submit)(staging)?;
             }
         }
-        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers)
+        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers, 2) // the third holds indices
     }
 }
 

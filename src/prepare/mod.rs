@@ -9,6 +9,7 @@ mod blocks;
 mod chunk;
 mod cut;
 mod far_apart;
+mod levels;
 mod memory;
 mod mesh_chunk;
 mod near_surfaces;
@@ -23,6 +24,7 @@ mod sites;
 pub use as_packed::as_packed;
 pub use blocks::Block;
 pub use chunk::Chunk;
+pub use levels::{BallBounds, BlockLevels, ChunkLevels, LevelSpace};
 pub use memory::SplatSetLayout;
 pub use mesh_chunk::MeshChunk;
 pub use packed::LARGEST_TURN_RAD;
@@ -58,9 +60,10 @@ pub struct PreparedScene {
 }
 
 impl PreparedScene {
-    /// How many splats are drawn.
+    /// How many splats there are, without those that stand for others.
     pub fn splat_count(&self) -> u64 {
-        self.chunks.iter().map(|chunk| u64::from(chunk.count)).sum()
+        let own = self.chunks.iter().filter(|chunk| !chunk.stands_for_others());
+        own.map(|chunk| u64::from(chunk.count)).sum()
     }
 
     /// How many triangles are drawn.

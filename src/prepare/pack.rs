@@ -1,6 +1,6 @@
 //! The layout of splats in GPU buffers.
 //!
-//! Disks, 32 bytes: `position radius`, `normal less`. Ellipses, 48 bytes: `position major-radius`, `s less`, `t 0`. Local
+//! Disks, 32 bytes: `position radius`, `normal less`. Ellipses, 48 bytes: `position major-radius`, `s less`, `t weight`, the weight that of a node (`levels.rs`). Local
 //! space, f32; `less` is 1 less the splat's share of ε (`near_surfaces.rs`), 0 without one. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::{
     far_apart::far_apart,
+    levels::{ChunkLevels, Leveled},
     packed,
     radii::{RadiusCounts, RadiusStep},
     rebase::Rebase,
@@ -88,6 +89,17 @@ pub struct Packed {
     pub shapes: Vec<[u32; 4]>,
     /// See the module: a word each, or two.
     pub colors: Vec<u32>,
+    /// What decides about their levels of detail, where there are any (`levels.rs`).
+    pub levels: Vec<f32>,
+}
+
+/// What lies beside some splats, by their numbers in the input.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Beside<'a> {
+    /// Their shares of ε.
+    pub shares: Option<&'a [f32]>,
+    /// Their levels of detail.
+    pub levels: Option<(&'a Leveled, ChunkLevels)>,
 }
 
 /// The length to which shorter tangent vectors are brought, local space: 2⁻⁹⁰. Devices may flush denormal numbers to
@@ -148,16 +160,17 @@ fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defe
 }
 
 /// Packs some of the splats of a survey in their order, without those that have a defect. Where one color is for all, it is
-/// packed once. `shares`: of all splats in the input, their shares of ε.
-pub fn pack(
+/// packed once.
+pub(super) fn pack(
     splats: &Splats,
     which: impl ExactSizeIterator<Item = usize>,
     survey: &Survey,
-    shares: Option<&[f32]>,
+    beside: Beside<'_>,
 ) -> Packed {
     let (rebase, uniform_color) = (survey.rebase, survey.uniform_color);
     let room = which.len();
     let mut packed = Packed {
+        levels: Vec::new(),
         count: 0,
         shapes: Vec::with_capacity(room * survey.shape_bytes() / 16),
         colors: Vec::with_capacity(if uniform_color { 1 } else { room } * survey.color_bytes() / 4),
@@ -165,7 +178,10 @@ pub fn pack(
     let bits = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array().map(f32::to_bits);
     for i in which {
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
-        let less = shares.map_or(0.0, |shares| 1.0 - f64::from(shares[i]));
+        if let Some((leveled, levels)) = beside.levels {
+            leveled.push(levels, i, &mut packed.levels);
+        }
+        let less = beside.shares.map_or(0.0, |shares| 1.0 - f64::from(shares[i]));
         match &splats.shapes {
             Shapes::Disks { normals, .. } => {
                 // In f64: a normal may have any length that f32 has.
@@ -182,7 +198,8 @@ pub fn pack(
                     let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
                     bits(v, w)
                 };
-                packed.shapes.extend([bits(position, radius), local(s, less), local(t, 0.0)]);
+                let weight = beside.levels.map_or(0.0, |(leveled, levels)| leveled.weight(levels, i));
+                packed.shapes.extend([bits(position, radius), local(s, less), local(t, weight)]);
             }
         }
         if survey.fine {
@@ -226,7 +243,7 @@ mod tests {
             colors: Colors::Uniform([1.0; 4]),
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 1e-3 };
-        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase), None);
+        let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase), Beside::default());
         let unit = SHORTEST_TANGENT as f32;
         let expected = [[1e-3, 0.0, 0.0], [0.0, unit, 0.0], [0.6 * unit, 0.8 * unit, 0.0], [0.0, 0.0, unit]];
         for (i, expected) in [1, 2, 4, 5].into_iter().zip(expected) {
@@ -246,7 +263,7 @@ mod tests {
         let survey = survey(&splats, 0..10, rebase);
         assert_eq!((survey.count, survey.defects.of(Defect::Position)), (9, 1));
         assert!(survey.bounds.iter().all(|corner| corner.as_vec3().is_finite()));
-        assert_eq!(pack(&splats, 0..10, &survey, None).shapes.len(), 2 * 9);
+        assert_eq!(pack(&splats, 0..10, &survey, Beside::default()).shapes.len(), 2 * 9);
     }
 
     #[test]
@@ -262,7 +279,7 @@ mod tests {
         };
         let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
         let survey = survey(&splats, 0..5, rebase);
-        let packed = pack(&splats, 0..5, &survey, None);
+        let packed = pack(&splats, 0..5, &survey, Beside::default());
         assert_eq!((survey.count, survey.defects.total(), survey.largest_radius), (3, 2, 1.5));
         assert_eq!((packed.count, packed.shapes.len()), (3, 2 * 3));
         assert_eq!(bytemuck::cast_slice::<_, u16>(&packed.colors), [0, 32768, 65535, 65535]);

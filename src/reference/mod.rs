@@ -18,6 +18,8 @@
 //! is blended with them by their sum of weights (`front`, `transition`). Transparent fragments are all kept, a pixel at
 //! a time, and grouped into layers by ε (`layers`): nothing is peeled.
 //!
+//! Which levels of detail a view has is found by walking down from the root (`selection`).
+//!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
 //!
@@ -51,6 +53,7 @@ mod polygons;
 mod row_span;
 mod samples;
 mod search_box;
+mod selection;
 mod shade;
 mod splat;
 mod surface;
@@ -68,6 +71,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub use edges::Edge;
 pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
 pub use picture::{Picture, Pixel};
+pub use selection::{Culling, Walk};
 pub use true_pixel::{GroundTruth, TruePixel};
 
 use self::band::{Drawn, Frame};

@@ -11,6 +11,7 @@ mod crop;
 mod encoding;
 mod layers;
 mod light;
+mod lod;
 mod mesh;
 mod methods;
 mod opacity;
@@ -33,6 +34,7 @@ pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
 pub use layers::{Layers, MOST_LAYERS};
 pub use light::{Light, LightKind, MOST_LIGHTS};
+pub use lod::Lod;
 pub use mesh::Mesh;
 pub use methods::{
     Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
@@ -94,6 +96,8 @@ pub struct Scene {
     /// No frame asks for [`Epsilon::Auto`] of objects that have no ε of their own: nothing is looked for near their splats when the scene is
     /// prepared.
     pub without_auto_epsilon: bool,
+    /// Objects of splats get levels of detail when the scene is prepared: [`Settings::lod`] then has something to choose from.
+    pub levels: bool,
 }
 
 impl Scene {

@@ -1,7 +1,7 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Camera, Layers, Light, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
+    Camera, Layers, Light, Lod, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -45,6 +45,10 @@ settings! {
         "cull" "WHERE" cull: Cull,
         /// The precision of the sums; the reference sums in 64 bits whatever is given here.
         "accumulate" "TYPE" accumulate: Accumulate,
+        /// The largest size on the screen of a splat that stands for those below it in a hierarchy, which is made of each object then: pixels, such
+        /// as 1px, or percent of the picture; 0 draws the scene itself. One pixel is as far as the filter spreads what it sees. For `render`, by
+        /// `compute` and as opaque points; what else draws all splats. The reference draws the scene itself.
+        "lod" "PX|PERCENT%" lod: Lod,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
         /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near.
         "epsilon" "auto|1r|LENGTH" epsilon: Epsilon = Epsilon::Auto,

@@ -17,6 +17,7 @@ mod floor;
 mod frame_graph;
 mod hard_cases;
 mod in_use;
+mod levels;
 mod lifetime;
 mod memory;
 mod off_center;

@@ -112,6 +112,7 @@ fn draw(
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
+    scene.levels = settings.lod.wants_levels();
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);

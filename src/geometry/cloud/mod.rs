@@ -8,7 +8,6 @@
 //! Splats are round: ellipses take half as much memory again (48 bytes on the device instead of 32), and gain only where points lie
 //! much denser along one direction than across.
 
-mod eigen;
 mod merge;
 mod noise;
 mod orient;

@@ -11,7 +11,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::eigen::eigen;
+use crate::geometry::eigen::eigen;
 
 /// How many neighbors make a plane.
 pub(super) const NEIGHBORS: usize = 12;

@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleBlock};
-use crate::shaders::config::{ALL_VISIBLE, BLOCK_SPLATS};
+use crate::shaders::config::{ALL_VISIBLE, BLOCK_SPLATS, LEVEL_WORDS};
 
 /// Words in front of the blocks: the rows.
 const ROW_WORDS: usize = 2;
 
 /// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, then the
-/// chunks' blocks one behind the other.
+/// chunks' blocks one behind the other; then, where some have levels of detail, how the camera sees them, the last chunk's first.
 pub struct ListedBlocks(Vec<u32>);
 
 impl ListedBlocks {
@@ -31,6 +31,11 @@ impl ListedBlocks {
                 words.push(u32::MAX / BLOCK_SPLATS);
             }
             draw.constants.list_blocks((words.len() - before) as u32);
+        }
+        if draws.iter().any(|draw| draw.levels.is_some()) {
+            let none = [0; LEVEL_WORDS as usize];
+            let views = draws.iter().rev().map(|draw| draw.levels.map_or(none, |levels| levels.words()));
+            words.extend(views.flatten());
         }
         Self(words)
     }

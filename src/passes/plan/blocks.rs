@@ -4,7 +4,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::passes::plan::seen::PotentiallyVisibleBlock;
+use crate::passes::plan::{
+    levels::{LevelView, OfBlock},
+    seen::PotentiallyVisibleBlock,
+};
 use crate::{
     math::size::{SizeBound, box_within_px},
     prepare::{Block, Chunk, ViewFromLocal},
@@ -20,6 +23,8 @@ pub struct BlockCullView<'a> {
     pub bound: &'a SizeBound,
     /// Splats that face away are not drawn.
     pub culls: bool,
+    /// Levels of detail, where some are drawn.
+    pub levels: Option<&'a LevelView>,
 }
 
 /// What a device finds in f32 of a unit vector may differ from this file's f64 by so much of an angle: some roundings of 2⁻²⁴, and a
@@ -52,6 +57,13 @@ fn potentially_visible(
     block: &Block,
     look: &BlockCullView<'_>,
 ) -> Option<PotentiallyVisibleBlock> {
+    let of_levels = match (look.levels, &block.levels) {
+        (Some(view), Some(block)) => view.of(block),
+        _ => OfBlock::All,
+    };
+    if of_levels == OfBlock::None {
+        return None;
+    }
     let ball = Ball::of(block, look);
     let angles = ball.angles(block, look);
     let right = std::f64::consts::FRAC_PI_2;
@@ -62,13 +74,17 @@ fn potentially_visible(
     let scale = look.view.view_from_local_scale;
     let largest_radius = block.largest_radius * scale;
     let bound = SizeBound { nearest_z: ball.z - ball.reach, largest_radius, ..*look.bound };
+    let of_level = match (look.levels, &block.levels) {
+        (Some(view), Some(block)) => view.largest_box_px(block, look.bound.filter_px),
+        _ => f64::INFINITY,
+    };
     let of_chunk = box_within_px(look.bound, largest_radius, most_x);
     Some(PotentiallyVisibleBlock {
         number,
         count: block.count,
-        box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk),
+        box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk).min(of_level),
         rows,
-        all_seen: is_whole && (!look.culls || angles[0] > right),
+        all_seen: of_levels == OfBlock::All && is_whole && (!look.culls || angles[0] > right),
     })
 }
 

@@ -23,7 +23,7 @@ pub(crate) fn may_leave_out(splats: &[Draw<'_>]) -> bool {
 
 /// Whether tiles are made of listed splats where a list gains something.
 pub(crate) fn lists_tiles(splats: &[Draw<'_>], settings: &Settings, limits: &Limits) -> bool {
-    settings.cull != Cull::Setup && list_has_room(splats, limits)
+    settings.cull != Cull::Setup && list_has_room(blocks_of(splats), limits)
 }
 
 /// Whether the graphics pipeline draws listed splats alone. Layers draw all.
@@ -34,16 +34,22 @@ pub(crate) fn lists_primitives(splats: &[Draw<'_>], settings: &Settings, limits:
         Cull::Setup => false,
         Cull::List | Cull::Hidden => Primitive::of(settings.rasterizer) == Primitive::Point,
     };
+    let has_levels = splats.iter().any(|draw| draw.levels.is_some());
+    let wanted = wanted || has_levels && Primitive::of(settings.rasterizer) == Primitive::Point;
     wanted
         && !splats.iter().any(|draw| draw.chunk.transparent)
-        && (may_leave_out(splats) || settings.cull == Cull::Hidden)
-        && list_has_room(splats, limits)
+        && (has_levels || may_leave_out(splats) || settings.cull == Cull::Hidden)
+        && list_has_room(blocks_of(splats), limits)
         && splats.iter().all(|draw| draw.chunk.count <= MOST_INDICES)
 }
 
-fn list_has_room(splats: &[Draw<'_>], limits: &Limits) -> bool {
-    let blocks: u64 = splats.iter().map(|draw| draw.chunk.blocks.len() as u64).sum();
-    blocks * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
+/// Whether a list of the splats of so many blocks is within what a buffer holds.
+pub(crate) fn list_has_room(blocks: usize, limits: &Limits) -> bool {
+    blocks as u64 * u64::from(BLOCK_SPLATS) * 4 < limits.max_storage_buffer_range.min(1 << 32)
+}
+
+fn blocks_of(splats: &[Draw<'_>]) -> usize {
+    splats.iter().map(|draw| draw.chunk.blocks.len()).sum()
 }
 
 /// Whether a tile sums only what its visible depth does not hide. Beside polygons more than what visibility lets through may

@@ -10,6 +10,7 @@ use crate::passes::{
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
+        levels::{LevelView, OfBlock},
         range::DepthRange,
         seen::PotentiallyVisibleBlock,
     },
@@ -39,6 +40,8 @@ pub struct Draw<'a> {
     bound: SizeBound,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
+    /// How the camera sees its levels of detail, where some of its splats are of none that is drawn.
+    pub(crate) levels: Option<LevelView>,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
     /// triangle: such ones are then listed and drawn as quads. Never with a rasterizer that draws quads only.
     pub may_be_large: bool,
@@ -51,8 +54,9 @@ pub struct Draw<'a> {
 impl Draw<'_> {
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_blocks(&self) -> Vec<PotentiallyVisibleBlock> {
-        let Self { view, bound, .. } = self;
-        potentially_visible_blocks(self.chunk, &BlockCullView { view, bound, culls: culls(&self.variant) })
+        let Self { view, bound, levels, .. } = self;
+        let culls = culls(&self.variant);
+        potentially_visible_blocks(self.chunk, &BlockCullView { view, bound, culls, levels: levels.as_ref() })
     }
 }
 
@@ -127,7 +131,14 @@ pub fn draws<'a>(
             },
         };
         let point_cap_px = limits.point_size_range[1];
-        let largest_box_px = largest_box_px(&bound);
+        let levels = chunk.levels.and_then(|levels| LevelView::new(levels, camera, settings));
+        let of_level = |view: &LevelView| {
+            let blocks = chunk.blocks.iter().filter_map(|block| block.levels.as_ref());
+            let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
+            drawn.map(|block| view.largest_box_px(block, bound.filter_px)).fold(0.0, f64::max)
+        };
+        let of_level = levels.as_ref().map_or(f64::INFINITY, of_level);
+        let largest_box_px = largest_box_px(&bound).min(of_level);
         let box_of = |step: &RadiusStep| {
             let radius = step.radius * view.view_from_local_scale;
             (step.count, box_px(&bound, radius).min(largest_box_px))
@@ -150,6 +161,7 @@ pub fn draws<'a>(
             view,
             bound,
             wholly_in_view: wholly_in_view(chunk, &view, &bound),
+            levels,
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
                 // Filters leave no splat thin.
@@ -174,11 +186,29 @@ pub fn draws<'a>(
                 if chunk.fine {
                     constants.push((SPEC_FINE, 1));
                 }
+                if let Some(levels) = levels {
+                    constants.push((SPEC_LEVELS, if levels.nodes { LEVELS_NODES } else { LEVELS_LEAVES }));
+                }
                 constants
             },
         }
     };
-    scene.chunks.iter().map(draw).collect()
+    // Where the scene itself is drawn, nothing stands for its splats.
+    scene
+        .chunks
+        .iter()
+        .map(draw)
+        .filter(|draw| draw.levels.is_some() || !draw.chunk.stands_for_others())
+        .collect()
+}
+
+/// The splats of a scene themselves, where levels of detail can't be chosen.
+pub(crate) fn without_levels(splats: &mut Vec<Draw<'_>>) {
+    splats.retain(|draw| !draw.chunk.stands_for_others());
+    for draw in splats {
+        draw.levels = None;
+        draw.variant.retain(|(number, _)| *number != SPEC_LEVELS);
+    }
 }
 
 /// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.

@@ -8,8 +8,14 @@ use crate::passes::plan::{
 use crate::passes::{
     pipeline::tile_layouts::STORAGE_BUFFERS,
     plan::{
-        SplatMethod, bands::Band, block_list::ListedBlocks, culling, draws::Draw, invocations::Invocations,
-        seen::PotentiallyVisibleBlocks, tiles::TilePlan,
+        SplatMethod,
+        bands::Band,
+        block_list::ListedBlocks,
+        culling,
+        draws::{Draw, without_levels},
+        invocations::Invocations,
+        seen::PotentiallyVisibleBlocks,
+        tiles::TilePlan,
     },
 };
 use crate::{
@@ -47,7 +53,7 @@ pub(crate) fn tiles<'a>(
 
 /// How the graphics pipeline draws these splats, which it numbers, and sums in as many bits as it was asked to.
 pub(crate) fn primitives<'a>(
-    splats: &mut [Draw<'a>],
+    splats: &mut Vec<Draw<'a>>,
     polygons: bool,
     settings: &Settings,
     limits: &Limits,
@@ -55,6 +61,7 @@ pub(crate) fn primitives<'a>(
     let half_sums = settings.accumulate == Accumulate::F16 && settings.weighs_splats();
     splats.iter_mut().for_each(|draw| draw.half_sums = half_sums);
     if !culling::lists_primitives(splats, settings, limits) {
+        without_levels(splats);
         culling::number_splats(splats);
         return SplatMethod::default();
     }
@@ -78,22 +85,35 @@ fn bands<'a>(
     limits: &Limits,
 ) -> Option<Vec<Band<'a>>> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
-    let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
-    let most_bytes = most_bytes(splats, settings.tile_memory);
-    // Bands are made of listed splats, too.
-    let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
-    let gains = culling::may_leave_out(splats) || whole.bytes() > most_bytes;
-    if !gains || !culling::lists_tiles(splats, settings, limits) {
-        let mut splats = splats.to_vec();
-        culling::number_splats(&mut splats);
-        return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
-    }
     let rows = rows_of_image(settings);
-    let seen = PotentiallyVisibleBlocks::new(
-        splats.iter().map(Draw::potentially_visible_blocks).collect(),
-        rows.end,
-    );
-    let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
+    let seen = || {
+        let blocks = splats.iter().map(Draw::potentially_visible_blocks).collect();
+        PotentiallyVisibleBlocks::new(blocks, rows.end)
+    };
+    let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
+    let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
+        // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
+        let seen = seen();
+        if !culling::list_has_room(seen.chunks.iter().map(Vec::len).sum(), limits) {
+            return None;
+        }
+        let of_blocks = TilePlan::of_blocks(splats, &seen, rows.clone(), culls_hidden, settings, limits);
+        let whole = of_blocks.or_else(|| TilePlan::of(splats, culls_hidden, settings, limits))?;
+        (seen, whole)
+    } else {
+        let whole = TilePlan::of(splats, culls_hidden, settings, limits)?;
+        // Bands are made of listed splats, too.
+        let gains =
+            culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);
+        if !gains || !culling::lists_tiles(splats, settings, limits) {
+            let mut splats = splats.to_vec();
+            culling::number_splats(&mut splats);
+            return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
+        }
+        let seen = seen();
+        let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
+        (seen, whole)
+    };
     if left_to_others(&whole) {
         return None;
     }

@@ -9,6 +9,7 @@ pub(crate) mod digits;
 pub(crate) mod draws;
 pub(crate) mod few;
 pub(crate) mod invocations;
+pub(crate) mod levels;
 pub(crate) mod lights;
 pub(crate) mod mesh_draws;
 pub(crate) mod method;

@@ -18,6 +18,8 @@ mod hostile;
 mod hybrid;
 mod last_layer;
 mod layers;
+mod level_holes;
+mod levels;
 mod lights;
 mod low_pass;
 mod meshes;

@@ -4,6 +4,7 @@ mod empty_layers;
 mod floor;
 pub mod gate;
 mod growth;
+mod hierarchy;
 mod instructions;
 mod judgement;
 mod layers;
@@ -23,6 +24,7 @@ use serde::Serialize;
 pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRound, FloorRow};
 pub use growth::{GrowthPoint, GrowthRate, GrowthReport, growth_powers};
+pub use hierarchy::{HierarchyReport, HierarchyRow, PAPER_HIERARCHIES};
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use judgement::{Judged, Judgement};
 pub use layers::{LayersDrawn, LayersReport, OpaqueClaim, Places};
@@ -78,6 +80,9 @@ pub struct BenchReport {
     /// `growth`: frames over numbers of splats and of pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub growth: Option<GrowthReport>,
+    /// `p1`: levels of detail in the making.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub p1: Option<HierarchyReport>,
     /// `counts`: the instructions of every pipeline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counts: Option<InstructionReport>,
@@ -91,7 +96,7 @@ pub struct BenchReport {
 }
 
 /// The tables that are written as CSV, by the names of their files.
-pub const TABLES: [&str; 15] = [
+pub const TABLES: [&str; 16] = [
     "floor",
     "floor-limits",
     "floor-bounds",
@@ -106,6 +111,7 @@ pub const TABLES: [&str; 15] = [
     "growth-splats",
     "growth-pixels",
     "growth-passes",
+    "p1",
     "counts",
 ];
 
@@ -132,6 +138,7 @@ impl BenchReport {
         }
         tables.extend(self.transition.as_ref().map(|transition| ("transition", transition.grid())));
         tables.extend(self.growth.iter().flat_map(GrowthReport::grids));
+        tables.extend(self.p1.as_ref().map(|p1| ("p1", p1.grid())));
         if let Some(counts) = &self.counts {
             tables.push(("counts", counts.grid()));
             tables.extend(counts.isa_grid().map(|grid| ("", grid)));
@@ -164,6 +171,7 @@ impl BenchReport {
         figures.extend(self.layers.iter().flat_map(LayersReport::gate));
         figures.extend(self.transition.iter().flat_map(TransitionReport::gate));
         figures.extend(self.growth.iter().flat_map(GrowthReport::gate));
+        figures.extend(self.p1.iter().flat_map(HierarchyReport::gate));
         figures.extend(self.counts.iter().flat_map(InstructionReport::gate));
         figures
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Arg, Args, ValueEnum};
 use surfel::{
     Error, Result,
-    report::bench::PAPER_SPLATS,
+    report::bench::{PAPER_HIERARCHIES, PAPER_SPLATS},
     scene::{Rasterizer, Settings},
 };
 
@@ -37,6 +37,7 @@ const EXAMPLES: &str = "Examples:
   surfel bench layers --markdown layers.md
   surfel bench transition --model igea.ply
   surfel bench growth --model igea.ply --rasterizer perspective,raycast --plot growth.svg
+  surfel bench p1 --splats 100k,1M,10M --markdown p1.md
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
 
@@ -48,14 +49,14 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1, slides and growth a mesh, which is resampled evenly over its area and for growth must be
+    /// A PLY or OBJ file; for table1, slides, growth and p1 a mesh, which is resampled evenly over its area and for growth must be
     /// closed; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
     /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first; by itself layers takes it
-    /// for each of its 27 balls, and transition for the whole model; growth takes all, and the middle one over sizes [default:
-    /// the paper's; 2000 a ball; 40k; for growth 10k to 5M]
+    /// for each of its 27 balls, and transition for the whole model; growth and p1 take all, growth the middle one over sizes [default:
+    /// the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -151,26 +152,28 @@ pub enum Bench {
     Transition,
     /// A frame's time and memory over numbers of splats, and over sizes
     Growth,
+    /// Levels of detail in the making: the octree and the ellipses of its nodes, beside the table 1 of Pajarola et al. 2003
+    P1,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth
+    /// All of them but growth and p1
     All,
 }
 
 impl Bench {
     /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
-        self == table || self == Self::All && table != Self::Growth
+        self == table || self == Self::All && !matches!(table, Self::Growth | Self::P1)
     }
 
-    /// Whether any of its figures are times.
-    pub fn is_timed(self) -> bool {
-        self != Self::Counts
+    /// Whether any of its figures are times of a device: instructions are counted without one, and hierarchies made.
+    pub fn needs_device(self) -> bool {
+        !matches!(self, Self::Counts | Self::P1)
     }
 
     /// Whether any of its contestants take turns of pairs of frames.
     pub fn takes_turns(self) -> bool {
-        self.is_timed() && self != Self::Floor
+        self.needs_device() && self != Self::Floor
     }
 
     /// Its word on the command line.
@@ -262,6 +265,12 @@ impl BenchArguments {
         let mut sizes = once(&self.sizes, &[256, 512, 1024, 2048, 4096].map(|side| [side; 2]));
         sizes.sort_unstable_by_key(|[width, height]| u64::from(*width) * u64::from(*height));
         sizes
+    }
+
+    /// The numbers of splats of p1: the paper's, and more.
+    pub fn hierarchy_splats(&self) -> Vec<u64> {
+        let paper = PAPER_HIERARCHIES.map(|(splats, ..)| splats);
+        once(&self.splats, &[&paper[..], &[1_000_000, 5_000_000]].concat())
     }
 
     /// The rasterizers of growth, each once; the first is what the others are set beside.

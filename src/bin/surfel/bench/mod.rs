@@ -11,6 +11,7 @@ mod layers;
 mod limits;
 mod model;
 mod outputs;
+mod p1;
 mod slides;
 mod table1;
 mod transition;
@@ -51,8 +52,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     arguments.check_lists()?;
     outputs::check(arguments)?;
     let baseline = gate::read(arguments)?;
-    // Instructions are counted without a device.
-    let mut headless = match arguments.table.is_timed() {
+    let mut headless = match arguments.table.needs_device() {
         true => Some(arguments.device.open()?),
         false => None,
     };
@@ -70,7 +70,7 @@ pub fn run(arguments: &BenchArguments) -> Result<()> {
     gate::conclude(arguments, &report)
 }
 
-/// Measures and counts what the command line names. Tables of times are left out where no device is given.
+/// Measures and counts what the command line names. Tables of a device's times are left out where none is given.
 pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Result<BenchReport> {
     let settings = arguments.settings();
     let limits = TrustLimits { uncertainty: 0.01 * arguments.max_spread, ..TrustLimits::default() };
@@ -94,6 +94,8 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     // First, since it takes no time to find that a chip is unknown.
     report.counts =
         arguments.table.has(Bench::Counts).then(|| counts::gather(arguments, &context.bars)).transpose()?;
+    report.p1 = arguments.table.has(Bench::P1).then(|| p1::measure(&mut context)).transpose()?;
+    report.inputs = std::mem::take(&mut context.inputs);
     let measured = headless.map_or(Ok(()), |headless| measure(headless, &mut context, &mut report));
     context.bars.clear();
     measured?;
@@ -103,7 +105,7 @@ pub fn gather(headless: Option<&mut Headless>, arguments: &BenchArguments) -> Re
     Ok(report)
 }
 
-/// Measures the tables whose figures are times.
+/// Measures the tables whose figures are times of the device.
 fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut BenchReport) -> Result<()> {
     headless.renderer.check_settings(&context.settings)?;
     let facts = headless.device().facts().clone();
@@ -122,7 +124,7 @@ fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut
     let machine = watch.end(&context.clocks_mhz);
     report.flags = machine.flags(&context.limits);
     report.flags.append(&mut context.flags);
-    report.inputs = std::mem::take(&mut context.inputs);
+    report.inputs.append(&mut context.inputs);
     report.machine = Some(machine);
     Ok(())
 }

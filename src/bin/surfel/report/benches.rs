@@ -26,7 +26,7 @@ fn of_bench(
 ) -> Result<(Part, BenchReport)> {
     let line = session.arguments.bench(name);
     let arguments: BenchArguments = line.arguments()?;
-    let headless = arguments.table.is_timed().then_some(&mut *session.headless);
+    let headless = arguments.table.needs_device().then_some(&mut *session.headless);
     let report = bench::gather(headless, &arguments)?;
     let part = Part {
         finding: finding(&report).unwrap_or_else(|| "The device tells no times.".to_owned()),

@@ -46,6 +46,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             axis,
             spread_rad: disks.iter().map(|d| d.normal.angle_between(axis)).fold(0.0, f64::max),
             largest_radius: radius,
+            levels: None,
         };
         let eye = DVec3::new(between(-0.5, 0.5), between(-0.5, 0.5), 3.0);
         let parallel = round % 4 > 1;
@@ -66,7 +67,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             middle_px: camera.middle_px(SIZE_PX),
             filter_px: std::f64::consts::SQRT_2,
         };
-        let look = BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0 };
+        let look = BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0, levels: None };
         let seen = potentially_visible(0, &block, &look);
         for disk in &disks {
             let faces_away = disk.normal.dot(ray_to(disk.center)) > 0.0;

@@ -1,0 +1,7 @@
+//! Hierarchies of several models, each node of them held against all disks below it.
+
+mod conservative;
+pub(crate) mod models;
+mod moments;
+mod selection;
+mod tree;

@@ -1,0 +1,202 @@
+//! Levels of detail on the device: what is drawn is what the hierarchy selects, and looks like the scene.
+
+use crate::common::{PICTURE, assert_same_bits, passes, render_as, scenes, shared, with};
+use glam::DVec3;
+use surfel::{
+    geometry::hierarchy::{Hierarchy, Projection},
+    hard_scenes::{Hard, transparent},
+    load::builtin,
+    math::random::SplitMix,
+    renderer::{Frame, Headless},
+    scene::{Accumulate, Backfaces, Camera, Cull, Edges, Lod, Rasterizer, Settings, TileInvocations},
+};
+
+/// A ball of many splats in a small picture, drawn by levels of this size.
+fn ball(count: usize, tau_px: f64) -> Hard {
+    let mut hard = scenes::sphere_of_disks();
+    hard.scene.objects = vec![scenes::sphere(count, DVec3::ZERO)];
+    hard.scene.levels = tau_px > 0.0;
+    with(&hard, |settings| {
+        (settings.rasterizer, settings.edges, settings.accumulate) =
+            (Rasterizer::Compute, Edges::Coverage, Accumulate::F32);
+        (settings.lod, settings.background) = (Lod::Px(tau_px), None);
+    })
+}
+
+/// So many splats were listed to be set up.
+fn listed(headless: &mut Headless, hard: &Hard) -> u64 {
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let in_use = headless.list_occupancy(&prepared, &hard.camera, &hard.settings).unwrap();
+    in_use.bytes["list of visible splats"] / 4
+}
+
+/// Each decides alone, in 32 bits, from bounds of 32 bits. Sizes within 1e-5 of τ may be taken for either: one more or less each.
+#[test]
+fn what_is_drawn_is_what_the_hierarchy_selects() {
+    let mut headless = shared();
+    let mut random = SplitMix(5);
+    let mut hard = with(&ball(20_000, 1.0), |settings| settings.backfaces = Backfaces::Flip);
+    let hierarchy = Hierarchy::build(&hard.scene.objects[0].splats, &()).unwrap();
+    let mut drawn = Vec::new();
+    for (round, tau_px) in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0].into_iter().cycle().take(24).enumerate() {
+        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let orthographic_height = (round % 3 == 2).then_some(4.0);
+        let eye = direction * (4.0 + 6.0 * random.unit());
+        hard.camera = Camera { eye, orthographic_height, ..hard.camera };
+        hard.settings.lod = Lod::Px(tau_px);
+        let projection = Projection::of_camera(&hard.camera, hard.settings.size_px[1], &hierarchy);
+        let count = |tau_px: f64| {
+            let selection = hierarchy.select(&projection, tau_px);
+            (selection.nodes.len() + selection.leaves.len()) as u64
+        };
+        let near = [1.0 - 1e-5, 1.0 + 1e-5].map(|part| count(part * tau_px));
+        let found = listed(&mut headless, &hard);
+        println!("round {round}: {tau_px} px, {found} drawn, {near:?} selected");
+        assert!(near[1] <= found && found <= near[0], "round {round}: {found} of {near:?}");
+        drawn.push(found);
+    }
+    assert!(drawn.iter().any(|drawn| *drawn < 200) && drawn.iter().any(|drawn| *drawn > 10_000), "{drawn:?}");
+}
+
+/// In linear light, over nothing: alpha too.
+fn rms(a: &Frame, b: &Frame) -> f64 {
+    let squares: Vec<f64> = a
+        .linear
+        .iter()
+        .zip(&b.linear)
+        .flat_map(|(a, b)| (0..4).map(|i| f64::from(a[i] * a[3].max(b[3]) - b[i] * a[3].max(b[3])).powi(2)))
+        .collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+#[test]
+fn the_picture_is_that_of_the_scene_the_nearer_the_smaller_the_sizes_are() {
+    let mut headless = shared();
+    let whole = render_as(&mut headless, &ball(100_000, 0.0), PICTURE);
+    let inside = |frame: &Frame| frame.linear.iter().filter(|pixel| pixel[3] > 0.999).count();
+    let mut errors = Vec::new();
+    for tau_px in [0.25, 0.5, 1.0, 2.0, 4.0] {
+        let hard = ball(100_000, tau_px);
+        let frame = render_as(&mut headless, &hard, PICTURE);
+        let drawn = listed(&mut headless, &hard);
+        // No hole: all but the rim is covered.
+        let holes =
+            whole.linear.iter().zip(&frame.linear).filter(|(a, b)| a[3] > 0.999 && b[3] < 0.5).count();
+        errors.push(rms(&whole, &frame));
+        println!("{tau_px} px: {drawn} drawn, RMS {:.4}, {holes} holes", errors[errors.len() - 1]);
+        assert!(holes == 0, "{tau_px}: {holes} of {}", inside(&whole));
+        assert_eq!(passes(&whole), passes(&frame));
+    }
+    assert!(errors.windows(2).all(|pair| pair[0] <= 1.1 * pair[1]), "{errors:?}");
+    // An eighth of a step of 8 bits at 1/4 pixel; at one pixel, two of 255 steps of linear light.
+    assert!(errors[0] < 5e-4 && errors[2] < 2.0 / 255.0, "{errors:?}");
+}
+
+/// Nodes overlap more or less than splats do, and unevenly. Each weighs as the splats that it stands for, so that sums are as large as theirs and
+/// the background shows through no more pixels inside than it does there: none but a few in ten thousand (with equal weights, 30 at one pixel).
+#[test]
+fn nothing_shows_through_a_surface_of_nodes() {
+    let mut headless = shared();
+    let size_px = [256, 256];
+    let object = builtin::relief(400_000);
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![object];
+    hard.settings.size_px = size_px;
+    hard.camera = Camera::fit(&hard.scene.ball().unwrap(), size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let whole = render_as(&mut headless, &hard, PICTURE);
+    hard.scene.levels = true;
+    for tau_px in [0.5, 1.0] {
+        hard.settings.lod = Lod::Px(tau_px);
+        let frame = render_as(&mut headless, &hard, PICTURE);
+        let [width, height] = size_px.map(|side| side as usize);
+        let is_inside = |i: usize| {
+            let (x, y) = (i % width, i / width);
+            let within = (4..width - 4).contains(&x) && (4..height - 4).contains(&y);
+            let around = [0, 4, 4 * width];
+            within
+                && around
+                    .iter()
+                    .all(|step| whole.linear[i - step][3] > 0.99 && whole.linear[i + step][3] > 0.99)
+        };
+        let inside: Vec<usize> = (0..width * height).filter(|i| is_inside(*i)).collect();
+        let thin = inside.iter().filter(|i| frame.linear[**i][3] < 0.97).count();
+        println!("{tau_px} px: {thin} of {} show what is behind", inside.len());
+        assert!(10_000 * thin <= 5 * inside.len(), "{tau_px}: {thin} of {}", inside.len());
+    }
+}
+
+/// With a size of 0 the scene itself is drawn, also where it has levels: without a pass, and without a bit, that it has not by itself.
+#[test]
+fn the_scene_itself_has_nothing_of_it() {
+    let mut headless = shared();
+    let without = with(&ball(5_000, 0.0), |settings| settings.cull = Cull::Setup);
+    let mut with_levels = without.clone();
+    with_levels.scene.levels = true;
+    let frames = [without, with_levels].map(|hard| render_as(&mut headless, &hard, PICTURE));
+    assert_eq!(passes(&frames[0]), passes(&frames[1]));
+    let far =
+        frames[0].linear.iter().zip(&frames[1].linear).flat_map(|(a, b)| (0..4).map(|i| (a[i] - b[i]).abs()));
+    // The order of sums is another.
+    assert!(far.fold(0.0, f32::max) < 1e-4);
+}
+
+/// By points, in layers, by either kind of tiles, in bands; and what cannot list splats draws the scene itself.
+#[test]
+fn every_way_to_list_splats_draws_the_same_level() {
+    let mut headless = shared();
+    let hard = ball(30_000, 2.0);
+    let first = render_as(&mut headless, &hard, PICTURE);
+    let changes: [fn(&mut Settings); 2] = [
+        |settings| settings.tile_invocations = TileInvocations::Pixel,
+        |settings| settings.tile_memory = surfel::scene::TileMemory::Most(1_000_000),
+    ];
+    for change in changes {
+        let frame = render_as(&mut headless, &with(&hard, change), PICTURE);
+        assert!(rms(&first, &frame) < 1e-5, "{}", rms(&first, &frame));
+    }
+    let points = with(&hard, |settings| settings.rasterizer = Rasterizer::Perspective);
+    let tiles = with(&hard, |settings| settings.edges = Edges::Hard);
+    let [by_points, by_tiles] = [&points, &tiles].map(|hard| render_as(&mut headless, hard, PICTURE));
+    assert!(passes(&by_points).contains(&"list visible splats"), "{:?}", passes(&by_points));
+    assert!(rms(&by_points, &by_tiles) < 1e-3, "{}", rms(&by_points, &by_tiles));
+    // Quads have no list.
+    let quads = |levels: bool| {
+        let mut hard = with(&hard, |settings| settings.rasterizer = Rasterizer::Quad);
+        hard.scene.levels = levels;
+        render_as(&mut headless, &hard, PICTURE)
+    };
+    let [with_levels, without] = [true, false].map(quads);
+    assert!(rms(&with_levels, &without) < 1e-5, "{}", rms(&with_levels, &without));
+    let mut glass = transparent::spheres();
+    let whole = render_as(
+        &mut headless,
+        &with(&glass, |settings| settings.rasterizer = Rasterizer::Compute),
+        PICTURE,
+    );
+    glass.scene.levels = true;
+    let glass =
+        with(&glass, |settings| (settings.rasterizer, settings.lod) = (Rasterizer::Compute, Lod::Px(0.5)));
+    let error = rms(&whole, &render_as(&mut headless, &glass, PICTURE));
+    assert!(error < 0.02, "{error}");
+}
+
+/// Nothing, one splat, two, a thousand in one place.
+#[test]
+fn objects_of_few_splats_are_drawn_as_they_are() {
+    let mut headless = shared();
+    for count in [0, 1, 2, 1000] {
+        let scene = |levels: bool| {
+            let mut builder = scenes::builder::Builder::default();
+            (0..count).for_each(|_| builder.disk(DVec3::ZERO, DVec3::Z, 0.3, [0.5, 0.6, 0.7, 1.0]));
+            let mut hard = ball(1, 1.0);
+            hard.scene = builder.scene(false);
+            hard.scene.levels = levels;
+            hard
+        };
+        let frames = [true, false].map(|levels| render_as(&mut headless, &scene(levels), PICTURE));
+        if count < 2 {
+            assert_same_bits(&frames[0], &frames[1], &format!("{count} splats"));
+        }
+        assert!(rms(&frames[0], &frames[1]) < 1e-3, "{count}: {}", rms(&frames[0], &frames[1]));
+    }
+}
