@@ -29,7 +29,9 @@ pub(crate) use crate::passes::plan::digits::{beyond_f32, check as check_digits, 
 pub use crate::passes::plan::draws::{Draw, draws};
 pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};
 pub use crate::passes::plan::needs::{Needs, needs};
-pub use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, method::check as check_method};
+pub use crate::passes::plan::{
+    FramePlan, SplatMethod, SurfacePlan, method::check as check_method, sums::with_sums,
+};
 pub use crate::passes::resolve::export::Exported;
 pub use crate::passes::resolve::readback::{readback, readback_buffer};
 pub(crate) use crate::passes::resolve::samples::{SAMPLE_FORMAT, add_sample, resolve_samples};

@@ -14,6 +14,7 @@ pub(crate) mod mesh_draws;
 pub(crate) mod method;
 pub(crate) mod needs;
 pub(crate) mod seen;
+pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
 
@@ -27,7 +28,7 @@ use crate::passes::plan::{
 };
 use crate::{
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Shading, Transition},
+    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
     shaders::config::SPEC_COVERAGE_EDGES,
     vk::Limits,
 };
@@ -54,8 +55,10 @@ pub struct SurfacePlan<'a> {
     pub method: SplatMethod<'a>,
     /// Why they are drawn so; empty where there are none.
     pub reason: &'static str,
-    /// The settings they are drawn with: as asked for, but for the precision of sums that tiles leave.
+    /// The settings they are drawn with: as asked for, but for the precision of sums, which is found.
     pub settings: Settings,
+    /// Why sums have that precision.
+    pub sums: &'static str,
 }
 
 /// How splats are drawn.
@@ -105,12 +108,10 @@ impl<'a> SurfacePlan<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let mut settings = settings.clone();
-        if settings.shading == Shading::EyeDome {
-            settings.accumulate = Accumulate::F32; // 16 bits would make steps of every slope.
-        }
+        let (accumulate, mut sums) = sums::sums(settings, limits);
+        let mut settings = Settings { accumulate, ..settings.clone() };
         if splats.is_empty() {
-            return Self { meshes, settings, ..Self::default() };
+            return Self { meshes, settings, sums, ..Self::default() };
         }
         let polygons = !meshes.is_empty();
         let transparent = splats.iter().any(|draw| draw.chunk.transparent);
@@ -118,13 +119,13 @@ impl<'a> SurfacePlan<'a> {
         // Tiles weigh splats without floors. Their sums stay in registers, unless others add to them; layers do where all are tiles.
         let exact = settings.rasterizer == Rasterizer::Compute || tiles.is_ok() && !transparent;
         if exact && settings.weighs_splats() {
-            settings.accumulate = Accumulate::F32;
+            (settings.accumulate, sums) = (Accumulate::F32, sums::OF_TILES);
         }
         let (method, reason) = match tiles {
             Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
             Err(reason) => (method::primitives(&mut splats, polygons, &settings, limits), reason),
         };
-        let mut plan = Self { splats, meshes, method, reason, settings };
+        let mut plan = Self { splats, meshes, method, reason, settings, sums };
         plan.choose_edges(transparent);
         plan
     }

@@ -43,6 +43,7 @@ impl SurfacePlan<'_> {
         };
         let visible = if lists_visible { "; those that may be seen, by a list" } else { "" };
         let hidden = if culls_hidden { "; what is hidden, left out of sums" } else { "" };
-        Some(format!("{how}{visible}{hidden}"))
+        let (bits, why) = (self.settings.accumulate.name(), self.sums);
+        Some(format!("{how}{visible}{hidden}; sums are {bits} ({why})"))
     }
 }
