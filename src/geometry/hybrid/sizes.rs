@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     geometry::neighbors::{Nearest, Point, Tree},
-    scene::Mesh,
+    scene::{Bounds, Mesh},
 };
 
 /// How far a splat on a transition edge may stand off the polygons, as a share of the mesh's size (the diagonal of its box): half a
@@ -39,6 +39,8 @@ pub(super) const MARKS_PER_RADIUS: f64 = 4.0 / LEAST;
 /// The radii of splats on and near the transition edges.
 pub(super) struct Sizes {
     marks: Tree,
+    /// Around the marks: most of a mesh is far from it.
+    bounds: Option<Bounds>,
     /// Of each mark, by its number.
     at_marks: Vec<f64>,
     /// Of splats inside.
@@ -58,11 +60,10 @@ impl Sizes {
     /// Sizes without polygons to stand off: those inside, everywhere.
     pub(super) fn even(chains: &Chains, inside: f64) -> Self {
         let marks = chains.places(inside / MARKS_PER_RADIUS);
-        Self {
-            marks: tree(marks.iter().map(|mark| mark.position)),
-            at_marks: vec![inside; marks.len()],
-            inside,
-        }
+        let boxes = marks.iter().map(|mark| Bounds::of_ball(mark.position, 0.0));
+        let bounds = boxes.reduce(Bounds::union);
+        let at_marks = vec![inside; marks.len()];
+        Self { marks: tree(marks.iter().map(|mark| mark.position)), bounds, at_marks, inside }
     }
 
     /// Those beside the polygons of a mesh.
@@ -107,8 +108,15 @@ impl Sizes {
 
     /// The least radius of splats at a place of the surface.
     pub(super) fn at(&self, place: DVec3) -> f64 {
-        let near = self.marks.nearest_to(place, self.inside / GROWTH);
+        let near = self.mark(place, self.inside / GROWTH);
         near.map_or(self.inside, |near| self.beside(near.number, near.distance))
+    }
+
+    /// The nearest mark that is less than `reach` away.
+    fn mark(&self, place: DVec3, reach: f64) -> Option<Nearest> {
+        let Bounds { min, max } = self.bounds?;
+        let near = place.distance(place.clamp(min, max)) < reach;
+        near.then(|| self.marks.nearest_to(place, reach)).flatten()
     }
 
     fn beside(&self, mark: u32, distance: f64) -> f64 {
@@ -117,20 +125,20 @@ impl Sizes {
 
     /// How far a place is from the transition edges, where that is less than `reach`.
     pub(super) fn distance(&self, place: DVec3, reach: f64) -> Option<f64> {
-        self.marks.nearest_to(place, reach).map(|near| near.distance)
+        self.mark(place, reach).map(|near| near.distance)
     }
 
     /// The nearest place on transition edges; none beyond `reach` of the radii inside.
     pub(super) fn nearest(&self, place: DVec3, reach: f64) -> Option<EdgePlace> {
-        let Nearest { distance, position, number } = self.marks.nearest_to(place, reach * self.inside)?;
+        let Nearest { distance, position, number } = self.mark(place, reach * self.inside)?;
         Some(EdgePlace { position, distance, radius: self.at_marks[number as usize] })
     }
 
     /// The splat part's pieces, small enough that sizes are about the same within each.
     pub(super) fn pieces(&self, mesh: &Mesh, polygon: &[bool]) -> Pieces {
         let longest = |middle: DVec3, reach: f64| {
-            let least = self.at(middle) - GROWTH * reach;
-            if least < self.inside { 0.5 * self.at(middle) } else { f64::INFINITY }
+            let at = self.at(middle);
+            if at - GROWTH * reach < self.inside { 0.5 * at } else { f64::INFINITY }
         };
         Pieces::of(mesh, &|triangle| !polygon[triangle], &longest)
     }
