@@ -1,8 +1,8 @@
 //! The precision of sums, and why it is that.
 //!
 //! Sums of 16 bits are wrong by more than 1/255 from some 100 splats in a pixel on, however little surfaces overlap on the average, and lose
-//! colors where a kernel's weights are small. So `auto` has 32 bits wherever the device can add them. By points, quads and triangles they cost
-//! from nothing to a few percent on a CPU driver, which waits for arithmetic (`benches/README.md`); on a GPU they are twice the bytes, which was
+//! colors where a kernel's weights are small. So `auto` has 32 bits wherever the device can add them. A CPU driver waits for arithmetic where
+//! many splats are drawn, and there they cost nothing (`DECISIONS.md`); on a GPU they are twice the bytes, which was
 //! not measured: who needs that bandwidth more than the digits names `f16`.
 
 use crate::{
