@@ -47,7 +47,7 @@ void main()
     if (SUMMED == SUMMED_BESIDE) {
         // Where there is no polygon this is the splats' own depth, which the depth test compares without the shift.
         float w_polygon = texelFetch(depth_with_polygons, ivec2(gl_FragCoord.xy), 0).r;
-        if (fragment.w < FORMULA(FORMULA_TOWARD_VIEWER, w_polygon * extra.w)) {
+        if (fragment.w < FORMULA(FORMULA_TOWARD_VIEWER, shifted(w_polygon, extra.w))) {
             discard;
         }
     }
@@ -71,7 +71,7 @@ void main()
     float last = SUMMED == SUMMED_LAYER ? extra.w : 0.0;
     if (WITH_DEPTH) {
         float w_visible = texelFetch(visible_depth, ivec2(gl_FragCoord.xy), 0).r;
-        last = FORMULA(FORMULA_DEPTH_SUM, w_visible / fragment.w);
+        last = FORMULA(FORMULA_DEPTH_SUM, depth_term(w_visible, fragment.w));
     }
     color_sum = weight * vec4(extra.rgb, 1.0);
     normal_sum = weight * vec4(normal_weight.xyz, last);

@@ -24,14 +24,14 @@ void main()
     if (!is_drawn_elsewhere(index) && map_splat(index, m)) {
         vec4 extra = vec4(load_color(index), 0.0);
         if (SUMMED == SUMMED_REST) {
-            extra.rgb = shaded(extra.rgb, m.normal, -safe_normalize(m.p));
+            extra.rgb = shaded(extra.rgb, m.normal, ORTHOGRAPHIC ? vec3(0.0, 0.0, -1.0) : -safe_normalize(m.p));
         }
         if (SUMMED == SUMMED_BESIDE) {
-            extra.w = m.inverse_shift;
+            extra.w = m.shift;
         } else if (SUMMED != SUMMED_OPAQUE) {
             extra.w = load_alpha(index);
         }
-        emit(m, extra, 1.0);
+        emit(m, extra, false);
         bool outward = SUMMED == SUMMED_LAYER && OUTWARD && m.faces_away;
         normal_weight = vec4(outward ? -m.normal : m.normal, WEIGHTED ? share_of(m) : 1.0);
     } else {

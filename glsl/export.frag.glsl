@@ -5,6 +5,7 @@
 #include "inc/perturb.glsl"
 #include "inc/config.glsl"
 #include "inc/finalize.glsl"
+#include "inc/projection.glsl"
 #include "inc/sums.glsl"
 
 layout(set = 0, binding = BIND_SUMS_DEPTH) uniform texture2D visible_depth;
@@ -22,9 +23,10 @@ void main()
     // Without a visible depth only a hair of a rim was accumulated: see visibility.frag.glsl.
     bool covered = surface.weight > 0.0 && w_visible > 0.0;
     float depth_sum = texelFetch(normal_sums, pixel, 0).w; // of weight * z / z_visible
-    float z_visible = push.near / w_visible;
     weight = covered ? surface.weight : 0.0;
     albedo = covered ? vec4(surface.albedo, 1.0) : vec4(0.0);
     normal = covered ? vec4(surface.normal, 1.0) : vec4(0.0);
-    depth = covered ? FORMULA(FORMULA_NORMALIZED_DEPTH, z_visible * (depth_sum / surface.weight)) : uintBitsToFloat(0x7f800000u);
+    float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, depth_sum / surface.weight);
+    float z = ORTHOGRAPHIC ? push.eye_to_depth + push.near * (1.0 - w_visible * mean) : push.near / w_visible * mean;
+    depth = covered ? z : uintBitsToFloat(0x7f800000u);
 }

@@ -2,25 +2,27 @@
 // opaque splats alone; no normal is in it.
 //
 // Of eight neighbors, all of them a knight's move away, those that are nearer count by ln(z / z of the neighbor), which is the same in any
-// unit, over the angle between both pixels: by the slope to the neighbor, which does not depend on the picture's size either.
+// unit, over the angle between both pixels: by the slope to the neighbor, which does not depend on the picture's size either. An orthographic camera has the slope at once.
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"
 #include "inc/config.glsl"
 #include "inc/finalize.glsl"
+#include "inc/projection.glsl"
 #include "inc/sums.glsl"
 
 layout(set = 0, binding = BIND_SUMS_DEPTH) uniform texture2D visible_depth;
 
 layout(location = 0) out vec4 color;
 
-// View-space z of the surface over that of the near plane; 0 where there is none.
+// View-space z of the surface over that of the near plane; of an orthographic camera w; 0 where there is none.
 float depth(ivec2 pixel)
 {
     float weight = texelFetch(color_sums, pixel, 0).a;
     float w_visible = texelFetch(visible_depth, pixel, 0).r;
     float depth_sum = texelFetch(normal_sums, pixel, 0).w; // of weight * z / z_visible
-    return weight > 0.0 && w_visible > 0.0 ? depth_sum / (weight * w_visible) : 0.0;
+    float mean = depth_sum / weight;
+    return weight > 0.0 && w_visible > 0.0 ? (ORTHOGRAPHIC ? mean * w_visible : mean / w_visible) : 0.0;
 }
 
 // ln(far / near), exact where both are nearly the same, and log2 is not: 2 artanh.
@@ -45,7 +47,9 @@ void main()
             continue;
         }
         float there = depth(other);
-        if (there > 0.0 && there < here) {
+        if (ORTHOGRAPHIC) {
+            slopes += push.near * max(there - here, 0.0);
+        } else if (there > 0.0 && there < here) {
             slopes += log_ratio(here, there);
         }
     }

@@ -17,7 +17,7 @@ void main()
     Square square;
     vec4 found = vec4(NOWHERE.xyz, 1.0);
     if (map_splat(index, m) && square_of(m, square)) {
-        found = vec4(clip_middle(square), m.near / m.p.z * m.inverse_shift, point_size_px(square));
+        found = vec4(clip_middle(square), shifted(center_depth(m), m.shift), point_size_px(square));
     }
     points[index] = found;
 }

@@ -12,7 +12,7 @@
 // A filter makes of half an axis l at most sqrt(l^2 + h^2) <= l + h, at the center's depth, p_z / (p_z - R) <= 8/7 of it where
 // the splat is nearest; that of adjust_paper.glsl may make both h long in one direction, 8/7 sqrt(2) h: below 2 h, the more so as the
 // image ends half a pixel beyond its last pixel's center, and that a box is larger by its margin. No filter makes a splat deeper.
-// Any other splat is marked. So is NaN, which no comparison leaves out.
+// Parallel rays show a splat within R of its center, filters aside. Any other splat is marked. So is NaN, which no comparison leaves out.
 #version 460
 #include "inc/setup.glsl"
 #include "inc/list.glsl"
@@ -23,14 +23,14 @@ layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint v
 bool is_outside(vec3 p, float radius)
 {
     float reach = 2.0 * radius;
-    if (p.z + reach < frame.near) {
+    if (p.z + reach < (ORTHOGRAPHIC ? 0.0 : frame.near)) {
         return true;
     }
-    if (!(reach <= 0.25 * p.z)) {
+    if (!ORTHOGRAPHIC && !(reach <= 0.25 * p.z)) {
         return false;
     }
-    vec2 c = p.xy / p.z;
-    vec2 away = reach / p.z * (1.0 + abs(c)) + 2.0 * frame.filter_radius;
+    vec2 c = ORTHOGRAPHIC ? p.xy : p.xy / p.z;
+    vec2 away = (ORTHOGRAPHIC ? vec2(reach) : reach / p.z * (1.0 + abs(c))) + 2.0 * frame.filter_radius;
     vec2 low_px = vec2(0.0, BAND_ROW * visible_rows.x);
     vec2 high_px = vec2(SIZE_PX.x, min(SIZE_PX.y, BAND_ROW * visible_rows.y));
     vec2 low = (low_px - frame.middle_px) / frame.focal_px;
@@ -38,9 +38,10 @@ bool is_outside(vec3 p, float radius)
     return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
 }
 
-bool faces_away(vec3 n, vec3 from_eye)
+// `ray`: through the center, in the axes of local space.
+bool faces_away(vec3 n, vec3 ray)
 {
-    vec3 parts = n * from_eye;
+    vec3 parts = n * ray;
     float doubt = 1e-6 * (abs(parts.x) + abs(parts.y) + abs(parts.z)) + 1e-36;
     return parts.x + parts.y + parts.z > doubt;
 }
@@ -51,7 +52,8 @@ bool may_be_seen(uint index)
     FromEye d = from_eye(stored.position_radius.xyz, stored.position_low);
     vec3 p = center_of(stored.position_radius.xyz, d);
     float radius = frame.view_from_local_scale * stored.position_radius.w;
-    return !(CULL_BACKFACES && faces_away(normal_of(stored), d.high)) && !is_outside(p, radius);
+    vec3 ray = ORTHOGRAPHIC ? frame.view_from_local_z.xyz : d.high;
+    return !(CULL_BACKFACES && faces_away(normal_of(stored), ray)) && !is_outside(p, radius);
 }
 
 void main()

@@ -32,7 +32,7 @@ layout(location = 1) out vec4 normal_sum; // normal, alpha; of the rest: 1
 // The direction to the eye.
 vec3 to_eye()
 {
-    return -normalize(vec3((gl_FragCoord.xy - frame.middle_px) / frame.focal_px, 1.0));
+    return direction_to_eye(vec3((gl_FragCoord.xy - frame.middle_px) / frame.focal_px, 1.0));
 }
 
 void main()

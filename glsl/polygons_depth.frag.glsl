@@ -5,6 +5,7 @@
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
 #include "inc/config.glsl"
+#include "inc/projection.glsl"
 #include "inc/peel.glsl"
 
 void main()
@@ -15,5 +16,6 @@ void main()
     }
     float epsilon = FORMULA(FORMULA_POLYGON_SHIFT, frame.epsilon_length);
     // Exactly w without epsilon.
-    gl_FragDepth = epsilon > 0.0 ? w * (frame.near / (frame.near + epsilon * w)) : w;
+    float shift = ORTHOGRAPHIC ? epsilon / frame.near : frame.near / (frame.near + epsilon * w);
+    gl_FragDepth = epsilon > 0.0 ? shifted(w, shift) : w;
 }

@@ -1,5 +1,5 @@
 // Visibility splatting: the depth of the splat, moved away from the eye by epsilon (Guennebaud et al. 2006, section 2;
-// Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is 1 / f.
+// Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is the shift.
 //
 // OWN_DEPTH: of triangles in a transparent layer.
 // Permutations: plain full center rays
@@ -23,6 +23,6 @@ void main()
         peel(fragment.w);
     }
 #if !defined(TRIANGLES) || defined(OWN_DEPTH)
-    gl_FragDepth = fragment.w * extra().x;
+    gl_FragDepth = shifted(fragment.w, extra().x);
 #endif
 }

@@ -1,4 +1,4 @@
-// Visibility splatting: sets splats up and hands 1 / f on, with which their depth is moved away from the eye. The
+// Visibility splatting: sets splats up and hands on by what their depth is moved away from the eye. The
 // fragments of triangles have it from the rasterizer; but in a transparent layer the shader compares their own depth and moves it.
 // Permutations: points | plain center rays
 // Permutations: quads | full center rays
@@ -13,11 +13,11 @@ void main()
     Mapping m;
     if (!is_drawn_elsewhere(index) && map_splat(index, m)) {
 #if defined(TRIANGLES)
-        float depth_factor = IN_LAYERS ? 1.0 : m.inverse_shift;
+        bool moves = !IN_LAYERS;
 #else
-        float depth_factor = m.inverse_shift;
+        bool moves = false;
 #endif
-        emit(m, vec4(m.inverse_shift, 0.0, 0.0, 0.0), depth_factor);
+        emit(m, vec4(m.shift, 0.0, 0.0, 0.0), moves);
     } else {
         emit_nothing();
     }

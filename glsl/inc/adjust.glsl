@@ -19,6 +19,8 @@
 //   t x p = L2 p_z (f x p)    p x s = -L1 p_z (e x p)    s x t = L1 L2 p_z^2 (0, 0, 1) + L1 z2 (e x p) - L2 z1 (f x p)
 //   det = (s x t) . p = L1 L2 p_z^3, which is never 0: no widened splat is edge-on
 //
+// An orthographic camera has (0, 0, 1) in place of p.
+//
 // Limits: affine approximation at the center, like every EWA filter: for regular splats (mapping.glsl). A center that is
 // nearer than the splat is deep has no image of which that would be true, and in f32 no digits.
 

@@ -41,6 +41,7 @@
 #define SPEC_POINT_STEP 53    // Constant: the step of its point sizes, pixels.
 #define SPEC_SAMPLES 54       // Constant: samples of each pixel.
 #define SPEC_FILTER_PX 56     // Constant: h of the low-pass filter, pixels.
+#define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // Values of SPEC_SUMMED.

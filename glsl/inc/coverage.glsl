@@ -67,6 +67,13 @@ float half_square_px()
 vec3 evaluate()
 {
     precise vec2 place = at_px(); // x and y in focal lengths, like all that was handed over
+    if (ORTHOGRAPHIC) {
+        precise vec2 d = place - ray_center_extra.xy;
+        precise float deeper = ray_plane_extra.x * d.x + ray_plane_extra.y * d.y;
+        precise float w = FORMULA(FORMULA_RAY_DEPTH, 1.0 - (ray_plane_extra.z + deeper) / frame.near);
+        vec3 q = vec3(d, deeper);
+        return vec3(dot(FORMULA(FORMULA_RAY_AXIS, ray_u_extra.xyz), q), dot(ray_v_square.xyz, q), w);
+    }
     vec3 q;
     precise float inverse_z;
     if (ray_v_square.w >= 0.0) {
@@ -86,7 +93,7 @@ vec3 evaluate()
 
 vec2 from_center_px()
 {
-    vec2 center_px = ray_center_extra.xy / ray_center_extra.z;
+    vec2 center_px = ORTHOGRAPHIC ? ray_center_extra.xy : ray_center_extra.xy / ray_center_extra.z;
     return at_px() - center_px;
 }
 
@@ -94,6 +101,9 @@ vec2 from_center_px()
 vec3 low_pass()
 {
     float z = ray_center_extra.z;
+    if (ORTHOGRAPHIC) {
+        return vec3(from_center_px(), z > 0.0 ? 1.0 - z / frame.near : 0.0);
+    }
     return vec3(from_center_px(), z > frame.near ? frame.near / z : 0.0);
 }
 

@@ -11,7 +11,10 @@ float nearest_of_regular(Mapping m)
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
     float terms = length(m.n2) + length(m.s) * abs(m.t.z) + length(m.t) * abs(m.s.z);
     vec2 most_px = max(abs(frame.middle_px), abs(SIZE_PX - frame.middle_px));
-    float most_d = 1.0 + length(m.p.xy / m.p.z) + length(most_px / frame.focal_px);
+    float most_d = (ORTHOGRAPHIC ? 0.0 : 1.0) + length(projected_center(m)) + length(most_px / frame.focal_px);
     float lost = 1e-6 * abs(m.scale) * terms * most_d;
+    if (ORTHOGRAPHIC) {
+        return FORMULA_LESS(FORMULA_NEAREST_DEPTH, 1.0 - (m.p.z - depth_radius) / m.near + 1e-6 + lost / m.near);
+    }
     return FORMULA_LESS(FORMULA_NEAREST_DEPTH, m.near / (m.p.z - depth_radius) * 1.00001 + lost);
 }

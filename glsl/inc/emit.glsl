@@ -61,15 +61,15 @@ void hand_over(Mapping m, vec4 extra)
     float length2 = precise_dot(normal, m.n2);
     vec3 u_axis = precise_cross(m.t, normal) / length2;
     vec3 v_axis = precise_cross(normal, m.s) / length2;
-    // 1 / z is linear along the image: n2 . (x, y, 1) / det; of a regular splat expanded about the center.
-    vec3 plane = m.n2 * (m.scale / m.near);
-    bool about_center = m.regular;
-    if (about_center) {
+    // 1 / z is linear along the image: n2 . (x, y, 1) / det; of a regular splat expanded about the center. ORTHOGRAPHIC: z is.
+    vec3 plane = ORTHOGRAPHIC ? vec3(-m.n2.xy * m.scale, m.p.z) : m.n2 * (m.scale / m.near);
+    bool about_center = m.regular || ORTHOGRAPHIC;
+    if (about_center && !ORTHOGRAPHIC) {
         plane.z = 1.0 / m.p.z; // there
     }
     if (m.edge_on) {
         about_center = false;
-        plane = vec3(0.0); // its rays meet nothing
+        plane = vec3(0.0, 0.0, ORTHOGRAPHIC ? 2.0 * m.near : 0.0); // its rays meet nothing
     }
     // The square that its approximate size leaves of the splat; none where the center is too near to have one.
     float half_square_px = 0.0;
@@ -79,7 +79,7 @@ void hand_over(Mapping m, vec4 extra)
     // x and y of positions in focal lengths, so that a pixel is its ray; lengths in the view unit, which fragments know.
     vec3 stretch = vec3(frame.focal_px, frame.focal_px, 1.0);
     ray_center_extra = vec4(m.p * stretch / m.unit, extra.x);
-    ray_plane_extra = vec4(plane / stretch * m.unit, extra.y);
+    ray_plane_extra = vec4(ORTHOGRAPHIC ? plane / vec3(stretch.xy, 1.0) : plane / stretch * m.unit, extra.y);
     ray_u_extra = vec4(u_axis / stretch * m.unit, extra.z);
     ray_v_square = vec4(v_axis / stretch * m.unit, about_center ? half_square_px : -1.0 - half_square_px);
 }
@@ -97,23 +97,25 @@ void hand_over(Mapping m, ImageMap map, vec4 extra)
     uv_affine = vec4(map.at_x0.xy, map.affine ? 1.0 : 0.0, extra.w);
 #endif
 #if defined(CENTER)
-    bool low_pass = m.p.z > m.near;
-    center_low_pass = low_pass ? vec3(handed_over_px(projected_center_px(m)), m.near / m.p.z) : vec3(0.0);
+    bool low_pass = m.p.z > nearest_drawn(m);
+    center_low_pass = low_pass ? vec3(handed_over_px(projected_center_px(m)), center_depth(m)) : vec3(0.0);
 #endif
 }
 #endif
 
-// `depth_factor`: what the pass multiplies depth by.
-void emit(Mapping m, vec4 extra, float depth_factor)
+// `moves`: depth that fragments don't find by themselves is moved away from the eye.
+void emit(Mapping m, vec4 extra, bool moves)
 {
 #if defined(TRIANGLES)
     vec2 uv = triangle_corner(m, gl_VertexIndex % 3);
     vec3 q = m.p + m.s * uv.x + m.t * uv.y;
-    float z = FORMULA(FORMULA_CENTER_CONSTANTS, m.near) * depth_factor;
-    // Depth is this position's: bit-equal in both passes but for the factor. (gl_Position itself can't be `invariant`: Mesa
+    float divisor = ORTHOGRAPHIC ? 1.0 : q.z;
+    float z = FORMULA(FORMULA_CENTER_CONSTANTS, ORTHOGRAPHIC ? 1.0 - q.z / m.near : m.near);
+    z = moves ? shifted(z, m.shift) : z;
+    // Depth is this position's: bit-equal in both passes but for the shift. (gl_Position itself can't be `invariant`: Mesa
     // 22.3 warns of it.)
-    vec2 xy = 2.0 * frame.focal_px / SIZE_PX * q.xy + clip_from_axis() * q.z;
-    gl_Position = vec4(xy, z, q.z);
+    vec2 xy = 2.0 * frame.focal_px / SIZE_PX * q.xy + clip_from_axis() * divisor;
+    gl_Position = vec4(xy, z, divisor);
     triangle_uv = uv;
     triangle_extra = extra;
 #else
@@ -123,7 +125,7 @@ void emit(Mapping m, vec4 extra, float depth_factor)
         emit_nothing();
         return;
     }
-    gl_Position = vec4(clip_middle(square), WITHIN_CLIP * depth_factor, 1.0);
+    gl_Position = vec4(clip_middle(square), WITHIN_CLIP, 1.0);
     gl_PointSize = point_size_px(square);
 #if !defined(RAYS)
     hand_over(m, regular_map(m), extra);
@@ -134,7 +136,7 @@ void emit(Mapping m, vec4 extra, float depth_factor)
         emit_nothing();
         return;
     }
-    gl_Position = vec4(quad.clip_corner, WITHIN_CLIP * depth_factor, 1.0);
+    gl_Position = vec4(quad.clip_corner, WITHIN_CLIP, 1.0);
 #if !defined(RAYS)
     hand_over(m, quad_map(m, quad), extra);
 #endif

@@ -7,6 +7,7 @@ struct FinalizeConstants {
     vec2 middle_px;   // where the view's axis meets the image
     float focal_px;
     uint tile_height; // pixels; 0 without tiles
-    float near;       // world unit
+    float near;         // world unit; of an orthographic camera the depth where w is 0, from
+    float eye_to_depth; // the plane where it is 1, which is so far from the eye
 };
 layout(push_constant, std430) uniform Push { FinalizeConstants push; };

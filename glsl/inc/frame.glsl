@@ -11,7 +11,7 @@ struct FrameConstants {
     vec4 view_from_local_z;
     vec2 middle_px;         // where the view's axis meets the image: its middle, unless the camera is off-center
     float focal_px;         // image-plane unit in pixels
-    float near;             // depth of the near plane, view unit
+    float near;             // depth of the near plane, view unit; ORTHOGRAPHIC: where w is 0 (projection.glsl)
     float filter_radius;    // h = sqrt(2) pixels, image-plane unit
     float epsilon_radii;    // epsilon as a multiple of the splat's larger radius ...
     float epsilon_length;   // ... plus a length, view unit; one of the two is 0

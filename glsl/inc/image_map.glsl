@@ -15,6 +15,8 @@
 //                    the ratio of the areas. Depth is stretched with the disk: w at the unstretched point, so that it
 //                    never leaves the disk's own range.
 //
+// An orthographic camera's map is affine, for every splat; of it there is one.
+//
 // Limits: the affine ones are for regular splats; others are mapped projectively.
 
 struct ImageMap {
@@ -55,11 +57,29 @@ const float NEVER_INSIDE = 1e6;
 ImageMap projective_map_about_center(Mapping m)
 {
     vec2 x0_px = FORMULA(FORMULA_EXPANSION_POINT, projected_center_px(m));
-    float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, m.near / m.p.z);
+    float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, center_depth(m));
     if (FILTER == FILTER_MAX && m.edge_on) {
         return ImageMap(x0_px, vec3(0.0, 0.0, w0), vec3(NEVER_INSIDE, 0.0, 0.0), vec3(0.0, NEVER_INSIDE, 0.0), true);
     }
     return projective_map(m, x0_px, vec3(0.0, 0.0, w0));
+}
+
+// Of an orthographic camera, about a point: what is far from the center's image loses no digits in its own pixels.
+ImageMap orthographic_map_about(Mapping m, vec2 x0_px)
+{
+    float w0 = FORMULA(FORMULA_CENTER_CONSTANTS, center_depth(m));
+    if (m.edge_on) {
+        // FILTER_MAX
+        return ImageMap(projected_center_px(m), vec3(0.0, 0.0, w0), vec3(NEVER_INSIDE, 0.0, 0.0), vec3(0.0, NEVER_INSIDE, 0.0), true);
+    }
+    // The third row of the inverse is by how much less deep the plane gets.
+    m.n2.xy /= m.near;
+    ImageMap map = projective_map(m, x0_px, vec3(0.0, 0.0, w0));
+    map.affine = true;
+    vec2 d = x0_px - projected_center_px(m);
+    vec3 at_x0 = map.at_x0 + (map.along_x * d.x + map.along_y * d.y);
+    map.at_x0 = at_x0;
+    return map;
 }
 
 ImageMap affine_center_map(Mapping m)
@@ -162,14 +182,14 @@ Stretched stretched(Mapping m)
         ewa.w = depth_at_middle(m, contour.e, gradient);
         ewa.along_axes = half_axes * vec2(dot(gradient, ewa.direction), dot(gradient, vec2(-sine, cosine)));
     } else {
-        Principal axes = principal_axes(m.p, m.s, m.t);
+        Principal axes = principal_axes(ray_through(m.p), m.s, m.t);
         half_axes = vec2(axes.major, abs(axes.minor));
-        ewa.middle = m.p.xy / m.p.z;
+        ewa.middle = projected_center(m);
         ewa.direction = axes.direction;
-        ewa.w = FORMULA(FORMULA_CENTER_CONSTANTS, m.near / m.p.z);
+        ewa.w = FORMULA(FORMULA_CENTER_CONSTANTS, center_depth(m));
         float s_z = m.s.z * axes.cosine + m.t.z * axes.sine;
         float t_z = m.t.z * axes.cosine - m.s.z * axes.sine;
-        ewa.along_axes = FORMULA(FORMULA_INVERSE_MAPPING_W, -ewa.w / m.p.z) * vec2(s_z, axes.minor < 0.0 ? -t_z : t_z);
+        ewa.along_axes = FORMULA(FORMULA_INVERSE_MAPPING_W, ORTHOGRAPHIC ? -1.0 / m.near : -ewa.w / m.p.z) * vec2(s_z, axes.minor < 0.0 ? -t_z : t_z);
     }
     float h = FORMULA(FORMULA_FILTER_RADIUS, frame.filter_radius);
     ewa.half_axes = sqrt(half_axes * half_axes + h * h);
@@ -199,6 +219,9 @@ ImageMap regular_map(Mapping m)
 {
     if (FILTER == FILTER_EWA) {
         return ewa_map(stretched(m));
+    }
+    if (ORTHOGRAPHIC) {
+        return orthographic_map_about(m, FORMULA(FORMULA_EXPANSION_POINT, projected_center_px(m)));
     }
     if (m.edge_on) {
         return projective_map_about_center(m);

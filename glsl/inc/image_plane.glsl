@@ -3,5 +3,5 @@
 // The direction from the surface to the eye, view space.
 vec3 to_eye()
 {
-    return -normalize(vec3(FORMULA(FORMULA_EYE_DIRECTION, (gl_FragCoord.xy - push.middle_px) / push.focal_px), 1.0));
+    return direction_to_eye(vec3(FORMULA(FORMULA_EYE_DIRECTION, (gl_FragCoord.xy - push.middle_px) / push.focal_px), 1.0));
 }

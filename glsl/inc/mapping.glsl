@@ -8,6 +8,8 @@
 // Visibility shifts the splat along its projectors by f = 1 + epsilon / max(p_z, epsilon): the image is the same,
 // the depth w / f stays linear.
 //
+// Of an orthographic camera M is [s t (0, 0, 1)], and w another linear function of the image: inc/projection.glsl.
+//
 // Both passes must find bit-equal depths, or the nearest surface would hide itself: the build forbids contraction in all
 // vertex and compute stages (src/shaders/build/exact.rs), and what they hand over is `invariant`.
 
@@ -15,13 +17,13 @@ struct Mapping {
     vec3 p;              // center and tangent vectors after the filter, view space
     vec3 s;
     vec3 t;
-    vec3 n0;             // t x p, p x s, s x t: the rows of adj(M)
+    vec3 n0;             // t x p, p x s, s x t: the rows of adj(M); ORTHOGRAPHIC: with (0, 0, 1) in place of p
     vec3 n1;
     vec3 n2;
     float near;          // depth of the near plane, in the splat's own unit, like all lengths here
     float unit;          // that unit in view units is 1 / unit
-    float scale;         // near / det; det as exact as the splat itself, also where it is seen edge-on
-    float inverse_shift; // 1 / f
+    float scale;         // near / det, ORTHOGRAPHIC 1 / det; det as exact as the splat itself, also where it is seen edge-on
+    float shift;         // 1 / f; ORTHOGRAPHIC: what visibility takes off w
     vec3 normal;         // unit, view space, turned to the eye
     float share;         // of its weight that the filter leaves to the splat
     bool regular;        // see below
@@ -55,14 +57,33 @@ const float LARGEST_EPSILON = 1e30;
 // ball would be in one layer with the near one, far from its rim, and their normals cancel.
 const float MOST_LENGTHENED = 16.0;
 
-// `slant`: the splat's depth over its radius.
-float thickened(vec3 p, vec3 s, vec3 t, float slant)
+// `ray`: through its center. `slant`: the splat's depth over its radius.
+float thickened(vec3 ray, vec3 s, vec3 t, float slant)
 {
-    float minor = abs(principal_axes(p, s, t).minor);
+    float minor = abs(principal_axes(ray, s, t).minor);
     float h = frame.filter_radius;
     float ratio = h < MOST_LENGTHENED * minor ? h / minor : MOST_LENGTHENED;
     float lengthened = min(sqrt(1.0 + ratio * ratio), MOST_LENGTHENED) - 1.0;
     return 1.0 + lengthened * (COVERAGE_EDGES && !IN_LAYERS ? 1.0 + EDGE_LENGTHENING * slant : 2.0);
+}
+
+// The direction of the ray through a point, of any length.
+vec3 ray_through(vec3 p)
+{
+    return ORTHOGRAPHIC ? vec3(0.0, 0.0, 1.0) : p;
+}
+
+// The depth in front of which nothing is drawn.
+float nearest_drawn(Mapping m)
+{
+    return ORTHOGRAPHIC ? 0.0 : m.near;
+}
+
+// The depth w of the center; only in front of the eye.
+float center_depth(Mapping m)
+{
+    float w = ORTHOGRAPHIC ? 1.0 - m.p.z / m.near : m.near / m.p.z;
+    return w;
 }
 
 // False where nothing of the splat can be seen.
@@ -75,7 +96,7 @@ bool map_splat(uint index, out Mapping m)
     m.near = frame.near * splat.unit;
     m.unit = splat.unit;
     // Not by the determinant, which is nothing where a splat is 1e-19 of its distance large.
-    float facing = normal_dot_center(splat);
+    float facing = normal_dot_ray(splat);
     bool faces_away = facing > 0.0;
     if (CULL_BACKFACES && faces_away) {
         return false;
@@ -86,16 +107,18 @@ bool map_splat(uint index, out Mapping m)
 
     // No filter makes a splat deeper: what is regular stays so.
     float depth_radius = sqrt(s.z * s.z + t.z * t.z);
-    if (p.z + depth_radius < m.near) {
+    float nearest = nearest_drawn(m);
+    if (p.z + depth_radius < nearest) {
         return false; // wholly behind the near plane
     }
-    m.regular = p.z - depth_radius >= m.near && depth_radius <= REGULAR_DEPTH_RATIO * p.z;
+    m.regular = p.z - depth_radius >= nearest && (ORTHOGRAPHIC || depth_radius <= REGULAR_DEPTH_RATIO * p.z);
+    vec3 ray = ray_through(p);
 
     m.share = 1.0;
     bool is_widened = FILTER == FILTER_ADJUST && m.regular;
     Widened widened;
     if (is_widened) {
-        widened = adjust_tangents(p, s, t);
+        widened = adjust_tangents(ray, s, t);
         s = widened.s;
         t = widened.t;
         m.share = widened.share;
@@ -113,15 +136,15 @@ bool map_splat(uint index, out Mapping m)
         n2 = widened.n2;
         det = widened.det;
     } else {
-        n0 = precise_cross(t, p);
-        n1 = precise_cross(p, s);
+        n0 = precise_cross(t, ray);
+        n1 = precise_cross(ray, s);
         n2 = precise_cross(s, t);
         bool changed = FILTER == FILTER_ADJUST_PAPER && (any(notEqual(s, splat.s)) || any(notEqual(t, splat.t)));
         det = changed ? precise_dot(n2, p) : splat.area * facing;
     }
-    float scale = m.near / det;
+    float scale = (ORTHOGRAPHIC ? 1.0 : m.near) / det;
     m.edge_on = !(abs(scale) <= LARGEST_SCALE);
-    if (m.edge_on && !(FILTER == FILTER_MAX && p.z > m.near) && !(FILTER == FILTER_EWA && m.regular)) {
+    if (m.edge_on && !(FILTER == FILTER_MAX && p.z > nearest) && !(FILTER == FILTER_EWA && m.regular)) {
         return false;
     }
     m.p = p;
@@ -134,23 +157,30 @@ bool map_splat(uint index, out Mapping m)
 
     float thickness = splat.radius * splat.epsilon_share;
     if ((IN_LAYERS || COVERAGE_EDGES) && FILTER != FILTER_NONE && m.regular) {
-        thickness *= FORMULA(FORMULA_LENGTHENED, thickened(splat.p, splat.s, splat.t, depth_radius / splat.radius));
+        thickness *= FORMULA(FORMULA_LENGTHENED, thickened(ray_through(splat.p), splat.s, splat.t, depth_radius / splat.radius));
     }
     // Depths of one surface, found from two splats of it, differ by some steps of f32: with a smaller shift than the least it would
     // hide itself in part. The reference has this rule, too (src/reference/splat.rs). A product of f32 may be 0 where neither factor
     // is: such a splat keeps the least shift.
     float epsilon = min(frame.epsilon_radii * thickness + frame.epsilon_length * splat.unit, LARGEST_EPSILON);
-    float part = epsilon > 0.0 ? FORMULA(FORMULA_EPSILON_SHIFT, epsilon / max(p.z, epsilon)) : 0.0;
+    float of_depth = ORTHOGRAPHIC ? m.near : max(p.z, epsilon);
+    float part = epsilon > 0.0 ? FORMULA(FORMULA_EPSILON_SHIFT, epsilon / of_depth) : 0.0;
     float relative = frame.epsilon_radii + frame.epsilon_length > 0.0 ? max(part, LEAST_SHIFT) : 0.0;
     // Exactly 1 without epsilon: a division need not be.
-    m.inverse_shift = relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;
+    m.shift = ORTHOGRAPHIC ? relative : relative > 0.0 ? 1.0 / (1.0 + relative) : 1.0;
     return true;
+}
+
+// The projected center, image plane. Only for centers in front of the eye.
+vec2 projected_center(Mapping m)
+{
+    return ORTHOGRAPHIC ? m.p.xy : m.p.xy / m.p.z;
 }
 
 // The projected center in pixels from the middle of the image: from a corner it would lose the digits that a thin splat in
 // the middle needs. Only for centers in front of the eye.
 vec2 projected_center_px(Mapping m)
 {
-    vec2 center = m.p.xy / m.p.z * frame.focal_px;
+    vec2 center = projected_center(m) * frame.focal_px;
     return center;
 }

@@ -4,6 +4,8 @@
 // parametrization by theta, tan 2 theta = 2 a.b / (a.a - b.b), leaves the disk the same and makes the axes orthogonal, the
 // longer one along a. The shorter is the determinant over the longer: no cancellation, as aa + bb - spread would have.
 
+// `ray`: through the center, p itself, or of an orthographic camera (0, 0, 1), of which a and b are what x and y of s and t are.
+
 struct Principal {
     vec2 direction; // unit, of the longer axis; the shorter's is this one turned by 90 degrees
     float major;    // half lengths, image plane; the minor one has the sign of the parametrization's orientation
@@ -15,11 +17,11 @@ struct Principal {
 // Projections below are none. Its inverse is finite.
 const float TINY = 1e-37;
 
-Principal principal_axes(vec3 p, vec3 s, vec3 t)
+Principal principal_axes(vec3 ray, vec3 s, vec3 t)
 {
-    vec2 c = p.xy / p.z;
-    vec2 a = (s.xy - c * s.z) / p.z;
-    vec2 b = (t.xy - c * t.z) / p.z;
+    vec2 c = ray.xy / ray.z;
+    vec2 a = (s.xy - c * s.z) / ray.z;
+    vec2 b = (t.xy - c * t.z) / ray.z;
     // In units of the largest component: fourth powers of lengths neither under- nor overflow.
     float unit = max(max(max(abs(a.x), abs(a.y)), max(abs(b.x), abs(b.y))), TINY);
     a /= unit;

@@ -37,12 +37,17 @@ bool is_near_center(Mapping m, vec2 center_px, vec2 lo_px, vec2 hi_px)
 // about the box's middle: the center of a splat near the eye plane projects far away or not at all.
 ImageMap quad_map(Mapping m, Quad quad)
 {
-    if (m.regular && AFFINE || m.edge_on) {
+    if (m.regular && (ORTHOGRAPHIC ? FILTER == FILTER_EWA : AFFINE) || m.edge_on) {
         return regular_map(m);
     }
     vec2 lo_px = quad.lo - frame.middle_px;
     vec2 hi_px = quad.hi - frame.middle_px;
     vec2 center_px = projected_center_px(m);
+    if (ORTHOGRAPHIC) {
+        // Its own center, or where it would be far off the box's middle.
+        bool holds_center = all(greaterThanEqual(center_px, lo_px)) && all(lessThanEqual(center_px, hi_px));
+        return orthographic_map_about(m, holds_center ? center_px : 0.5 * (lo_px + hi_px));
+    }
     bool near_center = m.regular || is_near_center(m, center_px, lo_px, hi_px);
     if (RASTERIZER == RASTERIZER_PERSPECTIVE_PAPER) {
         return projective_map_about(m, vec2(0.0), near_center);

@@ -138,9 +138,13 @@ vec3 center_of(vec3 position, FromEye d)
 }
 
 // n . p, rounded about once, also where the splat is seen edge-on; positive where it faces away. Not in view space: there the
-// rotation's rounding, 1e-7, is 1e-3 of the cosine of 89.99 degrees. (s x t) . p is that times the area.
-float normal_dot_center(Splat splat)
+// rotation's rounding, 1e-7, is 1e-3 of the cosine of 89.99 degrees. (s x t) . p is that times the area. Of parallel rays, their
+// direction stands for p.
+float normal_dot_ray(Splat splat)
 {
+    if (ORTHOGRAPHIC) {
+        return exact_dot(splat.n, frame.view_from_local_z.xyz, vec3(0.0));
+    }
     return exact_dot(splat.n, splat.unit * splat.from_eye.high, splat.unit * splat.from_eye.low);
 }
 
@@ -208,7 +212,8 @@ Splat load_splat(uint index)
     splat.from_eye = from_eye(stored.position_radius.xyz, stored.position_low);
     splat.p = center_of(stored.position_radius.xyz, splat.from_eye);
     splat.radius = frame.view_from_local_scale * stored.position_radius.w;
-    splat.unit = unit_of(max(largest(splat.p), splat.radius));
+    // Parallel rays have the view's unit alone.
+    splat.unit = ORTHOGRAPHIC ? 1.0 : unit_of(max(largest(splat.p), splat.radius));
     splat.p *= splat.unit;
     splat.radius *= splat.unit;
     splat.n = normal_of(stored);

@@ -3,7 +3,7 @@
 // The low-pass filter's disk of `max`.
 void include_low_pass(inout Box box, Mapping m)
 {
-    vec2 center = m.p.xy / m.p.z;
+    vec2 center = projected_center(m);
     float h = FORMULA_LESS(FORMULA_LOW_PASS_BOX, frame.filter_radius);
     box.lo = min(box.lo, center - h);
     box.hi = max(box.hi, center + h);
@@ -37,7 +37,9 @@ Box splat_box(Mapping m)
         return ellipse_box(ewa.middle, ewa.direction * ewa.half_axes.x, minor_direction * ewa.half_axes.y);
     }
     Box box;
-    if (RASTERIZER == RASTERIZER_AFFINE_CENTER && m.regular) {
+    if (ORTHOGRAPHIC) {
+        box = ellipse_box(m.p.xy, m.s.xy, m.t.xy);
+    } else if (RASTERIZER == RASTERIZER_AFFINE_CENTER && m.regular) {
         vec2 center = m.p.xy / m.p.z;
         box = ellipse_box(center, (m.s.xy - center * m.s.z) / m.p.z, (m.t.xy - center * m.t.z) / m.p.z);
     } else if (m.regular) {
@@ -45,7 +47,7 @@ Box splat_box(Mapping m)
     } else {
         box = near_box(m);
     }
-    if (FILTER == FILTER_MAX && m.p.z > m.near) {
+    if (FILTER == FILTER_MAX && m.p.z > nearest_drawn(m)) {
         include_low_pass(box, m);
     }
     return box;

@@ -15,7 +15,7 @@ const float THINNEST_PX = 1.0 / 16.0; // the shorter half axis
 // How much larger than the smallest.
 float triangle_scale(Mapping m)
 {
-    Principal axes = principal_axes(m.p, m.s, m.t);
+    Principal axes = principal_axes(ray_through(m.p), m.s, m.t);
     return 1.0 + SNAP_PX / (abs(axes.minor) * frame.focal_px);
 }
 
@@ -26,7 +26,7 @@ bool fits_triangle(Mapping m)
     float depth_radius = sqrt(m.s.z * m.s.z + m.t.z * m.t.z);
     float scale = triangle_scale(m);
     // Corners are 2 radii from the center. Written so that NaN and infinity don't fit.
-    return m.regular && scale <= LARGEST_TRIANGLE_SCALE && 2.0 * scale * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z;
+    return m.regular && scale <= LARGEST_TRIANGLE_SCALE && (ORTHOGRAPHIC || 2.0 * scale * depth_radius <= REGULAR_DEPTH_RATIO * m.p.z);
 }
 
 vec2 triangle_corner(Mapping m, uint corner)

@@ -1,5 +1,6 @@
 // What differs between pipelines of the same shader; config.glsl says what each number means, and src/passes/pipeline/variant.rs sets them.
 #include "inc/config.glsl"
+#include "inc/projection.glsl"
 
 layout(constant_id = SPEC_ELLIPSES) const bool ELLIPSES = false;
 layout(constant_id = SPEC_CULL_BACKFACES) const bool CULL_BACKFACES = false;
@@ -21,9 +22,9 @@ layout(constant_id = SPEC_FINE) const bool FINE = false;
 layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
 layout(constant_id = SPEC_COVERAGE_EDGES) const bool COVERAGE_EDGES = false;
 
-// Regular splats (see mapping.glsl) are mapped by an affine map: u and v are linear in the image.
+// Regular splats (see mapping.glsl) are mapped by an affine map: u and v are linear in the image. Of an orthographic camera all are.
 const bool AFFINE = RASTERIZER == RASTERIZER_AFFINE_CENTER || RASTERIZER == RASTERIZER_AFFINE_CONTOUR
-    || FILTER == FILTER_EWA;
+    || FILTER == FILTER_EWA || ORTHOGRAPHIC;
 // Splats have weights of their own.
 const bool WEIGHTED = FILTER == FILTER_EWA || WEIGHT_BY_AREA;
 

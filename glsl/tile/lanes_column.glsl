@@ -32,7 +32,7 @@ void stage_shared(SplatAttributes own) {}
 Splat broadcast(Splat own, uint place)
 {
     return Splat(0, subgroupShuffle(own.x0_px, place), subgroupShuffle(own.w0, place),
-        subgroupShuffle(own.inverse_shift, place), subgroupShuffle(own.uv, place), subgroupShuffle(own.w, place));
+        subgroupShuffle(own.shift, place), subgroupShuffle(own.uv, place), subgroupShuffle(own.w, place));
 }
 
 SplatAttributes broadcast(SplatAttributes own, uint place)

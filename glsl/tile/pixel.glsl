@@ -71,7 +71,7 @@ void see(Splat splat, Column column, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
-    visible[row] = covers(uvw, depth, row) ? max(visible[row], depth * splat.inverse_shift) : visible[row];
+    visible[row] = covers(uvw, depth, row) ? max(visible[row], shifted(depth, splat.shift)) : visible[row];
 }
 
 // The part of the pixel that the surface covers.
@@ -88,7 +88,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, int row)
     bool inside = covers(uvw, depth, row);
     if (WITH_POLYGONS) {
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
-            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, polygon[row] * splat.inverse_shift);
+            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], splat.shift));
     } else {
         inside = inside && depth >= visible[row];
     }
@@ -108,6 +108,6 @@ void add(Splat splat, SplatAttributes attributes, Column column, int row)
         normals[row].w += weight * attributes.alpha;
     } else if (WITH_DEPTH) {
         // Where the splat is not inside, depth may be 0.
-        normals[row].w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, visible[row] / depth) : 0.0;
+        normals[row].w += inside ? weight * FORMULA(FORMULA_DEPTH_SUM, depth_term(visible[row], depth)) : 0.0;
     }
 }

@@ -1,5 +1,5 @@
 // A projected splat, all in pixels, so that nothing of its chunk is needed any more, as its record has it:
-// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; 1 / f.
+// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; the shift.
 // records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
 // that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each.
 //
@@ -11,7 +11,7 @@ struct Splat {
     uint record;
     vec2 x0_px;
     float w0;
-    float inverse_shift;
+    float shift;
     vec4 uv;
     vec2 w;
 };

@@ -69,5 +69,5 @@ ivec2 pixel_in_slot(int row)
 // The direction to the eye from a place, counted from the middle of the image; view space.
 vec3 to_eye(vec2 at_px)
 {
-    return -normalize(vec3(FORMULA(FORMULA_EYE_DIRECTION, at_px / push.focal_px), 1.0));
+    return direction_to_eye(vec3(FORMULA(FORMULA_EYE_DIRECTION, at_px / push.focal_px), 1.0));
 }

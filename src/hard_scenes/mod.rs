@@ -9,7 +9,7 @@ mod views;
 
 pub use shapes::{coincident, degenerate, far_from_the_origin, random_ellipses, sphere, sphere_of_disks};
 pub use sizes::{edge_on, larger_than_the_screen, subpixel_filtered, subpixel_unfiltered};
-pub use views::{centers_off_screen, cut_by_the_near_plane, ground};
+pub use views::{centers_off_screen, cut_by_the_near_plane, ground, parallel_rays};
 
 use crate::scene::{Camera, Filter, Scene, Settings};
 
@@ -49,5 +49,6 @@ pub fn all() -> Vec<Hard> {
         far_from_the_origin(),
         coincident(),
         degenerate(),
+        parallel_rays(),
     ]
 }

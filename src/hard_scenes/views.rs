@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::{
     Hard,
     builder::{Builder, Random, camera, settings, unfiltered},
+    shapes::sphere,
 };
 
 /// A disk that passes under and behind the eye, and a second that cuts through the eye's own height further on.
@@ -63,4 +64,28 @@ pub fn centers_off_screen() -> Hard {
         builder.disk(position.as_vec3().as_dvec3(), normal, beyond + random.between(0.2, 0.8), color);
     }
     Hard::seen_from([0.0, 0.0, 3.0], "centers off-screen", builder.scene(false))
+}
+
+/// By parallel rays: a closed ball, ellipses any way round about it, and a plate that the near plane cuts.
+pub fn parallel_rays() -> Hard {
+    let mut builder = Builder::default();
+    let mut random = Random(12);
+    for _ in 0..250 {
+        let rotation = DQuat::from_axis_angle(random.direction(), random.between(0.0, PI));
+        let (aspect, radius) = (random.between(1.0, 20.0), random.between(0.02, 0.3));
+        let position = random.point([1.3, 1.3, 1.2]);
+        let [s, t] = [rotation * DVec3::X * radius, rotation * DVec3::Y * radius / aspect];
+        builder.ellipse(position, s, t, random.color());
+    }
+    builder.ellipse(
+        DVec3::new(-0.7, 0.7, 1.8),
+        DVec3::new(0.3, 0.1, 0.4),
+        DVec3::Y * 0.25,
+        [0.8, 0.3, 0.2, 1.0],
+    );
+    let mut scene = builder.scene(false);
+    scene.objects.push(sphere(1500, DVec3::ZERO));
+    let mut hard = Hard::seen_from([0.4, -0.3, 2.0], "parallel rays", scene);
+    (hard.camera.orthographic_height, hard.camera.near) = (Some(2.8), Some(0.2));
+    hard
 }

@@ -9,7 +9,7 @@ use crate::instruments::{
     floor_passes::{FLOOR_POINT_BYTES, FloorPoints, floor_frame, floor_points},
     paper_passes::paper_frame,
 };
-use crate::passes::{self, FramePlan, Inputs, PipelineRecipe, Source, pipeline::recipe::Key};
+use crate::passes::{self, FramePlan, Inputs, PipelineRecipe, Place, pipeline::recipe::Key};
 use crate::{
     error::Result,
     graph::{BufferDesc, Graph, Handle, Image, execute::Body},
@@ -131,7 +131,7 @@ fn listed(
     let list = RefCell::default();
     {
         let mut graph = Graph::new();
-        let inputs = Inputs::new(&camera, settings, Source::List(&list));
+        let inputs = Inputs::new(&camera, settings, Place::List(&list));
         let mut target = graph.create_image("target", inputs.image(TARGET));
         declare(&mut graph, inputs, &plan, &mut target)?;
     }

@@ -11,7 +11,7 @@ use crate::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
         execute::{FrameProfile, Physical, Profile},
     },
-    passes::{self, Inputs, Needs, Source},
+    passes::{self, DepthRange, Inputs, Needs, Place},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, Staging},
@@ -68,7 +68,8 @@ impl<'a> Floor<'a> {
         survivors: bool,
     ) -> Result<Self> {
         let device = headless.device();
-        let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
+        let draws =
+            passes::draws(scene, (camera, DepthRange::default()), settings, &headless.renderer.limits);
         if draws.iter().any(|draw| draw.may_be_large) {
             let problem = "a splat may exceed the device's largest point: expected more and smaller splats, or a smaller --size";
             return Err(Error::option("bench", problem));
@@ -120,7 +121,12 @@ impl<'a> Floor<'a> {
     }
 
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {
-        let draws = passes::draws(self.scene, &self.camera, &self.settings, &headless.renderer.limits);
+        let draws = passes::draws(
+            self.scene,
+            (&self.camera, DepthRange::default()),
+            &self.settings,
+            &headless.renderer.limits,
+        );
         // Each chunk's points are a set in both passes that draw them.
         let room = passes::room_of_lists(2 * self.chunks.len() as u32);
         // Once more, in case that the wait for the frame before failed.
@@ -128,8 +134,8 @@ impl<'a> Floor<'a> {
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, profile) }?;
         let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
-        let source = Source::Device(&headless.renderer.shaders, descriptors);
-        let inputs = Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, source) };
+        let place = Place::Device(&headless.renderer.shaders, descriptors);
+        let inputs = Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, place) };
         let mut graph = Graph::new();
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut imports = Vec::new();

@@ -10,7 +10,7 @@ use crate::{
     error::Result,
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
-    passes::{self, Inputs, Source},
+    passes::{self, Inputs, Place},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
@@ -35,8 +35,9 @@ impl Headless {
         // SAFETY: nothing was recorded in it.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
-        let source = Source::Device(&renderer.shaders, descriptors);
-        let inputs = Inputs { occlusion, ..Inputs::new(camera, settings, source) };
+        let place = Place::Device(&renderer.shaders, descriptors);
+        let inputs = Inputs { occlusion, range: frame.range, ..Inputs::new(camera, settings, place) };
+        let source = inputs.source;
         let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };

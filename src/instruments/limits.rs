@@ -15,9 +15,9 @@ use crate::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
         execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
     },
-    passes::{self, Needs, Source},
+    passes::{self, Needs, Place, Source},
     report::ThroughputProbe,
-    scene::{Accumulate, Settings},
+    scene::{Accumulate, Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
 };
 
@@ -199,7 +199,8 @@ impl Probe {
         // SAFETY: every submission was waited for.
         unsafe { self.slot.begin(Needs { room, ..Needs::default() }, Some(profile)) }?;
         let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
-        let source = Source::Device(&headless.renderer.shaders, descriptors);
+        let place = Place::Device(&headless.renderer.shaders, descriptors);
+        let source = Source::new(place, &Camera::default());
         let inputs = LimitInputs { settings, source, repeats: self.repeats };
         let mut graph = Graph::new();
         let (mut handles, mut imports) = (Vec::new(), Vec::new());

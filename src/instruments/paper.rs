@@ -8,7 +8,7 @@ use crate::{
     error::{Error, Result},
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{Graph, ImageDesc, execute::Physical},
-    passes::{self, Inputs, Needs, Source},
+    passes::{self, DepthRange, Inputs, Needs, Place},
     prepare::PreparedScene,
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, PoolSizes},
@@ -47,7 +47,7 @@ pub fn draw_as_published(
     let pixels = Buffer::new(device, desc, MemoryUse::Readback)?;
     let mut slot = FrameSlot::new(device);
 
-    let draws = passes::draws(scene, camera, settings, &headless.renderer.limits);
+    let draws = passes::draws(scene, (camera, DepthRange::default()), settings, &headless.renderer.limits);
     // Two sets that fragments read, with the kernel, and one of sums: with stand-ins where nothing is read.
     let room = PoolSizes {
         sets: 3,
@@ -61,7 +61,7 @@ pub fn draw_as_published(
     let SlotParts { descriptors, execution, .. } = slot.parts()?;
     let shaders = &headless.renderer.shaders;
     let inputs =
-        Inputs { draws: &draws, ..Inputs::new(camera, settings, Source::Device(shaders, descriptors)) };
+        Inputs { draws: &draws, ..Inputs::new(camera, settings, Place::Device(shaders, descriptors)) };
     let mut graph = Graph::new();
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };

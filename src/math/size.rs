@@ -9,8 +9,10 @@ pub struct SizeBound {
     pub largest_radius: f64,
     /// The depth of the near plane.
     pub near: f64,
-    /// Focal length in pixels.
+    /// Focal length in pixels; under parallel rays, pixels of a unit.
     pub focal_px: f64,
+    /// Rays are parallel.
+    pub is_orthographic: bool,
     /// Width and height of the image in pixels.
     pub size_px: [f64; 2],
     /// Where the view's axis meets the image.
@@ -24,9 +26,10 @@ const LARGEST_RADIUS_RATIO: f64 = 0.45;
 
 /// Whether every splat is regular as `glsl/inc/mapping.glsl` has it: wholly beyond the near plane, and its depth radius at
 /// most 0.9 of its center's depth. Half of that is asked for, so that rounding does not matter; of the near plane, the nearest
-/// depth has a reserve for it.
+/// depth has a reserve for it. Under parallel rays how deep it is does not matter.
 fn all_regular(bound: &SizeBound) -> bool {
-    bound.nearest_z > bound.near && bound.largest_radius <= LARGEST_RADIUS_RATIO * bound.nearest_z
+    bound.nearest_z > bound.near
+        && (bound.is_orthographic || bound.largest_radius <= LARGEST_RADIUS_RATIO * bound.nearest_z)
 }
 
 /// An upper bound of the side of a splat's box within the image, in pixels; infinite where a splat may come
@@ -39,7 +42,7 @@ fn all_regular(bound: &SizeBound) -> bool {
 /// more here), h of which is up to `p / z ≤ 1 + r/z` as much where the disk is nearest, at z. (`adjust-paper` lengthens each vector by
 /// itself, two to h in any directions, which together reach √2 h: that is its h here. `max` adds its own disk about the center: of the
 /// splat's ends a and b from there, max(a, h) + max(b, h) ≤ √((a + b)² + 4 h²) where a ≤ 6 b, as of all that is regular by the half.)
-/// Three pixels for rounding.
+/// Three pixels for rounding. Under parallel rays, x is X, and all of that is without depths.
 pub fn largest_box_px(bound: &SizeBound) -> f64 {
     box_px(bound, bound.largest_radius)
 }
@@ -53,6 +56,9 @@ pub fn box_px(bound: &SizeBound, radius: f64) -> f64 {
 pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;
+    }
+    if bound.is_orthographic {
+        return 1.01 * (2.0 * radius * bound.focal_px).hypot(2.0 * bound.filter_px) + 3.0;
     }
     // From the axis to the farthest side.
     let most_px = (0..2).map(|i| bound.middle_px[i].abs().max((bound.size_px[i] - bound.middle_px[i]).abs()));
@@ -88,7 +94,7 @@ mod tests {
             prop_assume!(nearest_z > 0.1);
             let bound = SizeBound {
                 nearest_z, largest_radius: s.length().hypot(t.length()), near: 0.01,
-                focal_px: 100.0, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], filter_px: 0.0,
+                focal_px: 100.0, is_orthographic: false, size_px: [200.0, 100.0], middle_px: [100.0, 50.0], filter_px: 0.0,
             };
             let half = [1.0, 0.5];
             for axis in 0..2 {
@@ -142,6 +148,7 @@ mod tests {
                 largest_radius: radius,
                 near: 1e-3,
                 focal_px,
+                is_orthographic: false,
                 size_px: [480.0; 2],
                 middle_px: [240.0; 2],
                 filter_px: std::f64::consts::SQRT_2,
@@ -164,6 +171,7 @@ mod tests {
             largest_radius: 1.0,
             near: 0.1,
             focal_px: 100.0,
+            is_orthographic: false,
             size_px: [100.0; 2],
             middle_px: [50.0; 2],
             filter_px: 0.0,

@@ -3,11 +3,11 @@
 use ash::vk;
 
 use crate::passes::{
-    pass::Source,
+    pass::{Place, Source},
     pipeline::constants::FinalizeConstants,
     plan::{
         SplatMethod, SurfacePlan, bands::Band, block_list::ListedBlocks, draws::Draw, mesh_draws::MeshDraw,
-        tiles::TilePlan,
+        range::DepthRange, tiles::TilePlan,
     },
 };
 use crate::{
@@ -34,6 +34,8 @@ pub struct Inputs<'a> {
     pub lights: u32,
     /// From where.
     pub camera: &'a Camera,
+    /// How deep an orthographic camera sees.
+    pub range: DepthRange,
     /// How.
     pub settings: &'a Settings,
     /// Where pipelines and sets come from; the pool of sets lives as long as the frame and has room for [`crate::passes::needs`].
@@ -44,7 +46,7 @@ pub struct Inputs<'a> {
 
 impl<'a> Inputs<'a> {
     /// Those of a frame in which nothing is drawn yet.
-    pub fn new(camera: &'a Camera, settings: &'a Settings, source: Source<'a>) -> Self {
+    pub fn new(camera: &'a Camera, settings: &'a Settings, place: Place<'a>) -> Self {
         let (draws, meshes): (&[Draw<'_>], &[MeshDraw<'_>]) = (&[], &[]);
         Self {
             draws,
@@ -54,8 +56,9 @@ impl<'a> Inputs<'a> {
             culls_hidden: false,
             lights: 0,
             camera,
+            range: DepthRange::default(),
             settings,
-            source,
+            source: Source::new(place, camera),
             occlusion: None,
         }
     }
@@ -106,7 +109,8 @@ impl<'a> Inputs<'a> {
             middle_px: self.camera.middle_px(self.settings.size_px).map(|at| at as f32),
             focal_px: self.camera.focal_px(height) as f32,
             tile_height: 0, // quads of tiles bring their own
-            near: self.camera.near() as f32,
+            near: if self.camera.is_orthographic() { self.range.end } else { self.camera.near() } as f32,
+            eye_to_depth: self.range.from_eye as f32,
         }
     }
 }

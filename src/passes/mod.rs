@@ -17,7 +17,7 @@ pub(crate) mod tiles;
 use ash::vk;
 
 pub use crate::passes::inputs::Inputs;
-pub use crate::passes::pass::Source;
+pub use crate::passes::pass::{Place, Source};
 pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
     FinalizeConstants, FrameConstants, PaperConstants, TileConstants,
@@ -29,6 +29,7 @@ pub(crate) use crate::passes::plan::digits::{beyond_f32, check as check_digits, 
 pub use crate::passes::plan::draws::{Draw, draws};
 pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};
 pub use crate::passes::plan::needs::{Needs, needs};
+pub use crate::passes::plan::range::DepthRange;
 pub use crate::passes::plan::{
     FramePlan, SplatMethod, SurfacePlan, method::check as check_method, sums::with_sums,
 };

@@ -7,6 +7,7 @@ use crate::passes::pipeline::{
     cache::Shaders,
     key::{ComputeKey, GraphicsKey},
     recipe::{Key, PipelineRecipe},
+    variant::Constants,
 };
 use crate::passes::{
     place::At,
@@ -15,16 +16,41 @@ use crate::passes::{
 use crate::{
     error::Result,
     graph::{Access, Graph, Handle, PassBuilder, ResourceId, Role, Start, execute::Body},
+    scene::Camera,
+    shaders::config::SPEC_ORTHOGRAPHIC,
     vk::DescriptorPool,
 };
 
 /// What passes take pipelines and descriptor sets from.
 #[derive(Clone, Copy)]
-pub enum Source<'a> {
+pub struct Source<'a> {
+    /// Where from.
+    pub place: Place<'a>,
+    /// The camera's rays are parallel, in all of them.
+    pub is_orthographic: bool,
+}
+
+/// Where pipelines and descriptor sets come from.
+#[derive(Clone, Copy)]
+pub enum Place<'a> {
     /// A device, which is to record them.
     Device(&'a Shaders, &'a DescriptorPool),
     /// None: their pipelines are listed, and nothing is ever recorded.
     List(&'a RefCell<Vec<PipelineRecipe>>),
+}
+
+impl<'a> Source<'a> {
+    /// Pipelines for the camera that a pass is seen by.
+    pub fn new(place: Place<'a>, camera: &Camera) -> Self {
+        Self { place, is_orthographic: camera.is_orthographic() }
+    }
+
+    /// The specialization constants of a pipeline, with that of the camera. A shader that has no use for it does not know it.
+    fn complete(&self, constants: &mut Constants) {
+        if self.is_orthographic {
+            constants.push((SPEC_ORTHOGRAPHIC, 1));
+        }
+    }
 }
 
 /// A pass in the making.
@@ -42,21 +68,23 @@ impl<'g, 'a> Pass<'g, 'a> {
     }
 
     /// A pipeline of compute, made where it was not made yet.
-    pub fn compute(&self, key: ComputeKey) -> Result<Pipeline> {
+    pub fn compute(&self, mut key: ComputeKey) -> Result<Pipeline> {
         let layout = key.layout;
-        let raw = match self.source {
-            Source::Device(shaders, _) => shaders.compute(key)?,
-            Source::List(list) => self.list(list, Key::Compute(key)),
+        self.source.complete(&mut key.constants);
+        let raw = match self.source.place {
+            Place::Device(shaders, _) => shaders.compute(key)?,
+            Place::List(list) => self.list(list, Key::Compute(key)),
         };
         Ok(Pipeline { raw, layout })
     }
 
     /// A pipeline of graphics, made where it was not made yet.
-    pub fn graphics(&self, key: GraphicsKey) -> Result<Pipeline> {
+    pub fn graphics(&self, mut key: GraphicsKey) -> Result<Pipeline> {
         let layout = key.layout;
-        let raw = match self.source {
-            Source::Device(shaders, _) => shaders.graphics(key)?,
-            Source::List(list) => self.list(list, Key::Graphics(key)),
+        self.source.complete(&mut key.constants);
+        let raw = match self.source.place {
+            Place::Device(shaders, _) => shaders.graphics(key)?,
+            Place::List(list) => self.list(list, Key::Graphics(key)),
         };
         Ok(Pipeline { raw, layout })
     }
@@ -117,12 +145,12 @@ impl<'g, 'a> Pass<'g, 'a> {
     pub fn finish(self, body: impl FnOnce(&Recording<'_, 'a>) -> Result<()> + 'a) {
         let Self { declared, source, mut bound } = self;
         bound.sort_unstable();
-        declared.finish(Box::new(move |context| match source {
-            Source::Device(shaders, descriptors) => {
+        declared.finish(Box::new(move |context| match source.place {
+            Place::Device(shaders, descriptors) => {
                 let pipeline = Cell::default();
                 body(&Recording { context, shaders, descriptors, bound: &bound, pipeline })
             }
-            Source::List(_) => Ok(()),
+            Place::List(_) => Ok(()),
         }));
     }
 }

@@ -75,6 +75,9 @@ impl DrawnSplat {
             return None;
         }
         let parts = [disk, low_pass].into_iter().flatten().filter(may_cover);
-        parts.map(|part| part.1).reduce(|a, b| Rim { z: a.z.min(b.z), margin: a.margin.max(b.margin) })
+        let rim = parts
+            .map(|part| part.1)
+            .reduce(|a, b| Rim { z: a.z.min(b.z), margin: a.margin.max(b.margin) })?;
+        Some(Rim { margin: rim.margin * view.depth_share, ..rim })
     }
 }

@@ -76,6 +76,7 @@ pub fn ground_truth(
 ) -> Result<GroundTruth> {
     settings.validate()?;
     camera.validate()?;
+    settings.check_camera(camera)?;
     if settings.shading == Shading::EyeDome {
         let problem = "edl: is of pixels, and the ground truth's samples have other neighbors; expected another shading";
         return Err(Error::option("--shading", problem));
@@ -90,7 +91,7 @@ pub fn ground_truth(
         filter_weight: FilterWeight::Unit,
         ..settings.clone()
     };
-    let view = View::new(camera, settings.size_px).sampled(taps.reach_px, samples_per_side);
+    let view = View::of(scene, camera, settings.size_px).sampled(taps.reach_px, samples_per_side);
     let (splats, defects) = splat::prepare(scene, &view, &plain);
     let limit_r2 = limit_r2(settings.kernel);
     let field = Field {
@@ -115,6 +116,7 @@ pub fn ground_truth(
         let done = rows_done.fetch_add(rows as u64, Ordering::Relaxed) + rows as u64;
         progress(done, u64::from(height));
     });
+    pixels.iter_mut().for_each(|pixel| pixel.depth -= view.moved_back);
     Ok(GroundTruth { size_px: settings.size_px, pixels, defects })
 }
 

@@ -99,11 +99,12 @@ pub fn render(
 ) -> Result<Picture> {
     settings.validate()?;
     camera.validate()?;
+    settings.check_camera(camera)?;
     settings.check_scene(scene)?;
     if settings.samples.0 > 1 {
         return samples::render(scene, camera, settings, progress);
     }
-    render_view(scene, View::new(camera, settings.size_px), settings, progress)
+    render_view(scene, View::of(scene, camera, settings.size_px), settings, progress)
 }
 
 /// One sample of each pixel.
@@ -129,6 +130,10 @@ fn render_view(
     });
     if settings.shading == Shading::EyeDome {
         eye_dome::shade(&view, &mut pixels);
+    }
+    for pixel in &mut pixels {
+        pixel.depth -= view.moved_back;
+        pixel.epsilon_margin /= view.depth_share;
     }
     Ok(Picture { size_px: settings.size_px, pixels, defects })
 }

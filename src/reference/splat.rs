@@ -184,7 +184,11 @@ fn prepare_one(
         _ => 1.0,
     };
     let epsilon = rule.epsilon(i, splats.major_radius(i) * thickness);
-    let shift = if epsilon > 0.0 { 1.0 + (epsilon / center.z.max(epsilon)).max(LEAST_SHIFT) } else { 1.0 };
+    let shift = if epsilon > 0.0 {
+        1.0 + (epsilon / center.z.max(epsilon)).max(LEAST_SHIFT * view.depth_share)
+    } else {
+        1.0
+    };
     let (s, t) = match settings.filter {
         Filter::Adjust if regular => adjust(center, s, t, h),
         Filter::AdjustPaper if regular => adjust_paper(center, s, t, h),

@@ -1,8 +1,12 @@
 //! The camera of one picture: pixels to rays, and the sizes that follow from the field of view.
+//!
+//! An orthographic picture is what pictures of a pinhole camera come to as it moves away and its field of view narrows: here it is that
+//! of an eye that is a hundred million times as far away as the scene is large. Then rays differ by 1e-8 from parallel ones, 1e-5 pixels
+//! in a picture of a thousand, and f64 leaves as much of a place. So no equation of this folder has another form for it.
 
 use glam::DVec3;
 
-use crate::scene::{Camera, ViewFromWorld};
+use crate::scene::{Ball, Camera, Scene, ViewFromWorld};
 
 /// Camera and image size, ready for use.
 #[derive(Clone, Copy, Debug)]
@@ -19,10 +23,41 @@ pub(super) struct View {
     pub near: f64,
     /// The radius of the low-pass filter: √2 pixels, or what samples leave of it.
     pub filter_px: f64,
+    /// How much farther from the scene the eye is here than the camera's own.
+    pub moved_back: f64,
+    /// The part of depths that belongs to the scene: what digits and margins of depth are relative to; 1 of a pinhole camera.
+    pub depth_share: f64,
 }
 
+/// Of an orthographic camera, over the scene's size.
+const FAR_AWAY: f64 = 1e8;
+
 impl View {
-    pub fn new(camera: &Camera, size_px: [u32; 2]) -> Self {
+    /// That of a camera before a scene.
+    pub fn of(scene: &Scene, camera: &Camera, size_px: [u32; 2]) -> Self {
+        let pinhole = Self::pinhole(camera, size_px);
+        let Some(height) = camera.orthographic_height else { return pinhole };
+        let ball = scene.ball().unwrap_or(Ball { center: camera.target, radius: 1.0 });
+        let [width_px, height_px] = camera.window.whole_px.unwrap_or(size_px).map(f64::from);
+        let size = (2.0 * ball.radius).max(height * (width_px / height_px).max(1.0));
+        let middle_z = pinhole.from_world.point(ball.center).z;
+        let distance = FAR_AWAY * size;
+        let moved_back = distance - middle_z;
+        let eye = camera.eye - moved_back * camera.forward();
+        // What is drawn begins at the near plane, or where the scene does; depth ends at twice as much as there is of it.
+        let begins = (middle_z - ball.radius).max(camera.near());
+        let depth_range = 2.0 * (middle_z + ball.radius - begins).max(0.0);
+        Self {
+            from_world: ViewFromWorld { eye, ..pinhole.from_world },
+            focal_px: height_px / height * distance,
+            near: camera.near() + moved_back,
+            moved_back,
+            depth_share: if depth_range > 0.0 { depth_range / distance } else { FAR_AWAY.recip() },
+            ..pinhole
+        }
+    }
+
+    pub(super) fn pinhole(camera: &Camera, size_px: [u32; 2]) -> Self {
         Self {
             from_world: camera.view_from_world(),
             size_px,
@@ -30,6 +65,8 @@ impl View {
             focal_px: camera.focal_px(size_px[1]),
             near: camera.near(),
             filter_px: std::f64::consts::SQRT_2,
+            moved_back: 0.0,
+            depth_share: 1.0,
         }
     }
 

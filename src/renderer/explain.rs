@@ -116,7 +116,8 @@ impl Renderer {
     ) -> Explanation {
         let limits = &self.limits;
         let frame = passes::FramePlan::new(scene, camera, settings, limits);
-        let draws = passes::draws(scene, camera, settings, limits);
+        let seen_from = &frame.range.begin(camera);
+        let draws = passes::draws(scene, (seen_from, frame.range), settings, limits);
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
             ellipses: draw.chunk.ellipses,
@@ -132,7 +133,7 @@ impl Renderer {
                 .bands()
                 .is_empty(),
         });
-        let meshes = passes::mesh_draws(scene, camera, settings);
+        let meshes = passes::mesh_draws(scene, (seen_from, frame.range), settings);
         let meshes = meshes.iter().map(|draw| ExplainedMesh {
             triangles: draw.chunk.triangles,
             vertices: draw.chunk.vertices,

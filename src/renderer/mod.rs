@@ -17,7 +17,7 @@ use crate::{
     error::{Error, Result},
     frame::{FrameSlot, SlotParts, Target},
     graph::{Plan, execute::Profile},
-    passes::{self, FramePlan, Inputs, Shaders, Source},
+    passes::{self, FramePlan, Inputs, Place, Shaders},
     prepare::{PreparedScene, prepare},
     scene::{Accumulate, Camera, Edges, Scene, Settings, Shading},
     vk::{Device, Limits, Staging},
@@ -101,6 +101,7 @@ impl Renderer {
     /// [`crate::error::ErrorKind::Option`].
     pub fn check(&self, camera: &Camera, settings: &Settings) -> Result<()> {
         camera.validate()?;
+        settings.check_camera(camera)?;
         self.check_settings(settings)
     }
 
@@ -193,8 +194,11 @@ impl Renderer {
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), profile) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
-        let inputs =
-            Inputs { occlusion, ..Inputs::new(camera, settings, Source::Device(&self.shaders, descriptors)) };
+        let inputs = Inputs {
+            occlusion,
+            range: frame.range,
+            ..Inputs::new(camera, settings, Place::Device(&self.shaders, descriptors))
+        };
         let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
         // SAFETY: this function's contract.
         unsafe {

@@ -51,7 +51,9 @@ pub struct CameraReport {
     /// The direction that is up, world space.
     pub up: [f64; 3],
     /// The vertical field of view in degrees.
-    pub fov_deg: f64,
+    pub fov_deg: Option<f64>,
+    /// The height of an orthographic picture, in world units; `None` has a field of view.
+    pub orthographic: Option<f64>,
     /// The depth of the near plane in world units.
     pub near: f64,
     /// Of a part of a picture: width and height of the whole in pixels.
@@ -124,7 +126,8 @@ impl From<&Camera> for CameraReport {
             eye: camera.eye.into(),
             target: camera.target.into(),
             up: camera.up.into(),
-            fov_deg: camera.fov_y_rad.to_degrees(),
+            fov_deg: (!camera.is_orthographic()).then(|| camera.fov_y_rad.to_degrees()),
+            orthographic: camera.orthographic_height,
             near: camera.near(),
             whole_px: camera.window.whole_px,
             corner_px: camera.window.whole_px.map(|_| camera.window.corner_px),

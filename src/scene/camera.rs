@@ -1,11 +1,11 @@
-//! The pinhole camera, and the one that is chosen where none is given.
+//! The camera, and the one that is chosen where none is given.
 
 use glam::{DMat3, DVec3};
 
 use super::{Ball, Window};
 use crate::error::{Error, Result};
 
-/// A pinhole camera in world space.
+/// A camera in world space: a pinhole, or one whose rays are parallel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// The eye.
@@ -17,7 +17,11 @@ pub struct Camera {
     pub up: DVec3,
     /// The vertical field of view in radians, between 1e-12 and π.
     pub fov_y_rad: f64,
-    /// The depth of the near plane in world units; `None` is 1e-6 of the distance from eye to target.
+    /// The height of the whole picture in world units, above 0: the camera is then orthographic, its rays are parallel, and the field of
+    /// view means nothing. `None`: they meet in the eye.
+    pub orthographic_height: Option<f64>,
+    /// The depth of the near plane in world units, in front of which nothing is drawn; `None` is 1e-6 of the distance from eye to target,
+    /// and of an orthographic camera 0: where the eye is.
     pub near: Option<f64>,
     /// Where the drawn image lies in the picture that this field of view has.
     pub window: Window,
@@ -49,23 +53,40 @@ impl Camera {
         let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
         let half_y = 0.5 * fov_y_rad;
         let half = half_y.min((half_y.tan() * aspect).atan());
-        // Below a few steps of f64 at its place a ball can't be told from its center, nor the eye from the target.
-        let smallest = 16.0 * f64::EPSILON * ball.center.abs().max_element();
-        let radius = if ball.radius > smallest { ball.radius } else { 1.0 };
-        let eye = ball.center + DVec3::Z * (FIT_MARGIN * radius / half.sin());
+        let eye = ball.center + DVec3::Z * (FIT_MARGIN * seen_radius(ball) / half.sin());
         Self { eye, target: ball.center, fov_y_rad, ..Self::default() }
+    }
+
+    /// Whether rays are parallel.
+    pub fn is_orthographic(&self) -> bool {
+        self.orthographic_height.is_some()
     }
 
     /// The depth of the near plane in world units.
     pub fn near(&self) -> f64 {
-        self.near.unwrap_or_else(|| 1e-6 * self.eye.distance(self.target))
+        let where_none_is_given =
+            || if self.is_orthographic() { 0.0 } else { 1e-6 * self.eye.distance(self.target) };
+        self.near.unwrap_or_else(where_none_is_given)
     }
 
     /// The focal length in pixels for a drawn image of this height: an image-plane coordinate times this is a pixel
-    /// distance from [`Self::middle_px`].
+    /// distance from [`Self::middle_px`]. Of an orthographic camera, whose image plane is that of view-space x and y: pixels of a world
+    /// unit.
     pub fn focal_px(&self, height_px: u32) -> f64 {
-        let whole_px = self.window.whole_px.map_or(height_px, |[_, height_px]| height_px);
-        0.5 * f64::from(whole_px) / (0.5 * self.fov_y_rad).tan()
+        let whole_px = f64::from(self.window.whole_px.map_or(height_px, |[_, height_px]| height_px));
+        self.orthographic_height
+            .map_or_else(|| 0.5 * whole_px / (0.5 * self.fov_y_rad).tan(), |height| whole_px / height)
+    }
+
+    /// The direction in which it looks: a unit vector in world space.
+    pub fn forward(&self) -> DVec3 {
+        (self.target - self.eye).normalize()
+    }
+
+    /// The height of an orthographic picture of this size that shows all of a ball, with 5% margin.
+    pub fn height_of(ball: &Ball, size_px: [u32; 2]) -> f64 {
+        let aspect = f64::from(size_px[0].max(1)) / f64::from(size_px[1].max(1));
+        2.0 * FIT_MARGIN * seen_radius(ball) / aspect.min(1.0)
     }
 
     /// Where the view's axis meets a drawn image of this size, in pixels from its top left corner: its middle, unless the
@@ -91,7 +112,7 @@ impl Camera {
 
     /// The motion from world to view space.
     pub fn view_from_world(&self) -> ViewFromWorld {
-        let forward = (self.target - self.eye).normalize();
+        let forward = self.forward();
         let up = usable_up(self.up, forward);
         let right = forward.cross(up).normalize();
         let down = forward.cross(right);
@@ -102,7 +123,7 @@ impl Camera {
     ///
     /// # Errors
     /// [`crate::error::ErrorKind::Option`] for values that are not finite, an eye at the target, an angle outside (0°,
-    /// 180°), a near plane not above zero; as [`Window::validate`].
+    /// 180°), a height or a near plane not above zero (of an orthographic camera it may be 0); as [`Window::validate`].
     pub fn validate(&self) -> Result<()> {
         let finite = self.eye.is_finite() && self.target.is_finite() && self.up.is_finite();
         if !finite {
@@ -112,14 +133,24 @@ impl Camera {
         if !(distance > 0.0 && distance.is_finite()) {
             return Err(Error::option("camera", "eye and target must be two different points"));
         }
-        if !(self.fov_y_rad >= SMALLEST_FOV_RAD && self.fov_y_rad < std::f64::consts::PI) {
+        if let Some(height) = self.orthographic_height
+            && !(height > 0.0 && height.is_finite())
+        {
+            return Err(Error::option(
+                "--orthographic",
+                format!("{height}: expected a height above 0, in the scene's unit"),
+            ));
+        }
+        let has_angle = self.fov_y_rad >= SMALLEST_FOV_RAD && self.fov_y_rad < std::f64::consts::PI;
+        if !(has_angle || self.is_orthographic()) {
             let degrees = self.fov_y_rad.to_degrees();
             return Err(Error::option(
                 "--fov",
                 format!("{degrees}: expected degrees above 1e-10 and below 180"),
             ));
         }
-        if !(self.near() > 0.0 && self.near().is_finite()) {
+        let is_near_enough = if self.is_orthographic() { self.near() >= 0.0 } else { self.near() > 0.0 };
+        if !(is_near_enough && self.near().is_finite()) {
             return Err(Error::option("camera", "near must be above zero"));
         }
         self.window.validate()
@@ -134,6 +165,7 @@ impl Default for Camera {
             target: DVec3::ZERO,
             up: DVec3::Y,
             fov_y_rad: Self::DEFAULT_FOV_Y_RAD,
+            orthographic_height: None,
             near: None,
             window: Window::default(),
         }
@@ -145,6 +177,13 @@ impl ViewFromWorld {
     pub fn point(&self, world: DVec3) -> DVec3 {
         self.rotation * (world - self.eye)
     }
+}
+
+/// The radius of a ball, or 1 of one without extent: below a few steps of f64 at its place it can't be told from its center, nor the eye
+/// from the target.
+fn seen_radius(ball: &Ball) -> f64 {
+    let smallest = 16.0 * f64::EPSILON * ball.center.abs().max_element();
+    if ball.radius > smallest { ball.radius } else { 1.0 }
 }
 
 /// `up`, or where it is zero or parallel to the view the coordinate axis nearest to it that is not.

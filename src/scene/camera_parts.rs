@@ -17,10 +17,21 @@ pub struct CameraParts {
     pub target: Option<DVec3>,
     /// The direction that is up; without, +y.
     pub up: Option<DVec3>,
+    /// The height of an orthographic picture; without, the camera has a field of view.
+    pub orthographic: Option<PictureHeight>,
     /// The vertical field of view in radians; without, [`Camera::DEFAULT_FOV_Y_RAD`].
     pub fov_y_rad: Option<f64>,
     /// The depth of the near plane in world units; without, as [`Camera::near`] has it.
     pub near: Option<f64>,
+}
+
+/// The height of what an orthographic camera shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PictureHeight {
+    /// As much as shows all of the scene.
+    Fit,
+    /// So many world units.
+    World(f64),
 }
 
 impl CameraParts {
@@ -32,7 +43,9 @@ impl CameraParts {
             from: self.from.or(other.from),
             target: self.target.or(other.target),
             up: self.up.or(other.up),
-            fov_y_rad: self.fov_y_rad.or(other.fov_y_rad),
+            // Either is what is said of the projection.
+            orthographic: self.orthographic.or(other.orthographic.filter(|_| self.fov_y_rad.is_none())),
+            fov_y_rad: self.fov_y_rad.or(other.fov_y_rad.filter(|_| self.orthographic.is_none())),
             near: self.near.or(other.near),
         }
     }
@@ -53,7 +66,12 @@ impl CameraParts {
             );
             return Err(Error::option("--up", problem));
         }
-        let camera = Camera { eye, target, up: self.up.unwrap_or(fit.up), near: self.near, ..fit };
+        let orthographic_height = self.orthographic.map(|height| match height {
+            PictureHeight::Fit => Camera::height_of(ball, size_px),
+            PictureHeight::World(height) => height,
+        });
+        let up = self.up.unwrap_or(fit.up);
+        let camera = Camera { eye, target, up, near: self.near, orthographic_height, ..fit };
         camera.validate()?;
         Ok(camera)
     }
@@ -112,6 +130,16 @@ mod tests {
             assert!((camera.eye - camera.target).normalize().distance(toward) < 1e-12, "{up}");
             assert!((camera.eye.distance(camera.target) / fit.eye.distance(fit.target) - 1.0).abs() < 1e-12);
         }
+        // Parallel rays: a height that is given, or one that shows all; what is said last of the projection holds.
+        let fitted = CameraParts { orthographic: Some(PictureHeight::Fit), ..none };
+        let camera = fitted.camera(&ball, [16, 8]).unwrap();
+        assert!((camera.orthographic_height.unwrap() - 2.1).abs() < 1e-12 && camera.eye == fit.eye);
+        assert!((fitted.camera(&ball, [8, 16]).unwrap().orthographic_height.unwrap() - 4.2).abs() < 1e-12);
+        assert_eq!((fitted.or(narrow).fov_y_rad, narrow.or(fitted).orthographic), (None, None));
+        let flat = CameraParts { orthographic: Some(PictureHeight::World(0.0)), ..none };
+        assert!(
+            flat.camera(&ball, [8, 8]).unwrap_err().to_string().starts_with("--orthographic: 0: expected")
+        );
         let rolled =
             CameraParts { up: Some(DVec3::new(1.0, 1.0, 0.0)), ..none }.camera(&ball, [8, 8]).unwrap();
         assert_eq!(rolled.eye, fit.eye);

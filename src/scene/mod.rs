@@ -27,7 +27,7 @@ mod window;
 
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
-pub use camera_parts::CameraParts;
+pub use camera_parts::{CameraParts, PictureHeight};
 pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};

@@ -1,7 +1,7 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Layers, Light, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
+    Camera, Layers, Light, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -130,6 +130,40 @@ impl Settings {
         }
         let by_tiles = matches!(self.rasterizer, Rasterizer::Auto | Rasterizer::Compute);
         if self.accumulate == Accumulate::F16 && !by_tiles { Floors::HALF } else { Floors::NONE }
+    }
+
+    /// Refuses methods that only make something of rays that meet in an eye, where the camera's are parallel.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Option`].
+    pub fn check_camera(&self, camera: &Camera) -> Result<()> {
+        let (option, name, why) = match (self.rasterizer, self.filter) {
+            _ if !camera.is_orthographic() => return Ok(()),
+            (Rasterizer::PerspectivePaper, _) => (
+                "--rasterizer",
+                self.rasterizer.name(),
+                "it is the projective map of rays that meet in an eye",
+            ),
+            (Rasterizer::AffineCenter | Rasterizer::AffineContour, _) => (
+                "--rasterizer",
+                self.rasterizer.name(),
+                "it approximates a perspective, and parallel rays have none",
+            ),
+            (Rasterizer::RaycastApproximate, _) => (
+                "--rasterizer",
+                self.rasterizer.name(),
+                "its size of splats goes by their distance from an eye",
+            ),
+            (_, Filter::AdjustPaper) => {
+                ("--filter", self.filter.name(), "its equations have the distance from an eye")
+            }
+            _ => return Ok(()),
+        };
+        let problem = format!(
+            "{name}: not for an orthographic camera: {why}; use {}",
+            if option == "--filter" { "adjust" } else { "perspective" }
+        );
+        Err(Error::option(option, problem))
     }
 
     /// Refuses a filter that the splats of an object rule out.

@@ -191,7 +191,8 @@ fn by_pixels(index: usize, hard: &Hard) -> Option<Case> {
 
 /// Whether the method can draw the scene.
 pub(super) fn can_draw(hard: &Hard, settings: &Settings) -> bool {
-    settings.validate().is_ok() && settings.check_scene(&hard.scene).is_ok()
+    let of_camera = settings.check_camera(&hard.camera);
+    settings.validate().is_ok() && of_camera.is_ok() && settings.check_scene(&hard.scene).is_ok()
 }
 
 /// A scene's name as a part of a case's.

@@ -12,6 +12,7 @@ mod formats;
 mod growth;
 mod hard_files;
 mod inputs;
+mod orthographic;
 mod outputs;
 mod program;
 mod refusals;

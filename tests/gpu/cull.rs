@@ -22,6 +22,7 @@ fn views(hard: &Hard, rasterizer: Rasterizer) -> [Hard; 2] {
     (whole.settings.size_px, whole.settings.rasterizer) = ([64, 48], rasterizer);
     let mut narrow = whole.clone();
     narrow.camera.fov_y_rad *= 0.2;
+    narrow.camera.orthographic_height = narrow.camera.orthographic_height.map(|height| 0.2 * height);
     [whole, narrow]
 }
 

@@ -21,6 +21,7 @@ mod lifetime;
 mod memory;
 mod off_center;
 mod oracle;
+mod orthographic;
 mod packed;
 mod paper_form;
 mod pictures;

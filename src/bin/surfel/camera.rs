@@ -7,7 +7,7 @@ use glam::DVec3;
 use serde::Deserialize;
 use surfel::{
     Error, ErrorKind, Result,
-    scene::{Camera, CameraParts},
+    scene::{Camera, CameraParts, PictureHeight},
     small_file::read_small_file,
 };
 
@@ -22,7 +22,7 @@ use crate::{
 #[command(next_help_heading = "Camera")]
 pub struct CameraArguments {
     /// Read the camera from this file
-    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov"])]
+    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["eye", "target", "up", "fov", "orthographic"])]
     pub camera: Option<PathBuf>,
 
     /// The eye [default: on +z from the target, so far that the scene fits; on -y where z is up, and above it where nobody
@@ -42,6 +42,12 @@ pub struct CameraArguments {
     /// The vertical field of view in degrees [default: 45]
     #[arg(long, value_name = "DEG", value_parser = degrees, allow_hyphen_values = true)]
     pub fov: Option<f64>,
+
+    /// Parallel rays, as in a plan or an elevation, where lengths can be measured: the picture's height in the scene's unit, or fit for one
+    /// that shows all of it. For all rasterizers and filters but perspective-paper, affine-center, affine-contour, raycast-approximate and
+    /// adjust-paper, which only make something of a perspective
+    #[arg(long, value_name = "HEIGHT|fit", value_parser = picture_height, allow_hyphen_values = true, conflicts_with = "fov")]
+    pub orthographic: Option<PictureHeight>,
 }
 
 /// More than any camera file holds: what is larger is something else.
@@ -53,6 +59,16 @@ fn degrees(word: &str) -> std::result::Result<f64, String> {
     degrees.ok_or_else(|| "expected degrees above 1e-10 and below 180, such as 45".to_owned())
 }
 
+/// `2.5`, in the scene's unit, or `fit`.
+fn picture_height(word: &str) -> std::result::Result<PictureHeight, String> {
+    if word == "fit" {
+        return Ok(PictureHeight::Fit);
+    }
+    let height = word.parse().ok().filter(|height: &f64| *height > 0.0 && height.is_finite());
+    let expected = || "expected a height above 0 in the scene's unit, such as 2.5, or fit".to_owned();
+    height.map(PictureHeight::World).ok_or_else(expected)
+}
+
 /// A camera file. Angles in degrees, points in world space.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -60,7 +76,10 @@ struct CameraFile {
     eye: [f64; 3],
     target: [f64; 3],
     up: [f64; 3],
-    fov_deg: f64,
+    /// Or `orthographic`.
+    fov_deg: Option<f64>,
+    /// The picture's height.
+    orthographic: Option<f64>,
     near: Option<f64>,
 }
 
@@ -75,8 +94,9 @@ pub enum CameraChoice {
 impl CameraArguments {
     /// Whether an option says something of the camera.
     pub fn is_given(&self) -> bool {
-        let Self { camera, eye, target, up, fov } = self;
-        camera.is_some() || eye.is_some() || target.is_some() || up.is_some() || fov.is_some()
+        let Self { camera, eye, target, up, fov, orthographic } = self;
+        let has_place = eye.is_some() || target.is_some() || up.is_some();
+        camera.is_some() || has_place || fov.is_some() || orthographic.is_some()
     }
 }
 
@@ -103,6 +123,7 @@ impl CameraChoice {
                 Some(Up::Given(direction)) => Some(direction.into()),
                 Some(Up::Auto) | None => None,
             },
+            orthographic: arguments.orthographic,
             fov_y_rad: arguments.fov.map(f64::to_radians),
             near: None,
         }))
@@ -148,17 +169,31 @@ fn read(path: &Path) -> Result<Camera> {
         let problem = problem.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&problem);
         Error::input(path, format!("line {line}, column {column}"), problem)
     })?;
+    let projection = |problem: &str| Error::input(path, "", problem);
+    let fov_deg = match (file.fov_deg, file.orthographic) {
+        (Some(_), Some(_)) => {
+            return Err(projection("both fov_deg and orthographic; expected one of them"));
+        }
+        (None, None) => return Err(projection("neither fov_deg nor orthographic; expected one of them")),
+        (fov_deg, _) => fov_deg,
+    };
     let camera = Camera {
         eye: file.eye.into(),
         target: file.target.into(),
         up: file.up.into(),
-        fov_y_rad: file.fov_deg.to_radians(),
+        fov_y_rad: fov_deg.map_or(Camera::DEFAULT_FOV_Y_RAD, f64::to_radians),
+        orthographic_height: file.orthographic,
         near: file.near,
         ..Camera::default()
     };
     camera.validate().map_err(|error| match error.kind() {
         ErrorKind::Option { option, problem } => {
-            Error::input(path, if option == "--fov" { "fov_deg" } else { "" }, problem.as_str())
+            let key = match option.as_str() {
+                "--fov" => "fov_deg",
+                "--orthographic" => "orthographic",
+                _ => "",
+            };
+            Error::input(path, key, problem.as_str())
         }
         _ => error,
     })?;
@@ -187,12 +222,14 @@ mod tests {
     }
 
     #[test]
-    fn a_camera_file_is_read_with_and_without_near() {
+    fn a_camera_file_is_read_with_and_without_near_of_either_projection() {
         let text = r#"{"eye":[1,2,3], "target":[0,0,0], "up":[0,1,0], "fov_deg":90"#;
         let camera = parsed(&format!("{text}}}")).unwrap();
         assert_eq!((camera.eye, camera.near), (DVec3::new(1.0, 2.0, 3.0), None));
         assert!((camera.fov_y_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
         assert_eq!(parsed(&format!("{text}, \"near\":0.5}}")).unwrap().near, Some(0.5));
+        let parallel = parsed(&format!("{text}}}").replace("fov_deg\":90", "orthographic\":2.5")).unwrap();
+        assert_eq!((parallel.orthographic_height, parallel.near()), (Some(2.5), 0.0));
     }
 
     #[test]
@@ -209,6 +246,15 @@ mod tests {
             ("{}", "cam.json: line 1, column 2: missing field `eye`"),
             ("", "cam.json: line 1, column 0: EOF while parsing a value"),
             (&near("0"), "cam.json: near must be above zero"),
+            (
+                &near("1").replace("fov_deg\":45", "orthographic\":-1"),
+                "cam.json: orthographic: -1: expected a height above 0",
+            ),
+            (
+                &near("1").replace("fov_deg\":45", "fov_deg\":45, \"orthographic\":1"),
+                "cam.json: both fov_deg and orthographic; expected one of them",
+            ),
+            (&near("1").replace("\"fov_deg\":45,", ""), "cam.json: neither fov_deg nor orthographic"),
             (&near("1e400"), "cam.json: line 1, column 74: number out of range"),
             (
                 &near("1").replace("45", "180"),

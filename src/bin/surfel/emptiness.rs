@@ -1,5 +1,6 @@
 //! Why a picture shows nothing, and what to try: nobody should look at a white page and wonder.
 
+use glam::DVec3;
 use surfel::scene::{Ball, Camera};
 
 /// What to say of a picture that is all background (sRGB; `None`: transparent); `None` where something is seen.
@@ -21,11 +22,14 @@ pub fn hint(
 fn reason(camera: &Camera, ball: &Ball) -> String {
     let center = camera.view_from_world().point(ball.center);
     let [distance, across] = [center.length(), center.truncate().length()];
-    let to_axis_deg = across.atan2(center.z).to_degrees();
-    let half_fov_deg = 0.5 * camera.fov_y_rad.to_degrees();
-    let reach_deg = (ball.radius / distance).min(1.0).asin().to_degrees();
     // Without the sign of what rounds to 0.
     let [x, y, z] = (ball.center * 1e4).round().to_array().map(|value| value / 1e4 + 0.0);
+    if camera.is_orthographic() {
+        return of_parallel_rays(camera, ball, center, [x, y, z]);
+    }
+    let half_fov_deg = 0.5 * camera.fov_y_rad.to_degrees();
+    let to_axis_deg = across.atan2(center.z).to_degrees();
+    let reach_deg = (ball.radius / distance).min(1.0).asin().to_degrees();
     match () {
         () if distance <= ball.radius => {
             "the eye is inside of the scene; try without --eye, or --backfaces flip".to_owned()
@@ -37,16 +41,33 @@ fn reason(camera: &Camera, ball: &Ball) -> String {
         () if reach_deg < half_fov_deg / 1000.0 => format!(
             "the scene is {distance:.3e} away and smaller than a pixel; try without --eye, or a smaller --fov"
         ),
-        () => "what the camera looks at faces away, is seen edge-on, has an alpha of 0 or the background's color; try --backfaces \
-               flip, another --eye, or --shading normals"
-            .to_owned(),
+        () => FACES_AWAY.to_owned(),
+    }
+}
+
+const FACES_AWAY: &str = "what the camera looks at faces away, is seen edge-on, has an alpha of 0 or the background's color; try --backfaces flip, \
+                          another --eye, or --shading normals";
+
+/// `center`: the scene's middle in view space.
+fn of_parallel_rays(camera: &Camera, ball: &Ball, center: DVec3, [x, y, z]: [f64; 3]) -> String {
+    let height = camera.orthographic_height.unwrap_or_default();
+    match () {
+        () if center.z + ball.radius < camera.near() => {
+            format!("the scene is around {x},{y},{z}, behind the eye; try without --eye")
+        }
+        // Of the image's corners, which are up to twice as far.
+        () if center.truncate().length() > ball.radius + height => format!(
+            "the scene is around {x},{y},{z}, beside what the camera shows; try without --eye and --target, or --orthographic fit"
+        ),
+        () if ball.radius < height / 2000.0 => {
+            "the scene is smaller than a pixel; try --orthographic fit".to_owned()
+        }
+        () => FACES_AWAY.to_owned(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
 
     fn hint_of(eye: DVec3, target: DVec3) -> String {
@@ -61,6 +82,14 @@ mod tests {
         assert!(hint_of(DVec3::new(0.0, 0.1, 0.0), far).contains("inside of the scene"));
         assert!(hint_of(1e6 * far, DVec3::ZERO).contains("smaller than a pixel"));
         assert!(hint_of(far, DVec3::ZERO).contains("edge-on"));
+        let parallel = |eye: DVec3, target: DVec3, height: f64| {
+            let camera = Camera { eye, target, orthographic_height: Some(height), ..Camera::default() };
+            hint(&[[255; 4]; 9], Some([1.0; 3]), &camera, &Ball { center: DVec3::ZERO, radius: 1.0 }).unwrap()
+        };
+        assert!(parallel(far, 2.0 * far, 3.0).contains("behind the eye"));
+        assert!(parallel(far + 9.0 * DVec3::X, 9.0 * DVec3::X, 3.0).contains("beside what the camera shows"));
+        assert!(parallel(far, DVec3::ZERO, 1e4).contains("smaller than a pixel"));
+        assert!(parallel(far, DVec3::ZERO, 3.0).contains("edge-on"));
         let camera =
             Camera { eye: far, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.8, ..Camera::default() };
         let ball = Ball { center: DVec3::ZERO, radius: 1.0 };

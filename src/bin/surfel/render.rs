@@ -39,7 +39,7 @@ const EXAMPLES: &str = "Examples:
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
 
-A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\":45, \"near\":0.01}; near may be left out.";
+A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\":45, \"near\":0.01}; near may be left out, and orthographic, the picture's height, may stand for fov_deg.";
 
 /// Draw a scene on a Vulkan device
 #[derive(Args)]

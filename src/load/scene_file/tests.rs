@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::*;
 use crate::{
     math::srgb::linear_from_srgb,
-    scene::{CameraParts, Epsilon, Light, LightKind, Settings, Shading},
+    scene::{CameraParts, Epsilon, Light, LightKind, PictureHeight, Settings, Shading},
 };
 
 /// A folder with a model beside and below the scene file, and one outside.
@@ -74,10 +74,16 @@ fn everything_that_can_be_said() {
         eye: Some(DVec3::new(0.0, 1.5, 4.0)),
         target: Some(DVec3::ZERO),
         up: Some(DVec3::Z),
+        orthographic: None,
         fov_y_rad: Some(60_f64.to_radians()),
         near: Some(1e-3),
     };
     assert_eq!(file.camera, Some(camera));
+    let parts =
+        |text: &str| read(&format!("[camera]\n{text}\n[[object]]\nbuiltin = \"sphere\"\n")).unwrap().camera;
+    let parallel = |height| Some(CameraParts { orthographic: Some(height), ..CameraParts::default() });
+    assert_eq!(parts("orthographic = 2.5"), parallel(PictureHeight::World(2.5)));
+    assert_eq!(parts("orthographic = \"fit\""), parallel(PictureHeight::Fit));
     let orange = [2.0, 2.0 * linear_from_srgb(0.5), 0.0];
     let directional = Light { kind: LightKind::Directional(DVec3::NEG_Y), color: orange };
     assert_eq!(file.lights, [Light::DEFAULT, directional]);

@@ -16,7 +16,7 @@ pub struct FrameConstants {
     pub middle_px: [f32; 2],
     /// An image-plane unit in pixels.
     pub focal_px: f32,
-    /// Depth of the near plane, view unit.
+    /// Depth of the near plane, view unit; of an orthographic camera where w is 0.
     pub near: f32,
     /// √2 pixels, image-plane unit.
     pub filter_radius: f32,
@@ -103,8 +103,10 @@ pub struct FinalizeConstants {
     pub focal_px: f32,
     /// Pixels of a tile's column; 0 without tiles.
     pub tile_height: u32,
-    /// Depth of the near plane, world unit.
+    /// Depth of the near plane, world unit; of an orthographic camera where w is 0, from the plane where it is 1.
     pub near: f32,
+    /// How far that plane is from the eye.
+    pub eye_to_depth: f32,
 }
 
 /// What the passes over tiles are told; see `glsl/tile/constants.glsl`.

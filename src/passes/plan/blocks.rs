@@ -41,7 +41,8 @@ const FILTER_RESERVE_PX: f64 = 6.0;
 ///
 /// The ball has all points within 2 R of a center. A splat's image, a filter's h aside, reaches R √(1 + c²) / (p_z − R) from its center's
 /// image c at most (there). The image of a ball of 2 R about that center reaches 2 R √(1 + c²) / (p_z + 2 R) at least, which is
-/// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth.
+/// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth. Under parallel rays all of that is as
+/// large as it is.
 pub fn potentially_visible_blocks(chunk: &Chunk, look: &BlockCullView<'_>) -> Vec<PotentiallyVisibleBlock> {
     (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)).collect()
 }
@@ -52,7 +53,7 @@ fn potentially_visible(
     look: &BlockCullView<'_>,
 ) -> Option<PotentiallyVisibleBlock> {
     let ball = Ball::of(block, look);
-    let angles = ball.angles(block);
+    let angles = ball.angles(block, look);
     let right = std::f64::consts::FRAC_PI_2;
     if look.culls && angles[1] < right {
         return None;
@@ -115,12 +116,16 @@ impl Ball {
         if self.z + self.reach < look.bound.near {
             return None;
         }
-        let is_far = self.reach <= 0.25 * self.z; // NaN is not
+        let is_orthographic = look.bound.is_orthographic;
+        let is_far = is_orthographic || self.reach <= 0.25 * self.z; // NaN is not
         if !is_far {
             return Some(Image { rows: all, most_x: f64::INFINITY, is_whole: false });
         }
         // A point d from the middle is seen (d_x − c d_z) / (z + d_z) from the middle's image c, |d| √(1 + c²) / (z − |d|) at most.
         let [x, y] = [self.x, self.y].map(|side| {
+            if is_orthographic {
+                return (side, self.reach);
+            }
             let c = side / self.z;
             (c, self.reach / (self.z - self.reach) * (1.0 + c.abs()))
         });
@@ -140,9 +145,14 @@ impl Ball {
         Some(Image { rows, most_x: (x.0.abs() + x.1).max(y.0.abs() + y.1), is_whole })
     }
 
-    /// Between which the angles lie of normals and the ways from the eye to their centers: above 90° a splat shows the eye its face. From
+    /// Between which the angles lie of normals and the rays to their centers: above 90° a splat shows the eye its face. From
     /// outside a ball is seen within the arc sine of its radius over its distance; angles of directions add up at most.
-    fn angles(&self, block: &Block) -> [f64; 2] {
+    fn angles(&self, block: &Block, look: &BlockCullView<'_>) -> [f64; 2] {
+        if look.bound.is_orthographic {
+            let of_axis = block.axis.angle_between(look.view.rotation.row(2));
+            let around = block.spread_rad + ANGLE_RESERVE_RAD;
+            return [of_axis - around, of_axis + around];
+        }
         let distance = self.middle.length();
         let is_outside = self.radius < distance; // NaN is not
         if !is_outside {

@@ -1,6 +1,6 @@
 //! What of a frame is beyond f32: refused where the picture would be wrong, told where it is less exact.
 
-use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw};
+use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw, range::DepthRange};
 use crate::{
     error::{Error, Result},
     prepare::{Chunk, PreparedScene, Rebase},
@@ -22,6 +22,9 @@ const LARGEST_EDGE: f64 = 1e6;
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] with the nearest that it may be.
 pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
+    if camera.is_orthographic() {
+        return check_range(scene, camera);
+    }
     // Depths that are handed out have the world's unit, and 32 bits.
     let near = camera.near() as f32;
     if near == 0.0 || near.is_infinite() {
@@ -59,11 +62,34 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
     Ok(())
 }
 
+/// The same of an orthographic camera, whose depth ends where the scene does.
+fn check_range(scene: &PreparedScene, camera: &Camera) -> Result<()> {
+    let range = DepthRange::of(scene, camera);
+    let ends = [range.end as f32, range.from_eye.abs().max(1.0) as f32];
+    if ends.iter().all(|end| end.is_normal()) {
+        return Ok(());
+    }
+    let problem = format!(
+        "the scene reaches from {:e} to {:e} before the eye: expected lengths between {:e} and {:e}",
+        range.from_eye,
+        range.from_eye + 0.5 * range.end,
+        f32::MIN_POSITIVE,
+        f32::MAX
+    );
+    Err(Error::option("camera", problem))
+}
+
 /// What f32 can't tell apart in a frame, or has no digits for, in a sentence each.
 pub fn beyond_f32(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> Vec<String> {
     let mut notes = Vec::new();
     let splats = || frame.opaque.splats.iter().chain(&frame.transparent.splats);
-    if let Some(depth) = splats().filter_map(depth_without_epsilon).reduce(f64::max) {
+    if let Some(share) = splats().filter_map(|draw| share_of_range(draw, camera)).reduce(f64::min) {
+        notes.push(format!(
+            "epsilon is {share:.1e} of how deep the scene is: surfaces that are less than a millionth of that apart are one"
+        ));
+    }
+    let depth_of = |draw| if camera.is_orthographic() { None } else { depth_without_epsilon(draw) };
+    if let Some(depth) = splats().filter_map(depth_of).reduce(f64::max) {
         notes.push(format!(
             "epsilon is less than a millionth of the depth of what is {depth:.3e} away: surfaces there that are less than a \
              millionth of their distance apart are one"
@@ -106,6 +132,15 @@ fn depth_without_epsilon(draw: &Draw<'_>) -> Option<f64> {
     let epsilon = f64::from(constants.epsilon_radii) * radius + f64::from(constants.epsilon_length);
     (epsilon > 0.0 && epsilon < f64::from(LEAST_SHIFT) * depth)
         .then(|| depth / draw.view.view_from_world_scale)
+}
+
+/// Of an orthographic camera's range of depths, ε, if it is less than [`LEAST_SHIFT`].
+fn share_of_range(draw: &Draw<'_>, camera: &Camera) -> Option<f64> {
+    let constants = &draw.constants;
+    let radius = draw.chunk.largest_radius * draw.view.view_from_local_scale;
+    let epsilon = f64::from(constants.epsilon_radii) * radius + f64::from(constants.epsilon_length);
+    let share = epsilon / f64::from(constants.near);
+    (camera.is_orthographic() && epsilon > 0.0 && share < f64::from(LEAST_SHIFT)).then_some(share)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use crate::passes::{
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
+        range::DepthRange,
         seen::PotentiallyVisibleBlock,
     },
 };
@@ -94,17 +95,16 @@ const LARGEST_EPSILON: f64 = 1e30;
 /// All chunks of splats as seen from a camera.
 pub fn draws<'a>(
     scene: &'a PreparedScene,
-    camera: &Camera,
+    (camera, range): (&Camera, DepthRange),
     settings: &Settings,
     limits: &Limits,
 ) -> Vec<Draw<'a>> {
-    let focal_px = camera.focal_px(settings.size_px[1]);
     let filter_radius_px = settings.samples.filter_radius_px();
     let others = others_under(settings.kernel);
     let primitive = Primitive::of(settings.rasterizer);
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
-        let near = near_in_view(camera, &view);
+        let is_orthographic = camera.is_orthographic();
         let wanted = chunk.epsilon.unwrap_or(settings.epsilon);
         let epsilon = match wanted {
             Epsilon::Auto => (Epsilon::auto_radii(chunk.transparent), 0.0),
@@ -114,8 +114,9 @@ pub fn draws<'a>(
         let bound = SizeBound {
             nearest_z: nearest_z(chunk, &view),
             largest_radius: chunk.largest_radius * view.view_from_local_scale,
-            near,
-            focal_px,
+            near: if is_orthographic { 0.0 } else { near_in_view(camera, &view) },
+            focal_px: focal_in_view_px(camera, &view, settings.size_px[1]),
+            is_orthographic,
             size_px: settings.size_px.map(f64::from),
             middle_px: camera.middle_px(settings.size_px),
             filter_px: match settings.filter {
@@ -135,7 +136,7 @@ pub fn draws<'a>(
             splat_count: chunk.count,
             chunk_color: u32::from(chunk.uniform_color),
             blocks_overlap: ((65_535.0 / (1.0 + others * (chunk.overlap - 1.0))).round() as u32) << 16,
-            ..frame_constants(&view, camera, settings, epsilon)
+            ..frame_constants(&view, (camera, range), settings, epsilon)
         };
         if chunk.fine {
             [constants.view_from_local_x, constants.view_from_local_y, constants.view_from_local_z] =
@@ -185,14 +186,25 @@ fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
     (camera.near() * view.view_from_world_scale).max(1e-37)
 }
 
+/// Pixels of a unit of the image plane, which of an orthographic camera is the view's.
+fn focal_in_view_px(camera: &Camera, view: &ViewFromLocal, height_px: u32) -> f64 {
+    let unit = if camera.is_orthographic() { view.view_from_world_scale } else { 1.0 };
+    camera.focal_px(height_px) / unit
+}
+
 /// What is the same for all that is drawn in one local space; ε in radii and as a world length.
 pub(crate) fn frame_constants(
     view: &ViewFromLocal,
-    camera: &Camera,
+    (camera, range): (&Camera, DepthRange),
     settings: &Settings,
     (epsilon_radii, epsilon_length): (f64, f64),
 ) -> FrameConstants {
-    let focal_px = camera.focal_px(settings.size_px[1]);
+    let focal_px = focal_in_view_px(camera, view, settings.size_px[1]);
+    let near = if camera.is_orthographic() {
+        range.end * view.view_from_world_scale
+    } else {
+        near_in_view(camera, view)
+    };
     let epsilon_length = epsilon_length * view.view_from_world_scale;
     let [view_from_local_x, view_from_local_y, view_from_local_z] = view.rows();
     FrameConstants {
@@ -201,7 +213,7 @@ pub(crate) fn frame_constants(
         view_from_local_z,
         middle_px: camera.middle_px(settings.size_px).map(|at| at as f32),
         focal_px: focal_px as f32,
-        near: near_in_view(camera, view) as f32,
+        near: near as f32,
         filter_radius: (settings.samples.filter_radius_px() / focal_px) as f32,
         epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
         epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
@@ -259,13 +271,15 @@ fn wholly_in_view(chunk: &Chunk, view: &ViewFromLocal, bound: &SizeBound) -> boo
         [middle_px / bound.focal_px, (side_px - middle_px) / bound.focal_px]
     };
     let ([left, right], [top, bottom]) = (sides(0), sides(1));
+    // Rays meet in the eye, or are parallel.
+    let unit = if bound.is_orthographic { DVec4::W } else { z };
     let [center, half] = center_and_half(chunk);
     let least = |plane: DVec4| {
         let normal = plane.truncate();
         view.view_from_local_scale * (normal.dot(center) - normal.abs().dot(half)) + plane.w
     };
     least(z) >= bound.near
-        && [right * z - x, left * z + x, bottom * z - y, top * z + y]
+        && [right * unit - x, left * unit + x, bottom * unit - y, top * unit + y]
             .into_iter()
             .all(|side| least(side) >= 0.0)
 }

@@ -1,6 +1,9 @@
 //! Polygons: the meshes of a prepared scene as this frame's camera and settings see them.
 
-use crate::passes::{pipeline::constants::FrameConstants, plan::draws::frame_constants};
+use crate::passes::{
+    pipeline::constants::FrameConstants,
+    plan::{draws::frame_constants, range::DepthRange},
+};
 use crate::{
     prepare::{MeshChunk, PreparedScene},
     scene::{Backfaces, Camera, Epsilon, Settings},
@@ -17,7 +20,11 @@ pub struct MeshDraw<'a> {
 }
 
 /// All pieces of meshes as seen from a camera.
-pub fn mesh_draws<'a>(scene: &'a PreparedScene, camera: &Camera, settings: &Settings) -> Vec<MeshDraw<'a>> {
+pub fn mesh_draws<'a>(
+    scene: &'a PreparedScene,
+    (camera, range): (&Camera, DepthRange),
+    settings: &Settings,
+) -> Vec<MeshDraw<'a>> {
     let epsilon = match settings.epsilon {
         Epsilon::Auto => Epsilon::auto_radii(true) * scene.mean_transparent_radius,
         Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
@@ -29,7 +36,7 @@ pub fn mesh_draws<'a>(scene: &'a PreparedScene, camera: &Camera, settings: &Sett
             chunk,
             constants: FrameConstants {
                 chunk_color: u32::from(chunk.uniform_color),
-                ..frame_constants(&view, camera, settings, (0.0, epsilon))
+                ..frame_constants(&view, (camera, range), settings, (0.0, epsilon))
             },
             cull: match settings.backfaces {
                 Backfaces::Auto => chunk.closed && !chunk.transparent,

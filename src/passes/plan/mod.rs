@@ -13,6 +13,7 @@ pub(crate) mod lights;
 pub(crate) mod mesh_draws;
 pub(crate) mod method;
 pub(crate) mod needs;
+pub(crate) mod range;
 pub(crate) mod seen;
 pub(crate) mod sums;
 pub(crate) mod tiles;
@@ -24,6 +25,7 @@ use crate::passes::plan::{
     block_list::ListedBlocks,
     draws::{Draw, draws},
     mesh_draws::{MeshDraw, mesh_draws},
+    range::DepthRange,
     tiles::TilePlan,
 };
 use crate::{
@@ -42,6 +44,8 @@ pub struct FramePlan<'a> {
     pub transparent: SurfacePlan<'a>,
     /// What shines on both, where the scene has lights of its own.
     pub lights: Vec<lights::ShaderLight>,
+    /// How deep it reaches.
+    pub range: DepthRange,
 }
 
 /// How things are drawn that are drawn alike: all that is opaque, or all that is transparent.
@@ -84,9 +88,11 @@ impl Default for SplatMethod<'_> {
 impl<'a> FramePlan<'a> {
     /// Plans the frame of a scene.
     pub fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
-        let splats = draws(scene, camera, settings, limits).into_iter();
+        let range = DepthRange::of(scene, camera);
+        let camera = &range.begin(camera);
+        let splats = draws(scene, (camera, range), settings, limits).into_iter();
         let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
-        let meshes = mesh_draws(scene, camera, settings).into_iter();
+        let meshes = mesh_draws(scene, (camera, range), settings).into_iter();
         let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
         let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
         for band in transparent.bands_mut() {
@@ -97,6 +103,7 @@ impl<'a> FramePlan<'a> {
             opaque: SurfacePlan::new(splats, meshes, settings, limits),
             transparent,
             lights: lights::shader_lights(&scene.lights, camera),
+            range,
         }
     }
 }

@@ -114,7 +114,7 @@ fn random_splats(random: &mut Random, count: usize) -> Vec<Ellipse> {
 fn the_search_box_holds_the_projected_rim() {
     let mut random = Random(2);
     let settings = Settings { filter: Filter::Adjust, ..settings(64) };
-    let view = View::new(&camera(), settings.size_px);
+    let view = View::pinhole(&camera(), settings.size_px);
     let (splats, _) = prepare(&ellipses(&random_splats(&mut random, 500)), &view, &settings);
     let mut inside_the_image = 0;
     for (i, splat) in splats.iter().enumerate() {
@@ -151,7 +151,7 @@ fn no_pixel_outside_the_search_box_is_covered_or_near_the_rim() {
     for (rasterizer, filter) in methods {
         let mut random = Random(3);
         let settings = Settings { rasterizer, filter, ..settings(48) };
-        let view = View::new(&camera(), settings.size_px);
+        let view = View::pinhole(&camera(), settings.size_px);
         let (splats, _) = prepare(&ellipses(&random_splats(&mut random, 300)), &view, &settings);
         let limit_r2 = limit_r2(settings.kernel);
         let concerns = |splat: &DrawnSplat, column, row| {

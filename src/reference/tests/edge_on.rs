@@ -72,7 +72,7 @@ fn at_grazing_angles_the_area_is_that_of_the_projected_ellipse() {
 
 #[test]
 fn a_ray_in_the_plane_hits_nothing() {
-    let view = View::new(&camera(), [65, 65]);
+    let view = View::pinhole(&camera(), [65, 65]);
     let (splats, _) = prepare(&ellipses(&[(DVec3::Z, Vec3::Z, Vec3::X, GRAY)]), &view, &settings(65));
     for x in [0.0, 0.3] {
         assert_eq!(splats[0].hit(DVec3::new(x, 0.0, 1.0), view.near), None);

@@ -27,7 +27,7 @@ fn a_square_covers_what_is_inside_and_of_its_border_the_left_and_the_top() {
     }
     // In numbers without rounding: a focal length of 64 pixels for a picture of 32.
     let camera = Camera { fov_y_rad: 2.0 * 0.25_f64.atan(), ..camera() };
-    let view = View::new(&camera, [32, 32]);
+    let view = View::pinhole(&camera, [32, 32]);
     assert_eq!(view.focal_px, 64.0);
     let corner = |column: u32, row: u32| (view.ray(column, row), Vec3::NEG_Z);
     let corners = [corner(4, 4), corner(4, 12), corner(12, 12), corner(12, 4)];

@@ -121,7 +121,7 @@ pub(super) fn picture(scene: &Scene, settings: &Settings) -> Picture {
 
 /// The only splat of a scene as it is drawn, and the view.
 pub(super) fn drawn(ellipse: Ellipse, settings: &Settings) -> (DrawnSplat, View) {
-    let view = View::new(&camera(), settings.size_px);
+    let view = View::pinhole(&camera(), settings.size_px);
     let (splats, _) = prepare(&ellipses(&[ellipse]), &view, settings);
     (splats[0], view)
 }

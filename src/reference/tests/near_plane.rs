@@ -109,7 +109,7 @@ fn no_filter_acts_on_a_splat_whose_center_is_not_in_front() {
 fn the_margin_of_a_splat_that_reaches_the_near_plane_is_that_at_the_fragment() {
     // A ground disk of radius 10, 1e-4 below the eye, seen where its depth is 10: y = 1e-5. There the axes project
     // to 10/10 and 10 y/10; of the second, 64 pixels a unit, the disk is 6.4e-4 pixels wide.
-    let view = View::new(&camera(), [128, 128]);
+    let view = View::pinhole(&camera(), [128, 128]);
     let settings = Settings { filter: Filter::None, ..settings(128) };
     for z in [0.0, 0.5] {
         let scene = ellipses(&[(DVec3::new(0.0, 1e-4, z), Vec3::X * 10.0, Vec3::Z * 10.0, GRAY)]);

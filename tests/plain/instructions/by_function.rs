@@ -25,7 +25,7 @@ const BUYS: &[(&str, &str)] = &[
     ("rotated", "into view space"),
     ("upper_half", "with the next two: the determinant rounded once, for the depth of edge-on disks"),
     ("exact_dot", "products in halves, and what sums lose"),
-    ("normal_dot_center", "n · p with the low digits of the place"),
+    ("normal_dot_ray", "n · p with the low digits of the place"),
     ("precise_dot", "dot products in one order, for equal bits in both passes"),
     ("precise_cross", "the adjugate"),
     ("principal_axes", "the filter: rotation to principal axes, for ellipses too"),

@@ -6,14 +6,14 @@ use surfel::{
     Error, Result,
     renderer::Renderer,
     report::compare::{Method, Skipped},
-    scene::{Filter, Rasterizer, Scene, Settings},
+    scene::{Camera, Filter, Rasterizer, Scene, Settings},
 };
 
 /// The methods that exist, and those that don't with the reason.
 pub fn split(
     methods: Vec<Method>,
     base: &Settings,
-    scene: &Scene,
+    (scene, camera): (&Scene, &Camera),
     renderer: &Renderer,
 ) -> (Vec<Method>, Vec<Skipped>) {
     let (mut left, mut skipped) = (Vec::new(), Vec::new());
@@ -26,7 +26,7 @@ pub fn split(
             continue;
         }
         let settings = method.settings(base);
-        match renderer.check_settings(&settings).and_then(|()| settings.check_scene(scene)) {
+        match renderer.check(camera, &settings).and_then(|()| settings.check_scene(scene)) {
             Ok(()) => left.push(method),
             Err(error) => skipped.push(Skipped { method, reason: error.to_string() }),
         }

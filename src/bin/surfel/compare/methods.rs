@@ -77,7 +77,7 @@ pub fn gather(
 
     let selection = arguments.selection();
     let wanted = if arguments.methods.quick { selection.one_at_a_time() } else { selection.product() };
-    let (methods, mut skipped) = candidates::split(wanted, base, scene, &headless.renderer);
+    let (methods, mut skipped) = candidates::split(wanted, base, (scene, camera), &headless.renderer);
     candidates::some_left(methods.len(), &skipped)?;
 
     let context = CompareContext { scene, prepared: &prepared, camera, base, bars };

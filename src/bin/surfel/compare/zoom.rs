@@ -33,8 +33,12 @@ pub fn gather(headless: &mut Headless, arguments: &CompareArguments, bars: &Bars
     let side = arguments.zoom_splats.unwrap_or(600) as usize;
     let tilt_deg = arguments.zoom_tilt.unwrap_or(DEFAULT_TILT_DEG);
     let board = Scene { objects: vec![checkerboard(side)], ..Scene::default() };
-    let (methods, skipped) =
-        candidates::split(arguments.selection().product(), base, &board, &headless.renderer);
+    let (methods, skipped) = candidates::split(
+        arguments.selection().product(),
+        base,
+        (&board, &Camera::default()),
+        &headless.renderer,
+    );
     candidates::some_left(methods.len(), &skipped)?;
     let mut steps = Vec::new();
     let path = zoom_path(arguments.zoom_steps.unwrap_or(25));

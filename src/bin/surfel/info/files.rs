@@ -148,13 +148,17 @@ pub fn text(info: &FileInfo) -> String {
         Some((up, because)) => format!("{}, because {because}", point(up)),
         None => format!("{}, as nothing says otherwise", point(&info.camera.up)),
     };
-    let CameraReport { eye, target, fov_deg, .. } = &info.camera;
+    let CameraReport { eye, target, .. } = &info.camera;
+    let projection = match (info.camera.fov_deg, info.camera.orthographic) {
+        (_, Some(height)) => format!("--orthographic {}", number(height)),
+        (fov_deg, None) => format!("--fov {}", number(fov_deg.unwrap_or_default())),
+    };
     let mut rows = vec![
         ("from", point(min)),
         ("to", point(max)),
         ("extent", extent.map(number).join(" x ")),
         ("up", up),
-        ("camera", format!("--eye {} --target {} --fov {}", point(eye), point(target), number(*fov_deg))),
+        ("camera", format!("--eye {} --target {} {projection}", point(eye), point(target))),
     ];
     if *splats > 0 {
         rows.push(("memory", format!("{host_bytes} bytes here, {least} to {most} on a device")));

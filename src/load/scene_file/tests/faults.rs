@@ -98,6 +98,9 @@ camera = 1 => line 1, camera: 1: expected a table
 [camera]↵up = "y" => line 2, camera, up: "y": expected three numbers
 [camera]↵fov_deg = 180 => line 2, camera, fov_deg: 180: expected degrees above 1e-10 and below 180
 [camera]↵fov_deg = 0 => line 2, camera, fov_deg: 0: expected degrees
+[camera]↵orthographic = 0 => line 2, camera, orthographic: 0: expected a height above 0, or "fit"
+[camera]↵orthographic = "all" => line 2, camera, orthographic: "all": expected a height above 0, or "fit"
+[camera]↵orthographic = 1↵fov_deg = 9 => line 1, camera: both fov_deg and orthographic; expected one of them
 [camera]↵near = 0 => line 2, camera, near: 0: expected a number above 0
 [camera]↵near = 1e400 => line 2, camera, near: 1e400: expected a number above 0
 [camera]↵eye = [1, 2, 3]↵target = [1, 2, 3.0] => line 1, camera: eye and target are the same; expected two different points

@@ -48,15 +48,20 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             largest_radius: radius,
         };
         let eye = DVec3::new(between(-0.5, 0.5), between(-0.5, 0.5), 3.0);
-        let camera = Camera { eye, target: DVec3::ZERO, up: DVec3::Y, fov_y_rad: 0.7, ..Camera::default() };
+        let parallel = round % 4 > 1;
+        let orthographic_height = parallel.then(|| between(0.5, 3.0));
+        let camera = Camera { eye, fov_y_rad: 0.7, orthographic_height, ..Camera::default() };
         let view = Rebase { origin: DVec3::ZERO, scale: 1.0 }.view_from_local(&camera);
         let focal_px = camera.focal_px(SIZE_PX[1]);
+        let plane = |z: f64| if parallel { 1.0 } else { z };
+        let ray_to = |point: DVec3| if parallel { camera.forward() } else { point - camera.eye };
         let near = camera.near() * view.view_from_world_scale;
         let bound = SizeBound {
             nearest_z: -1.0,
             largest_radius: radius * view.view_from_local_scale,
             near,
-            focal_px,
+            focal_px: if parallel { focal_px / view.view_from_world_scale } else { focal_px },
+            is_orthographic: parallel,
             size_px: SIZE_PX.map(f64::from),
             middle_px: camera.middle_px(SIZE_PX),
             filter_px: std::f64::consts::SQRT_2,
@@ -64,7 +69,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
         let look = BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0 };
         let seen = potentially_visible(0, &block, &look);
         for disk in &disks {
-            let faces_away = disk.normal.dot(disk.center - camera.eye) > 0.0;
+            let faces_away = disk.normal.dot(ray_to(disk.center)) > 0.0;
             if look.culls && faces_away {
                 assert!(seen.as_ref().is_none_or(|seen| !seen.all_seen), "{round}");
                 continue;
@@ -77,7 +82,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             let rim = (0..24).map(|i| f64::from(i).to_radians() * 15.0);
             let image = rim.clone().map(|a| disk.center + s * a.cos() + t * a.sin()).map(|point| {
                 let p = camera.view_from_world().point(point);
-                (p.z, [0, 1].map(|i| focal_px * p[i] / p.z))
+                (p.z, [0, 1].map(|i| focal_px * p[i] / plane(p.z)))
             });
             let image: Vec<_> = image.collect();
             let half = SIZE_PX.map(|side| 0.5 * f64::from(side));
@@ -93,7 +98,7 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             }
             for point in rim.map(|a| disk.center + s * a.cos() + t * a.sin()).chain([disk.center]) {
                 let p = camera.view_from_world().point(point);
-                let px = [0, 1].map(|i| 0.5 * f64::from(SIZE_PX[i]) + focal_px * p[i] / p.z);
+                let px = [0, 1].map(|i| 0.5 * f64::from(SIZE_PX[i]) + focal_px * p[i] / plane(p.z));
                 let inside = (0..2).all(|i| (0.0..f64::from(SIZE_PX[i])).contains(&px[i]));
                 if p.z < camera.near() || !inside {
                     continue;
