@@ -59,8 +59,8 @@ pub struct HybridOptions {
 pub struct Hybrid {
     /// The splats of the splat part in the order of its triangles, then those on transition edges.
     pub splats: Splats,
-    /// The other part and the triangles below splats that are smaller than most, as [`shaded_mesh`] makes them; its normals, and the splats', are those of the whole mesh, so that
-    /// both parts are shaded alike where they meet. Only vertices that it uses.
+    /// The other part and the triangles below splats that are smaller than most, as [`shaded_mesh`] makes them; its normals, and the
+    /// splats', are those of the whole mesh, so that both parts are shaded alike where they meet. Only vertices that it uses.
     pub polygons: Mesh,
     /// The whole mesh is closed, which neither part need be.
     pub closed: bool,

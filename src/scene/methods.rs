@@ -116,7 +116,8 @@ named! {
 named! {
     /// The precision of the sums of weights, colors and normals.
     Accumulate {
-        /// `f32` where the device can blend 32-bit floats, else `f16`.
+        /// `f32` where the device can blend 32-bit floats, else `f16`, whose weights then have floors that the reference's have not: what is
+        /// drawn as points is not held against it there.
         Auto = "auto",
         /// 16-bit floats, half the memory: from about 100 splats in a pixel on colors are off by more than 1/255, and a sum of unit
         /// weights stalls at 2048.

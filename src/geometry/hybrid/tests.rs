@@ -106,7 +106,8 @@ fn the_polygons_are_those_asked_for_with_the_normals_and_colors_of_the_whole_mes
         let position = hybrid.splats.positions[i];
         assert!(normals[i].as_dvec3().dot(position.normalize()) > 0.999);
         assert!((normals[i].length() - 1.0).abs() < 1e-6);
-        assert!(f64::from(radii[i]) <= report.edge_radius);
+        let radius = f64::from(radii[i]) / report.edge_radius;
+        assert!((0.999 * sizes::LEAST..=1.0).contains(&radius), "{radius}");
         let expected = color(position);
         let found = hybrid.splats.color(i);
         assert!(found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-6), "{found:?} {expected:?}");

@@ -123,7 +123,7 @@ impl<'a> SurfacePlan<'a> {
         let polygons = !meshes.is_empty();
         let transparent = splats.iter().any(|draw| draw.chunk.transparent);
         let tiles = method::tiles(&splats, polygons, &settings, limits);
-        // Tiles weigh splats without floors. Their sums stay in registers, unless others add to them; layers do where all are tiles.
+        // Tiles weigh splats without floors, also where they leave sums in images to others; layers do where all are tiles.
         let exact = settings.rasterizer == Rasterizer::Compute || tiles.is_ok() && !transparent;
         if exact && settings.weighs_splats() {
             (settings.accumulate, sums) = (Accumulate::F32, sums::OF_TILES);

@@ -1,17 +1,17 @@
 //! The precision of sums, and why it is that.
 //!
 //! Sums of 16 bits are wrong by more than 1/255 from some 100 splats in a pixel on, however little surfaces overlap on the average, and lose
-//! colors where a kernel's weights are small. So `auto` has 32 bits wherever the device can add them. A CPU driver waits for arithmetic where
-//! many splats are drawn, and there they cost nothing (`DECISIONS.md`); on a GPU they are twice the bytes, which was
-//! not measured: who needs that bandwidth more than the digits names `f16`.
+//! colors where a kernel's weights are small. So `auto` has 32 bits wherever the device can add them. They are twice the bytes. On a CPU driver
+//! points of a scan took about as long with them, and little in a large image probably longer (`DECISIONS.md`); on a GPU that was not
+//! measured. Who needs the time more than the digits names `f16`.
 
 use crate::{
     scene::{Accumulate, Settings, Shading},
     vk::Limits,
 };
 
-/// The reason where tiles leave sums to others.
-pub(super) const OF_TILES: &str = "tiles sum in registers, which have as many";
+/// The reason where tiles weigh splats: in registers, and in the images where they leave sums to others.
+pub(super) const OF_TILES: &str = "tiles weigh splats without floors, for which 16 bits are too few";
 
 /// As a part of a sentence.
 type Reason = &'static str;

@@ -41,7 +41,15 @@ fn places_on_edges_are_even_and_none_is_there_twice() {
                 assert!(nearest > 1e-3 * report.edge_radius, "{}, {samples}: {nearest}", seam.name);
             }
             if !seam.name.starts_with("plane") {
-                continue; // There splats on edges are smaller, and as many as weights need that saturate.
+                // There splats on edges are smaller, but never so many that neighbors are nearer than seven tenths of the spacing,
+                // from where on each try had 5% more: 1.5 times the length in spacings of their own radii, and one at an end.
+                let (_, radii) = disks(&hybrid.splats);
+                let of_edges = &radii[hybrid.splats.len() - report.edge_splats..];
+                let reached: f64 = of_edges.iter().map(|radius| EDGE_SPACING * f64::from(*radius)).sum();
+                let most = 1.5 * report.transition_length + EDGE_SPACING * report.edge_radius;
+                println!("{}, {samples}: {:.3} of the length", seam.name, reached / report.transition_length);
+                assert!(reached >= 0.95 * report.transition_length && reached < most, "{}", seam.name);
+                continue;
             }
             // What the spacing needs, rounded up for each chain and with one for each of its ends, which crossing ones
             // share. Only one mesh has more than one: 112 between 77 ends.
@@ -65,12 +73,26 @@ fn no_splat_is_on_the_other_side_of_an_edge_or_too_near() {
             assert!(distances(on_edge, &edge).iter().all(|d| *d < 0.02 * report.edge_radius));
             // Where the surface bends splats near edges are smaller, and more; without splats on edges there is nothing to be small for.
             let bends = sample_edges && !seam.name.starts_with("plane");
-            assert_eq!(bends, report.removed + inside.len() > 3000, "{}", seam.name);
+            let sampled = report.removed + inside.len();
+            assert!(if bends { sampled > 3000 } else { sampled == 3000 }, "{}: {sampled}", seam.name);
             let near =
                 distances(inside, &edge).into_iter().fold(f64::INFINITY, f64::min) / report.edge_radius;
             assert_eq!(sample_edges, report.edge_splats > 0 && report.removed > 0);
-            let clearance = if bends { 0.28 * LEAST } else { 0.28 };
-            assert_eq!(sample_edges, near > clearance, "{near}");
+            if bends {
+                let (_, radii) = disks(&hybrid.splats);
+                let radii = &radii[inside.len()..];
+                // The nearest place's radius is a fifth off at most: places are less than a radius apart, and sizes vary by half of that.
+                let near = inside.iter().map(|sample| {
+                    let away = on_edge.iter().map(|place| place.distance(*sample));
+                    let (distance, radius) = away.zip(radii).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                    distance / f64::from(*radius)
+                });
+                let near = near.fold(f64::INFINITY, f64::min);
+                println!("{}: {near:.3} radii of the nearest splat on the edge", seam.name);
+                assert!(near > 0.8 * 0.28, "{}: {near}", seam.name);
+            } else {
+                assert_eq!(sample_edges, near > 0.28, "{near}");
+            }
             // In some triangle of the splat part, and so is what is on the edge, to within rounding.
             let whole = &seam.mesh;
             let of_splats = (0..seam.polygon.len()).filter(|&i| !seam.polygon[i]);
