@@ -180,7 +180,7 @@ fn a_hybrid_is_splats_and_triangles_of_one_name() {
         ..of_file(&folder, "mesh.obj")
     };
     let made = make_one(&of_mesh(x_above(0.0), true), &()).unwrap();
-    let expected = "mesh.obj: 6 vertices, 8 triangles: closed; 90 splats and 8 triangles, which meet at 4 edges with 35 \
+    let expected = "mesh.obj: 6 vertices, 8 triangles: closed; 133 splats and 8 triangles, which meet at 4 edges with 35 \
         of the splats; transparent, alpha 0.5";
     assert_eq!(made.report.summary, expected);
     let (splats, triangles) = (made.splats.unwrap(), made.triangles.unwrap());

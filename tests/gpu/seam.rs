@@ -126,7 +126,9 @@ fn smoothing_makes_the_jump_at_the_seam_a_fifth_or_less_over_a_sweep_of_views() 
                 all.extend(jumps(&frame));
             }
             println!("{what}, {transition:?}: mean jump {:.3} over {} rows", mean(&all), all.len());
-            assert!(all.len() > 200, "{}", all.len());
+            // Without smoothing the triangles below splats hide them all in two of the three views.
+            let least = if transition == Transition::None { 200 } else { 700 };
+            assert!(all.len() > least, "{}", all.len());
             means.push(mean(&all));
         }
         assert!(means[0] > 0.95, "{means:?}");
@@ -176,7 +178,8 @@ fn no_pixel_is_darker_or_brighter_than_both_and_what_is_far_from_the_seam_is_not
                 (true, false) => assert!(near(got, p), "{i}: {got:?}, polygons alone {p:?}"),
                 (false, false) => {
                     touched += 1;
-                    // Polygons below the splats have a part in which splats are of the surface: normals' means differ a little.
+                    // The surface is the nearest of both, so that with polygons below splats other splats may be of it: their normals'
+                    // mean differs by less than a step of 8 bits.
                     let rounding = if shading == Shading::Albedo { 1e-5 } else { 1.0 / 255.0 };
                     for c in 0..3 {
                         worst = worst.max((s[c].min(p[c]) - got[c]).max(got[c] - s[c].max(p[c])));

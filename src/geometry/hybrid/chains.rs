@@ -116,7 +116,7 @@ impl<'a> Chains<'a> {
                 stops.extend((1..).map(f64::from).take_while(|i| *i < intervals).map(stop));
                 stops.push(chain.length());
                 let near = |pair: &[f64]| pair[1] - pair[0] <= spacing * radius(pair[0]).min(radius(pair[1]));
-                // Where radii vary by half of the distance, seven tenths of the spacing are always near enough.
+                // Where radii vary by a quarter of the distance, seven tenths of the spacing are always near enough.
                 if all / intervals < 0.7 * spacing || stops.windows(2).all(near) {
                     break stops;
                 }

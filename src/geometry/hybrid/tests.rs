@@ -62,7 +62,7 @@ fn the_same_input_gives_the_same_bytes_everywhere() {
         assert_eq!(once, again);
         once
     });
-    assert_eq!(found, [0x9b3a_8c93_bd2b_b5af, 0xc59a_2cd9_baef_fcf3], "{found:#x?}");
+    assert_eq!(found, [0x9b3a_8c93_bd2b_b5af, 0x4070_0e6d_944c_7555], "{found:#x?}");
 }
 
 #[test]
@@ -89,11 +89,11 @@ fn the_polygons_are_those_asked_for_with_the_normals_and_colors_of_the_whole_mes
     for (triangle, polygon) in seam.mesh.triangles.iter().zip(&seam.polygon) {
         let is_found = found.next_if(|found| is(found, triangle)).is_some();
         assert!(is_found || !polygon, "{triangle:?}");
-        // What lies below smaller splats stays, too.
+        // What lies below smaller splats stays, too: they grow to those inside over three and a half radii.
         if is_found && !polygon {
             let corners = triangle.map(|vertex| seam.mesh.positions[vertex as usize]);
             let near = distances(&corners, &edge).into_iter().fold(f64::INFINITY, f64::min);
-            assert!(near < 2.0 * report.edge_radius, "{near}");
+            assert!(near < 4.0 * report.edge_radius, "{near}");
         }
     }
     assert_eq!((found.next(), report.polygons), (None, polygons.triangles.len()));

@@ -81,7 +81,7 @@ fn no_splat_is_on_the_other_side_of_an_edge_or_too_near() {
             if bends {
                 let (_, radii) = disks(&hybrid.splats);
                 let radii = &radii[inside.len()..];
-                // The nearest place's radius is a fifth off at most: places are less than a radius apart, and sizes vary by half of that.
+                // The nearest place's radius is an eighth off at most: it is within half a radius, and sizes vary by a quarter of that.
                 let near = inside.iter().map(|sample| {
                     let away = on_edge.iter().map(|place| place.distance(*sample));
                     let (distance, radius) = away.zip(radii).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
@@ -89,7 +89,7 @@ fn no_splat_is_on_the_other_side_of_an_edge_or_too_near() {
                 });
                 let near = near.fold(f64::INFINITY, f64::min);
                 println!("{}: {near:.3} radii of the nearest splat on the edge", seam.name);
-                assert!(near > 0.8 * 0.28, "{}: {near}", seam.name);
+                assert!(near > 0.875 * 0.28, "{}: {near}", seam.name);
             } else {
                 assert_eq!(sample_edges, near > 0.28, "{near}");
             }
