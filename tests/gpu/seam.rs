@@ -179,8 +179,8 @@ fn no_pixel_is_darker_or_brighter_than_both_and_what_is_far_from_the_seam_is_not
                 (false, false) => {
                     touched += 1;
                     // The surface is the nearest of both, so that with polygons below splats other splats may be of it: their normals'
-                    // mean differs by less than a step of 8 bits.
-                    let rounding = if shading == Shading::Albedo { 1e-5 } else { 1.0 / 255.0 };
+                    // mean differs a little.
+                    let rounding = if shading == Shading::Albedo { 1e-5 } else { 1.0 / 1024.0 };
                     for c in 0..3 {
                         worst = worst.max((s[c].min(p[c]) - got[c]).max(got[c] - s[c].max(p[c])));
                         let (low, high) = (s[c].min(p[c]) - rounding, s[c].max(p[c]) + rounding);
