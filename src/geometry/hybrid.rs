@@ -5,10 +5,16 @@
 //! the splat part. For that the sum must have reached 1 **on** the edge: splats are centered on the *transition edges*,
 //! which a polygon and a splat triangle share, evenly and near enough (`spacing`). What the splat part has too close to
 //! them anyway is removed.
+//!
+//! A splat on an edge is flat and lies half over polygons. Where those bend away below it, it and its neighbors are smaller, so
+//! that none sticks out of the polygons' outline (`sizes`). Small splats have the normals of the smooth surface, too, and where
+//! they face away at a silhouette what they lie on is still seen: so its triangles are drawn below them.
 
 mod border;
 mod chains;
 mod near;
+mod pieces;
+mod sizes;
 mod spacing;
 #[cfg(test)]
 mod tests;
@@ -33,13 +39,14 @@ use crate::{
 };
 use border::Border;
 use chains::{Chains, Place};
-use near::{MARKS_PER_RADIUS, Near};
+use pieces::Pieces;
+use sizes::{MARKS_PER_RADIUS, Sizes};
 
 /// How the splat part is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HybridOptions {
-    /// The number of splats of the splat part, spread evenly over its area as [`super::resample`] does; those on edges
-    /// come on top, those removed are missing. 1 to [`MOST_SAMPLES`].
+    /// The number of splats of the splat part, spread evenly over its area as [`super::resample`] does; those on edges, and
+    /// more near edges at which the surface bends, come on top, those removed are missing. 1 to [`MOST_SAMPLES`].
     pub samples: u64,
     /// The seed: the same one gives the same samples.
     pub seed: u64,
@@ -52,8 +59,8 @@ pub struct HybridOptions {
 pub struct Hybrid {
     /// The splats of the splat part in the order of its triangles, then those on transition edges.
     pub splats: Splats,
-    /// The other part, as [`shaded_mesh`] makes it; its normals, and the splats', are those of the whole mesh, so that
-    /// both parts are shaded alike where they meet. Only vertices that it uses.
+    /// The other part and the triangles below splats that are smaller than most, as [`shaded_mesh`] makes them; its normals, and the
+    /// splats', are those of the whole mesh, so that both parts are shaded alike where they meet. Only vertices that it uses.
     pub polygons: Mesh,
     /// The whole mesh is closed, which neither part need be.
     pub closed: bool,
@@ -66,13 +73,14 @@ pub struct Hybrid {
 pub struct HybridReport {
     /// The facts found in the whole mesh.
     pub mesh: MeshReport,
-    /// Triangles that stay polygons.
+    /// Triangles that are drawn as such: those that stay polygons, and those below small splats.
     pub polygons: usize,
     /// Edges that both parts have.
     pub transition_edges: usize,
     /// The length of all of them, in world units.
     pub transition_length: f64,
-    /// The radius of the splats on them, which is the median inside; 0 where there is no splat part.
+    /// The radius of the splats on them where no polygon bends away below, which is the median of those that are spread evenly; 0
+    /// where there is no splat part.
     pub edge_radius: f64,
     /// Splats on them.
     pub edge_splats: usize,
@@ -98,7 +106,7 @@ pub fn hybrid(
 ) -> Result<Hybrid> {
     let count = check_count(options.samples, SAMPLES)?;
     let drawn = (0..mesh.triangles.len()).filter(|&i| corners(mesh, mesh.triangles[i]).is_some());
-    let polygon: Vec<bool> = drawn.map(stays_polygon).collect();
+    let mut polygon: Vec<bool> = drawn.map(stays_polygon).collect();
     if polygon.is_empty() {
         return Err(no_area(mesh));
     }
@@ -107,7 +115,7 @@ pub fn hybrid(
     let mut report = HybridReport { mesh: mesh_report, ..HybridReport::default() };
     let splats = match polygon.iter().all(|polygon| *polygon) {
         true => empty(&whole),
-        false => splat_part(&whole, &polygon, count, options, &mut report, progress)?,
+        false => splat_part(&whole, &mut polygon, count, options, &mut report, progress)?,
     };
     let polygons = polygon_part(whole, &polygon);
     report.polygons = polygons.triangles.len();
@@ -119,7 +127,7 @@ const SAMPLES: &str = "samples of the splat part";
 
 fn splat_part(
     whole: &Mesh,
-    polygon: &[bool],
+    polygon: &mut [bool],
     count: usize,
     options: &HybridOptions,
     report: &mut HybridReport,
@@ -127,34 +135,66 @@ fn splat_part(
 ) -> Result<Splats> {
     let colors = vertex_colors(whole);
     check_memory(count, colors.is_some(), SAMPLES)?;
-    let areas = Areas::of(whole, &|triangle| !polygon[triangle])?;
+    let areas = Areas::of(whole, &|triangle| f64::from(u8::from(!polygon[triangle])))?;
     let area_per_sample = areas.total / count as f64;
     let normals: Vec<DVec3> = whole.normals.iter().flatten().map(|normal| normal.as_dvec3()).collect();
     let samples = sample(whole, colors, &normals, &areas, count, options.seed, progress);
-    let radii = radii(&samples.positions, area_per_sample, progress);
+    let radii_inside = radii(&samples.positions, area_per_sample, progress);
     let border = Border::of(whole, polygon);
     let chains = Chains::of(&border);
-    let edge_radius = median(&radii);
+    let inside = f64::from(median(&radii_inside));
     report.transition_edges = border.edges.len();
     report.transition_length = chains.length();
-    report.edge_radius = f64::from(edge_radius);
-    let mut splats = samples.splats(whole, radii);
+    report.edge_radius = inside;
+    let mut splats = samples.splats(whole, radii_inside);
     if border.edges.is_empty() {
         return Ok(splats);
     }
-    let places = places(&chains, report.edge_radius, count, colors.is_some(), options.sample_edges)?;
-    let near = Near::of(&chains.places(report.edge_radius / MARKS_PER_RADIUS), report.edge_radius);
-    if options.sample_edges {
-        report.removed = near.remove(&mut splats);
-        report.edge_splats = places.len();
+    check_places(&chains, inside, count, colors.is_some())?;
+    if !options.sample_edges {
+        near::correct_radii(&mut splats, &[], &Sizes::even(&chains, inside), area_per_sample, progress);
+        return Ok(splats);
     }
-    near.correct_radii(&mut splats, &places, area_per_sample, progress);
-    add(&mut splats, &places, edge_radius);
+    let sizes = Sizes::of(whole, polygon, &chains, inside);
+    let places = if sizes.are_even() {
+        chains.places(EDGE_SPACING * inside)
+    } else {
+        let pieces = sizes.pieces(whole, polygon);
+        splats = graded(whole, &pieces, &sizes, area_per_sample, options.seed, progress)?;
+        for (piece, triangle) in pieces.triangles.iter().enumerate() {
+            polygon[*triangle] |= sizes.at(pieces.middle(piece)) < inside;
+        }
+        chains.places_by(EDGE_SPACING, &|place| sizes.at(place), inside / MARKS_PER_RADIUS)
+    };
+    report.removed = near::remove(&mut splats, &sizes);
+    report.edge_splats = places.len();
+    near::correct_radii(&mut splats, &places, &sizes, area_per_sample, progress);
+    add(&mut splats, &places, &sizes);
     Ok(splats)
 }
 
-/// The places of the splats on the edges, none without `wanted`.
-fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bool) -> Result<Vec<Place>> {
+/// Samples that are the denser the smaller they are to be.
+fn graded(
+    whole: &Mesh,
+    pieces: &Pieces,
+    sizes: &Sizes,
+    area_per_sample: f64,
+    seed: u64,
+    progress: &dyn Progress,
+) -> Result<Splats> {
+    let share = |piece: usize| (sizes.inside() / sizes.at(pieces.middle(piece))).powi(2);
+    let areas = Areas::of(&pieces.mesh, &share)?;
+    let count = (areas.total / area_per_sample).round();
+    let colors = vertex_colors(&pieces.mesh);
+    let count = check_count(count as u64, SAMPLES)?;
+    check_memory(count, colors.is_some(), SAMPLES)?;
+    let samples = sample(&pieces.mesh, colors, &pieces.normals, &areas, count, seed, progress);
+    let radii = radii(&samples.positions, area_per_sample, progress);
+    Ok(samples.splats(whole, radii))
+}
+
+/// Refuses more places on the edges than there can be.
+fn check_places(chains: &Chains, radius: f64, samples: usize, colors: bool) -> Result<()> {
     let marks = chains.count(radius / MARKS_PER_RADIUS);
     // Those near the edges are there twice.
     let all = marks + 2.0 * samples as f64;
@@ -165,8 +205,7 @@ fn places(chains: &Chains, radius: f64, samples: usize, colors: bool, wanted: bo
         );
         return Err(Error::option(SAMPLES, problem));
     }
-    check_memory(all as usize, colors, SAMPLES)?;
-    Ok(if wanted { chains.places(EDGE_SPACING * radius) } else { Vec::new() })
+    check_memory(all as usize, colors, SAMPLES)
 }
 
 fn median(radii: &[f32]) -> f32 {
@@ -181,11 +220,11 @@ fn empty(mesh: &Mesh) -> Splats {
 }
 
 /// Splats at places on edges.
-fn add(splats: &mut Splats, places: &[Place], radius: f32) {
+fn add(splats: &mut Splats, places: &[Place], sizes: &Sizes) {
     splats.positions.extend(places.iter().map(|place| place.position));
     if let Shapes::Disks { normals, radii } = &mut splats.shapes {
         normals.extend(places.iter().map(|place| place.normal.as_vec3()));
-        radii.resize(splats.positions.len(), radius);
+        radii.extend(places.iter().map(|place| sizes.at(place.position) as f32));
     }
     if let Colors::Each(colors) = &mut splats.colors {
         colors.extend(places.iter().map(|place| place.color.map(|channel| channel as f32)));

@@ -59,7 +59,7 @@ pub fn resample(mesh: &Mesh, count: u64, seed: u64, progress: &dyn Progress) -> 
     let count = check_count(count, "--resample")?;
     let colors = vertex_colors(mesh);
     check_memory(count, colors.is_some(), "--resample")?;
-    let areas = Areas::of(mesh, &|_| true)?;
+    let areas = Areas::of(mesh, &|_| 1.0)?;
     let surface = Surface::of(mesh, || {});
     let samples = sample(mesh, colors, &surface.normals, &areas, count, seed, progress);
     let radii = radii::radii(&samples.positions, areas.total / count as f64, progress);
@@ -109,13 +109,13 @@ pub(super) struct Areas {
 }
 
 impl Areas {
-    /// The areas of those of the mesh's triangles that are `part` of what is sampled; the others are as if they had no area.
-    pub(super) fn of(mesh: &Mesh, part: &dyn Fn(usize) -> bool) -> Result<Self> {
+    /// The areas of the mesh's triangles, each times its `weight`: how densely it is sampled, 0 where not at all.
+    pub(super) fn of(mesh: &Mesh, weight: &dyn Fn(usize) -> f64) -> Result<Self> {
         let mut total = 0.0;
         let mut ends = Vec::with_capacity(mesh.triangles.len());
         for (i, &triangle) in mesh.triangles.iter().enumerate() {
-            if let Some([a, b, c]) = corners(mesh, triangle).filter(|_| part(i)) {
-                total += 0.5 * (b - a).cross(c - a).length();
+            if let Some([a, b, c]) = corners(mesh, triangle) {
+                total += weight(i) * (0.5 * (b - a).cross(c - a).length());
             }
             ends.push(total);
         }

@@ -117,6 +117,7 @@ fn listed(
 ) -> Result<Vec<PipelineRecipe>> {
     // A CPU's, whose tiles are drawn by columns unless asked otherwise.
     let limits = Limits { is_cpu: true, shuffles: true, max_texels: 1 << 27, ..Limits::plain() };
+    let settings = &passes::with_sums(settings, &limits);
     let (scene, eye) = (scene_of(traits), DVec3::new(0.0, 0.0, 10.0));
     let camera = Camera {
         eye,

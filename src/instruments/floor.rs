@@ -83,7 +83,7 @@ impl<'a> Floor<'a> {
         let mut floor = Self {
             scene,
             camera: *camera,
-            settings: settings.clone(),
+            settings: passes::with_sums(settings, &headless.renderer.limits),
             chunks: draws.iter().map(points).collect::<Result<_>>()?,
             target: HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?,
             slot: FrameSlot::new(device),

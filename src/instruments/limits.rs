@@ -77,6 +77,7 @@ impl LimitProbes {
             _ => POINT_SIDE_PX,
         };
         let (cover, fragments) = covering_points(settings.size_px, point_px);
+        let settings = &passes::with_sums(settings, &headless.renderer.limits);
         let mut made = Self { settings: settings.clone(), probes: Vec::new(), notes: Vec::new() };
         let drawn = |limit, points: &[[f32; 4]], units| {
             let Points { buffer, count } = Points::upload(headless, points)?;
@@ -140,7 +141,7 @@ impl LimitProbes {
     pub fn bytes_per_blended_fragment(&self) -> u64 {
         match self.settings.accumulate {
             Accumulate::F16 => 2 * 2 * 8,
-            Accumulate::F32 => 2 * 2 * 16,
+            Accumulate::F32 | Accumulate::Auto => 2 * 2 * 16,
         }
     }
 }

@@ -27,6 +27,7 @@ pub fn draw_as_published(
     filtered: bool,
 ) -> Result<Vec<[f32; 4]>> {
     headless.renderer.check(camera, settings)?;
+    let settings = &passes::with_sums(settings, &headless.renderer.limits);
     if scene.chunks.iter().any(|chunk| chunk.ellipses) {
         return Err(Error::option(
             "as published",

@@ -30,7 +30,9 @@ pub use crate::passes::plan::draws::{Draw, draws};
 pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};
 pub use crate::passes::plan::needs::{Needs, needs};
 pub use crate::passes::plan::range::DepthRange;
-pub use crate::passes::plan::{FramePlan, SplatMethod, SurfacePlan, method::check as check_method};
+pub use crate::passes::plan::{
+    FramePlan, SplatMethod, SurfacePlan, method::check as check_method, sums::with_sums,
+};
 pub use crate::passes::resolve::export::Exported;
 pub use crate::passes::resolve::readback::{readback, readback_buffer};
 pub(crate) use crate::passes::resolve::samples::{SAMPLE_FORMAT, add_sample, resolve_samples};

@@ -120,15 +120,15 @@ impl Renderer {
                 format!("{width}x{height}: the device '{}' draws at most {side}x{side}", facts.name),
             ));
         }
-        if settings.shading == Shading::EyeDome && !facts.blend_f32 {
+        if settings.shading == Shading::EyeDome && !self.limits.blend_f32 {
             let problem = format!("edl: the device '{}' can't blend 32-bit floats", facts.name);
             return Err(Error::option("--shading", problem));
         }
-        if settings.accumulate == Accumulate::F32 && !facts.blend_f32 {
+        if settings.accumulate == Accumulate::F32 && !self.limits.blend_f32 {
             let problem = format!("f32: the device '{}' can't blend 32-bit floats; use f16", facts.name);
             return Err(Error::option("--accumulate", problem));
         }
-        if settings.samples.0 > 1 && !facts.blend_f32 {
+        if settings.samples.0 > 1 && !self.limits.blend_f32 {
             let problem = format!("the device '{}' can't blend 32-bit floats; expected 1", facts.name);
             return Err(Error::option("--samples", problem));
         }

@@ -35,7 +35,7 @@ settings! {
         "filter-weight" "HOW" filter_weight: FilterWeight,
         /// What a pixel shows where a surface ends.
         "edges" "HOW" edges: Edges,
-        /// The weight within a splat: `gaussian:S` (S in radii) or `psi_e:A,B,N`, whose small weights are for `--accumulate f32`:
+        /// The weight within a splat: `gaussian:S` (S in radii) or `psi_e:A,B,N`, whose small weights are not for `--accumulate f16`:
         /// sums of 16 bits lose the colors at its rim.
         "kernel" "KERNEL" kernel: Kernel,
         /// How the kernel is evaluated; the reference computes whatever is given here.
@@ -125,8 +125,9 @@ impl Settings {
         asked && by_tiles && widens && blends_colors && shades
     }
 
-    /// What a splat weighs at least. Tiles sum in 32 bits where splats have weights of their own, whatever `accumulate` says. So `auto` has
-    /// none here; where it draws points with 16-bit sums they have, as `--explain` says.
+    /// What a splat weighs at least: something in sums of 16 bits that were asked for, of a rasterizer that has them. Tiles sum in 32 bits
+    /// where splats have weights of their own, whatever `accumulate` says, so that `--rasterizer auto` has none here; nor has `--accumulate
+    /// auto`, which has 16 bits only on a device that can't blend 32. Where points have 16-bit sums after all, `--explain` says so.
     pub fn floors(&self) -> Floors {
         if self.shading == Shading::EyeDome {
             return Floors::NONE; // Its sums have 32 bits.

@@ -136,7 +136,7 @@ impl<'a> Stage<'a> {
         }
         let limit = tolerance::of(&hard);
         Ok(match hard.settings.accumulate {
-            Accumulate::F32 => {
+            Accumulate::F32 | Accumulate::Auto => {
                 let errors = agreement::compare(frame, &oracle);
                 Found { problems: errors.beyond(&limit), figures: errors.figures() }
             }

@@ -35,7 +35,7 @@ pub fn of_light(hard: &Hard) -> LightErrors {
         seen: pixels / 10,
         compared: 2 * pixels / 3,
         worst: match hard.settings.accumulate {
-            Accumulate::F32 => LIGHT,
+            Accumulate::F32 | Accumulate::Auto => LIGHT,
             Accumulate::F16 => f64::INFINITY,
         },
         rms_of_all: LIGHT_RMS_OF_ALL,

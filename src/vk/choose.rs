@@ -43,8 +43,6 @@ pub struct DeviceFacts {
     pub pipeline_statistics: bool,
     /// The number of indirect draws can be read from a buffer.
     pub draw_indirect_count: bool,
-    /// 32-bit float targets can be blended: `--accumulate f32`.
-    pub blend_f32: bool,
     /// Limits that the renderer respects.
     pub limits: Limits,
 }
@@ -77,6 +75,8 @@ pub struct Limits {
     pub shuffles: bool,
     /// Indirect draws may begin at any instance (`drawIndirectFirstInstance`).
     pub first_instance: bool,
+    /// 32-bit floats, one and four a texel, can be added up in attachments: `--accumulate f32`.
+    pub blend_f32: bool,
     /// The device is the CPU.
     pub is_cpu: bool,
 }
@@ -97,6 +97,7 @@ impl Limits {
             stores_without_format: true,
             shuffles: false,
             first_instance: true,
+            blend_f32: false,
             is_cpu: false,
         }
     }
@@ -127,7 +128,7 @@ impl DeviceFacts {
         if !self.pipeline_statistics {
             lacks.push("pipelineStatisticsQuery: fragments are not counted");
         }
-        if !self.blend_f32 {
+        if !self.limits.blend_f32 {
             lacks.push("blending of R32G32B32A32_SFLOAT: no --accumulate f32");
         }
         if self.limits.timestamp_valid_bits == 0 {
@@ -190,8 +191,7 @@ mod tests {
             large_points: true,
             pipeline_statistics: true,
             draw_indirect_count: true,
-            blend_f32: true,
-            limits: Limits::plain(),
+            limits: Limits { blend_f32: true, ..Limits::plain() },
         }
     }
 

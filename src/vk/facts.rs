@@ -135,10 +135,10 @@ pub(super) unsafe fn facts(
         // Numbers of pixels are given as counts, which must not exceed the limit.
         draw_indirect_count: features12.draw_indirect_count == vk::TRUE
             && limits.max_draw_indirect_count >= 1 << 30,
-        blend_f32: [vk::Format::R32G32B32A32_SFLOAT, vk::Format::R32_SFLOAT]
-            .into_iter()
-            .all(|sums| format(sums).contains(blended)),
         limits: Limits {
+            blend_f32: [vk::Format::R32G32B32A32_SFLOAT, vk::Format::R32_SFLOAT]
+                .into_iter()
+                .all(|sums| format(sums).contains(blended)),
             max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
             max_texels: limits.max_texel_buffer_elements,
             point_size_range: match core.large_points == vk::TRUE {

@@ -16,7 +16,7 @@ use surfel::{
 const SPLATS: [f32; 4] = [0.9, 0.3, 0.1, 1.0];
 const POLYGONS: [f32; 4] = [0.1, 0.6, 0.7, 1.0];
 
-/// Of the half: a splat's radius is about 40 pixels, as where a model is looked at closely enough to see the seam.
+/// Of the half: splats inside have radii of about 40 pixels.
 const SAMPLES: u64 = 400;
 
 /// A unit sphere of which the left half stays polygons.
@@ -38,6 +38,13 @@ fn scene(ball: &Hybrid, alpha: f32) -> Scene {
         meshes: vec![MeshObject { name: "polygons".to_owned(), mesh, closed: ball.closed }],
         ..Scene::default()
     }
+}
+
+/// At the middle of the seam, so near that splats on it, which are small over the coarse polygons, have radii of about 40 pixels: as
+/// where a model is looked at closely enough to see the seam.
+fn close_views() -> Vec<Camera> {
+    let close = |camera: Camera| Camera { target: DVec3::Z, fov_y_rad: camera.fov_y_rad / 8.0, ..camera };
+    views().into_iter().map(close).collect()
 }
 
 /// From the left, where polygons are, to the right, and a little from above.
@@ -110,7 +117,7 @@ fn smoothing_makes_the_jump_at_the_seam_a_fifth_or_less_over_a_sweep_of_views() 
         let mut means = Vec::new();
         for transition in [Transition::None, Transition::Color, Transition::Attributes, Transition::Paper] {
             let mut all = Vec::new();
-            for camera in views() {
+            for camera in close_views() {
                 let settings = Settings { background: Some([1.0; 3]), ..settings(transition) };
                 let frame = draw(&mut headless, &scene, &camera, &settings);
                 // Light that passes: over black, and as if it were opaque.
@@ -119,7 +126,9 @@ fn smoothing_makes_the_jump_at_the_seam_a_fifth_or_less_over_a_sweep_of_views() 
                 all.extend(jumps(&frame));
             }
             println!("{what}, {transition:?}: mean jump {:.3} over {} rows", mean(&all), all.len());
-            assert!(all.len() > 300, "{}", all.len());
+            // Without smoothing the triangles below splats hide them all in two of the three views.
+            let least = if transition == Transition::None { 200 } else { 700 };
+            assert!(all.len() > least, "{}", all.len());
             means.push(mean(&all));
         }
         assert!(means[0] > 0.95, "{means:?}");
@@ -152,7 +161,7 @@ fn no_pixel_is_darker_or_brighter_than_both_and_what_is_far_from_the_seam_is_not
     let both = scene(&sampled, 1.0);
     let only_splats = Scene { meshes: Vec::new(), ..both.clone() };
     let only_polygons = Scene { objects: Vec::new(), ..both.clone() };
-    let mut touched = 0;
+    let (mut touched, mut worst) = (0, 0.0_f32);
     for (shading, camera) in
         [Shading::Albedo, Shading::Phong].into_iter().flat_map(|s| views().into_iter().map(move |v| (s, v)))
     {
@@ -169,15 +178,19 @@ fn no_pixel_is_darker_or_brighter_than_both_and_what_is_far_from_the_seam_is_not
                 (true, false) => assert!(near(got, p), "{i}: {got:?}, polygons alone {p:?}"),
                 (false, false) => {
                     touched += 1;
+                    // The surface is the nearest of both, so that with polygons below splats other splats may be of it: their normals'
+                    // mean differs a little.
+                    let rounding = if shading == Shading::Albedo { 1e-5 } else { 1.0 / 1024.0 };
                     for c in 0..3 {
-                        let (low, high) = (s[c].min(p[c]) - 1e-5, s[c].max(p[c]) + 1e-5);
+                        worst = worst.max((s[c].min(p[c]) - got[c]).max(got[c] - s[c].max(p[c])));
+                        let (low, high) = (s[c].min(p[c]) - rounding, s[c].max(p[c]) + rounding);
                         assert!((low..=high).contains(&got[c]), "{i}: {got:?}, splats {s:?}, polygons {p:?}");
                     }
                 }
             }
         }
     }
-    println!("{touched} pixels with both");
+    println!("{touched} pixels with both, {worst} beyond");
     assert!(touched > 1500, "{touched}");
 }
 

@@ -81,28 +81,60 @@ impl<'a> Chains<'a> {
     /// Places on all edges, evenly along each chain and at most `spacing` apart. The chains' ends are among them, each
     /// once.
     pub(super) fn places(&self, spacing: f64) -> Vec<Place> {
-        let mut places = Vec::new();
-        for &(joint, face) in &self.ends {
-            let joint = &self.border.joints[joint];
-            places.push(between(joint, joint, 0.0, face));
-        }
+        let mut places = self.ends();
         for chain in &self.chains {
             let intervals = chain.intervals(spacing);
-            let mut stops = chain.stops.windows(2).peekable();
-            let mut i = 1.0;
-            while i < intervals {
-                let at = chain.length() * (i / intervals);
-                while stops.peek().is_some_and(|pair| pair[1].at < at) {
-                    stops.next();
-                }
-                let Some([from, to]) = stops.peek() else { break };
-                let [a, b] = [from, to].map(|stop| &self.border.joints[stop.joint]);
-                let t = ((at - from.at) / (to.at - from.at)).clamp(0.0, 1.0);
-                places.push(between(a, b, t, to.face));
-                i += 1.0;
-            }
+            let inner = (1..).map(f64::from).take_while(|i| *i < intervals);
+            places.extend(inner.map(|i| chain.place(chain.length() * (i / intervals), self.border)));
         }
         places
+    }
+
+    /// Places on all edges for splats whose radii vary: neighbors along a chain are at most `spacing` times the smaller one of
+    /// their radii apart. Radii are looked at each `step`.
+    pub(super) fn places_by(&self, spacing: f64, radius: &dyn Fn(DVec3) -> f64, step: f64) -> Vec<Place> {
+        let mut places = self.ends();
+        for chain in &self.chains {
+            let steps = chain.intervals(step);
+            let at = |i: f64| chain.length() * (i / steps);
+            let radius = |at: f64| radius(chain.place(at, self.border).position);
+            // How many radii it is to each step.
+            let mut far = vec![0.0];
+            for i in (0..).map(f64::from).take_while(|i| *i < steps) {
+                far.push(far[far.len() - 1] + (at(i + 1.0) - at(i)) / radius(at(i + 0.5)));
+            }
+            let all = far[far.len() - 1];
+            let mut intervals = (all / spacing).ceil().max(chain.least_intervals());
+            let stops = loop {
+                let stop = |i: f64| {
+                    let after =
+                        far.partition_point(|far| *far < all * (i / intervals)).clamp(1, far.len() - 1);
+                    let t = (all * (i / intervals) - far[after - 1]) / (far[after] - far[after - 1]);
+                    at((after - 1) as f64 + t)
+                };
+                let mut stops = vec![0.0];
+                stops.extend((1..).map(f64::from).take_while(|i| *i < intervals).map(stop));
+                stops.push(chain.length());
+                let near = |pair: &[f64]| pair[1] - pair[0] <= spacing * radius(pair[0]).min(radius(pair[1]));
+                // Where radii vary by a quarter of the distance, seven tenths of the spacing are always near enough.
+                if all / intervals < 0.7 * spacing || stops.windows(2).all(near) {
+                    break stops;
+                }
+                intervals = (1.05 * intervals).ceil();
+            };
+            let inner = &stops[1..stops.len() - 1];
+            places.extend(inner.iter().map(|at| chain.place(*at, self.border)));
+        }
+        places
+    }
+
+    /// The places where chains end.
+    fn ends(&self) -> Vec<Place> {
+        let end = |&(joint, face): &(usize, DVec3)| {
+            let joint = &self.border.joints[joint];
+            between(joint, joint, 0.0, face)
+        };
+        self.ends.iter().map(end).collect()
     }
 }
 
@@ -138,8 +170,21 @@ impl Chain {
     /// Into how many equal parts the chain is cut. Where it ends where it began it is two at least, so that the ends of
     /// each are two places.
     fn intervals(&self, spacing: f64) -> f64 {
+        (self.length() / spacing).ceil().max(self.least_intervals())
+    }
+
+    fn least_intervals(&self) -> f64 {
         let closed = self.stops.first().map(|stop| stop.joint) == self.stops.last().map(|stop| stop.joint);
-        (self.length() / spacing).ceil().max(if closed { 2.0 } else { 1.0 })
+        if closed { 2.0 } else { 1.0 }
+    }
+
+    /// What is so far along the chain.
+    fn place(&self, at: f64, border: &Border) -> Place {
+        let after = self.stops.partition_point(|stop| stop.at < at).clamp(1, self.stops.len() - 1);
+        let (from, to) = (&self.stops[after - 1], &self.stops[after]);
+        let [a, b] = [from, to].map(|stop| &border.joints[stop.joint]);
+        let t = ((at - from.at) / (to.at - from.at)).clamp(0.0, 1.0);
+        between(a, b, t, to.face)
     }
 }
 

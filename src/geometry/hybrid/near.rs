@@ -26,12 +26,9 @@
 
 use glam::DVec3;
 
-use super::chains::Place;
+use super::{chains::Place, sizes::Sizes};
 use crate::{
-    geometry::{
-        neighbors::{Point, Tree},
-        resample::radii::radii,
-    },
+    geometry::resample::radii::radii,
     progress::Progress,
     scene::{Shapes, Splats},
 };
@@ -39,62 +36,50 @@ use crate::{
 /// Samples nearer than this to a transition edge are removed, in radii of the splats on it.
 pub(super) const CLEARANCE: f64 = 0.3;
 
-/// Transition edges are marked so densely that the nearest mark is as good as the nearest place: at [`CLEARANCE`] it
-/// is 2% farther at most.
-pub(super) const MARKS_PER_RADIUS: f64 = 8.0;
-
-/// Samples farther than this from a transition edge, in radii, have all their neighbors on their side of it: those are
-/// mostly less than a radius away.
+/// Samples farther than this from a transition edge, in radii of the splats on it, have all their neighbors on their side of it:
+/// those are mostly less than a radius away.
 const BORDER: f64 = 2.0;
 
-/// The places nearest to samples on transition edges.
-pub(super) struct Near {
-    marks: Tree,
-    radius: f64,
+/// Removes what is too near to the edges, and tells how many that were.
+pub(super) fn remove(splats: &mut Splats, sizes: &Sizes) -> usize {
+    let far = |&sample: &DVec3| {
+        let near = sizes.nearest(sample, CLEARANCE);
+        near.is_none_or(|near| near.distance >= CLEARANCE * near.radius)
+    };
+    let keep: Vec<bool> = splats.positions.iter().map(far).collect();
+    splats.keep(&keep);
+    keep.iter().filter(|keep| !**keep).count()
 }
 
-impl Near {
-    /// `marks` are [`MARKS_PER_RADIUS`], of the splats on the edges, which have the given radius.
-    pub(super) fn of(marks: &[Place], radius: f64) -> Self {
-        let points = (0..).zip(marks).map(|(number, mark)| Point { position: mark.position, number });
-        Self { marks: Tree::new(points.collect()), radius }
-    }
-
-    /// Removes what is too near, and tells how many that were.
-    pub(super) fn remove(&self, splats: &mut Splats) -> usize {
-        let reach = CLEARANCE * self.radius;
-        let far = |&sample: &DVec3| self.marks.nearest_to(sample, reach).is_none();
-        let keep: Vec<bool> = splats.positions.iter().map(far).collect();
-        splats.keep(&keep);
-        keep.iter().filter(|keep| !**keep).count()
-    }
-
-    /// Gives the samples near the edges radii as if the surface went on beyond them. `places` are the splats that are
-    /// there, each sample stands for `area`.
-    pub(super) fn correct_radii(
-        &self,
-        splats: &mut Splats,
-        places: &[Place],
-        area: f64,
-        progress: &dyn Progress,
-    ) {
-        let Shapes::Disks { radii: of_samples, .. } = &mut splats.shapes else { return };
-        let (mut near, mut points, mut beyond) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, &sample) in splats.positions.iter().enumerate() {
-            // As many again as are corrected: their neighbors.
-            if let Some(mark) = self.marks.nearest_to(sample, 2.0 * BORDER * self.radius) {
-                near.push((i, mark.distance));
-                points.push(sample);
-                beyond.push(2.0 * mark.position - sample);
-            }
+/// Gives the samples near the edges radii as if the surface went on beyond them; where sizes are bounded they reach over an edge
+/// no farther than the splats on it. `places` are the splats that are there, each
+/// sample stands for `area` at most.
+pub(super) fn correct_radii(
+    splats: &mut Splats,
+    places: &[Place],
+    sizes: &Sizes,
+    area: f64,
+    progress: &dyn Progress,
+) {
+    let Shapes::Disks { radii: of_samples, .. } = &mut splats.shapes else { return };
+    let (mut near, mut points, mut beyond) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, &sample) in splats.positions.iter().enumerate() {
+        // As many again as are corrected: their neighbors.
+        let nearest = sizes.nearest(sample, 2.0 * BORDER);
+        if let Some(edge) = nearest.filter(|edge| edge.distance < 2.0 * BORDER * edge.radius) {
+            points.push(sample);
+            beyond.push(2.0 * edge.position - sample);
+            near.push((i, edge));
         }
-        points.extend(beyond);
-        points.extend(places.iter().map(|place| place.position));
-        let corrected = radii(&points, area, progress);
-        for (&(i, distance), radius) in near.iter().zip(corrected) {
-            if distance < BORDER * self.radius {
-                of_samples[i] = radius;
-            }
+    }
+    points.extend(beyond);
+    points.extend(places.iter().map(|place| place.position));
+    let corrected = radii(&points, area, progress);
+    for ((i, edge), radius) in near.into_iter().zip(corrected) {
+        if edge.distance < BORDER * edge.radius {
+            let reaches_over = edge.radius < sizes.inside();
+            let most = if reaches_over { (edge.radius + edge.distance) as f32 } else { f32::INFINITY };
+            of_samples[i] = radius.min(most);
         }
     }
 }

@@ -108,7 +108,7 @@ fn samples_are_even_within_a_triangle() {
 /// The mean distance to the nearest neighbor, in units of the square root of a sample's share of the area.
 fn clumping(mesh: &Mesh, count: u64) -> f64 {
     let (splats, _) = samples(mesh, count, 0);
-    let area = Areas::of(mesh, &|_| true).unwrap().total;
+    let area = Areas::of(mesh, &|_| 1.0).unwrap().total;
     let points = (0_u32..).zip(&splats.positions);
     let points = points.map(|(number, &position)| super::super::neighbors::Point { position, number });
     let mut sum = 0.0;
@@ -242,7 +242,7 @@ fn radii_are_those_of_the_spacing_and_leave_no_hole() {
     let count = 20_000;
     let (splats, _) = samples(&mesh, count, 0);
     let (normals, radii) = disks(&splats);
-    let spacing = (Areas::of(&mesh, &|_| true).unwrap().total / count as f64).sqrt();
+    let spacing = (Areas::of(&mesh, &|_| 1.0).unwrap().total / count as f64).sqrt();
     let mut sorted = radii.to_vec();
     sorted.sort_by(f32::total_cmp);
     let [low, median, high] = [0, sorted.len() / 2, sorted.len() - 1].map(|i| f64::from(sorted[i]) / spacing);
@@ -275,7 +275,7 @@ fn radii_are_those_of_the_spacing_and_leave_no_hole() {
 #[test]
 fn samples_that_are_few_or_alone_get_the_radius_of_their_share() {
     let share = |area: f64, count: f64| 1.5 * 0.977_539 * (area / count).sqrt();
-    let area = Areas::of(&one_triangle(), &|_| true).unwrap().total;
+    let area = Areas::of(&one_triangle(), &|_| 1.0).unwrap().total;
     for count in [1, 6] {
         for &radius in disks(&samples(&one_triangle(), count, 0).0).1 {
             assert!((f64::from(radius) / share(area, count as f64) - 1.0).abs() < 1e-5);
@@ -286,7 +286,7 @@ fn samples_that_are_few_or_alone_get_the_radius_of_their_share() {
     let tiny = [0.0, 0.05, 0.1].map(|x| DVec3::new(1e6 + x, x * x * 50.0, 0.0));
     mesh.positions.extend(tiny);
     mesh.triangles.push([3, 4, 5]);
-    let area = Areas::of(&mesh, &|_| true).unwrap().total;
+    let area = Areas::of(&mesh, &|_| 1.0).unwrap().total;
     let alone = |splats: &Splats| splats.positions.iter().position(|p| p.x > 1e5).map(|i| disks(splats).1[i]);
     let alone = (0..100).find_map(|seed| alone(&samples(&mesh, 100, seed).0)).map(f64::from);
     assert!((alone.unwrap() / (3.0 * share(area, 100.0)) - 1.0).abs() < 1e-5, "{alone:?}");

@@ -26,7 +26,7 @@ use crate::{
 fn weight_format(settings: &Settings) -> vk::Format {
     match settings.accumulate {
         Accumulate::F16 => vk::Format::R16_SFLOAT,
-        Accumulate::F32 => vk::Format::R32_SFLOAT,
+        Accumulate::F32 | Accumulate::Auto => vk::Format::R32_SFLOAT,
     }
 }
 

@@ -4,11 +4,11 @@ use ash::vk;
 
 use crate::scene::Accumulate;
 
-/// The format of the sums.
+/// The format of the sums. A plan leaves no `auto`.
 pub(crate) fn sum_format(accumulate: Accumulate) -> vk::Format {
     match accumulate {
         Accumulate::F16 => vk::Format::R16G16B16A16_SFLOAT,
-        Accumulate::F32 => vk::Format::R32G32B32A32_SFLOAT,
+        Accumulate::F32 | Accumulate::Auto => vk::Format::R32G32B32A32_SFLOAT,
     }
 }
 

@@ -16,6 +16,7 @@ pub(crate) mod method;
 pub(crate) mod needs;
 pub(crate) mod range;
 pub(crate) mod seen;
+pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
 
@@ -30,7 +31,7 @@ use crate::passes::plan::{
 };
 use crate::{
     prepare::PreparedScene,
-    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Shading, Transition},
+    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
     shaders::config::SPEC_COVERAGE_EDGES,
     vk::Limits,
 };
@@ -59,8 +60,10 @@ pub struct SurfacePlan<'a> {
     pub method: SplatMethod<'a>,
     /// Why they are drawn so; empty where there are none.
     pub reason: &'static str,
-    /// The settings they are drawn with: as asked for, but for the precision of sums that tiles leave.
+    /// The settings they are drawn with: as asked for, but for the precision of sums, which is found.
     pub settings: Settings,
+    /// Why sums have that precision.
+    pub sums: &'static str,
 }
 
 /// How splats are drawn.
@@ -113,26 +116,24 @@ impl<'a> SurfacePlan<'a> {
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        let mut settings = settings.clone();
-        if settings.shading == Shading::EyeDome {
-            settings.accumulate = Accumulate::F32; // 16 bits would make steps of every slope.
-        }
+        let (accumulate, mut sums) = sums::sums(settings, limits);
+        let mut settings = Settings { accumulate, ..settings.clone() };
         if splats.is_empty() {
-            return Self { meshes, settings, ..Self::default() };
+            return Self { meshes, settings, sums, ..Self::default() };
         }
         let polygons = !meshes.is_empty();
         let transparent = splats.iter().any(|draw| draw.chunk.transparent);
         let tiles = method::tiles(&splats, polygons, &settings, limits);
-        // Tiles weigh splats without floors. Their sums stay in registers, unless others add to them; layers do where all are tiles.
+        // Tiles weigh splats without floors, also where they leave sums in images to others; layers do where all are tiles.
         let exact = settings.rasterizer == Rasterizer::Compute || tiles.is_ok() && !transparent;
         if exact && settings.weighs_splats() {
-            settings.accumulate = Accumulate::F32;
+            (settings.accumulate, sums) = (Accumulate::F32, sums::OF_TILES);
         }
         let (method, reason) = match tiles {
             Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
             Err(reason) => (method::primitives(&mut splats, polygons, &settings, limits), reason),
         };
-        let mut plan = Self { splats, meshes, method, reason, settings };
+        let mut plan = Self { splats, meshes, method, reason, settings, sums };
         plan.choose_edges(transparent);
         plan
     }

@@ -4,7 +4,7 @@ use crate::passes::{
     pipeline::splat_shaders::Primitive,
     plan::{SplatMethod, SurfacePlan},
 };
-use crate::scene::Settings;
+use crate::scene::{Accumulate, Settings};
 
 impl SurfacePlan<'_> {
     /// How splats are drawn, and why so; `None` where there are none.
@@ -43,6 +43,10 @@ impl SurfacePlan<'_> {
         };
         let visible = if lists_visible { "; those that may be seen, by a list" } else { "" };
         let hidden = if culls_hidden { "; what is hidden, left out of sums" } else { "" };
-        Some(format!("{how}{visible}{hidden}"))
+        let (accumulate, why) = (self.settings.accumulate, self.sums);
+        // In registers they are never less than 32 bits.
+        let half_in_images = accumulate == Accumulate::F16 && !self.bands().is_empty();
+        let sums = if half_in_images { "sums in images" } else { "sums" };
+        Some(format!("{how}{visible}{hidden}; {sums} are {} ({why})", accumulate.name()))
     }
 }

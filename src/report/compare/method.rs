@@ -140,7 +140,7 @@ mod tests {
             rasterizers: values(Rasterizer::METHODS),
             filters: values(Filter::NAMES),
             filter_weights: vec![FilterWeight::default()],
-            accumulates: values(Accumulate::NAMES),
+            accumulates: values(Accumulate::PRECISIONS),
             kernel_evals: values(KernelEval::NAMES),
         }
     }

@@ -130,7 +130,7 @@ pub struct MethodArguments {
     pub filter_weight: Vec<Listed<FilterWeight>>,
 
     /// The precision of the sums [default: all; with --zoom: f32]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = listed(Accumulate::NAMES))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = listed(Accumulate::PRECISIONS))]
     pub accumulate: Vec<Listed<Accumulate>>,
 
     /// How the kernel is evaluated

@@ -109,8 +109,8 @@ fn settings(size_px: [u32; 2], transition: Transition) -> Settings {
 
 fn text(name: &str, mesh: &Mesh, sampled: &Hybrid, plain: &Hybrid) -> String {
     format!(
-        "{name} has {} triangles. On the right {} of them are drawn, on the left {} splats: {} on the {} edges where both \
-         meet, and {} were left out because they were too close to these. In d) {} splats.",
+        "{name} has {} triangles. On the right, and below small splats, {} of them are drawn; on the left {} splats: {} on \
+         the {} edges where both meet, and {} were left out because they were too close to these. In d) {} splats.",
         mesh.triangles.len(),
         sampled.report.polygons,
         sampled.splats.len(),

@@ -176,8 +176,8 @@ mod tests {
             large_points: true,
             pipeline_statistics: false,
             draw_indirect_count: false,
-            blend_f32: true,
             limits: Limits {
+                blend_f32: true,
                 max_storage_buffer_range: 1 << 27,
                 max_texels: 1 << 16,
                 point_size_range: [1.0, 255.0],

@@ -4,7 +4,10 @@ use super::{
     weights::{KERNELS, distances, sums},
     *,
 };
-use crate::geometry::corners;
+use crate::geometry::{
+    corners,
+    hybrid::sizes::{LEAST, STAND_OFF},
+};
 
 const COUNTS: [u64; 3] = [300, 3000, 20_000];
 
@@ -37,6 +40,17 @@ fn places_on_edges_are_even_and_none_is_there_twice() {
                 let nearest = others.map(|(_, other)| other.distance(*place)).fold(f64::INFINITY, f64::min);
                 assert!(nearest > 1e-3 * report.edge_radius, "{}, {samples}: {nearest}", seam.name);
             }
+            if !seam.name.starts_with("plane") {
+                // There splats on edges are smaller, but never so many that neighbors are nearer than seven tenths of the spacing,
+                // from where on each try had 5% more: 1.5 times the length in spacings of their own radii, and one at an end.
+                let (_, radii) = disks(&hybrid.splats);
+                let of_edges = &radii[hybrid.splats.len() - report.edge_splats..];
+                let reached: f64 = of_edges.iter().map(|radius| EDGE_SPACING * f64::from(*radius)).sum();
+                let most = 1.5 * report.transition_length + EDGE_SPACING * report.edge_radius;
+                println!("{}, {samples}: {:.3} of the length", seam.name, reached / report.transition_length);
+                assert!(reached >= 0.95 * report.transition_length && reached < most, "{}", seam.name);
+                continue;
+            }
             // What the spacing needs, rounded up for each chain and with one for each of its ends, which crossing ones
             // share. Only one mesh has more than one: 112 between 77 ends.
             let (chains, ends) = if seam.name.contains("by turns") { (112.0, 77.0) } else { (1.0, 2.0) };
@@ -57,11 +71,28 @@ fn no_splat_is_on_the_other_side_of_an_edge_or_too_near() {
             let (inside, on_edge) =
                 hybrid.splats.positions.split_at(hybrid.splats.len() - report.edge_splats);
             assert!(distances(on_edge, &edge).iter().all(|d| *d < 0.02 * report.edge_radius));
-            assert_eq!(report.removed + inside.len(), 3000);
+            // Where the surface bends splats near edges are smaller, and more; without splats on edges there is nothing to be small for.
+            let bends = sample_edges && !seam.name.starts_with("plane");
+            let sampled = report.removed + inside.len();
+            assert!(if bends { sampled > 3000 } else { sampled == 3000 }, "{}: {sampled}", seam.name);
             let near =
                 distances(inside, &edge).into_iter().fold(f64::INFINITY, f64::min) / report.edge_radius;
             assert_eq!(sample_edges, report.edge_splats > 0 && report.removed > 0);
-            assert_eq!(sample_edges, near > 0.28, "{near}");
+            if bends {
+                let (_, radii) = disks(&hybrid.splats);
+                let radii = &radii[inside.len()..];
+                // The nearest place's radius is an eighth off at most: it is within half a radius, and sizes vary by a quarter of that.
+                let near = inside.iter().map(|sample| {
+                    let away = on_edge.iter().map(|place| place.distance(*sample));
+                    let (distance, radius) = away.zip(radii).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                    distance / f64::from(*radius)
+                });
+                let near = near.fold(f64::INFINITY, f64::min);
+                println!("{}: {near:.3} radii of the nearest splat on the edge", seam.name);
+                assert!(near > 0.875 * 0.28, "{}: {near}", seam.name);
+            } else {
+                assert_eq!(sample_edges, near > 0.28, "{near}");
+            }
             // In some triangle of the splat part, and so is what is on the edge, to within rounding.
             let whole = &seam.mesh;
             let of_splats = (0..seam.polygon.len()).filter(|&i| !seam.polygon[i]);
@@ -152,6 +183,79 @@ fn radii_do_not_grow_toward_the_edge() {
             for near in &found[..2] {
                 assert!((0.88..1.05).contains(&(near / found[2])), "{found:?}");
             }
+        }
+    }
+}
+
+/// Of each splat whose rim lies over the polygons: how far it is from them at most, as a share of the mesh's size.
+fn off_the_polygons(seam: &Seam, splats: &Splats) -> f64 {
+    let size = seam.mesh.bounds().map(|bounds| bounds.min.distance(bounds.max)).unwrap();
+    let triangles: Vec<_> = seam.mesh.triangles.iter().map(|t| corners(&seam.mesh, *t).unwrap()).collect();
+    let (normals, radii) = disks(splats);
+    let mut most: f64 = 0.0;
+    for i in 0..splats.len() {
+        let (center, radius, normal) = (splats.positions[i], f64::from(radii[i]), normals[i].as_dvec3());
+        let (s, t) = normal.any_orthonormal_pair();
+        let near: Vec<usize> =
+            (0..triangles.len()).filter(|&j| distance(triangles[j], center) < 2.0 * radius).collect();
+        if near.iter().all(|j| !seam.polygon[*j]) {
+            continue;
+        }
+        for step in 0..24 {
+            let (sin, cos) = (f64::from(step) * std::f64::consts::TAU / 24.0).sin_cos();
+            let rim = center + radius * (cos * s + sin * t);
+            let of = |polygon: bool| {
+                let part = near.iter().filter(|j| seam.polygon[**j] == polygon);
+                part.map(|j| distance(triangles[*j], rim)).fold(f64::INFINITY, f64::min)
+            };
+            if of(true) < of(false) {
+                most = most.max(of(true) / size);
+            }
+        }
+    }
+    most
+}
+
+/// From a point to a triangle.
+fn distance([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+    let normal = (b - a).cross(c - a).normalize();
+    let sides = [(a, b), (b, c), (c, a)];
+    if sides.iter().all(|(from, to)| (point - *from).cross(*to - *from).dot(normal) <= 0.0) {
+        return (point - a).dot(normal).abs();
+    }
+    let to_side = |(from, to): (DVec3, DVec3)| {
+        let t = ((point - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+        point.distance(from.lerp(to, t))
+    };
+    sides.into_iter().map(to_side).fold(f64::INFINITY, f64::min)
+}
+
+/// The sine of the largest tilt of a face against the normals of its corners.
+fn largest_tilt(seam: &Seam) -> f64 {
+    let (whole, _) = shaded_mesh(seam.mesh.clone());
+    let normals = whole.normals.as_ref().unwrap();
+    let tilts = whole.triangles.iter().flat_map(|triangle| {
+        let [a, b, c] = corners(&whole, *triangle).unwrap();
+        let face = (b - a).cross(c - a).normalize();
+        triangle.map(|vertex| normals[vertex as usize].as_dvec3().cross(face).length())
+    });
+    tilts.fold(0.0, f64::max)
+}
+
+#[test]
+fn what_lies_over_polygons_does_not_stand_off_them() {
+    let closed = |seam: &&Seam| seam.name.starts_with("sphere") && seam.mesh.triangles.len() < 8192;
+    for seam in seams().iter().filter(closed) {
+        let size = seam.mesh.bounds().map(|bounds| bounds.min.distance(bounds.max)).unwrap();
+        for samples in [300, 3000] {
+            let hybrid = of_seam(seam, &options(samples, true));
+            // What is as small as splats may be stands off so far.
+            let smallest = LEAST * hybrid.report.edge_radius * largest_tilt(seam) / size;
+            // Samples up to two radii of its splats from an edge reach over it by no more than one: they are up to three times as large.
+            let bound = 3.0 * smallest.max(STAND_OFF);
+            let off = off_the_polygons(seam, &hybrid.splats);
+            println!("{}, {samples} samples: {off:.6} off, bound {bound:.6}", seam.name);
+            assert!(off <= bound, "{}, {samples}: {off}", seam.name);
         }
     }
 }
