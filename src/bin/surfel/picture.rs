@@ -129,7 +129,7 @@ mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
         Accumulate, Backfaces, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer,
-        Layers, Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
+        Layers, Lod, Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
     };
 
     use super::*;
@@ -159,6 +159,7 @@ mod tests {
             kernel: Kernel::PsiE { a: 6.0, b: 1.5, n: 3.0 },
             kernel_eval: KernelEval::Texture,
             cull: Cull::List,
+            lod: Lod::Percent(0.25),
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,

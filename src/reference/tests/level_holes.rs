@@ -81,7 +81,7 @@ fn no_surface_seen_at_up_to_45_degrees_has_a_hole() {
         let (mut covered, mut lost, mut nodes) = (0, 0, 0);
         for seed in 0..VIEWS {
             let (camera, _) = view(&model.splats, seed);
-            let view = View::new(&camera, settings.size_px);
+            let view = View::pinhole(&camera, settings.size_px);
             let full = coverage(model.splats.clone(), view, &settings);
             for tau_px in TAUS_PX {
                 let projection = Projection::of_camera(&camera, SIDE_PX, &model.hierarchy);

@@ -94,7 +94,7 @@ fn no_ellipse_is_longer_in_the_picture_than_its_size_says() {
             let camera = Camera { eye, target: center, ..Camera::default() };
             let claimed =
                 Projection::of_camera(&camera, SIDE_PX, &hierarchy).size_px(&hierarchy.bounds[i].error);
-            let view = crate::reference::view::View::new(&camera, size_px);
+            let view = crate::reference::view::View::pinhole(&camera, size_px);
             let rim: Vec<_> = (0..32)
                 .map(|k| {
                     let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 32.0).sin_cos();

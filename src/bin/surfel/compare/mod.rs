@@ -55,7 +55,8 @@ fn compare(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> 
     timed_settings(headless, arguments)?; // before anything takes long
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
-    let loaded = load_scene(&arguments.input.as_splats(), &bars)?;
+    let mut loaded = load_scene(&arguments.input.as_splats(), &bars)?;
+    loaded.scene.levels = arguments.settings().lod.wants_levels();
     let camera = choice.camera(&loaded, arguments.settings().size_px)?;
     let mut show = |shown: Shown<'_>| match &arguments.pictures {
         Some(folder) => pictures::write(folder, &shown),
