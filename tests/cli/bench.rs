@@ -53,8 +53,8 @@ fn the_floor_is_measured_in_turn_with_the_passes() {
     }
     assert_eq!(bounds[1]["work"]["blended_fragments"], rows[1]["fragments"]);
     assert_eq!(bounds[1]["work"]["drawn_points"], report["strict_points"]);
-    // 96 x 96 pixels: two sums of 8 bytes and a depth; 150 000 splats of 32 bytes, without colors.
-    assert_eq!(bounds[1]["work"]["bytes"], 96 * 96 * 20 + 32 * 150_000);
+    // 96 x 96 pixels: two sums of 16 bytes and a depth; 150 000 splats of 32 bytes, without colors.
+    assert_eq!(bounds[1]["work"]["bytes"], 96 * 96 * 36 + 32 * 150_000);
     for (name, lines) in [("floor.csv", 5), ("floor-limits.csv", 10), ("floor-bounds.csv", 5)] {
         let csv = fs::read_to_string(folder.path(&format!("tables/{name}"))).unwrap();
         assert_eq!(csv.lines().count(), lines, "{name}");
