@@ -15,7 +15,7 @@ use super::disks::Disk;
 const ROOM: f64 = 1.0 / (1 << 20) as f64;
 
 /// No node's longer half axis is more times its spread: it has to be no wider than what it stands for.
-pub const LONGEST: f64 = 4.0;
+const LONGEST: f64 = 4.0;
 
 /// More than f32 loses of the angle between two unit vectors.
 const ROOM_RAD: f64 = 1e-6;
@@ -28,7 +28,7 @@ pub struct ErrorBall {
     /// Of the ball around the node's ellipse, all disks below and the children's balls.
     pub radius: f32,
     /// How far what is below spreads: the root of the mean squared distance of the disks' centers from the node's, by area; or a
-    /// [`LONGEST`]th of the node's longer half axis, or what a child has, if that is more. Above those of the children, and above 0.
+    /// quarter of the node's longer half axis, or what a child has, if that is more. Above those of the children, and above 0.
     pub spread: f32,
 }
 
