@@ -11,7 +11,8 @@ const CENTER: Rasterizer = Rasterizer::Perspective;
 const CONTOUR: Rasterizer = Rasterizer::AffineContour;
 
 fn ewa(rasterizer: Rasterizer) -> Settings {
-    Settings { filter: Filter::Ewa, rasterizer, ..settings(64) }
+    // With the floors of 16-bit sums.
+    Settings { filter: Filter::Ewa, rasterizer, accumulate: crate::scene::Accumulate::F16, ..settings(64) }
 }
 
 /// `a aᵀ + b bᵀ`.

@@ -151,7 +151,8 @@ mod tests {
         assert_eq!(methods.len(), 9 * 5 * 2 * 2);
         let different: std::collections::HashSet<_> = methods.iter().collect();
         assert_eq!(different.len(), methods.len());
-        let first = Settings { rasterizer: Rasterizer::Perspective, ..Settings::default() };
+        let accumulate = Accumulate::PRECISIONS[0].1;
+        let first = Settings { rasterizer: Rasterizer::Perspective, accumulate, ..Settings::default() };
         assert_eq!(methods[0].settings(&Settings::default()), first);
     }
 
