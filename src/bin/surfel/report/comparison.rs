@@ -7,7 +7,7 @@ use surfel::{
         bench::{Machine, TrustLimits, spread_flag},
         compare::{CompareReport, Method, MethodRow},
     },
-    scene::{Camera, Rasterizer, Settings},
+    scene::{Accumulate, Camera, Rasterizer, Settings},
 };
 
 use super::{arguments::ReportArguments, command_line::CommandLine, part::Panel};
@@ -82,7 +82,9 @@ pub fn gather(
 
 /// Whether a method differs from the default in its filter or its rasterizer alone.
 fn is_shown(method: &Method) -> bool {
-    let default = Settings { rasterizer: Rasterizer::Perspective, ..Settings::default() };
+    // The first that is compared of each.
+    let accumulate = Accumulate::PRECISIONS[0].1;
+    let default = Settings { rasterizer: Rasterizer::Perspective, accumulate, ..Settings::default() };
     let own = method.settings(&default);
     let with_filter = Settings { filter: own.filter, ..default.clone() };
     let with_rasterizer = Settings { rasterizer: own.rasterizer, ..default };
