@@ -19,7 +19,7 @@ pub struct Explanation {
     pub point_cap_px: f32,
     /// How opaque splats are drawn and why so, where there are any; then transparent ones.
     pub drawn: [Option<String>; 2],
-    /// What is beyond f32, a sentence each.
+    /// What is beyond f32, and what was asked for and is not drawn, a sentence each.
     pub beyond_f32: Vec<String>,
     /// What 16-bit sums ask of weights, in a sentence.
     pub floors: Option<String>,
@@ -145,7 +145,10 @@ impl Renderer {
         let drawn = [&frame.opaque, &frame.transparent].map(|surface| surface.explained(settings));
         Explanation {
             drawn,
-            beyond_f32: passes::beyond_f32(scene, &frame, camera),
+            beyond_f32: passes::beyond_f32(scene, &frame, camera)
+                .into_iter()
+                .chain(passes::unused_levels(scene, &frame, settings))
+                .collect(),
             floors: passes::floors(&frame),
             chunks: chunks.collect(),
             meshes: meshes.collect(),

@@ -4,7 +4,7 @@ use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw, range::DepthRange
 use crate::{
     error::{Error, Result},
     prepare::{Chunk, PreparedScene, Rebase},
-    scene::Camera,
+    scene::{Camera, Settings},
     shaders::config::LEAST_SHIFT,
 };
 
@@ -121,6 +121,20 @@ pub fn floors(frame: &FramePlan<'_>) -> Option<String> {
         "sums of 16 bits: a filter leaves each splat a 16th of its weight at least, or the smallest would lose their color; \
          --accumulate f32 has no such floor"
             .to_owned()
+    })
+}
+
+/// Why levels of detail that were asked for are not drawn, in a sentence; `None` where they are, or nobody asked.
+pub(crate) fn unused_levels(
+    scene: &PreparedScene,
+    frame: &FramePlan<'_>,
+    settings: &Settings,
+) -> Option<String> {
+    let has_levels = scene.chunks.iter().any(|chunk| chunk.stands_for_others());
+    let draws_some = |part: &SurfacePlan<'_>| part.splats.iter().any(|draw| draw.levels.is_some());
+    let draws_any = draws_some(&frame.opaque) || draws_some(&frame.transparent);
+    (has_levels && settings.lod.wants_levels() && !draws_any).then(|| {
+        "--lod has no effect: levels of detail are for --rasterizer auto and compute, and for opaque points; all splats are drawn".to_owned()
     })
 }
 
