@@ -27,6 +27,6 @@ void main()
     albedo = covered ? vec4(surface.albedo, 1.0) : vec4(0.0);
     normal = covered ? vec4(surface.normal, 1.0) : vec4(0.0);
     float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, depth_sum / surface.weight);
-    float z = ORTHOGRAPHIC ? push.eye_to_depth + push.near * (1.0 - w_visible * mean) : push.near / w_visible * mean;
+    float z = ORTHOGRAPHIC ? push.eye_to_depth + push.near * (1.0 - (w_visible + mean)) : push.near / w_visible * mean;
     depth = covered ? z : uintBitsToFloat(0x7f800000u);
 }

@@ -22,7 +22,7 @@ float depth(ivec2 pixel)
     float w_visible = texelFetch(visible_depth, pixel, 0).r;
     float depth_sum = texelFetch(normal_sums, pixel, 0).w; // of weight * z / z_visible
     float mean = depth_sum / weight;
-    return weight > 0.0 && w_visible > 0.0 ? (ORTHOGRAPHIC ? mean * w_visible : mean / w_visible) : 0.0;
+    return weight > 0.0 && w_visible > 0.0 ? (ORTHOGRAPHIC ? mean + w_visible : mean / w_visible) : 0.0;
 }
 
 // ln(far / near), exact where both are nearly the same, and log2 is not: 2 artanh.

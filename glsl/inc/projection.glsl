@@ -17,11 +17,11 @@ float shifted(float w, float shift)
     return ORTHOGRAPHIC ? max(w - shift, LEAST_DEPTH) : w * shift;
 }
 
-// What is summed of a fragment's depth, so that the mean of z follows from it: z over that of the visible depth; of an orthographic camera w
-// over the visible one.
+// What is summed of a fragment's depth, so that the mean of z follows from it: z over that of the visible depth; of an orthographic camera by
+// how much w is above the visible one, which is little, so that 16 bits lose little of it.
 float depth_term(float w_visible, float w)
 {
-    return ORTHOGRAPHIC ? w / w_visible : w_visible / w;
+    return ORTHOGRAPHIC ? w - w_visible : w_visible / w;
 }
 
 // The direction to the eye where a view-space point is seen.

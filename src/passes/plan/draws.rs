@@ -4,12 +4,13 @@ use glam::{DVec3, DVec4};
 
 use crate::passes::{
     pipeline::{
-        constants::{FrameConstants, in_one_word},
+        constants::FrameConstants,
         splat_shaders::Primitive,
         variant::{Constants, culls, others_under, splat_constants},
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
+        frame_constants::{focal_in_view_px, frame_constants, near_in_view},
         levels::{LevelView, OfBlock},
         range::DepthRange,
         seen::PotentiallyVisibleBlock,
@@ -92,10 +93,6 @@ pub(crate) fn by_variant<T: Copy>(
     Ok(all)
 }
 
-/// Where ε stops to grow, in radii and in view units, of which the eye is about 1 away: everything belongs to the nearest
-/// surface long before, and f32 ends at 3e38.
-const LARGEST_EPSILON: f64 = 1e30;
-
 /// All chunks of splats as seen from a camera.
 pub fn draws<'a>(
     scene: &'a PreparedScene,
@@ -137,7 +134,7 @@ pub fn draws<'a>(
             let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
             drawn.map(|block| view.largest_box_px(block, bound.filter_px)).fold(0.0, f64::max)
         };
-        let of_level = levels.as_ref().map_or(f64::INFINITY, of_level);
+        let of_level = levels.as_ref().filter(|view| view.nodes).map_or(f64::INFINITY, of_level);
         let largest_box_px = largest_box_px(&bound).min(of_level);
         let box_of = |step: &RadiusStep| {
             let radius = step.radius * view.view_from_local_scale;
@@ -211,53 +208,6 @@ pub(crate) fn without_levels(splats: &mut Vec<Draw<'_>>) {
     }
 }
 
-/// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.
-fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
-    (camera.near() * view.view_from_world_scale).max(1e-37)
-}
-
-/// Pixels of a unit of the image plane, which of an orthographic camera is the view's.
-fn focal_in_view_px(camera: &Camera, view: &ViewFromLocal, height_px: u32) -> f64 {
-    let unit = if camera.is_orthographic() { view.view_from_world_scale } else { 1.0 };
-    camera.focal_px(height_px) / unit
-}
-
-/// What is the same for all that is drawn in one local space; ε in radii and as a world length.
-pub(crate) fn frame_constants(
-    view: &ViewFromLocal,
-    (camera, range): (&Camera, DepthRange),
-    settings: &Settings,
-    (epsilon_radii, epsilon_length): (f64, f64),
-) -> FrameConstants {
-    let focal_px = focal_in_view_px(camera, view, settings.size_px[1]);
-    let near = if camera.is_orthographic() {
-        range.end * view.view_from_world_scale
-    } else {
-        near_in_view(camera, view)
-    };
-    let epsilon_length = epsilon_length * view.view_from_world_scale;
-    let [view_from_local_x, view_from_local_y, view_from_local_z] = view.rows();
-    FrameConstants {
-        view_from_local_x,
-        view_from_local_y,
-        view_from_local_z,
-        middle_px: camera.middle_px(settings.size_px).map(|at| at as f32),
-        focal_px: focal_px as f32,
-        near: near as f32,
-        filter_radius: (settings.samples.filter_radius_px() / focal_px) as f32,
-        epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
-        epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
-        size_less_1_px: in_one_word(settings.size_px.map(|side| side.saturating_sub(1).min(0xffff))),
-        corner_px: in_one_word(camera.corner_px()),
-        splat_count: 0,
-        chunk_color: 0,
-        view_from_local_scale: view.view_from_local_scale as f32,
-        origin_from_eye: in_two_parts(view.origin_from_eye),
-        first_record: 0,
-        blocks_overlap: 0,
-    }
-}
-
 /// What shaders are told of the device's points.
 fn point_constants(limits: &Limits) -> Constants {
     let step_px = point_step_px(limits.point_size_granularity);
@@ -268,13 +218,6 @@ fn point_constants(limits: &Limits) -> Constants {
 /// whole side, which is a multiple of a 16th.
 fn point_step_px(granularity: f32) -> f32 {
     granularity.max(1.0 / 16.0)
-}
-
-/// A vector in f32, and what that leaves of it.
-fn in_two_parts(v: DVec3) -> [f32; 6] {
-    let high = v.as_vec3();
-    let low = (v - high.as_dvec3()).as_vec3();
-    [high.x, high.y, high.z, low.x, low.y, low.z]
 }
 
 /// What a device finds in f32 of a depth may differ by so much from f64's, as a part of the distances of which it is the sum: some 6

@@ -2,7 +2,7 @@
 
 use crate::passes::{
     pipeline::constants::FrameConstants,
-    plan::{draws::frame_constants, range::DepthRange},
+    plan::{frame_constants::frame_constants, range::DepthRange},
 };
 use crate::{
     prepare::{MeshChunk, PreparedScene},

@@ -1,0 +1,70 @@
+//! What shaders are told of all that is drawn in one local space: camera, image, ε.
+
+use glam::DVec3;
+
+use crate::{
+    passes::{
+        pipeline::constants::{FrameConstants, in_one_word},
+        plan::range::DepthRange,
+    },
+    prepare::ViewFromLocal,
+    scene::{Camera, Settings},
+};
+
+/// Where ε stops to grow, in radii and in view units, of which the eye is about 1 away: everything belongs to the nearest
+/// surface long before, and f32 ends at 3e38.
+const LARGEST_EPSILON: f64 = 1e30;
+
+/// The depth of the near plane in view space. `digits.rs` refuses one that f32 does not have, but for stray splats.
+pub(super) fn near_in_view(camera: &Camera, view: &ViewFromLocal) -> f64 {
+    (camera.near() * view.view_from_world_scale).max(1e-37)
+}
+
+/// Pixels of a unit of the image plane, which of an orthographic camera is the view's.
+pub(super) fn focal_in_view_px(camera: &Camera, view: &ViewFromLocal, height_px: u32) -> f64 {
+    let unit = if camera.is_orthographic() { view.view_from_world_scale } else { 1.0 };
+    camera.focal_px(height_px) / unit
+}
+
+/// What is the same for all that is drawn in one local space; ε in radii and as a world length.
+pub(crate) fn frame_constants(
+    view: &ViewFromLocal,
+    (camera, range): (&Camera, DepthRange),
+    settings: &Settings,
+    (epsilon_radii, epsilon_length): (f64, f64),
+) -> FrameConstants {
+    let focal_px = focal_in_view_px(camera, view, settings.size_px[1]);
+    let near = if camera.is_orthographic() {
+        range.end * view.view_from_world_scale
+    } else {
+        near_in_view(camera, view)
+    };
+    let epsilon_length = epsilon_length * view.view_from_world_scale;
+    let [view_from_local_x, view_from_local_y, view_from_local_z] = view.rows();
+    FrameConstants {
+        view_from_local_x,
+        view_from_local_y,
+        view_from_local_z,
+        middle_px: camera.middle_px(settings.size_px).map(|at| at as f32),
+        focal_px: focal_px as f32,
+        near: near as f32,
+        filter_radius: (settings.samples.filter_radius_px() / focal_px) as f32,
+        epsilon_radii: epsilon_radii.min(LARGEST_EPSILON) as f32,
+        epsilon_length: epsilon_length.min(LARGEST_EPSILON) as f32,
+        size_less_1_px: in_one_word(settings.size_px.map(|side| side.saturating_sub(1).min(0xffff))),
+        corner_px: in_one_word(camera.corner_px()),
+        splat_count: 0,
+        chunk_color: 0,
+        view_from_local_scale: view.view_from_local_scale as f32,
+        origin_from_eye: in_two_parts(view.origin_from_eye),
+        first_record: 0,
+        blocks_overlap: 0,
+    }
+}
+
+/// A vector in f32, and what that leaves of it.
+fn in_two_parts(v: DVec3) -> [f32; 6] {
+    let high = v.as_vec3();
+    let low = (v - high.as_dvec3()).as_vec3();
+    [high.x, high.y, high.z, low.x, low.y, low.z]
+}
