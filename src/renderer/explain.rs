@@ -44,6 +44,8 @@ pub struct ExplainedChunk {
     pub splats: u32,
     /// They carry tangent vectors.
     pub ellipses: bool,
+    /// They are nodes of levels of detail, drawn in place of those below them.
+    pub stands_for_others: bool,
     /// They sample a closed surface.
     pub closed: bool,
     /// They are drawn in layers.
@@ -121,6 +123,7 @@ impl Renderer {
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
             ellipses: draw.chunk.ellipses,
+            stands_for_others: draw.chunk.stands_for_others(),
             closed: draw.chunk.closed,
             transparent: draw.chunk.transparent,
             uniform_color: draw.chunk.uniform_color,

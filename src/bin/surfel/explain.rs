@@ -63,6 +63,7 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
     let fine = if chunk.fine { " with coordinates of two parts" } else { "" };
     let color = if chunk.uniform_color { "one color for all" } else { "a color each" };
     let closed = if chunk.closed { "closed surface" } else { "open surface" };
+    let nodes = if chunk.stands_for_others { " that stand for others (--lod)" } else { "" };
     let size = match (chunk.may_be_large, chunk.largest_box_px) {
         (_, px) if chunk.by_tiles && px.is_finite() => format!("none above {px:.0} px"),
         (_, _) if chunk.by_tiles => "some may reach the near plane".to_owned(),
@@ -79,7 +80,7 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
         (true, _) => "some may reach the near plane: large ones listed, drawn as quads".to_owned(),
     };
     let layers = if chunk.transparent { ", transparent: drawn in layers" } else { "" };
-    format!("{} {kind}{fine}, {color}, {closed}{layers}, {} bytes; {size}", chunk.splats, chunk.bytes)
+    format!("{} {kind}{nodes}{fine}, {color}, {closed}{layers}, {} bytes; {size}", chunk.splats, chunk.bytes)
 }
 
 fn mesh_words(mesh: &ExplainedMesh) -> String {

@@ -1,7 +1,7 @@
 //! The options that every table is measured with, and what it gathers on the way.
 
 use surfel::{
-    Error, Result,
+    Result,
     prepare::PreparedScene,
     renderer::Headless,
     report::{InputReport, bench::TrustLimits},
@@ -34,11 +34,6 @@ impl BenchContext<'_> {
     /// Settings that the scene rules out; whatever the allocator or the driver answers.
     pub fn prepare(&self, headless: &Headless, scene: &Scene) -> Result<PreparedScene> {
         self.settings.check_scene(scene)?;
-        if self.settings.lod.wants_levels() {
-            let problem =
-                "benches measure scenes without levels of detail; expected 0, or surfel render --timings";
-            return Err(Error::option("--lod", problem));
-        }
         upload(headless, scene, &self.bars)
     }
 }
