@@ -102,7 +102,8 @@ void main()
     } else {
         color = colors[UNIFORM_COLOR ? 0 : index];
     }
-    records0[place] = vec4(map.x0_px, w0, m.shift);
+    float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
+    records0[place] = vec4(map.x0_px, w0, signed_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
     records3[place] = uvec4(floatBitsToUint(normal.yz), color);

@@ -38,6 +38,7 @@ void begin_surface()
         normals[row] = vec4(0.0);
         summed[row] = 0.0;
         own_part[row] = 0.0;
+        visible_away[row] = false;
     }
 }
 
@@ -57,6 +58,7 @@ void shade_edges(Range range)
         light[row] = vec4(0.0);
         hiding[row] = 0.0;
         before[row] = INFINITELY_NEAR;
+        before_away[row] = INFINITELY_NEAR;
         nearest_polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel_within_image(row), 0).r : 0.0;
     }
     // A shader's loops have an end (tile/work.glsl): there are as many surfaces as it has walks over so many splats.
@@ -87,8 +89,14 @@ void shade_edges(Range range)
             float part = surface.weight > 0.0 ? min(opacity, 1.0 - light[row].a) : 0.0;
             hiding[row] = light[row].a < 0.5 && light[row].a + part >= 0.5 ? visible[row] : hiding[row];
             light[row] += part * vec4(color, 1.0);
-            before[row] = surface.weight > 0.0 && !(WITH_POLYGONS && beside) && light[row].a < 1.0 ? visible[row] : NOTHING_LEFT;
-            left = left || before[row] > NOTHING_LEFT;
+            bool ends = !(surface.weight > 0.0) || WITH_POLYGONS && beside || light[row].a >= 1.0;
+            if (BY_SIDES) {
+                before_away[row] = ends ? NOTHING_LEFT : visible_away[row] ? visible[row] : before_away[row];
+                before[row] = ends ? NOTHING_LEFT : visible_away[row] ? before[row] : visible[row];
+            } else {
+                before[row] = ends ? NOTHING_LEFT : visible[row];
+            }
+            left = left || !ends;
         }
         if (votes_of_tile(left).y == 0) {
             break;

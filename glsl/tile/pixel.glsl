@@ -1,6 +1,10 @@
 // What a splat does to a pixel of a tile: it is seen there, and then added to what is. Of opaque splats the nearest surface is seen;
 // PEELS: of transparent ones the nearest that is behind the layer before (inc/peel.glsl proves that none is lost or taken twice).
 //
+// TWO_SIDED: where edges are covered in part, epsilon is many radii of a slanted splat (inc/mapping.glsl), and would take both sides of a
+// plate, a leaf or a wall for one surface. So a surface is of one side: of splats that face the eye or of those that face away, as the one
+// whose shifted depth is nearest. What faces the other way is left for the next surface.
+//
 // A splat's own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
 
 #include "inc/edges.glsl"
@@ -10,12 +14,17 @@ layout(constant_id = SPEC_WITH_POLYGONS) const bool WITH_POLYGONS = false;
 // The paper's transition shifts for all fragments, not only where there are polygons: the polygons' test is the only one.
 layout(constant_id = SPEC_SHIFTED_FOR_ALL) const bool SHIFTED_FOR_ALL = false;
 
+// Surfaces are of one side; what leaves sums to others takes all.
+const bool BY_SIDES = PEELS && TWO_SIDED && !OF_LAYERS;
+
 const float INFINITELY_NEAR = 2.0; // nearer than any depth, which is 1 at most
 const float NOTHING_LEFT = 0.0;    // no depth is below
 
 // The invocation's pixels, in registers.
 float visible[ROWS]; // depth of the surface, shifted by epsilon
 float before[ROWS];  // PEELS: depth of the layer before
+bool visible_away[ROWS];  // BY_SIDES: the surface faces away; `before` is of those that do not,
+float before_away[ROWS]; // and this is of those that do
 float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
 vec4 colors[ROWS];   // weighted color, weight
 vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
@@ -50,14 +59,25 @@ vec3 uvw_of(Column column, int row)
     return column.at_center_row + column.along_y * (column.dy + float(first_row + row));
 }
 
+// BY_SIDES: whether a splat faces away, which the sign of its shift tells.
+bool is_away(Splat splat)
+{
+    return BY_SIDES && floatBitsToInt(splat.shift) < 0;
+}
+
+float shift_of(Splat splat)
+{
+    return BY_SIDES ? abs(splat.shift) : splat.shift;
+}
+
 // Whether the splat covers the pixel, behind the layer before. A regular splat lies wholly beyond the near plane, but an affine map
 // reaches further than the splat.
-bool covers(vec3 uvw, float depth, int row)
+bool covers(vec3 uvw, float depth, bool away, int row)
 {
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
     bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
     bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-    return inside && beyond_near && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, before[row]));
+    return inside && beyond_near && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
 float r2_of(vec3 uvw)
@@ -71,7 +91,13 @@ void see(Splat splat, Column column, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
-    visible[row] = covers(uvw, depth, row) ? max(visible[row], shifted(depth, splat.shift)) : visible[row];
+    bool away = is_away(splat);
+    bool inside = covers(uvw, depth, away, row);
+    float behind = shifted(depth, shift_of(splat));
+    if (BY_SIDES) {
+        visible_away[row] = inside && behind > visible[row] ? away : visible_away[row];
+    }
+    visible[row] = inside ? max(visible[row], behind) : visible[row];
 }
 
 // The part of the pixel that the surface covers.
@@ -85,10 +111,11 @@ void add(Splat splat, SplatAttributes attributes, Column column, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
-    bool inside = covers(uvw, depth, row);
+    bool away = is_away(splat);
+    bool inside = covers(uvw, depth, away, row) && (!BY_SIDES || away == visible_away[row]);
     if (WITH_POLYGONS) {
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
-            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], splat.shift));
+            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], shift_of(splat)));
     } else {
         inside = inside && depth >= visible[row];
     }

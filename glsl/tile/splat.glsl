@@ -1,5 +1,6 @@
 // A projected splat, all in pixels, so that nothing of its chunk is needed any more, as its record has it:
-// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; the shift.
+// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; the shift, negative (or -0) where it is
+// TWO_SIDED and faces away.
 // records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
 // that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each.
 //

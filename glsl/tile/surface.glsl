@@ -13,7 +13,8 @@ Splat load_splat(uint base, uint end)
     uint number = base + OWN_LANE;
     uint record = entry(min(number, end - 1));
     vec4 r0 = record0(record);
-    Splat splat = Splat(record, r0.xy, r0.z, r0.w, record1(record), record2(record).xy);
+    float shift = TWO_SIDED && !BY_SIDES ? abs(r0.w) : r0.w;
+    Splat splat = Splat(record, r0.xy, r0.z, shift, record1(record), record2(record).xy);
     if (number >= end) {
         // Behind the list's end: far off, with a map that covers nothing there.
         splat = Splat(record, vec2(1e9), 1.0, 1.0, vec4(1.0, 0.0, 0.0, 1.0), vec2(0.0));

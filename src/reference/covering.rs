@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::band::Frame;
 use super::fragment::Fragment;
 use super::front::Front;
-use super::layers::{Source, Translucent, take_nearest};
+use super::layers::{Source, Translucent, take_nearest_side};
 use super::splat::DrawnSplat;
 use super::surface::Sums;
 use crate::scene::{MeshObject, Opacity, Scene, Settings, Transition};
@@ -95,13 +95,14 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         let beside = polygon_z < nearest;
         let near_polygon = (polygon_z - nearest).abs() / nearest;
         seen.margin = seen.margin.min(near_polygon);
-        let (layer, margin) = take_nearest(&mut fragments);
-        seen.margin = seen.margin.min(margin);
-        let mut sums = Sums::default();
         let splat_of = |fragment: &Translucent| match fragment.source {
             Source::Splat(i) => &frame.splats.things[i],
             Source::Triangle(_) => unreachable!("polygons are not among the fragments of splats"),
         };
+        // Both sides of a thin thing are nearer to each other than a slanted splat's ε.
+        let (layer, margin) = take_nearest_side(&mut fragments, &|fragment| splat_of(fragment).faces_away);
+        seen.margin = seen.margin.min(margin);
+        let mut sums = Sums::default();
         // Behind the polygon, shifted toward the eye, they are another surface.
         let threshold = polygon_z.min(nearest);
         let of_surface: Vec<_> = layer

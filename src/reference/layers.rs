@@ -75,15 +75,31 @@ impl Stack {
 
 /// Takes the nearest layer out of `remaining`: all that is not behind the smallest shifted depth. The second value is the
 /// smallest margin of that; the fragment whose shifted depth it is has none.
-pub(super) fn take_nearest(remaining: &mut Vec<Translucent>) -> (Vec<Translucent>, f64) {
+fn take_nearest(remaining: &mut Vec<Translucent>) -> (Vec<Translucent>, f64) {
+    take_nearest_side(remaining, &|_| false)
+}
+
+/// The same of the side that the fragment with the smallest shifted depth shows: of what shows the other one, nothing is taken.
+pub(super) fn take_nearest_side(
+    remaining: &mut Vec<Translucent>,
+    faces_away: &dyn Fn(&Translucent) -> bool,
+) -> (Vec<Translucent>, f64) {
     let shifted = |i: usize| remaining[i].z_shifted;
     let Some(owner) = (0..remaining.len()).reduce(|a, b| if shifted(b) < shifted(a) { b } else { a }) else {
         return (Vec::new(), f64::INFINITY);
     };
     let threshold = shifted(owner);
-    let mut margin = f64::INFINITY;
+    let side = faces_away(&remaining[owner]);
+    let others = remaining.iter().filter(|fragment| faces_away(fragment) != side);
+    // The other side's nearest might be the nearest of all.
+    let mut margin =
+        others.map(|other| (other.z_shifted - threshold) / threshold).fold(f64::INFINITY, f64::min);
     let (mut layer, mut behind) = (Vec::new(), Vec::new());
     for (i, fragment) in remaining.drain(..).enumerate() {
+        if faces_away(&fragment) != side {
+            behind.push(fragment);
+            continue;
+        }
         let decision = if i == owner { Decision::CERTAIN } else { Decision::at_most(fragment.z, threshold) };
         margin = margin.min(decision.margin);
         if decision.holds { layer.push(fragment) } else { behind.push(fragment) }

@@ -37,6 +37,8 @@ pub(super) struct DrawnSplat {
     pub v_axis: DVec3,
     /// Unit normal of the surface, toward the eye.
     pub normal: DVec3,
+    /// Whether its outward normal looks away from the eye.
+    pub faces_away: bool,
     /// The normal that a transparent layer sums: outward of what is closed, else that toward the eye. At a silhouette front
     /// and back are one surface within ε; turned before, what is left of their sum would face the eye and shine.
     pub normal_in_layer: DVec3,
@@ -235,6 +237,7 @@ fn prepare_one(
         u_axis: u_direction / u_direction.dot(s),
         v_axis: v_direction / v_direction.dot(t),
         normal,
+        faces_away,
         normal_in_layer,
         albedo: DVec3::new(red, green, blue),
         alpha: alpha.clamp(0.0, 1.0),

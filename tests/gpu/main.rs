@@ -9,6 +9,7 @@ mod by_design;
 mod cull;
 mod culling;
 mod edges;
+mod edges_measured;
 mod embedding;
 mod extremes;
 mod eye_dome;

@@ -21,7 +21,7 @@ pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
 
-use crate::passes::pipeline::formats::sum_format;
+use crate::passes::pipeline::{formats::sum_format, variant::culls};
 use crate::passes::plan::{
     bands::Band,
     block_list::ListedBlocks,
@@ -33,7 +33,7 @@ use crate::passes::plan::{
 use crate::{
     prepare::PreparedScene,
     scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
-    shaders::config::SPEC_COVERAGE_EDGES,
+    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_TWO_SIDED},
     vk::Limits,
 };
 
@@ -146,10 +146,13 @@ impl<'a> SurfacePlan<'a> {
             self.settings.edges = Edges::Hard;
             return;
         }
+        let two_sided = !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
         for band in self.bands_mut() {
-            band.splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_COVERAGE_EDGES, 1)));
+            let sides = two_sided.then_some((SPEC_TWO_SIDED, 1));
+            let told = || [(SPEC_COVERAGE_EDGES, 1)].into_iter().chain(sides);
+            band.splats.iter_mut().for_each(|draw| draw.variant.extend(told()));
             if !transparent {
-                band.plan = band.plan.clone().with_edges();
+                band.plan = band.plan.clone().with_edges(two_sided);
             }
         }
     }

@@ -90,6 +90,8 @@ pub struct TilePlan {
     pub overflows_somewhere: bool,
     /// What a tile's visible depth hides is not summed.
     pub hidden: bool,
+    /// Surfaces are told apart by the side that they show.
+    pub two_sided: bool,
     /// What they draw, and how they come by splats.
     pub invocations: Invocations,
 }
@@ -177,6 +179,7 @@ impl TilePlan {
             may_be_large: !fits,
             overflows_somewhere: false,
             hidden: false,
+            two_sided: false,
             invocations,
         })
     }
@@ -188,8 +191,9 @@ impl TilePlan {
     }
 
     /// The plan for what covers pixels in part where it ends: what one surface hides, the next may show.
-    pub(crate) fn with_edges(self) -> Self {
-        Self { hidden: false, ..self }
+    /// `two_sided`: some splats that face away are drawn.
+    pub(crate) fn with_edges(self, two_sided: bool) -> Self {
+        Self { hidden: false, two_sided, ..self }
     }
 
     /// The bins of all lists: tiles, then chunks.

@@ -153,6 +153,7 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
     if settings.edges == Edges::Coverage {
         let filter_px = settings.samples.filter_radius_px() as f32;
         constants.extend([(SPEC_COVERAGE_EDGES, 1), (SPEC_FILTER_PX, filter_px.to_bits())]);
+        constants.extend(plan.two_sided.then_some((SPEC_TWO_SIDED, 1)));
     }
     constants
 }
