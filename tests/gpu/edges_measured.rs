@@ -188,9 +188,9 @@ fn edges_against_256_samples() {
             };
             let exact = Settings { samples: Samples(SAMPLES), ..base.clone() };
             let camera = match &hard.scene.meshes[..] {
-                [] if hard.name.ends_with("toml") || hard.name.contains("27") => hard.camera.clone(),
+                [] if hard.name.ends_with("toml") || hard.name.contains("27") => hard.camera,
                 [] => Camera::fit(&hard.scene.ball().unwrap(), [size; 2], Camera::DEFAULT_FOV_Y_RAD),
-                _ => hard.camera.clone(),
+                _ => hard.camera,
             };
             let hard = Hard { camera, ..hard.clone() };
             let views: Vec<Camera> = (0..TURNS).map(|i| turned(&hard.camera, TURN_DEG * i as f64)).collect();
