@@ -15,16 +15,16 @@ use crate::{
     save,
 };
 
-/// Fails at its write or seek number `left`, counted from 0, and at all later ones.
+/// Fails at its write or seek number `left`, counted from 0, and at no other: who goes on after that shows.
 struct Failing<W> {
     inner: W,
-    left: usize,
+    left: i32,
 }
 
 impl<W> Failing<W> {
     fn count(&mut self) -> io::Result<()> {
-        self.left = self.left.checked_sub(1).ok_or_else(|| io::Error::other("no room left"))?;
-        Ok(())
+        self.left -= 1;
+        if self.left == -1 { Err(io::Error::other("no room left")) } else { Ok(()) }
     }
 }
 
