@@ -45,6 +45,8 @@ pub mod graph;
 pub mod hard_scenes;
 pub mod instruments;
 #[cfg(feature = "files")]
+pub mod levels_file;
+#[cfg(feature = "files")]
 pub mod load;
 pub mod math;
 pub mod notes;

@@ -40,6 +40,7 @@ use input::Input;
 
 pub use loaded::{Loaded, Model};
 pub use options::{Limits, LoadOptions};
+pub use ply::SplatRows;
 pub use scene_file::{
     BuiltIn, MOST_BUILT_IN_SPLATS, MOST_OBJECTS, MOST_SCENE_FILE_BYTES, ObjectDescription,
     PictureDescription, Polygons, Representation, Samples, SceneFile, Source, is_scene_file, load_scene_file,

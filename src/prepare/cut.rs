@@ -9,7 +9,6 @@ use super::{
     memory::Uploader,
     mesh_chunk::PackedMesh,
     near_surfaces,
-    overlap::overlap,
     pack::{self, Beside},
     pieces,
     sequence::Sequence,
@@ -17,6 +16,7 @@ use super::{
 };
 use crate::{
     error::Result,
+    geometry::overlap,
     progress::Progress,
     scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
@@ -60,6 +60,12 @@ pub(super) fn cut(
         match &leveled {
             None => cut.object(object, epsilon, auto)?,
             Some(leveled) => cut.levels(leveled, epsilon, auto)?,
+        }
+    }
+    for object in &scene.leveled {
+        cut.total += (object.leaves.len() + object.nodes.len()) as u64;
+        if object.opacity != Opacity::Invisible {
+            cut.levels(&Leveled::of(object), None, !scene.without_auto_epsilon)?;
         }
     }
     scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
@@ -118,7 +124,7 @@ impl Cut<'_, '_> {
         let mut whole = object.clone();
         let defects = whole.splats.drop_defective();
         self.step(0);
-        let leveled = Leveled::new(&whole, &Quiet)?;
+        let leveled = Leveled::new(whole, &Quiet)?;
         if leveled.is_some() {
             self.prepared.defects.merge(&defects);
             self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.splats.len() as u64);
@@ -129,10 +135,9 @@ impl Cut<'_, '_> {
 
     /// Its own splats, then the nodes, which have ε in radii of their own.
     fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
-        let overlap = overlap(&leveled.leaves.splats);
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
-        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, overlap, levels(false))?;
-        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, overlap, levels(true))
+        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, leveled.overlap, levels(false))?;
+        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, leveled.overlap, levels(true))
     }
 
     /// `auto`: ε is to fit what is near each splat.
@@ -159,7 +164,10 @@ impl Cut<'_, '_> {
         let (splats, storage) = (&object.splats, self.prepared.storage);
         // Before it is cut, so that chunks are compact.
         let sequence = Sequence::of(splats, order);
-        let transparent = splats.colors.opacity() == Opacity::Transparent;
+        let transparent = levels.map_or_else(
+            || splats.colors.opacity() == Opacity::Transparent,
+            |(leveled, _)| leveled.transparent,
+        );
         // Packed disks have no room for a share.
         let exact = storage.format == SplatFormat::Exact;
         // So that a bar is there meanwhile.

@@ -10,9 +10,9 @@ use glam::DVec3;
 
 use crate::{
     error::Result,
-    geometry::hierarchy::{ErrorBall, Hierarchy, Levels, Node},
+    geometry::hierarchy::{Hierarchy, by_spread},
     progress::Progress,
-    scene::{Colors, Object, Shapes, Splats},
+    scene::{ErrorBall, LeveledObject, NodeBalls, Object, Opacity, Splats},
 };
 
 /// The space in which balls are told.
@@ -62,18 +62,22 @@ pub struct BallBounds {
 
 /// An object in levels.
 pub(super) struct Leveled {
-    hierarchy: Hierarchy,
     space: LevelSpace,
+    balls: Vec<ErrorBall>,
     /// The object's own splats, the largest parents first.
     pub leaves: Object,
-    /// Their places along the tree.
-    places: Vec<u32>,
+    /// Their parents' balls.
+    leaf_parents: Vec<u32>,
     /// The nodes, the largest first.
     pub nodes: Object,
-    /// Their numbers.
-    numbers: Vec<u32>,
+    /// Their balls and their parents'.
+    node_balls: Vec<NodeBalls>,
     /// What each node weighs: the area of the disks below over its own.
     weights: Vec<f32>,
+    /// Some of the object is transparent.
+    pub transparent: bool,
+    /// The sum of weights that the object leaves inside of its surface; 1 or more.
+    pub overlap: f64,
 }
 
 impl ChunkLevels {
@@ -92,30 +96,32 @@ impl Leveled {
     ///
     /// # Errors
     /// As [`Hierarchy::build`].
-    pub fn new(object: &Object, progress: &dyn Progress) -> Result<Option<Self>> {
+    pub fn new(object: Object, progress: &dyn Progress) -> Result<Option<Self>> {
         let hierarchy = Hierarchy::build(&object.splats, progress)?;
-        let Some(root) = hierarchy.bounds.first() else { return Ok(None) };
-        let unit = f64::from(root.error.radius).log2().ceil().clamp(-100.0, 100.0).exp2();
-        let space = LevelSpace { origin: hierarchy.origin, scale: unit.recip() };
-        let spread = |node: u32| {
-            hierarchy.bounds.get(node as usize).map_or(f32::INFINITY, |bounds| bounds.error.spread)
+        Ok((!hierarchy.tree.is_empty()).then(|| Self::of(&hierarchy.leveled(object))))
+    }
+
+    /// What there is of an object in levels.
+    pub fn of(object: &LeveledObject) -> Self {
+        let unit = object.radius.log2().ceil().clamp(-100.0, 100.0).exp2();
+        let spread = |ball: u32| object.balls[ball as usize].spread;
+        let numbers = |sorted: Vec<(u32, i32)>| -> Vec<usize> {
+            sorted.into_iter().map(|(number, _)| number as usize).collect()
         };
-        let places = by_spread(hierarchy.order.len(), |place| spread(hierarchy.leaf_parents[place]));
-        let numbers = by_spread(hierarchy.tree.len(), |node| spread(node as u32));
-        let weights = weights(&hierarchy, &object.splats);
+        let leaves = numbers(by_spread(object.leaves.len(), |i| spread(object.leaf_parents[i])));
+        let nodes = numbers(by_spread(object.nodes.len(), |i| spread(object.node_balls[i].own)));
         let of = |splats: Splats| Object { name: object.name.clone(), splats, closed: object.closed };
-        Ok(Some(Self {
-            space,
-            leaves: of(picked(
-                &object.splats,
-                places.iter().map(|place| hierarchy.order[*place as usize] as usize),
-            )),
-            nodes: of(picked(&hierarchy.nodes, numbers.iter().map(|number| *number as usize))),
-            weights,
-            places,
-            numbers,
-            hierarchy,
-        }))
+        Self {
+            space: LevelSpace { origin: object.origin, scale: unit.recip() },
+            balls: object.balls.clone(),
+            leaf_parents: leaves.iter().map(|i| object.leaf_parents[*i]).collect(),
+            leaves: of(object.leaves.picked(leaves.into_iter())),
+            node_balls: nodes.iter().map(|i| object.node_balls[*i]).collect(),
+            weights: nodes.iter().map(|i| object.weights[*i]).collect(),
+            nodes: of(object.nodes.picked(nodes.into_iter())),
+            transparent: object.opacity == Opacity::Transparent,
+            overlap: object.overlap,
+        }
     }
 
     /// What a chunk of it holds.
@@ -125,80 +131,24 @@ impl Leveled {
 
     /// What splat `i` of the leaves or the nodes weighs.
     pub fn weight(&self, levels: ChunkLevels, i: usize) -> f64 {
-        if levels.nodes { self.weights[self.numbers[i] as usize].into() } else { 1.0 }
+        if levels.nodes { self.weights[i].into() } else { 1.0 }
     }
 
     /// The balls of splat `i` of the leaves or the nodes, as a device has them.
     pub fn push(&self, levels: ChunkLevels, i: usize, floats: &mut Vec<f32>) {
-        let Levels { own, parent } = match levels.nodes {
-            true => self.hierarchy.node_levels(self.numbers[i] as usize),
-            false => self.hierarchy.leaf_levels(self.places[i] as usize),
-        };
         let scale = self.space.scale as f32;
-        let mut push = |ball: ErrorBall| {
+        let mut push = |ball: u32| {
+            let ball = &self.balls[ball as usize];
             floats.extend((scale * ball.center).to_array());
             floats.extend([scale * ball.radius, scale * ball.spread]);
         };
-        push(parent);
-        if levels.nodes {
-            push(own);
+        match levels.nodes {
+            true => {
+                push(self.node_balls[i].parent);
+                push(self.node_balls[i].own);
+            }
+            false => push(self.leaf_parents[i]),
         }
-    }
-}
-
-/// Where nodes are drawn for splats, weights add up to what those would leave there: each node weighs by the area of the disks below it.
-fn weights(hierarchy: &Hierarchy, splats: &Splats) -> Vec<f32> {
-    let mut area = 0.0;
-    let mut areas_before = vec![area];
-    areas_before.extend(hierarchy.order.iter().map(|i| {
-        area += area_of(splats, *i as usize);
-        area
-    }));
-    let below =
-        |node: &Node| areas_before[node.splats.end as usize] - areas_before[node.splats.start as usize];
-    let nodes = (0..).zip(&hierarchy.tree);
-    nodes.map(|(i, node)| (below(node) / area_of(&hierarchy.nodes, i)) as f32).collect()
-}
-
-/// Over π.
-fn area_of(splats: &Splats, i: usize) -> f64 {
-    match &splats.shapes {
-        Shapes::Disks { radii, .. } => f64::from(radii[i]).powi(2),
-        Shapes::Ellipses { s, t } => s[i].as_dvec3().cross(t[i].as_dvec3()).length(),
-    }
-}
-
-/// Steps of spread by which splats are told apart: half of one and a half.
-const STEPS_AN_OCTAVE: f32 = 2.0;
-
-/// Numbers below `count` from the largest spread to the least, in steps; in each step in their order. What a camera sees at one distance is
-/// then of few blocks, of which the others are known to have nothing to draw.
-fn by_spread(count: usize, spread: impl Fn(usize) -> f32) -> Vec<u32> {
-    let step = |i: &u32| (STEPS_AN_OCTAVE * spread(*i as usize).log2()).clamp(-1e3, 1e3).floor() as i32;
-    let mut numbers: Vec<u32> = (0..count as u32).collect();
-    numbers.sort_by_cached_key(|i| std::cmp::Reverse(step(i)));
-    numbers
-}
-
-/// Some splats of these.
-fn picked(splats: &Splats, which: impl Iterator<Item = usize> + Clone) -> Splats {
-    fn of<T: Copy>(all: &[T], which: impl Iterator<Item = usize>) -> Vec<T> {
-        which.map(|i| all[i]).collect()
-    }
-    Splats {
-        positions: of(&splats.positions, which.clone()),
-        shapes: match &splats.shapes {
-            Shapes::Disks { normals, radii } => {
-                Shapes::Disks { normals: of(normals, which.clone()), radii: of(radii, which.clone()) }
-            }
-            Shapes::Ellipses { s, t } => {
-                Shapes::Ellipses { s: of(s, which.clone()), t: of(t, which.clone()) }
-            }
-        },
-        colors: match &splats.colors {
-            Colors::Uniform(color) => Colors::Uniform(*color),
-            Colors::Each(colors) => Colors::Each(of(colors, which)),
-        },
     }
 }
 

@@ -13,7 +13,6 @@ mod levels;
 mod memory;
 mod mesh_chunk;
 mod near_surfaces;
-mod overlap;
 mod pack;
 mod packed;
 mod radii;

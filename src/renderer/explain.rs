@@ -2,10 +2,11 @@
 
 use super::Renderer;
 use crate::{
+    error::{Error, Result},
     graph::{Access, PassKind, Plan, ResourceDesc},
     passes,
     prepare::PreparedScene,
-    scene::{Camera, Settings},
+    scene::{Camera, OptionValue as _, Settings},
 };
 
 /// What a scene, a camera and settings made of a frame, and why. Lengths are in pixels, memory in bytes.
@@ -108,6 +109,23 @@ pub struct ExplainedUse {
 }
 
 impl Renderer {
+    /// Refuses settings that draw no levels of detail, of a scene that holds no more than some view of these needs
+    /// ([`crate::scene::LeveledObject`]).
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`].
+    pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
+        let frame = passes::FramePlan::new(scene, camera, settings, &self.limits);
+        match passes::unused_levels(scene, &frame, settings) {
+            None => Ok(()),
+            Some(_) => {
+                let problem = "these settings draw no levels of detail, and the splats below them were not read; expected --rasterizer auto or \
+                     compute, or --lod 0";
+                Err(Error::option("--lod", format!("{}: {problem}", settings.lod.word())))
+            }
+        }
+    }
+
     /// Explains the frame that was recorded as `plan`.
     pub fn explain(
         &self,

@@ -9,6 +9,7 @@ pub use exr::exr;
 pub use png::{png, png_bytes};
 pub use splats::{WrittenSplats, splats};
 
+pub(crate) use whole::{Scratch, create};
 pub use whole::{check_place, remove_unfinished};
 
 use std::{io::Write as _, path::Path};

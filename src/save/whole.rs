@@ -80,16 +80,37 @@ impl Temporary {
 /// Creates or replaces `path` with what `fill` writes. A link is followed: what it names is replaced. What is replaced hands on its
 /// permissions.
 pub(super) fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {
+    create(path, |file| fill(file).map_err(|e| Error::file(path, "write", e)))
+}
+
+/// As [`write`], where more than writing may fail, and something is answered.
+pub(crate) fn create<T>(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
     let fail = |e: io::Error| Error::file(path, "write", e);
     let (place, old) = place_of(path).map_err(fail)?;
     let (file, temporary) = Temporary::beside(&place).map_err(fail)?;
     let mut writer = BufWriter::new(file);
-    fill(&mut writer).and_then(|()| writer.flush()).map_err(fail)?;
+    let filled = fill(&mut writer)?;
+    writer.flush().map_err(fail)?;
     if let Some(old) = old {
         writer.get_ref().set_permissions(old.permissions()).map_err(fail)?;
     }
     drop(writer);
-    temporary.become_whole(&place).map_err(fail)
+    temporary.become_whole(&place).map_err(fail)?;
+    Ok(filled)
+}
+
+/// A file beside `path` for what is needed until that is written; removed when it is dropped, and with all that is unfinished.
+pub(crate) struct Scratch {
+    pub file: File,
+    _temporary: Temporary,
+}
+
+impl Scratch {
+    pub fn beside(path: &Path) -> Result<Self> {
+        let made = place_of(path).and_then(|(place, _)| Temporary::beside(&place));
+        let (file, temporary) = made.map_err(|e| Error::file(path, "write", e))?;
+        Ok(Self { file, _temporary: temporary })
+    }
 }
 
 /// Where a file is written that is named so, and the file that is there.

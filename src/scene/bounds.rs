@@ -20,6 +20,23 @@ pub struct Ball {
     pub radius: f64,
 }
 
+impl Ball {
+    /// The smallest ball around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        let apart = other.center - self.center;
+        let distance = apart.length();
+        match () {
+            () if distance + other.radius <= self.radius => self,
+            () if distance + self.radius <= other.radius => other,
+            () => {
+                let radius = 0.5 * (distance + self.radius + other.radius);
+                Self { center: self.center + apart * ((radius - self.radius) / distance), radius }
+            }
+        }
+    }
+}
+
 impl Bounds {
     /// The box around a ball, which for a disk is a safe and simple choice.
     pub fn of_ball(center: DVec3, radius: f64) -> Self {

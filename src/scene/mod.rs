@@ -9,7 +9,9 @@ mod camera_parts;
 mod colors;
 mod crop;
 mod encoding;
+mod gather;
 mod layers;
+mod levels;
 mod light;
 mod lod;
 mod mesh;
@@ -33,6 +35,7 @@ pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
 pub use layers::{Layers, MOST_LAYERS};
+pub use levels::{ErrorBall, LeveledObject, NodeBalls};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use lod::Lod;
 pub use mesh::Mesh;
@@ -98,10 +101,12 @@ pub struct Scene {
     pub without_auto_epsilon: bool,
     /// Objects of splats get levels of detail when the scene is prepared: [`Settings::lod`] then has something to choose from.
     pub levels: bool,
+    /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
+    pub leveled: Vec<LeveledObject>,
 }
 
 impl Scene {
-    /// How many splats all objects have together.
+    /// How many splats all objects have together, those without levels of detail.
     pub fn splat_count(&self) -> usize {
         self.objects.iter().map(|object| object.splats.len()).sum()
     }

@@ -182,7 +182,9 @@ impl Settings {
             return Err(Error::option("lights", problem));
         }
         let splats = scene.objects.iter().map(|object| (&object.name, object.splats.colors.opacity()));
+        let leveled = scene.leveled.iter().map(|object| (&object.name, object.opacity));
         splats
+            .chain(leveled)
             .filter(|(_, opacity)| *opacity == Opacity::Transparent)
             .try_for_each(|(name, _)| self.check_eye_dome(name, "transparent"))?;
         scene.meshes.iter().try_for_each(|mesh| self.check_eye_dome(&mesh.name, "drawn as triangles"))?;

@@ -11,6 +11,7 @@ mod files;
 mod formats;
 mod growth;
 mod hard_files;
+mod hierarchies;
 mod inputs;
 mod orthographic;
 mod outputs;

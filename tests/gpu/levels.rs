@@ -12,7 +12,7 @@ use surfel::{
 };
 
 /// A ball of many splats in a small picture, drawn by levels of this size.
-fn ball(count: usize, tau_px: f64) -> Hard {
+pub fn ball(count: usize, tau_px: f64) -> Hard {
     let mut hard = scenes::sphere_of_disks();
     hard.scene.objects = vec![scenes::sphere(count, DVec3::ZERO)];
     hard.scene.levels = tau_px > 0.0;
@@ -59,7 +59,7 @@ fn what_is_drawn_is_what_the_hierarchy_selects() {
 }
 
 /// In linear light, over nothing: alpha too.
-fn rms(a: &Frame, b: &Frame) -> f64 {
+pub fn rms(a: &Frame, b: &Frame) -> f64 {
     let squares: Vec<f64> = a
         .linear
         .iter()

@@ -17,6 +17,7 @@ mod f16;
 mod floor;
 mod frame_graph;
 mod hard_cases;
+mod hierarchy_files;
 mod in_use;
 mod levels;
 mod lifetime;

@@ -15,6 +15,7 @@ const LAYERS: &[&[&str]] = &[
     &["scene"],
     &["load", "save", "hard_scenes"],
     &["geometry"],
+    &["levels_file"],
     &["reference"],
     &["count"],
     &["report"],

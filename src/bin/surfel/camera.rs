@@ -280,6 +280,7 @@ mod tests {
             picture: PictureDescription::default(),
             inputs: Vec::new(),
             steps: Vec::new(),
+            hierarchies: Vec::new(),
         };
         let eye = |x: f64| Some(DVec3::new(x, 1.0, 1.0));
         let parts = CameraParts { eye: eye(7.0), fov_y_rad: Some(0.5), ..CameraParts::default() };

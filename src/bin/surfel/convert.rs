@@ -1,18 +1,25 @@
 //! `surfel convert`: a model as a file of splats.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
+use glam::DVec3;
 use surfel::{
-    Result,
+    Error, Result,
     compose::splats_kind,
-    load::{LoadOptions, Model, load},
+    geometry::up_of_shape,
+    levels_file::{self, LEAST_MEMORY, Written},
+    load::{LoadOptions, Model, SplatRows, file_name, load},
     report::InputReport,
     save,
-    scene::Object,
+    scene::{Object, Scene},
 };
 
 use crate::{
+    allocator,
     console::{self, Bars},
     outputs, parse,
     scene::{load_object, not_a_mesh, refuse_losses, resample_mesh},
@@ -26,12 +33,16 @@ the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbor
 
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
 alpha (sRGB) where the model has colors. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
-surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn.";
+surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn.
+
+A file that is named .surfel holds the splats and their levels of detail in pages, of which `surfel render --lod 1px` reads those that its \
+view needs (docs/format.md).";
 
 const EXAMPLES: &str = "Examples:
   surfel convert igea.ply splats.ply                          a disk at each vertex
   surfel convert igea.ply igea-1m.ply --resample 1M           a million disks, evenly spread
-  surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7";
+  surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7
+  surfel convert igea-1m.ply igea-1m.surfel           with levels of detail, of which a view reads what it needs";
 
 /// Write a model as a file of splats, at a mesh's vertices or anew over its area
 #[derive(Args)]
@@ -41,7 +52,7 @@ pub struct ConvertArguments {
     #[arg(value_name = "INPUT")]
     input: PathBuf,
 
-    /// The file of splats, .ply; an old one is replaced
+    /// The file of splats, .ply, or .surfel with levels of detail; an old one is replaced
     #[arg(value_name = "OUTPUT")]
     output: PathBuf,
 
@@ -53,6 +64,11 @@ pub struct ConvertArguments {
     #[arg(long, value_name = "S", default_value_t = 0, requires = "resample")]
     #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     seed: u64,
+
+    /// So much memory for a .surfel file, such as 512MB: of a binary PLY file of splats that does not fit, it is built part by part, with as much
+    /// room beside OUTPUT as INPUT has bytes; other files are refused then [default: 2GB for these, and no limit for others]
+    #[arg(long, value_name = "BYTES", value_parser = parse::bytes(LEAST_MEMORY), allow_hyphen_values = true)]
+    memory: Option<u64>,
 
     /// Fail where anything of the file is left out, merged, replaced, clamped or ignored
     #[arg(long)]
@@ -66,16 +82,22 @@ pub struct ConvertArguments {
 pub fn run(arguments: &ConvertArguments) -> Result<()> {
     outputs::check_converted(&arguments.input, &arguments.output)?;
     let bars = Bars::new();
+    if let Some(rows) = larger_than_memory(arguments)? {
+        return convert_in_parts(arguments, rows, &bars);
+    }
     let made = match arguments.resample {
         Some(count) => resampled_file(&arguments.input, count, arguments.seed, &bars),
         None => load_object(&arguments.input, &bars),
     };
     bars.clear();
-    let (object, report) = made?;
+    let (object, report, up) = made?;
     if arguments.strict {
         refuse_losses(&report)?;
     }
     let summary = report.summary;
+    if is_hierarchy(&arguments.output) {
+        return write_hierarchy(arguments, object, up, &summary, &bars);
+    }
     let written = save::splats(&arguments.output, &object.splats, object.closed, &bars);
     bars.clear();
     let written = written?;
@@ -87,8 +109,110 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     console::print(&format!("{summary} -> {output}: {count} {kind}{positions}{closed}, {bytes} bytes"))
 }
 
+/// Whether a file is to have levels of detail, by its name.
+fn is_hierarchy(output: &Path) -> bool {
+    output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("surfel"))
+}
+
+/// The most memory for a file of splats where none is given.
+const DEFAULT_MEMORY: u64 = 2_000_000_000;
+
+/// By how much more memory at least a file takes that is not read row by row.
+const BYTES_A_BYTE: u64 = 8;
+
+/// The rows of a file that is to have levels of detail, and is too large for them to be made in one go.
+///
+/// # Errors
+/// A file that is too large and has no such rows; `--memory` where it means nothing.
+fn larger_than_memory(arguments: &ConvertArguments) -> Result<Option<SplatRows>> {
+    let ConvertArguments { input, output, memory, .. } = arguments;
+    match memory {
+        Some(_) if !is_hierarchy(output) => {
+            return Err(Error::option("--memory", "only for an OUTPUT that is named .surfel"));
+        }
+        None if !is_hierarchy(output) => return Ok(None),
+        _ => {}
+    }
+    let rows = if arguments.resample.is_none() && input.is_file() {
+        SplatRows::open(input, &LoadOptions::default())?
+    } else {
+        None
+    };
+    match (rows, *memory) {
+        (Some(rows), memory) => {
+            let fits = levels_file::fits(rows.count(), memory.unwrap_or(DEFAULT_MEMORY));
+            Ok((!fits).then_some(rows))
+        }
+        (None, Some(memory)) => {
+            let bytes = fs::metadata(input).map_or(0, |metadata| metadata.len()).saturating_mul(BYTES_A_BYTE);
+            if bytes <= memory {
+                return Ok(None);
+            }
+            let problem = format!(
+                "{memory} bytes; {} takes more than {bytes}; expected a binary PLY file of splats, which is read in parts (surfel convert {} \
+                 splats.ply)",
+                input.display(),
+                input.display()
+            );
+            Err(Error::option("--memory", problem))
+        }
+        (None, None) => Ok(None),
+    }
+}
+
+/// Writes splats with levels of detail, part by part.
+fn convert_in_parts(arguments: &ConvertArguments, rows: SplatRows, bars: &Bars) -> Result<()> {
+    let name = file_name(&arguments.input);
+    let (count, memory) = (rows.count(), arguments.memory.unwrap_or(DEFAULT_MEMORY));
+    allocator::begin_peak();
+    let written = levels_file::convert_splats(rows, &arguments.output, memory, arguments.strict, bars);
+    bars.clear();
+    let (written, defects) = written?;
+    let peak_bytes = allocator::peak_bytes();
+    let left_out = match defects.total() {
+        0 => String::new(),
+        total => format!("; {total} splats left out: {defects}"),
+    };
+    let parts = format!(", built in {} parts within {peak_bytes} bytes of memory", written.parts);
+    say_written(&format!("{name}: {count} splats{left_out}"), &arguments.output, &written, &parts)
+}
+
+/// Writes splats with levels of detail.
+fn write_hierarchy(
+    arguments: &ConvertArguments,
+    object: Object,
+    up: Option<DVec3>,
+    summary: &str,
+    bars: &Bars,
+) -> Result<()> {
+    let mut scene = Scene { objects: vec![object], ..Scene::default() };
+    let up = up.or_else(|| up_of_shape(&scene).map(|found| found.direction));
+    let Some(object) = scene.objects.pop() else { return Ok(()) };
+    let written = levels_file::write_object(&arguments.output, &object, up, bars);
+    bars.clear();
+    say_written(summary, &arguments.output, &written?, "")
+}
+
+fn say_written(summary: &str, output: &Path, written: &Written, how: &str) -> Result<()> {
+    let header = &written.header;
+    let kind = if header.ellipses { "ellipses" } else { "disks" };
+    let output = output.display();
+    console::print(&format!(
+        "{summary} -> {output}: {} {kind} below {} nodes in {} pages{how}, {} bytes",
+        header.splats,
+        header.nodes,
+        header.pages,
+        header.file_bytes()
+    ))
+}
+
 /// Splats spread evenly over the mesh in a file, and what was done.
-fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Object, InputReport)> {
+fn resampled_file(
+    path: &Path,
+    count: u64,
+    seed: u64,
+    bars: &Bars,
+) -> Result<(Object, InputReport, Option<DVec3>)> {
     let loaded = load(path, &LoadOptions::default(), bars)?;
     let mesh = match loaded.model {
         Model::Mesh(mesh) => mesh,
@@ -96,5 +220,5 @@ fn resampled_file(path: &Path, count: u64, seed: u64, bars: &Bars) -> Result<(Ob
     };
     let (object, mut report) = resample_mesh(&mesh, path, count, seed, bars)?;
     report.notes = [loaded.notes, report.notes].concat();
-    Ok((object, report))
+    Ok((object, report, loaded.up))
 }

@@ -12,6 +12,7 @@ mod device;
 mod emptiness;
 mod explain;
 mod figure;
+mod hierarchies;
 mod info;
 mod inputs;
 #[cfg(unix)]

@@ -136,7 +136,7 @@ fn models_of(scene_file: &Path) -> Vec<PathBuf> {
 /// # Errors
 /// A name that is not .ply; a place that can't be written to; the input's own.
 pub fn check_converted(input: &Path, output: &Path) -> Result<()> {
-    check_name("OUTPUT", output, &["ply"])?;
+    check_name("OUTPUT", output, &["ply", "surfel"])?;
     save::check_place(output)?;
     match input.canonicalize().is_ok_and(|input| input == place_of(output)) {
         true => Err(Error::option(output.display().to_string(), "is the input")),

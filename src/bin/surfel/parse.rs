@@ -21,6 +21,20 @@ pub fn triple(word: &str) -> Result<[f64; 3], String> {
     <[f64; 3]>::parse(word)
 }
 
+/// `256MB`: a number of bytes, `least` or more, with k, M or G for thousands, and a B behind it or not.
+pub fn bytes(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |word| {
+        let number = word.strip_suffix('B').unwrap_or(word);
+        let of = |letter: char, unit: u64| Some((number.strip_suffix(letter)?, unit));
+        let (digits, unit) =
+            of('k', 1_000).or(of('M', 1_000_000)).or(of('G', 1_000_000_000)).unwrap_or((number, 1));
+        let is_number = digits.starts_with(|first: char| first.is_ascii_digit());
+        let bytes = digits.parse().ok().filter(|_| is_number).map(|number: f64| number * unit as f64);
+        let bytes = bytes.filter(|bytes| *bytes >= least as f64 && *bytes < 1e18).map(|bytes| bytes as u64);
+        bytes.ok_or_else(|| format!("expected a number of bytes, {least} at least, such as 512MB or 2GB"))
+    }
+}
+
 /// A whole number within `range`; `10k` is ten thousand, `1.4M` a million and four hundred thousand.
 pub fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
 where
@@ -81,6 +95,18 @@ mod tests {
             (Ok(u64::MAX), Ok(9000))
         );
         assert_eq!(number("percent", 0.0..=1000.0)("2.5"), Ok(2.5));
+    }
+
+    #[test]
+    fn bytes_have_thousands_as_units() {
+        let of = |word: &str| bytes(1000)(word).ok();
+        assert_eq!(
+            [of("512MB"), of("2G"), of("1.5kB"), of("4096")],
+            [512_000_000, 2_000_000_000, 1500, 4096].map(Some)
+        );
+        for word in ["", "999", "MB", "-1GB", "NaN", "infGB", "1TB", "1e30"] {
+            assert_eq!(of(word), None, "{word}");
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ use crate::{
     console::{self, Bars},
     device::DeviceArguments,
     emptiness, explain,
+    hierarchies::{self, HierarchyArguments, load_scene_with_hierarchies},
     inputs::INPUTS,
     json::write_json,
     measure::{self, View},
@@ -23,7 +24,7 @@ use crate::{
     picture::{Drawn, PictureArguments},
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
-    scene::{Loaded, load_scene, upload},
+    scene::{Loaded, upload},
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
@@ -54,6 +55,9 @@ pub struct RenderArguments {
 
     #[command(flatten)]
     storage: Given<Storage>,
+
+    #[command(flatten)]
+    hierarchies: HierarchyArguments,
 
     /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
     /// --timings, else none]
@@ -102,18 +106,25 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
+    let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), &bars)?;
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
     let settings = &Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
-    settings.check_scene(&loaded.scene)?; // names the object, which the renderer does not know
     let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
-    let Loaded { mut scene, inputs, steps: loading, ball, .. } = loaded;
+    let Loaded { mut scene, inputs, steps: loading, ball, hierarchies: files, .. } = loaded;
     steps.0.extend(loading);
+    let has_hierarchies = !files.is_empty();
+    let settings = &steps.time("read pages", || {
+        hierarchies::load(files, &mut scene, (&camera, settings), &arguments.hierarchies, &bars)
+    })?;
+    settings.check_scene(&scene)?; // names the object, which the renderer does not know
     scene.storage = arguments.storage.over(Storage::default());
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     scene.levels = settings.lod.wants_levels();
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
+    if has_hierarchies {
+        headless.renderer.check_levels(&prepared, &camera, settings)?;
+    }
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
     compose::{build, make, resampled},
     geometry::{FoundUp, up_of_shape},
+    levels_file::LevelsFile,
     load::{
         BuiltIn, LoadOptions, Model, ObjectDescription, PictureDescription, Representation, Samples, Source,
         file_name, is_scene_file, load_scene_file,
@@ -38,6 +40,8 @@ pub struct Loaded {
     pub inputs: Vec<InputReport>,
     /// The steps of loading.
     pub steps: Vec<Step>,
+    /// Files of which a view reads what it needs; they are in none of the above but ball, up and inputs.
+    pub hierarchies: Vec<LevelsFile>,
 }
 
 /// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it. Meshes are
@@ -66,7 +70,7 @@ pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
     let up = up::of(ups).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
-    Ok(Loaded { scene, ball, camera, picture, up, inputs: reports, steps })
+    Ok(Loaded { scene, ball, camera, picture, up, inputs: reports, steps, hierarchies: Vec::new() })
 }
 
 /// Refuses what is not drawn as its file says it.
@@ -91,15 +95,15 @@ pub fn upload(headless: &Headless, scene: &Scene, bars: &Bars) -> Result<Prepare
     prepared
 }
 
-/// The splats of one input that is no scene file, without those that can't be drawn.
-pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport)> {
+/// The splats of one input that is no scene file, without those that can't be drawn, and the direction that is up if its file tells one.
+pub fn load_object(path: &Path, bars: &Bars) -> Result<(Object, InputReport, Option<DVec3>)> {
     let representation = Representation::Splats;
     let object = ObjectDescription { representation, ..ObjectDescription::of_file(path) };
     let built = make(&object, &LoadOptions::default(), bars);
     bars.clear();
     let built = built?;
     let splats = built.splats.ok_or_else(|| Error::input(path, "", "has no splat"))?;
-    Ok((splats, built.report))
+    Ok((splats, built.report, built.up))
 }
 
 /// Why a file of splats or points can't be resampled.

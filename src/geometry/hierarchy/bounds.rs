@@ -10,6 +10,7 @@
 use glam::{DVec3, Vec3};
 
 use super::disks::Disk;
+use crate::scene::ErrorBall;
 
 /// By which parts of itself each bound is larger than it must be.
 const ROOM: f64 = 1.0 / (1 << 20) as f64;
@@ -19,18 +20,6 @@ const LONGEST: f64 = 4.0;
 
 /// More than f32 loses of the angle between two unit vectors.
 const ROOM_RAD: f64 = 1e-6;
-
-/// From which size on the screen a node's own follows, and never less than a child's: see [`super::Projection::size_px`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ErrorBall {
-    /// The middle of the ball, from [`super::Hierarchy::origin`].
-    pub center: Vec3,
-    /// Of the ball around the node's ellipse, all disks below and the children's balls.
-    pub radius: f32,
-    /// How far what is below spreads: the root of the mean squared distance of the disks' centers from the node's, by area; or a
-    /// quarter of the node's longer half axis, or what a child has, if that is more. Above those of the children, and above 0.
-    pub spread: f32,
-}
 
 /// A cone of directions around an axis: all normals of the disks below, and the children's cones.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,14 +37,6 @@ pub struct Bounds {
     pub error: ErrorBall,
     /// Of the normals below.
     pub cone: NormalCone,
-}
-
-impl ErrorBall {
-    /// Of a splat of the input: of size 0 wherever it is seen from.
-    pub const LEAF: Self = Self { center: Vec3::ZERO, radius: 0.0, spread: 0.0 };
-
-    /// Of the root's parent: larger than any screen.
-    pub const ABOVE_ROOT: Self = Self { center: Vec3::ZERO, radius: 0.0, spread: f32::INFINITY };
 }
 
 impl Bounds {

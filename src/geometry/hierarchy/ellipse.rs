@@ -63,11 +63,19 @@ impl Ellipse {
 
     /// The ellipse's axes, scaled so that all these disks project into it, along lines up to 45° from the normal.
     pub fn axes_around(&self, disks: &[Disk]) -> (DVec3, DVec3) {
-        let square = if disks.len() <= DISKS_AT_ONCE {
-            self.largest_square(disks)
-        } else {
-            disks.par_chunks(DISKS_AT_ONCE).map(|part| self.largest_square(part)).reduce(|| 0.0, f64::max)
-        };
+        self.axes_of(self.square_around(disks))
+    }
+
+    /// f² for these disks; 0 for none. That for all disks below is the largest of those for parts of them.
+    pub fn square_around(&self, disks: &[Disk]) -> f64 {
+        if disks.len() <= DISKS_AT_ONCE {
+            return self.largest_square(disks);
+        }
+        disks.par_chunks(DISKS_AT_ONCE).map(|part| self.largest_square(part)).reduce(|| 0.0, f64::max)
+    }
+
+    /// The ellipse's axes for this f².
+    pub fn axes_of(&self, square: f64) -> (DVec3, DVec3) {
         let [longer, shorter] = self.lengths;
         let f = square.sqrt() * (1.0 + ROUNDING * longer / shorter);
         (f * longer * self.major, f * shorter * self.minor)

@@ -15,10 +15,12 @@ mod bounds;
 mod disks;
 mod ellipse;
 mod farthest;
+mod leveled;
 mod moments;
 mod select;
 mod split;
 mod sums;
+mod top;
 
 #[cfg(test)]
 pub(crate) mod tests;
@@ -28,8 +30,11 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-pub use bounds::{Bounds, ErrorBall, NormalCone};
+pub use crate::scene::ErrorBall;
+pub use bounds::{Bounds, NormalCone};
+pub use leveled::by_spread;
 pub use select::{Projection, Selection};
+pub use top::{Child, PartSums, Top, TopNode};
 
 use crate::{
     error::{Error, Result},
@@ -108,8 +113,21 @@ impl Hierarchy {
     /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`], a coordinate or radius above
     /// [`LARGEST_COORDINATE`], and more than 2³² − 1 splats.
     pub fn build(splats: &Splats, progress: &dyn Progress) -> Result<Self> {
+        Self::build_around(splats, None, progress)
+    }
+
+    /// As [`Self::build`], of a part of a larger whole: with bounds that are counted from the whole's origin.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_part(splats: &Splats, origin: DVec3, progress: &dyn Progress) -> Result<Self> {
+        Self::build_around(splats, Some(origin), progress)
+    }
+
+    fn build_around(splats: &Splats, origin: Option<DVec3>, progress: &dyn Progress) -> Result<Self> {
         check(splats)?;
-        let (tree, origin) = split::split(splats, progress);
+        let (tree, mean) = split::split(splats, progress);
+        let origin = origin.unwrap_or(mean);
         let disks = Disks::of(splats, &tree.order);
         let (nodes, bounds) = sums::node_splats(&tree, &disks, &splats.colors, origin, progress);
         let split::Tree { nodes: tree, levels, order, leaf_parents } = tree;

@@ -62,11 +62,7 @@ pub(super) fn node_splats(
         let nodes = tree.nodes[level.clone()].par_iter().zip(&sums);
         nodes.zip(targets).for_each(|((node, sums), (splat, bounds))| {
             let center = sums.center;
-            let mean_normal = sums.normal / sums.moments.weight;
-            let covariance = sums.moments.covariance();
-            let squares = covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z;
-            let spread = (squares - sums.own_squares / sums.moments.weight).max(0.0).sqrt();
-            let ellipse = Ellipse::new(center, mean_normal, &covariance);
+            let (ellipse, spread) = sums.ellipse();
             let (s, t) = ellipse.axes_around(disks.run(&node.splats));
             *splat = NodeSplat { center, s: s.as_vec3(), t: t.as_vec3(), color: sums.mean_color() };
             let leaves = node.leaf_runs(&tree.nodes).flat_map(|run| disks.run(&run));
@@ -113,7 +109,7 @@ impl Sums {
         own_squares: 0.0,
     };
 
-    fn of_disk(disk: &Disk, colors: &Colors) -> Self {
+    pub fn of_disk(disk: &Disk, colors: &Colors) -> Self {
         let moments = Moments::of(disk);
         let [red, green, blue, alpha] = colors.get(disk.number as usize).unwrap_or_default().map(f64::from);
         let alpha = alpha.clamp(0.0, 1.0) * moments.weight;
@@ -122,7 +118,7 @@ impl Sums {
         Self { center: disk.center, moments, normal: disk.area_normal(), color, own_squares }
     }
 
-    fn of_parts(parts: &[Self]) -> Self {
+    pub fn of_parts(parts: &[Self]) -> Self {
         // Counted from one of them: the sum of coordinates far from the origin would lose digits.
         let start = parts[0].center;
         let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
@@ -140,8 +136,16 @@ impl Sums {
         sums
     }
 
+    /// The ellipse of what this is the sum of, not yet scaled, and how far its disks spread.
+    pub fn ellipse(&self) -> (Ellipse, f64) {
+        let covariance = self.moments.covariance();
+        let squares = covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z;
+        let spread = (squares - self.own_squares / self.moments.weight).max(0.0).sqrt();
+        (Ellipse::new(self.center, self.normal / self.moments.weight, &covariance), spread)
+    }
+
     /// Straight alpha; black where nothing is seen.
-    fn mean_color(&self) -> [f32; 4] {
+    pub fn mean_color(&self) -> [f32; 4] {
         let [red, green, blue, alpha] = self.color;
         let straight = |sum: f64| if alpha > 0.0 { (sum / alpha) as f32 } else { 0.0 };
         [straight(red), straight(green), straight(blue), (alpha / self.moments.weight) as f32]

@@ -81,6 +81,17 @@ impl FileColors {
         }
     }
 
+    /// Whether a color's light depends on no other: on the type of its numbers alone.
+    pub(super) fn stand_alone(&self) -> bool {
+        let exact = |white: &White| match (white.meaning, white.scalar) {
+            (Meaning::Unit, _) => true,
+            (Meaning::Exact, scalar) => matches!(scalar, Scalar::UShort | Scalar::Float | Scalar::Double),
+            _ => false,
+        };
+        let is_byte = |white: &White| white.meaning != Meaning::Unit && white.scalar == Scalar::UChar;
+        self.are_bytes || self.white.iter().all(|white| exact(white) || is_byte(white))
+    }
+
     /// Adds colors of the file's numbers, without alpha where it has none.
     pub(super) fn extend(&mut self, rgb: impl Iterator<Item = DVec3>, alpha: impl Iterator<Item = f64>) {
         if self.are_bytes {

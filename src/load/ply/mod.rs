@@ -9,6 +9,7 @@ mod faces;
 mod gaussian;
 mod header;
 mod layout;
+mod rows;
 mod schema;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,7 @@ use body::Body;
 use faces::{Triangles, corners};
 use header::Header;
 use layout::Layout;
+pub use rows::SplatRows;
 use schema::Element;
 use vertices::Vertices;
 

@@ -18,6 +18,12 @@ fn target(name: &str) -> &str {
     }
 }
 
+fn hierarchy(folder: &Folder) -> Vec<u8> {
+    let path = folder.path("a.surfel");
+    surfel::levels_file::write_object(&path, &surfel::load::builtin::relief(60), None, &()).unwrap();
+    fs::read(path).unwrap()
+}
+
 /// Writes them to the folder that `SURFEL_CORPUS` names, a folder of seeds a target.
 #[test]
 fn every_target_of_the_fuzzer_has_seeds() {
@@ -26,7 +32,7 @@ fn every_target_of_the_fuzzer_has_seeds() {
     let mut seeds = points::files(&points::ball(DVec3::ZERO)[..8]);
     seeds.extend(meshes::files(DVec3::ZERO));
     let rows = super::content(&seeds, "a.xyz");
-    let packed = [("a.gz", gzip(rows)), ("a.zst", zstd(rows))];
+    let packed = [("a.gz", gzip(rows)), ("a.zst", zstd(rows)), ("a.surfel", hierarchy(&nowhere))];
     seeds.extend(packed);
     for (name, bytes) in &seeds {
         let folder = corpus.join(target(name));

@@ -57,6 +57,7 @@ impl Source {
             up: None,
             inputs: vec![report],
             steps: Vec::new(),
+            hierarchies: Vec::new(),
         })
     }
 }

@@ -6,15 +6,18 @@ use serde::Serialize;
 use surfel::{
     Error, Result,
     geometry::{mean_edge, mean_spacing},
+    levels_file::LevelsFile,
+    load::file_name,
     report::{CameraReport, InputReport, ModelReport},
-    scene::{MeshObject, Object, Settings, Splats},
+    scene::{Bounds, MeshObject, Object, Settings, Splats},
 };
 
 use crate::{
     camera::{CameraArguments, CameraChoice},
     console::Bars,
+    hierarchies::load_scene_with_hierarchies,
     inputs::Inputs,
-    scene::{Loaded, load_scene},
+    scene::Loaded,
 };
 
 /// The bytes of most splats on a device, and those of one in a scene that is too extended for these.
@@ -51,6 +54,19 @@ struct Part {
     spacing: Option<f64>,
     /// Of splats: the smallest radius, the median and the largest.
     radii: Option<[f64; 3]>,
+    /// Of a file that has levels of detail; their splats are in no memory yet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    levels: Option<Levels>,
+}
+
+/// What a file has of levels of detail.
+#[derive(Serialize)]
+struct Levels {
+    /// Splats that stand for others.
+    nodes: u64,
+    pages: u32,
+    /// Of the whole file.
+    bytes: u64,
 }
 
 /// All of it together.
@@ -73,13 +89,23 @@ struct Whole {
 /// As [`load_scene`]; a camera without a picture.
 pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
     let choice = CameraChoice::of(camera)?;
-    let loaded = load_scene(inputs, &Bars::new())?;
+    let bars = Bars::new();
+    let mut loaded = load_scene_with_hierarchies(inputs, &bars)?;
+    for file in &mut loaded.hierarchies {
+        file.check(&bars)?;
+    }
     let camera = choice.camera(&loaded, Settings::default().size_px)?;
-    let Loaded { scene, up, inputs, .. } = loaded;
-    let bounds = scene.bounds().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
+    let Loaded { scene, up, inputs, hierarchies, .. } = loaded;
+    let bounds = hierarchies.iter().map(LevelsFile::bounds).chain(scene.bounds()).reduce(Bounds::union);
+    let bounds = bounds.ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let splats = scene.splat_count();
     let host_bytes = scene.objects.iter().map(|object| object.splats.bytes()).sum();
-    let parts = scene.objects.iter().map(splat_part).chain(scene.meshes.iter().map(mesh_part));
+    let parts = scene
+        .objects
+        .iter()
+        .map(splat_part)
+        .chain(scene.meshes.iter().map(mesh_part))
+        .chain(hierarchies.iter().map(hierarchy_part));
     Ok(FileInfo {
         surfel: env!("CARGO_PKG_VERSION"),
         inputs,
@@ -107,6 +133,20 @@ fn splat_part(object: &Object) -> Part {
         closed: *closed,
         spacing: mean_spacing(&splats.positions),
         radii: radii(splats),
+        levels: None,
+    }
+}
+
+fn hierarchy_part(file: &LevelsFile) -> Part {
+    let header = file.header();
+    Part {
+        name: file_name(file.path()),
+        kind: "splats",
+        count: usize::try_from(header.splats).unwrap_or(usize::MAX),
+        closed: header.closed,
+        spacing: None,
+        radii: None,
+        levels: Some(Levels { nodes: header.nodes, pages: header.pages, bytes: header.file_bytes() }),
     }
 }
 
@@ -119,6 +159,7 @@ fn mesh_part(object: &MeshObject) -> Part {
         closed: *closed,
         spacing: mean_edge(mesh),
         radii: None,
+        levels: None,
     }
 }
 
@@ -195,6 +236,10 @@ fn model_rows(model: &ModelReport) -> Vec<(&'static str, String)> {
 fn part_rows(part: &Part) -> Vec<(&'static str, String)> {
     let mut rows = vec![("surface", if part.closed { "closed" } else { "open" }.to_owned())];
     let of = if part.kind == "splats" { "to the nearest, in the mean" } else { "a side, in the mean" };
+    rows.extend(part.levels.as_ref().map(|levels| {
+        let Levels { nodes, pages, bytes } = levels;
+        ("levels", format!("{nodes} nodes; {pages} pages, all of them sound; {bytes} bytes"))
+    }));
     rows.extend(part.spacing.map(|spacing| ("spacing", format!("{} {of}", number(spacing)))));
     rows.extend(part.radii.map(|[least, median, most]| {
         let [least, median, most] = [least, median, most].map(number);

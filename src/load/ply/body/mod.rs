@@ -2,6 +2,7 @@
 
 mod ascii;
 mod binary;
+mod fixed_rows;
 mod items;
 mod table;
 
@@ -14,6 +15,7 @@ use crate::{
     load::Input,
 };
 
+pub(super) use fixed_rows::FixedRows;
 pub(super) use items::Items;
 pub(super) use table::Table;
 
@@ -117,17 +119,18 @@ impl<'a> Body<'a> {
 
     /// All elements have the same number of bytes.
     fn fixed_tables(&mut self, def: &Element, wanted: &[usize], take: &mut dyn FnMut(&Table)) -> Result<()> {
-        let (stride, places) = binary::places(def, wanted);
+        let fixed = FixedRows::new(def, wanted, self.encoding);
+        let stride = fixed.stride();
         let bytes = usize::try_from(def.count).ok().and_then(|count| count.checked_mul(stride));
         let split = bytes.and_then(|bytes| self.rest.split_at_checked(bytes));
         let (rows, after) = split.ok_or_else(|| self.ends_early(def, 0))?;
         if stride > 0 && !wanted.is_empty() {
-            let mut table = Table::new(wanted.len());
-            for (i, rows) in rows.chunks(Table::ROWS * stride).enumerate() {
-                binary::columns(rows, stride, &places, self.encoding, &mut table);
-                take(&table);
-                self.step((i * Table::ROWS) as u64, i * Table::ROWS * stride);
-            }
+            let mut done = 0;
+            fixed.tables(rows, &mut |table| {
+                take(table);
+                self.step((done * Table::ROWS) as u64, done * Table::ROWS * stride);
+                done += 1;
+            });
         }
         self.rest = after;
         Ok(())

@@ -20,7 +20,7 @@ struct Sample {
 
 /// The median of what an object's splats find at their centers of Σ exp(−2 (u² + v²)), with the splat itself, over those that face the same
 /// way and whose disks are there: no farther above or below than their major radius. 1 or more; 1 of nothing.
-pub(super) fn overlap(splats: &Splats) -> f64 {
+pub fn overlap(splats: &Splats) -> f64 {
     let count = splats.len();
     let places = (0..count.min(SAMPLES)).map(|i| i * count / count.min(SAMPLES));
     let mut samples: Vec<_> = places

@@ -1,0 +1,152 @@
+//! Inputs that are hierarchies of splats (`.surfel`): opened with the scene, and read when the view is known.
+
+use clap::Args;
+use surfel::{
+    Result,
+    geometry::FoundUp,
+    levels_file::{LevelsFile, PageView, is_levels_file},
+    report::{InputReport, ModelReport},
+    scene::{Ball, Camera, Lod, Scene, Settings},
+};
+
+use crate::{
+    console::{self, Bars},
+    inputs::Inputs,
+    parse,
+    scene::{Loaded, load_scene},
+};
+
+/// The memory for them.
+#[derive(Args)]
+pub struct HierarchyArguments {
+    /// So much memory for the splats of .surfel files on their way to the device, such as 256MB: what is drawn is coarser where that does not
+    /// suffice, and a line says so [default: what --lod asks for]
+    #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
+    pub budget_memory: Option<u64>,
+}
+
+/// As [`load_scene`], of inputs of which some may be hierarchies: these are opened, and said what they hold.
+///
+/// # Errors
+/// As [`load_scene`] and [`LevelsFile::open`].
+pub fn load_scene_with_hierarchies(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
+    let is_hierarchy = |path: &std::path::PathBuf| is_levels_file(path);
+    let (hierarchies, others): (Vec<_>, Vec<_>) = inputs.files.iter().cloned().partition(is_hierarchy);
+    if hierarchies.is_empty() {
+        return load_scene(inputs, bars);
+    }
+    let opened = hierarchies.iter().map(|path| LevelsFile::open(path)).collect::<Result<Vec<_>>>()?;
+    let mut loaded = match others.is_empty() {
+        true => None,
+        false => Some(load_scene(&Inputs { files: others, ..inputs.clone() }, bars)?),
+    };
+    for file in opened {
+        let (ball, report) = (file.ball(), report(&file));
+        console::say(&report.summary);
+        let up = file
+            .header()
+            .up
+            .map(|direction| FoundUp { direction, because: format!("{} says so", report.name) });
+        let loaded = loaded.get_or_insert_with(|| Loaded::of_nothing(ball));
+        loaded.ball = loaded.ball.union(ball);
+        loaded.up = loaded.up.take().or(up);
+        loaded.inputs.push(report);
+        loaded.hierarchies.push(file);
+    }
+    loaded.map_or_else(|| load_scene(inputs, bars), Ok)
+}
+
+/// What a file holds, in numbers and words.
+fn report(file: &LevelsFile) -> InputReport {
+    let header = file.header();
+    let kind = if header.ellipses { "ellipses" } else { "disks" };
+    let closed = if header.closed { ", closed" } else { "" };
+    let name = surfel::load::file_name(file.path());
+    let (splats, nodes, pages) = (header.splats, header.nodes, header.pages);
+    InputReport {
+        vertices: None,
+        triangles: None,
+        splats: usize::try_from(splats).unwrap_or(usize::MAX),
+        dropped: 0,
+        drawn_as: "splats",
+        model: Some(ModelReport {
+            format: "hierarchy of splats, version 1".to_owned(),
+            holds: "splats",
+            points: usize::try_from(splats).unwrap_or(usize::MAX),
+            triangles: None,
+            normals: true,
+            colors: header.color.is_none(),
+            sizes: true,
+            bounds: Some(header.bounds.map(|corner| corner.to_array())),
+            metres_per_unit: None,
+            up: header.up.map(|up| up.to_array()),
+        }),
+        notes: Vec::new(),
+        summary: format!("{name}: {splats} {kind}{closed}; {nodes} nodes above them, in {pages} pages"),
+        name,
+    }
+}
+
+/// Reads what a view needs of each file, and gives the settings for which it suffices. Files share the memory by the number of their splats.
+///
+/// # Errors
+/// As [`LevelsFile::load`].
+pub fn load(
+    files: Vec<LevelsFile>,
+    scene: &mut Scene,
+    (camera, settings): (&Camera, &Settings),
+    arguments: &HierarchyArguments,
+    bars: &Bars,
+) -> Result<Settings> {
+    let asked_px = settings.lod.tau_px(settings.size_px);
+    let all: u64 = files.iter().map(|file| file.header().splats).sum();
+    let mut tau_px = asked_px;
+    let mut read = Vec::new();
+    for mut file in files {
+        let share = |budget: u64| (budget as f64 * (file.header().splats as f64 / all.max(1) as f64)) as u64;
+        let budget = arguments.budget_memory.map_or(u64::MAX, share);
+        let view = PageView::new(camera, settings.size_px, tau_px);
+        let chosen = file.load(Some(&view), budget, bars);
+        bars.clear();
+        let chosen = chosen?;
+        tau_px = chosen.tau_px;
+        read.push((file, chosen));
+    }
+    for (mut file, mut chosen) in read {
+        // One τ for all: what was read for a smaller one lacks the nodes for this.
+        if chosen.tau_px < tau_px {
+            chosen = file.load(Some(&PageView::new(camera, settings.size_px, tau_px)), u64::MAX, bars)?;
+        }
+        let name = &chosen.object.name;
+        let (splats, nodes) = (chosen.object.leaves.len(), chosen.object.nodes.len());
+        let all = file.header().pages;
+        console::say(&format!(
+            "{name}: read {} of {all} pages, {} bytes: {splats} splats and {nodes} nodes",
+            chosen.pages, chosen.bytes
+        ));
+        scene.leveled.push(chosen.object);
+    }
+    if tau_px > asked_px {
+        console::say(&format!(
+            "--budget-memory does not suffice for --lod {asked_px:.3}px: drawn with --lod {tau_px:.3}px"
+        ));
+        return Ok(Settings { lod: Lod::Px(tau_px), ..settings.clone() });
+    }
+    Ok(settings.clone())
+}
+
+impl Loaded {
+    /// Nothing yet, within a ball.
+    fn of_nothing(ball: Ball) -> Self {
+        Self {
+            scene: Scene::default(),
+            ball,
+            camera: None,
+            picture: Default::default(),
+            up: None,
+            inputs: Vec::new(),
+            steps: Vec::new(),
+            hierarchies: Vec::new(),
+        }
+    }
+}

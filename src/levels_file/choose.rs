@@ -1,0 +1,115 @@
+//! Which pages a view needs: those that are in it, and have something that is drawn.
+
+use glam::DVec3;
+
+use super::table::{PageEntry, Reach};
+use crate::{
+    error::{Error, Result},
+    scene::{Camera, ViewFromWorld},
+};
+
+/// What a device finds of a size in f32, and f64 here, may differ by so much of it.
+const RESERVE: f64 = 1e-5;
+
+/// So far outside of the picture, in pixels, a splat may have its center and all of its disk and still be seen: by what the filter adds.
+const MARGIN_PX: f64 = 16.0;
+
+/// By so much τ grows from one try to the next, where memory does not suffice: an eighth of an octave.
+const TRIES_AN_OCTAVE: f64 = 8.0;
+
+/// The first size that is tried in the place of 0, in pixels.
+const LEAST_PX: f64 = 1.0 / 16.0;
+
+/// The last size that is tried: the whole object is one splat then.
+const LARGEST_PX: f64 = 1e6;
+
+/// A view of a file.
+#[derive(Clone, Copy, Debug)]
+pub struct PageView {
+    view: ViewFromWorld,
+    focal_px: f64,
+    /// Where the axis meets the picture.
+    middle_px: [f64; 2],
+    size_px: [f64; 2],
+    /// No size is larger than at this distance.
+    near: f64,
+    is_orthographic: bool,
+    tau_px: f64,
+}
+
+/// Pages, in the order of the file, and for which τ.
+pub(super) struct Choice {
+    pub pages: Vec<usize>,
+    pub tau_px: f64,
+}
+
+impl Choice {
+    pub fn all(pages: &[PageEntry]) -> Self {
+        Self { pages: (0..pages.len()).collect(), tau_px: 0.0 }
+    }
+}
+
+impl PageView {
+    /// That of a camera, for a picture of this size and a largest size of `tau_px` on the screen.
+    pub fn new(camera: &Camera, size_px: [u32; 2], tau_px: f64) -> Self {
+        Self {
+            view: camera.view_from_world(),
+            focal_px: camera.focal_px(size_px[1]),
+            middle_px: camera.middle_px(size_px),
+            size_px: size_px.map(f64::from),
+            near: camera.near().max(f64::MIN_POSITIVE),
+            is_orthographic: camera.is_orthographic(),
+            tau_px,
+        }
+    }
+
+    /// The pages for the smallest τ, the one that was asked for or more, for which memory suffices.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] where it suffices for none.
+    pub(super) fn choose(&self, pages: &[PageEntry], most_bytes: u64) -> Result<Choice> {
+        let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(&pages[*i])).collect();
+        let mut tau_px = self.tau_px;
+        loop {
+            let is_needed = |page: &PageEntry| self.draws_of(page, tau_px);
+            let needed: Vec<usize> = seen.iter().copied().filter(|i| is_needed(&pages[*i])).collect();
+            let bytes: u64 = needed.iter().map(|i| pages[*i].host_bytes()).sum();
+            if bytes <= most_bytes {
+                return Ok(Choice { pages: needed, tau_px });
+            }
+            if tau_px > LARGEST_PX {
+                let problem =
+                    format!("{most_bytes} bytes; expected {bytes} at least, for the coarsest nodes");
+                return Err(Error::option("--budget-memory", problem));
+            }
+            tau_px = tau_px.max(LEAST_PX) * TRIES_AN_OCTAVE.recip().exp2();
+        }
+    }
+
+    /// Whether something of a page may be in the picture.
+    fn sees(&self, page: &PageEntry) -> bool {
+        let DVec3 { x, y, z } = self.view.point(page.center);
+        let radius = page.radius;
+        [(x, 0), (y, 1)].into_iter().all(|(at, axis)| {
+            // Distances of the picture's edges from its axis, on either side.
+            let before_px = self.middle_px[axis] + MARGIN_PX;
+            let behind_px = self.size_px[axis] - self.middle_px[axis] + MARGIN_PX;
+            [(at, before_px), (-at, behind_px)].into_iter().all(|(at, edge_px)| match self.is_orthographic {
+                true => (at + radius) * self.focal_px >= -edge_px,
+                false => at * self.focal_px + z * edge_px >= -radius * self.focal_px.hypot(edge_px),
+            })
+        }) && z >= -radius
+    }
+
+    /// Whether something of a page may be drawn for a τ: as the plan of a frame tells it of blocks.
+    fn draws_of(&self, page: &PageEntry, tau_px: f64) -> bool {
+        let distance = self.view.eye.distance(page.center);
+        let share = tau_px / self.focal_px;
+        let at = |distance: f64| share * if self.is_orthographic { 1.0 } else { distance.max(self.near) };
+        let least = |balls: &Reach| at(distance - balls.reach) * (1.0 - RESERVE);
+        let most = |balls: &Reach| at(distance + balls.far) * (1.0 + RESERVE);
+        let some_parent_is_large = page.parent.spreads[1] > least(&page.parent);
+        let some_own_is_small = !page.nodes || page.own.spreads[0] <= most(&page.own);
+        some_parent_is_large && some_own_is_small
+    }
+}
