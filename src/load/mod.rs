@@ -7,6 +7,7 @@ mod beside;
 pub mod builtin;
 #[cfg(feature = "e57")]
 mod e57;
+mod foreign;
 #[cfg(feature = "gltf")]
 mod gltf;
 #[cfg(test)]
@@ -38,6 +39,7 @@ use std::path::Path;
 use crate::{error::Result, progress::Progress};
 use input::Input;
 
+pub use foreign::runs_foreign_decoder;
 pub use loaded::{Loaded, Model};
 pub use options::{Limits, LoadOptions};
 pub use ply::SplatRows;

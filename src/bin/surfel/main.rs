@@ -47,6 +47,13 @@ fn main() -> ExitCode {
     }
     #[cfg(unix)]
     interrupts::watch();
+    let tell = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        // What a decoder of another crate stumbles over is told as an error of its file.
+        if !surfel::load::runs_foreign_decoder() {
+            tell(panic);
+        }
+    }));
     let arguments = match usage::parse() {
         Ok(arguments) => arguments,
         Err(exit) => return exit,

@@ -8,7 +8,10 @@ use laz::{
 };
 
 use super::header::{Header, one_line};
-use crate::{error::Result, load::Input};
+use crate::{
+    error::Result,
+    load::{Input, foreign},
+};
 
 /// Records that are read at once.
 pub(super) struct Chunk<'a> {
@@ -98,7 +101,12 @@ impl Chunk<'_> {
         check_layers(self.bytes, header.record_bytes, laz)?;
         let mut records = vec![0; self.points * header.record_bytes];
         let entry = ChunkTableEntry { point_count: self.points as u64, byte_count: self.bytes.len() as u64 };
-        laz::par_decompress_selective(self.bytes, &mut records, laz, &[entry], wanted()).map_err(one_line)?;
+        // Of one chunk: it stays on this thread. Its arithmetic decoder (laz 0.13) indexes tables by what damaged bytes tell.
+        let decompress = || laz::par_decompress_selective(self.bytes, &mut records, laz, &[entry], wanted());
+        match foreign::guarded(decompress) {
+            Some(decompressed) => decompressed.map_err(one_line)?,
+            None => return Err("its compressed bytes are damaged".to_owned()),
+        }
         Ok(Cow::Owned(records))
     }
 }

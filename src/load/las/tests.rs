@@ -156,3 +156,11 @@ fn hostile_bytes_are_refused_or_read() {
     options.limits.expanded_bytes = 1 << 14;
     attack(&files, 20_000, |input| parse(&Input { options: &options, ..*input }));
 }
+
+/// Found by fuzzing: the crate's arithmetic decoder would read beyond a table.
+#[test]
+fn compressed_bytes_that_a_decoder_panics_at_are_refused() {
+    let error = of_bytes("a.laz", include_bytes!("damaged.laz"), parse).err().unwrap().to_string();
+    assert!(error.contains("its compressed bytes are damaged") && !error.contains('\n'), "{error}");
+    assert!(!crate::load::runs_foreign_decoder());
+}
