@@ -2,11 +2,11 @@
 // covered or not.
 //
 // The filter widens a splat by the convolution with the low-pass filter G, and leaves it its area as weight. So the sum of
-// weights is (G * K), with K(x) = sum of k(u, v) the unfiltered splats' own. Inside of a surface K is about constant, for
-// splats lie about evenly: it is the surface's *overlap*, whose median the host finds when a scene is prepared
-// (src/prepare/overlap.rs). Outside, K is 0. With weights over the overlap the sum is A = (G * [inside]): the share of the
+// weights is (G * K), with K(x) = sum of k(u, v) the unfiltered splats' own. The host finds what K is around each splat, the surface's
+// *overlap* there, when a scene is prepared (src/geometry/overlaps.rs): with each weight over its overlap K is about 1 inside of a surface,
+// and 0 outside. So the sum is A = (G * [inside]): the share of the
 // pixel, under the filter, that the surface covers. So slivers near a silhouette, each of which covers little, cover a
-// pixel together. Sums inside of a surface vary: above one half A is stretched, so that it is whole from WHOLE_EDGE_SUM on.
+// pixel together. Sums inside of a surface vary still: above one half A is stretched, so that it is whole from WHOLE_EDGE_SUM on.
 //
 // A falls short where one splat covers a pixel alone: at the rim of a large splat k is far below the overlap. There its own
 // part C is a lower bound, of the distance d of the pixel to the rim of the unfiltered ellipse: the normal distribution of
@@ -15,7 +15,7 @@
 // C = 1/2 + (rho^2 - r^2) L2 / (2 sqrt(2 pi) sigma h); for splats below h, of which that is not true, it goes to 0. The
 // opacity is max(A, C), and whole where next to nothing is missing.
 //
-// Limits: surfaces that overlap unevenly, or of which several lie within a few epsilon; A of a thin line of splats is too
+// Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too
 // small.
 
 const float ROOT_TWO_PI = 2.5066283;

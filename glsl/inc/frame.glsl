@@ -22,7 +22,7 @@ struct FrameConstants {
     float view_from_local_scale; // what local lengths are multiplied by: a power of two
     float origin_from_eye[6]; // local origin seen from the eye, local axes, view unit: x, y, z in f32; what f32 left of each
     uint first_record;      // the number of the chunk's first splat among all of the frame's part (list.glsl: that are looked at)
-    uint blocks_overlap;    // listed blocks of this chunk (list.glsl); in the upper half, 65535 over its overlap (edges.glsl)
+    uint blocks_overlap;    // listed blocks of this chunk (list.glsl); upper half: what inverse overlaps are multiplied by (edges.glsl)
 };
 
 layout(push_constant, std430) uniform Frame { FrameConstants frame; };
@@ -40,5 +40,10 @@ vec2 clip_from_axis()
 
 #define CHUNK (frame.chunk_color >> 1)
 #define LISTED_BLOCKS (frame.blocks_overlap & 0xffff)
-#define INVERSE_OVERLAP (float(frame.blocks_overlap >> 16) / 65535.0)
 #define UNIFORM_COLOR ((frame.chunk_color & 1) != 0)
+
+// One over an overlap, in steps of 2^-14.
+float inverse_overlap(uint in_upper_half)
+{
+    return float(in_upper_half >> 16) / 16384.0;
+}

@@ -234,7 +234,7 @@ ImageMap regular_map(Mapping m)
     }
 }
 
-// Of its weight, the part that the filter leaves to a splat; where edges are covered in part, over the surface's overlap.
+// Of its weight, the part that the filter leaves to a splat.
 float share_of(Mapping m)
 {
     float share = 1.0;
@@ -243,5 +243,5 @@ float share_of(Mapping m)
     } else if (WEIGHT_BY_AREA || COVERAGE_EDGES) {
         share = m.share;
     }
-    return COVERAGE_EDGES ? share * INVERSE_OVERLAP : share;
+    return share;
 }

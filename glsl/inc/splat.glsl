@@ -154,7 +154,7 @@ struct Stored {
     vec3 position_low;
     vec3 s; // of a disk its normal
     vec3 t;
-    float less_epsilon; // 1 less the share of epsilon: buffers have 0 where nobody looked
+    uint two; // lower half: 1 less the share of epsilon, 0 where nobody looked; upper half: one over the overlap
 };
 
 Stored load_stored(uint index)
@@ -162,19 +162,26 @@ Stored load_stored(uint index)
     if (PACKED) {
         uvec4 words = packed_shapes[index];
         vec3 position = vec3(unpacked_coordinate(words.x), unpacked_coordinate(words.y), unpacked_coordinate(words.z));
-        return Stored(vec4(position, unpacked_radius(words.xyz)), vec3(0.0), unpacked_normal(words.w), vec3(0.0), 0.0);
+        return Stored(vec4(position, unpacked_radius(words.xyz)), vec3(0.0), unpacked_normal(words.w), vec3(0.0), 0u);
     }
     uint first = SHAPE_VECTORS * index;
     vec3 low = FINE ? shapes[first + SHAPE_VECTORS - 1].xyz : vec3(0.0);
     vec4 second = shapes[first + 1];
-    return Stored(shapes[first], low, second.xyz, ELLIPSES ? shapes[first + 2].xyz : vec3(0.0), second.w);
+    return Stored(shapes[first], low, second.xyz, ELLIPSES ? shapes[first + 2].xyz : vec3(0.0), floatBitsToUint(second.w));
 }
 
 // What a splat weighs beside its filter: of a node as much more than the splats that it stands for as these have more area in all than it, so that it
-// leaves on the surface what they would.
+// leaves on the surface what they would. Where edges are covered in part, over the overlap of the surface around it.
 float own_weight(uint index)
 {
-    return LEVELS == LEVELS_NODES ? shapes[SHAPE_VECTORS * index + 2].w : 1.0;
+    float weight = LEVELS == LEVELS_NODES ? shapes[SHAPE_VECTORS * index + 2].w : 1.0;
+    if (COVERAGE_EDGES) {
+        weight *= inverse_overlap(frame.blocks_overlap);
+        if (!PACKED) {
+            weight *= inverse_overlap(floatBitsToUint(shapes[SHAPE_VECTORS * index + 1].w));
+        }
+    }
+    return weight;
 }
 
 // Of an ellipse's tangent vectors, that make them about 1 long, so that their product has a direction whatever their lengths.
@@ -224,7 +231,7 @@ Splat load_splat(uint index)
     splat.p *= splat.unit;
     splat.radius *= splat.unit;
     splat.n = normal_of(stored);
-    splat.epsilon_share = OWN_EPSILON ? 1.0 - stored.less_epsilon : 1.0;
+    splat.epsilon_share = OWN_EPSILON ? 1.0 - unpackUnorm2x16(stored.two).x : 1.0;
     if (ELLIPSES) {
         set_ellipse(splat, stored);
     } else {

@@ -9,6 +9,9 @@ use super::{
 };
 use crate::scene::Opacity;
 
+/// What splats leave in the mean over a surface that lie apart: a splat alone has (1 − e⁻²) / 2.
+const LEAST_OVERLAP: f64 = 0.1;
+
 /// Bytes of the header.
 pub(super) const HEADER_BYTES: usize = 256;
 
@@ -172,7 +175,7 @@ impl Header {
         if !places.iter().all(is_near) || !least.cmple(most).all() {
             return Err(format!("within {least} to {most} around {}; expected finite bounds", self.origin));
         }
-        let lengths = [(self.radius, 0.0), (self.root_radius, 0.0), (self.overlap, 1.0)];
+        let lengths = [(self.radius, 0.0), (self.root_radius, 0.0), (self.overlap, LEAST_OVERLAP)];
         if let Some((length, least)) =
             lengths.into_iter().find(|(length, least)| !(*least..=100.0 * LARGEST).contains(length))
         {

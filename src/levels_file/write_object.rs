@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     error::{Error, Result},
-    geometry::{hierarchy::Hierarchy, overlap},
+    geometry::{hierarchy::Hierarchy, mean_overlap},
     progress::Progress,
     save,
     scene::{Bounds, Colors, Object, Opacity},
@@ -65,7 +65,7 @@ pub fn write_object(
     let header = Header {
         radius: (0..splats.len()).map(reach).fold(0.0, f64::max),
         root_radius: hierarchy.bounds.first().map_or(0.0, |root| root.error.radius.into()),
-        overlap: overlap(splats),
+        overlap: mean_overlap(splats),
         ..header(&form, &facts, &bounds)
     };
     let header = save::create(path, |file| {

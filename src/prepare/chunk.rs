@@ -51,8 +51,8 @@ pub struct Chunk {
     pub packed: bool,
     /// Its levels of detail, if it has any.
     pub levels: Option<ChunkLevels>,
-    /// The sum of weights that the object leaves inside of its surface; 1 or more.
-    pub overlap: f64,
+    /// One over the overlap of all its splats; 1 where each has its own.
+    pub inverse_overlap: f64,
     /// The box of the centers, local space.
     pub bounds: [DVec3; 2],
     /// The largest major radius, local space.
@@ -109,7 +109,7 @@ impl Chunk {
             own_epsilon: false,
             packed: survey.packed,
             levels,
-            overlap: 1.0,
+            inverse_overlap: 1.0,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
             radii: survey.radii.clone(),

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    geometry::overlap,
+    geometry::{inverse_overlaps, mean_overlap},
     progress::Progress,
     scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
@@ -92,7 +92,8 @@ struct Part<'a> {
     object: &'a Object,
     sequence: Sequence,
     transparent: bool,
-    overlap: f64,
+    /// One over the overlap of each splat.
+    inverse_overlaps: Vec<f32>,
     epsilon: Option<Epsilon>,
     /// Of the object's splats, where they have any.
     shares: Option<Vec<f32>>,
@@ -101,7 +102,11 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn beside(&self) -> Beside<'_> {
-        Beside { shares: self.shares.as_deref(), levels: self.levels }
+        Beside {
+            shares: self.shares.as_deref(),
+            inverse_overlaps: Some(&self.inverse_overlaps),
+            levels: self.levels,
+        }
     }
 }
 
@@ -136,8 +141,8 @@ impl Cut<'_, '_> {
     /// Its own splats, then the nodes, which have ε in radii of their own.
     fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
-        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, leveled.overlap, levels(false))?;
-        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, leveled.overlap, levels(true))
+        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, levels(false))?;
+        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, levels(true))
     }
 
     /// `auto`: ε is to fit what is near each splat.
@@ -149,7 +154,7 @@ impl Cut<'_, '_> {
             return Ok(());
         }
         let order = self.prepared.storage.order;
-        self.part_of(object, (epsilon, auto), order, overlap(splats), None)
+        self.part_of(object, (epsilon, auto), order, None)
     }
 
     /// An object that can be seen, or one of its two parts.
@@ -158,7 +163,6 @@ impl Cut<'_, '_> {
         object: &Object,
         (epsilon, auto): (Option<Epsilon>, bool),
         order: Order,
-        overlap: f64,
         levels: Option<(&Leveled, ChunkLevels)>,
     ) -> Result<()> {
         let (splats, storage) = (&object.splats, self.prepared.storage);
@@ -177,7 +181,13 @@ impl Cut<'_, '_> {
             true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
             false => None,
         };
-        let part = Part { object, sequence, transparent, overlap, epsilon, shares, levels };
+        let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
+        let inverse_overlaps = match levels {
+            Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
+            _ if exact => inverse_overlaps(splats),
+            _ => one_for_all(mean_overlap(splats)),
+        };
+        let part = Part { object, sequence, transparent, inverse_overlaps, epsilon, shares, levels };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
                 for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
@@ -219,7 +229,9 @@ impl Cut<'_, '_> {
             let packed = batches.map(|which| pack::pack(splats, which, &survey, part.beside()));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
-            chunk.overlap = part.overlap;
+            if survey.packed {
+                chunk.inverse_overlap = part.inverse_overlaps[0].into();
+            }
             chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
             chunk.scene_bytes +=
                 part.levels.map_or(0, |(_, levels)| levels.bytes_each()) * u64::from(survey.count);

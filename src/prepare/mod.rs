@@ -26,6 +26,7 @@ pub use chunk::Chunk;
 pub use levels::{BallBounds, BlockLevels, ChunkLevels, LevelSpace};
 pub use memory::SplatSetLayout;
 pub use mesh_chunk::MeshChunk;
+pub use pack::inverse_overlap_in_upper_half;
 pub use packed::LARGEST_TURN_RAD;
 pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};

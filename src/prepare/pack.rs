@@ -1,7 +1,8 @@
 //! The layout of splats in GPU buffers.
 //!
-//! Disks, 32 bytes: `position radius`, `normal less`. Ellipses, 48 bytes: `position major-radius`, `s less`, `t weight`, the weight that of a node (`levels.rs`). Local
-//! space, f32; `less` is 1 less the splat's share of ε (`near_surfaces.rs`), 0 without one. Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
+//! Disks, 32 bytes: `position radius`, `normal two`. Ellipses, 48 bytes: `position major-radius`, `s two`, `t weight`, the weight that of a node (`levels.rs`). Local
+//! space, f32; `two` is 1 less the splat's share of ε (`near_surfaces.rs`) as a 16-bit fraction (error 8e-6), and in the upper half one over its overlap
+//! (`geometry/overlaps.rs`), in steps of 2⁻¹⁴ (error 3e-5). Fine splats (`sites.rs`) have 16 bytes more, `what f32 left of the position 0`. Colors, 8 bytes: linear red, green, blue, alpha as 16-bit fractions (error 8e-6). Packed disks and their colors,
 //! unless one is for all, are those of `packed.rs`: 16 and 4 bytes.
 
 use glam::DVec3;
@@ -98,6 +99,8 @@ pub struct Packed {
 pub(super) struct Beside<'a> {
     /// Their shares of ε.
     pub shares: Option<&'a [f32]>,
+    /// One over their overlaps.
+    pub inverse_overlaps: Option<&'a [f32]>,
     /// Their levels of detail.
     pub levels: Option<(&'a Leveled, ChunkLevels)>,
 }
@@ -176,30 +179,35 @@ pub(super) fn pack(
         colors: Vec::with_capacity(if uniform_color { 1 } else { room } * survey.color_bytes() / 4),
     };
     let bits = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array().map(f32::to_bits);
+    let with = |v: DVec3, word: u32| {
+        let [x, y, z] = v.as_vec3().to_array().map(f32::to_bits);
+        [x, y, z, word]
+    };
     for i in which {
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
         if let Some((leveled, levels)) = beside.levels {
             leveled.push(levels, i, &mut packed.levels);
         }
-        let less = beside.shares.map_or(0.0, |shares| 1.0 - f64::from(shares[i]));
+        let less = beside.shares.map_or(0.0, |shares| 1.0 - shares[i]);
+        let inverse_overlap = beside.inverse_overlaps.map_or(1.0, |inverse| inverse[i]);
+        let two = two_in_one(less, inverse_overlap);
         match &splats.shapes {
             Shapes::Disks { normals, .. } => {
                 // In f64: a normal may have any length that f32 has.
                 let normal = normals[i].as_dvec3().normalize();
                 match survey.packed {
                     true => packed.shapes.push(packed::disk(position, normal, radius)),
-                    false => packed.shapes.extend([bits(position, radius), bits(normal, less)]),
+                    false => packed.shapes.extend([bits(position, radius), with(normal, two)]),
                 }
             }
             Shapes::Ellipses { s, t } => {
                 let [s, t] = far_apart(s[i].as_dvec3(), t[i].as_dvec3());
-                let local = |v: DVec3, w: f64| {
+                let local = |v: DVec3| {
                     let v = v * rebase.scale;
-                    let v = if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v };
-                    bits(v, w)
+                    if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v }
                 };
                 let weight = beside.levels.map_or(0.0, |(leveled, levels)| leveled.weight(levels, i));
-                packed.shapes.extend([bits(position, radius), local(s, less), local(t, weight)]);
+                packed.shapes.extend([bits(position, radius), with(local(s), two), bits(local(t), weight)]);
             }
         }
         if survey.fine {
@@ -215,6 +223,17 @@ pub(super) fn pack(
         packed.count += 1;
     }
     packed
+}
+
+/// The word of a splat's share of ε, less than 1 by this, and of one over its overlap.
+fn two_in_one(less: f32, inverse_overlap: f32) -> u32 {
+    let fraction = (less * 65_535.0).round() as u16;
+    u32::from(fraction) | inverse_overlap_in_upper_half(inverse_overlap.into())
+}
+
+/// One over an overlap, or what it is multiplied by, in steps of 2⁻¹⁴: at least one, and below 4.
+pub fn inverse_overlap_in_upper_half(inverse: f64) -> u32 {
+    u32::from(((16_384.0 * inverse).round() as u16).max(1)) << 16
 }
 
 /// A color as 16-bit fractions; what is no number is 0.

@@ -1,4 +1,8 @@
-//! What the splats of a surface sum to where it is whole: at the centers of some of them, the median of what all of them leave there.
+//! What the splats of a surface sum to where it is whole, near each of them, by looking at each pair of splats.
+//!
+//! A splat's crowd is the sum of weights at its center, its own among them, over the splats that face the same way, are no smaller than half of
+//! it, and whose disks are there: a ball of its larger radius around each holds the center. What weights over crowds sum to in the mean over the surface is found at 1024 places: the overlap is the
+//! crowd times that mean.
 
 use glam::DVec3;
 
@@ -6,47 +10,98 @@ use super::kernel::{limit_r2, weight};
 use super::tangents::tangents;
 use crate::scene::{Kernel, Splats};
 
-/// The most centers.
-const SAMPLES: usize = 512;
+/// The most places.
+const PLACES: usize = 1024;
 
-/// The kernel under which it is summed; for another it is carried over by the kernels' integrals, since splats lie about evenly.
+/// The kernel under which it is summed; for another it is carried over by the kernels' integrals.
 const KERNEL: Kernel = Kernel::Gaussian { sigma: 0.5 };
 
-/// The overlap of an object's surface under a kernel. Every sample is compared with every splat.
-pub(super) fn overlap(splats: &Splats, kernel: Kernel) -> f64 {
-    let count = splats.len();
-    let samples = count.min(SAMPLES);
-    let mut sums: Vec<f64> = (0..samples)
-        .map(|i| i * count / samples)
-        .filter(|&i| splats.defect(i).is_none())
-        .map(|i| sum_at(splats, splats.positions[i], i))
-        .collect();
-    sums.sort_by(f64::total_cmp);
-    let median = sums.get(sums.len() / 2).map_or(1.0, |sum| sum.max(1.0));
-    1.0 + (median - 1.0) * integral(kernel) / integral(KERNEL)
+/// The least overlap under another kernel, as a share of that under [`KERNEL`].
+const LEAST: f64 = 0.25;
+
+/// A splat among others.
+struct Among {
+    number: usize,
+    center: DVec3,
+    s: DVec3,
+    t: DVec3,
+    normal: DVec3,
+    radius: f64,
 }
 
-/// Σ of the weights at a place on splat `of`, of splats that face the side that it faces.
-fn sum_at(splats: &Splats, place: DVec3, of: usize) -> f64 {
-    let normal_of = |i: usize| {
-        let (s, t) = tangents(&splats.shapes, i);
-        s.cross(t).normalize()
+/// The overlap of the surface at each splat of an object under a kernel; 1 of what can't be drawn.
+pub(crate) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
+    let all = all_along_x(splats);
+    let largest = all.iter().map(|splat| splat.radius).fold(0.0, f64::max);
+    let near = |place: DVec3| {
+        let first = all.partition_point(|other| other.center.x < place.x - largest);
+        all[first..].iter().take_while(move |other| other.center.x <= place.x + largest)
     };
-    let facing = normal_of(of);
-    let all = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
-    all.map(|i| {
-        let q = place - splats.positions[i];
-        if q.abs().max_element() > splats.major_radius(i) {
-            return 0.0;
-        }
-        let (s, t) = tangents(&splats.shapes, i);
-        let normal = s.cross(t).normalize();
-        // q = u s + v t + h n, solved by Cramer's rule.
-        let volume = s.cross(t).dot(normal);
-        let (u, v) = (q.cross(t).dot(normal) / volume, s.cross(q).dot(normal) / volume);
-        if normal.dot(facing) > 0.0 { weight(KERNEL, u * u + v * v) } else { 0.0 }
-    })
-    .sum()
+    let mut overlaps = vec![1.0; splats.len()];
+    for of in &all {
+        let crowd: f64 = near(of.center).map(|other| weight_at(other, of, of.center)).sum();
+        overlaps[of.number] = crowd.max(1.0);
+    }
+    let mut numbers: Vec<usize> = (0..all.len()).collect();
+    numbers.sort_by_key(|i| all[*i].number);
+    let places = all.len().min(PLACES);
+    let (mut sum, mut area) = (0.0, 0.0);
+    for n in 0..places {
+        let of = &all[numbers[n * all.len() / places]];
+        let place = place_on(of, n);
+        let there: f64 = near(place).map(|other| weight_at(other, of, place) / overlaps[other.number]).sum();
+        let own = of.s.cross(of.t).length() / overlaps[of.number];
+        sum += own * there;
+        area += own;
+    }
+    let mean = if area > 0.0 { sum / area } else { 1.0 };
+    let under = (integral(kernel) / integral(KERNEL)).max(LEAST);
+    all.iter().for_each(|of| overlaps[of.number] *= mean * under);
+    overlaps
+}
+
+fn all_along_x(splats: &Splats) -> Vec<Among> {
+    let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
+    let mut all: Vec<Among> = drawn
+        .map(|number| {
+            let (s, t) = tangents(&splats.shapes, number);
+            let normal = s.normalize().cross(t.normalize()).normalize();
+            let (center, radius) = (splats.positions[number], splats.major_radius(number));
+            Among { number, center, s, t, normal, radius }
+        })
+        .collect();
+    all.sort_by(|a, b| a.center.x.total_cmp(&b.center.x));
+    all
+}
+
+/// What a splat weighs at a place of another one.
+fn weight_at(splat: &Among, of: &Among, place: DVec3) -> f64 {
+    let q = place - splat.center;
+    // q = u s + v t + h n, solved by Cramer's rule.
+    let volume = splat.s.cross(splat.t).dot(splat.normal);
+    let (u, v) = (q.cross(splat.t).dot(splat.normal) / volume, splat.s.cross(q).dot(splat.normal) / volume);
+    let is_there = u * u + v * v <= 1.0 && q.length() <= splat.radius;
+    let counts = splat.radius >= 0.5 * of.radius && splat.normal.dot(of.normal) > 0.0;
+    if is_there && counts { weight(KERNEL, u * u + v * v) } else { 0.0 }
+}
+
+/// The `n`th place of a sequence that is spread evenly over a splat: a direction on the unit sphere, seen along the normal, and a share of
+/// the way to the rim, whose square is spread evenly. The sequence is that of multiples of the powers of 1/g, g⁴ = g + 1.
+fn place_on(splat: &Among, n: usize) -> DVec3 {
+    let mut g = 1.0_f64;
+    for _ in 0..64 {
+        g = (1.0 + g).powf(0.25);
+    }
+    let fraction = |power: i32| (0.5 + n as f64 * g.powi(-power)).fract();
+    let (share, height, turn) = (fraction(1).sqrt(), 2.0 * fraction(2) - 1.0, fraction(3));
+    let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+    let across = (1.0 - height * height).sqrt();
+    let direction = DVec3::new(across * cos, across * sin, height);
+    let in_plane = direction - direction.dot(splat.normal) * splat.normal;
+    let volume = splat.s.cross(splat.t).dot(splat.normal);
+    let u = in_plane.cross(splat.t).dot(splat.normal) / volume;
+    let v = splat.s.cross(in_plane).dot(splat.normal) / volume;
+    splat.center + share / u.hypot(v) * in_plane
 }
 
 /// Of the kernel over the unit disk, by the midpoint rule.

@@ -12,7 +12,7 @@ use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
-use super::overlap::overlap;
+use super::overlap::overlaps;
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
 use super::tangents::tangents;
@@ -99,13 +99,14 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
-        let overlap =
-            covers_in_part(scene, settings, opacity).then(|| overlap(&object.splats, settings.kernel));
+        let overlaps =
+            covers_in_part(scene, settings, opacity).then(|| overlaps(&object.splats, settings.kernel));
         let rule = EpsilonRule::of(scene, number, settings, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
+                let overlap = overlaps.as_ref().map(|overlaps| overlaps[i]);
                 let splat = prepare_one(object, i, (cull, opacity, overlap), &rule, view, settings);
                 drawn.extend(
                     splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),

@@ -35,7 +35,7 @@ pub struct LeveledObject {
     pub closed: bool,
     /// Of the whole object.
     pub opacity: Opacity,
-    /// The sum of weights that the whole object's own splats leave inside of its surface; 1 or more.
+    /// The sum of weights that the whole object's own splats leave on its surface, in the mean; above 0.
     pub overlap: f64,
     /// From where balls are counted, in world space.
     pub origin: DVec3,

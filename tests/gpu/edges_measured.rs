@@ -1,7 +1,7 @@
 //! The figures of edges in `benches/README.md`: pictures with hard edges and with coverage against 256 samples a pixel, of ordinary things
 //! and of thin ones, at three sizes; how little they flicker; what they take.
 //!
-//! `cargo test --release --test gpu edges_measured -- --ignored --nocapture` takes some ten minutes.
+//! `cargo test --release --test gpu edges_measured -- --ignored --nocapture` takes an hour; a name behind it, as `edges_measured::igea`, minutes.
 
 use std::path::PathBuf;
 
@@ -95,20 +95,6 @@ fn example(name: &'static str) -> Hard {
     Hard { camera, scene: composed.scene, ..named(name, Vec::new()) }
 }
 
-fn all() -> Vec<Hard> {
-    let ball = scenes::sphere(20_000, DVec3::ZERO);
-    let models = [
-        named("relief, 100k", vec![relief(100_000)]),
-        named("ball, 20k", vec![ball]),
-        named("thin plate", vec![thin_plate()]),
-        named("wire", vec![wire()]),
-        transparent::spheres(),
-        example("spheres.toml"),
-        example("hybrid.toml"),
-    ];
-    models.into_iter().chain(["igea.ply", "fandisk.obj"].into_iter().filter_map(real)).collect()
-}
-
 /// A picture in linear light without a background.
 fn draw(
     headless: &mut Headless,
@@ -168,67 +154,118 @@ fn words(error: &PictureError) -> String {
     format!("{} | {:.0}", figures.join(" | "), error.dark_fringe)
 }
 
-#[test]
-#[ignore = "figures: minutes"]
-fn edges_against_256_samples() {
+/// Prints the rows of a scene, under a heading.
+fn measure(hard: &Hard) {
     let mut headless = shared();
     println!(
         "| scene | px | edges | whole | FLIP | inside | edges | FLIP | darkest | flicker, x truth's | time, x hard |"
     );
     println!("|---|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|");
-    for hard in all() {
-        let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-        for size in SIZES_PX {
-            let base = Settings {
-                size_px: [size; 2],
-                rasterizer: Rasterizer::Compute,
-                background: None,
-                edges: Edges::Hard,
-                ..Settings::default()
-            };
-            let exact = Settings { samples: Samples(SAMPLES), ..base.clone() };
-            let camera = match &hard.scene.meshes[..] {
-                [] if hard.name.ends_with("toml") || hard.name.contains("27") => hard.camera,
-                [] => Camera::fit(&hard.scene.ball().unwrap(), [size; 2], Camera::DEFAULT_FOV_Y_RAD),
-                _ => hard.camera,
-            };
-            let hard = Hard { camera, ..hard.clone() };
-            let views: Vec<Camera> = (0..TURNS).map(|i| turned(&hard.camera, TURN_DEG * i as f64)).collect();
-            let few = if size > 256 { 1 } else { views.len() };
-            let exact_pictures: Vec<_> =
-                views[..few].iter().map(|view| draw(&mut headless, &prepared, view, &exact)).collect();
-            let truth = truth_of(&hard, &base, &exact_pictures[0]);
-            let ends: Vec<bool> =
-                { regions(&truth).into_iter().map(|region| region == Region::Silhouette).collect() };
-            let kinds = [Edges::Hard, Edges::Coverage].map(|edges| Settings { edges, ..base.clone() });
-            let mut secs = [Vec::new(), Vec::new()];
-            for i in 0..FRAMES {
-                for (kind, secs) in kinds.iter().zip(&mut secs) {
-                    let wanted = Wanted { picture: true, ..Wanted::default() };
-                    let frame = headless.render(&prepared, &hard.camera, kind, wanted).unwrap();
-                    assert!(!passes(&frame).is_empty());
-                    if i > 0 {
-                        secs.push(frame.wall_secs);
-                    }
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    for size in SIZES_PX {
+        let base = Settings {
+            size_px: [size; 2],
+            rasterizer: Rasterizer::Compute,
+            background: None,
+            edges: Edges::Hard,
+            ..Settings::default()
+        };
+        let exact = Settings { samples: Samples(SAMPLES), ..base.clone() };
+        let camera = match &hard.scene.meshes[..] {
+            [] if hard.name.ends_with("toml") || hard.name.contains("27") => hard.camera,
+            [] => Camera::fit(&hard.scene.ball().unwrap(), [size; 2], Camera::DEFAULT_FOV_Y_RAD),
+            _ => hard.camera,
+        };
+        let hard = Hard { camera, ..hard.clone() };
+        let views: Vec<Camera> = (0..TURNS).map(|i| turned(&hard.camera, TURN_DEG * i as f64)).collect();
+        let few = if size > 256 { 1 } else { views.len() };
+        let exact_pictures: Vec<_> =
+            views[..few].iter().map(|view| draw(&mut headless, &prepared, view, &exact)).collect();
+        let truth = truth_of(&hard, &base, &exact_pictures[0]);
+        let ends: Vec<bool> =
+            { regions(&truth).into_iter().map(|region| region == Region::Silhouette).collect() };
+        let kinds = [Edges::Hard, Edges::Coverage].map(|edges| Settings { edges, ..base.clone() });
+        let mut secs = [Vec::new(), Vec::new()];
+        for i in 0..FRAMES {
+            for (kind, secs) in kinds.iter().zip(&mut secs) {
+                let wanted = Wanted { picture: true, ..Wanted::default() };
+                let frame = headless.render(&prepared, &hard.camera, kind, wanted).unwrap();
+                assert!(!passes(&frame).is_empty());
+                if i > 0 {
+                    secs.push(frame.wall_secs);
                 }
             }
-            let ratios = secs[1].iter().zip(&secs[0]).map(|(own, hard)| own / hard).collect();
-            let ratio = median(ratios);
-            let own = flicker(&exact_pictures, &ends);
-            for (i, settings) in kinds.iter().enumerate() {
-                let pictures: Vec<_> =
-                    views[..few].iter().map(|view| draw(&mut headless, &prepared, view, settings)).collect();
-                let error = picture_error(&pictures[0], &truth);
-                let times =
-                    if few > 1 { format!("{:.2}", flicker(&pictures, &ends) / own) } else { "-".to_owned() };
-                println!(
-                    "| {} | {size} | {} | {} | {times} | {:.2} |",
-                    hard.name,
-                    ["hard", "coverage"][i],
-                    words(&error),
-                    if i == 0 { 1.0 } else { ratio }
-                );
-            }
+        }
+        let ratios = secs[1].iter().zip(&secs[0]).map(|(own, hard)| own / hard).collect();
+        let ratio = median(ratios);
+        let own = flicker(&exact_pictures, &ends);
+        for (i, settings) in kinds.iter().enumerate() {
+            let pictures: Vec<_> =
+                views[..few].iter().map(|view| draw(&mut headless, &prepared, view, settings)).collect();
+            let error = picture_error(&pictures[0], &truth);
+            let times =
+                if few > 1 { format!("{:.2}", flicker(&pictures, &ends) / own) } else { "-".to_owned() };
+            println!(
+                "| {} | {size} | {} | {} | {times} | {:.2} |",
+                hard.name,
+                ["hard", "coverage"][i],
+                words(&error),
+                if i == 0 { 1.0 } else { ratio }
+            );
         }
     }
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn relief_of_100_thousand() {
+    measure(&named("relief, 100k", vec![relief(100_000)]));
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn ball_of_20_thousand() {
+    measure(&named("ball, 20k", vec![scenes::sphere(20_000, DVec3::ZERO)]));
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn plate() {
+    measure(&named("thin plate", vec![thin_plate()]));
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn thin_wire() {
+    measure(&named("wire", vec![wire()]));
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn transparent_balls() {
+    measure(&transparent::spheres());
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn example_of_balls() {
+    measure(&example("spheres.toml"));
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn example_of_a_hybrid() {
+    measure(&example("hybrid.toml"));
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn igea() {
+    real("igea.ply").iter().for_each(measure);
+}
+
+#[test]
+#[ignore = "figures: minutes"]
+fn fandisk() {
+    real("fandisk.obj").iter().for_each(measure);
 }

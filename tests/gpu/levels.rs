@@ -136,8 +136,8 @@ fn the_scene_itself_has_nothing_of_it() {
     assert_eq!(passes(&frames[0]), passes(&frames[1]));
     let far =
         frames[0].linear.iter().zip(&frames[1].linear).flat_map(|(a, b)| (0..4).map(|i| (a[i] - b[i]).abs()));
-    // The order of sums is another.
-    assert!(far.fold(0.0, f32::max) < 1e-4);
+    // The order of sums is another, and the mean of what splats sum to is found at other places: a hundredth of what covers in part.
+    assert!(far.fold(0.0, f32::max) < 0.02);
 }
 
 /// By points, in layers, by either kind of tiles, in bands; and what cannot list splats draws the scene itself.

@@ -2,7 +2,7 @@
 
 use super::{Hierarchy, Node};
 use crate::{
-    geometry::overlap,
+    geometry::mean_overlap,
     scene::{ErrorBall, LeveledObject, NodeBalls, Object, Shapes, Splats},
 };
 
@@ -36,7 +36,7 @@ impl Hierarchy {
             name,
             closed,
             opacity: splats.colors.opacity(),
-            overlap: overlap(&splats),
+            overlap: mean_overlap(&splats),
             origin: self.origin,
             radius: self.bounds.first().map_or(0.0, |root| root.error.radius.into()),
             node_balls: own.map(|(own, node)| NodeBalls { own, parent: node.parent.min(above) }).collect(),

@@ -27,7 +27,7 @@ use crate::{
     error::{Error, Result},
     geometry::{
         hierarchy::{Hierarchy, Top},
-        overlap, up_of_shape,
+        mean_overlap, up_of_shape,
     },
     load::{SplatRows, file_name},
     math::random::SplitMix,
@@ -119,7 +119,7 @@ pub fn convert_splats(
             let splats = sorted.splats(&rows, runs)?;
             let hierarchy = Hierarchy::build_part(&splats, form.origin, &())?;
             top.add(number, &splats, &hierarchy);
-            overlaps.push((overlap(&splats), splats.len()));
+            overlaps.push((mean_overlap(&splats), splats.len()));
             let root = write_part(&mut writer, &splats, &hierarchy).map_err(fail)?;
             roots.push((root, top.parent_of(number)));
         }

@@ -39,7 +39,8 @@ pub struct FrameConstants {
     pub origin_from_eye: [f32; 6],
     /// The number of the chunk's first splat among those of all chunks; of listed blocks, among theirs.
     pub first_record: u32,
-    /// Blocks of the chunk that are looked at for splats that may be seen, below 2¹⁶; in the upper half, 65535 over its overlap.
+    /// Blocks of the chunk that are looked at for splats that may be seen, below 2¹⁶; in the upper half what inverse overlaps
+    /// are multiplied by.
     pub blocks_overlap: u32,
 }
 

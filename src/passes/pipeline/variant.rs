@@ -69,9 +69,8 @@ fn may_count_from_corner(settings: &Settings, whole_px: [u32; 2]) -> bool {
     wide && whole_px.iter().all(|side| *side <= LARGEST_PX)
 }
 
-/// What all splats but one's own leave at its center, over what they leave there under the default kernel
-/// ([`crate::prepare::Chunk::overlap`], less the 1 of its own): on the mean, as much as their kernels are.
-pub(crate) fn others_under(kernel: Kernel) -> f64 {
+/// What splats sum to on a surface, over what they sum to under the default kernel: in the mean, as much as their kernels are.
+pub(crate) fn sums_under(kernel: Kernel) -> f64 {
     let end = coverage_r2(kernel);
     let mean = match kernel {
         Kernel::Gaussian { sigma } => gaussian_mean(sigma.into(), end),

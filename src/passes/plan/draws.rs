@@ -6,7 +6,7 @@ use crate::passes::{
     pipeline::{
         constants::FrameConstants,
         splat_shaders::Primitive,
-        variant::{Constants, culls, others_under, splat_constants},
+        variant::{Constants, culls, splat_constants, sums_under},
     },
     plan::{
         blocks::{BlockCullView, potentially_visible_blocks},
@@ -19,7 +19,7 @@ use crate::passes::{
 use crate::{
     error::Result,
     math::size::{SizeBound, box_px, largest_box_px},
-    prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal},
+    prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal, inverse_overlap_in_upper_half},
     scene::{Camera, Epsilon, Filter, Settings},
     shaders::config::*,
     vk::Limits,
@@ -101,7 +101,7 @@ pub fn draws<'a>(
     limits: &Limits,
 ) -> Vec<Draw<'a>> {
     let filter_radius_px = settings.samples.filter_radius_px();
-    let others = others_under(settings.kernel);
+    let sums = sums_under(settings.kernel);
     let primitive = Primitive::of(settings.rasterizer);
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
@@ -143,7 +143,7 @@ pub fn draws<'a>(
         let mut constants = FrameConstants {
             splat_count: chunk.count,
             chunk_color: u32::from(chunk.uniform_color),
-            blocks_overlap: ((65_535.0 / (1.0 + others * (chunk.overlap - 1.0))).round() as u32) << 16,
+            blocks_overlap: inverse_overlap_in_upper_half(chunk.inverse_overlap / sums),
             ..frame_constants(&view, (camera, range), settings, epsilon)
         };
         if chunk.fine {

@@ -1,0 +1,111 @@
+//! How much the surface around each splat overlaps itself, by which a sum of weights tells what part of a pixel is covered
+//! (`glsl/inc/edges.glsl`).
+//!
+//! A splat's *crowd* K is Σ exp(−2 (u² + v²)) at its center, over itself and the splats that face the same way (normals within 90°), are
+//! no smaller than half of it and whose disks are there: u² + v² ≤ 1, no farther away than their larger radius. With weights over
+//! K, splats sum to about the same all over a surface, however densely they lie: independent samples of a surface vary by a quarter of the mean
+//! as they are, by an eighth so. What they sum to in the mean, μ, is found at places spread over the disks of some splats, by area. The
+//! overlap of a splat is K μ: so the sum is 1 in the mean.
+
+mod grids;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use self::grids::Grids;
+use crate::scene::{Shapes, Splats};
+
+/// So many cells are a task.
+const CELLS_AT_ONCE: usize = 64;
+
+/// Splats near whose centers the mean sum is looked for, where all crowds are known.
+const SAMPLES: usize = 1024;
+
+/// And where they are not.
+const FEW_SAMPLES: usize = 256;
+
+/// One over the overlap of each splat, above 0; 1 of what can't be drawn.
+pub fn inverse_overlaps(splats: &Splats) -> Vec<f32> {
+    let grids = Grids::new(splats);
+    let mut inverse = vec![1.0_f32; splats.len()];
+    let found: Vec<(u32, f32)> = grids
+        .cells
+        .par_chunks(CELLS_AT_ONCE)
+        .flat_map_iter(|cells| cells.iter().flat_map(|cell| grids.crowds_in(splats, cell)))
+        .map(|(splat, crowd)| (splat, crowd.recip() as f32))
+        .collect();
+    found.iter().for_each(|(splat, of)| inverse[*splat as usize] = *of);
+    let mean = Means::of(&grids, splats, SAMPLES, &|i| inverse[i as usize].into()).sum as f32;
+    found.iter().for_each(|(splat, _)| inverse[*splat as usize] /= mean);
+    inverse
+}
+
+/// The overlap of what stands for a surface evenly: one over the mean, by area, of what [`inverse_overlaps`] has, from a few splats; 1 of none.
+pub fn mean_overlap(splats: &Splats) -> f64 {
+    let grids = Grids::new(splats);
+    let means = Means::of(&grids, splats, FEW_SAMPLES, &|i| grids.crowd(splats, i).recip());
+    means.sum / means.inverse
+}
+
+/// Means over area.
+struct Means {
+    /// Of what weights over crowds sum to.
+    sum: f64,
+    /// Of one over crowds.
+    inverse: f64,
+}
+
+impl Means {
+    /// From about so many splats; 1 of none.
+    fn of(grids: &Grids, splats: &Splats, samples: usize, inverse: &(dyn Fn(u32) -> f64 + Sync)) -> Self {
+        let numbers = grids.numbers();
+        let count = numbers.len().min(samples);
+        let sample = |n: usize| {
+            let number = numbers[n * numbers.len() / count];
+            let i = number as usize;
+            let frame = dual_frame(splats, i);
+            let place = splats.positions[i] + from_center(n, frame);
+            let own = inverse(number);
+            let area = frame[0].cross(frame[1]).length().recip();
+            [area * own * grids.sum_on(splats, i, place, &|of| inverse(of)), area * own, area]
+        };
+        let all: Vec<[f64; 3]> = (0..count).into_par_iter().map(sample).collect();
+        let [sum, own, area] = all.iter().fold([0.0; 3], |sum, of| std::array::from_fn(|i| sum[i] + of[i]));
+        let ratio = |a: f64, b: f64| if a > 0.0 && b > 0.0 && (a / b).is_normal() { a / b } else { 1.0 };
+        Self { sum: ratio(sum, own), inverse: ratio(own, area) }
+    }
+}
+
+/// The `n`th of places spread over disks, in the one of this dual frame: in a direction, seen along its normal, and at a radius of the
+/// three-dimensional sequence of Roberts (2018, "The unreasonable effectiveness of quasirandom sequences"), so that they do not depend on
+/// how tangent vectors are chosen.
+fn from_center(n: usize, [to_u, to_v, normal]: [DVec3; 3]) -> DVec3 {
+    let [r2, height, turn] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3]
+        .map(|step| (0.5 + step * n as f64).fract());
+    let (angle_rad, z) = (std::f64::consts::TAU * turn, 2.0 * height - 1.0);
+    let direction = DVec3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * (1.0 - z * z).sqrt() + z * DVec3::Z;
+    let along = direction.reject_from_normalized(normal);
+    let rim = along / to_u.dot(along).hypot(to_v.dot(along));
+    if rim.is_finite() { r2.sqrt() * rim } else { DVec3::ZERO }
+}
+
+/// What gives u and v of a place when it is multiplied by them, counted from the center of splat `i`; and the unit normal.
+fn dual_frame(splats: &Splats, i: usize) -> [DVec3; 3] {
+    let [s, t] = match &splats.shapes {
+        Shapes::Disks { normals, radii } => {
+            let (s, t) = normals[i].as_dvec3().normalize().any_orthonormal_pair();
+            [s, t].map(|axis| axis * f64::from(radii[i]))
+        }
+        Shapes::Ellipses { s, t } => [s[i].as_dvec3(), t[i].as_dvec3()],
+    };
+    let normal = match &splats.shapes {
+        Shapes::Disks { normals, .. } => normals[i].as_dvec3().normalize(),
+        Shapes::Ellipses { .. } => s.cross(t).normalize(),
+    };
+    // The dual basis in the plane.
+    let area = s.cross(t).dot(normal);
+    [t.cross(normal) / area, normal.cross(s) / area, normal]
+}
+
+#[cfg(test)]
+mod tests;
