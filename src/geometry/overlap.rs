@@ -78,7 +78,7 @@ mod tests {
         positions.extend(positions.clone().iter().map(|p| *p - 0.1 * DVec3::Z));
         let normals = (0..2 * side).map(|i| if i < side { Vec3::Z } else { -Vec3::Z }).collect();
         let shapes = Shapes::Disks { normals, radii: vec![radius; 2 * side] };
-        Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) }
+        Splats::new(positions, shapes, Colors::Uniform([1.0; 4]))
     }
 
     #[test]
@@ -112,11 +112,11 @@ mod tests {
 
     #[test]
     fn nothing_and_one_splat_overlap_by_one() {
-        let none = Splats {
-            positions: Vec::new(),
-            shapes: Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
-            colors: Colors::Uniform([1.0; 4]),
-        };
+        let none = Splats::new(
+            Vec::new(),
+            Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
+            Colors::Uniform([1.0; 4]),
+        );
         assert_eq!(overlap(&none), 1.0);
         let mut one = plate(1.0);
         one.keep(&[vec![true], vec![false; 2 * 3600 - 1]].concat());

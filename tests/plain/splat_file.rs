@@ -53,7 +53,7 @@ fn disks(positions: Vec<DVec3>, colors: Colors) -> Splats {
     let mut value = || random.unit() as f32 - 0.5;
     let normals = positions.iter().map(|_| Vec3::new(value(), value(), value()) * 1e3).collect();
     let radii = positions.iter().map(|_| value().abs() + 0.1).collect();
-    Splats { positions, shapes: Shapes::Disks { normals, radii }, colors }
+    Splats::new(positions, Shapes::Disks { normals, radii }, colors)
 }
 
 /// Positions that `float` has.
@@ -90,11 +90,11 @@ fn disks_come_back_bit_by_bit_with_colors_of_every_type() {
 fn ellipses_come_back_bit_by_bit_and_on_their_side() {
     let Shapes::Disks { normals: s, .. } = disks(near(500), Colors::unknown()).shapes else { unreachable!() };
     let t = s.iter().map(|s| s.zxy() * Vec3::new(1.0, -2.0, 1e-3)).collect();
-    let splats = Splats {
-        positions: near(500),
-        shapes: Shapes::Ellipses { s, t },
-        colors: Colors::Uniform([1.0, 0.0, linear_from_srgb(0.2), 0.5]),
-    };
+    let splats = Splats::new(
+        near(500),
+        Shapes::Ellipses { s, t },
+        Colors::Uniform([1.0, 0.0, linear_from_srgb(0.2), 0.5]),
+    );
     let (read, _, _) = round_trip(&splats, true);
     assert_eq!(shape_bits(&read), shape_bits(&splats));
     assert_eq!(color_bits(&read), color_bits(&splats));

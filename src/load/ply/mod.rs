@@ -156,7 +156,7 @@ fn splats_or_points(read: Read, closed: bool, format: String) -> (Loaded, u64) {
             return (Loaded::new(Model::Points(points), format), beyond);
         }
     };
-    let splats = Splats { positions, shapes, colors };
+    let splats = Splats::new(positions, shapes, colors);
     (Loaded::new(Model::Splats { splats, closed }, format), beyond)
 }
 
@@ -165,7 +165,7 @@ fn gaussians(read: Read, format: String) -> (Loaded, u64) {
     let Vertices { positions, tangents, colors: file_colors, solid, .. } = read.vertices;
     let (colors, beyond) = colors(file_colors);
     let (s, t) = tangents.unwrap_or_default();
-    let mut splats = Splats { positions, shapes: Shapes::Ellipses { s, t }, colors };
+    let mut splats = Splats::new(positions, Shapes::Ellipses { s, t }, colors);
     let all = splats.len();
     if let Some(solid) = solid.filter(|solid| solid.len() == all) {
         splats.keep(&solid);
