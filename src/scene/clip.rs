@@ -136,9 +136,14 @@ impl Clips {
         self.each.get(i).copied().unwrap_or_default()
     }
 
+    /// One a splat, or none at all where none has any.
+    pub fn iter(&self) -> impl Iterator<Item = &Clip> {
+        self.each.iter()
+    }
+
     /// How many splats have one.
     pub fn count(&self) -> usize {
-        self.each.iter().filter(|clip| **clip != Clip::None).count()
+        self.iter().filter(|clip| **clip != Clip::None).count()
     }
 
     /// Bytes of memory.
