@@ -1,8 +1,9 @@
 //! How much a surface overlaps itself: the sum of weights that splats leave inside of it, by which `glsl/inc/edges.glsl` tells what part of a
 //! pixel it covers.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::clip::removes;
 use crate::scene::{Shapes, Splats};
 
 /// Splats at whose centers it is looked for.
@@ -19,12 +20,12 @@ struct Sample {
 }
 
 /// The median of what an object's splats find at their centers of Σ exp(−2 (u² + v²)), with the splat itself, over those that face the same
-/// way and whose disks are there: no farther above or below than their major radius. 1 or more; 1 of nothing.
+/// way and whose disks are there, not cut off: no farther above or below than their major radius. 1 or more; 1 of nothing.
 pub fn overlap(splats: &Splats) -> f64 {
     let count = splats.len();
     let places = (0..count.min(SAMPLES)).map(|i| i * count / count.min(SAMPLES));
     let mut samples: Vec<_> = places
-        .filter(|&i| splats.defect(i).is_none())
+        .filter(|&i| splats.defect(i).is_none() && !removes(&splats.clips.get(i), DVec2::ZERO))
         .map(|i| Sample { position: splats.positions[i], normal: frame(splats, i)[2], weight: 0.0 })
         .collect();
     samples.sort_unstable_by(|a, b| a.position.x.total_cmp(&b.position.x));
@@ -35,9 +36,10 @@ pub fn overlap(splats: &Splats) -> f64 {
         for sample in near.filter(|sample| (sample.position - center).abs().max_element() <= reach) {
             let [to_u, to_v, normal] = frame(splats, i);
             let from_center = sample.position - center;
-            let r2 = from_center.dot(to_u).powi(2) + from_center.dot(to_v).powi(2);
-            if r2 <= 1.0 && normal.dot(sample.normal) > 0.0 {
-                sample.weight += (-r2 / (2.0 * SIGMA * SIGMA)).exp();
+            let place = DVec2::new(from_center.dot(to_u), from_center.dot(to_v));
+            let covers = place.length_squared() <= 1.0 && !removes(&splats.clips.get(i), place);
+            if covers && normal.dot(sample.normal) > 0.0 {
+                sample.weight += (-place.length_squared() / (2.0 * SIGMA * SIGMA)).exp();
             }
         }
     }

@@ -1,10 +1,11 @@
 //! What the splats of a surface sum to where it is whole: at the centers of some of them, the median of what all of them leave there.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::clip::removes;
 use super::kernel::{limit_r2, weight};
 use super::tangents::tangents;
-use crate::scene::{Kernel, Splats};
+use crate::scene::{ClipTest, Kernel, Splats};
 
 /// The most centers.
 const SAMPLES: usize = 512;
@@ -18,12 +19,16 @@ pub(super) fn overlap(splats: &Splats, kernel: Kernel) -> f64 {
     let samples = count.min(SAMPLES);
     let mut sums: Vec<f64> = (0..samples)
         .map(|i| i * count / samples)
-        .filter(|&i| splats.defect(i).is_none())
+        .filter(|&i| splats.defect(i).is_none() && !is_cut_off(splats, i, DVec2::ZERO))
         .map(|i| sum_at(splats, splats.positions[i], i))
         .collect();
     sums.sort_by(f64::total_cmp);
     let median = sums.get(sums.len() / 2).map_or(1.0, |sum| sum.max(1.0));
     1.0 + (median - 1.0) * integral(kernel) / integral(KERNEL)
+}
+
+fn is_cut_off(splats: &Splats, i: usize, place: DVec2) -> bool {
+    removes(&splats.clips.get(i), place, ClipTest::Conic)
 }
 
 /// Σ of the weights at a place on splat `of`, of splats that face the side that it faces.
@@ -44,7 +49,8 @@ fn sum_at(splats: &Splats, place: DVec3, of: usize) -> f64 {
         // q = u s + v t + h n, solved by Cramer's rule.
         let volume = s.cross(t).dot(normal);
         let (u, v) = (q.cross(t).dot(normal) / volume, s.cross(q).dot(normal) / volume);
-        if normal.dot(facing) > 0.0 { weight(KERNEL, u * u + v * v) } else { 0.0 }
+        let counts = normal.dot(facing) > 0.0 && !is_cut_off(splats, i, DVec2::new(u, v));
+        if counts { weight(KERNEL, u * u + v * v) } else { 0.0 }
     })
     .sum()
 }

@@ -24,6 +24,17 @@ pub struct ClipCurve {
     pub weight: f32,
 }
 
+/// How it is decided on which side of a clip curve a place lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClipTest {
+    /// By the implicit form of the conic: no root, no case for the way in which it bends, right for any middle control point.
+    #[default]
+    Conic,
+    /// By the crossings with the line to the middle of the chord (Ivo et al. 2012, equation 7), and outside of the control triangle by the
+    /// lines through the middle control point, which are right only where that lies within the disk.
+    Ivo,
+}
+
 /// What is cut off a splat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Clip {

@@ -32,7 +32,7 @@ mod window;
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::{CameraParts, PictureHeight};
-pub use clip::{Clip, ClipCurve, Clips};
+pub use clip::{Clip, ClipCurve, ClipTest, Clips};
 pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};

@@ -4,6 +4,8 @@ mod affine;
 mod attributes;
 mod borders;
 mod chopped;
+mod clip;
+mod clipped_pictures;
 mod coverage;
 mod depth;
 mod diagnostics;
