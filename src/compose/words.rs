@@ -49,6 +49,7 @@ fn defect_notes(defects: &DefectCounts) -> Vec<Note> {
         (Defect::Radius, "splats whose radius is not above zero or not finite"),
         (Defect::Tangents, "splats whose tangent vectors are collinear or not finite"),
         (Defect::Color, "splats whose color is not finite"),
+        (Defect::Clip, "splats with a clip curve that is not finite or of negative weight"),
     ];
     let notes = kinds.into_iter().map(|(defect, what)| Note::of(Deed::Dropped, defects.of(defect), what));
     notes.flatten().collect()

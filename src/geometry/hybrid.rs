@@ -216,7 +216,7 @@ fn median(radii: &[f32]) -> f32 {
 
 fn empty(mesh: &Mesh) -> Splats {
     let shapes = Shapes::Disks { normals: Vec::new(), radii: Vec::new() };
-    Splats { positions: Vec::new(), shapes, colors: one_color(mesh) }
+    Splats::new(Vec::new(), shapes, one_color(mesh))
 }
 
 /// Splats at places on edges.

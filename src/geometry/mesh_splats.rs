@@ -63,7 +63,7 @@ fn collect(mesh: &Mesh, splats: &[FlatSplat]) -> Splats {
         }
         _ => one_color(mesh),
     };
-    Splats { positions: splats.iter().map(|splat| splat.position).collect(), shapes: shapes(splats), colors }
+    Splats::new(splats.iter().map(|splat| splat.position).collect(), shapes(splats), colors)
 }
 
 /// The color of all splats of a mesh that has none at its vertices.

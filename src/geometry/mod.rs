@@ -2,6 +2,7 @@
 
 mod bounded;
 mod cells;
+mod clip;
 mod cloud;
 mod creases;
 mod eigen;

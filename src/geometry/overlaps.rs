@@ -2,17 +2,18 @@
 //! (`glsl/inc/edges.glsl`).
 //!
 //! A splat's *crowd* K is Σ exp(−2 (u² + v²)) at its center, over itself and the splats that face the same way (normals within 90°), are
-//! no smaller than half of it and whose disks are there: u² + v² ≤ 1, no farther away than their larger radius. With weights over
+//! no smaller than half of it and whose disks are there: u² + v² ≤ 1, no farther away than their larger radius, not cut off by a clip. With weights over
 //! K, splats sum to about the same all over a surface, however densely they lie: independent samples of a surface vary by a quarter of the mean
 //! as they are, by an eighth so. What they sum to in the mean, μ, is found at places spread over the disks of some splats, by area. The
 //! overlap of a splat is K μ: so the sum is 1 in the mean.
 
 mod grids;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use self::grids::Grids;
+use super::clip::removes;
 use crate::scene::{Shapes, Splats};
 
 /// So many cells are a task.
@@ -64,7 +65,11 @@ impl Means {
             let number = numbers[n * numbers.len() / count];
             let i = number as usize;
             let frame = dual_frame(splats, i);
-            let place = splats.positions[i] + from_center(n, frame);
+            let from_center = from_center(n, frame);
+            if removes(&splats.clips.get(i), DVec2::new(frame[0].dot(from_center), frame[1].dot(from_center))) {
+                return [0.0; 3];
+            }
+            let place = splats.positions[i] + from_center;
             let own = inverse(number);
             let area = frame[0].cross(frame[1]).length().recip();
             [area * own * grids.sum_on(splats, i, place, &|of| inverse(of)), area * own, area]

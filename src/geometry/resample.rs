@@ -147,11 +147,11 @@ pub(super) struct Samples {
 impl Samples {
     /// Disks at the samples of a mesh.
     pub(super) fn splats(self, mesh: &Mesh, radii: Vec<f32>) -> Splats {
-        Splats {
-            positions: self.positions,
-            shapes: Shapes::Disks { normals: self.normals, radii },
-            colors: self.colors.map_or_else(|| one_color(mesh), Colors::Each),
-        }
+        Splats::new(
+            self.positions,
+            Shapes::Disks { normals: self.normals, radii },
+            self.colors.map_or_else(|| one_color(mesh), Colors::Each),
+        )
     }
 }
 

@@ -145,7 +145,7 @@ mod tests {
         let (positions, normals): (Vec<DVec3>, Vec<Vec3>) = disks.unzip();
         let radii = vec![0.1; normals.len()];
         let shapes = Shapes::Disks { normals, radii };
-        let splats = Splats { positions, shapes, colors: Colors::unknown() };
+        let splats = Splats::new(positions, shapes, Colors::unknown());
         let object = Object { name: String::new(), splats, closed };
         Scene { objects: vec![object], ..Scene::default() }
     }

@@ -71,7 +71,7 @@ impl Builder {
             true => Shapes::Disks { normals: self.normals, radii: self.radii },
             false => Shapes::Ellipses { s: self.s, t: self.t },
         };
-        let splats = Splats { positions: self.positions, shapes, colors: Colors::Each(self.colors) };
+        let splats = Splats::new(self.positions, shapes, Colors::Each(self.colors));
         Object { name: "test".to_owned(), splats, closed }
     }
 

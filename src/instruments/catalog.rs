@@ -148,7 +148,7 @@ fn scene_of(traits: Traits) -> Scene {
             false => Shapes::Disks { normals: vec![Vec3::Z], radii: vec![radius] },
         };
         let colors = Colors::Uniform([0.5, 0.5, 0.5, alpha]);
-        let splats = Splats { positions: vec![DVec3::ZERO], shapes, colors };
+        let splats = Splats::new(vec![DVec3::ZERO], shapes, colors);
         Object { name: String::new(), splats, closed: traits.closed }
     };
     let mesh = |alpha: f32| MeshObject {

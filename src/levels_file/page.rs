@@ -202,7 +202,7 @@ impl Page {
         let own = (0..if entry.nodes { count } else { 0 }).map(|_| own(&mut input)).collect();
         let parents = (0..count).map(|_| input.u16().into()).collect();
         let balls = (0..entry.balls).map(|_| ball(&mut input)).collect();
-        let splats = Splats { positions, shapes, colors };
+        let splats = Splats::new(positions, shapes, colors);
         let page = Self { nodes: entry.nodes, splats, parents, balls, own };
         page.check(entry, form).map(|()| page)
     }

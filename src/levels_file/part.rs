@@ -98,7 +98,7 @@ pub(super) fn write_top<W: Write + Seek>(
     }
     let Gathered { positions, s, t, colors, own, parents } = nodes;
     let colors = one_color.map_or(Colors::Each(colors), Colors::Uniform);
-    let splats = Splats { positions, shapes: Shapes::Ellipses { s, t }, colors };
+    let splats = Splats::new(positions, Shapes::Ellipses { s, t }, colors);
     let sorted = by_spread(own.len(), |i| ball(parents[i]).spread);
     for pages in runs(&sorted) {
         let which = sorted[pages].iter().map(|(i, _)| *i as usize);

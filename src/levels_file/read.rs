@@ -178,15 +178,16 @@ impl<R: Read + Seek> LevelsFile<R> {
         };
         let nodes = sum(&|page| if page.nodes { page.count } else { 0 });
         let leaves = sum(&|page| page.count) - nodes;
-        let splats = |ellipses: bool, count: usize| Splats {
-            positions: Vec::with_capacity(count),
-            shapes: match ellipses {
+        let splats = |ellipses: bool, count: usize| {
+            let shapes = match ellipses {
                 true => Shapes::Ellipses { s: Vec::with_capacity(count), t: Vec::with_capacity(count) },
                 false => {
                     Shapes::Disks { normals: Vec::with_capacity(count), radii: Vec::with_capacity(count) }
                 }
-            },
-            colors: header.color.map_or_else(|| Colors::Each(Vec::with_capacity(count)), Colors::Uniform),
+            };
+            let colors =
+                header.color.map_or_else(|| Colors::Each(Vec::with_capacity(count)), Colors::Uniform);
+            Splats::new(Vec::with_capacity(count), shapes, colors)
         };
         LeveledObject {
             name: self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),

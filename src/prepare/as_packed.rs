@@ -24,5 +24,5 @@ pub fn as_packed(splats: &Splats) -> Option<Splats> {
     let normals: Vec<Vec3> = disks().map(|(_, normal, _)| normal.as_vec3()).collect();
     let radii = disks().map(|(.., radius)| world(radius) as f32).collect();
     let positions = disks().map(|(center, ..)| center / survey.rebase.scale + survey.rebase.origin).collect();
-    Some(Splats { positions, shapes: Shapes::Disks { normals, radii }, colors })
+    Some(Splats::new(positions, Shapes::Disks { normals, radii }, colors))
 }

@@ -143,7 +143,7 @@ mod tests {
     /// With the scale of their local space.
     fn blocks_of(shapes: Shapes, positions: Vec<DVec3>, as_packed: bool) -> (Vec<Block>, f64) {
         let count = positions.len();
-        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
         let survey = pack::survey(&splats, 0..count, Rebase { origin: DVec3::ZERO, scale: 0.5 });
         let survey = if as_packed { survey.packed().unwrap() } else { survey };
         let mut maker = BlockMaker::default();

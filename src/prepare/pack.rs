@@ -253,14 +253,14 @@ mod tests {
 
     #[test]
     fn tangents_that_a_device_would_flush_to_zero_keep_their_direction() {
-        let splats = Splats {
-            positions: vec![DVec3::ZERO; 2],
-            shapes: Shapes::Ellipses {
+        let splats = Splats::new(
+            vec![DVec3::ZERO; 2],
+            Shapes::Ellipses {
                 s: vec![Vec3::X, Vec3::new(3e-39, 4e-39, 0.0)],
                 t: vec![Vec3::Y * 1e-44, Vec3::Z * 1e-38],
             },
-            colors: Colors::Uniform([1.0; 4]),
-        };
+            Colors::Uniform([1.0; 4]),
+        );
         let rebase = Rebase { origin: DVec3::ZERO, scale: 1e-3 };
         let packed = pack(&splats, 0..2, &survey(&splats, 0..2, rebase), Beside::default());
         let unit = SHORTEST_TANGENT as f32;
@@ -277,7 +277,7 @@ mod tests {
         let mut positions = vec![DVec3::ZERO; 9];
         positions.push(DVec3::splat(1e60));
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; 10], radii: vec![1.0; 10] };
-        let splats = Splats { positions, shapes, colors: Colors::Uniform([0.5; 4]) };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([0.5; 4]));
         let rebase = Rebase::of(&splats, 0..10);
         let survey = survey(&splats, 0..10, rebase);
         assert_eq!((survey.count, survey.defects.of(Defect::Position)), (9, 1));
@@ -288,14 +288,14 @@ mod tests {
     #[test]
     fn defective_splats_leave_no_trace_and_normals_of_any_length_become_unit() {
         let lengths = [1.0_f32, 1e-38, 1e38, 0.0, 3.0];
-        let splats = Splats {
-            positions: vec![DVec3::ZERO; 5],
-            shapes: Shapes::Disks {
+        let splats = Splats::new(
+            vec![DVec3::ZERO; 5],
+            Shapes::Disks {
                 normals: lengths.iter().map(|l| Vec3::new(0.0, 0.6, 0.8) * *l).collect(),
                 radii: vec![1.0, 2.0, 3.0, 9.0, f32::NAN],
             },
-            colors: Colors::Uniform([0.0, 0.5, 1.0, 1.0]),
-        };
+            Colors::Uniform([0.0, 0.5, 1.0, 1.0]),
+        );
         let rebase = Rebase { origin: DVec3::ZERO, scale: 0.5 };
         let survey = survey(&splats, 0..5, rebase);
         let packed = pack(&splats, 0..5, &survey, Beside::default());

@@ -127,7 +127,7 @@ mod tests {
     fn splats(positions: Vec<DVec3>, radius: f64) -> Splats {
         let count = positions.len();
         let shapes = Shapes::Disks { normals: vec![glam::Vec3::Z; count], radii: vec![radius as f32; count] };
-        Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) }
+        Splats::new(positions, shapes, Colors::Uniform([1.0; 4]))
     }
 
     fn three_at(offset: DVec3, size: f64) -> Splats {

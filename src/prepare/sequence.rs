@@ -106,7 +106,7 @@ mod tests {
     fn splats(positions: Vec<DVec3>) -> Splats {
         let count = positions.len();
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![0.01; count] };
-        Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) }
+        Splats::new(positions, shapes, Colors::Uniform([1.0; 4]))
     }
 
     /// Points evenly spread over the unit sphere, in no order.

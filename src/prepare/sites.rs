@@ -150,7 +150,7 @@ mod tests {
     fn sites_of(positions: Vec<DVec3>, radius: f32) -> Vec<(usize, bool)> {
         let count = positions.len();
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![radius; count] };
-        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
         let sequence = Sequence::of(&splats, Order::Morton);
         let piece = 0..count;
         let sites = sites(&splats, &sequence, &piece, SplatFormat::Exact);
@@ -193,7 +193,7 @@ mod tests {
         let mut radii = vec![1e-9; 5];
         radii.push(1e12);
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; 6], radii };
-        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
         let sites = sites(&splats, &Sequence::of(&splats, Order::Input), &(0..6), SplatFormat::Exact);
         let places: Vec<_> = sites.iter().map(|site| site.listed.clone().unwrap_or_default()).collect();
         assert_eq!(places, [vec![0, 1, 2, 3, 4], vec![5]]);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::clip::Clipped;
 use super::intersect::r2_margin;
 use super::kernel::weight;
 use super::splat::DrawnSplat;
@@ -31,6 +32,9 @@ impl DrawnSplat {
     pub fn fragment(&self, ray: DVec3, near: f64, kernel: Kernel) -> Option<Fragment> {
         let x = ray.truncate();
         if self.square.is_some_and(|square| square.depth_inside(x) < 0.0) {
+            return None;
+        }
+        if self.clip.is_some_and(|clip| clip.removes_at(ray)) {
             return None;
         }
         let disk = self.hit(ray, near).map(|hit| (hit.z, weight(kernel, hit.r2)));
@@ -71,7 +75,11 @@ impl DrawnSplat {
         let at_low_pass =
             low_pass.is_some_and(|part| undecided(&part)) && !disk.is_some_and(|disk| covers(&disk));
         let at_square = inside_square.abs() <= square_margin_px;
-        if !(at_disk || at_low_pass || at_square) {
+        // Of (u, v) the error is no larger than that of r² where that is 1.
+        let margin = disk.map(|disk| disk.1.margin).or(low_pass.map(|part| part.1.margin)).unwrap_or(0.0);
+        let clipped = self.clip.map_or(Clipped::Kept, |clip| clip.near(ray, margin));
+        let at_curve = clipped == Clipped::Undecided;
+        if clipped == Clipped::Removed || !(at_disk || at_low_pass || at_square || at_curve) {
             return None;
         }
         let parts = [disk, low_pass].into_iter().flatten().filter(may_cover);

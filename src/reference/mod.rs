@@ -18,6 +18,9 @@
 //! is blended with them by their sum of weights (`front`, `transition`). Transparent fragments are all kept, a pixel at
 //! a time, and grouped into layers by ε (`layers`): nothing is peeled.
 //!
+//! What a clip curve removes of a splat is left out of each of its fragments (`clip`), by the (u, v) where the ray meets the plane of the
+//! splat as the scene has it: no filter moves a curve.
+//!
 //! Which levels of detail a view has is found by walking down from the root (`selection`).
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
@@ -29,6 +32,7 @@
 mod affine;
 mod band;
 mod bands;
+mod clip;
 mod covering;
 mod decision;
 mod edges;
@@ -68,6 +72,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+pub use clip::removes;
 pub use edges::Edge;
 pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
 #[cfg(test)]

@@ -1,14 +1,15 @@
 //! What the splats of a surface sum to where it is whole, near each of them, by looking at each pair of splats.
 //!
 //! A splat's crowd is the sum of weights at its center, its own among them, over the splats that face the same way, are no smaller than half of
-//! it, and whose disks are there: a ball of its larger radius around each holds the center. What weights over crowds sum to in the mean over the surface is found at 1024 places: the overlap is the
+//! it, and whose disks are there: a ball of its larger radius around each holds the center, which no clip cuts off. What weights over crowds sum to in the mean over the surface is found at 1024 places: the overlap is the
 //! crowd times that mean.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::clip::removes;
 use super::kernel::{limit_r2, weight};
 use super::tangents::tangents;
-use crate::scene::{Kernel, Splats};
+use crate::scene::{Clip, ClipTest, Kernel, Splats};
 
 /// The most places.
 const PLACES: usize = 1024;
@@ -27,6 +28,7 @@ struct Among {
     t: DVec3,
     normal: DVec3,
     radius: f64,
+    clip: Clip,
 }
 
 /// The overlap of the surface at each splat of an object under a kernel; 1 of what can't be drawn.
@@ -49,6 +51,9 @@ pub(crate) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
     for n in 0..places {
         let of = &all[numbers[n * all.len() / places]];
         let place = place_on(of, n);
+        if is_cut_off(of, place) {
+            continue;
+        }
         let there: f64 = near(place).map(|other| weight_at(other, of, place) / overlaps[other.number]).sum();
         let own = of.s.cross(of.t).length() / overlaps[of.number];
         sum += own * there;
@@ -67,22 +72,31 @@ fn all_along_x(splats: &Splats) -> Vec<Among> {
             let (s, t) = tangents(&splats.shapes, number);
             let normal = s.normalize().cross(t.normalize()).normalize();
             let (center, radius) = (splats.positions[number], splats.major_radius(number));
-            Among { number, center, s, t, normal, radius }
+            Among { number, center, s, t, normal, radius, clip: splats.clips.get(number) }
         })
         .collect();
     all.sort_by(|a, b| a.center.x.total_cmp(&b.center.x));
     all
 }
 
+/// (u, v) of a place, seen along the normal: q = u s + v t + h n, solved by Cramer's rule.
+fn seen_at(splat: &Among, place: DVec3) -> DVec2 {
+    let q = place - splat.center;
+    let volume = splat.s.cross(splat.t).dot(splat.normal);
+    DVec2::new(q.cross(splat.t).dot(splat.normal), splat.s.cross(q).dot(splat.normal)) / volume
+}
+
+/// Whether the splat's own clip removes a place.
+fn is_cut_off(splat: &Among, place: DVec3) -> bool {
+    removes(&splat.clip, seen_at(splat, place), ClipTest::Conic)
+}
+
 /// What a splat weighs at a place of another one.
 fn weight_at(splat: &Among, of: &Among, place: DVec3) -> f64 {
-    let q = place - splat.center;
-    // q = u s + v t + h n, solved by Cramer's rule.
-    let volume = splat.s.cross(splat.t).dot(splat.normal);
-    let (u, v) = (q.cross(splat.t).dot(splat.normal) / volume, splat.s.cross(q).dot(splat.normal) / volume);
-    let is_there = u * u + v * v <= 1.0 && q.length() <= splat.radius;
+    let r2 = seen_at(splat, place).length_squared();
+    let is_there = r2 <= 1.0 && place.distance(splat.center) <= splat.radius && !is_cut_off(splat, place);
     let counts = splat.radius >= 0.5 * of.radius && splat.normal.dot(of.normal) > 0.0;
-    if is_there && counts { weight(KERNEL, u * u + v * v) } else { 0.0 }
+    if is_there && counts { weight(KERNEL, r2) } else { 0.0 }
 }
 
 /// The `n`th place of a sequence that is spread evenly over a splat: a direction on the unit sphere, seen along the normal, and a share of

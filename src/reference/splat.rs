@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
+use super::clip::DrawnClip;
 use super::covering::{Covering, covers_in_part};
 use super::epsilon::EpsilonRule;
 use super::ewa::Stretched;
@@ -60,6 +61,8 @@ pub(super) struct DrawnSplat {
     pub least_weight: f64,
     /// The low-pass filter beside it, for [`Filter::Max`].
     pub low_pass: Option<LowPass>,
+    /// What is cut off it.
+    pub clip: Option<DrawnClip>,
     /// The square to which it is cut, for [`Rasterizer::RaycastApproximate`].
     pub square: Option<Square>,
     /// Semi-minor axis in pixels: of the map's ellipse, or of the projection at the center; `None` where the disk
@@ -253,6 +256,7 @@ fn prepare_one(
         }),
         least_weight: settings.floors().weight,
         low_pass,
+        clip: DrawnClip::of(splats.clips.get(i), center, original),
         square,
         minor_px: (!reaches_near).then_some(view.focal_px * minor),
     })

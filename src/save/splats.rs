@@ -7,8 +7,10 @@
 //! **What is lost.** Normals, radii and tangent vectors: nothing. Positions: nothing as `double`; they are `float` only
 //! where that moves no splat by more than [`MOST_SHIFT`] of its radius. Colors: nothing that came from a file; the file
 //! has the narrowest type that gives back the same 32-bit floats, and where none does, `float` (sRGB, within a few
-//! units of the last place).
+//! units of the last place). Clip curves: nothing; they are `clip_a1 clip_a3 clip_u clip_v clip_w` where a splat has one, the same with
+//! `clip2_` where one has two, and `clip_mode` where both of two must remove.
 
+mod clips;
 mod colors;
 
 use std::{
@@ -24,6 +26,7 @@ use crate::{
     progress::Progress,
     scene::{Shapes, Splats},
 };
+use clips::ClipColumns;
 use colors::ColorColumns;
 
 /// The largest part of its radius by which rounding a position to `float` may move a splat: its rim stays where it is to
@@ -49,7 +52,8 @@ pub struct WrittenSplats {
 pub fn splats(path: &Path, splats: &Splats, closed: bool, progress: &dyn Progress) -> Result<WrittenSplats> {
     let double_positions = (0..splats.len()).any(|i| single_loses(splats, i));
     let colors = ColorColumns::of(splats);
-    let header = header(splats, closed, double_positions, &colors);
+    let clips = ClipColumns::of(&splats.clips);
+    let header = header(splats, closed, double_positions, &colors, &clips);
     let mut row = Vec::new();
     let mut bytes = header.len() as u64;
     whole::write(path, |file| {
@@ -57,6 +61,7 @@ pub fn splats(path: &Path, splats: &Splats, closed: bool, progress: &dyn Progres
         for i in 0..splats.len() {
             row.clear();
             push_row(&mut row, splats, i, double_positions, &colors)?;
+            clips.push(&mut row, splats.clips.get(i));
             file.write_all(&row)?;
             bytes += row.len() as u64;
             if i % PROGRESS_SPLATS == 0 {
@@ -77,7 +82,13 @@ fn single_loses(splats: &Splats, i: usize) -> bool {
     shift > MOST_SHIFT * splats.major_radius(i) || (shift > 0.0 && splats.defect(i).is_some())
 }
 
-fn header(splats: &Splats, closed: bool, double_positions: bool, colors: &ColorColumns) -> String {
+fn header(
+    splats: &Splats,
+    closed: bool,
+    double_positions: bool,
+    colors: &ColorColumns,
+    clips: &ClipColumns,
+) -> String {
     let mut text =
         "ply\nformat binary_little_endian 1.0\ncomment splats: disks with radius, or tangent vectors\n"
             .to_owned();
@@ -103,6 +114,7 @@ fn header(splats: &Splats, closed: bool, double_positions: bool, colors: &ColorC
     if let Some(number) = colors.alpha {
         properties(number.name(), &["alpha"]);
     }
+    clips.properties().for_each(|[kind, name]| properties(kind, &[name]));
     text + "end_header\n"
 }
 

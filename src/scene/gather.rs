@@ -1,12 +1,12 @@
 //! Splats that are picked from others or put together.
 
-use super::{Colors, Shapes, Splats};
+use super::{Clips, Colors, Shapes, Splats};
 
 impl Splats {
     /// Not one, of disks with a color each.
     pub fn none() -> Self {
         let shapes = Shapes::Disks { normals: Vec::new(), radii: Vec::new() };
-        Self { positions: Vec::new(), shapes, colors: Colors::Each(Vec::new()) }
+        Self::new(Vec::new(), shapes, Colors::Each(Vec::new()))
     }
 
     /// None of the same kind, with room for so many; where there is one color for all, that stays.
@@ -25,6 +25,7 @@ impl Splats {
                 Colors::Uniform(color) => Colors::Uniform(color),
                 Colors::Each(_) => Colors::Each(Vec::with_capacity(count)),
             },
+            clips: Clips::default(),
         }
     }
 
@@ -41,6 +42,7 @@ impl Splats {
             }
             _ => return,
         }
+        self.clips.append(self.positions.len(), others.clips, others.positions.len());
         self.positions.extend(others.positions);
         if let (Colors::Each(colors), Colors::Each(more)) = (&mut self.colors, others.colors) {
             colors.extend(more);
@@ -65,8 +67,9 @@ impl Splats {
             },
             colors: match &self.colors {
                 Colors::Uniform(color) => Colors::Uniform(*color),
-                Colors::Each(colors) => Colors::Each(of(colors, which)),
+                Colors::Each(colors) => Colors::Each(of(colors, which.clone())),
             },
+            clips: self.clips.picked(which),
         }
     }
 }

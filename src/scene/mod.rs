@@ -6,6 +6,7 @@
 mod bounds;
 mod camera;
 mod camera_parts;
+mod clip;
 mod colors;
 mod crop;
 mod encoding;
@@ -31,6 +32,7 @@ mod window;
 pub use bounds::{Ball, Bounds};
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::{CameraParts, PictureHeight};
+pub use clip::{Clip, ClipCurve, ClipTest, Clips};
 pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
@@ -155,14 +157,11 @@ mod tests {
         let disks = |centers: &[[f64; 3]], radius: f32| Object {
             name: String::new(),
             closed: false,
-            splats: Splats {
-                positions: centers.iter().map(|center| DVec3::from(*center)).collect(),
-                shapes: Shapes::Disks {
-                    normals: vec![Vec3::Z; centers.len()],
-                    radii: vec![radius; centers.len()],
-                },
-                colors: Colors::Uniform([1.0; 4]),
-            },
+            splats: Splats::new(
+                centers.iter().map(|center| DVec3::from(*center)).collect(),
+                Shapes::Disks { normals: vec![Vec3::Z; centers.len()], radii: vec![radius; centers.len()] },
+                Colors::Uniform([1.0; 4]),
+            ),
         };
         let ends = [[2.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, -2.0, 0.0]];
         let defective = disks(&[[f64::NAN, 0.0, 0.0], [9.0, f64::INFINITY, 0.0]], 1.0);

@@ -2,9 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Bounds, Colors};
+use super::{Bounds, Clip, Clips, Colors};
 
-/// Oriented elliptical disks in world space. All arrays have one entry a splat.
+/// Oriented elliptical disks in world space, parts of which may be cut off. All arrays have one entry a splat.
 #[derive(Clone, Debug)]
 pub struct Splats {
     /// Centers.
@@ -13,6 +13,8 @@ pub struct Splats {
     pub shapes: Shapes,
     /// Color and opacity.
     pub colors: Colors,
+    /// What is cut off. Only ellipses have such: disks have no (u, v).
+    pub clips: Clips,
 }
 
 /// Orientation and size of every splat.
@@ -48,16 +50,23 @@ pub enum Defect {
     Tangents,
     /// A color component is NaN or infinite.
     Color,
+    /// A value of a clip curve is NaN or infinite, or its weight negative; or a disk has one.
+    Clip,
 }
 
 /// The numbers of splats with each defect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DefectCounts {
     /// Indexed by [`Defect`].
-    counts: [usize; 5],
+    counts: [usize; 6],
 }
 
 impl Splats {
+    /// Splats of which nothing is cut off.
+    pub fn new(positions: Vec<DVec3>, shapes: Shapes, colors: Colors) -> Self {
+        Self { positions, shapes, colors, clips: Clips::default() }
+    }
+
     /// The number of splats.
     pub fn len(&self) -> usize {
         self.positions.len()
@@ -69,7 +78,8 @@ impl Splats {
     }
 
     /// Bytes of memory that the splats themselves need: with disks 24 for a position, 12 for a normal, 4 for a radius;
-    /// with ellipses 24 and twice 12; 16 more for a color of its own.
+    /// with ellipses 24 and twice 12; 16 more for a color of its own; 44 more where
+    /// parts of some are cut off.
     pub fn bytes(&self) -> u64 {
         let shape = match &self.shapes {
             Shapes::Disks { .. } => size_of::<(Vec3, f32)>(),
@@ -79,7 +89,7 @@ impl Splats {
             Colors::Uniform(_) => 0,
             Colors::Each(_) => size_of::<[f32; 4]>(),
         };
-        self.len() as u64 * (size_of::<DVec3>() + shape + color) as u64
+        self.len() as u64 * (size_of::<DVec3>() + shape + color) as u64 + self.clips.bytes()
     }
 
     /// Color and alpha of splat `i`.
@@ -120,7 +130,12 @@ impl Splats {
                 }
             }
         }
-        (!self.color(i).iter().all(|c| c.is_finite())).then_some(Defect::Color)
+        if !self.color(i).iter().all(|c| c.is_finite()) {
+            return Some(Defect::Color);
+        }
+        let clip = self.clips.get(i);
+        let belongs = clip == Clip::None || matches!(self.shapes, Shapes::Ellipses { .. });
+        (!(belongs && clip.is_valid())).then_some(Defect::Clip)
     }
 
     /// Removes every splat that has a [`Defect`], keeps the order of the others, and tells what was removed.
@@ -159,6 +174,7 @@ impl Splats {
         if let Colors::Each(colors) = &mut self.colors {
             retain(colors, keep);
         }
+        self.clips = self.clips.picked((0..keep.len()).filter(|&i| keep[i]));
     }
 
     /// The box around all disks (each taken as the ball of its major radius); splats with a [`Defect`] are left
@@ -205,6 +221,7 @@ impl std::fmt::Display for DefectCounts {
             (Defect::Radius, "radius not above zero or not finite"),
             (Defect::Tangents, "tangent vectors collinear or not finite"),
             (Defect::Color, "color not finite"),
+            (Defect::Clip, "clip curve not finite or of negative weight"),
         ];
         let parts: Vec<String> = words
             .iter()
@@ -247,14 +264,14 @@ mod tests {
             ((good.0, good.1, f32::INFINITY, good.3), Some(Defect::Radius)),
             ((good.0, good.1, good.2, [0.0, f32::NAN, 0.0, 1.0]), Some(Defect::Color)),
         ];
-        let mut splats = Splats {
-            positions: cases.iter().map(|c| c.0.0).collect(),
-            shapes: Shapes::Disks {
+        let mut splats = Splats::new(
+            cases.iter().map(|c| c.0.0).collect(),
+            Shapes::Disks {
                 normals: cases.iter().map(|c| c.0.1).collect(),
                 radii: cases.iter().map(|c| c.0.2).collect(),
             },
-            colors: Colors::Each(cases.iter().map(|c| c.0.3).collect()),
-        };
+            Colors::Each(cases.iter().map(|c| c.0.3).collect()),
+        );
         for (i, case) in cases.iter().enumerate() {
             assert_eq!(splats.defect(i), case.1, "case {i}");
         }
@@ -266,14 +283,14 @@ mod tests {
 
     #[test]
     fn collinear_tangents_are_a_defect_and_thin_ellipses_are_not() {
-        let splats = Splats {
-            positions: vec![DVec3::ZERO; 3],
-            shapes: Shapes::Ellipses {
+        let splats = Splats::new(
+            vec![DVec3::ZERO; 3],
+            Shapes::Ellipses {
                 s: vec![Vec3::X; 3],
                 t: vec![2.0 * Vec3::X, Vec3::new(0.0, 1e-6, 0.0), Vec3::ZERO],
             },
-            colors: Colors::Uniform([0.5; 4]),
-        };
+            Colors::Uniform([0.5; 4]),
+        );
         assert_eq!(splats.defect(0), Some(Defect::Tangents));
         assert_eq!(splats.defect(1), None);
         assert_eq!(splats.defect(2), Some(Defect::Tangents));

@@ -5,7 +5,7 @@
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-use super::{Mesh, Points, Shapes, Splats};
+use super::{ClipCurve, Mesh, Points, Shapes, Splats};
 
 /// Relative deviation from a similarity below which a disk stays a disk: radii are kept in 32 bits, which tell no less.
 const SIMILARITY: f64 = 1e-7;
@@ -24,7 +24,7 @@ impl Splats {
     ///
     /// Under a similarity (moved, turned, mirrored, scaled alike in all directions) disks stay disks. Else they become
     /// ellipses, whose tangent vectors are the images of the disk's own: these are not its axes. Where the map mirrors,
-    /// the two are swapped, so that their product still points outward.
+    /// the two are swapped, so that their product still points outward. Clip curves stay where they are on the surface.
     #[must_use]
     pub fn transformed(self, world_from_object: &DAffine3) -> Self {
         let linear = Linear::of(&world_from_object.matrix3);
@@ -42,7 +42,9 @@ impl Splats {
                 linear.ellipses(s.iter().zip(&t).map(|(s, t)| [s.as_dvec3(), t.as_dvec3()]))
             }
         };
-        Self { positions, shapes, colors: self.colors }
+        // Places in (u, v) stay, but for that swap.
+        let clips = if linear.mirrors() { self.clips.map(ClipCurve::swapped) } else { self.clips };
+        Self { positions, shapes, colors: self.colors, clips }
     }
 }
 

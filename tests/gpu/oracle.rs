@@ -200,11 +200,11 @@ fn every_epsilon_agrees_with_the_oracle_and_zero_leaves_no_pixel_empty() {
 /// Two sides of a plate half a radius thick, in two colors, bent; as disks or ellipses, opaque or not.
 fn thin_plate(ellipses: bool, alpha: f32) -> Hard {
     let mut random = SplitMix(17);
-    let mut splats = Splats {
-        positions: Vec::new(),
-        shapes: Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
-        colors: Colors::Each(Vec::new()),
-    };
+    let mut splats = Splats::new(
+        Vec::new(),
+        Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
+        Colors::Each(Vec::new()),
+    );
     let (mut all_s, mut all_t) = (Vec::new(), Vec::new());
     let (radius, half_thick) = (0.08, 0.02);
     for (side, color) in [(1.0, [0.9, 0.4, 0.1, alpha]), (-1.0, [0.1, 0.3, 0.9, alpha])] {

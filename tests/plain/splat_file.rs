@@ -1,11 +1,11 @@
 //! Splats that are written to a file and read back are the same splats.
 
-use glam::{DVec3, Vec3, Vec3Swizzles as _};
+use glam::{DVec3, Vec2, Vec3, Vec3Swizzles as _};
 use surfel::{
     load::{LoadOptions, Model, builtin, load},
     math::{random::SplitMix, srgb::linear_from_srgb},
     save::{self, WrittenSplats},
-    scene::{Colors, Shapes, Splats},
+    scene::{Clip, ClipCurve, Clips, Colors, Shapes, Splats},
 };
 
 /// Written, and read again.
@@ -53,7 +53,7 @@ fn disks(positions: Vec<DVec3>, colors: Colors) -> Splats {
     let mut value = || random.unit() as f32 - 0.5;
     let normals = positions.iter().map(|_| Vec3::new(value(), value(), value()) * 1e3).collect();
     let radii = positions.iter().map(|_| value().abs() + 0.1).collect();
-    Splats { positions, shapes: Shapes::Disks { normals, radii }, colors }
+    Splats::new(positions, Shapes::Disks { normals, radii }, colors)
 }
 
 /// Positions that `float` has.
@@ -90,14 +90,39 @@ fn disks_come_back_bit_by_bit_with_colors_of_every_type() {
 fn ellipses_come_back_bit_by_bit_and_on_their_side() {
     let Shapes::Disks { normals: s, .. } = disks(near(500), Colors::unknown()).shapes else { unreachable!() };
     let t = s.iter().map(|s| s.zxy() * Vec3::new(1.0, -2.0, 1e-3)).collect();
-    let splats = Splats {
-        positions: near(500),
-        shapes: Shapes::Ellipses { s, t },
-        colors: Colors::Uniform([1.0, 0.0, linear_from_srgb(0.2), 0.5]),
-    };
+    let splats = Splats::new(
+        near(500),
+        Shapes::Ellipses { s, t },
+        Colors::Uniform([1.0, 0.0, linear_from_srgb(0.2), 0.5]),
+    );
     let (read, _, _) = round_trip(&splats, true);
     assert_eq!(shape_bits(&read), shape_bits(&splats));
     assert_eq!(color_bits(&read), color_bits(&splats));
+}
+
+#[test]
+fn clip_curves_come_back_bit_by_bit_and_only_what_is_needed_is_written() {
+    let curve = |x: f32| ClipCurve {
+        start_rad: x,
+        end_rad: x + 1.0 / 3.0,
+        middle: Vec2::new(-x, 0.1 * x),
+        weight: x * x,
+    };
+    let (one, both) = (Clip::One(curve(0.3)), Clip::Both(curve(1e-20), curve(-3.0)));
+    for (clips, columns) in [
+        (vec![Clip::None; 2], 0),
+        (vec![Clip::None, one], 5),
+        (vec![Clip::Either(curve(2.0), curve(0.0)), one], 10),
+        (vec![both, Clip::None, one], 11),
+    ] {
+        let count = clips.len();
+        let shapes = Shapes::Ellipses { s: vec![Vec3::X; count], t: vec![Vec3::Y; count] };
+        let plain = Splats::new(near(count), shapes, Colors::unknown());
+        let splats = Splats { clips: Clips::of(clips), ..plain };
+        let (read, _, header) = round_trip(&splats, false);
+        assert_eq!(read.clips, splats.clips);
+        assert_eq!(header.matches(" clip").count(), columns, "{header}");
+    }
 }
 
 #[test]

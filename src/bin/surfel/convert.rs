@@ -32,7 +32,10 @@ the file. With --resample they are disks at points spread evenly over a mesh's a
 the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
 
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
-alpha (sRGB) where the model has colors. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
+alpha (sRGB) where the model has colors. Parts of ellipses are cut off by clip_a1 clip_a3 clip_u clip_v clip_w, the same with \
+clip2_, and clip_mode (0: either removes, 1: both must): a rational Bezier curve in the plane of the splat from angle a1 \
+of its rim to a3 (radians, from su toward sv), with (u, v) its middle control point and w the weight of that; what is to the right \
+of the way is removed, and NaN is no curve. Positions are 64-bit where 32 bits would move a splat. The header line \"comment \
 surfel closed\" tells `surfel render` that the surface is closed, so that splats that face away need not be drawn.
 
 A file that is named .surfel holds the splats and their levels of detail in pages, of which `surfel render --lod 1px` reads those that its \

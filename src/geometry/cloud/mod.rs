@@ -72,7 +72,7 @@ pub fn splats_from_points(points: Points, progress: &dyn Progress) -> (Splats, C
     report.isolated = keep.iter().filter(|keep| !**keep).count();
     let Points { positions, colors, .. } = points;
     let shapes = Shapes::Disks { normals, radii: radii_of_points };
-    let mut splats = Splats { positions, shapes, colors };
+    let mut splats = Splats::new(positions, shapes, colors);
     if report.isolated > 0 {
         splats.keep(&keep);
     }

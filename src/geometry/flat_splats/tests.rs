@@ -96,14 +96,14 @@ fn tangents(splats: &Splats) -> Vec<[DVec3; 3]> {
 fn round(mesh: &Mesh) -> Splats {
     let surface = Surface::of(mesh, || {});
     let radii = hole_free_radii(mesh, &surface.normals);
-    Splats {
-        positions: mesh.positions.clone(),
-        shapes: Shapes::Disks {
+    Splats::new(
+        mesh.positions.clone(),
+        Shapes::Disks {
             normals: surface.normals.iter().map(|normal| normal.as_vec3()).collect(),
             radii: radii.iter().map(|radius| (DEFAULT_OVERLAP * radius) as f32).collect(),
         },
-        colors: Colors::unknown(),
-    }
+        Colors::unknown(),
+    )
 }
 
 /// How far rims stand off the mesh, in thousandths of its size: the 99th hundredth and the most.

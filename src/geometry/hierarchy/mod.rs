@@ -110,7 +110,7 @@ impl Hierarchy {
     /// Memory while it is built: 64 bytes a splat and 250 a node, of which there are a third as many on surfaces, and fewer always.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`], a coordinate or radius above
+    /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`] or a clip curve, a coordinate or radius above
     /// [`LARGEST_COORDINATE`], and more than 2³² − 1 splats.
     pub fn build(splats: &Splats, progress: &dyn Progress) -> Result<Self> {
         Self::build_around(splats, None, progress)
@@ -173,6 +173,12 @@ fn check(splats: &Splats) -> Result<()> {
     if u32::try_from(splats.len()).is_err() {
         return refused(format!("{} splats; expected fewer than 2³²", splats.len()));
     }
+    if !splats.clips.is_empty() {
+        let clipped = splats.clips.count();
+        return refused(format!(
+            "{clipped} with clip curves, of which no node takes account; expected none for levels of detail"
+        ));
+    }
     let unusable = (0..splats.len()).into_par_iter().find_first(|&i| {
         let largest = splats.positions[i].abs().max_element();
         splats.defect(i).is_some() || largest.max(splats.major_radius(i)) > LARGEST_COORDINATE
@@ -185,15 +191,15 @@ fn check(splats: &Splats) -> Result<()> {
 }
 
 fn as_splats(nodes: &[NodeSplat], colors: &Colors) -> Splats {
-    Splats {
-        positions: nodes.iter().map(|node| node.center).collect(),
-        shapes: Shapes::Ellipses {
+    Splats::new(
+        nodes.iter().map(|node| node.center).collect(),
+        Shapes::Ellipses {
             s: nodes.iter().map(|node| node.s).collect(),
             t: nodes.iter().map(|node| node.t).collect(),
         },
-        colors: match colors {
+        match colors {
             Colors::Uniform(color) => Colors::Uniform(*color),
             Colors::Each(_) => Colors::Each(nodes.iter().map(|node| node.color).collect()),
         },
-    }
+    )
 }

@@ -3,11 +3,11 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::dual_frame;
-use crate::scene::Splats;
+use crate::{geometry::clip::removes, scene::Splats};
 
 /// No splat counts that is smaller than this share of the one at whose center it is looked for.
 const LEAST_SIZE: f64 = 0.5;
@@ -154,6 +154,7 @@ fn sum_at(near: &[Neighbor], splats: &Splats, of: usize, place: DVec3, factor: &
         let [u, v] = neighbor.to_uv.map(|axis| axis.dot(from_center));
         let r2 = u * u + v * v;
         let is_there = r2 <= 1.0 && from_center.length_squared() <= neighbor.radius * neighbor.radius;
+        let is_there = is_there && !removes(&splats.clips.get(neighbor.splat as usize), DVec2::new(u, v));
         if is_there && neighbor.radius >= least && neighbor.normal.dot(normal) > 0.0 {
             sum += neighbor.count * factor(neighbor.splat) * (-2.0 * r2).exp();
         }

@@ -10,7 +10,7 @@ use crate::{
 
 fn disks(positions: Vec<DVec3>, radii: Vec<f32>) -> Splats {
     let shapes = Shapes::Disks { normals: vec![Vec3::Z; positions.len()], radii };
-    Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) }
+    Splats::new(positions, shapes, Colors::Uniform([1.0; 4]))
 }
 
 /// A square grid of disks in the plane z = 0, as wide as high.
@@ -133,7 +133,7 @@ fn it_is_what_the_reference_finds_of_each_pair() {
     let mut length = || (0.02 * 8.0_f64.powf(random.unit())) as f32;
     let s = s.into_iter().map(|s| s * length()).collect::<Vec<_>>();
     let t = t.into_iter().map(|t| t * length()).collect::<Vec<_>>();
-    let splats = Splats { positions, shapes: Shapes::Ellipses { s, t }, colors: Colors::Uniform([1.0; 4]) };
+    let splats = Splats::new(positions, Shapes::Ellipses { s, t }, Colors::Uniform([1.0; 4]));
     let own = inverse_overlaps(&splats);
     let exact = crate::reference::overlaps(&splats, crate::scene::Kernel::default());
     for (i, (own, exact)) in own.iter().zip(exact).enumerate() {

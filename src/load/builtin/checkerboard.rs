@@ -20,14 +20,14 @@ pub fn checkerboard(side: usize) -> Object {
         let odd = (column / CHECKERBOARD_FIELD + row / CHECKERBOARD_FIELD) % 2 == 1;
         if odd { [1.0; 4] } else { [0.0, 0.0, 0.0, 1.0] }
     };
-    let splats = Splats {
-        positions: indices().map(position).collect(),
-        shapes: Shapes::Disks {
+    let splats = Splats::new(
+        indices().map(position).collect(),
+        Shapes::Disks {
             normals: vec![Vec3::Z; side * side],
             radii: vec![CHECKERBOARD_RADIUS as f32; side * side],
         },
-        colors: Colors::Each(indices().map(color).collect()),
-    };
+        Colors::Each(indices().map(color).collect()),
+    );
     Object { name: format!("built-in checkerboard of {side}x{side}"), splats, closed: false }
 }
 

@@ -45,14 +45,14 @@ pub fn relief(count: usize) -> Object {
             });
         }
     });
-    let splats = Splats {
-        positions: points.iter().map(|p| p.position).collect(),
-        shapes: Shapes::Disks {
+    let splats = Splats::new(
+        points.iter().map(|p| p.position).collect(),
+        Shapes::Disks {
             normals: points.iter().map(|p| p.normal.as_vec3()).collect::<Vec<Vec3>>(),
             radii: points.iter().map(|p| radius(p, count)).collect(),
         },
-        colors: Colors::Each(points.iter().map(|p| p.color).collect()),
-    };
+        Colors::Each(points.iter().map(|p| p.color).collect()),
+    );
     Object { name: "built-in relief".to_owned(), splats, closed: true }
 }
 

@@ -20,14 +20,14 @@ pub const MOST_SPHERE_TRIANGLES: u64 = 1 << 32;
 /// [`super::relief`], facing outward.
 pub fn sphere(count: usize) -> Object {
     let directions = || (0..count).map(|i| fibonacci_direction(i, count));
-    let splats = Splats {
-        positions: directions().collect(),
-        shapes: Shapes::Disks {
+    let splats = Splats::new(
+        directions().collect(),
+        Shapes::Disks {
             normals: directions().map(|direction| direction.as_vec3()).collect(),
             radii: vec![super::radius_on_unit_sphere(count); count],
         },
-        colors: Colors::unknown(),
-    };
+        Colors::unknown(),
+    );
     Object { name: "built-in sphere".to_owned(), splats, closed: true }
 }
 

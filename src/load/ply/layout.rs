@@ -1,6 +1,9 @@
 //! Which properties of the vertices mean what.
 
-use super::schema::{Element, Kind, Scalar};
+use super::{
+    clips::{CURVES, ClipColumns, MODE},
+    schema::{Element, Kind, Scalar},
+};
 
 /// The properties that are read, as numbers of columns.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +18,8 @@ pub(super) struct Layout {
     pub radius: Option<usize>,
     /// `su_x … sv_z`, the scaled tangent vectors.
     pub tangents: Option<[[usize; 3]; 2]>,
+    /// On the tangent vectors.
+    pub clips: Option<ClipColumns>,
     pub rgb: Option<[usize; 3]>,
     pub alpha: Option<usize>,
     /// How much light came back to a scanner, where there is no color.
@@ -71,8 +76,8 @@ impl Layout {
             finder.sizes(is_mesh);
         }
         let named = |what: &str| def.properties.iter().any(|p| p.name.starts_with(what));
-        if named("clip_") && !is_mesh {
-            finder.ignore("clip curves, which are not supported yet,");
+        if !is_mesh {
+            finder.clips();
         }
         if gaussian.is_some() && named("f_rest_") {
             finder.ignore("Gaussians' view-dependent colors, but for their means,");
@@ -164,6 +169,18 @@ impl Finder<'_> {
             let found = self.def.properties.iter().position(|p| is_intensity(&p.name) && is_one(p.kind));
             self.layout.intensity = found.map(|property| self.add(property));
         }
+    }
+
+    fn clips(&mut self) {
+        let curves = CURVES.map(|names| self.group(names));
+        if curves == [None; 2] {
+            return;
+        }
+        if self.layout.tangents.is_none() {
+            self.ignore("clip curves without tangent vectors");
+            return;
+        }
+        self.layout.clips = Some(ClipColumns { curves, mode: self.one(MODE) });
     }
 
     fn sizes(&mut self, is_mesh: bool) {

@@ -4,6 +4,7 @@
 //! known by their names, in any order; others are read past.
 
 mod body;
+mod clips;
 mod colors;
 mod faces;
 mod gaussian;
@@ -22,7 +23,7 @@ use super::{Input, Loaded, Model};
 use crate::{
     error::Result,
     notes::Deed,
-    scene::{Colors, Mesh, Points, Shapes, Splats, Viewpoint},
+    scene::{Clips, Colors, Mesh, Points, Shapes, Splats, Viewpoint},
 };
 use body::Body;
 use faces::{Triangles, corners};
@@ -44,6 +45,10 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
     let mut layout = Layout::of(vertex_def, is_mesh).map_err(|problem| input.fault(place(), problem))?;
     layout.exact_colors = header.own;
     let read = read(input, &header, vertex_def, &layout)?;
+    if let Some((i, mode)) = read.vertices.clips.as_ref().and_then(|clips| clips.unknown_mode) {
+        let problem = format!("'{}' is {mode}; expected 0 or 1", clips::MODE);
+        return Err(input.fault(format!("{} {i}", vertex_def.name), problem));
+    }
     input.step(input.bytes.len());
     let words = header.encoding.words();
     let (mut loaded, beyond) = match (is_mesh, layout.gaussian) {
@@ -145,7 +150,7 @@ fn mesh(read: Read, format: String) -> (Loaded, u64) {
 
 /// Splats where the file has all that makes them.
 fn splats_or_points(read: Read, closed: bool, format: String) -> (Loaded, u64) {
-    let Vertices { positions, normals, radii, tangents, colors: file_colors, .. } = read.vertices;
+    let Vertices { positions, normals, radii, tangents, clips, colors: file_colors, .. } = read.vertices;
     let (colors, beyond) = colors(file_colors);
     let shapes = match (tangents, normals, radii) {
         (Some((s, t)), ..) => Shapes::Ellipses { s, t },
@@ -156,7 +161,8 @@ fn splats_or_points(read: Read, closed: bool, format: String) -> (Loaded, u64) {
             return (Loaded::new(Model::Points(points), format), beyond);
         }
     };
-    let splats = Splats { positions, shapes, colors };
+    let clips = clips.map_or_else(Clips::default, |clips| Clips::of(clips.each));
+    let splats = Splats { clips, ..Splats::new(positions, shapes, colors) };
     (Loaded::new(Model::Splats { splats, closed }, format), beyond)
 }
 
@@ -165,7 +171,7 @@ fn gaussians(read: Read, format: String) -> (Loaded, u64) {
     let Vertices { positions, tangents, colors: file_colors, solid, .. } = read.vertices;
     let (colors, beyond) = colors(file_colors);
     let (s, t) = tangents.unwrap_or_default();
-    let mut splats = Splats { positions, shapes: Shapes::Ellipses { s, t }, colors };
+    let mut splats = Splats::new(positions, Shapes::Ellipses { s, t }, colors);
     let all = splats.len();
     if let Some(solid) = solid.filter(|solid| solid.len() == all) {
         splats.keep(&solid);

@@ -122,7 +122,7 @@ fn fixed(input: &Input<'_>, header: &Header) -> Option<(Layout, FixedRows, u64)>
     layout.exact_colors = header.own;
     let is_splat = layout.tangents.is_some() || layout.normal.is_some() && layout.radius.is_some();
     let stands_alone = Vertices::new(&layout, 0).colors.is_none_or(|colors| colors.stand_alone());
-    let usable = is_splat && stands_alone && layout.gaussian.is_none();
+    let usable = is_splat && stands_alone && layout.gaussian.is_none() && layout.clips.is_none();
     let rows = FixedRows::new(def, &layout.wanted, header.encoding);
     usable.then_some((layout, rows, def.count))
 }

@@ -1,3 +1,4 @@
+mod clips;
 mod faults;
 mod forms;
 mod gaussians;

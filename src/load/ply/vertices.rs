@@ -6,11 +6,13 @@ use glam::{DVec3, Vec3};
 
 use super::{
     body::Table,
+    clips::FileClips,
     colors::{FileColors, Meaning, White, unknown},
     gaussian,
     layout::Layout,
     schema::Scalar,
 };
+use crate::scene::ClipCurve;
 
 /// All vertices, an array for each group that the file has.
 pub(super) struct Vertices {
@@ -19,6 +21,7 @@ pub(super) struct Vertices {
     pub normals: Option<Vec<Vec3>>,
     pub radii: Option<Vec<f32>>,
     pub tangents: Option<(Vec<Vec3>, Vec<Vec3>)>,
+    pub clips: Option<FileClips>,
     pub colors: Option<FileColors>,
     /// Which of the file's Gaussians are part of a surface.
     pub solid: Option<Vec<bool>>,
@@ -33,6 +36,7 @@ impl Vertices {
             normals: (layout.normal.is_some() && !has_tangents).then(|| Vec::with_capacity(count)),
             radii: layout.radius.map(|_| Vec::with_capacity(count)),
             tangents: has_tangents.then(|| (Vec::with_capacity(count), Vec::with_capacity(count))),
+            clips: layout.clips.map(|_| FileClips::default()),
             colors: colors(layout, count),
             solid: layout.gaussian.map(|_| Vec::with_capacity(count)),
         }
@@ -46,6 +50,10 @@ impl Vertices {
         }
         if let (Some(radii), Some(column)) = (&mut self.radii, layout.radius) {
             radii.extend(table.column(column).iter().map(|&radius| radius as f32));
+        }
+        let new = self.positions.len() - self.clips.as_ref().map_or(0, |clips| clips.each.len());
+        if let (Some(clips), Some(columns)) = (&mut self.clips, &layout.clips) {
+            clips.extend(columns, table, new);
         }
         self.extend_tangents(layout, table);
         if let (Some(solid), Some(gaussian)) = (&mut self.solid, &layout.gaussian) {
@@ -69,11 +77,14 @@ impl Vertices {
             all_t.extend(table.vectors(t).map(|t| t.as_vec3()));
         }
         if let Some(columns) = layout.normal {
-            let new = all_t.iter_mut().zip(all_s.iter()).skip(old);
-            for ((t, s), normal) in new.zip(table.vectors(columns)) {
+            let new = all_t.iter_mut().zip(all_s.iter()).enumerate().skip(old);
+            for ((i, (t, s)), normal) in new.zip(table.vectors(columns)) {
                 // −t spans the same disk and turns the normal s×t around.
                 if s.as_dvec3().cross(t.as_dvec3()).dot(normal) < 0.0 {
                     *t = -*t;
+                    if let Some(clip) = self.clips.as_mut().and_then(|clips| clips.each.get_mut(i)) {
+                        *clip = clip.map(ClipCurve::flipped);
+                    }
                 }
             }
         }

@@ -176,7 +176,7 @@ mod tests {
         let count = depths.len();
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; count], radii: vec![radius; count] };
         let positions = depths.iter().map(|depth| DVec3::NEG_Z * *depth).collect();
-        let splats = Splats { positions, shapes, colors: Colors::Uniform([1.0; 4]) };
+        let splats = Splats::new(positions, shapes, Colors::Uniform([1.0; 4]));
         let objects = vec![Object { name: "disks".to_owned(), splats, closed: false }];
         Scene { objects, ..Scene::default() }
     }

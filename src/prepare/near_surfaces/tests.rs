@@ -6,11 +6,11 @@ use crate::{math::random::SplitMix, scene::Colors};
 /// Two sides of a plate so thick, spaced 0.8 radii of 1, with normals that look outward, or to both sides at random.
 fn plate(thick: f64, noise: f64, oriented: bool) -> Splats {
     let mut random = SplitMix(11);
-    let mut splats = Splats {
-        positions: Vec::new(),
-        shapes: Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
-        colors: Colors::Uniform([1.0; 4]),
-    };
+    let mut splats = Splats::new(
+        Vec::new(),
+        Shapes::Disks { normals: Vec::new(), radii: Vec::new() },
+        Colors::Uniform([1.0; 4]),
+    );
     for side in [1.0, -1.0] {
         for i in 0..900 {
             let mut jitter = || 0.2 * (random.unit() - 0.5);

@@ -73,14 +73,14 @@ fn sphere(count: u32, radius: f32) -> Scene {
             DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
         })
         .collect();
-    let splats = Splats {
-        positions: normals.iter().map(|n| DVec3::Z * 3.0 + *n).collect(),
-        shapes: Shapes::Disks {
+    let splats = Splats::new(
+        normals.iter().map(|n| DVec3::Z * 3.0 + *n).collect(),
+        Shapes::Disks {
             normals: normals.iter().map(|n| n.as_vec3()).collect(),
             radii: vec![radius; count as usize],
         },
-        colors: Colors::Uniform(GRAY),
-    };
+        Colors::Uniform(GRAY),
+    );
     Scene { objects: vec![Object { name: "sphere".into(), splats, closed: false }], ..Scene::default() }
 }
 

@@ -30,14 +30,14 @@ fn defective_splats_are_left_out_and_counted_over_all_objects() {
         (good.0, good.1, f32::INFINITY, good.3),
         (good.0, good.1, good.2, [f32::NAN, 0.0, 0.0, 1.0]),
     ];
-    let disks = Splats {
-        positions: disks.iter().map(|d| d.0).collect(),
-        shapes: Shapes::Disks {
+    let disks = Splats::new(
+        disks.iter().map(|d| d.0).collect(),
+        Shapes::Disks {
             normals: disks.iter().map(|d| d.1).collect(),
             radii: disks.iter().map(|d| d.2).collect(),
         },
-        colors: Colors::Each(disks.iter().map(|d| d.3).collect()),
-    };
+        Colors::Each(disks.iter().map(|d| d.3).collect()),
+    );
     let mut scene = ellipses(&[(DVec3::Z, Vec3::X, Vec3::X, GRAY), (DVec3::Z, Vec3::ZERO, Vec3::X, GRAY)]);
     scene.objects.push(Object { name: "disks".into(), splats: disks, closed: false });
 

@@ -34,7 +34,7 @@ impl Model {
             nodes.map(|i| (self.hierarchy.nodes.positions[i], tangents(&self.hierarchy.nodes.shapes, i)));
         let (positions, axes): (_, Vec<_>) = of_leaves.chain(of_nodes).unzip();
         let (s, t) = axes.into_iter().map(|(s, t)| (s.as_vec3(), t.as_vec3())).unzip();
-        Splats { positions, shapes: Shapes::Ellipses { s, t }, colors: Colors::unknown() }
+        Splats::new(positions, Shapes::Ellipses { s, t }, Colors::unknown())
     }
 
     /// For each splat by its place along the tree, the normal of the drawn node that stands for it.

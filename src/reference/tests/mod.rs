@@ -4,6 +4,8 @@ mod affine;
 mod attributes;
 mod borders;
 mod chopped;
+mod clip;
+mod clipped_pictures;
 mod coverage;
 mod depth;
 mod diagnostics;
@@ -62,14 +64,11 @@ pub(super) const GRAY: [f32; 4] = [0.25, 0.5, 0.75, 1.0];
 pub(super) type Ellipse = (DVec3, Vec3, Vec3, [f32; 4]);
 
 pub(super) fn ellipses(list: &[Ellipse]) -> Scene {
-    let splats = Splats {
-        positions: list.iter().map(|e| e.0).collect(),
-        shapes: Shapes::Ellipses {
-            s: list.iter().map(|e| e.1).collect(),
-            t: list.iter().map(|e| e.2).collect(),
-        },
-        colors: Colors::Each(list.iter().map(|e| e.3).collect()),
-    };
+    let splats = Splats::new(
+        list.iter().map(|e| e.0).collect(),
+        Shapes::Ellipses { s: list.iter().map(|e| e.1).collect(), t: list.iter().map(|e| e.2).collect() },
+        Colors::Each(list.iter().map(|e| e.3).collect()),
+    );
     Scene { objects: vec![Object { name: "test".into(), splats, closed: false }], ..Scene::default() }
 }
 

@@ -121,7 +121,7 @@ mod tests {
     fn columns(colors: Vec<[f32; 4]>) -> (Option<Number>, Option<Number>) {
         let positions = vec![glam::DVec3::ZERO; colors.len()];
         let shapes = crate::scene::Shapes::Disks { normals: Vec::new(), radii: Vec::new() };
-        let columns = ColorColumns::of(&Splats { positions, shapes, colors: Colors::Each(colors) });
+        let columns = ColorColumns::of(&Splats::new(positions, shapes, Colors::Each(colors)));
         (columns.rgb, columns.alpha)
     }
 

@@ -20,11 +20,11 @@ fn normals() -> Vec<Vec3> {
 
 fn disks() -> Splats {
     let normals = normals();
-    Splats {
-        positions: (0..normals.len()).map(|i| DVec3::new(0.3 * i as f64, 5e6, -0.1 * i as f64)).collect(),
-        shapes: Shapes::Disks { radii: vec![0.25; normals.len()], normals },
-        colors: Colors::Uniform([0.5; 4]),
-    }
+    Splats::new(
+        (0..normals.len()).map(|i| DVec3::new(0.3 * i as f64, 5e6, -0.1 * i as f64)).collect(),
+        Shapes::Disks { radii: vec![0.25; normals.len()], normals },
+        Colors::Uniform([0.5; 4]),
+    )
 }
 
 /// What N24 asks for, and others: (matrix, is a similarity, mirrors).
@@ -104,11 +104,11 @@ fn solve(s: DVec3, t: DVec3, point: DVec3) -> (f64, f64) {
 
 #[test]
 fn ellipses_stay_ellipses_and_keep_their_side() {
-    let ellipse = Splats {
-        positions: vec![DVec3::ONE],
-        shapes: Shapes::Ellipses { s: vec![Vec3::new(2.0, 0.0, 0.0)], t: vec![Vec3::new(1.0, 0.5, 0.0)] },
-        colors: Colors::Uniform([1.0; 4]),
-    };
+    let ellipse = Splats::new(
+        vec![DVec3::ONE],
+        Shapes::Ellipses { s: vec![Vec3::new(2.0, 0.0, 0.0)], t: vec![Vec3::new(1.0, 0.5, 0.0)] },
+        Colors::Uniform([1.0; 4]),
+    );
     let after = ellipse.transformed(&DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0)));
     let Shapes::Ellipses { s, t } = &after.shapes else { panic!("disks") };
     assert_eq!((s[0], t[0]), (Vec3::new(1.0, -0.5, 0.0), Vec3::new(2.0, 0.0, 0.0)));

@@ -56,11 +56,11 @@ fn n11_normals_along_axes_and_diagonals_of_every_length_agree() {
         normals.retain(|n| *n != Vec3::ZERO);
         let count = normals.len();
         let at = |i: usize| DVec3::new((i % 8) as f64 - 3.5, (i / 8) as f64 - 3.5, 0.0) * 0.28;
-        let splats = Splats {
-            positions: (0..count).map(at).map(|p| p.as_vec3().as_dvec3()).collect(),
-            shapes: Shapes::Disks { normals, radii: vec![0.12; count] },
-            colors: Colors::Uniform(GRAY),
-        };
+        let splats = Splats::new(
+            (0..count).map(at).map(|p| p.as_vec3().as_dvec3()).collect(),
+            Shapes::Disks { normals, radii: vec![0.12; count] },
+            Colors::Uniform(GRAY),
+        );
         let objects = vec![Object { name: "normals".to_owned(), splats, closed: false }];
         let hard = Hard {
             scene: Scene { objects, ..Default::default() },

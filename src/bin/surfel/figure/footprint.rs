@@ -82,14 +82,14 @@ impl RoundSplat {
         samples: u16,
     ) -> Result<Footprint> {
         let world = |view: DVec3| DVec3::new(view.x, -view.y, -view.z);
-        let splats = Splats {
-            positions: vec![world(CENTER)],
-            shapes: Shapes::Disks {
+        let splats = Splats::new(
+            vec![world(CENTER)],
+            Shapes::Disks {
                 normals: vec![world(self.normal()).as_vec3()],
                 radii: vec![self.radius() as f32],
             },
-            colors: Colors::Uniform([1.0; 4]),
-        };
+            Colors::Uniform([1.0; 4]),
+        );
         let object = Object { name: "splat".to_owned(), splats, closed: false };
         let scene = context.prepare(&Scene { objects: vec![object], ..Scene::default() })?;
         // The window with a pixel around it, and as much on the left, where nothing is.

@@ -61,11 +61,11 @@ struct KernelBench {
 impl KernelBench {
     /// Uploads the disk.
     pub fn new(context: &FigureContext<'_>) -> Result<Self> {
-        let splats = Splats {
-            positions: vec![DVec3::ZERO],
-            shapes: Shapes::Disks { normals: vec![Vec3::Z], radii: vec![1.0] },
-            colors: Colors::Uniform([1.0; 4]),
-        };
+        let splats = Splats::new(
+            vec![DVec3::ZERO],
+            Shapes::Disks { normals: vec![Vec3::Z], radii: vec![1.0] },
+            Colors::Uniform([1.0; 4]),
+        );
         let object = Object { name: "disk".to_owned(), splats, closed: false };
         let distance = 10.0;
         // In a picture one pixel high.

@@ -71,14 +71,14 @@ pub fn plate(side: usize, thickness: f64) -> Splats {
             }
         }
     }
-    Splats {
-        positions: disks.iter().map(|disk| disk.0).collect(),
-        shapes: Shapes::Disks {
+    Splats::new(
+        disks.iter().map(|disk| disk.0).collect(),
+        Shapes::Disks {
             normals: disks.iter().map(|disk| disk.1).collect(),
             radii: vec![(0.75 * step) as f32; disks.len()],
         },
-        colors: Colors::Each(disks.iter().map(|disk| disk.2).collect()),
-    }
+        Colors::Each(disks.iter().map(|disk| disk.2).collect()),
+    )
 }
 
 /// Skew ellipses with every normal, in a ball of this radius.
@@ -93,7 +93,7 @@ pub fn random_ellipses(count: usize, radius: f64, seed: u64) -> Splats {
     let mut tangents = || (0..count).map(|_| (0.1 * radius * vector()).as_vec3()).collect();
     let (s, t) = (tangents(), tangents());
     let colors = Colors::Each((0..count).map(|_| vector().abs().as_vec3().extend(0.5).to_array()).collect());
-    let mut splats = Splats { positions, shapes: Shapes::Ellipses { s, t }, colors };
+    let mut splats = Splats::new(positions, Shapes::Ellipses { s, t }, colors);
     splats.drop_defective();
     splats
 }
@@ -120,12 +120,12 @@ pub fn powers_of_two(count: i32) -> Splats {
 fn disks(positions: Vec<DVec3>) -> Splats {
     let turn = |i: usize| Vec3::new((i as f32).sin(), (i as f32).cos(), 0.3 * (0.7 * i as f32).sin());
     let count = positions.len();
-    Splats {
+    Splats::new(
         positions,
-        shapes: Shapes::Disks {
+        Shapes::Disks {
             normals: (0..count).map(turn).collect(),
             radii: (0..count).map(|i| if i % 3 == 0 { 0.5 } else { 0.05 }).collect(),
         },
-        colors: Colors::unknown(),
-    }
+        Colors::unknown(),
+    )
 }

@@ -60,7 +60,7 @@ fn means_are_by_area_and_colors_by_alpha_too() {
     let shapes = Shapes::Disks { normals: vec![Vec3::Z; 2], radii: vec![2.0, 1.0] };
     let positions = vec![DVec3::ZERO, DVec3::new(10.0, 0.0, 0.0)];
     let colors = Colors::Each(vec![[0.5, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.5]]);
-    let hierarchy = Hierarchy::build(&Splats { positions, shapes, colors }, &()).unwrap();
+    let hierarchy = Hierarchy::build(&Splats::new(positions, shapes, colors), &()).unwrap();
     assert!(hierarchy.nodes.positions[0].distance(DVec3::new(2.0, 0.0, 0.0)) < 1e-12);
     let expected = [4.0 * 0.5 / 4.5, 0.5 / 4.5, 0.0, 0.9];
     for (color, expected) in hierarchy.nodes.color(0).into_iter().zip(expected) {
