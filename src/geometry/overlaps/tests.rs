@@ -21,13 +21,13 @@ fn grid(side: i32) -> Vec<DVec3> {
 /// What weights over overlaps sum to at a place, and without overlaps.
 fn sums(splats: &Splats, inverse: &[f32], place: DVec3) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    for i in 0..splats.len() {
+    for (i, inverse) in inverse.iter().enumerate() {
         let [to_u, to_v, _] = dual_frame(splats, i);
         let from_center = place - splats.positions[i];
         let r2 = to_u.dot(from_center).powi(2) + to_v.dot(from_center).powi(2);
         if r2 <= 1.0 {
             let weight = (-2.0 * r2).exp();
-            sums = [sums[0] + f64::from(inverse[i]) * weight, sums[1] + weight];
+            sums = [sums[0] + f64::from(*inverse) * weight, sums[1] + weight];
         }
     }
     sums
