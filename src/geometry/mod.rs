@@ -29,7 +29,7 @@ pub use cloud::{CloudReport, splats_from_points};
 pub use fitness::{Fitness, Suited};
 pub use hybrid::{EDGE_SPACING, Hybrid, HybridOptions, HybridReport, hybrid};
 pub use mesh_splats::{DEFAULT_OVERLAP, fitting_splats, splats_from_mesh};
-pub use overlaps::{inverse_overlaps, mean_overlap};
+pub use overlaps::Overlaps;
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};
 pub use seams::{Seam, seams};
 pub use shaded_mesh::{creased_mesh, shaded_mesh};

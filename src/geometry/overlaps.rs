@@ -19,65 +19,71 @@ use crate::scene::{Shapes, Splats};
 /// So many cells are a task.
 const CELLS_AT_ONCE: usize = 64;
 
-/// Splats near whose centers the mean sum is looked for, where all crowds are known.
+/// Splats near whose centers the mean sum is looked for.
 const SAMPLES: usize = 1024;
 
-/// And where they are not.
-const FEW_SAMPLES: usize = 256;
-
-/// One over the overlap of each splat, above 0; 1 of what can't be drawn.
-pub fn inverse_overlaps(splats: &Splats) -> Vec<f32> {
-    let grids = Grids::new(splats);
-    let mut inverse = vec![1.0_f32; splats.len()];
-    let found: Vec<(u32, f32)> = grids
-        .cells
-        .par_chunks(CELLS_AT_ONCE)
-        .flat_map_iter(|cells| cells.iter().flat_map(|cell| grids.crowds_in(splats, cell)))
-        .map(|(splat, crowd)| (splat, crowd.recip() as f32))
-        .collect();
-    found.iter().for_each(|(splat, of)| inverse[*splat as usize] = *of);
-    let mean = Means::of(&grids, splats, SAMPLES, &|i| inverse[i as usize].into()).sum as f32;
-    found.iter().for_each(|(splat, _)| inverse[*splat as usize] /= mean);
-    inverse
+/// How much the surface around each of some splats overlaps itself.
+pub struct Overlaps {
+    /// One over the overlap of each, above 0; 1 of what can't be drawn.
+    pub inverse: Vec<f32>,
+    /// That of what stands for all of them evenly: one over the mean of the inverse ones, by area; 1 of none.
+    pub mean: f64,
 }
 
-/// The overlap of what stands for a surface evenly: one over the mean, by area, of what [`inverse_overlaps`] has, from a few splats; 1 of none.
-pub fn mean_overlap(splats: &Splats) -> f64 {
-    let grids = Grids::new(splats);
-    let means = Means::of(&grids, splats, FEW_SAMPLES, &|i| grids.crowd(splats, i).recip());
-    means.sum / means.inverse
+impl Overlaps {
+    /// Those of the surface that these splats are.
+    pub fn of(splats: &Splats) -> Self {
+        let grids = Grids::new(splats);
+        let mut inverse = vec![1.0_f32; splats.len()];
+        let found: Vec<(u32, f32)> = grids
+            .cells
+            .par_chunks(CELLS_AT_ONCE)
+            .flat_map_iter(|cells| cells.iter().flat_map(|cell| grids.crowds_in(splats, cell)))
+            .map(|(splat, crowd)| (splat, crowd.recip() as f32))
+            .collect();
+        found.iter().for_each(|(splat, of)| inverse[*splat as usize] = *of);
+        let sum = mean_sum(&grids, splats, &inverse) as f32;
+        found.iter().for_each(|(splat, _)| inverse[*splat as usize] /= sum);
+        let (mut area, mut over) = (0.0, 0.0);
+        for (splat, _) in &found {
+            let i = *splat as usize;
+            area += area_of(splats, i);
+            over += area_of(splats, i) * f64::from(inverse[i]);
+        }
+        Self { inverse, mean: ratio(area, over) }
+    }
 }
 
-/// Means over area.
-struct Means {
-    /// Of what weights over crowds sum to.
-    sum: f64,
-    /// Of one over crowds.
-    inverse: f64,
+/// The mean over area of what weights over crowds sum to, from some splats.
+fn mean_sum(grids: &Grids, splats: &Splats, inverse: &[f32]) -> f64 {
+    let numbers = grids.numbers();
+    let count = numbers.len().min(SAMPLES);
+    let sample = |n: usize| {
+        let i = numbers[n * numbers.len() / count] as usize;
+        let frame = dual_frame(splats, i);
+        let from_center = from_center(n, frame);
+        if removes(&splats.clips.get(i), DVec2::new(frame[0].dot(from_center), frame[1].dot(from_center))) {
+            return [0.0; 2];
+        }
+        let place = splats.positions[i] + from_center;
+        let own = area_of(splats, i) * f64::from(inverse[i]);
+        [own * grids.sum_on(splats, i, place, &|of| inverse[of as usize].into()), own]
+    };
+    let all: Vec<[f64; 2]> = (0..count).into_par_iter().map(sample).collect();
+    let [sum, own] = all.iter().fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+    ratio(sum, own)
 }
 
-impl Means {
-    /// From about so many splats; 1 of none.
-    fn of(grids: &Grids, splats: &Splats, samples: usize, inverse: &(dyn Fn(u32) -> f64 + Sync)) -> Self {
-        let numbers = grids.numbers();
-        let count = numbers.len().min(samples);
-        let sample = |n: usize| {
-            let number = numbers[n * numbers.len() / count];
-            let i = number as usize;
-            let frame = dual_frame(splats, i);
-            let from_center = from_center(n, frame);
-            if removes(&splats.clips.get(i), DVec2::new(frame[0].dot(from_center), frame[1].dot(from_center))) {
-                return [0.0; 3];
-            }
-            let place = splats.positions[i] + from_center;
-            let own = inverse(number);
-            let area = frame[0].cross(frame[1]).length().recip();
-            [area * own * grids.sum_on(splats, i, place, &|of| inverse(of)), area * own, area]
-        };
-        let all: Vec<[f64; 3]> = (0..count).into_par_iter().map(sample).collect();
-        let [sum, own, area] = all.iter().fold([0.0; 3], |sum, of| std::array::from_fn(|i| sum[i] + of[i]));
-        let ratio = |a: f64, b: f64| if a > 0.0 && b > 0.0 && (a / b).is_normal() { a / b } else { 1.0 };
-        Self { sum: ratio(sum, own), inverse: ratio(own, area) }
+/// 1 of nothing, and of what is beyond numbers.
+fn ratio(a: f64, b: f64) -> f64 {
+    if a > 0.0 && b > 0.0 && (a / b).is_normal() { a / b } else { 1.0 }
+}
+
+/// Over π.
+pub fn area_of(splats: &Splats, i: usize) -> f64 {
+    match &splats.shapes {
+        Shapes::Disks { radii, .. } => f64::from(radii[i]).powi(2),
+        Shapes::Ellipses { s, t } => s[i].as_dvec3().cross(t[i].as_dvec3()).length(),
     }
 }
 

@@ -9,7 +9,10 @@ use glam::{DVec3, Vec3};
 
 use super::{page::Page, write::Writer};
 use crate::{
-    geometry::hierarchy::{Hierarchy, NO_NODE, TopNode, by_spread},
+    geometry::{
+        Overlaps,
+        hierarchy::{Hierarchy, NO_NODE, TopNode, by_spread},
+    },
     scene::{Colors, ErrorBall, Shapes, Splats},
 };
 
@@ -38,18 +41,19 @@ impl Root {
     }
 }
 
-/// Writes all of a part but its root.
+/// Writes all of a part but its root. `overlaps`: those of its splats, and the file's.
 pub(super) fn write_part<W: Write + Seek>(
     writer: &mut Writer<W>,
     splats: &Splats,
     hierarchy: &Hierarchy,
+    overlaps: (&Overlaps, f64),
 ) -> io::Result<Root> {
     let Hierarchy { nodes, tree, bounds, order, leaf_parents, .. } = hierarchy;
     if tree.is_empty() {
         return Ok(Root::Splat(splats.picked(0..splats.len())));
     }
     let ball = |number: u32| bounds.get(number as usize).map_or(ErrorBall::ABOVE_ROOT, |bounds| bounds.error);
-    let weights = hierarchy.weights(splats);
+    let weights = hierarchy.weights(splats, overlaps);
     let sorted = by_spread(tree.len() - 1, |i| ball(tree[1 + i].parent).spread);
     for pages in runs(&sorted) {
         let which = sorted[pages].iter().map(|(i, _)| 1 + *i as usize);

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     error::{Error, Result},
-    geometry::{hierarchy::Hierarchy, mean_overlap},
+    geometry::{Overlaps, hierarchy::Hierarchy},
     progress::Progress,
     save,
     scene::{Bounds, Colors, Object, Opacity},
@@ -62,16 +62,17 @@ pub fn write_object(
     let form = Form { ellipses, color, alpha: transparent, origin: hierarchy.origin };
     let reach = |i: usize| splats.positions[i].distance(bounds.center()) + splats.major_radius(i);
     let facts = Facts { closed: object.closed, up };
+    let overlaps = Overlaps::of(splats);
     let header = Header {
         radius: (0..splats.len()).map(reach).fold(0.0, f64::max),
         root_radius: hierarchy.bounds.first().map_or(0.0, |root| root.error.radius.into()),
-        overlap: mean_overlap(splats),
+        overlap: overlaps.mean,
         ..header(&form, &facts, &bounds)
     };
     let header = save::create(path, |file| {
         let written = || -> io::Result<Header> {
             let mut writer = Writer::new(file, form)?;
-            let root = write_part(&mut writer, splats, &hierarchy)?;
+            let root = write_part(&mut writer, splats, &hierarchy, (&overlaps, overlaps.mean))?;
             write_top(&mut writer, &[], &[(root, None)], color)?;
             writer.finish(header)
         };

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    geometry::{inverse_overlaps, mean_overlap},
+    geometry::Overlaps,
     progress::Progress,
     scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
@@ -184,8 +184,8 @@ impl Cut<'_, '_> {
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
         let inverse_overlaps = match levels {
             Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
-            _ if exact => inverse_overlaps(splats),
-            _ => one_for_all(mean_overlap(splats)),
+            _ if exact => Overlaps::of(splats).inverse,
+            _ => one_for_all(Overlaps::of(splats).mean),
         };
         let part = Part { object, sequence, transparent, inverse_overlaps, epsilon, shares, levels };
         for piece in pieces(0..part.sequence.len(), self.capacity) {

@@ -2,8 +2,8 @@
 
 use super::{Hierarchy, Node};
 use crate::{
-    geometry::mean_overlap,
-    scene::{ErrorBall, LeveledObject, NodeBalls, Object, Shapes, Splats},
+    geometry::overlaps::{Overlaps, area_of},
+    scene::{ErrorBall, LeveledObject, NodeBalls, Object, Splats},
 };
 
 /// Steps of spread by which splats are told apart: half of one and a half.
@@ -30,13 +30,14 @@ impl Hierarchy {
         let above = self.tree.len() as u32;
         let mut balls: Vec<ErrorBall> = self.bounds.iter().map(|bounds| bounds.error).collect();
         balls.push(ErrorBall::ABOVE_ROOT);
-        let weights = self.weights(&splats);
+        let overlaps = Overlaps::of(&splats);
+        let weights = self.weights(&splats, (&overlaps, overlaps.mean));
         let own = (0..).zip(&self.tree);
         LeveledObject {
             name,
             closed,
             opacity: splats.colors.opacity(),
-            overlap: mean_overlap(&splats),
+            overlap: overlaps.mean,
             origin: self.origin,
             radius: self.bounds.first().map_or(0.0, |root| root.error.radius.into()),
             node_balls: own.map(|(own, node)| NodeBalls { own, parent: node.parent.min(above) }).collect(),
@@ -49,25 +50,17 @@ impl Hierarchy {
     }
 
     /// Where nodes are drawn for splats, weights add up to what those would leave there: each node weighs by the area of the disks below
-    /// it over its own. `splats`: those from which this was built.
-    pub fn weights(&self, splats: &Splats) -> Vec<f32> {
+    /// it, each over its overlap, times `overlap`, over its own area. `splats`: those from which this was built, with their overlaps.
+    pub fn weights(&self, splats: &Splats, (overlaps, overlap): (&Overlaps, f64)) -> Vec<f32> {
         let mut area = 0.0;
         let mut areas_before = vec![area];
         areas_before.extend(self.order.iter().map(|i| {
-            area += area_of(splats, *i as usize);
+            area += area_of(splats, *i as usize) * overlap * f64::from(overlaps.inverse[*i as usize]);
             area
         }));
         let below =
             |node: &Node| areas_before[node.splats.end as usize] - areas_before[node.splats.start as usize];
         let nodes = (0..).zip(&self.tree);
         nodes.map(|(i, node)| (below(node) / area_of(&self.nodes, i)) as f32).collect()
-    }
-}
-
-/// Over π.
-fn area_of(splats: &Splats, i: usize) -> f64 {
-    match &splats.shapes {
-        Shapes::Disks { radii, .. } => f64::from(radii[i]).powi(2),
-        Shapes::Ellipses { s, t } => s[i].as_dvec3().cross(t[i].as_dvec3()).length(),
     }
 }

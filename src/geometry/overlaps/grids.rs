@@ -64,14 +64,6 @@ impl Grids {
         Self { places, cells, octaves }
     }
 
-    /// The crowd of a splat, told by its number.
-    pub fn crowd(&self, splats: &Splats, splat: u32) -> f64 {
-        let i = splat as usize;
-        let octave = octave_of(splats.major_radius(i));
-        let near = self.near(splats, octave, cell_of(splats.positions[i], octave));
-        sum_at(&near, splats, i, splats.positions[i], &|_| 1.0).max(1.0)
-    }
-
     /// What a place on a splat has in sum of weights, each times its factor.
     pub fn sum_on(&self, splats: &Splats, i: usize, place: DVec3, factor: &dyn Fn(u32) -> f64) -> f64 {
         let octave = octave_of(splats.major_radius(i));

@@ -21,13 +21,13 @@ fn grid(side: i32) -> Vec<DVec3> {
 /// What weights over overlaps sum to at a place, and without overlaps.
 fn sums(splats: &Splats, inverse: &[f32], place: DVec3) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    for i in 0..splats.len() {
+    for (i, inverse) in inverse.iter().enumerate() {
         let [to_u, to_v, _] = dual_frame(splats, i);
         let from_center = place - splats.positions[i];
         let r2 = to_u.dot(from_center).powi(2) + to_v.dot(from_center).powi(2);
         if r2 <= 1.0 {
             let weight = (-2.0 * r2).exp();
-            sums = [sums[0] + f64::from(inverse[i]) * weight, sums[1] + weight];
+            sums = [sums[0] + f64::from(*inverse) * weight, sums[1] + weight];
         }
     }
     sums
@@ -38,19 +38,19 @@ fn a_splat_alone_covers_the_area_of_its_disk() {
     // The mean of the weight over a disk is (1 - e^-2) / 2.
     let mean = 0.5 * (1.0 - (-2.0_f64).exp());
     let far = |i: usize| DVec3::new(100.0 * i as f64, 0.0, 0.0);
-    let inverse = inverse_overlaps(&disks((0..2000).map(far).collect(), vec![1.0; 2000]));
+    let inverse = Overlaps::of(&disks((0..2000).map(far).collect(), vec![1.0; 2000])).inverse;
     for of in &inverse {
         assert!((f64::from(*of) * mean - 1.0).abs() < 1e-3, "{of}");
     }
-    assert!(inverse_overlaps(&disks(Vec::new(), Vec::new())).is_empty());
-    assert_eq!(mean_overlap(&disks(Vec::new(), Vec::new())), 1.0);
+    assert!(Overlaps::of(&disks(Vec::new(), Vec::new())).inverse.is_empty());
+    assert_eq!(Overlaps::of(&disks(Vec::new(), Vec::new())).mean, 1.0);
 }
 
 #[test]
 fn sums_over_overlaps_are_one_in_the_mean_however_dense_a_surface_is() {
     for radius in [0.8_f32, 1.5, 2.75] {
         let splats = disks(grid(40), vec![radius; 1600]);
-        let inverse = inverse_overlaps(&splats);
+        let inverse = Overlaps::of(&splats).inverse;
         let places = (0..50).map(|i| DVec3::new(15.0 + 0.2 * f64::from(i), 17.0 + 0.13 * f64::from(i), 0.0));
         let mean = places.map(|place| sums(&splats, &inverse, place)[0]).sum::<f64>() / 50.0;
         // The rim of the grid, where less is, is in the mean, too.
@@ -59,28 +59,12 @@ fn sums_over_overlaps_are_one_in_the_mean_however_dense_a_surface_is() {
 }
 
 #[test]
-fn the_mean_overlap_is_that_of_each() {
-    let mut splats = disks(grid(40), vec![1.5; 1600]);
-    let Shapes::Disks { radii, .. } = &mut splats.shapes else { unreachable!("disks") };
-    radii.iter_mut().enumerate().for_each(|(i, radius)| *radius += 0.4 * (i % 7) as f32);
-    let inverse = inverse_overlaps(&splats);
-    let Shapes::Disks { radii, .. } = &splats.shapes else { unreachable!("disks") };
-    let (mut sum, mut area) = (0.0, 0.0);
-    for (of, radius) in inverse.iter().zip(radii) {
-        sum += f64::from(*of * radius * radius);
-        area += f64::from(radius * radius);
-    }
-    let (exact, sampled) = (area / sum, mean_overlap(&splats));
-    assert!((sampled / exact - 1.0).abs() < 0.04, "{sampled} {exact}");
-}
-
-#[test]
 fn independent_samples_sum_to_about_the_same_everywhere() {
     let mut random = SplitMix(7);
     let mut unit = || random.unit();
     let positions: Vec<_> = (0..4000).map(|_| DVec3::new(60.0 * unit(), 60.0 * unit(), 0.0)).collect();
     let splats = disks(positions, vec![1.7; 4000]);
-    let inverse = inverse_overlaps(&splats);
+    let inverse = Overlaps::of(&splats).inverse;
     let places: Vec<_> =
         (0..400).map(|_| DVec3::new(5.0 + 50.0 * unit(), 5.0 + 50.0 * unit(), 0.0)).collect();
     let spread = |which: usize| {
@@ -96,7 +80,7 @@ fn independent_samples_sum_to_about_the_same_everywhere() {
 fn what_lies_on_one_place_is_no_more_than_one_surface_and_takes_no_longer() {
     let count = 20_000;
     let splats = disks(vec![DVec3::ZERO; count], vec![1.0; count]);
-    let inverse = inverse_overlaps(&splats);
+    let inverse = Overlaps::of(&splats).inverse;
     let sum = sums(&splats, &inverse, DVec3::new(0.3, 0.4, 0.0))[0];
     assert!((1.0..2.4).contains(&sum), "{sum}");
 }
@@ -111,7 +95,7 @@ fn sizes_of_many_octaves_side_by_side_have_what_each_has_alone() {
         normals.extend(vec![Vec3::Z; 400]);
         radii.extend(vec![1.5 * unit as f32; 400]);
     }
-    let inverse = inverse_overlaps(&all);
+    let inverse = Overlaps::of(&all).inverse;
     for i in 0..400 {
         let [a, b, c] = [0, 400, 800].map(|first| inverse[first + i]);
         // Positions of f64 at 1e5 have 11 digits.
@@ -134,7 +118,7 @@ fn it_is_what_the_reference_finds_of_each_pair() {
     let s = s.into_iter().map(|s| s * length()).collect::<Vec<_>>();
     let t = t.into_iter().map(|t| t * length()).collect::<Vec<_>>();
     let splats = Splats::new(positions, Shapes::Ellipses { s, t }, Colors::Uniform([1.0; 4]));
-    let own = inverse_overlaps(&splats);
+    let own = Overlaps::of(&splats).inverse;
     let exact = crate::reference::overlaps(&splats, crate::scene::Kernel::default());
     for (i, (own, exact)) in own.iter().zip(exact).enumerate() {
         assert!((f64::from(*own) * exact - 1.0).abs() < 1e-5, "{i}: {own} {exact}");

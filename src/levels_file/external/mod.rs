@@ -26,8 +26,9 @@ use super::{
 use crate::{
     error::{Error, Result},
     geometry::{
+        Overlaps,
         hierarchy::{Hierarchy, Top},
-        mean_overlap, up_of_shape,
+        up_of_shape,
     },
     load::{SplatRows, file_name},
     math::random::SplitMix,
@@ -112,15 +113,17 @@ pub fn convert_splats(
         let fail = |e| Error::file(path, "write", e);
         let mut writer = Writer::new(file, form).map_err(fail)?;
         let mut roots = Vec::new();
-        let mut overlaps = Vec::new();
+        // That of the first part; others weigh by it.
+        let mut overlap = None;
         let task = format!("build {}", file_name(path));
         for (number, runs) in tree.parts.iter().enumerate() {
             progress.step(&task, number as u64, tree.parts.len() as u64);
             let splats = sorted.splats(&rows, runs)?;
             let hierarchy = Hierarchy::build_part(&splats, form.origin, &())?;
             top.add(number, &splats, &hierarchy);
-            overlaps.push((mean_overlap(&splats), splats.len()));
-            let root = write_part(&mut writer, &splats, &hierarchy).map_err(fail)?;
+            let overlaps = Overlaps::of(&splats);
+            let overlap = *overlap.get_or_insert(overlaps.mean);
+            let root = write_part(&mut writer, &splats, &hierarchy, (&overlaps, overlap)).map_err(fail)?;
             roots.push((root, top.parent_of(number)));
         }
         progress.step(&task, tree.parts.len() as u64, tree.parts.len() as u64);
@@ -130,24 +133,12 @@ pub fn convert_splats(
         let header = Header {
             radius,
             root_radius: root_radius.or_else(|| roots.first().map(|(root, _)| root.radius())).unwrap_or(0.0),
-            overlap: median(overlaps),
+            overlap: overlap.unwrap_or(1.0),
             ..header(&form, &facts, &bounds)
         };
         writer.finish(header).map_err(fail)
     })?;
     Ok((Written { header, parts: tree.parts.len() }, defects))
-}
-
-/// The median of values that count so many times.
-fn median(mut values: Vec<(f64, usize)>) -> f64 {
-    values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let all: usize = values.iter().map(|(_, count)| count).sum();
-    let mut before = 0;
-    let middle = values.into_iter().find(|(_, count)| {
-        before += count;
-        2 * before >= all
-    });
-    middle.map_or(1.0, |(value, _)| value)
 }
 
 /// What all rows together are.

@@ -5,7 +5,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use super::*;
 use crate::{
     error::Error,
-    geometry::hierarchy::Hierarchy,
+    geometry::{Overlaps, hierarchy::Hierarchy},
     levels_file::{
         header::Header,
         page::Form,
@@ -53,7 +53,8 @@ fn write(object: &Object, out: &mut (impl Write + Seek)) -> io::Result<Header> {
     let bytes = written(object);
     let header = opened(&bytes).unwrap().header().clone();
     let mut writer = Writer::new(out, form)?;
-    let root = write_part(&mut writer, &object.splats, &hierarchy)?;
+    let overlaps = Overlaps::of(&object.splats);
+    let root = write_part(&mut writer, &object.splats, &hierarchy, (&overlaps, overlaps.mean))?;
     write_top(&mut writer, &[], &[(root, None)], None)?;
     writer.finish(header)
 }
