@@ -77,7 +77,7 @@ impl Sound {
         if mesh.triangles.is_empty() {
             return Err(Error::input("mesh", "", "no triangle with an area; expected one"));
         }
-        let edges = edges(&mesh.triangles)?;
+        let edges = edges(&mesh.positions, &mesh.triangles)?;
         if edges.iter().all(|edge| edge.left != NONE && edge.right != NONE) && signed_volume(&mesh) < 0.0 {
             mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
             let turned = edges.iter().map(|edge| Edge { left: edge.right, right: edge.left, ..*edge });
@@ -131,7 +131,7 @@ fn drop_repeated(triangles: &mut Vec<[u32; 3]>) -> usize {
 ///
 /// # Errors
 /// As [`Sound::of`].
-pub(super) fn edges(triangles: &[[u32; 3]]) -> Result<Vec<Edge>> {
+pub(super) fn edges(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Vec<Edge>> {
     let mut sides: Vec<(u32, u32, u32, bool)> = triangles
         .par_iter()
         .enumerate()
@@ -148,16 +148,22 @@ pub(super) fn edges(triangles: &[[u32; 3]]) -> Result<Vec<Edge>> {
             let side = if *backward { &mut edge.right } else { &mut edge.left };
             if *side != NONE {
                 let problem = match sides.len() {
-                    2 => format!("triangles {} and {triangle} pass it in the same direction", *side),
+                    2 => "both triangles pass it in the same direction; expected opposite ones".to_owned(),
                     more => format!("{more} triangles; expected at most 2"),
                 };
-                return Err(Error::input("mesh", format!("edge of vertices {a} and {b}"), problem));
+                return Err(Error::input("mesh", edge_in_words(positions, a, b), problem));
             }
             *side = *triangle;
         }
         edges.push(edge);
     }
     Ok(edges)
+}
+
+/// By the places of its ends: readers of files number vertices anew.
+fn edge_in_words(positions: &[DVec3], a: u32, b: u32) -> String {
+    let [a, b] = [a, b].map(|vertex| positions.get(vertex as usize).copied().unwrap_or(DVec3::NAN));
+    format!("edge between {a} and {b}")
 }
 
 /// The edges of a mesh, to be looked up by their vertices.
@@ -211,9 +217,9 @@ mod tests {
         assert_eq!(repaired.repairs, Repairs { welded: 2, degenerate: 1, repeated: 1, turned: false });
         let refusal =
             |triangles: &[[u32; 3]]| Sound::of(&mesh(&SQUARE, triangles)).err().unwrap().to_string();
-        let expected = "mesh: edge of vertices 0 and 2: 3 triangles; expected at most 2";
+        let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: 3 triangles; expected at most 2";
         assert_eq!(refusal(&[[0, 1, 2], [0, 2, 3], [0, 2, 4]]), expected);
-        let expected = "mesh: edge of vertices 0 and 2: triangles 0 and 1 pass it in the same direction";
+        let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: both triangles pass it in the same direction; expected opposite ones";
         assert_eq!(refusal(&[[0, 1, 2], [2, 0, 3]]), expected);
         assert_eq!(refusal(&[[0, 0, 9]]), "mesh: no triangle with an area; expected one");
     }

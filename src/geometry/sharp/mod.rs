@@ -161,7 +161,7 @@ fn model<'a>(
         positions,
         triangles,
         normals: triangles.par_iter().map(|t| normal(positions, *t)).collect(),
-        edges: EdgeIndex::of(&edges::edges(triangles)?),
+        edges: EdgeIndex::of(&edges::edges(positions, triangles)?),
         between: between.collect(),
         pieces,
         chains,

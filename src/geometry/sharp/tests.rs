@@ -1,12 +1,15 @@
 //! Whole conversions.
 
+mod distances;
+mod gaps;
+
 use glam::{DVec2, DVec3};
 
 use super::{Clipping, SharpOptions, sharp_splats};
 use crate::{
     geometry::clip::removes,
     hard_scenes::parts::{bored_block, cube, cylinder},
-    scene::{Clip, Shapes, Splats},
+    scene::{Clip, Mesh, Shapes, Splats},
 };
 
 fn few(count: u64, clipping: Clipping) -> SharpOptions {
@@ -123,5 +126,32 @@ fn a_bored_block_has_three_ridges_and_each_splat_is_cut_at_those_that_cross_it()
             }
             assert!(p.z > -1e-2 && p.z < 0.62, "{count}: {p} of {i}");
         }
+    }
+}
+
+/// So few that smooth corners are edges: ellipses end there, though no ridge is there, and do not stick out as far as they are long.
+#[test]
+fn where_few_splats_bend_by_much_they_have_no_ears_either() {
+    let (splats, report) = sharp_splats(&bored_block(96, 6), &few(200, Clipping::Shared), &()).unwrap();
+    let beyond =
+        places(&splats).iter().map(|(_, p)| p.truncate().abs().max_element() - 1.0).fold(0.0, f64::max);
+    println!("{} splats stick out by {beyond}; {report:?}", splats.len());
+    assert!(beyond < 0.06, "{beyond}");
+}
+
+/// A real mesh, from `SURFEL_DATA` or the folder `shared/data` beside the repository; says so where it is not there.
+fn real_mesh(name: &str) -> Option<Mesh> {
+    let folder = std::env::var_os("SURFEL_DATA").map_or_else(
+        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
+        std::path::PathBuf::from,
+    );
+    let path = folder.join(name);
+    if !path.exists() {
+        println!("SKIPPED: {name} is not there (set SURFEL_DATA to its folder)");
+        return None;
+    }
+    match crate::load::load(&path, &crate::load::LoadOptions::default(), &()).unwrap().model {
+        crate::load::Model::Mesh(mesh) => Some(mesh),
+        _ => panic!("no mesh"),
     }
 }
