@@ -10,6 +10,7 @@ mod hybrid;
 mod memory;
 mod object;
 mod parts;
+mod sharp;
 mod words;
 
 use std::path::Path;
@@ -17,6 +18,7 @@ use std::path::Path;
 pub use from_mesh::resampled;
 pub use memory::check_memory;
 pub use object::{BuiltObject, make};
+pub use sharp::sharpened;
 pub use words::{finish, splats_kind};
 
 use crate::{

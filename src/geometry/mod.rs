@@ -19,6 +19,7 @@ mod resample;
 mod seams;
 mod sectors;
 mod shaded_mesh;
+pub mod sharp;
 mod spacing;
 mod surface;
 mod topology;

@@ -2,6 +2,7 @@
 //! is shipped.
 
 pub mod builder;
+pub mod parts;
 mod shapes;
 mod sizes;
 pub mod transparent;

@@ -120,6 +120,52 @@ fn what_cannot_be_converted_is_refused_in_one_line() {
     }
 }
 
+/// Twelve triangles of a box, each an ellipse that is cut at two ridges; no device draws that yet, and says so.
+#[test]
+fn a_part_becomes_few_splats_with_sharp_edges() {
+    let folder = folder();
+    let box_ = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 3\nv 2 0 3\nv 2 1 3\nv 0 1 3\nf 4 3 2 1\nf 5 6 7 8\n\
+        f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    folder.write("box.obj", box_);
+    let expected = "box.obj: 8 vertices, 12 triangles: closed; 12 ridges in 12 pieces, 12 splats clipped -> a.ply: 12 \
+        ellipses, marked as closed, ";
+    for arguments in
+        [&["--splats", "2500"][..], &["--max-error", "0.01"], &["--splats", "1", "--max-error", "1e-6"]]
+    {
+        let said = convert(&folder, &[&["box.obj", "a.ply"], arguments].concat());
+        assert!(said.starts_with(expected), "{said}");
+        let header = String::from_utf8_lossy(&fs::read(folder.path("a.ply")).unwrap()[..700]).into_owned();
+        assert!(header.contains("property float clip2_w\n") && !header.contains("clip_mode"), "{header}");
+    }
+    let again = convert(&folder, &["a.ply", "b.ply"]);
+    assert!(again.starts_with("a.ply: 12 ellipses, closed -> b.ply"), "{again}");
+    assert_eq!(fs::read(folder.path("a.ply")).unwrap(), fs::read(folder.path("b.ply")).unwrap());
+
+    folder.write("fin.obj", &(box_.to_owned() + "v 5 5 5\nf 1 2 9\n"));
+    let refusals: [(&[&str], &str); 5] = [
+        (
+            &["convert", "fin.obj", "c.ply", "--splats", "9"],
+            "fin.obj: edge between [2, 0, 0] and [0, 0, 0]: 3 triangles; expected at most 2",
+        ),
+        (&["convert", "a.ply", "c.ply", "--splats", "9"], "a.ply: the file holds splats; expected a mesh"),
+        (
+            &["convert", "box.obj", "c.ply", "--max-error", "0"],
+            "'0' for '--max-error <E>': expected a length above 0",
+        ),
+        (&["convert", "box.obj", "c.ply", "--splats", "9", "--resample", "9"], "cannot be used with"),
+        (
+            &["render", "a.ply", "-o", "c.png"],
+            "a.ply: 12 splats with clip curves, which no device draws yet; expected splats without",
+        ),
+    ];
+    for (arguments, words) in refusals {
+        let run = surfel(&folder, arguments);
+        assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{arguments:?}");
+        // `render` has told before what it read.
+        assert!(run.stderr.lines().last().is_some_and(|line| line.contains(words)), "{}", run.stderr);
+    }
+}
+
 /// With 2 GB of address space: the machine that runs this may have room for all of them.
 #[test]
 #[cfg(target_os = "linux")]

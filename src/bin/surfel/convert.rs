@@ -8,9 +8,9 @@ use std::{
 use clap::Args;
 use glam::DVec3;
 use surfel::{
-    Error, Result,
-    compose::splats_kind,
-    geometry::up_of_shape,
+    Error, ErrorKind, Result,
+    compose::{sharpened, splats_kind},
+    geometry::{sharp::SharpOptions, up_of_shape},
     levels_file::{self, LEAST_MEMORY, Written},
     load::{LoadOptions, Model, SplatRows, file_name, load},
     report::InputReport,
@@ -31,6 +31,11 @@ Without --resample these are the splats that `surfel render` draws: a disk at ea
 the file. With --resample they are disks at points spread evenly over a mesh's area, with normals and colors interpolated from \
 the vertices, and radii of 1.5 times the mean distance to the 6 nearest neighbors; the same seed gives the same file.
 
+With --splats or --max-error they are ellipses through the corners of the triangles of a simplified mesh, cut off at its ridges: edges \
+over which it bends by 30 degrees or more, and its border. Splats on both sides of a ridge are clipped by one curve. Vertices stay \
+where they are or vanish; a triangle that more than two curves cross becomes several splats. A mesh with an edge of more than two \
+triangles is refused.
+
 The file is a binary PLY: x y z nx ny nz radius, or su_x ... sv_z (the tangent vectors) for ellipses, and red green blue \
 alpha (sRGB) where the model has colors. Parts of ellipses are cut off by clip_a1 clip_a3 clip_u clip_v clip_w, the same with \
 clip2_, and clip_mode (0: either removes, 1: both must): a rational Bezier curve in the plane of the splat from angle a1 \
@@ -45,6 +50,8 @@ const EXAMPLES: &str = "Examples:
   surfel convert igea.ply splats.ply                          a disk at each vertex
   surfel convert igea.ply igea-1m.ply --resample 1M           a million disks, evenly spread
   surfel convert fandisk.obj fandisk.ply --resample 50000 --seed 7
+  surfel convert part.obj part.ply --splats 2500              few splats with sharp edges
+  surfel convert part.obj part.ply --max-error 0.01           as few as are nowhere off by more than 0.01, about
   surfel convert igea-1m.ply igea-1m.surfel           with levels of detail, of which a view reads what it needs";
 
 /// Write a model as a file of splats, at a mesh's vertices or anew over its area
@@ -68,6 +75,16 @@ pub struct ConvertArguments {
     #[arg(value_parser = parse::whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     seed: u64,
 
+    /// Simplify the mesh to that many splats, clipped where it has sharp edges; fewer where --max-error allows, more where no edge can collapse
+    #[arg(long, value_name = "N", value_parser = parse::splats, allow_hyphen_values = true, conflicts_with = "resample")]
+    splats: Option<u64>,
+
+    /// Simplify the mesh to splats, clipped where it has sharp edges, while no collapse of an edge is off by more than E in units of the file: the
+    /// root mean square distance to the planes of the triangles at a vertex, and the distance of a curve from its ridge
+    #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with = "resample")]
+    #[arg(value_parser = parse::number("a length above 0", f64::MIN_POSITIVE..=f64::MAX))]
+    max_error: Option<f64>,
+
     /// So much memory for a .surfel file, such as 512MB: of a binary PLY file of splats that does not fit, it is built part by part, with as much
     /// room beside OUTPUT as INPUT has bytes; other files are refused then [default: 2GB for these, and no limit for others]
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(LEAST_MEMORY), allow_hyphen_values = true)]
@@ -90,6 +107,9 @@ pub fn run(arguments: &ConvertArguments) -> Result<()> {
     }
     let made = match arguments.resample {
         Some(count) => resampled_file(&arguments.input, count, arguments.seed, &bars),
+        None if arguments.splats.is_some() || arguments.max_error.is_some() => {
+            sharpened_file(arguments, &bars)
+        }
         None => load_object(&arguments.input, &bars),
     };
     bars.clear();
@@ -222,6 +242,26 @@ fn resampled_file(
         other => return Err(not_a_mesh(path, &other)),
     };
     let (object, mut report) = resample_mesh(&mesh, path, count, seed, bars)?;
+    report.notes = [loaded.notes, report.notes].concat();
+    Ok((object, report, loaded.up))
+}
+
+/// Splats of a simplified mesh, clipped at its ridges, and what was done.
+fn sharpened_file(arguments: &ConvertArguments, bars: &Bars) -> Result<(Object, InputReport, Option<DVec3>)> {
+    let path = &arguments.input;
+    let loaded = load(path, &LoadOptions::default(), bars)?;
+    let mesh = match loaded.model {
+        Model::Mesh(mesh) => mesh,
+        other => return Err(not_a_mesh(path, &other)),
+    };
+    let options =
+        SharpOptions { splats: arguments.splats, max_error: arguments.max_error, ..SharpOptions::default() };
+    let made = sharpened(&mesh, file_name(path), &options, bars);
+    let (object, mut report) = made.map_err(|error| match error.kind() {
+        // The library knows no file.
+        ErrorKind::Input { place, problem, .. } => Error::input(path, place, problem),
+        _ => error,
+    })?;
     report.notes = [loaded.notes, report.notes].concat();
     Ok((object, report, loaded.up))
 }

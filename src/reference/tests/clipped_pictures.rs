@@ -52,7 +52,7 @@ fn what_is_removed_is_not_drawn_by_any_method() {
         Settings { rasterizer: Rasterizer::AffineContour, ..plain.clone() },
         Settings { rasterizer: Rasterizer::RaycastApproximate, ..plain.clone() },
     ];
-    let filters = [Filter::None, Filter::Adjust, Filter::AdjustPaper, Filter::Max, Filter::Ewa];
+    let filters = [Filter::None, Filter::Adjust, Filter::Max, Filter::Ewa];
     methods.extend(filters.map(|filter| Settings { filter, ..plain.clone() }));
     for method in &methods {
         for (clip, alpha) in clips().into_iter().flat_map(|clip| [(clip, 1.0), (clip, 0.5)]) {

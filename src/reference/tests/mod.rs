@@ -29,6 +29,7 @@ mod mixed_layers;
 mod near_plane;
 mod order;
 mod paper_filter;
+mod sharp_edges;
 
 use glam::{DVec3, Vec3};
 

@@ -1,0 +1,235 @@
+//! The edges of a mesh, and what of a mesh can't be turned into splats with curves: repaired, or refused by name.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::{
+    error::{Error, Result},
+    geometry::{corners, topology::signed_volume},
+    notes::{Deed, Note},
+    scene::{Colors, Mesh},
+};
+
+/// The number of no triangle.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// An edge between vertices `a < b`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Edge {
+    pub a: u32,
+    pub b: u32,
+    /// The triangle that passes it from `a` to `b`, or [`NONE`].
+    pub left: u32,
+    /// The triangle that passes it from `b` to `a`, or [`NONE`].
+    pub right: u32,
+}
+
+/// What was repaired.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Repairs {
+    /// Vertices that lie where another does, and became that one.
+    pub welded: usize,
+    /// Triangles without area.
+    pub degenerate: usize,
+    /// Triangles of the same three vertices as another.
+    pub repeated: usize,
+    /// The closed surface was inside out.
+    pub turned: bool,
+}
+
+impl Repairs {
+    /// In words.
+    pub fn notes(&self) -> Vec<Note> {
+        let notes = [
+            Note::of(Deed::Merged, self.welded, "vertices at the place of another"),
+            Note::of(Deed::Dropped, self.degenerate, "triangles without area"),
+            Note::of(Deed::Dropped, self.repeated, "triangles of the same vertices as another"),
+            Note::of(Deed::Replaced, self.turned.into(), "surface that is inside out"),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+}
+
+/// A mesh of which each edge has one triangle or two, which pass it in opposite directions; its vertices are those of the input.
+pub(super) struct Sound {
+    pub mesh: Mesh,
+    pub edges: Vec<Edge>,
+    pub repairs: Repairs,
+}
+
+impl Sound {
+    /// Vertices at equal places are made one, triangles without area and repeated ones left out.
+    ///
+    /// # Errors
+    /// [`crate::error::ErrorKind::Input`] for an edge of more than two triangles, or of two that pass it in the same direction, and for a mesh
+    /// without any triangle.
+    pub fn of(mesh: &Mesh) -> Result<Self> {
+        let (mut mesh, mut repairs) = (mesh.clone(), Repairs::default());
+        repairs.welded = weld(&mut mesh);
+        let before = mesh.triangles.len();
+        let has_area: Vec<bool> = mesh.triangles.par_iter().map(|t| corners(&mesh, *t).is_some()).collect();
+        let mut keep = has_area.iter();
+        mesh.triangles.retain(|_| *keep.next().unwrap_or(&false));
+        repairs.degenerate = before - mesh.triangles.len();
+        repairs.repeated = drop_repeated(&mut mesh.triangles);
+        if mesh.triangles.is_empty() {
+            return Err(Error::input("mesh", "", "no triangle with an area; expected one"));
+        }
+        let edges = edges(&mesh.positions, &mesh.triangles)?;
+        if edges.iter().all(|edge| edge.left != NONE && edge.right != NONE) && signed_volume(&mesh) < 0.0 {
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            let turned = edges.iter().map(|edge| Edge { left: edge.right, right: edge.left, ..*edge });
+            let edges = turned.collect();
+            return Ok(Self { mesh, edges, repairs: Repairs { turned: true, ..repairs } });
+        }
+        Ok(Self { mesh, edges, repairs })
+    }
+}
+
+/// Makes triangles name the first of the vertices at a place; how many others there were that any named.
+fn weld(mesh: &mut Mesh) -> usize {
+    let bits = |p: DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
+    let mut by_place: Vec<([u64; 3], u32)> =
+        mesh.positions.par_iter().enumerate().map(|(i, p)| (bits(*p), i as u32)).collect();
+    by_place.par_sort_unstable();
+    let mut first: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    for pair in by_place.chunk_by(|a, b| a.0 == b.0) {
+        pair.iter().for_each(|(_, i)| first[*i as usize] = pair[0].1);
+    }
+    let mut used = vec![false; mesh.positions.len()];
+    for vertex in mesh.triangles.iter_mut().flatten() {
+        if let Some(to) = first.get(*vertex as usize).filter(|to| **to != *vertex) {
+            used[*vertex as usize] = true;
+            *vertex = *to;
+        }
+    }
+    used.iter().filter(|used| **used).count()
+}
+
+fn drop_repeated(triangles: &mut Vec<[u32; 3]>) -> usize {
+    let sorted = |triangle: &[u32; 3]| {
+        let mut sorted = *triangle;
+        sorted.sort_unstable();
+        sorted
+    };
+    let mut all: Vec<([u32; 3], u32)> =
+        triangles.par_iter().enumerate().map(|(i, t)| (sorted(t), i as u32)).collect();
+    all.par_sort_unstable();
+    let mut keep = vec![true; triangles.len()];
+    for same in all.chunk_by(|a, b| a.0 == b.0) {
+        same[1..].iter().for_each(|(_, i)| keep[*i as usize] = false);
+    }
+    let before = triangles.len();
+    let mut keep = keep.iter();
+    triangles.retain(|_| *keep.next().unwrap_or(&true));
+    before - triangles.len()
+}
+
+/// All edges, by their vertices.
+///
+/// # Errors
+/// As [`Sound::of`].
+pub(super) fn edges(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Vec<Edge>> {
+    let mut sides: Vec<(u32, u32, u32, bool)> = triangles
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, &[a, b, c])| {
+            [(a, b), (b, c), (c, a)].map(|(from, to)| (from.min(to), from.max(to), i as u32, from > to))
+        })
+        .collect();
+    sides.par_sort_unstable();
+    let mut edges = Vec::with_capacity(sides.len() / 2 + 1);
+    for sides in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let (a, b, ..) = sides[0];
+        let mut edge = Edge { a, b, left: NONE, right: NONE };
+        for (_, _, triangle, backward) in sides {
+            let side = if *backward { &mut edge.right } else { &mut edge.left };
+            if *side != NONE {
+                let problem = match sides.len() {
+                    2 => "both triangles pass it in the same direction; expected opposite ones".to_owned(),
+                    more => format!("{more} triangles; expected at most 2"),
+                };
+                return Err(Error::input("mesh", edge_in_words(positions, a, b), problem));
+            }
+            *side = *triangle;
+        }
+        edges.push(edge);
+    }
+    Ok(edges)
+}
+
+/// By the places of its ends: readers of files number vertices anew.
+fn edge_in_words(positions: &[DVec3], a: u32, b: u32) -> String {
+    let [a, b] = [a, b].map(|vertex| positions.get(vertex as usize).copied().unwrap_or(DVec3::NAN));
+    format!("edge between {a} and {b}")
+}
+
+/// The edges of a mesh, to be looked up by their vertices.
+pub(super) struct EdgeIndex(HashMap<(u32, u32), Edge>);
+
+impl EdgeIndex {
+    pub fn of(edges: &[Edge]) -> Self {
+        Self(edges.iter().map(|edge| ((edge.a, edge.b), *edge)).collect())
+    }
+
+    /// The triangle beyond the side from `from` to `to` of a triangle.
+    pub fn beyond(&self, from: u32, to: u32) -> Option<usize> {
+        let edge = self.0.get(&(from.min(to), from.max(to)))?;
+        let triangle = if from < to { edge.right } else { edge.left };
+        (triangle != NONE).then_some(triangle as usize)
+    }
+}
+
+/// The color of a triangle: the mean of its corners', or the one of the mesh.
+pub(super) fn color(colors: &Colors, triangle: [u32; 3]) -> [f32; 4] {
+    let corners = triangle.map(|vertex| colors.get(vertex as usize).unwrap_or_default());
+    std::array::from_fn(|channel| corners.iter().map(|color| color[channel]).sum::<f32>() / 3.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Mesh {
+        Mesh {
+            positions: positions.iter().map(|p| DVec3::from(*p)).collect(),
+            triangles: triangles.to_vec(),
+            ..Mesh::default()
+        }
+    }
+
+    const SQUARE: [[f64; 3]; 5] =
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.5, 1.0]];
+
+    #[test]
+    fn faults_are_repaired_and_counted_or_refused_by_name() {
+        let good = Sound::of(&mesh(&SQUARE, &[[0, 1, 2], [0, 2, 3]])).unwrap();
+        assert_eq!((good.edges.len(), good.repairs), (5, Repairs::default()));
+        assert!(good.edges.contains(&Edge { a: 0, b: 2, left: 1, right: 0 }));
+        // The diagonal has other vertices on either side, -0 is 0; one triangle is there twice, one has no area.
+        let mut apart = SQUARE.to_vec();
+        apart.extend([[-0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]);
+        let faulty = mesh(&apart, &[[0, 1, 2], [5, 6, 3], [2, 0, 1], [0, 2, 6]]);
+        let repaired = Sound::of(&faulty).unwrap();
+        assert_eq!(repaired.mesh.triangles, good.mesh.triangles);
+        assert_eq!(repaired.repairs, Repairs { welded: 2, degenerate: 1, repeated: 1, turned: false });
+        let refusal =
+            |triangles: &[[u32; 3]]| Sound::of(&mesh(&SQUARE, triangles)).err().unwrap().to_string();
+        let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: 3 triangles; expected at most 2";
+        assert_eq!(refusal(&[[0, 1, 2], [0, 2, 3], [0, 2, 4]]), expected);
+        let expected = "mesh: edge between [0, 0, 0] and [1, 1, 0]: both triangles pass it in the same direction; expected opposite ones";
+        assert_eq!(refusal(&[[0, 1, 2], [2, 0, 3]]), expected);
+        assert_eq!(refusal(&[[0, 0, 9]]), "mesh: no triangle with an area; expected one");
+    }
+
+    #[test]
+    fn what_is_inside_out_is_turned() {
+        let outward = [[0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 0, 4]];
+        let inward = outward.map(|[a, b, c]| [a, c, b]);
+        let [out, turned] = [outward, inward].map(|triangles| Sound::of(&mesh(&SQUARE, &triangles)).unwrap());
+        assert!(!out.repairs.turned && turned.repairs.turned);
+        assert_eq!((out.mesh.triangles, out.edges), (turned.mesh.triangles, turned.edges));
+    }
+}

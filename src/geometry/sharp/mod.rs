@@ -1,0 +1,221 @@
+//! Splats with sharp edges from a mesh: few ellipses, each for a triangle of a simplified mesh, clipped at ridges (Ivo, Ganovelli, Vidal, Scopigno,
+//! "Adaptive clipping of splats to models with sharp features", 2012, sections 4 and 5).
+//!
+//! The mesh is repaired (`edges`), its ridges are found (`ridges`), edges collapse (`collapse`, by `quadric`, where `feasible`) while each piece of a ridge
+//! gets a curve (`fit`, a `conic`), each triangle that is left becomes an ellipse (`ellipse`), and ridges cut it (`clips`).
+
+mod around;
+mod choice;
+mod clips;
+mod collapse;
+mod conic;
+mod edges;
+mod ellipse;
+mod feasible;
+mod fit;
+mod model;
+mod quadric;
+mod ridges;
+mod rim;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+pub use edges::Repairs;
+
+use crate::{
+    error::{Error, Result},
+    progress::Progress,
+    scene::{Clips, Colors, Mesh, Shapes, Splats},
+};
+use clips::{ClippedEllipse, clipped_ellipses};
+use collapse::{Goal, Piece, State};
+use edges::{EdgeIndex, Sound};
+use model::Model;
+use ridges::Ridges;
+
+/// What cuts splats at ridges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Clipping {
+    /// One curve for each piece of a ridge, projected into the planes of the splats on both sides.
+    #[default]
+    Shared,
+    /// For each splat a curve fitted in its own plane, as in the paper.
+    Own,
+    /// The chords of the shared curves (Zwicker et al. 2004; Pauly et al. 2003).
+    Lines,
+    /// Nothing: splats stick out.
+    None,
+}
+
+/// How a mesh becomes splats.
+#[derive(Clone, Copy, Debug)]
+pub struct SharpOptions {
+    /// So many splats at the most, where the mesh can be simplified so far; `None`: one for each triangle, or as few as `max_error` allows.
+    pub splats: Option<u64>,
+    /// The largest error of a collapse, world units: root mean square distance to the planes that meet at the vertex, and largest distance of
+    /// a curve from its ridge. `None`: any.
+    pub max_error: Option<f64>,
+    /// The least angle between the normals of two triangles at a ridge; radians.
+    pub crease_rad: f64,
+    /// What cuts splats at ridges.
+    pub clipping: Clipping,
+}
+
+impl Default for SharpOptions {
+    fn default() -> Self {
+        let crease_rad = 30.0_f64.to_radians();
+        Self { splats: None, max_error: None, crease_rad, clipping: Clipping::Shared }
+    }
+}
+
+/// What was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SharpReport {
+    /// What was repaired.
+    pub repairs: Repairs,
+    /// Ridges, from corner to corner.
+    pub ridges: usize,
+    /// Their pieces, each with a curve.
+    pub pieces: usize,
+    /// Splats with a clip.
+    pub clipped: usize,
+    /// Triangles that became several splats, because one can't be cut at all ridges that cross it.
+    pub cut_triangles: usize,
+    /// Splats that more ridges cross than could be cut even so.
+    pub crowded: usize,
+    /// The largest error of a collapse; see [`SharpOptions::max_error`].
+    pub error: f64,
+    /// Every edge has two triangles: a closed surface, seen from outside.
+    pub closed: bool,
+}
+
+/// Makes clipped splats of a mesh: one for each triangle that is left. The same mesh gives the same bytes, however many threads there are.
+///
+/// # Errors
+/// [`crate::error::ErrorKind::Input`] for a mesh without area or with an edge of more than two triangles or of two that pass it in the
+/// same direction; [`crate::error::ErrorKind::Option`] for a count of 0 and for an error that is not a length.
+pub fn sharp_splats(
+    mesh: &Mesh,
+    options: &SharpOptions,
+    progress: &dyn Progress,
+) -> Result<(Splats, SharpReport)> {
+    if options.splats == Some(0) {
+        return Err(Error::option("--splats", "0; expected 1 or more"));
+    }
+    if let Some(error) = options.max_error.filter(|error| !(*error > 0.0 && error.is_finite())) {
+        return Err(Error::option("--max-error", format!("{error}; expected a length above 0")));
+    }
+    const TASK: &str = "find ridges";
+    progress.step(TASK, 0, 1);
+    let Sound { mesh, edges, repairs } = Sound::of(mesh)?;
+    let normals = normals_of(&mesh);
+    let ridges = Ridges::of(&mesh, &edges, &normals, options.crease_rad);
+    progress.step(TASK, 1, 1);
+    let closed = edges.iter().all(|edge| edge.left != edges::NONE && edge.right != edges::NONE);
+    drop(edges);
+    let goal = Goal {
+        triangles: match (options.splats, options.max_error) {
+            (Some(splats), _) => usize::try_from(splats).unwrap_or(usize::MAX),
+            (None, Some(_)) => 0,
+            (None, None) => usize::MAX,
+        },
+        most_error: options.max_error.unwrap_or(f64::INFINITY),
+    };
+    // Small numbers lose less: quadrics are of products.
+    let origin = mesh.bounds().map_or(DVec3::ZERO, |bounds| bounds.center());
+    let positions: Vec<DVec3> = mesh.positions.iter().map(|p| *p - origin).collect();
+    let mut state = State::new(&positions, mesh.triangles, &normals, &ridges);
+    drop(normals);
+    let mut report = SharpReport { repairs, ridges: ridges.chains.len(), closed, ..SharpReport::default() };
+    let mut aim = goal.triangles;
+    loop {
+        state.collapse(Goal { triangles: aim, ..goal }, progress);
+        let pieces = state.pieces();
+        let model = model(&positions, &state.triangles, &pieces, &ridges.chains)?;
+        let made = ellipses(&model, options.clipping, progress);
+        report = SharpReport { pieces: pieces.len(), error: state.error(), ..report };
+        let count: usize = made.iter().map(Vec::len).sum();
+        // Triangles that became several splats: so many fewer triangles, if there can be fewer.
+        let over = count.saturating_sub(goal.triangles);
+        if over == 0 || state.triangles.len() > aim || aim <= over {
+            return Ok(splats(&state.triangles, made, &mesh.colors, origin, report));
+        }
+        aim -= over;
+    }
+}
+
+fn model<'a>(
+    positions: &'a [DVec3],
+    triangles: &'a [[u32; 3]],
+    pieces: &'a [Piece],
+    chains: &'a [Vec<u32>],
+) -> Result<Model<'a>> {
+    let between = pieces.iter().enumerate().map(|(i, piece)| {
+        let [a, b] = piece.ends;
+        ((a.min(b), a.max(b)), i)
+    });
+    Ok(Model {
+        positions,
+        triangles,
+        normals: triangles.par_iter().map(|t| normal(positions, *t)).collect(),
+        edges: EdgeIndex::of(&edges::edges(positions, triangles)?),
+        between: between.collect(),
+        pieces,
+        chains,
+    })
+}
+
+/// Those of each triangle.
+fn ellipses(model: &Model<'_>, clipping: Clipping, progress: &dyn Progress) -> Vec<Vec<ClippedEllipse>> {
+    const TASK: &str = "clip ellipses at ridges";
+    let total = model.triangles.len() as u64;
+    progress.step(TASK, 0, total);
+    let made = (0..model.triangles.len()).into_par_iter().map(|i| clipped_ellipses(model, i, clipping));
+    let made = made.collect();
+    progress.step(TASK, total, total);
+    made
+}
+
+fn splats(
+    triangles: &[[u32; 3]],
+    made: Vec<Vec<ClippedEllipse>>,
+    colors: &Colors,
+    origin: DVec3,
+    mut report: SharpReport,
+) -> (Splats, SharpReport) {
+    let (mut s, mut t, mut positions, mut clips, mut each) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for (made, triangle) in made.into_iter().zip(triangles) {
+        report.cut_triangles += usize::from(made.len() > 1);
+        for one in made {
+            positions.push(one.center + origin);
+            s.push(one.s.as_vec3());
+            t.push(one.t.as_vec3());
+            clips.push(one.clip);
+            report.crowded += usize::from(one.crowded);
+            if matches!(colors, Colors::Each(_)) {
+                each.push(edges::color(colors, *triangle));
+            }
+        }
+    }
+    let colors = match colors {
+        Colors::Uniform(color) => Colors::Uniform(*color),
+        Colors::Each(_) => Colors::Each(each),
+    };
+    let clips = Clips::of(clips);
+    report.clipped = clips.count();
+    (Splats { clips, ..Splats::new(positions, Shapes::Ellipses { s, t }, colors) }, report)
+}
+
+fn normal(positions: &[DVec3], triangle: [u32; 3]) -> DVec3 {
+    let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// Unit normals of the triangles.
+fn normals_of(mesh: &Mesh) -> Vec<DVec3> {
+    mesh.triangles.par_iter().map(|triangle| normal(&mesh.positions, *triangle)).collect()
+}
