@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::{
     MeshChunk, PreparedScene,
     chunk::{self, Chunk},
+    level_words::LevelWords,
     levels::{ChunkLevels, Leveled},
     memory::Uploader,
     mesh_chunk::PackedMesh,
@@ -207,22 +208,24 @@ impl Cut<'_, '_> {
             }
             let number = self.prepared.chunks.len();
             let traits = (part.object.closed, part.transparent);
-            let mut chunk = Chunk::new(
-                self.uploader.as_ref(),
-                number,
-                traits,
-                (&survey, part.levels.map(|(_, levels)| levels)),
-            )?;
+            let levels = part.levels.map(|(leveled, levels)| {
+                let numbers = pack::packable(splats, which(range.clone()), survey.rebase);
+                (levels, LevelWords::of(leveled, levels, &numbers))
+            });
+            let of_levels = levels.as_ref().map(|(levels, words)| (*levels, words));
+            let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, (&survey, of_levels))?;
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
             let packed = batches.map(|which| pack::pack(splats, which, &survey, part.beside()));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
+            if let Some((levels, words)) = &levels {
+                chunk.fill_levels(self.uploader.as_mut(), words)?;
+                chunk.scene_bytes += levels.scene_bytes_each() * u64::from(survey.count);
+            }
             chunk.overlap = part.overlap;
-            chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
-            chunk.scene_bytes +=
-                part.levels.map_or(0, |(_, levels)| levels.bytes_each()) * u64::from(survey.count);
+            chunk.scene_bytes += splats.bytes() * u64::from(survey.count) / splats.len() as u64;
             self.prepared.chunks.push(chunk);
         }
         self.step(range.len());

@@ -9,6 +9,7 @@ mod blocks;
 mod chunk;
 mod cut;
 mod far_apart;
+mod level_words;
 mod levels;
 mod memory;
 mod mesh_chunk;

@@ -95,3 +95,42 @@ impl LevelView {
         if all_parents_are_large && all_own_are_small { OfBlock::All } else { OfBlock::Some }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        load::builtin,
+        prepare::{PreparedScene, prepare_without_device},
+        scene::{Lod, Scene},
+        vk::Limits,
+    };
+
+    /// How many splats and nodes are in blocks of which nothing is drawn, something, and all.
+    fn counts(prepared: &PreparedScene, camera: &Camera, settings: &Settings) -> [u32; 3] {
+        let mut counts = [0; 3];
+        for chunk in &prepared.chunks {
+            let view = LevelView::new(chunk.levels.unwrap(), camera, settings).unwrap();
+            for block in &chunk.blocks {
+                counts[view.of(block.levels.as_ref().unwrap()) as usize] += block.count;
+            }
+        }
+        counts
+    }
+
+    /// Time goes by what is drawn: most splats that are looked at one by one are near the size that is drawn.
+    #[test]
+    fn of_most_blocks_it_is_known_whether_they_are_drawn() {
+        let objects = vec![builtin::relief(200_000)];
+        let scene = Scene { objects, levels: true, ..Scene::default() };
+        let prepared = prepare_without_device(&Limits::plain(), &scene).unwrap();
+        for (size_px, tau_px, most) in [(1024, 1.0, 0.25), (512, 1.0, 0.35), (256, 2.0, 0.35)] {
+            let settings = Settings { size_px: [size_px; 2], lod: Lod::Px(tau_px), ..Settings::default() };
+            let ball = scene.ball().unwrap();
+            let camera = Camera::fit(&ball, settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
+            let [none, some, all] = counts(&prepared, &camera, &settings);
+            println!("{size_px}, {tau_px} px: {some} looked at, {all} drawn, {none} not");
+            assert!(f64::from(some) < most * f64::from(none + some + all), "{size_px}, {tau_px} px: {some}");
+        }
+    }
+}
