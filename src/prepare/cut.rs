@@ -12,14 +12,15 @@ use super::{
     near_surfaces,
     pack::{self, Beside},
     pieces,
+    refinements::Refinements,
     sequence::Sequence,
     sites::{Site, sites},
 };
 use crate::{
     error::Result,
-    geometry::overlap,
+    geometry::{hierarchy::Hierarchy, overlap},
     progress::Progress,
-    scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
+    scene::{DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -43,12 +44,14 @@ pub(super) fn cut(
         done: 0,
         total: scene.splat_count() as u64,
         progress,
+        budget: scene.budget,
         transparent_splats: 0,
         transparent_radii: 0.0,
         prepared: PreparedScene {
             chunks: Vec::new(),
             meshes: Vec::new(),
             lights: scene.lights.clone(),
+            refinements: Vec::new(),
             storage: scene.storage,
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
@@ -60,13 +63,13 @@ pub(super) fn cut(
         let leveled = if scene.levels { cut.leveled(object)? } else { None };
         match &leveled {
             None => cut.object(object, epsilon, auto)?,
-            Some(leveled) => cut.levels(leveled, epsilon, auto)?,
+            Some(leveled) => cut.levels(leveled, (epsilon, auto))?,
         }
     }
     for object in &scene.leveled {
         cut.total += (object.leaves.len() + object.nodes.len()) as u64;
         if object.opacity != Opacity::Invisible {
-            cut.levels(&Leveled::of(object), None, !scene.without_auto_epsilon)?;
+            cut.levels(object, (None, !scene.without_auto_epsilon))?;
         }
     }
     scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
@@ -83,6 +86,7 @@ struct Cut<'u, 'a> {
     done: u64,
     total: u64,
     progress: &'a dyn Fn(u64, u64),
+    budget: bool,
     transparent_splats: u32,
     transparent_radii: f64,
     prepared: PreparedScene,
@@ -118,24 +122,29 @@ impl Cut<'_, '_> {
     }
 
     /// An object in levels of detail, without its defects, which are counted; `None` where it has no room for any.
-    fn leveled(&mut self, object: &Object) -> Result<Option<Leveled>> {
+    fn leveled(&mut self, object: &Object) -> Result<Option<LeveledObject>> {
         if object.splats.colors.opacity() == Opacity::Invisible {
             return Ok(None);
         }
         let mut whole = object.clone();
         let defects = whole.splats.drop_defective();
         self.step(0);
-        let leveled = Leveled::new(whole, &Quiet)?;
+        let hierarchy = Hierarchy::build(&whole.splats, &Quiet)?;
+        let leveled = (!hierarchy.tree.is_empty()).then(|| hierarchy.leveled(whole));
         if leveled.is_some() {
             self.prepared.defects.merge(&defects);
-            self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.splats.len() as u64);
+            self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.len() as u64);
             self.done += defects.total() as u64;
         }
         Ok(leveled)
     }
 
     /// Its own splats, then the nodes, which have ε in radii of their own.
-    fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
+    fn levels(&mut self, object: &LeveledObject, (epsilon, auto): (Option<Epsilon>, bool)) -> Result<()> {
+        if self.budget {
+            self.prepared.refinements.push(Refinements::of(object));
+        }
+        let leveled = &Leveled::of(object);
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
         self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, leveled.overlap, levels(false))?;
         self.part_of(&leveled.nodes, (epsilon, false), Order::Input, leveled.overlap, levels(true))

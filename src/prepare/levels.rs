@@ -5,9 +5,7 @@
 use glam::DVec3;
 
 use crate::{
-    error::Result,
-    geometry::hierarchy::{Hierarchy, by_spread},
-    progress::Progress,
+    geometry::hierarchy::by_spread,
     scene::{ErrorBall, LeveledObject, NodeBalls, Object, Opacity, Splats},
 };
 
@@ -81,15 +79,6 @@ impl ChunkLevels {
 }
 
 impl Leveled {
-    /// Puts an object without defects into levels; `None` of one that has less than two splats.
-    ///
-    /// # Errors
-    /// As [`Hierarchy::build`].
-    pub fn new(object: Object, progress: &dyn Progress) -> Result<Option<Self>> {
-        let hierarchy = Hierarchy::build(&object.splats, progress)?;
-        Ok((!hierarchy.tree.is_empty()).then(|| Self::of(&hierarchy.leveled(object))))
-    }
-
     /// What there is of an object in levels.
     pub fn of(object: &LeveledObject) -> Self {
         let unit = object.radius.log2().ceil().clamp(-100.0, 100.0).exp2();

@@ -18,6 +18,7 @@ mod pack;
 mod packed;
 mod radii;
 mod rebase;
+mod refinements;
 mod sequence;
 mod sites;
 
@@ -30,6 +31,7 @@ pub use mesh_chunk::MeshChunk;
 pub use packed::LARGEST_TURN_RAD;
 pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
+pub use refinements::{Group, Refinement, Refinements};
 
 use std::ops::Range;
 
@@ -55,6 +57,8 @@ pub struct PreparedScene {
     /// The mean of the major radii of all transparent splats, world space; 0 where there is none. So thick is a
     /// transparent polygon where ε is told in radii.
     pub mean_transparent_radius: f64,
+    /// Of objects in levels of detail, where [`Scene::budget`] asks for them.
+    pub refinements: Vec<Refinements>,
     /// The splats that were left out, in all objects together.
     pub defects: DefectCounts,
 }
