@@ -65,16 +65,17 @@ void main()
     }
     uint first = first_splat_of(word);
     uint end = min(first + WORD, frame.splat_count);
-    bool all_visible = is_all_visible(word);
-    uint bits = all_visible && first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
-    LevelView view;
-    if (LEVELS != LEVELS_NONE) {
-        view = level_view();
+    uint all = first < end ? 0xffffffffu >> (WORD - (end - first)) : 0;
+    uint bits = all;
+    if (LEVELS != LEVELS_NONE && all != 0 && !is_known(word, ALL_OF_LEVEL)) {
+        bits = bits_of_level(first / WORD);
     }
     // All invocations of a vector are in one block, so that it ends here where there is nothing to find.
-    for (uint index = all_visible ? end : first; index < end; index++) {
-        bool is_drawn = LEVELS == LEVELS_NONE || is_of_level(view, index);
-        bits |= is_drawn && may_be_seen(index) ? 1u << (index - first) : 0u;
+    for (uint index = is_known(word, ALL_VISIBLE) ? end : first; index < end; index++) {
+        uint bit = 1u << (index - first);
+        if ((bits & bit) != 0 && !may_be_seen(index)) {
+            bits &= ~bit;
+        }
     }
     visible_bits[first_word_of_chunk() + word] = bits;
 }

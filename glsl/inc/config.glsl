@@ -211,7 +211,8 @@
 #define FLOOR_GROUP_SIZE 256    // Invocations of a workgroup that precomputes points of the floor.
 #define LIMIT_GROUP_SIZE 256    // Invocations of a workgroup that does next to nothing.
 #define KERNELS_GROUP_SIZE 64   // Invocations of a workgroup that evaluates kernels alone.
-#define ALL_VISIBLE 1073741824  // Beside a block's number: none of its splats is left out.
+#define ALL_VISIBLE 1073741824 // Beside a block's number: none of its splats faces away or is outside of the view.
+#define ALL_OF_LEVEL 536870912 // Beside that: all of them are of the level of detail that is drawn.
 #define DEPTH_CELLS_SIDE 8      // Pixels along a side of a cell of the depth's hierarchy, and cells along a side of a block of cells.
 
 // Limits of numbers.

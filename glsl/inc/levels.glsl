@@ -8,7 +8,11 @@
 //
 // All in the space of the hierarchy: from its origin, scaled by a power of two.
 
-layout(set = 0, binding = BIND_SPLATS_LEVELS, std430) readonly buffer Levels { float levels[]; }; // the parent's ball, a node's own: center, radius, spread
+// Of each word of splats (src/prepare/level_words.rs) where its parents begin, and where the last one's end. Then, of each node, its own ball: center,
+// radius, spread. Then the parents: a ball, and the bits of its children in the word, which it is so looked at once for.
+layout(set = 0, binding = BIND_SPLATS_LEVELS, std430) readonly buffer Levels { float levels[]; };
+
+#define BALL_FLOATS 5
 
 // How the camera sees a chunk's hierarchy.
 struct LevelView {
@@ -28,15 +32,28 @@ LevelView level_view()
     return LevelView(eye, uintBitsToFloat(visible_blocks[first + 3]), uintBitsToFloat(visible_blocks[first + 4]));
 }
 
-bool is_small(LevelView view, uint first)
+bool is_small(LevelView view, uint ball)
 {
-    vec3 from_eye = vec3(levels[first], levels[first + 1], levels[first + 2]) - view.eye;
-    float nearest = max(sqrt(precise_dot(from_eye, from_eye)) - levels[first + 3], view.near);
-    return levels[first + 4] <= view.share * (ORTHOGRAPHIC ? 1.0 : nearest);
+    vec3 from_eye = vec3(levels[ball], levels[ball + 1], levels[ball + 2]) - view.eye;
+    float nearest = max(sqrt(precise_dot(from_eye, from_eye)) - levels[ball + 3], view.near);
+    return levels[ball + 4] <= view.share * (ORTHOGRAPHIC ? 1.0 : nearest);
 }
 
-bool is_of_level(LevelView view, uint index)
+// Those of a word of splats that are drawn.
+uint bits_of_level(uint word)
 {
-    uint first = index * (LEVELS == LEVELS_NODES ? 10 : 5);
-    return !is_small(view, first) && (LEVELS == LEVELS_LEAVES || is_small(view, first + 5));
+    LevelView view = level_view();
+    uint end = floatBitsToUint(levels[word + 1]);
+    uint bits = 0;
+    for (uint parent = floatBitsToUint(levels[word]); parent < end; parent += BALL_FLOATS + 1) {
+        bits |= is_small(view, parent) ? 0 : floatBitsToUint(levels[parent + BALL_FLOATS]);
+    }
+    if (LEVELS == LEVELS_NODES) {
+        uint own = (frame.splat_count + WORD - 1) / WORD + 1 + BALL_FLOATS * WORD * word;
+        for (uint rest = bits; rest != 0; rest &= rest - 1) {
+            uint bit = findLSB(rest);
+            bits &= is_small(view, own + BALL_FLOATS * bit) ? 0xffffffffu : ~(1u << bit);
+        }
+    }
+    return bits;
 }

@@ -38,15 +38,15 @@ uint block_of(uint word)
     return visible_blocks[frame.first_record / BLOCK_SPLATS + word / BLOCK_WORDS];
 }
 
-// The host knows that none of a block is to be left out.
-bool is_all_visible(uint word)
+// What the host knows of all splats of a block.
+bool is_known(uint word, uint what)
 {
-    return (block_of(word) & ALL_VISIBLE) != 0;
+    return (block_of(word) & what) != 0;
 }
 
 // The splat of the first bit of one of the chunk's words.
 uint first_splat_of(uint word)
 {
-    uint block = LARGE_LIST ? word / BLOCK_WORDS : block_of(word) & ~ALL_VISIBLE;
+    uint block = LARGE_LIST ? word / BLOCK_WORDS : block_of(word) & ~(ALL_VISIBLE | ALL_OF_LEVEL);
     return block * BLOCK_SPLATS + word % BLOCK_WORDS * WORD;
 }

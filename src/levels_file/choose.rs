@@ -35,6 +35,8 @@ pub struct PageView {
     near: f64,
     is_orthographic: bool,
     tau_px: f64,
+    /// What any larger τ needs is needed, too.
+    coarser: bool,
 }
 
 /// Pages, in the order of the file, and for which τ.
@@ -60,7 +62,13 @@ impl PageView {
             near: camera.near().max(f64::MIN_POSITIVE),
             is_orthographic: camera.is_orthographic(),
             tau_px,
+            coarser: false,
         }
+    }
+
+    /// With what any larger size needs, too, of which a frame is to choose one.
+    pub fn with_coarser(self) -> Self {
+        Self { coarser: true, ..self }
     }
 
     /// The pages for the smallest τ, the one that was asked for or more, for which memory suffices.
@@ -109,7 +117,7 @@ impl PageView {
         let least = |balls: &Reach| at(distance - balls.reach) * (1.0 - RESERVE);
         let most = |balls: &Reach| at(distance + balls.far) * (1.0 + RESERVE);
         let some_parent_is_large = page.parent.spreads[1] > least(&page.parent);
-        let some_own_is_small = !page.nodes || page.own.spreads[0] <= most(&page.own);
+        let some_own_is_small = !page.nodes || self.coarser || page.own.spreads[0] <= most(&page.own);
         some_parent_is_large && some_own_is_small
     }
 }

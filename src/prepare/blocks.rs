@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, Vec3};
 
 use super::{
-    levels::{BlockLevels, ChunkLevels},
+    levels::BlockLevels,
     pack::{Packed, Survey},
     packed,
 };
@@ -73,26 +73,13 @@ pub(super) struct BlockMaker {
     done: Vec<Block>,
     /// The next one's.
     next: Vec<Sample>,
-    /// Of the chunk, where it has any; and the next block's.
-    levels: Option<ChunkLevels>,
-    next_levels: Vec<f32>,
-    /// Of lengths.
-    world_from_local: f64,
 }
 
 impl BlockMaker {
-    /// Of a chunk with levels of detail, or without.
-    pub fn new(levels: Option<ChunkLevels>) -> Self {
-        Self { levels, ..Self::default() }
-    }
-
     /// Takes in the splats of a batch.
     pub fn add(&mut self, batch: &Packed, survey: &Survey) {
-        self.world_from_local = survey.rebase.scale.recip();
-        let floats = batch.levels.len() / (batch.count as usize).max(1);
-        for (i, words) in batch.shapes.chunks_exact(survey.shape_bytes() / 16).enumerate() {
+        for words in batch.shapes.chunks_exact(survey.shape_bytes() / 16) {
             self.next.push(sample(words, survey));
-            self.next_levels.extend(&batch.levels[i * floats..(i + 1) * floats]);
             if self.next.len() == BLOCK_SPLATS as usize {
                 self.end_block();
             }
@@ -100,11 +87,8 @@ impl BlockMaker {
     }
 
     fn end_block(&mut self) {
-        let half_axes = self.next.iter().map(|splat| splat.radius * self.world_from_local);
-        let levels = self.levels.map(|levels| BlockLevels::around(levels, &self.next_levels, half_axes));
-        self.done.push(Block { levels, ..Block::around(&self.next) });
+        self.done.push(Block::around(&self.next));
         self.next.clear();
-        self.next_levels.clear();
     }
 
     /// All of them.

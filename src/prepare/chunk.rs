@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::{
     blocks::{Block, BlockMaker},
+    level_words::LevelWords,
     levels::ChunkLevels,
     memory::{ChunkMemory, Uploader},
     pack::{Packed, Survey, shape_bytes},
@@ -15,6 +16,9 @@ use crate::{error::Result, scene::Epsilon, vk::Staging};
 
 /// The most splats of a chunk, whatever the device allows: bounds the lists that hold an index for each.
 const MAX_SPLATS: usize = 1 << 22;
+
+/// Words of levels of detail that are uploaded at once: 4 MB.
+const BATCH_WORDS: usize = 1 << 20;
 
 /// How many splats fit into buffers of this many bytes: the larger shape decides, so that it is the same for all.
 pub(super) fn capacity(max_storage_buffer_range: u64) -> usize {
@@ -64,7 +68,7 @@ pub struct Chunk {
     /// Its splats in runs of [`BLOCK_SPLATS`](crate::shaders::config::BLOCK_SPLATS).
     pub blocks: Vec<Block>,
     /// Bytes of a shape and of a color.
-    bytes_each: [u64; 3],
+    bytes_each: [u64; 2],
     /// Shapes and colors, but where a frame is only listed.
     memory: Option<ChunkMemory>,
 }
@@ -75,24 +79,23 @@ impl Chunk {
         uploader: Option<&Uploader<'_>>,
         number: usize,
         (closed, transparent): (bool, bool),
-        (survey, levels): (&Survey, Option<ChunkLevels>),
+        (survey, levels): (&Survey, Option<(ChunkLevels, &LevelWords)>),
     ) -> Result<Self> {
         let colors = if survey.uniform_color { 1 } else { survey.count };
-        let of_levels = levels.map_or(0, |levels| levels.bytes_each());
-        let bytes_each = [survey.shape_bytes() as u64, survey.color_bytes() as u64, of_levels];
+        let bytes_each = [survey.shape_bytes() as u64, survey.color_bytes() as u64];
         let memory = |uploader: &Uploader<'_>| {
-            let buffer = |what: &str, count: u32, bytes_each: u64| {
+            let buffer = |what: &str, count: usize, bytes_each: u64| {
                 // Shaders read 8 bytes of colors at once.
-                let size = (u64::from(count) * bytes_each).next_multiple_of(8);
+                let size = (count as u64 * bytes_each).next_multiple_of(8);
                 let name = format!("{what} of chunk {number}");
                 uploader.buffer(&name, size, vk::BufferUsageFlags::STORAGE_BUFFER)
             };
             let mut buffers = vec![
-                buffer("shapes", survey.count, bytes_each[0])?,
-                buffer("colors", colors, bytes_each[1])?,
+                buffer("shapes", survey.count as usize, bytes_each[0])?,
+                buffer("colors", colors as usize, bytes_each[1])?,
             ];
-            if levels.is_some() {
-                buffers.push(buffer("levels", survey.count, bytes_each[2])?);
+            if let Some((_, LevelWords { words, .. })) = levels {
+                buffers.push(buffer("levels", words.len(), size_of::<u32>() as u64)?);
             }
             let named = buffers.len();
             ChunkMemory::new(uploader, &format!("chunk {number}"), buffers, named)
@@ -108,7 +111,7 @@ impl Chunk {
             epsilon: None,
             own_epsilon: false,
             packed: survey.packed,
-            levels,
+            levels: levels.map(|(levels, _)| levels),
             inverse_overlap: 1.0,
             bounds: survey.bounds,
             largest_radius: survey.largest_radius,
@@ -128,7 +131,7 @@ impl Chunk {
         survey: &Survey,
         progress: &mut dyn FnMut(u64),
     ) -> Result<()> {
-        let (mut first, mut blocks) = (0, BlockMaker::new(self.levels));
+        let (mut first, mut blocks) = (0, BlockMaker::default());
         for packed in batches.filter(|packed| packed.count > 0) {
             blocks.add(&packed, survey);
             if let Some(uploader) = &mut uploader {
@@ -148,18 +151,34 @@ impl Chunk {
         let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
         // The one color comes with the first splats.
         let colors = if self.uniform_color && first > 0 { &[] } else { colors };
-        let levels: &[u8] = bytemuck::cast_slice(&packed.levels);
-        let bytes = (shapes.len() + colors.len() + levels.len()) as u64;
+        let bytes = (shapes.len() + colors.len()) as u64;
         let mut staging = Staging::new(uploader.device, "upload of splats", bytes)?;
         let first = u64::from(first);
         staging.push(&buffers[0], first * self.bytes_each[0], shapes)?;
         if !colors.is_empty() {
             staging.push(&buffers[1], first * self.bytes_each[1], colors)?;
         }
-        if !levels.is_empty() {
-            staging.push(&buffers[2], first * self.bytes_each[2], levels)?;
-        }
         (uploader.submit)(staging)
+    }
+
+    /// Puts what decides about its levels of detail on the device, if there is one, and to its blocks.
+    pub(super) fn fill_levels(
+        &mut self,
+        uploader: Option<&mut Uploader<'_>>,
+        levels: &LevelWords,
+    ) -> Result<()> {
+        for (block, levels) in self.blocks.iter_mut().zip(&levels.blocks) {
+            block.levels = Some(*levels);
+        }
+        let (Some(uploader), Some(memory)) = (uploader, &self.memory) else { return Ok(()) };
+        let words = levels.words.chunks(BATCH_WORDS).zip((0..).step_by(BATCH_WORDS * size_of::<u32>()));
+        for (words, at) in words {
+            let bytes: &[u8] = bytemuck::cast_slice(words);
+            let mut staging = Staging::new(uploader.device, "upload of levels", bytes.len() as u64)?;
+            staging.push(&memory.buffers[2], at, bytes)?;
+            (uploader.submit)(staging)?;
+        }
+        Ok(())
     }
 
     /// Whether its splats stand for others, and are drawn in their place.

@@ -5,20 +5,22 @@ use std::ops::Range;
 use super::{
     MeshChunk, PreparedScene,
     chunk::{self, Chunk},
+    level_words::LevelWords,
     levels::{ChunkLevels, Leveled},
     memory::Uploader,
     mesh_chunk::PackedMesh,
     near_surfaces,
     pack::{self, Beside},
     pieces,
+    refinements::Refinements,
     sequence::Sequence,
     sites::{Site, sites},
 };
 use crate::{
     error::Result,
-    geometry::Overlaps,
+    geometry::{Overlaps, hierarchy::Hierarchy},
     progress::Progress,
-    scene::{DefectCounts, Epsilon, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
+    scene::{DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -42,12 +44,14 @@ pub(super) fn cut(
         done: 0,
         total: scene.splat_count() as u64,
         progress,
+        budget: scene.budget,
         transparent_splats: 0,
         transparent_radii: 0.0,
         prepared: PreparedScene {
             chunks: Vec::new(),
             meshes: Vec::new(),
             lights: scene.lights.clone(),
+            refinements: Vec::new(),
             storage: scene.storage,
             mean_transparent_radius: 0.0,
             defects: DefectCounts::default(),
@@ -59,13 +63,13 @@ pub(super) fn cut(
         let leveled = if scene.levels { cut.leveled(object)? } else { None };
         match &leveled {
             None => cut.object(object, epsilon, auto)?,
-            Some(leveled) => cut.levels(leveled, epsilon, auto)?,
+            Some(leveled) => cut.levels(leveled, (epsilon, auto))?,
         }
     }
     for object in &scene.leveled {
         cut.total += (object.leaves.len() + object.nodes.len()) as u64;
         if object.opacity != Opacity::Invisible {
-            cut.levels(&Leveled::of(object), None, !scene.without_auto_epsilon)?;
+            cut.levels(object, (None, !scene.without_auto_epsilon))?;
         }
     }
     scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
@@ -82,6 +86,7 @@ struct Cut<'u, 'a> {
     done: u64,
     total: u64,
     progress: &'a dyn Fn(u64, u64),
+    budget: bool,
     transparent_splats: u32,
     transparent_radii: f64,
     prepared: PreparedScene,
@@ -122,24 +127,29 @@ impl Cut<'_, '_> {
     }
 
     /// An object in levels of detail, without its defects, which are counted; `None` where it has no room for any.
-    fn leveled(&mut self, object: &Object) -> Result<Option<Leveled>> {
+    fn leveled(&mut self, object: &Object) -> Result<Option<LeveledObject>> {
         if object.splats.colors.opacity() == Opacity::Invisible {
             return Ok(None);
         }
         let mut whole = object.clone();
         let defects = whole.splats.drop_defective();
         self.step(0);
-        let leveled = Leveled::new(whole, &Quiet)?;
+        let hierarchy = Hierarchy::build(&whole.splats, &Quiet)?;
+        let leveled = (!hierarchy.tree.is_empty()).then(|| hierarchy.leveled(whole));
         if leveled.is_some() {
             self.prepared.defects.merge(&defects);
-            self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.splats.len() as u64);
+            self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.len() as u64);
             self.done += defects.total() as u64;
         }
         Ok(leveled)
     }
 
     /// Its own splats, then the nodes, which have ε in radii of their own.
-    fn levels(&mut self, leveled: &Leveled, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
+    fn levels(&mut self, object: &LeveledObject, (epsilon, auto): (Option<Epsilon>, bool)) -> Result<()> {
+        if self.budget {
+            self.prepared.refinements.push(Refinements::of(object));
+        }
+        let leveled = &Leveled::of(object);
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
         self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, levels(false))?;
         self.part_of(&leveled.nodes, (epsilon, false), Order::Input, levels(true))
@@ -217,24 +227,26 @@ impl Cut<'_, '_> {
             }
             let number = self.prepared.chunks.len();
             let traits = (part.object.closed, part.transparent);
-            let mut chunk = Chunk::new(
-                self.uploader.as_ref(),
-                number,
-                traits,
-                (&survey, part.levels.map(|(_, levels)| levels)),
-            )?;
+            let levels = part.levels.map(|(leveled, levels)| {
+                let numbers = pack::packable(splats, which(range.clone()), survey.rebase);
+                (levels, LevelWords::of(leveled, levels, &numbers))
+            });
+            let of_levels = levels.as_ref().map(|(levels, words)| (*levels, words));
+            let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, (&survey, of_levels))?;
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
             let packed = batches.map(|which| pack::pack(splats, which, &survey, part.beside()));
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
+            if let Some((levels, words)) = &levels {
+                chunk.fill_levels(self.uploader.as_mut(), words)?;
+                chunk.scene_bytes += levels.scene_bytes_each() * u64::from(survey.count);
+            }
             if survey.packed {
                 chunk.inverse_overlap = part.inverse_overlaps[0].into();
             }
-            chunk.scene_bytes = splats.bytes() * u64::from(survey.count) / splats.len() as u64;
-            chunk.scene_bytes +=
-                part.levels.map_or(0, |(_, levels)| levels.bytes_each()) * u64::from(survey.count);
+            chunk.scene_bytes += splats.bytes() * u64::from(survey.count) / splats.len() as u64;
             self.prepared.chunks.push(chunk);
         }
         self.step(range.len());

@@ -1,17 +1,11 @@
 //! Levels of detail of an object: its own splats, and the nodes of their hierarchy (`geometry/hierarchy`), each with what tells a device
-//! whether it is drawn. Both go to the device by how far what decides about them spreads, in steps, and within a step in the order of the tree, along which neighbors
-//! in number are neighbors in space.
-//!
-//! Beside a splat lies the ball of its parent, beside a node's its own, too: center, radius, spread, 5 floats each, from the hierarchy's own origin and
-//! scaled by a power of two. These are the same bits wherever they lie, so that of a parent and its child exactly one is drawn, whatever chunks
-//! they are in.
+//! whether it is drawn (`level_words.rs`). Both go to the device by how far their parents spread, in steps, and within a step in the order of the tree, along which neighbors
+//! in number are neighbors in space: so of many blocks nothing is drawn, or all.
 
 use glam::DVec3;
 
 use crate::{
-    error::Result,
-    geometry::hierarchy::{Hierarchy, by_spread},
-    progress::Progress,
+    geometry::hierarchy::by_spread,
     scene::{ErrorBall, LeveledObject, NodeBalls, Object, Opacity, Splats},
 };
 
@@ -32,9 +26,6 @@ pub struct ChunkLevels {
     /// It holds nodes, which stand for others; else the object's own splats.
     pub nodes: bool,
 }
-
-/// Floats of a ball.
-pub(super) const BALL_FLOATS: usize = 5;
 
 /// The bounds of what decides about the splats of a block, in the space of levels. Distances are from `center`.
 #[derive(Clone, Copy, Debug)]
@@ -64,11 +55,11 @@ pub struct BallBounds {
 pub(super) struct Leveled {
     space: LevelSpace,
     balls: Vec<ErrorBall>,
-    /// The object's own splats, the largest parents first.
+    /// The object's own splats.
     pub leaves: Object,
     /// Their parents' balls.
     leaf_parents: Vec<u32>,
-    /// The nodes, the largest first.
+    /// The nodes.
     pub nodes: Object,
     /// Their balls and their parents'.
     node_balls: Vec<NodeBalls>,
@@ -81,35 +72,23 @@ pub(super) struct Leveled {
 }
 
 impl ChunkLevels {
-    /// Bytes of a splat's balls.
-    pub fn bytes_each(&self) -> u64 {
-        4 * (self.floats_each() as u64)
-    }
-
-    fn floats_each(&self) -> usize {
-        if self.nodes { 2 * BALL_FLOATS } else { BALL_FLOATS }
+    /// Bytes of a scene that a splat takes in levels of detail, beside its own: what finds its parent, of a node its balls, too.
+    pub fn scene_bytes_each(&self) -> u64 {
+        if self.nodes { 56 } else { 8 }
     }
 }
 
 impl Leveled {
-    /// Puts an object without defects into levels; `None` of one that has less than two splats.
-    ///
-    /// # Errors
-    /// As [`Hierarchy::build`].
-    pub fn new(object: Object, progress: &dyn Progress) -> Result<Option<Self>> {
-        let hierarchy = Hierarchy::build(&object.splats, progress)?;
-        Ok((!hierarchy.tree.is_empty()).then(|| Self::of(&hierarchy.leveled(object))))
-    }
-
     /// What there is of an object in levels.
     pub fn of(object: &LeveledObject) -> Self {
         let unit = object.radius.log2().ceil().clamp(-100.0, 100.0).exp2();
         let spread = |ball: u32| object.balls[ball as usize].spread;
-        let numbers = |sorted: Vec<(u32, i32)>| -> Vec<usize> {
+        let sorted = |count: usize, parent: &dyn Fn(usize) -> u32| -> Vec<usize> {
+            let sorted = by_spread(count, |i| spread(parent(i)));
             sorted.into_iter().map(|(number, _)| number as usize).collect()
         };
-        let leaves = numbers(by_spread(object.leaves.len(), |i| spread(object.leaf_parents[i])));
-        let nodes = numbers(by_spread(object.nodes.len(), |i| spread(object.node_balls[i].own)));
+        let leaves = sorted(object.leaves.len(), &|i| object.leaf_parents[i]);
+        let nodes = sorted(object.nodes.len(), &|i| object.node_balls[i].parent);
         let of = |splats: Splats| Object { name: object.name.clone(), splats, closed: object.closed };
         Self {
             space: LevelSpace { origin: object.origin, scale: unit.recip() },
@@ -134,57 +113,45 @@ impl Leveled {
         if levels.nodes { self.weights[i].into() } else { 1.0 }
     }
 
-    /// The balls of splat `i` of the leaves or the nodes, as a device has them.
-    pub fn push(&self, levels: ChunkLevels, i: usize, floats: &mut Vec<f32>) {
+    /// The number of the parent of splat `i` of the leaves or the nodes.
+    pub fn parent(&self, levels: ChunkLevels, i: usize) -> u32 {
+        if levels.nodes { self.node_balls[i].parent } else { self.leaf_parents[i] }
+    }
+
+    /// The ball of node `i`, in the space of levels.
+    pub fn own_ball(&self, i: usize) -> ErrorBall {
+        self.ball(self.node_balls[i].own)
+    }
+
+    /// The ball of a parent, in the space of levels.
+    pub fn ball(&self, number: u32) -> ErrorBall {
         let scale = self.space.scale as f32;
-        let mut push = |ball: u32| {
-            let ball = &self.balls[ball as usize];
-            floats.extend((scale * ball.center).to_array());
-            floats.extend([scale * ball.radius, scale * ball.spread]);
-        };
-        match levels.nodes {
-            true => {
-                push(self.node_balls[i].parent);
-                push(self.node_balls[i].own);
-            }
-            false => push(self.leaf_parents[i]),
-        }
+        let ErrorBall { center, radius, spread } = self.balls[number as usize];
+        ErrorBall { center: scale * center, radius: scale * radius, spread: scale * spread }
     }
 }
 
 impl BlockLevels {
-    /// The bounds of a block's balls, as a device has them. `half_axes`: the larger ones of its splats, world space.
-    pub(super) fn around(levels: ChunkLevels, floats: &[f32], half_axes: impl Iterator<Item = f64>) -> Self {
-        let each = levels.floats_each();
-        let ball = |floats: &[f32]| {
-            let [x, y, z, radius, spread] = [0, 1, 2, 3, 4].map(|i| f64::from(floats[i]));
-            (DVec3::new(x, y, z), radius, spread)
-        };
-        let parents = || floats.chunks_exact(each).map(|floats| ball(&floats[..BALL_FLOATS]));
-        let own =
-            || floats.chunks_exact(each).filter(|_| levels.nodes).map(|floats| ball(&floats[BALL_FLOATS..]));
+    /// Around the balls of some splats and their parents.
+    pub(super) fn around(own: &[ErrorBall], parents: &[ErrorBall], longest: f64) -> Self {
         // The root's parent is nowhere.
-        let places = || own().chain(parents()).filter(|(_, _, spread)| spread.is_finite()).map(|ball| ball.0);
-        let [lo, hi] = places()
-            .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], place| [lo.min(place), hi.max(place)]);
+        let balls = own.iter().chain(parents).filter(|ball| ball.spread.is_finite());
+        let [lo, hi] = balls.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], ball| {
+            let place = ball.center.as_dvec3();
+            [lo.min(place), hi.max(place)]
+        });
         let center = if lo.is_finite() { 0.5 * (lo + hi) } else { DVec3::ZERO };
-        let ratios =
-            own().zip(half_axes).map(|((.., spread), half_axis)| half_axis * levels.space.scale / spread);
-        let longest = ratios.fold(0.0, f64::max);
-        Self {
-            center,
-            own: BallBounds::of(center, own()),
-            parent: BallBounds::of(center, parents()),
-            longest,
-        }
+        let of = |balls: &[ErrorBall]| BallBounds::of(center, balls.iter());
+        Self { center, own: of(own), parent: of(parents), longest }
     }
 }
 
 impl BallBounds {
-    fn of(center: DVec3, balls: impl Iterator<Item = (DVec3, f64, f64)>) -> Self {
+    fn of<'a>(center: DVec3, balls: impl Iterator<Item = &'a ErrorBall>) -> Self {
         let none = Self { reach: 0.0, far: f64::NEG_INFINITY, spreads: [f64::INFINITY, 0.0] };
-        let bounds = balls.fold(none, |bounds, (place, radius, spread)| {
-            let distance = center.distance(place);
+        let bounds = balls.fold(none, |bounds, ball| {
+            let distance = center.distance(ball.center.as_dvec3());
+            let (radius, spread) = (f64::from(ball.radius), f64::from(ball.spread));
             let [least, most] = bounds.spreads;
             Self {
                 reach: bounds.reach.max(distance + radius),

@@ -9,6 +9,7 @@ mod blocks;
 mod chunk;
 mod cut;
 mod far_apart;
+mod level_words;
 mod levels;
 mod memory;
 mod mesh_chunk;
@@ -17,6 +18,7 @@ mod pack;
 mod packed;
 mod radii;
 mod rebase;
+mod refinements;
 mod sequence;
 mod sites;
 
@@ -30,6 +32,7 @@ pub use pack::inverse_overlap_in_upper_half;
 pub use packed::LARGEST_TURN_RAD;
 pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
+pub use refinements::{Group, Refinement, Refinements};
 
 use std::ops::Range;
 
@@ -55,6 +58,8 @@ pub struct PreparedScene {
     /// The mean of the major radii of all transparent splats, world space; 0 where there is none. So thick is a
     /// transparent polygon where ε is told in radii.
     pub mean_transparent_radius: f64,
+    /// Of objects in levels of detail, where [`Scene::budget`] asks for them.
+    pub refinements: Vec<Refinements>,
     /// The splats that were left out, in all objects together.
     pub defects: DefectCounts,
 }

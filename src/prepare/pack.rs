@@ -90,8 +90,6 @@ pub struct Packed {
     pub shapes: Vec<[u32; 4]>,
     /// See the module: a word each, or two.
     pub colors: Vec<u32>,
-    /// What decides about their levels of detail, where there are any (`levels.rs`).
-    pub levels: Vec<f32>,
 }
 
 /// What lies beside some splats, by their numbers in the input.
@@ -162,6 +160,11 @@ fn local(splats: &Splats, i: usize, rebase: Rebase) -> Result<(DVec3, f64), Defe
     }
 }
 
+/// Those of some splats that [`pack`] packs.
+pub(super) fn packable(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebase) -> Vec<usize> {
+    which.filter(|i| local(splats, *i, rebase).is_ok()).collect()
+}
+
 /// Packs some of the splats of a survey in their order, without those that have a defect. Where one color is for all, it is
 /// packed once.
 pub(super) fn pack(
@@ -173,7 +176,6 @@ pub(super) fn pack(
     let (rebase, uniform_color) = (survey.rebase, survey.uniform_color);
     let room = which.len();
     let mut packed = Packed {
-        levels: Vec::new(),
         count: 0,
         shapes: Vec::with_capacity(room * survey.shape_bytes() / 16),
         colors: Vec::with_capacity(if uniform_color { 1 } else { room } * survey.color_bytes() / 4),
@@ -185,9 +187,6 @@ pub(super) fn pack(
     };
     for i in which {
         let Ok((position, radius)) = local(splats, i, rebase) else { continue };
-        if let Some((leveled, levels)) = beside.levels {
-            leveled.push(levels, i, &mut packed.levels);
-        }
         let less = beside.shares.map_or(0.0, |shares| 1.0 - shares[i]);
         let inverse_overlap = beside.inverse_overlaps.map_or(1.0, |inverse| inverse[i]);
         let two = two_in_one(less, inverse_overlap);

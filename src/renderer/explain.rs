@@ -6,7 +6,7 @@ use crate::{
     graph::{Access, PassKind, Plan, ResourceDesc},
     passes,
     prepare::PreparedScene,
-    scene::{Camera, OptionValue as _, Settings},
+    scene::{Budget, Camera, OptionValue as _, Settings},
 };
 
 /// What a scene, a camera and settings made of a frame, and why. Lengths are in pixels, memory in bytes.
@@ -20,6 +20,8 @@ pub struct Explanation {
     pub point_cap_px: f32,
     /// How opaque splats are drawn and why so, where there are any; then transparent ones.
     pub drawn: [Option<String>; 2],
+    /// The levels of detail that are drawn, if any are, in a sentence.
+    pub levels: Option<String>,
     /// What is beyond f32, and what was asked for and is not drawn, a sentence each.
     pub beyond_f32: Vec<String>,
     /// What 16-bit sums ask of weights, in a sentence.
@@ -115,6 +117,7 @@ impl Renderer {
     /// # Errors
     /// [`crate::ErrorKind::Option`].
     pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
+        let settings = &*passes::within_budget(scene, camera, settings);
         let frame = passes::FramePlan::new(scene, camera, settings, &self.limits);
         match passes::unused_levels(scene, &frame, settings) {
             None => Ok(()),
@@ -135,6 +138,7 @@ impl Renderer {
         plan: &Plan,
     ) -> Explanation {
         let limits = &self.limits;
+        let settings = &*passes::within_budget(scene, camera, settings);
         let frame = passes::FramePlan::new(scene, camera, settings, limits);
         let seen_from = &frame.range.begin(camera);
         let draws = passes::draws(scene, (seen_from, frame.range), settings, limits);
@@ -170,6 +174,7 @@ impl Renderer {
                 .into_iter()
                 .chain(passes::unused_levels(scene, &frame, settings))
                 .collect(),
+            levels: levels(&draws, settings),
             floors: passes::floors(&frame),
             chunks: chunks.collect(),
             meshes: meshes.collect(),
@@ -182,6 +187,19 @@ impl Renderer {
             unshared_bytes: plan.resources.iter().filter_map(|r| r.slot).map(|slot| slot.size_bytes).sum(),
         }
     }
+}
+
+/// `settings`: those with the size for their budget.
+fn levels(draws: &[passes::Draw<'_>], settings: &Settings) -> Option<String> {
+    let tau_px = settings.lod.tau_px(settings.size_px);
+    let has_any = draws.iter().any(|draw| draw.levels.is_some());
+    has_any.then(|| {
+        let why = match settings.budget {
+            Budget::Unlimited => String::new(),
+            Budget::Splats(most) => format!(", for --budget {most}"),
+        };
+        format!("splats that spread by up to {tau_px:.3} px on the screen are drawn as one{why}")
+    })
 }
 
 fn explain_passes(plan: &Plan) -> Vec<ExplainedPass> {

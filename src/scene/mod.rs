@@ -4,6 +4,7 @@
 //! **View space** has the eye at the origin, x to the right, y down, z forward. The image plane is `z = 1`.
 
 mod bounds;
+mod budget;
 mod camera;
 mod camera_parts;
 mod clip;
@@ -30,6 +31,7 @@ mod values;
 mod window;
 
 pub use bounds::{Ball, Bounds};
+pub use budget::Budget;
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::{CameraParts, PictureHeight};
 pub use clip::{Clip, ClipCurve, ClipTest, Clips};
@@ -103,6 +105,8 @@ pub struct Scene {
     pub without_auto_epsilon: bool,
     /// Objects of splats get levels of detail when the scene is prepared: [`Settings::lod`] then has something to choose from.
     pub levels: bool,
+    /// Frames of it may have a [`Settings::budget`]: for each node of levels of detail the host keeps 40 bytes.
+    pub budget: bool,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
 }

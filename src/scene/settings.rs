@@ -1,7 +1,7 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Camera, Layers, Light, Lod, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
+    Budget, Camera, Layers, Light, Lod, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -49,6 +49,8 @@ settings! {
         /// as 1px, or percent of the picture; 0 draws the scene itself. One pixel is as far as the filter spreads what it sees. For `render`, by
         /// `compute` and as opaque points; what else draws all splats. The reference draws the scene itself.
         "lod" "PX|PERCENT%" lod: Lod,
+        /// The most splats that are drawn of objects in levels of detail, such as 250k, of which about 99% are used; never finer than `lod`.
+        "budget" "N|none" budget: Budget,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
         /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near.
         "epsilon" "auto|1r|LENGTH" epsilon: Epsilon = Epsilon::Auto,
@@ -93,6 +95,11 @@ impl Settings {
             return Err(Error::option("--filter", problem));
         }
         Ok(())
+    }
+
+    /// Whether a scene has to have levels of detail for it.
+    pub fn wants_levels(&self) -> bool {
+        self.lod.wants_levels() || self.budget != Budget::Unlimited
     }
 
     /// The option that rules out tiles (`--rasterizer compute`), and why it does, as a part of a sentence.

@@ -8,7 +8,7 @@ use surfel::{
     load::builtin,
     math::random::SplitMix,
     renderer::{Frame, Headless},
-    scene::{Accumulate, Backfaces, Camera, Cull, Edges, Lod, Rasterizer, Settings, TileInvocations},
+    scene::{Accumulate, Backfaces, Budget, Camera, Cull, Edges, Lod, Rasterizer, Settings, TileInvocations},
 };
 
 /// A ball of many splats in a small picture, drawn by levels of this size.
@@ -199,4 +199,45 @@ fn objects_of_few_splats_are_drawn_as_they_are() {
         }
         assert!(rms(&frames[0], &frames[1]) < 1e-3, "{count}: {}", rms(&frames[0], &frames[1]));
     }
+}
+
+/// As many as there may be, and nearly all of these, from wherever it is seen; the more there may be, the smaller sizes are.
+#[test]
+fn a_budget_is_kept_and_filled() {
+    let headless = shared();
+    let mut random = SplitMix(9);
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![builtin::relief(400_000)];
+    (hard.scene.levels, hard.scene.budget) = (true, true);
+    hard.settings.size_px = [512, 512];
+    // In one band, whose list is of all that is drawn.
+    hard.settings.tile_memory = surfel::scene::TileMemory::Most(1 << 33);
+    let whole = hard.scene.ball().unwrap();
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let mut least: f64 = 1.0;
+    for round in 0..30 {
+        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let distance = [3.0, 1.6, 6.0][round % 3] * whole.radius;
+        let orthographic_height = (round % 5 == 4).then_some(1.5 * whole.radius);
+        hard.camera = Camera {
+            eye: whole.center + distance * direction,
+            target: whole.center,
+            orthographic_height,
+            ..Camera::default()
+        };
+        for most in [4_000, 20_000, 60_000] {
+            let in_use = |settings: &Settings| {
+                let in_use = headless.list_occupancy(&prepared, &hard.camera, settings).unwrap();
+                in_use.bytes.get("list of visible splats").map_or(400_000, |bytes| bytes / 4)
+            };
+            let all = in_use(&hard.settings);
+            let drawn = in_use(&Settings { budget: Budget::Splats(most), ..hard.settings.clone() });
+            let share = drawn as f64 / f64::from(most);
+            println!("round {round}: {drawn} of {most}, {all} in all");
+            assert!(share <= 1.0, "round {round}: {drawn} of {most}");
+            assert!(share >= 0.97 || all <= u64::from(most), "round {round}: {drawn} of {most}");
+            least = if all > u64::from(most) { least.min(share) } else { least };
+        }
+    }
+    println!("{least} of a budget at least");
 }

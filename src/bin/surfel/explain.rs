@@ -31,6 +31,9 @@ fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
             writeln!(text, "{kind} splats are drawn {drawn}")?;
         }
     }
+    if let Some(levels) = &explanation.levels {
+        writeln!(text, "levels of detail: {levels}")?;
+    }
     writeln!(text, "passes: {}", passes.len())?;
     for pass in passes {
         let kind = format!("{:?}", pass.kind).to_lowercase();

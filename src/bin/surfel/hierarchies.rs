@@ -5,8 +5,9 @@ use surfel::{
     Result,
     geometry::FoundUp,
     levels_file::{LevelsFile, PageView, is_levels_file},
+    passes::count_drawn,
     report::{InputReport, ModelReport},
-    scene::{Ball, Camera, Lod, Scene, Settings},
+    scene::{Ball, Budget, Camera, LeveledObject, Lod, Scene, Settings},
 };
 
 use crate::{
@@ -98,41 +99,89 @@ pub fn load(
     arguments: &HierarchyArguments,
     bars: &Bars,
 ) -> Result<Settings> {
+    let mut files = files;
     let asked_px = settings.lod.tau_px(settings.size_px);
+    let Budget::Splats(most) = settings.budget else {
+        let Read { objects, lines, tau_px } =
+            load_for(&mut files, (camera, settings, asked_px), arguments, bars)?;
+        lines.iter().for_each(|line| console::say(line));
+        scene.leveled.extend(objects);
+        if tau_px > asked_px {
+            console::say(&format!(
+                "--budget-memory does not suffice for --lod {asked_px:.3}px: drawn with --lod {tau_px:.3}px"
+            ));
+            return Ok(Settings { lod: Lod::Px(tau_px), ..settings.clone() });
+        }
+        return Ok(settings.clone());
+    };
+    // From a size that reads little: the number of splats goes by its square.
+    let mut tau_px = COARSE_PX.max(asked_px);
+    loop {
+        let Read { objects, lines, tau_px: read_px } =
+            load_for(&mut files, (camera, settings, tau_px), arguments, bars)?;
+        let drawn = count_drawn(&objects, camera, settings, read_px);
+        if drawn >= most.into() || tau_px <= asked_px || read_px > tau_px {
+            lines.iter().for_each(|line| console::say(line));
+            scene.leveled.extend(objects);
+            return Ok(Settings { lod: Lod::Px(read_px), ..settings.clone() });
+        }
+        let step = (drawn as f64 / f64::from(most)).sqrt().clamp(0.125, 0.9);
+        tau_px = if step * tau_px < LEAST_PX { asked_px } else { (step * tau_px).max(asked_px) };
+    }
+}
+
+/// The size that is read first for a budget, and that below which all splats are.
+const COARSE_PX: f64 = 32.0;
+const LEAST_PX: f64 = 1.0 / 16.0;
+
+/// What was read of files.
+struct Read {
+    objects: Vec<LeveledObject>,
+    /// What was read, in a line each.
+    lines: Vec<String>,
+    /// The size for which it suffices.
+    tau_px: f64,
+}
+
+/// What is to be drawn for a size, and that for which there is memory.
+fn load_for(
+    files: &mut [LevelsFile],
+    (camera, settings, asked_px): (&Camera, &Settings, f64),
+    arguments: &HierarchyArguments,
+    bars: &Bars,
+) -> Result<Read> {
+    let view = |tau_px: f64| {
+        let view = PageView::new(camera, settings.size_px, tau_px);
+        if settings.budget == Budget::Unlimited { view } else { view.with_coarser() }
+    };
     let all: u64 = files.iter().map(|file| file.header().splats).sum();
     let mut tau_px = asked_px;
     let mut read = Vec::new();
-    for mut file in files {
+    for file in files.iter_mut() {
         let share = |budget: u64| (budget as f64 * (file.header().splats as f64 / all.max(1) as f64)) as u64;
         let budget = arguments.budget_memory.map_or(u64::MAX, share);
-        let view = PageView::new(camera, settings.size_px, tau_px);
-        let chosen = file.load(Some(&view), budget, bars);
+        let chosen = file.load(Some(&view(tau_px)), budget, bars);
         bars.clear();
         let chosen = chosen?;
         tau_px = chosen.tau_px;
-        read.push((file, chosen));
+        read.push(chosen);
     }
-    for (mut file, mut chosen) in read {
+    let (mut objects, mut lines) = (Vec::new(), Vec::new());
+    for (file, mut chosen) in files.iter_mut().zip(read) {
         // One τ for all: what was read for a smaller one lacks the nodes for this.
         if chosen.tau_px < tau_px {
-            chosen = file.load(Some(&PageView::new(camera, settings.size_px, tau_px)), u64::MAX, bars)?;
+            chosen = file.load(Some(&view(tau_px)), u64::MAX, bars)?;
         }
         let name = &chosen.object.name;
         let (splats, nodes) = (chosen.object.leaves.len(), chosen.object.nodes.len());
         let all = file.header().pages;
-        console::say(&format!(
+        lines.push(format!(
             "{name}: read {} of {all} pages, {} bytes: {splats} splats and {nodes} nodes",
             chosen.pages, chosen.bytes
         ));
-        scene.leveled.push(chosen.object);
+        objects.push(chosen.object);
     }
-    if tau_px > asked_px {
-        console::say(&format!(
-            "--budget-memory does not suffice for --lod {asked_px:.3}px: drawn with --lod {tau_px:.3}px"
-        ));
-        return Ok(Settings { lod: Lod::Px(tau_px), ..settings.clone() });
-    }
-    Ok(settings.clone())
+    Ok(Read { objects, lines, tau_px })
 }
 
 impl Loaded {

@@ -128,8 +128,8 @@ impl Drawn {
 mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
-        Accumulate, Backfaces, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval, LastLayer,
-        Layers, Lod, Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
+        Accumulate, Backfaces, Budget, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval,
+        LastLayer, Layers, Lod, Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
     };
 
     use super::*;
@@ -160,6 +160,7 @@ mod tests {
             kernel_eval: KernelEval::Texture,
             cull: Cull::List,
             lod: Lod::Percent(0.25),
+            budget: Budget::Splats(250_000),
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),
             backfaces: Backfaces::Cull,

@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, CropView, Epsilon, Settings, Storage},
+    scene::{Ball, Budget, CropView, Epsilon, Settings, Storage},
 };
 
 use crate::{
@@ -120,7 +120,8 @@ fn draw(
     settings.check_scene(&scene)?; // names the object, which the renderer does not know
     scene.storage = arguments.storage.over(Storage::default());
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
-    scene.levels = settings.lod.wants_levels();
+    scene.levels = settings.wants_levels();
+    scene.budget = settings.budget != Budget::Unlimited;
     let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
     if has_hierarchies {
         headless.renderer.check_levels(&prepared, &camera, settings)?;

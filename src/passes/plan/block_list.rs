@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleBlock};
-use crate::shaders::config::{ALL_VISIBLE, BLOCK_SPLATS, LEVEL_WORDS};
+use crate::shaders::config::{ALL_OF_LEVEL, ALL_VISIBLE, BLOCK_SPLATS, LEVEL_WORDS};
 
 /// Words in front of the blocks: the rows.
 const ROW_WORDS: usize = 2;
@@ -24,7 +24,8 @@ impl ListedBlocks {
             let touching = blocks.iter().filter(|block| block.touches(&rows));
             words.extend(touching.map(|block| {
                 let all_visible = if block.is_within(&rows) { ALL_VISIBLE } else { 0 };
-                block.number | all_visible
+                let all_of_level = if block.all_of_level { ALL_OF_LEVEL } else { 0 };
+                block.number | all_visible | all_of_level
             }));
             if words.len() == before {
                 // There is one in any case, for whoever counts what is listed: behind all splats.

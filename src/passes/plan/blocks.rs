@@ -84,7 +84,8 @@ fn potentially_visible(
         count: block.count,
         box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk).min(of_level),
         rows,
-        all_seen: of_levels == OfBlock::All && is_whole && (!look.culls || angles[0] > right),
+        all_seen: is_whole && (!look.culls || angles[0] > right),
+        all_of_level: of_levels == OfBlock::All,
     })
 }
 

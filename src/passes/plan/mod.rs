@@ -4,6 +4,7 @@
 pub(crate) mod bands;
 pub(crate) mod block_list;
 pub(crate) mod blocks;
+pub(crate) mod budget;
 pub(crate) mod culling;
 pub(crate) mod digits;
 pub(crate) mod draws;
@@ -90,6 +91,7 @@ impl Default for SplatMethod<'_> {
 impl<'a> FramePlan<'a> {
     /// Plans the frame of a scene.
     pub fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
+        let settings = &*budget::within_budget(scene, camera, settings);
         let range = DepthRange::of(scene, camera);
         let camera = &range.begin(camera);
         let splats = draws(scene, (camera, range), settings, limits).into_iter();

@@ -15,10 +15,12 @@ pub struct PotentiallyVisibleBlock {
     pub rows: Range<u32>,
     /// None of them faces away, where such are not drawn, or is nearer than the near plane or beside the image.
     pub all_seen: bool,
+    /// All of them are of the level of detail that is drawn.
+    pub all_of_level: bool,
 }
 
 impl PotentiallyVisibleBlock {
-    /// Whether none of its splats is left out where splats are looked for in these rows.
+    /// Whether none of its splats is left out for where it is, where splats are looked for in these rows.
     pub fn is_within(&self, rows: &Range<u32>) -> bool {
         self.all_seen && rows.start <= self.rows.start && self.rows.end <= rows.end
     }

@@ -15,6 +15,7 @@ use surfel::{
     renderer::Headless,
     report::{PLOT_SIZE_PX, Plot},
     save,
+    scene::Budget,
 };
 
 pub use arguments::CompareArguments;
@@ -56,7 +57,8 @@ fn compare(headless: &mut Headless, arguments: &CompareArguments) -> Result<()> 
     let choice = CameraChoice::of(&arguments.camera)?;
     let bars = Bars::new();
     let mut loaded = load_scene(&arguments.input.as_splats(), &bars)?;
-    loaded.scene.levels = arguments.settings().lod.wants_levels();
+    loaded.scene.levels = arguments.settings().wants_levels();
+    loaded.scene.budget = arguments.settings().budget != Budget::Unlimited;
     let camera = choice.camera(&loaded, arguments.settings().size_px)?;
     let mut show = |shown: Shown<'_>| match &arguments.pictures {
         Some(folder) => pictures::write(folder, &shown),

@@ -1,0 +1,232 @@
+//! The size τ of levels of detail for which a frame draws no more splats than it may, and nearly as many.
+//!
+//! A node is drawn from its own size on up to its parent's, and a splat of the object below its parent's: so how many are drawn for a size is a sum over those that are larger.
+//! The largest are the first to have their children drawn: what is drawn for a budget leaves the least error that any choice by size leaves, and is
+//! drawn for each larger one, or what is below it. Sizes are all that a device needs to choose the same, and change with the camera as distances do.
+//!
+//! Nodes count where they are in the view and face the eye, as a device finds it. Splats of the object count by the mean normal and the mean radius of
+//! those that share a parent: for to look at each would take as long as to draw it. What that leaves of doubt [`SHARE`] keeps free.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::{
+    prepare::{Group, PreparedScene, Refinements},
+    scene::{Backfaces, Budget, Camera, ErrorBall, Filter, LeveledObject, Lod, Settings, ViewFromWorld},
+};
+
+/// The part of a budget that is given out. Of 74 pairs of a view and a budget 97.8 to 99.8% was filled (`benches/README.md`).
+const SHARE: f64 = 0.992;
+
+/// What a device finds in f32 of a size may be less than this file's f64 by so much of it.
+const RESERVE: f64 = 1e-5;
+
+/// The settings with the size for their budget in the place of [`Settings::lod`], where they have one and something has levels of detail.
+pub(crate) fn within_budget<'s>(
+    scene: &PreparedScene,
+    camera: &Camera,
+    settings: &'s Settings,
+) -> Cow<'s, Settings> {
+    let Budget::Splats(most) = settings.budget else { return Cow::Borrowed(settings) };
+    if scene.refinements.is_empty() {
+        return Cow::Borrowed(settings);
+    }
+    let without = scene.chunks.iter().filter(|chunk| chunk.levels.is_none());
+    let others: u64 = without.map(|chunk| u64::from(chunk.count)).sum();
+    let most = (SHARE * f64::from(most)) as i64 - others as i64;
+    let asked_px = settings.lod.tau_px(settings.size_px);
+    let tau_px = Counted::new(&scene.refinements, camera, settings).tau_px(most).max(asked_px);
+    Cow::Owned(Settings { lod: Lod::Px(tau_px), ..settings.clone() })
+}
+
+/// How many splats a frame draws of objects for a size, as a budget counts them.
+pub fn count_drawn(objects: &[LeveledObject], camera: &Camera, settings: &Settings, tau_px: f64) -> u64 {
+    let refinements: Vec<Refinements> = objects.iter().map(Refinements::of).collect();
+    Counted::new(&refinements, camera, settings).count(tau_px).max(0) as u64
+}
+
+/// What is drawn more below a size on the screen.
+struct Counted {
+    /// The size in pixels, and how many splats are more.
+    nodes: Vec<(f32, i16)>,
+}
+
+impl Counted {
+    /// Those that a camera sees.
+    fn new(objects: &[Refinements], camera: &Camera, settings: &Settings) -> Self {
+        let nodes = objects.iter().map(|object| {
+            let view = View::new(object, camera, settings);
+            let events = object.all.par_iter().flat_map_iter(|node| {
+                let size_px = view.size_px(&node.ball);
+                let [own, leaves] = [&node.own, &node.leaves].map(|group| view.seen(&node.ball, group));
+                let below = (own > 0).then(|| (view.size_px(&object.all[node.parent as usize].ball), own));
+                let of_own = (leaves != own).then_some((size_px, leaves - own));
+                below.into_iter().chain(of_own)
+            });
+            events.collect::<Vec<_>>()
+        });
+        Self { nodes: nodes.collect::<Vec<_>>().concat() }
+    }
+
+    /// How many splats are drawn for a size.
+    fn count(&self, tau_px: f64) -> i64 {
+        let drawn = self.nodes.iter().filter(|(size_px, _)| f64::from(*size_px) > tau_px);
+        drawn.map(|(_, more)| i64::from(*more)).sum()
+    }
+
+    /// The least size for which no more than so many splats are drawn; more than all where even the roots are more.
+    fn tau_px(mut self, most: i64) -> f64 {
+        // From the largest on; a part of them after the other, as few as needed are sorted.
+        let mut left = most;
+        let mut nodes = self.nodes.as_mut_slice();
+        while nodes.len() > 1 {
+            let middle = nodes.len() / 2;
+            nodes.select_nth_unstable_by(middle, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            let (larger, smaller) = nodes.split_at_mut(middle);
+            let more: i64 = larger.iter().map(|(_, more)| i64::from(*more)).sum();
+            if more <= left {
+                left -= more;
+                nodes = smaller;
+            } else {
+                nodes = larger;
+            }
+        }
+        match nodes {
+            // Everything may be drawn but this one's children, or all.
+            [(size_px, more)] if i64::from(*more) > left => f64::from(*size_px) * (1.0 + RESERVE),
+            _ => 0.0,
+        }
+    }
+}
+
+/// A camera, as an object is seen.
+struct View {
+    view: ViewFromWorld,
+    forward: DVec3,
+    focal_px: f64,
+    near: f64,
+    is_orthographic: bool,
+    culls: bool,
+    filter_px: f64,
+    /// Of the picture from where the axis meets it: left and top, right and bottom.
+    edges_px: [[f64; 2]; 2],
+    origin: DVec3,
+}
+
+impl View {
+    fn new(object: &Refinements, camera: &Camera, settings: &Settings) -> Self {
+        let middle_px = camera.middle_px(settings.size_px);
+        let edges_px = [0, 1].map(|i| [-middle_px[i], f64::from(settings.size_px[i]) - middle_px[i]]);
+        Self {
+            view: camera.view_from_world(),
+            forward: camera.forward(),
+            focal_px: camera.focal_px(settings.size_px[1]),
+            near: camera.near(),
+            is_orthographic: camera.is_orthographic(),
+            culls: match settings.backfaces {
+                Backfaces::Auto => object.solid,
+                Backfaces::Flip => false,
+                Backfaces::Cull => true,
+            },
+            filter_px: if settings.filter == Filter::None {
+                0.0
+            } else {
+                settings.samples.filter_radius_px()
+            },
+            edges_px,
+            origin: object.origin,
+        }
+    }
+
+    fn place(&self, ball: &ErrorBall) -> DVec3 {
+        self.origin + ball.center.as_dvec3()
+    }
+
+    /// As a device finds it (`glsl/inc/levels.glsl`).
+    fn size_px(&self, ball: &ErrorBall) -> f32 {
+        let spread_px = self.focal_px * f64::from(ball.spread);
+        if self.is_orthographic || ball.spread.is_infinite() {
+            return spread_px as f32;
+        }
+        let distance = self.place(ball).distance(self.view.eye) - f64::from(ball.radius);
+        (spread_px / distance.max(self.near)) as f32
+    }
+
+    /// How many of a group a device would draw.
+    fn seen(&self, ball: &ErrorBall, group: &Group) -> i16 {
+        let count = i16::from(group.count);
+        if count == 0 || ball.spread.is_infinite() {
+            return count;
+        }
+        let place = self.place(ball);
+        let ray = if self.is_orthographic { self.forward } else { place - self.view.eye };
+        let [x, y, z] = group.normal.map(f64::from);
+        let faces_away = self.culls && ray.dot(DVec3::new(x, y, z)) > 0.0;
+        if !faces_away && self.is_inside(self.view.point(place), group.half_axis) { count } else { 0 }
+    }
+
+    /// As a device finds it of splats (`glsl/mark_visible.comp.glsl`).
+    fn is_inside(&self, p: DVec3, half_axis: f32) -> bool {
+        let reach = 2.0 * f64::from(half_axis);
+        let near = if self.is_orthographic { 0.0 } else { self.near };
+        if p.z + reach < near {
+            return false;
+        }
+        if !self.is_orthographic && reach > 0.25 * p.z {
+            return true;
+        }
+        [(p.x, self.edges_px[0]), (p.y, self.edges_px[1])].into_iter().all(|(side, edges_px)| {
+            let (c, away) = match self.is_orthographic {
+                true => (side, reach),
+                false => (side / p.z, reach / p.z * (1.0 + (side / p.z).abs())),
+            };
+            let (c_px, away_px) = (c * self.focal_px, away * self.focal_px + 2.0 * self.filter_px);
+            c_px >= edges_px[0] - away_px && c_px <= edges_px[1] + away_px
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{load::builtin, prepare::prepare_without_device, scene::Scene, vk::Limits};
+
+    /// On a way toward a model in steps of 0.25% a budget is kept and filled, and what is drawn changes little: by the size of the step before about as many
+    /// would be drawn. Sizes themselves leap where few nodes have one. They are the smaller the more may be drawn.
+    #[test]
+    fn what_is_drawn_changes_as_little_as_the_camera_and_sizes_fall_as_budgets_grow() {
+        let scene =
+            Scene { objects: vec![builtin::relief(60_000)], levels: true, budget: true, ..Scene::default() };
+        let prepared = prepare_without_device(&Limits::plain(), &scene).unwrap();
+        let ball = scene.ball().unwrap();
+        let size_px = [512; 2];
+        let mut camera = Camera::fit(&ball, size_px, Camera::DEFAULT_FOV_Y_RAD);
+        let budgets = [1_000, 4_000, 16_000];
+        let mut last_px = [0.0; 3];
+        let mut most_change: f64 = 0.0;
+        for round in 0..100 {
+            let mut sizes_px = [0.0; 3];
+            for (i, most) in budgets.into_iter().enumerate() {
+                let settings = Settings { size_px, budget: Budget::Splats(most), ..Settings::default() };
+                let counted = Counted::new(&prepared.refinements, &camera, &settings);
+                sizes_px[i] = within_budget(&prepared, &camera, &settings).lod.tau_px(size_px);
+                let drawn = counted.count(sizes_px[i]) as f64 / f64::from(most);
+                // Near to it there are not so many.
+                assert!(drawn <= 1.0 && (drawn >= 0.98 || sizes_px[i] == 0.0), "{drawn} of {most}");
+                if round > 0 {
+                    most_change =
+                        most_change.max((counted.count(last_px[i]) as f64 / f64::from(most) - drawn).abs());
+                }
+            }
+            assert!(sizes_px[0] > sizes_px[1] && sizes_px[1] > sizes_px[2], "{sizes_px:?}");
+            last_px = sizes_px;
+            camera.eye = ball.center + 0.9975 * (camera.eye - ball.center);
+        }
+        println!("{most_change} of a budget changes in a step at most");
+        assert!(most_change < 0.05, "{most_change}");
+        let settings = Settings { budget: Budget::Splats(10_000_000), ..Settings::default() };
+        assert_eq!(within_budget(&prepared, &camera, &settings).lod.tau_px(size_px), 0.0);
+    }
+}
