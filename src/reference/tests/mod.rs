@@ -26,6 +26,7 @@ mod meshes;
 mod mixed_layers;
 mod near_plane;
 mod order;
+mod overlaps;
 mod paper_filter;
 
 use glam::{DVec3, Vec3};
