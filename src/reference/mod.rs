@@ -75,8 +75,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub use clip::removes;
 pub use edges::Edge;
 pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
-#[cfg(test)]
-pub(crate) use overlap::overlaps;
 pub use picture::{Picture, Pixel};
 pub use selection::{Culling, Walk};
 pub use true_pixel::{GroundTruth, TruePixel};

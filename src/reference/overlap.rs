@@ -32,7 +32,7 @@ struct Among {
 }
 
 /// The overlap of the surface at each splat of an object under a kernel; 1 of what can't be drawn.
-pub(crate) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
+pub(super) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
     let all = all_along_x(splats);
     let largest = all.iter().map(|splat| splat.radius).fold(0.0, f64::max);
     let near = |place: DVec3| {

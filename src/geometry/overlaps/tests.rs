@@ -102,25 +102,3 @@ fn sizes_of_many_octaves_side_by_side_have_what_each_has_alone() {
         assert!((a / b - 1.0).abs() < 1e-4 && (a / c - 1.0).abs() < 1e-4, "{i}: {a} {b} {c}");
     }
 }
-
-#[test]
-fn it_is_what_the_reference_finds_of_each_pair() {
-    let mut random = SplitMix(11);
-    let mut unit = || random.unit();
-    let count = 600;
-    let positions = (0..count).map(|_| DVec3::new(unit(), unit(), 0.1 * unit())).collect::<Vec<_>>();
-    let mut direction =
-        || Vec3::new(unit() as f32 - 0.5, unit() as f32 - 0.5, unit() as f32 - 0.3).normalize();
-    let s: Vec<Vec3> = (0..count).map(|_| direction()).collect();
-    let t: Vec<Vec3> = s.iter().map(|s| s.cross(direction()).normalize()).collect();
-    let mut random = SplitMix(12);
-    let mut length = || (0.02 * 8.0_f64.powf(random.unit())) as f32;
-    let s = s.into_iter().map(|s| s * length()).collect::<Vec<_>>();
-    let t = t.into_iter().map(|t| t * length()).collect::<Vec<_>>();
-    let splats = Splats::new(positions, Shapes::Ellipses { s, t }, Colors::Uniform([1.0; 4]));
-    let own = Overlaps::of(&splats).inverse;
-    let exact = crate::reference::overlaps(&splats, crate::scene::Kernel::default());
-    for (i, (own, exact)) in own.iter().zip(exact).enumerate() {
-        assert!((f64::from(*own) * exact - 1.0).abs() < 1e-5, "{i}: {own} {exact}");
-    }
-}

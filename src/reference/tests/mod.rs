@@ -28,6 +28,7 @@ mod meshes;
 mod mixed_layers;
 mod near_plane;
 mod order;
+mod overlaps;
 mod paper_filter;
 mod sharp_edges;
 
