@@ -47,6 +47,7 @@ pub(super) fn cut(
         budget: scene.budget,
         transparent_splats: 0,
         transparent_radii: 0.0,
+        beside_polygons: !scene.meshes.is_empty(),
         prepared: PreparedScene {
             chunks: Vec::new(),
             meshes: Vec::new(),
@@ -89,6 +90,8 @@ struct Cut<'u, 'a> {
     budget: bool,
     transparent_splats: u32,
     transparent_radii: f64,
+    /// The scene has polygons, too.
+    beside_polygons: bool,
     prepared: PreparedScene,
 }
 
@@ -194,7 +197,8 @@ impl Cut<'_, '_> {
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
         let inverse_overlaps = match levels {
             Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
-            _ if exact => Overlaps::of(splats).inverse,
+            // Where splats meet polygons of the same surface, their sum is to fall toward their border.
+            _ if exact && !self.beside_polygons => Overlaps::of(splats).inverse,
             _ => one_for_all(Overlaps::of(splats).mean),
         };
         let part = Part { object, sequence, transparent, inverse_overlaps, epsilon, shares, levels };

@@ -65,6 +65,18 @@ pub(super) fn overlaps(splats: &Splats, kernel: Kernel) -> Vec<f64> {
     overlaps
 }
 
+/// One overlap for all, with which a whole surface has the sum that each splat's own gives it: one over the mean of the inverse ones, by area.
+pub(super) fn evened(splats: &Splats, overlaps: Vec<f64>) -> Vec<f64> {
+    let (mut area, mut over) = (0.0, 0.0);
+    for i in (0..splats.len()).filter(|i| splats.defect(*i).is_none()) {
+        let (s, t) = tangents(&splats.shapes, i);
+        area += s.cross(t).length();
+        over += s.cross(t).length() / overlaps[i];
+    }
+    let mean = if over > 0.0 { area / over } else { 1.0 };
+    vec![mean; overlaps.len()]
+}
+
 fn all_along_x(splats: &Splats) -> Vec<Among> {
     let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
     let mut all: Vec<Among> = drawn

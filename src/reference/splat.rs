@@ -13,7 +13,7 @@ use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
-use super::overlap::overlaps;
+use super::overlap::{evened, overlaps};
 use super::paper_filter::adjust_paper;
 use super::surface::Attributes;
 use super::tangents::tangents;
@@ -102,8 +102,11 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings.backfaces, object.closed, opacity);
-        let overlaps =
-            covers_in_part(scene, settings, opacity).then(|| overlaps(&object.splats, settings.kernel));
+        let overlaps = covers_in_part(scene, settings, opacity).then(|| match scene.meshes.is_empty() {
+            true => overlaps(&object.splats, settings.kernel),
+            // Where splats meet polygons, their sum is to fall toward their border.
+            false => evened(&object.splats, overlaps(&object.splats, settings.kernel)),
+        });
         let rule = EpsilonRule::of(scene, number, settings, opacity);
         for i in 0..object.splats.len() {
             let defect = object.splats.defect(i);
