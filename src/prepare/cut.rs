@@ -169,8 +169,6 @@ impl Cut<'_, '_> {
         levels: Option<(&Leveled, ChunkLevels)>,
     ) -> Result<()> {
         let (splats, storage) = (&object.splats, self.prepared.storage);
-        // Before it is cut, so that chunks are compact.
-        let sequence = Sequence::of(splats, order);
         let transparent = levels.map_or_else(
             || splats.colors.opacity() == Opacity::Transparent,
             |(leveled, _)| leveled.transparent,
@@ -191,6 +189,8 @@ impl Cut<'_, '_> {
             _ if exact && !self.beside_polygons => Overlaps::of(splats).inverse,
             _ => one_for_all(Overlaps::of(splats).mean),
         };
+        // Before it is cut, so that chunks are compact; and after what needs room of its own.
+        let sequence = Sequence::of(splats, order);
         let part = Part { object, sequence, transparent, inverse_overlaps, epsilon, shares, levels };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
