@@ -177,17 +177,17 @@ impl Cut<'_, '_> {
         let exact = storage.format == SplatFormat::Exact;
         // So that a bar is there meanwhile.
         self.step(0);
-        let both_sides = auto && exact && (transparent || !object.closed);
-        let shares = match both_sides {
-            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
-            false => None,
-        };
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
         let inverse_overlaps = match levels {
             Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
             // Where splats meet polygons of the same surface, their sum is to fall toward their border.
             _ if exact && !self.beside_polygons => Overlaps::of(splats).inverse,
             _ => one_for_all(Overlaps::of(splats).mean),
+        };
+        let both_sides = auto && exact && (transparent || !object.closed);
+        let shares = match both_sides {
+            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
+            false => None,
         };
         // Before it is cut, so that chunks are compact; and after what needs room of its own.
         let sequence = Sequence::of(splats, order);
