@@ -9,6 +9,8 @@
 
 mod grids;
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -34,19 +36,19 @@ impl Overlaps {
     /// Those of the surface that these splats are.
     pub fn of(splats: &Splats) -> Self {
         let grids = Grids::new(splats);
-        let mut inverse = vec![1.0_f32; splats.len()];
-        let found: Vec<(u32, f32)> = grids
-            .cells
-            .par_chunks(CELLS_AT_ONCE)
-            .flat_map_iter(|cells| cells.iter().flat_map(|cell| grids.crowds_in(splats, cell)))
-            .map(|(splat, crowd)| (splat, crowd.recip() as f32))
-            .collect();
-        found.iter().for_each(|(splat, of)| inverse[*splat as usize] = *of);
+        // Each is written once, by one thread, where it belongs: no list of them beside.
+        let crowds: Vec<AtomicU32> = (0..splats.len()).map(|_| AtomicU32::new(1.0_f32.to_bits())).collect();
+        grids.cells.par_chunks(CELLS_AT_ONCE).flat_map_iter(|cells| cells).for_each(|cell| {
+            for (splat, crowd) in grids.crowds_in(splats, cell) {
+                crowds[splat as usize].store((crowd.recip() as f32).to_bits(), Ordering::Relaxed);
+            }
+        });
+        let mut inverse: Vec<f32> =
+            crowds.into_iter().map(|crowd| f32::from_bits(crowd.into_inner())).collect();
         let sum = mean_sum(&grids, splats, &inverse) as f32;
-        found.iter().for_each(|(splat, _)| inverse[*splat as usize] /= sum);
         let (mut area, mut over) = (0.0, 0.0);
-        for (splat, _) in &found {
-            let i = *splat as usize;
+        for i in grids.numbers().into_iter().map(|number| number as usize) {
+            inverse[i] /= sum;
             area += area_of(splats, i);
             over += area_of(splats, i) * f64::from(inverse[i]);
         }

@@ -179,8 +179,6 @@ impl Cut<'_, '_> {
         levels: Option<(&Leveled, ChunkLevels)>,
     ) -> Result<()> {
         let (splats, storage) = (&object.splats, self.prepared.storage);
-        // Before it is cut, so that chunks are compact.
-        let sequence = Sequence::of(splats, order);
         let transparent = levels.map_or_else(
             || splats.colors.opacity() == Opacity::Transparent,
             |(leveled, _)| leveled.transparent,
@@ -189,11 +187,6 @@ impl Cut<'_, '_> {
         let exact = storage.format == SplatFormat::Exact;
         // So that a bar is there meanwhile.
         self.step(0);
-        let both_sides = auto && exact && (transparent || !object.closed);
-        let shares = match both_sides {
-            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
-            false => None,
-        };
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
         let inverse_overlaps = match levels {
             Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
@@ -201,6 +194,13 @@ impl Cut<'_, '_> {
             _ if exact && !self.beside_polygons => Overlaps::of(splats).inverse,
             _ => one_for_all(Overlaps::of(splats).mean),
         };
+        let both_sides = auto && exact && (transparent || !object.closed);
+        let shares = match both_sides {
+            true => near_surfaces::shares(splats, Epsilon::auto_radii(transparent)),
+            false => None,
+        };
+        // Before it is cut, so that chunks are compact; and after what needs room of its own.
+        let sequence = Sequence::of(splats, order);
         let part = Part { object, sequence, transparent, inverse_overlaps, epsilon, shares, levels };
         for piece in pieces(0..part.sequence.len(), self.capacity) {
             for site in sites(splats, &part.sequence, &piece, storage.format) {
