@@ -25,6 +25,8 @@ mod options;
 mod packed;
 mod pcd;
 mod ply;
+#[cfg(test)]
+pub mod real;
 mod scene_file;
 mod shade;
 mod sniff;

@@ -68,18 +68,6 @@ fn cone(sides: u32) -> Mesh {
     }
 }
 
-#[cfg(feature = "files")]
-fn real_mesh(name: &str) -> Option<Mesh> {
-    let folder = std::env::var_os("SURFEL_DATA").map_or_else(
-        || std::path::PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")),
-        std::path::PathBuf::from,
-    );
-    match crate::load::load(&folder.join(name), &crate::load::LoadOptions::default(), &()).ok()?.model {
-        crate::load::Model::Mesh(mesh) => Some(mesh),
-        _ => None,
-    }
-}
-
 /// Center and tangent vectors of each splat.
 fn tangents(splats: &Splats) -> Vec<[DVec3; 3]> {
     let tangents = |i: usize| match &splats.shapes {
@@ -198,10 +186,7 @@ fn splats_stand_less_off_where_a_mesh_turns_and_cover_all_of_it() {
 #[test]
 fn real_meshes_are_covered_and_stand_less_off() {
     for name in ["fandisk.obj", "igea.ply"] {
-        let Some(mesh) = real_mesh(name) else {
-            println!("SKIPPED: {name} is not there (set SURFEL_DATA to its folder)");
-            continue;
-        };
+        let Some(mesh) = crate::load::real::real_mesh(name) else { continue };
         let found = measure(name, &mesh);
         let bound = if name.starts_with("fandisk") { 0.5 } else { 1.0 };
         assert!(found[1][1] <= bound * found[0][1], "{found:?}");

@@ -3,27 +3,9 @@ use glam::{DVec3, Vec3};
 use super::*;
 use crate::{
     geometry::{corners, seams::sphere},
+    load::real::real_mesh,
     scene::Shapes,
 };
-
-/// A real model, from `SURFEL_DATA` or the folder `shared/data` beside the repository.
-#[cfg(feature = "files")]
-fn real_mesh(name: &str) -> Option<Mesh> {
-    use std::{io::Write as _, path::PathBuf};
-    let folder = std::env::var_os("SURFEL_DATA")
-        .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data")), PathBuf::from);
-    let path = folder.join(name);
-    if !path.exists() {
-        // Written past the harness, which shows no output of tests that pass.
-        let mut stderr = std::io::stderr();
-        let _ = writeln!(stderr, "SKIPPED: {} is not there (set SURFEL_DATA to its folder)", path.display());
-        return None;
-    }
-    match crate::load::load(&path, &crate::load::LoadOptions::default(), &()).unwrap().model {
-        crate::load::Model::Mesh(mesh) => Some(mesh),
-        crate::load::Model::Splats { .. } | crate::load::Model::Points(_) => panic!("{name} is a mesh"),
-    }
-}
 
 fn disks(splats: &Splats) -> (&[Vec3], &[f32]) {
     match &splats.shapes {

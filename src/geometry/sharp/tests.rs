@@ -9,7 +9,7 @@ use super::{Clipping, SharpOptions, sharp_splats};
 use crate::{
     geometry::clip::removes,
     hard_scenes::parts::{bored_block, cube, cylinder},
-    scene::{Clip, Mesh, Shapes, Splats},
+    scene::{Clip, Shapes, Splats},
 };
 
 fn few(count: u64, clipping: Clipping) -> SharpOptions {
@@ -137,21 +137,4 @@ fn where_few_splats_bend_by_much_they_have_no_ears_either() {
         places(&splats).iter().map(|(_, p)| p.truncate().abs().max_element() - 1.0).fold(0.0, f64::max);
     println!("{} splats stick out by {beyond}; {report:?}", splats.len());
     assert!(beyond < 0.06, "{beyond}");
-}
-
-/// A real mesh, from `SURFEL_DATA` or the folder `shared/data` beside the repository; says so where it is not there.
-fn real_mesh(name: &str) -> Option<Mesh> {
-    let folder = std::env::var_os("SURFEL_DATA").map_or_else(
-        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        std::path::PathBuf::from,
-    );
-    let path = folder.join(name);
-    if !path.exists() {
-        println!("SKIPPED: {name} is not there (set SURFEL_DATA to its folder)");
-        return None;
-    }
-    match crate::load::load(&path, &crate::load::LoadOptions::default(), &()).unwrap().model {
-        crate::load::Model::Mesh(mesh) => Some(mesh),
-        _ => panic!("no mesh"),
-    }
 }

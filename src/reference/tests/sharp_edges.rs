@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::{
     geometry::sharp::{Clipping, SharpOptions, sharp_splats},
     hard_scenes::parts::{bored_block, cube},
+    load::real::real_mesh,
     reference::{render, view::View},
     scene::{Camera, Edges, Filter, FilterWeight, Mesh, Object, Scene, Settings},
 };
@@ -152,21 +153,4 @@ fn fandisk_in_few_splats_keeps_its_edges() {
     let Some(mesh) = real_mesh("fandisk.obj") else { return };
     let [shared, .., unclipped] = table("fandisk", &mesh, 2500);
     assert!(20 * shared[1] < unclipped[1] && shared[0] <= unclipped[0], "{shared:?} {unclipped:?}");
-}
-
-/// A real mesh, from `SURFEL_DATA` or the folder `shared/data` beside the repository; says so where it is not there.
-fn real_mesh(name: &str) -> Option<Mesh> {
-    let folder = std::env::var_os("SURFEL_DATA").map_or_else(
-        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        std::path::PathBuf::from,
-    );
-    let path = folder.join(name);
-    if !path.exists() {
-        println!("SKIPPED: {name} is not there (set SURFEL_DATA to its folder)");
-        return None;
-    }
-    match crate::load::load(&path, &crate::load::LoadOptions::default(), &()).unwrap().model {
-        crate::load::Model::Mesh(mesh) => Some(mesh),
-        _ => panic!("no mesh"),
-    }
 }

@@ -31,24 +31,11 @@ pub fn models() -> Vec<(&'static str, Splats)> {
     models
 }
 
-/// A real model, from `SURFEL_DATA` or the folder `shared/data` beside the repository; says so where it is not there.
+/// A real model, where it is there.
 #[cfg(feature = "files")]
 pub fn real_model(name: &str) -> Option<Splats> {
-    use crate::{geometry, load};
-    let folder = std::env::var_os("SURFEL_DATA").map_or_else(
-        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        std::path::PathBuf::from,
-    );
-    let path = folder.join(name);
-    if !path.exists() {
-        println!("SKIPPED: {name} is not there (set SURFEL_DATA to its folder)");
-        return None;
-    }
-    let loaded = load::load(&path, &load::LoadOptions::default(), &()).unwrap();
-    let mesh = match loaded.model {
-        load::Model::Mesh(mesh) => mesh,
-        _ => panic!("{name} is no mesh"),
-    };
+    use crate::{geometry, load::real::real_mesh};
+    let mesh = real_mesh(name)?;
     let (mut splats, _) = geometry::splats_from_mesh(&mesh, geometry::DEFAULT_OVERLAP, &());
     splats.drop_defective();
     Some(splats)

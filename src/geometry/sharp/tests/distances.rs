@@ -3,13 +3,14 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::{few, real_mesh};
+use super::few;
 use crate::{
     geometry::{
         clip::removes,
         sharp::{Clipping, sharp_splats},
     },
     hard_scenes::parts::bored_block,
+    load::real::real_mesh,
     scene::{Mesh, Shapes, Splats},
 };
 

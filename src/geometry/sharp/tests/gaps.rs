@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use super::real_mesh;
 use crate::{
     geometry::sharp::{
         Clipping,
@@ -13,6 +12,7 @@ use crate::{
         ridges::Ridges,
     },
     hard_scenes::parts::bored_block,
+    load::real::real_mesh,
     scene::{ClipCurve, Mesh},
 };
 
