@@ -14,12 +14,12 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use self::grids::Grids;
+use self::grids::{Grids, Search};
 use super::clip::removes;
 use crate::scene::{Shapes, Splats};
 
 /// So many cells are a task.
-const CELLS_AT_ONCE: usize = 64;
+const CELLS_AT_ONCE: usize = 1024;
 
 /// Splats near whose centers the mean sum is looked for.
 const SAMPLES: usize = 1024;
@@ -38,9 +38,12 @@ impl Overlaps {
         let grids = Grids::new(splats);
         // Each is written once, by one thread, where it belongs: no list of them beside.
         let crowds: Vec<AtomicU32> = (0..splats.len()).map(|_| AtomicU32::new(1.0_f32.to_bits())).collect();
-        grids.cells.par_chunks(CELLS_AT_ONCE).flat_map_iter(|cells| cells).for_each(|cell| {
-            for (splat, crowd) in grids.crowds_in(splats, cell) {
-                crowds[splat as usize].store((crowd.recip() as f32).to_bits(), Ordering::Relaxed);
+        (0..grids.len().div_ceil(CELLS_AT_ONCE)).into_par_iter().for_each(|task| {
+            let mut search = Search::default();
+            for cell in task * CELLS_AT_ONCE..grids.len().min((task + 1) * CELLS_AT_ONCE) {
+                grids.crowds_in(splats, cell, &mut search, |splat, crowd| {
+                    crowds[splat as usize].store((crowd.recip() as f32).to_bits(), Ordering::Relaxed);
+                });
             }
         });
         let mut inverse: Vec<f32> =
@@ -69,7 +72,7 @@ fn mean_sum(grids: &Grids, splats: &Splats, inverse: &[f32]) -> f64 {
         }
         let place = splats.positions[i] + from_center;
         let own = area_of(splats, i) * f64::from(inverse[i]);
-        [own * grids.sum_on(splats, i, place, &|of| inverse[of as usize].into()), own]
+        [own * grids.sum_on(splats, i, place, |of| inverse[of as usize].into()), own]
     };
     let all: Vec<[f64; 2]> = (0..count).into_par_iter().map(sample).collect();
     let [sum, own] = all.iter().fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
@@ -104,20 +107,21 @@ fn from_center(n: usize, [to_u, to_v, normal]: [DVec3; 3]) -> DVec3 {
 
 /// What gives u and v of a place when it is multiplied by them, counted from the center of splat `i`; and the unit normal.
 fn dual_frame(splats: &Splats, i: usize) -> [DVec3; 3] {
-    let [s, t] = match &splats.shapes {
+    match &splats.shapes {
         Shapes::Disks { normals, radii } => {
-            let (s, t) = normals[i].as_dvec3().normalize().any_orthonormal_pair();
-            [s, t].map(|axis| axis * f64::from(radii[i]))
+            let normal = normals[i].as_dvec3().normalize();
+            let (u, v) = normal.any_orthonormal_pair();
+            let inverse = f64::from(radii[i]).recip();
+            [inverse * u, inverse * v, normal]
         }
-        Shapes::Ellipses { s, t } => [s[i].as_dvec3(), t[i].as_dvec3()],
-    };
-    let normal = match &splats.shapes {
-        Shapes::Disks { normals, .. } => normals[i].as_dvec3().normalize(),
-        Shapes::Ellipses { .. } => s.cross(t).normalize(),
-    };
-    // The dual basis in the plane.
-    let area = s.cross(t).dot(normal);
-    [t.cross(normal) / area, normal.cross(s) / area, normal]
+        Shapes::Ellipses { s, t } => {
+            let (s, t) = (s[i].as_dvec3(), t[i].as_dvec3());
+            let normal = s.cross(t).normalize();
+            // The dual basis in the plane.
+            let area = s.cross(t).dot(normal);
+            [t.cross(normal) / area, normal.cross(s) / area, normal]
+        }
+    }
 }
 
 #[cfg(test)]

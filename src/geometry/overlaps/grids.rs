@@ -15,30 +15,32 @@ const LEAST_SIZE: f64 = 0.5;
 /// Of more candidates than this, in one octave near one cell, every second, third … stands for all.
 const MOST_CANDIDATES: usize = 512;
 
-/// A cell of an octave's grid, and a splat in it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Place {
-    octave: i32,
-    cell: [i32; 3],
-    splat: u32,
-}
-
-/// All splats that can be drawn, by cells, which are sorted.
+/// All splats that can be drawn, by cells. Octaves are sorted, and so are the cells of each.
 pub(super) struct Grids {
-    places: Vec<Place>,
-    /// Cells that are not empty.
-    pub cells: Vec<Range<usize>>,
+    /// The splats, cell by cell.
+    splats: Vec<u32>,
+    /// Where the cells are that are not empty.
+    cells: Vec<[i32; 3]>,
+    /// Where the splats of each begin; one more, where the last ones end.
+    starts: Vec<u32>,
     /// Octaves that are there, and their cells.
     octaves: Vec<(i32, Range<usize>)>,
 }
 
-/// A splat as its neighbors see it.
+/// What was found near a cell, and room for finding it.
+#[derive(Default)]
+pub(super) struct Search {
+    near: Vec<Neighbor>,
+    /// Those of one octave, by cell.
+    found: Vec<Range<u32>>,
+    /// Where each row of cells was found last: those near the next cell are not far from there.
+    rows: Vec<usize>,
+}
+
+/// A splat as its neighbors see it: what most of them see is that it is too far away.
 struct Neighbor {
     position: DVec3,
-    /// What gives u and v of a place, counted from its center.
-    to_uv: [DVec3; 2],
-    normal: DVec3,
-    radius: f64,
+    radius: f32,
     splat: u32,
     /// How many it stands for.
     count: f64,
@@ -51,104 +53,142 @@ impl Grids {
         let place = |splat: u32| {
             let i = splat as usize;
             let octave = octave_of(splats.major_radius(i));
-            Place { octave, cell: cell_of(splats.positions[i], octave), splat }
+            (octave, cell_of(splats.positions[i], octave), splat)
         };
-        let mut places: Vec<Place> = numbers.into_par_iter().map(place).collect();
+        let mut places: Vec<(i32, [i32; 3], u32)> = numbers.into_par_iter().map(place).collect();
         places.par_sort_unstable();
-        let cells = runs(places.len(), |a, b| {
-            (places[a].octave, places[a].cell) == (places[b].octave, places[b].cell)
-        });
-        let octave = |cell: usize| places[cells[cell].start].octave;
-        let octaves = runs(cells.len(), |a, b| octave(a) == octave(b));
-        let octaves = octaves.into_iter().map(|range| (octave(range.start), range)).collect();
-        Self { places, cells, octaves }
+        let mut grids =
+            Self { splats: Vec::new(), cells: Vec::new(), starts: Vec::new(), octaves: Vec::new() };
+        for (i, (octave, cell, _)) in places.iter().enumerate() {
+            let number = grids.cells.len();
+            match grids.octaves.last_mut() {
+                Some((last, cells)) if last == octave && grids.cells[number - 1] == *cell => {
+                    debug_assert_eq!(cells.end, number);
+                    continue;
+                }
+                Some((last, cells)) if last == octave => cells.end += 1,
+                _ => grids.octaves.push((*octave, number..number + 1)),
+            }
+            grids.cells.push(*cell);
+            grids.starts.push(i as u32);
+        }
+        grids.starts.push(places.len() as u32);
+        grids.splats = places.into_iter().map(|(.., splat)| splat).collect();
+        grids
+    }
+
+    /// So many cells have splats.
+    pub fn len(&self) -> usize {
+        self.cells.len()
     }
 
     /// What a place on a splat has in sum of weights, each times its factor.
-    pub fn sum_on(&self, splats: &Splats, i: usize, place: DVec3, factor: &dyn Fn(u32) -> f64) -> f64 {
+    pub fn sum_on(&self, splats: &Splats, i: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> f64 {
         let octave = octave_of(splats.major_radius(i));
-        sum_at(&self.near(splats, octave, cell_of(place, octave)), splats, i, place, factor)
+        let mut search = Search::default();
+        self.find(splats, octave, cell_of(place, octave), &mut search);
+        sum_at(&search.near, splats, i, place, factor)
     }
 
-    /// The splats of a cell, with their crowds.
-    pub fn crowds_in(&self, splats: &Splats, cell: &Range<usize>) -> Vec<(u32, f64)> {
-        let own = &self.places[cell.clone()];
-        let near = self.near(splats, own[0].octave, own[0].cell);
-        let crowd = |place: &Place| {
-            let i = place.splat as usize;
-            let sum = sum_at(&near, splats, i, splats.positions[i], &|_| 1.0);
-            (place.splat, sum.max(1.0))
-        };
-        own.iter().map(crowd).collect()
+    /// Tells the crowds of the splats of a cell.
+    pub fn crowds_in(
+        &self,
+        splats: &Splats,
+        cell: usize,
+        search: &mut Search,
+        mut tell: impl FnMut(u32, f64),
+    ) {
+        let octave = self.octaves.partition_point(|(_, cells)| cells.end <= cell);
+        self.find(splats, self.octaves[octave].0, self.cells[cell], search);
+        for &splat in &self.splats[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+            let i = splat as usize;
+            tell(splat, sum_at(&search.near, splats, i, splats.positions[i], |_| 1.0).max(1.0));
+        }
     }
 
     /// The numbers of the splats, in order.
     pub fn numbers(&self) -> Vec<u32> {
-        let mut numbers: Vec<u32> = self.places.iter().map(|place| place.splat).collect();
+        let mut numbers = self.splats.clone();
         numbers.sort_unstable();
         numbers
     }
 
-    /// All that may reach a place in a cell of an octave, of this octave, the one below and those above.
-    fn near(&self, splats: &Splats, octave: i32, cell: [i32; 3]) -> Vec<Neighbor> {
-        let mut near = Vec::new();
+    /// Finds all that may reach a place in a cell of an octave, of this octave, the one below and those above.
+    fn find(&self, splats: &Splats, octave: i32, cell: [i32; 3], search: &mut Search) {
+        search.near.clear();
         let first = self.octaves.partition_point(|(of, _)| *of < octave - 1);
+        let mut row = 0;
         for (of, cells) in &self.octaves[first..] {
             let up = (of - octave).clamp(-1, 31);
-            let corners = match up {
+            let [lo, hi] = match up {
                 -1 => [cell.map(|x| 2 * x - 1), cell.map(|x| 2 * x + 2)],
                 _ => [cell.map(|x| (x >> up) - 1), cell.map(|x| (x >> up) + 1)],
             };
-            self.gather(splats, &self.cells[cells.clone()], corners, &mut near);
-        }
-        near
-    }
-
-    /// What lies in a box of some cells.
-    fn gather(
-        &self,
-        splats: &Splats,
-        cells: &[Range<usize>],
-        [lo, hi]: [[i32; 3]; 2],
-        near: &mut Vec<Neighbor>,
-    ) {
-        let at = |cell: &Range<usize>| self.places[cell.start].cell;
-        let mut found: Vec<Range<usize>> = Vec::new();
-        for (x, y) in (lo[0]..=hi[0]).flat_map(|x| (lo[1]..=hi[1]).map(move |y| (x, y))) {
-            let first = cells.partition_point(|cell| at(cell) < [x, y, lo[2]]);
-            found.extend(cells[first..].iter().take_while(|cell| at(cell) <= [x, y, hi[2]]).cloned());
-        }
-        let count: usize = found.iter().map(Range::len).sum();
-        let step = count.div_ceil(MOST_CANDIDATES).max(1);
-        let neighbor = |place: &Place| {
-            let i = place.splat as usize;
-            let [to_u, to_v, normal] = dual_frame(splats, i);
-            Neighbor {
-                position: splats.positions[i],
-                to_uv: [to_u, to_v],
-                normal,
-                radius: splats.major_radius(i),
-                splat: place.splat,
-                count: step as f64,
+            search.found.clear();
+            let mut count = 0;
+            for (x, y) in (lo[0]..=hi[0]).flat_map(|x| (lo[1]..=hi[1]).map(move |y| (x, y))) {
+                let first = search.seek(&self.cells[..cells.end], cells.start, row, [x, y, lo[2]]);
+                let found = self.cells[first..cells.end].iter().take_while(|cell| **cell <= [x, y, hi[2]]);
+                // Cells of a row follow each other, and so do their splats.
+                let found = self.starts[first]..self.starts[first + found.count()];
+                count += found.len();
+                search.found.push(found);
+                row += 1;
             }
-        };
-        near.extend(found.into_iter().flatten().step_by(step).map(|at| neighbor(&self.places[at])));
+            let step = count.div_ceil(MOST_CANDIDATES).max(1);
+            let mut skip = 0;
+            for range in &search.found {
+                let range = range.start as usize..range.end as usize;
+                let all = self.splats[range.clone()].iter().skip(skip).step_by(step);
+                search.near.extend(all.map(|&splat| {
+                    let i = splat as usize;
+                    let (position, radius) = (splats.positions[i], splats.major_radius(i) as f32);
+                    Neighbor { position, radius, splat, count: step as f64 }
+                }));
+                skip = (skip + range.len() * (step - 1)) % step;
+            }
+        }
+    }
+}
+
+impl Search {
+    /// The first of some cells, from number `start` on, that is not before a place, for a row of those that are looked for.
+    fn seek(&mut self, cells: &[[i32; 3]], start: usize, row: usize, place: [i32; 3]) -> usize {
+        if self.rows.len() <= row {
+            self.rows.resize(row + 1, start);
+        }
+        let from = self.rows[row].clamp(start, cells.len());
+        // Steps of 1, 2, 4 … to where it must be, and then by halves.
+        let (mut low, mut high, mut step) = (from, from, 1);
+        while high < cells.len() && cells[high] < place {
+            (low, high, step) = (high + 1, (high + step).min(cells.len()), 2 * step);
+        }
+        while low > start && cells[low - 1] >= place {
+            (high, low, step) = (low - 1, low.saturating_sub(step).max(start), 2 * step);
+        }
+        let found = low + cells[low..high].partition_point(|cell| *cell < place);
+        self.rows[row] = found;
+        found
     }
 }
 
 /// The sum at a place on splat `of` of the weights of what is near, each times its factor.
-fn sum_at(near: &[Neighbor], splats: &Splats, of: usize, place: DVec3, factor: &dyn Fn(u32) -> f64) -> f64 {
+fn sum_at(near: &[Neighbor], splats: &Splats, of: usize, place: DVec3, factor: impl Fn(u32) -> f64) -> f64 {
     let normal = dual_frame(splats, of)[2];
-    let least = LEAST_SIZE * splats.major_radius(of);
+    let least = (LEAST_SIZE * splats.major_radius(of)) as f32;
     let mut sum = 0.0;
     for neighbor in near {
         let from_center = place - neighbor.position;
-        let [u, v] = neighbor.to_uv.map(|axis| axis.dot(from_center));
-        let r2 = u * u + v * v;
-        let is_there = r2 <= 1.0 && from_center.length_squared() <= neighbor.radius * neighbor.radius;
-        let is_there = is_there && !removes(&splats.clips.get(neighbor.splat as usize), DVec2::new(u, v));
-        if is_there && neighbor.radius >= least && neighbor.normal.dot(normal) > 0.0 {
-            sum += neighbor.count * factor(neighbor.splat) * (-2.0 * r2).exp();
+        let radius = f64::from(neighbor.radius);
+        if from_center.length_squared() > radius * radius || neighbor.radius < least {
+            continue;
+        }
+        let i = neighbor.splat as usize;
+        let [to_u, to_v, its_normal] = dual_frame(splats, i);
+        let uv = DVec2::new(to_u.dot(from_center), to_v.dot(from_center));
+        let is_there = uv.length_squared() <= 1.0 && !removes(&splats.clips.get(i), uv);
+        if is_there && its_normal.dot(normal) > 0.0 {
+            sum += neighbor.count * factor(neighbor.splat) * (-2.0 * uv.length_squared()).exp();
         }
     }
     sum
@@ -163,16 +203,4 @@ fn octave_of(radius: f64) -> i32 {
 fn cell_of(position: DVec3, octave: i32) -> [i32; 3] {
     let most = f64::from(i32::MAX / 4);
     (position * f64::from(-octave).exp2()).floor().to_array().map(|x| x.clamp(-most, most) as i32)
-}
-
-/// Where things in a row are the same as the first of them.
-fn runs(count: usize, same: impl Fn(usize, usize) -> bool) -> Vec<Range<usize>> {
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    for i in 0..count {
-        match runs.last_mut() {
-            Some(last) if same(last.start, i) => last.end = i + 1,
-            _ => runs.push(i..i + 1),
-        }
-    }
-    runs
 }
