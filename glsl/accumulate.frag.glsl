@@ -11,10 +11,10 @@
 //
 // OWN_DEPTH, of transparent triangles: the rasterizer's own depth may differ from what a shader sees in the last bit: so layers are compared by
 // the shader's alone.
-// Permutations: plain | _ fourth
-// Permutations: full center
-// Permutations: rays | fourth
-// Permutations: triangles | _ own_depth
+// Permutations: plain | _ fourth | _ clipped
+// Permutations: full center | _ clipped
+// Permutations: rays | fourth | _ clipped
+// Permutations: triangles | _ own_depth | _ clipped
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"

@@ -1,11 +1,11 @@
 // Attribute accumulation: sets splats up and hands color, normal and weight on. extra.w: beside polygons 1 / f, with which depth
 // is shifted toward the viewer; of transparent splats alpha. Those of the last layer, where surfaces mix, are lit here, each by
 // itself, at its center.
-// Permutations: points | plain | _ fourth
-// Permutations: points | center
-// Permutations: points quads | rays | fourth
-// Permutations: quads | full center
-// Permutations: triangles
+// Permutations: points | plain | _ fourth | _ clipped
+// Permutations: points | center | _ clipped
+// Permutations: points quads | rays | fourth | _ clipped
+// Permutations: quads | full center | _ clipped
+// Permutations: triangles | _ clipped
 #version 460
 #include "inc/setup.glsl"
 #include "inc/emit.glsl"
@@ -32,6 +32,7 @@ void main()
             extra.w = load_alpha(index);
         }
         emit(m, extra, false);
+        hand_clip_over(index, m);
         bool outward = SUMMED == SUMMED_LAYER && OUTWARD && m.faces_away;
         normal_weight = vec4(outward ? -m.normal : m.normal, WEIGHTED ? share_of(m) * own_weight(index) : 1.0);
     } else {

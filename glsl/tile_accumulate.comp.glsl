@@ -58,6 +58,7 @@ void load(bool goes_on)
         }
         summed[row] = normals[row].w;
         own_part[row] = 0.0;
+        clipped_part[row] = vec2(0.0);
         polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel, 0).r : 0.0;
     }
 }

@@ -18,6 +18,7 @@ layout(set = 1, binding = BIND_RECORDS, std430) writeonly buffer Records0 { vec4
 layout(set = 1, binding = BIND_RECORDS + 1, std430) writeonly buffer Records1 { vec4 records1[]; };
 layout(set = 1, binding = BIND_RECORDS + 2, std430) writeonly buffer Records2 { vec4 records2[]; };
 layout(set = 1, binding = BIND_RECORDS + 3, std430) writeonly buffer Records3 { uvec4 records3[]; };
+layout(set = 1, binding = BIND_CLIPS, std430) writeonly buffer ClipRecords { vec4 clip_records[]; };
 layout(set = 1, binding = BIND_RECTS, std430) writeonly buffer Rects { uint rects[]; };
 layout(set = 1, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
 layout(set = 1, binding = BIND_VISIBLE_LIST, std430) readonly buffer VisibleList { uint visible_list[]; };
@@ -103,8 +104,18 @@ void main()
         color = colors[UNIFORM_COLOR ? 0 : index];
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
-    records0[place] = vec4(map.x0_px, w0, signed_shift);
+    records0[place] = vec4(map.x0_px, CLIPS ? -w0 : w0, signed_shift);
     records1[place] = uv_scale * vec4(map.along_x.x, map.along_y.x, map.along_x.y, map.along_y.y);
     records2[place] = vec4(map.along_x.z / w0, map.along_y.z / w0, share, normal.x);
     records3[place] = uvec4(floatBitsToUint(normal.yz), color);
+    if (CLIPS) {
+        Curve curves[2];
+        clip_in_image(index, m, curves);
+        [[unroll]] for (uint i = 0; i < 2; i++) {
+            uint first = CLIP_VECTORS * place + 3 * i;
+            clip_records[first] = curves[i].c;
+            clip_records[first + 1] = curves[i].a;
+            clip_records[first + 2] = curves[i].b;
+        }
+    }
 }

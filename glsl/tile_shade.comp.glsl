@@ -38,6 +38,7 @@ void begin_surface()
         normals[row] = vec4(0.0);
         summed[row] = 0.0;
         own_part[row] = 0.0;
+        clipped_part[row] = vec2(0.0);
         visible_away[row] = false;
     }
 }

@@ -2,8 +2,8 @@
 // Pajarola et al. 2003, figure 15). Reversed depth: nearer is larger. extra().x is the shift.
 //
 // OWN_DEPTH: of triangles in a transparent layer.
-// Permutations: plain full center rays
-// Permutations: triangles | _ own_depth
+// Permutations: plain full center rays | _ clipped
+// Permutations: triangles | _ own_depth | _ clipped
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/perturb.glsl"

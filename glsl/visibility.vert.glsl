@@ -1,8 +1,8 @@
 // Visibility splatting: sets splats up and hands on by what their depth is moved away from the eye. The
 // fragments of triangles have it from the rasterizer; but in a transparent layer the shader compares their own depth and moves it.
-// Permutations: points | plain center rays
-// Permutations: quads | full center rays
-// Permutations: triangles
+// Permutations: points | plain center rays | _ clipped
+// Permutations: quads | full center rays | _ clipped
+// Permutations: triangles | _ clipped
 #version 460
 #include "inc/setup.glsl"
 #include "inc/emit.glsl"
@@ -18,6 +18,7 @@ void main()
         bool moves = false;
 #endif
         emit(m, vec4(m.shift, 0.0, 0.0, 0.0), moves);
+        hand_clip_over(index, m);
     } else {
         emit_nothing();
     }

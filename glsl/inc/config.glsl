@@ -43,6 +43,7 @@
 #define SPEC_FILTER_PX 56     // Constant: h of the low-pass filter, pixels.
 #define SPEC_LEVELS 58        // Constant: one of `LEVELS_*`: what splats of a chunk are to levels of detail.
 #define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
+#define SPEC_CLIPS 60          // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
@@ -61,6 +62,7 @@
 #define BIND_SPLATS_SHAPES 0 // Binding: shapes of splats, or vertices.
 #define BIND_SPLATS_COLORS 1 // Binding: their colors.
 #define BIND_SPLATS_LEVELS 2 // Binding: what decides about their levels of detail.
+#define BIND_SPLATS_CLIPS 3  // Binding: their clip curves.
 
 // Bindings of the set of lists.
 #define BIND_LIST_BITS 0      // Binding: a bit a splat.
@@ -177,6 +179,8 @@
 #define BIND_RECT_TEXELS 28    // Binding: tile rects, as texels.
 #define BIND_LAYER_STATE 29    // Binding: what is known of overflow tiles' layers between dispatches.
 #define BIND_VISIBLE_BEFORE 30 // Binding: `BIND_VISIBLE_DEPTH` as it was before.
+#define BIND_CLIPS 31          // Binding: the clip curves of projected splats.
+#define BIND_CLIP_TEXELS 32    // Binding: the same, as texels.
 
 // Sizes of tiles and of the work on them.
 #define TILE_WIDTH 8          // Pixels along a row of a tile.
@@ -205,6 +209,7 @@
 #define ARGUMENTS_CHUNKS 12  // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline.
 
 // Other sizes.
+#define CLIP_VECTORS 6          // Vectors of four floats of the clip curves of a splat: three for each of two curves.
 #define KERNEL_TEXTURE_SIDE 256 // Texels along a side of the kernel's texture.
 #define BLOCK_SPLATS 256        // Splats of a chunk that have bounds of their own; the last block may have fewer.
 #define LIST_GROUP_SIZE 64      // Invocations of a workgroup, one a word of bits, that marks or lists splats.

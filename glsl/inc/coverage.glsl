@@ -35,11 +35,29 @@ vec2 from_px(vec2 place)
 #define EXTRA_W 0.0
 #endif
 
+#if defined(CLIPPED)
+#include "inc/clip.glsl"
+
+// Discards the fragment if a clip curve cuts it off.
+void clip_fragment()
+{
+    vec2 px = at_px();
+    bool first = keeps(Curve(clip_curves[0], clip_curves[1], clip_curves[2]), px);
+    bool second = keeps(Curve(clip_curves[3], clip_curves[4], clip_curves[5]), px);
+    if (!(removes_both(clip_curves[3]) ? first || second : first && second)) {
+        discard;
+    }
+}
+#else
+void clip_fragment() {}
+#endif
+
 #if defined(TRIANGLES)
 
 // Discards the fragment if u^2 + v^2 is above the limit.
 Covered covered(float limit_r2)
 {
+    clip_fragment();
     if (!(dot(triangle_uv, triangle_uv) <= FORMULA(FORMULA_COVERAGE, limit_r2))) {
         discard;
     }
@@ -154,6 +172,7 @@ vec4 extra()
 // Discards the fragment if u^2 + v^2 is above the limit or it lies in front of the near plane.
 Covered covered(float limit_r2)
 {
+    clip_fragment();
 #if defined(RAYS)
     if (RASTERIZER == RASTERIZER_RAYCAST_APPROXIMATE && half_square_px() > 0.0) {
         vec2 d = abs(from_center_px());

@@ -103,6 +103,17 @@ void hand_over(Mapping m, ImageMap map, vec4 extra)
 }
 #endif
 
+#if defined(CLIPPED)
+void hand_clip_over(uint index, Mapping m)
+{
+    Curve curves[2];
+    clip_in_image(index, m, curves);
+    clip_curves = vec4[](curves[0].c, curves[0].a, curves[0].b, curves[1].c, curves[1].a, curves[1].b);
+}
+#else
+void hand_clip_over(uint index, Mapping m) {}
+#endif
+
 // `moves`: depth that fragments don't find by themselves is moved away from the eye.
 void emit(Mapping m, vec4 extra, bool moves)
 {

@@ -12,6 +12,8 @@
 #include "inc/box.glsl"
 #include "inc/image_map.glsl"
 #include "inc/splat_box.glsl"
+#include "inc/clip.glsl"
+#include "inc/clip_image.glsl"
 
 // What is not drawn goes here: outside of the clip volume.
 const vec4 NOWHERE = vec4(2.0, 2.0, 2.0, 1.0);

@@ -4,6 +4,8 @@
 // FULL, 4: any expansion point. CENTER, 5: the projected center too, for the filter `max`.
 // RAYS, 4: the splat itself in view space. TRIANGLES: (u, v) as the rasterizer interpolates them.
 //
+// CLIPPED, 6 more: what clip curves cut off the splat.
+//
 // PLAIN and RAYS have no room for extra.w, which FOURTH gives a vector of its own: one that nobody reads costs a CPU driver, too.
 
 #include "inc/places.glsl"
@@ -26,6 +28,9 @@ layout(location = 3) flat VARYING vec4 uv_affine; // (uw, vw) at x0, 1 where the
 #if defined(CENTER)
 layout(location = 4) flat VARYING vec3 center_low_pass; // projected center in pixels; w there, or 0 without the filter
 #endif
+#endif
+#if defined(CLIPPED)
+layout(location = 7) flat VARYING vec4 clip_curves[CLIP_VECTORS]; // c, a and b of two curves (inc/clip.glsl)
 #endif
 #if defined(FOURTH)
 layout(location = 6) flat VARYING float fourth; // extra.w

@@ -22,7 +22,7 @@ Range unhidden(Range range)
         float dx = first_px.x + corner.x - splat.x0_px.x;
         float dy = first_px.y - splat.x0_px.y + corner.y;
         float along_x = 1.0 + splat.w.x * dx;
-        float nearest = splat.w0 * (along_x + splat.w.y * dy);
+        float nearest = depth_of(splat) * (along_x + splat.w.y * dy);
         bool kept = base + OWN_LANE < range.end && !(nearest < farthest);
         uvec2 votes = votes_of_tile(kept);
         if (kept) {

@@ -26,12 +26,15 @@ vec4 record1(uint record) { return texelFetch(records1, int(record)); }
 vec4 record2(uint record) { return texelFetch(records2, int(record)); }
 uvec4 record3(uint record) { return texelFetch(records3, int(record)); }
 
+layout(set = 0, binding = BIND_CLIP_TEXELS) uniform textureBuffer clip_records;
+vec4 clip_record(uint number) { return texelFetch(clip_records, int(number)); }
+
 void stage_shared(Splat own) {}
 void stage_shared(SplatAttributes own) {}
 
 Splat broadcast(Splat own, uint place)
 {
-    return Splat(0, subgroupShuffle(own.x0_px, place), subgroupShuffle(own.w0, place),
+    return Splat(CLIPS ? subgroupShuffle(own.record, place) : 0, subgroupShuffle(own.x0_px, place), subgroupShuffle(own.w0, place),
         subgroupShuffle(own.shift, place), subgroupShuffle(own.uv, place), subgroupShuffle(own.w, place));
 }
 

@@ -22,6 +22,9 @@ vec4 record1(uint record) { return records1[record]; }
 vec4 record2(uint record) { return records2[record]; }
 uvec4 record3(uint record) { return records3[record]; }
 
+layout(set = 0, binding = BIND_CLIPS, std430) readonly buffer ClipRecords { vec4 clip_records[]; };
+vec4 clip_record(uint number) { return clip_records[number]; }
+
 shared Splat shared_splats[LOADED];
 shared SplatAttributes shared_attributes[LOADED];
 shared uint least_bits;

@@ -33,6 +33,7 @@ void begin_surface()
         visible[row] = opaque[row];
         summed[row] = 0.0;
         own_part[row] = 0.0;
+        clipped_part[row] = vec2(0.0);
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
     }

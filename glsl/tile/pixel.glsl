@@ -31,6 +31,7 @@ vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: 
 // COVERAGE_EDGES (inc/edges.glsl):
 float summed[ROWS];  // sum of weights over the overlap; where splats are WEIGHTED, that of colors
 float own_part[ROWS];     // the most that a splat covers by itself
+vec2 clipped_part[ROWS];  // CLIPS: of splats that a curve cuts there, by the side that it cuts off
 
 // A splat along the column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy. Rows are computed from the splat's center,
 // not stepped from the row above: three multiplications more, and no error adds up.
@@ -45,7 +46,7 @@ Column column_of(Splat splat)
 {
     float dx = top_px.x - splat.x0_px.x;
     Column column;
-    column.w0 = splat.w0;
+    column.w0 = depth_of(splat);
     column.at_center_row.x = splat.uv.x * dx;
     column.at_center_row.y = splat.uv.z * dx;
     column.at_center_row.z = 1.0 + splat.w.x * dx;
@@ -71,13 +72,13 @@ float shift_of(Splat splat)
 }
 
 // Whether the splat covers the pixel, behind the layer before. A regular splat lies wholly beyond the near plane, but an affine map
-// reaches further than the splat.
-bool covers(vec3 uvw, float depth, bool away, int row)
+// reaches further than the splat. `kept`: what clip curves leave of it.
+bool covers(vec3 uvw, float depth, bool away, float kept, int row)
 {
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
     bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
     bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-    return inside && beyond_near && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
+    return inside && beyond_near && kept != 0.0 && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
 float r2_of(vec3 uvw)
@@ -87,12 +88,12 @@ float r2_of(vec3 uvw)
 }
 
 // The nearest depth, shifted by epsilon.
-void see(Splat splat, Column column, int row)
+void see(Splat splat, Column column, float kept, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
-    bool inside = covers(uvw, depth, away, row);
+    bool inside = covers(uvw, depth, away, kept, row);
     float behind = shifted(depth, shift_of(splat));
     if (BY_SIDES) {
         visible_away[row] = inside && behind > visible[row] ? away : visible_away[row];
@@ -100,19 +101,35 @@ void see(Splat splat, Column column, int row)
     visible[row] = inside ? max(visible[row], behind) : visible[row];
 }
 
+// A ridge has a curve on both of its sides, whose parts of a pixel add up.
+void add_own_part(float part, float kept, int row)
+{
+    if (CLIPS && abs(kept) < 1.0) {
+        float clipped = part * abs(kept);
+        clipped_part[row] = max(clipped_part[row], kept < 0.0 ? vec2(clipped, 0.0) : vec2(0.0, clipped));
+    } else {
+        own_part[row] = max(own_part[row], part);
+    }
+}
+
+float own_part_of(int row)
+{
+    return CLIPS ? max(own_part[row], clipped_part[row].x + clipped_part[row].y) : own_part[row];
+}
+
 // The part of the pixel that the surface covers.
 float opacity_of(int row)
 {
-    return edge_opacity(WEIGHTED ? colors[row].w : summed[row], own_part[row]);
+    return edge_opacity(WEIGHTED ? colors[row].w : summed[row], own_part_of(row));
 }
 
 // Adds what a splat is at a pixel.
-void add(Splat splat, SplatAttributes attributes, Column column, int row)
+void add(Splat splat, SplatAttributes attributes, Column column, float kept, int row)
 {
     vec3 uvw = uvw_of(column, row);
     float depth = column.w0 * uvw.z;
     bool away = is_away(splat);
-    bool inside = covers(uvw, depth, away, row) && (!BY_SIDES || away == visible_away[row]);
+    bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || away == visible_away[row]);
     if (WITH_POLYGONS) {
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
             && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], shift_of(splat)));
@@ -121,13 +138,14 @@ void add(Splat splat, SplatAttributes attributes, Column column, int row)
     }
     float r2 = r2_of(uvw);
     float kernel = kernel_weight(r2);
+    kernel *= abs(kept);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
     float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
     if (COVERAGE_EDGES) {
         if (!WEIGHTED) {
             summed[row] += inside ? shared_weight : 0.0;
         }
-        own_part[row] = inside ? max(own_part[row], attributes.own_part.x - attributes.own_part.y * r2) : own_part[row];
+        add_own_part(inside ? attributes.own_part.x - attributes.own_part.y * r2 : 0.0, kept, row);
     }
     colors[row] += weight * vec4(attributes.color, 1.0);
     normals[row].xyz += weight * attributes.normal;

@@ -1,11 +1,14 @@
 // A projected splat, all in pixels, so that nothing of its chunk is needed any more, as its record has it:
-// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there; the shift, negative (or -0) where it is
+// records0: where its map is expanded (x0), from the middle of the image; w0, the depth there, negative where clip curves cut
+// parts off it; the shift, negative (or -0) where it is
 // TWO_SIDED and faces away.
 // records1: u along x and along y, v along x and along y, per pixel. records2: w along x and along y; the share of its weight
 // that a filter leaves; the normal's x. records3: its y and z; red, green, blue and alpha, 16 bits each.
 //
 // (uw, vw, w) are over w0: w is about 1 in all pixels of a regular splat, so that squares neither under- nor overflow and
 // coverage needs no division: u^2 + v^2 <= R^2 is (uw)^2 + (vw)^2 <= R^2 w^2. Where the map is affine, u and v are as they are.
+
+#include "inc/clip.glsl"
 
 // What tells whether it covers a pixel, and how deep.
 struct Splat {
@@ -16,6 +19,16 @@ struct Splat {
     vec4 uv;
     vec2 w;
 };
+
+bool is_clipped(Splat splat)
+{
+    return CLIPS && splat.w0 < 0.0;
+}
+
+float depth_of(Splat splat)
+{
+    return CLIPS ? abs(splat.w0) : splat.w0;
+}
 
 // What is summed of it.
 struct SplatAttributes {

@@ -7,6 +7,7 @@
 #define LIGHTS_BINDING BIND_LIGHTS
 #include "inc/shading.glsl"
 #include "tile/pixel.glsl"
+#include "tile/clip.glsl"
 
 Splat load_splat(uint base, uint end)
 {
@@ -60,8 +61,10 @@ void see(Range range)
         [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
             Splat splat = broadcast(own, place + k);
             Column column = column_of(splat);
+            float kept[ROWS];
+            find_kept(splat, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                see(splat, column, row);
+                see(splat, column, kept[row], row);
             }
         }
     }
@@ -89,14 +92,16 @@ void sum(Range range, bool lit)
             Splat splats[SUMMED_AT_ONCE];
             SplatAttributes attributes[SUMMED_AT_ONCE];
             Column columns[SUMMED_AT_ONCE];
+            float kept[SUMMED_AT_ONCE][ROWS];
             [[unroll]] for (uint k = 0; k < SUMMED_AT_ONCE; k++) {
                 splats[k] = broadcast(own, place + first + k);
                 attributes[k] = broadcast(own_attributes, place + first + k);
                 columns[k] = column_of(splats[k]);
+                find_kept(splats[k], kept[k]);
             }
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
                 [[unroll]] for (uint k = 0; k < SUMMED_AT_ONCE; k++) {
-                    add(splats[k], attributes[k], columns[k], row);
+                    add(splats[k], attributes[k], columns[k], kept[k][row], row);
                 }
             }
         }

@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::{
     blocks::{Block, BlockMaker},
+    clip_vectors::ClipVectors,
     level_words::LevelWords,
     levels::ChunkLevels,
     memory::{ChunkMemory, Uploader},
@@ -47,6 +48,8 @@ pub struct Chunk {
     pub fine: bool,
     /// One color for all.
     pub uniform_color: bool,
+    /// Clip curves cut something off its splats.
+    pub clipped: bool,
     /// The ε that the object has of its own.
     pub epsilon: Option<Epsilon>,
     /// Some of its splats have less ε than others: where another surface is near.
@@ -97,6 +100,10 @@ impl Chunk {
             if let Some((_, LevelWords { words, .. })) = levels {
                 buffers.push(buffer("levels", words.len(), size_of::<u32>() as u64)?);
             }
+            // In place of levels, which have none.
+            if survey.clipped {
+                buffers.push(buffer("clips", survey.count as usize, size_of::<ClipVectors>() as u64)?);
+            }
             let named = buffers.len();
             ChunkMemory::new(uploader, &format!("chunk {number}"), buffers, named)
         };
@@ -108,6 +115,7 @@ impl Chunk {
             transparent,
             fine: survey.fine,
             uniform_color: survey.uniform_color,
+            clipped: survey.clipped,
             epsilon: None,
             own_epsilon: false,
             packed: survey.packed,
@@ -151,12 +159,16 @@ impl Chunk {
         let colors: &[u8] = bytemuck::cast_slice(&packed.colors);
         // The one color comes with the first splats.
         let colors = if self.uniform_color && first > 0 { &[] } else { colors };
-        let bytes = (shapes.len() + colors.len()) as u64;
+        let clips: &[u8] = bytemuck::cast_slice(&packed.clips);
+        let bytes = (shapes.len() + colors.len() + clips.len()) as u64;
         let mut staging = Staging::new(uploader.device, "upload of splats", bytes)?;
         let first = u64::from(first);
         staging.push(&buffers[0], first * self.bytes_each[0], shapes)?;
         if !colors.is_empty() {
             staging.push(&buffers[1], first * self.bytes_each[1], colors)?;
+        }
+        if !clips.is_empty() {
+            staging.push(&buffers[2], first * size_of::<ClipVectors>() as u64, clips)?;
         }
         (uploader.submit)(staging)
     }

@@ -20,7 +20,7 @@ use crate::{
     error::Result,
     geometry::{Overlaps, hierarchy::Hierarchy},
     progress::Progress,
-    scene::{DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
+    scene::{Clip, DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
     vk::Limits,
 };
 
@@ -98,7 +98,6 @@ struct Cut<'u, 'a> {
 /// An object on its way.
 struct Part<'a> {
     object: &'a Object,
-    sequence: Sequence,
     transparent: bool,
     /// One over the overlap of each splat.
     inverse_overlaps: Vec<f32>,
@@ -201,11 +200,21 @@ impl Cut<'_, '_> {
         };
         // Before it is cut, so that chunks are compact; and after what needs room of its own.
         let sequence = Sequence::of(splats, order);
-        let part = Part { object, sequence, transparent, inverse_overlaps, epsilon, shares, levels };
-        for piece in pieces(0..part.sequence.len(), self.capacity) {
-            for site in sites(splats, &part.sequence, &piece, storage.format) {
+        let part = Part { object, transparent, inverse_overlaps, epsilon, shares, levels };
+        if splats.clips.is_empty() {
+            return self.sequence(&part, &sequence);
+        }
+        // What is clipped costs others nothing.
+        let parts = sequence.parted(|i| splats.clips.get(i) != Clip::None);
+        parts.iter().try_for_each(|sequence| self.sequence(&part, sequence))
+    }
+
+    fn sequence(&mut self, part: &Part<'_>, sequence: &Sequence) -> Result<()> {
+        let (splats, format) = (&part.object.splats, self.prepared.storage.format);
+        for piece in pieces(0..sequence.len(), self.capacity) {
+            for site in sites(splats, sequence, &piece, format) {
                 for range in pieces(0..site.len(&piece), chunk::part_of(self.capacity, site.fine)) {
-                    self.chunk(&part, &piece, &site, range)?;
+                    self.chunk((part, sequence), &piece, &site, range)?;
                 }
             }
         }
@@ -215,13 +224,13 @@ impl Cut<'_, '_> {
     /// The splats at `range` of a site of a piece.
     fn chunk(
         &mut self,
-        part: &Part<'_>,
+        (part, sequence): (&Part<'_>, &Sequence),
         piece: &Range<usize>,
         site: &Site,
         range: Range<usize>,
     ) -> Result<()> {
         let splats = &part.object.splats;
-        let which = |places: Range<usize>| site.at(&part.sequence, piece, places);
+        let which = |places: Range<usize>| site.at(sequence, piece, places);
         let survey = site.survey(splats, which(range.clone()));
         self.prepared.defects.merge(&survey.defects);
         if survey.count > 0 {

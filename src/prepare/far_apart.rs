@@ -8,20 +8,30 @@ const LEAST_SINE: f64 = 0.25;
 /// Tangent vectors of the same ellipse with more than 14° between them: where these have less, its axes, since a vector's rounding, 6e-8
 /// of it, is divided by the sine in all that is found of both.
 pub(super) fn far_apart(s: DVec3, t: DVec3) -> [DVec3; 2] {
-    let [length_s, length_t] = [s.length(), t.length()];
-    if s.cross(t).length() >= LEAST_SINE * length_s * length_t {
+    let angle_rad = turn_rad(s, t);
+    if angle_rad == 0.0 {
         return [s, t];
     }
-    // Rotating the parametrization moves the rim along itself: tan 2θ = 2 s·t / (s·s − t·t). In units of the longer one.
-    let unit = length_s.max(length_t);
+    let unit = s.length().max(t.length());
     let [a, b] = [s / unit, t / unit];
-    let angle_rad = 0.5 * (2.0 * a.dot(b)).atan2(a.length_squared() - b.length_squared());
     let (sin, cos) = angle_rad.sin_cos();
     let major = a * cos + b * sin;
     // The shorter one by area and direction: of the difference little would be left.
     let normal = a.cross(b);
     let minor = normal.cross(major) / major.length_squared();
     [major * unit, minor * unit]
+}
+
+/// By how much [`far_apart`] turns tangent vectors, from the first toward the second within their ellipse; 0 where they stay.
+pub(super) fn turn_rad(s: DVec3, t: DVec3) -> f64 {
+    let [length_s, length_t] = [s.length(), t.length()];
+    if s.cross(t).length() >= LEAST_SINE * length_s * length_t {
+        return 0.0;
+    }
+    // Rotating the parametrization moves the rim along itself: tan 2θ = 2 s·t / (s·s − t·t). In units of the longer one.
+    let unit = length_s.max(length_t);
+    let [a, b] = [s / unit, t / unit];
+    0.5 * (2.0 * a.dot(b)).atan2(a.length_squared() - b.length_squared())
 }
 
 #[cfg(test)]

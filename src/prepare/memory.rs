@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors, binding 2 levels of detail.
+/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors, binding 2 levels of detail, binding 3 clip curves.
 pub struct SplatSetLayout(SetLayout);
 
 impl SplatSetLayout {
@@ -21,7 +21,7 @@ impl SplatSetLayout {
     pub fn new(device: &Device) -> Result<Self> {
         let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::COMPUTE;
         let binding = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages };
-        Ok(Self(SetLayout::new(device, "splats", &[binding; 3])?))
+        Ok(Self(SetLayout::new(device, "splats", &[binding; 4])?))
     }
 
     /// The set's layout.
@@ -57,10 +57,10 @@ impl ChunkMemory {
     /// The set of the first `named` of some buffers, one at least; the last of them stands in for those that are missing. `name`: the
     /// chunk's.
     pub fn new(uploader: &Uploader<'_>, name: &str, buffers: Vec<Buffer>, named: usize) -> Result<Self> {
-        let room = PoolSizes { sets: 1, buffers: 3, ..PoolSizes::default() };
+        let room = PoolSizes { sets: 1, buffers: 4, ..PoolSizes::default() };
         let pool = DescriptorPool::new(uploader.device, &format!("set of {name}"), room)?;
         let named = &buffers[..named];
-        let bindings = (0..3).zip(named.iter().chain(named.last().into_iter().cycle()));
+        let bindings = (0..4).zip(named.iter().chain(named.last().into_iter().cycle()));
         let given: Vec<_> = bindings
             .map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw(), buffer.size())))
             .collect();

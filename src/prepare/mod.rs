@@ -7,6 +7,7 @@
 mod as_packed;
 mod blocks;
 mod chunk;
+mod clip_vectors;
 mod cut;
 mod far_apart;
 mod level_words;

@@ -8,13 +8,14 @@
 use glam::DVec3;
 
 use super::{
-    far_apart::far_apart,
+    clip_vectors::{ClipVectors, clip_vectors},
+    far_apart::{far_apart, turn_rad},
     levels::{ChunkLevels, Leveled},
     packed,
     radii::{RadiusCounts, RadiusStep},
     rebase::Rebase,
 };
-use crate::scene::{Colors, Defect, DefectCounts, Shapes, Splats};
+use crate::scene::{Clip, Colors, Defect, DefectCounts, Shapes, Splats};
 
 /// The facts on some splats before any of them is packed: buffers get their exact size.
 pub struct Survey {
@@ -28,6 +29,8 @@ pub struct Survey {
     pub fine: bool,
     /// One color for all.
     pub uniform_color: bool,
+    /// Clip curves cut something off some of them.
+    pub clipped: bool,
     /// Disks in 16 bytes.
     pub packed: bool,
     /// The box of the centers, local space.
@@ -90,6 +93,8 @@ pub struct Packed {
     pub shapes: Vec<[u32; 4]>,
     /// See the module: a word each, or two.
     pub colors: Vec<u32>,
+    /// What is cut off each, where something is cut off some.
+    pub clips: Vec<ClipVectors>,
 }
 
 /// What lies beside some splats, by their numbers in the input.
@@ -124,6 +129,7 @@ pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebas
         count: 0,
         ellipses: matches!(splats.shapes, Shapes::Ellipses { .. }),
         uniform_color: matches!(splats.colors, Colors::Uniform(_)),
+        clipped: false,
         packed: false,
         bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         largest_radius: 0.0,
@@ -139,6 +145,7 @@ pub fn survey(splats: &Splats, which: impl Iterator<Item = usize>, rebase: Rebas
                 survey.bounds = [survey.bounds[0].min(position), survey.bounds[1].max(position)];
                 survey.largest_radius = survey.largest_radius.max(radius);
                 survey.sum_of_radii += splats.major_radius(i);
+                survey.clipped |= splats.clips.get(i) != Clip::None;
                 survey.count += 1;
             }
             Err(defect) => survey.defects.add(Some(defect)),
@@ -178,6 +185,7 @@ pub(super) fn pack(
     let mut packed = Packed {
         count: 0,
         shapes: Vec::with_capacity(room * survey.shape_bytes() / 16),
+        clips: Vec::new(),
         colors: Vec::with_capacity(if uniform_color { 1 } else { room } * survey.color_bytes() / 4),
     };
     let bits = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array().map(f32::to_bits);
@@ -200,7 +208,11 @@ pub(super) fn pack(
                 }
             }
             Shapes::Ellipses { s, t } => {
-                let [s, t] = far_apart(s[i].as_dvec3(), t[i].as_dvec3());
+                let [s, t] = [s[i].as_dvec3(), t[i].as_dvec3()];
+                if survey.clipped {
+                    packed.clips.push(clip_vectors(&splats.clips.get(i), turn_rad(s, t)));
+                }
+                let [s, t] = far_apart(s, t);
                 let local = |v: DVec3| {
                     let v = v * rebase.scale;
                     if v.length() < SHORTEST_TANGENT { v.normalize() * SHORTEST_TANGENT } else { v }

@@ -22,6 +22,8 @@ pub(super) struct Sequence {
     count: usize,
     /// `None` is the order of input.
     listed: Option<Vec<u32>>,
+    /// All splats of the object.
+    is_whole: bool,
 }
 
 impl Sequence {
@@ -33,7 +35,14 @@ impl Sequence {
             (Order::Morton, Ok(count)) => Some(along_the_curve(splats, count)),
             (Order::Morton, Err(_)) | (Order::Input, _) => None,
         };
-        Self { count, listed }
+        Self { count, listed, is_whole: true }
+    }
+
+    /// Those that are something, and those that are not, in their order each.
+    pub fn parted(self, is: impl Fn(usize) -> bool) -> [Self; 2] {
+        let all = (0..self.count).map(|place| numbers(self.listed.as_deref(), place..place + 1).next());
+        let (those, others) = all.flatten().map(|i| i as u32).partition(|i| is(*i as usize));
+        [those, others].map(|listed: Vec<u32>| Self { count: listed.len(), listed: Some(listed), is_whole: false })
     }
 
     /// How many splats.
@@ -49,7 +58,7 @@ impl Sequence {
     /// These splats, in the order of input where they are all there are: memory is read in its own order, and what is
     /// found is the same, bit by bit, whatever the sequence.
     pub fn in_any_order(&self, places: Range<usize>) -> impl ExactSizeIterator<Item = usize> + '_ {
-        let all = places == (0..self.count);
+        let all = self.is_whole && places == (0..self.count);
         numbers(self.listed.as_deref().filter(|_| !all), places)
     }
 }

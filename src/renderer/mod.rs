@@ -85,20 +85,13 @@ impl Renderer {
     /// Uploads a scene; see [`prepare`].
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Input`] for splats with clip curves, which only the oracle draws; as [`prepare`].
+    /// As [`prepare`].
     pub fn prepare(
         &self,
         scene: &Scene,
         submit: &mut dyn FnMut(Staging) -> Result<()>,
         progress: &dyn Fn(u64, u64),
     ) -> Result<PreparedScene> {
-        if let Some(object) = scene.objects.iter().find(|object| !object.splats.clips.is_empty()) {
-            let problem = format!(
-                "{} splats with clip curves, which no device draws yet; expected splats without",
-                object.splats.clips.count()
-            );
-            return Err(Error::input(&object.name, "", problem));
-        }
         prepare(&self.device, &self.limits, &self.shaders.splat_set, scene, submit, progress)
     }
 

@@ -60,6 +60,9 @@ pub enum Formula {
     Lengthened,
     EyeDome,
     EdgeOpacity,
+    ClipLine,
+    ClipCurve,
+    ClipRamp,
 }
 
 impl Formula {
@@ -80,6 +83,9 @@ impl Formula {
 
     /// Those of surfaces that cover pixels in part where they end.
     pub const OF_EDGES: [Self; 2] = [Self::EdgeOpacity, Self::Share];
+
+    /// Those of clip curves; the last of them where these cover pixels in part.
+    pub const OF_CLIPS: [Self; 3] = [Self::ClipLine, Self::ClipCurve, Self::ClipRamp];
 
     /// That of eye-dome lighting.
     pub const OF_EYE_DOME: [Self; 1] = [Self::EyeDome];

@@ -131,6 +131,16 @@ impl Drawn {
     }
 }
 
+/// The permutations that cut off splats what clip curves remove.
+pub(crate) fn clipped((vertex, fragment): Stages) -> Stages {
+    let clipped = |shader: &Shader| {
+        let (file, stage) = shader.name.rsplit_once('.').unwrap_or((shader.name, ""));
+        let name = format!("{file}_clipped.{stage}");
+        shaders::ALL.iter().find(|other| other.name == name).copied()
+    };
+    (clipped(vertex).unwrap_or(vertex), clipped(fragment).unwrap_or(fragment))
+}
+
 /// What accumulation sums, and of which fragments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Summed {

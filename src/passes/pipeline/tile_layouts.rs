@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Storage buffers in the layout of the pass that makes records.
-pub const STORAGE_BUFFERS: u32 = 18;
+pub const STORAGE_BUFFERS: u32 = 20;
 
 /// A set, and the layouts that have it.
 pub(crate) struct TileLayouts {
@@ -25,7 +25,7 @@ pub(crate) struct TileLayouts {
 }
 
 /// The last binding of the set.
-const LAST_BINDING: u32 = BIND_VISIBLE_BEFORE;
+const LAST_BINDING: u32 = BIND_CLIP_TEXELS;
 
 /// The type of a binding.
 fn kind_of(binding: u32) -> vk::DescriptorType {
@@ -34,7 +34,7 @@ fn kind_of(binding: u32) -> vk::DescriptorType {
         BIND_DEPTH_BEFORE | BIND_POLYGON_DEPTH | BIND_COLORS_BEFORE | BIND_NORMALS_BEFORE
         | BIND_VISIBLE_BEFORE => vk::DescriptorType::SAMPLED_IMAGE,
         BIND_LIGHTS => vk::DescriptorType::UNIFORM_BUFFER,
-        BIND_RECORD_TEXELS..=BIND_RECT_TEXELS => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
+        BIND_RECORD_TEXELS..=BIND_RECT_TEXELS | BIND_CLIP_TEXELS => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
         _ => vk::DescriptorType::STORAGE_BUFFER,
     }
 }

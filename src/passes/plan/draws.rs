@@ -183,6 +183,9 @@ pub fn draws<'a>(
                 if chunk.fine {
                     constants.push((SPEC_FINE, 1));
                 }
+                if chunk.clipped {
+                    constants.push((SPEC_CLIPS, 1));
+                }
                 if let Some(levels) = levels {
                     constants.push((SPEC_LEVELS, if levels.nodes { LEVELS_NODES } else { LEVELS_LEAVES }));
                 }

@@ -92,6 +92,8 @@ pub struct TilePlan {
     pub hidden: bool,
     /// Surfaces are told apart by the side that they show.
     pub two_sided: bool,
+    /// Clip curves cut something off some splats.
+    pub clips: bool,
     /// What they draw, and how they come by splats.
     pub invocations: Invocations,
 }
@@ -104,7 +106,12 @@ impl TilePlan {
         let of_records = records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4;
         let counts = u64::from(self.segments) * u64::from(self.bin_count()) * 4;
         // Starts, tiles with splats, runs, overflow tiles.
-        of_records + self.entry_room * 4 + counts + u64::from(self.bin_count()) * 20
+        of_records + self.clip_bytes() + self.entry_room * 4 + counts + u64::from(self.bin_count()) * 20
+    }
+
+    /// Bytes of the clip curves of records.
+    pub(crate) fn clip_bytes(&self) -> u64 {
+        if self.clips { self.record_room * u64::from(CLIP_VECTORS) * RECORD_BYTES } else { 0 }
     }
 
     /// The same for so many chunks with so many splats of boxes up to so many pixels.
@@ -180,8 +187,18 @@ impl TilePlan {
             overflows_somewhere: false,
             hidden: false,
             two_sided: false,
+            clips: false,
             invocations,
         })
+    }
+
+    /// The plan for splats of which clip curves cut off something; none where these have no room.
+    fn with_clips(self, limits: &Limits) -> Option<Self> {
+        let plan = Self { clips: true, ..self };
+        let texels = plan.clip_bytes() / RECORD_BYTES;
+        let fit = plan.clip_bytes() <= limits.max_storage_buffer_range
+            && (!plan.invocations.fetch_texels() || texels <= limits.max_texels.into());
+        fit.then_some(plan)
     }
 
     /// The plan for what leaves out hidden splats: it walks three times.

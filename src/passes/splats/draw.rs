@@ -9,7 +9,7 @@ use crate::passes::{
     pipeline::{
         constants::FrameConstants,
         key::{GraphicsKey, Layout},
-        splat_shaders::{Drawn, Primitive, Stages},
+        splat_shaders::{Drawn, Primitive, Stages, clipped},
         variant::Constants,
     },
     place::{Place, arguments},
@@ -69,6 +69,7 @@ impl SplatPass {
             Portion::Large => (Primitive::Quad, self.stages_of_quads),
             Portion::All | Portion::Small => (self.primitive, self.stages),
         };
+        let stages = if draw.chunk.clipped { clipped(stages) } else { stages };
         let some_large = (SPEC_SOME_LARGE, u32::from(portion != Portion::All));
         let half_sums = (SPEC_HALF_SUMS, u32::from(draw.half_sums && !self.color_formats.is_empty()));
         let constants = [draw.variant.as_slice(), &self.constants, &[some_large, half_sums]].concat();

@@ -25,6 +25,8 @@ pub(crate) struct Tiles<'a> {
     pub plan: &'a TilePlan,
     /// Splats ready to be drawn: 16 bytes of each in each.
     pub records: [Handle<Buffer>; 4],
+    /// What clip curves cut off each, where they do.
+    pub clips: Option<Handle<Buffer>>,
     /// The tiles that each touches.
     pub rects: Handle<Buffer>,
     /// Of each segment, how many of its records fall into each bin.
@@ -54,12 +56,14 @@ impl<'a> Tiles<'a> {
         let formats = [FLOATS, FLOATS, FLOATS, WORDS];
         let records =
             std::array::from_fn(|i| create(RECORD_QUARTERS[i], plan.record_room * RECORD_BYTES, formats[i]));
+        let clips = plan.clips.then(|| create("clips", plan.clip_bytes(), FLOATS));
         let mut words = |what: &str, count| create(what, count * 4, vk::Format::R32_UINT);
         let (entries, rects) = (words("entries", plan.entry_room), words("rects", plan.record_room));
         let mut buffer = |what: &str, size_bytes| create(what, size_bytes, vk::Format::UNDEFINED);
         Self {
             plan,
             records,
+            clips,
             entries,
             rects,
             counts: buffer("counts", u64::from(plan.segments) * bins * 4),
@@ -93,6 +97,9 @@ impl<'a> Tiles<'a> {
                 [BIND_RECORDS, BIND_RECORD_TEXELS].map(|first| first + number),
                 quarter,
             );
+        }
+        if let Some(clips) = &self.clips {
+            pass = self.read_as_texels(pass, [BIND_CLIPS, BIND_CLIP_TEXELS], clips);
         }
         pass.read(tiles(BIND_STARTS), &self.starts, Access::StorageReadCompute)
             .read(tiles(BIND_NON_EMPTY_TILES), &self.seen, Access::StorageReadCompute)

@@ -59,6 +59,9 @@ pub(crate) fn project<'a>(
     for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.rects)]) {
         pass = pass.write(at(binding), buffer, Access::StorageWriteCompute, Start::Discard);
     }
+    if let Some(clips) = &mut tiles.clips {
+        pass = pass.write(at(BIND_CLIPS), clips, Access::StorageWriteCompute, Start::Discard);
+    }
     let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
     let pipelines = by_variant(inputs.draws, of)?;
     pass.finish(move |pass| {

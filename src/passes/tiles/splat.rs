@@ -150,6 +150,9 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
         (SPEC_HALF_FLOATS, u32::from(images == Accumulate::F16)),
     ]);
+    if plan.clips {
+        constants.push((SPEC_CLIPS, 1));
+    }
     if settings.edges == Edges::Coverage {
         let filter_px = settings.samples.filter_radius_px() as f32;
         constants.extend([(SPEC_COVERAGE_EDGES, 1), (SPEC_FILTER_PX, filter_px.to_bits())]);

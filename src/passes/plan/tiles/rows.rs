@@ -74,6 +74,10 @@ impl TilePlan {
         let of = |invocations| Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
+        let plan = match draws.iter().any(|draw| draw.chunk.clipped) {
+            true => plan.with_clips(limits)?,
+            false => plan,
+        };
         Some(if culls_hidden { plan.without_hidden() } else { plan })
     }
 
