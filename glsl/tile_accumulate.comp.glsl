@@ -56,9 +56,9 @@ void load(bool goes_on)
             colors[row] = texelFetch(color_sums_before, place, 0);
             normals[row] = texelFetch(normal_sums_before, place, 0);
         }
+        begin_covering(row);
         summed[row] = normals[row].w;
-        own_part[row] = 0.0;
-        clipped_part[row] = vec2(0.0);
+        sums[row].x = normals[row].w;
         polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel, 0).r : 0.0;
     }
 }
@@ -96,7 +96,7 @@ void main()
         sum(unhidden(range), false);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             if (COVERAGE_EDGES && !WITH_DEPTH) {
-                normals[row].w = summed[row];
+                normals[row].w = covering_sum(row);
             }
             if (HALF_FLOATS) {
                 fit_half_floats(row);

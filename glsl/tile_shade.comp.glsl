@@ -36,9 +36,7 @@ void begin_surface()
         visible[row] = 0.0;
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
-        summed[row] = 0.0;
-        own_part[row] = 0.0;
-        clipped_part[row] = vec2(0.0);
+        begin_covering(row);
         visible_away[row] = false;
     }
 }

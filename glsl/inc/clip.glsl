@@ -12,11 +12,9 @@
 // line of the image, and f is what it was, w times. It is counted in such units that C grows by 1 in a pixel (COVERAGE_EDGES: in half the
 // ramp of inc/clip_image.glsl) across its line.
 //
-// Where curves are two, the second one's turn is doubled if only what both remove is cut off; it is 0 where there is none.
-
 layout(constant_id = SPEC_CLIPS) const bool CLIPS = false;
 
-// Of a curve C, A and B: what a pixel to the right and one down add, and the value in the middle of the image. C's w is the turn;
+// Of a curve C, A and B: what a pixel to the right and one down add, and the value in the middle of the image. C's w is the sum of CURVE_*;
 // COVERAGE_EDGES: those of A and B are what they gain where C gains 1 across its line.
 struct Curve {
     vec4 c;
@@ -24,10 +22,9 @@ struct Curve {
     vec4 b;
 };
 
-// Of the second curve's C: only what both remove is cut off.
-bool removes_both(vec4 c)
+bool is_told(vec4 c, uint what)
 {
-    return abs(c.w) > 1.5;
+    return (uint(c.w) & what) != 0;
 }
 
 float at(vec4 line, vec2 px)
@@ -40,11 +37,12 @@ float kept_side(Curve curve, vec2 px, float ahead)
 {
     float a = max(at(curve.a, px) + ahead * curve.a.w, 0.0);
     float b = max(at(curve.b, px) + ahead * curve.b.w, 0.0);
-    return at(curve.c, px) + ahead + sign(curve.c.w) * FORMULA(FORMULA_CLIP_CURVE, sqrt(a) * sqrt(b));
+    float turn = is_told(curve.c, CURVE_LEFT) ? -1.0 : 1.0;
+    return at(curve.c, px) + ahead + turn * FORMULA(FORMULA_CLIP_CURVE, sqrt(a) * sqrt(b));
 }
 
-// Whether the curve leaves a place. What is no number is kept.
+// Whether the curve leaves a place, if it is one. What is no number is kept.
 bool keeps(Curve curve, vec2 px)
 {
-    return !(kept_side(curve, px, 0.0) < 0.0);
+    return !is_told(curve.c, CURVE_IS) || !(kept_side(curve, px, 0.0) < 0.0);
 }

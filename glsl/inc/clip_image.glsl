@@ -14,6 +14,9 @@ layout(set = 0, binding = BIND_SPLATS_CLIPS, std430) readonly buffer Clips { vec
 
 const float ROOT_TWO_PI = 2.5066283;
 
+// Few curves run along the border between the two sides.
+const vec2 SIDES = vec2(0.9238795, 0.3826834);
+
 // The ramp's width has an inverse.
 const float LEAST_RAMP2 = 1e-6;
 
@@ -108,7 +111,7 @@ Curve curve_in_image(uint first, PlaneRows rows, vec3 through)
         unit * vec4(seen_line(rows, through, c), 0.0),
         unit * vec4(seen_line(rows, through, a), gains.x),
         unit * vec4(seen_line(rows, through, b), gains.y));
-    curve.c.w = clips[first].w;
+    curve.c.w = clips[first].w + (dot(n, SIDES) < 0.0 ? float(CURVE_SIDE) : 0.0);
     return curve;
 }
 

@@ -220,6 +220,12 @@
 #define ALL_OF_LEVEL 536870912 // Beside that: all of them are of the level of detail that is drawn.
 #define DEPTH_CELLS_SIDE 8      // Pixels along a side of a cell of the depth's hierarchy, and cells along a side of a block of cells.
 
+// What is known of a clip curve.
+#define CURVE_IS 1   // There is one.
+#define CURVE_LEFT 2 // Its middle control point is to the left of the way from the start to the end.
+#define CURVE_BOTH 4 // Of the second one: only what both remove is cut off.
+#define CURVE_SIDE 8 // In the image it cuts off what is on one of two sides (`inc/clip_image.glsl`).
+
 // Limits of numbers.
 #define MOST_LIGHTS 16              // Lights of a scene.
 #define HALF_FLOAT_MAX 65504.0      // The largest finite 16-bit float.

@@ -44,7 +44,7 @@ void clip_fragment()
     vec2 px = at_px();
     bool first = keeps(Curve(clip_curves[0], clip_curves[1], clip_curves[2]), px);
     bool second = keeps(Curve(clip_curves[3], clip_curves[4], clip_curves[5]), px);
-    if (!(removes_both(clip_curves[3]) ? first || second : first && second)) {
+    if (!(is_told(clip_curves[3], CURVE_BOTH) ? first || second : first && second)) {
         discard;
     }
 }

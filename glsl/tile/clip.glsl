@@ -1,9 +1,6 @@
 // What clip curves leave of a splat in the pixels of an invocation (inc/clip.glsl).
 
-// No side of a curve is along it, but for few.
-const vec2 SIDES = vec2(0.9238795, 0.3826834);
-
-// The part of a pixel that a curve leaves, from 0 to 1, negative where it cuts off what is on one of two sides. COVERAGE_EDGES: f goes from half
+// The part of a pixel that a curve leaves, from 0 to 1, negative where it cuts off what is on CURVE_SIDE. COVERAGE_EDGES: f goes from half
 // a ramp behind the pixel to half a ramp before it.
 float kept_by(Curve curve, vec2 px)
 {
@@ -15,7 +12,7 @@ float kept_by(Curve curve, vec2 px)
     float above = max(behind, 0.0) + max(before, 0.0);
     float all = abs(behind) + abs(before);
     float part = all > 0.0 ? above / all : 1.0;
-    return dot(curve.c.xy, SIDES) < 0.0 ? -part : part;
+    return is_told(curve.c, CURVE_SIDE) ? -part : part;
 }
 
 // 1 where nothing is cut off.
@@ -32,10 +29,10 @@ void find_kept(Splat splat, out float kept[ROWS])
     for (uint number = 0; number < count; number++) {
         uint first = CLIP_VECTORS * splat.record + 3 * number;
         Curve curve = Curve(clip_record(first), clip_record(first + 1), clip_record(first + 2));
-        if (number == 1 && curve.c.w == 0.0) {
+        if (!is_told(curve.c, CURVE_IS)) {
             break;
         }
-        bool both = number == 1 && removes_both(curve.c);
+        bool both = number == 1 && is_told(curve.c, CURVE_BOTH);
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             float part = kept_by(curve, top_px + vec2(0.0, float(first_row + row)));
             bool decides = number == 0 || (both ? abs(part) > abs(kept[row]) : abs(part) < abs(kept[row]));

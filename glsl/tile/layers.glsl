@@ -31,9 +31,7 @@ void begin_surface()
 {
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         visible[row] = opaque[row];
-        summed[row] = 0.0;
-        own_part[row] = 0.0;
-        clipped_part[row] = vec2(0.0);
+        begin_covering(row);
         colors[row] = vec4(0.0);
         normals[row] = vec4(0.0);
     }

@@ -7,8 +7,6 @@
 //
 // A splat's own depth is the same expression in both, which nothing may contract (src/shaders/build/exact.rs).
 
-#include "inc/edges.glsl"
-
 layout(constant_id = SPEC_WITH_DEPTH) const bool WITH_DEPTH = false;
 layout(constant_id = SPEC_WITH_POLYGONS) const bool WITH_POLYGONS = false;
 // The paper's transition shifts for all fragments, not only where there are polygons: the polygons' test is the only one.
@@ -28,10 +26,8 @@ float before_away[ROWS]; // and this is of those that do
 float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where those are nearer
 vec4 colors[ROWS];   // weighted color, weight
 vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
-// COVERAGE_EDGES (inc/edges.glsl):
-float summed[ROWS];  // sum of weights over the overlap; where splats are WEIGHTED, that of colors
-float own_part[ROWS];     // the most that a splat covers by itself
-vec2 clipped_part[ROWS];  // CLIPS: of splats that a curve cuts there, by the side that it cuts off
+
+#include "tile/covering.glsl"
 
 // A splat along the column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy. Rows are computed from the splat's center,
 // not stepped from the row above: three multiplications more, and no error adds up.
@@ -101,28 +97,6 @@ void see(Splat splat, Column column, float kept, int row)
     visible[row] = inside ? max(visible[row], behind) : visible[row];
 }
 
-// A ridge has a curve on both of its sides, whose parts of a pixel add up.
-void add_own_part(float part, float kept, int row)
-{
-    if (CLIPS && abs(kept) < 1.0) {
-        float clipped = part * abs(kept);
-        clipped_part[row] = max(clipped_part[row], kept < 0.0 ? vec2(clipped, 0.0) : vec2(0.0, clipped));
-    } else {
-        own_part[row] = max(own_part[row], part);
-    }
-}
-
-float own_part_of(int row)
-{
-    return CLIPS ? max(own_part[row], clipped_part[row].x + clipped_part[row].y) : own_part[row];
-}
-
-// The part of the pixel that the surface covers.
-float opacity_of(int row)
-{
-    return edge_opacity(WEIGHTED ? colors[row].w : summed[row], own_part_of(row));
-}
-
 // Adds what a splat is at a pixel.
 void add(Splat splat, SplatAttributes attributes, Column column, float kept, int row)
 {
@@ -138,14 +112,11 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     }
     float r2 = r2_of(uvw);
     float kernel = kernel_weight(r2);
-    kernel *= abs(kept);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
-    float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
+    float weight = inside ? abs(kept) * (WEIGHTED ? shared_weight : kernel) : 0.0;
     if (COVERAGE_EDGES) {
-        if (!WEIGHTED) {
-            summed[row] += inside ? shared_weight : 0.0;
-        }
-        add_own_part(inside ? attributes.own_part.x - attributes.own_part.y * r2 : 0.0, kept, row);
+        float part = attributes.own_part.x - attributes.own_part.y * r2;
+        cover(inside ? shared_weight : 0.0, inside ? part : 0.0, is_clipped(splat), inside ? kept : 0.0, row);
     }
     colors[row] += weight * vec4(attributes.color, 1.0);
     normals[row].xyz += weight * attributes.normal;

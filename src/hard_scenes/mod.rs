@@ -2,12 +2,14 @@
 //! is shipped.
 
 pub mod builder;
+mod clipped;
 pub mod parts;
 mod shapes;
 mod sizes;
 pub mod transparent;
 mod views;
 
+pub use clipped::clipped;
 pub use shapes::{coincident, degenerate, far_from_the_origin, random_ellipses, sphere, sphere_of_disks};
 pub use sizes::{edge_on, larger_than_the_screen, subpixel_filtered, subpixel_unfiltered};
 pub use views::{centers_off_screen, cut_by_the_near_plane, ground, parallel_rays};
@@ -51,5 +53,6 @@ pub fn all() -> Vec<Hard> {
         coincident(),
         degenerate(),
         parallel_rays(),
+        clipped(),
     ]
 }

@@ -20,7 +20,9 @@ use crate::{
     error::Result,
     geometry::{Overlaps, hierarchy::Hierarchy},
     progress::Progress,
-    scene::{Clip, DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat},
+    scene::{
+        Clip, DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat,
+    },
     vk::Limits,
 };
 

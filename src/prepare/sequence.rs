@@ -42,7 +42,11 @@ impl Sequence {
     pub fn parted(self, is: impl Fn(usize) -> bool) -> [Self; 2] {
         let all = (0..self.count).map(|place| numbers(self.listed.as_deref(), place..place + 1).next());
         let (those, others) = all.flatten().map(|i| i as u32).partition(|i| is(*i as usize));
-        [those, others].map(|listed: Vec<u32>| Self { count: listed.len(), listed: Some(listed), is_whole: false })
+        [those, others].map(|listed: Vec<u32>| Self {
+            count: listed.len(),
+            listed: Some(listed),
+            is_whole: false,
+        })
     }
 
     /// How many splats.

@@ -188,6 +188,7 @@ fn translucent(
         weight: fragment.weight,
         kernel: weight(kernel, r2),
         r2,
+        kept: splat.kept(ray),
         source: Source::Splat(splat_index),
     })
 }

@@ -1,8 +1,6 @@
 //! What clip curves remove (Ivo et al. 2012, section 3.2), by two tests that must agree.
 
-use std::f64::consts::FRAC_PI_4;
-
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::scene::{Clip, ClipCurve, ClipTest};
 
@@ -27,10 +25,10 @@ pub fn removes(clip: &Clip, place: DVec2, test: ClipTest) -> bool {
 }
 
 /// A curve by its control points.
-struct Curve {
-    start: DVec2,
+pub(super) struct Curve {
+    pub start: DVec2,
     middle: DVec2,
-    end: DVec2,
+    pub end: DVec2,
     weight: f64,
 }
 
@@ -40,7 +38,7 @@ fn left(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 }
 
 impl Curve {
-    fn of(curve: &ClipCurve) -> Self {
+    pub fn of(curve: &ClipCurve) -> Self {
         let rim = |rad: f32| DVec2::new(f64::from(rad).cos(), f64::from(rad).sin());
         Self {
             start: rim(curve.start_rad),
@@ -54,6 +52,16 @@ impl Curve {
     /// triangle where `q` is in it.
     fn areas(&self, q: DVec2) -> [f64; 3] {
         [left(q, self.middle, self.end), left(q, self.end, self.start), left(q, self.start, self.middle)]
+    }
+
+    /// By how much a place is on the side that is kept: 0 on the curve, negative where it is removed. `over_depth`: times what distances of the
+    /// plane have in the image; negative beyond the plane's horizon, where what is seen through a filter has the lines of the image.
+    pub fn kept_side(&self, q: DVec2, over_depth: f64) -> f64 {
+        let [at_start, at_middle, at_end] = self.areas(q).map(|area| over_depth * area);
+        let turn = left(self.start, self.middle, self.end);
+        // Beside the control triangle the chord decides.
+        let product = if at_start * turn > 0.0 && at_end * turn > 0.0 { at_start * at_end } else { 0.0 };
+        turn.signum() * 2.0 * self.weight * product.sqrt() - at_middle
     }
 
     fn is_inside(&self, areas: [f64; 3]) -> bool {
@@ -111,52 +119,5 @@ impl Curve {
         let weights = [(1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t) * self.weight, t * t];
         let sum = weights[0] * self.start + weights[1] * self.middle + weights[2] * self.end;
         sum / (weights[0] + weights[1] + weights[2])
-    }
-}
-
-/// A clip in view space: where a ray meets the plane of the splat as the scene has it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DrawnClip {
-    clip: Clip,
-    center: DVec3,
-    s: DVec3,
-    t: DVec3,
-}
-
-/// What becomes of a place, whatever the rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Clipped {
-    Kept,
-    Removed,
-    Undecided,
-}
-
-impl DrawnClip {
-    /// `None` of what is not clipped. The tangent vectors are those that no filter has changed.
-    pub fn of(clip: Clip, center: DVec3, (s, t): (DVec3, DVec3)) -> Option<Self> {
-        (clip != Clip::None).then_some(Self { clip, center, s, t })
-    }
-
-    /// (u, v) of the place in the plane, by Cramer's rule for `u s + v t − z ray = −center`; not finite where the ray is in the plane.
-    fn place(&self, ray: DVec3) -> DVec2 {
-        let volume = self.s.cross(self.t).dot(ray);
-        DVec2::new(self.t.cross(self.center).dot(ray), self.center.cross(self.s).dot(ray)) / volume
-    }
-
-    /// Whether what a pixel sees of the splat is cut off.
-    pub fn removes_at(&self, ray: DVec3) -> bool {
-        removes(&self.clip, self.place(ray), ClipTest::Conic)
-    }
-
-    /// The same, with (u, v) off by up to `margin` in any direction.
-    pub fn near(&self, ray: DVec3, margin: f64) -> Clipped {
-        let place = self.place(ray);
-        let around = (0..8).map(|i| place + margin * DVec2::from_angle(FRAC_PI_4 * f64::from(i)));
-        let removed = [place].into_iter().chain(around).map(|at| removes(&self.clip, at, ClipTest::Conic));
-        match removed.filter(|removed| *removed).count() {
-            0 => Clipped::Kept,
-            9 => Clipped::Removed,
-            _ => Clipped::Undecided,
-        }
     }
 }

@@ -8,6 +8,7 @@
 use glam::DVec3;
 
 use super::band::Frame;
+use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::front::Front;
 use super::layers::{Source, Translucent, take_nearest_side};
@@ -43,6 +44,8 @@ pub(super) struct Covering {
     pub minor_px: f64,
     /// The filter's radius in pixels.
     pub h_px: f64,
+    /// Clip curves cut something off some of the splats that are drawn with it.
+    pub among_clipped: bool,
 }
 
 impl Covering {
@@ -60,15 +63,50 @@ impl Covering {
     }
 }
 
-/// The part of a pixel that fragments of one surface cover together: each a splat's, its kernel's value and its squared radius.
-pub(super) fn opacity<'a>(fragments: impl Iterator<Item = (&'a Covering, f64, f64)>) -> f64 {
-    let (mut sum, mut alone) = (0.0, 0.0_f64);
-    for (covering, kernel, r2) in fragments {
-        sum += covering.share * kernel;
-        alone = alone.max(covering.alone(r2));
-    }
+/// A splat's part of a surface in a pixel: the kernel's value, the squared radius, and what clip curves leave.
+struct Part<'a> {
+    covering: &'a Covering,
+    kernel: f64,
+    r2: f64,
+    kept: Option<Kept>,
+}
+
+/// Of a sum over the overlap, and of what disks cover by themselves.
+fn whole(sum: f64, alone: f64) -> f64 {
     let part = if sum < 0.5 { sum } else { 0.5 + 0.5 * (sum - 0.5) / (WHOLE_SUM - 0.5) };
     (part.max(alone) / NEARLY_WHOLE).min(1.0)
+}
+
+/// The part of a pixel that splats of one surface cover together.
+///
+/// Where some of a scene are clipped: up to a clip curve the surface goes on as it would without it, of splats that it cuts and of those that it does not; what these cover by
+/// themselves is taken for independent, for they were fitted. Then curves cut: those of both sides of a ridge leave parts that add up.
+fn opacity(parts: &[Part]) -> f64 {
+    let sum = |which: &dyn Fn(&Part) -> bool| -> f64 {
+        parts.iter().filter(|part| which(part)).map(|part| part.covering.share * part.kernel).sum()
+    };
+    if !parts.iter().any(|part| part.covering.among_clipped) {
+        let alone = parts.iter().map(|part| part.covering.alone(part.r2)).fold(0.0, f64::max);
+        return whole(sum(&|_| true), alone);
+    }
+    let without_curves = |which: &dyn Fn(&Part) -> bool| {
+        let gap: f64 = parts
+            .iter()
+            .filter(|part| which(part))
+            .map(|part| 1.0 - part.covering.alone(part.r2).clamp(0.0, 1.0))
+            .product();
+        whole(sum(which), 1.0 - gap)
+    };
+    let unclipped = without_curves(&|part| part.kept.is_none());
+    let cut: f64 = [false, true]
+        .into_iter()
+        .map(|side| {
+            let of_side = parts.iter().filter_map(|part| part.kept).filter(|kept| kept.side == side);
+            let kept = of_side.map(|kept| kept.part).fold(0.0, f64::max);
+            kept * without_curves(&|part| part.kept.is_none_or(|kept| kept.side == side))
+        })
+        .sum();
+    unclipped.max(cut).min(1.0)
 }
 
 /// What is opaque in a pixel.
@@ -151,10 +189,14 @@ pub(super) fn covered<'a>(
     fragments: &[&Translucent],
     splat_of: impl Fn(&Translucent) -> &'a DrawnSplat,
 ) -> f64 {
-    opacity(fragments.iter().filter_map(|fragment| {
-        let covering = splat_of(fragment).covering.as_ref()?;
-        Some((covering, fragment.kernel, fragment.r2))
-    }))
+    let parts: Vec<_> = fragments
+        .iter()
+        .filter_map(|fragment| {
+            let Translucent { kernel, r2, kept, .. } = **fragment;
+            Some(Part { covering: splat_of(fragment).covering.as_ref()?, kernel, r2, kept })
+        })
+        .collect();
+    opacity(&parts)
 }
 
 impl Opaque {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::clip::Clipped;
+use super::drawn_clip::{Clipped, Kept};
 use super::intersect::r2_margin;
 use super::kernel::weight;
 use super::splat::DrawnSplat;
@@ -34,7 +34,8 @@ impl DrawnSplat {
         if self.square.is_some_and(|square| square.depth_inside(x) < 0.0) {
             return None;
         }
-        if self.clip.is_some_and(|clip| clip.removes_at(ray)) {
+        let kept = self.kept(ray).map_or(1.0, |kept| kept.part);
+        if kept == 0.0 {
             return None;
         }
         let disk = self.hit(ray, near).map(|hit| (hit.z, weight(kernel, hit.r2)));
@@ -44,7 +45,12 @@ impl DrawnSplat {
         // The depth is the disk's own wherever the disk is.
         let (z, _) = disk.or(low_pass)?;
         let weight = disk.map_or(0.0, |disk| disk.1).max(low_pass.map_or(0.0, |low_pass| low_pass.1));
-        Some(Fragment { z, weight: (self.share * weight).max(self.least_weight) })
+        Some(Fragment { z, weight: kept * (self.share * weight).max(self.least_weight) })
+    }
+
+    /// What clip curves leave of it in a pixel, where it has any.
+    pub fn kept(&self, ray: DVec3) -> Option<Kept> {
+        self.clip.map(|clip| clip.kept(ray))
     }
 
     /// `None` where no rounding can change what the splat is here. `limit_r2` is the kernel's.

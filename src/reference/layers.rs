@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::covering::covered;
 use super::decision::Decision;
+use super::drawn_clip::Kept;
 use super::fragment::Fragment;
 use super::shade::Shader;
 use super::splat::DrawnSplat;
@@ -24,6 +25,8 @@ pub(super) struct Translucent {
     /// Of a splat, the kernel's value, and the squared radius.
     pub kernel: f64,
     pub r2: f64,
+    /// What clip curves leave of it, where it has any.
+    pub kept: Option<Kept>,
     pub source: Source,
 }
 

@@ -19,7 +19,7 @@
 //! a time, and grouped into layers by ε (`layers`): nothing is peeled.
 //!
 //! What a clip curve removes of a splat is left out of each of its fragments (`clip`), by the (u, v) where the ray meets the plane of the
-//! splat as the scene has it: no filter moves a curve.
+//! splat as the scene has it: no filter moves a curve. Where edges cover pixels in part, it leaves a part of each (`drawn_clip`).
 //!
 //! Which levels of detail a view has is found by walking down from the root (`selection`).
 //!
@@ -35,6 +35,7 @@ mod bands;
 mod clip;
 mod covering;
 mod decision;
+mod drawn_clip;
 mod edges;
 mod epsilon;
 mod ewa;

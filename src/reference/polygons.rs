@@ -59,7 +59,15 @@ pub(super) fn collect(
         pixel.note_margin(seen.margin);
         if seen.holds {
             let (z_shifted, source) = (z + frame.polygon_epsilon, Source::Triangle(triangle));
-            fragments[i].push(Translucent { z, z_shifted, weight: 1.0, kernel: 1.0, r2: 0.0, source });
+            fragments[i].push(Translucent {
+                z,
+                z_shifted,
+                weight: 1.0,
+                kernel: 1.0,
+                r2: 0.0,
+                kept: None,
+                source,
+            });
         }
     });
 }

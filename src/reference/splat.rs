@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::affine::ImageEllipse;
-use super::clip::DrawnClip;
 use super::covering::{Covering, covers_in_part};
+use super::drawn_clip::DrawnClip;
 use super::epsilon::EpsilonRule;
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
@@ -118,6 +118,18 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
                     splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
                 );
             }
+        }
+    }
+    // What is opaque is drawn together, and what is not.
+    let clipped = |transparent: bool| {
+        scene.objects.iter().map(|object| &object.splats).any(|splats| {
+            (splats.colors.opacity() == Opacity::Transparent) == transparent && !splats.clips.is_empty()
+        })
+    };
+    let clipped = [false, true].map(clipped);
+    for splat in &mut drawn {
+        if let Some(covering) = &mut splat.covering {
+            covering.among_clipped = clipped[usize::from(splat.transparent)];
         }
     }
     (drawn, defects)
@@ -233,6 +245,7 @@ fn prepare_one(
     let square = (in_front && settings.rasterizer == Rasterizer::RaycastApproximate)
         .then(|| Square::around(center, s, t, low_pass.as_ref()));
 
+    let filtered = regular && (settings.filter.adjusts() || settings.filter == Filter::Ewa);
     let plane_normal = s.cross(t).normalize();
     let (u_direction, v_direction) = (t.cross(plane_normal), plane_normal.cross(s));
     let [red, green, blue, alpha] = splats.color(i).map(f64::from);
@@ -256,10 +269,11 @@ fn prepare_one(
             share: area / overlap,
             minor_px: view.focal_px * minor,
             h_px: view.focal_px * h,
+            among_clipped: false,
         }),
         least_weight: settings.floors().weight,
         low_pass,
-        clip: DrawnClip::of(splats.clips.get(i), center, original),
+        clip: DrawnClip::of(splats.clips.get(i), center, original, overlap.map(|_| h), filtered),
         square,
         minor_px: (!reaches_near).then_some(view.focal_px * minor),
     })

@@ -6,6 +6,7 @@ mod common;
 
 mod bands;
 mod by_design;
+mod clips;
 mod cull;
 mod culling;
 mod edges;

@@ -21,7 +21,7 @@ use surfel::{
 };
 
 /// The same scene by parallel rays, about as large; not so near that a depth of nothing would have to be right.
-fn parallel(hard: &Hard) -> Hard {
+pub fn parallel(hard: &Hard) -> Hard {
     let camera = Camera { near: Some(hard.camera.near.unwrap_or(0.0).max(0.2)), ..hard.camera };
     let height = 2.0 * (0.5 * camera.fov_y_rad).tan() * camera.eye.distance(camera.target);
     Hard { camera: Camera { orthographic_height: Some(height), ..camera }, ..hard.clone() }

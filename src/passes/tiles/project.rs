@@ -59,9 +59,11 @@ pub(crate) fn project<'a>(
     for (binding, buffer) in quarters.chain([(BIND_RECTS, &mut tiles.rects)]) {
         pass = pass.write(at(binding), buffer, Access::StorageWriteCompute, Start::Discard);
     }
-    if let Some(clips) = &mut tiles.clips {
-        pass = pass.write(at(BIND_CLIPS), clips, Access::StorageWriteCompute, Start::Discard);
-    }
+    pass = match &mut tiles.clips {
+        Some(clips) => pass.write(at(BIND_CLIPS), clips, Access::StorageWriteCompute, Start::Discard),
+        // What is not written has to be what may be: a stand-in is only read.
+        None => pass.also(at(BIND_CLIPS)),
+    };
     let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
     let pipelines = by_variant(inputs.draws, of)?;
     pass.finish(move |pass| {
