@@ -58,7 +58,7 @@ void load(bool goes_on)
         }
         begin_covering(row);
         summed[row] = normals[row].w;
-        sums[row].x = normals[row].w;
+        uncut[row].x = normals[row].w;
         polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel, 0).r : 0.0;
     }
 }

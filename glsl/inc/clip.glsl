@@ -29,7 +29,7 @@ bool is_told(vec4 c, uint what)
 
 float at(vec4 line, vec2 px)
 {
-    return line.x * px.x + line.y * px.y + line.z;
+    return line.x * px.x + line.z + line.y * px.y; // the first sum is one for a column
 }
 
 // f, `ahead` of a place across C's line.
@@ -38,7 +38,7 @@ float kept_side(Curve curve, vec2 px, float ahead)
     float a = max(at(curve.a, px) + ahead * curve.a.w, 0.0);
     float b = max(at(curve.b, px) + ahead * curve.b.w, 0.0);
     float turn = is_told(curve.c, CURVE_LEFT) ? -1.0 : 1.0;
-    return at(curve.c, px) + ahead + turn * FORMULA(FORMULA_CLIP_CURVE, sqrt(a) * sqrt(b));
+    return at(curve.c, px) + ahead + turn * FORMULA(FORMULA_CLIP_CURVE, sqrt(a * b));
 }
 
 // Whether the curve leaves a place, if it is one. What is no number is kept.

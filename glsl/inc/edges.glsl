@@ -13,7 +13,8 @@
 // d / (sigma h), here a ramp of its slope. In units of the widened ellipse the rim is at rho = l2 / L2, with
 // rho^2 = 1 - h^2 / L2^2, and d = (rho^2 - r^2) L2 / 2, as near the end of the minor axis. So
 // C = 1/2 + (rho^2 - r^2) L2 / (2 sqrt(2 pi) sigma h); for splats below h, of which that is not true, it goes to 0. The
-// opacity is max(A, C), and whole where next to nothing is missing.
+// opacity is max(A, C), and whole where next to nothing is missing. Own parts of several splats are taken for independent: what they leave
+// uncovered multiplies.
 //
 // Limits: surfaces of which several lie within a few epsilon; A of a thin line of splats is too
 // small.
@@ -40,7 +41,7 @@ vec2 own_coverage(vec4 uv)
     return vec2(0.5 * sureness + slope * rho2, slope);
 }
 
-// `summed`: A. `own`: the largest C.
+// `summed`: A. `own`: C.
 float edge_opacity(float summed, float own)
 {
     float above_half = max(summed - 0.5, 0.0) * (0.5 / (WHOLE_EDGE_SUM - 0.5));

@@ -15,28 +15,31 @@ float kept_by(Curve curve, vec2 px)
     return is_told(curve.c, CURVE_SIDE) ? -part : part;
 }
 
-// 1 where nothing is cut off.
-void find_kept(Splat splat, out float kept[ROWS])
+// What the curve leaves, where it is less than what is left, or of a second one, which both have to remove, more.
+void cut_by(Curve curve, inout float kept[ROWS])
 {
+    bool is = is_told(curve.c, CURVE_IS);
+    bool both = is_told(curve.c, CURVE_BOTH);
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-        kept[row] = 1.0;
+        float part = kept_by(curve, top_px + vec2(0.0, float(first_row + row)));
+        bool decides = is && (both ? abs(part) > abs(kept[row]) : abs(part) < abs(kept[row]));
+        kept[row] = decides ? part : kept[row];
     }
-    if (!CLIPS) {
-        return;
-    }
-    // A loop, because a CPU driver does not jump over what no invocation is to do, but ends loops.
-    uint count = is_clipped(splat) ? 2 : 0;
-    for (uint number = 0; number < count; number++) {
-        uint first = CLIP_VECTORS * splat.record + 3 * number;
-        Curve curve = Curve(clip_record(first), clip_record(first + 1), clip_record(first + 2));
-        if (!is_told(curve.c, CURVE_IS)) {
-            break;
-        }
-        bool both = number == 1 && is_told(curve.c, CURVE_BOTH);
+}
+
+// What curves leave of splats, which `own` of invocations from `place` on have loaded; 1 where nothing is cut off.
+void find_kept(Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+{
+    [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-            float part = kept_by(curve, top_px + vec2(0.0, float(first_row + row)));
-            bool decides = number == 0 || (both ? abs(part) > abs(kept[row]) : abs(part) < abs(kept[row]));
-            kept[row] = decides ? part : kept[row];
+            kept[k][row] = 1.0;
+        }
+    }
+    uint most = CLIPS ? most_curves(own, splats) : 0;
+    for (uint number = 0; number < most; number++) {
+        Curve own_curve = load_curve(own, splats, number);
+        [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+            cut_by(broadcast(own_curve, place + k), kept[k]);
         }
     }
 }

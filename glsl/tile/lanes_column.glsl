@@ -12,7 +12,7 @@ layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT
 #define LANES TILE_WIDTH
 #define OWN_LANE gl_SubgroupInvocationID
 #define LOADED TILE_BATCH
-#define SUMMED_AT_ONCE TILE_BATCH // row by row, for a CPU has no registers for the sums of all rows
+#define AT_ONCE TILE_BATCH // row by row, for a CPU has no registers for the sums of all rows
 
 layout(local_size_x = TILE_WIDTH) in;
 
@@ -27,14 +27,13 @@ vec4 record2(uint record) { return texelFetch(records2, int(record)); }
 uvec4 record3(uint record) { return texelFetch(records3, int(record)); }
 
 layout(set = 0, binding = BIND_CLIP_TEXELS) uniform textureBuffer clip_records;
-vec4 clip_record(uint number) { return texelFetch(clip_records, int(number)); }
 
 void stage_shared(Splat own) {}
 void stage_shared(SplatAttributes own) {}
 
 Splat broadcast(Splat own, uint place)
 {
-    return Splat(CLIPS ? subgroupShuffle(own.record, place) : 0, subgroupShuffle(own.x0_px, place), subgroupShuffle(own.w0, place),
+    return Splat(0, subgroupShuffle(own.x0_px, place), subgroupShuffle(own.w0, place),
         subgroupShuffle(own.shift, place), subgroupShuffle(own.uv, place), subgroupShuffle(own.w, place));
 }
 
@@ -43,6 +42,26 @@ SplatAttributes broadcast(SplatAttributes own, uint place)
     return SplatAttributes(subgroupShuffle(own.color, place), subgroupShuffle(own.alpha, place),
         subgroupShuffle(own.normal, place), subgroupShuffle(own.share, place),
         COVERAGE_EDGES ? subgroupShuffle(own.own_part, place) : vec2(0.0));
+}
+
+// Of the invocation's own splat.
+Curve load_curve(Splat own, Splat splats[AT_ONCE], uint number)
+{
+    int first = int(CLIP_VECTORS * own.record + 3 * number);
+    vec4 c = texelFetch(clip_records, first);
+    c.w = is_clipped(own) ? c.w : 0.0;
+    return Curve(c, texelFetch(clip_records, first + 1), texelFetch(clip_records, first + 2));
+}
+
+Curve broadcast(Curve own, uint place)
+{
+    return Curve(subgroupShuffle(own.c, place), subgroupShuffle(own.a, place), subgroupShuffle(own.b, place));
+}
+
+uint most_curves(Splat own, Splat splats[AT_ONCE])
+{
+    bool is_second = is_clipped(own) && texelFetch(clip_records, int(CLIP_VECTORS * own.record + 3)).w > 0.0;
+    return subgroupBallot(is_second).x != 0 ? 2 : subgroupBallot(is_clipped(own)).x != 0 ? 1 : 0;
 }
 
 float least_of_tile(float own)

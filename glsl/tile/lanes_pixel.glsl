@@ -8,7 +8,7 @@
 #define LANES (TILE_WIDTH * MOST_TILE_HEIGHT)
 #define OWN_LANE gl_LocalInvocationIndex
 #define LOADED LANES
-#define SUMMED_AT_ONCE 1 // with eight, a GPU would need 144 registers in place of 40
+#define AT_ONCE 1 // with eight, a GPU would need 144 registers in place of 40
 
 layout(local_size_x = TILE_WIDTH, local_size_y = MOST_TILE_HEIGHT) in;
 
@@ -23,7 +23,6 @@ vec4 record2(uint record) { return records2[record]; }
 uvec4 record3(uint record) { return records3[record]; }
 
 layout(set = 0, binding = BIND_CLIPS, std430) readonly buffer ClipRecords { vec4 clip_records[]; };
-vec4 clip_record(uint number) { return clip_records[number]; }
 
 shared Splat shared_splats[LOADED];
 shared SplatAttributes shared_attributes[LOADED];
@@ -52,6 +51,23 @@ Splat broadcast(Splat own, uint place)
 SplatAttributes broadcast(SplatAttributes own, uint place)
 {
     return shared_attributes[place];
+}
+
+// Of the splat, from the same place in all invocations.
+Curve load_curve(Splat own, Splat splats[AT_ONCE], uint number)
+{
+    uint first = CLIP_VECTORS * splats[0].record + 3 * number;
+    return Curve(clip_records[first], clip_records[first + 1], clip_records[first + 2]);
+}
+
+Curve broadcast(Curve own, uint place)
+{
+    return own;
+}
+
+uint most_curves(Splat own, Splat splats[AT_ONCE])
+{
+    return is_clipped(splats[0]) ? 2 : 0;
 }
 
 // Of values that are never negative, so that bits compare as they do.

@@ -116,7 +116,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     float weight = inside ? abs(kept) * (WEIGHTED ? shared_weight : kernel) : 0.0;
     if (COVERAGE_EDGES) {
         float part = attributes.own_part.x - attributes.own_part.y * r2;
-        cover(inside ? shared_weight : 0.0, inside ? part : 0.0, is_clipped(splat), inside ? kept : 0.0, row);
+        cover(inside ? shared_weight : 0.0, inside ? part : 0.0, inside ? kept : 1.0, row);
     }
     colors[row] += weight * vec4(attributes.color, 1.0);
     normals[row].xyz += weight * attributes.normal;

@@ -58,13 +58,18 @@ void see(Range range)
             own = load_splat(base, range.end);
             stage_shared(own);
         }
-        [[unroll]] for (uint k = 0; k < TILE_BATCH; k++) {
-            Splat splat = broadcast(own, place + k);
-            Column column = column_of(splat);
-            float kept[ROWS];
-            find_kept(splat, kept);
-            [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                see(splat, column, kept[row], row);
+        [[unroll]] for (uint first = 0; first < TILE_BATCH; first += AT_ONCE) {
+            Splat splats[AT_ONCE];
+            [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+                splats[k] = broadcast(own, place + first + k);
+            }
+            float kept[AT_ONCE][ROWS];
+            find_kept(own, splats, place + first, kept);
+            [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+                Column column = column_of(splats[k]);
+                [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+                    see(splats[k], column, kept[k][row], row);
+                }
             }
         }
     }
@@ -88,19 +93,19 @@ void sum(Range range, bool lit)
             }
             stage_shared(own_attributes);
         }
-        [[unroll]] for (uint first = 0; first < TILE_BATCH; first += SUMMED_AT_ONCE) {
-            Splat splats[SUMMED_AT_ONCE];
-            SplatAttributes attributes[SUMMED_AT_ONCE];
-            Column columns[SUMMED_AT_ONCE];
-            float kept[SUMMED_AT_ONCE][ROWS];
-            [[unroll]] for (uint k = 0; k < SUMMED_AT_ONCE; k++) {
+        [[unroll]] for (uint first = 0; first < TILE_BATCH; first += AT_ONCE) {
+            Splat splats[AT_ONCE];
+            SplatAttributes attributes[AT_ONCE];
+            Column columns[AT_ONCE];
+            [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
                 splats[k] = broadcast(own, place + first + k);
                 attributes[k] = broadcast(own_attributes, place + first + k);
                 columns[k] = column_of(splats[k]);
-                find_kept(splats[k], kept[k]);
             }
+            float kept[AT_ONCE][ROWS];
+            find_kept(own, splats, place + first, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                [[unroll]] for (uint k = 0; k < SUMMED_AT_ONCE; k++) {
+                [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
                     add(splats[k], attributes[k], columns[k], kept[k][row], row);
                 }
             }

@@ -12,7 +12,7 @@ use crate::{
 pub type ClipVectors = [[f32; 4]; CLIP_VECTORS as usize];
 
 /// From this weight on a curve is its control polygon, within f32.
-const HEAVIEST: f64 = 1e15;
+const HEAVIEST: f64 = 1e8;
 
 /// Removes nothing.
 const NOTHING: [[f32; 4]; 3] = [[0.0, 0.0, 1.0, 0.0], [0.0; 4], [0.0; 4]];
@@ -71,7 +71,7 @@ mod tests {
     fn kept_side([c, a, b]: [[f32; 4]; 3], [u, v]: [f32; 2]) -> f32 {
         let at = |line: [f32; 4]| line[0] * u + line[1] * v + line[2];
         let turn = if c[3] as u32 & CURVE_LEFT != 0 { -1.0 } else { 1.0 };
-        at(c) + turn * at(a).max(0.0).sqrt() * at(b).max(0.0).sqrt()
+        at(c) + turn * (at(a).max(0.0) * at(b).max(0.0)).sqrt()
     }
 
     fn shader_removes(vectors: ClipVectors, place: [f32; 2]) -> bool {

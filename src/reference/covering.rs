@@ -44,8 +44,6 @@ pub(super) struct Covering {
     pub minor_px: f64,
     /// The filter's radius in pixels.
     pub h_px: f64,
-    /// Clip curves cut something off some of the splats that are drawn with it.
-    pub among_clipped: bool,
 }
 
 impl Covering {
@@ -77,36 +75,29 @@ fn whole(sum: f64, alone: f64) -> f64 {
     (part.max(alone) / NEARLY_WHOLE).min(1.0)
 }
 
-/// The part of a pixel that splats of one surface cover together.
+/// The part of a pixel that splats of one surface cover together. What they cover by themselves is taken for independent.
 ///
-/// Where some of a scene are clipped: up to a clip curve the surface goes on as it would without it, of splats that it cuts and of those that it does not; what these cover by
-/// themselves is taken for independent, for they were fitted. Then curves cut: those of both sides of a ridge leave parts that add up.
+/// Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part; those of both sides
+/// of a ridge leave parts that add up. What no curve cuts in the pixel is left, too.
 fn opacity(parts: &[Part]) -> f64 {
     let sum = |which: &dyn Fn(&Part) -> bool| -> f64 {
         parts.iter().filter(|part| which(part)).map(|part| part.covering.share * part.kernel).sum()
     };
-    if !parts.iter().any(|part| part.covering.among_clipped) {
-        let alone = parts.iter().map(|part| part.covering.alone(part.r2)).fold(0.0, f64::max);
-        return whole(sum(&|_| true), alone);
-    }
-    let without_curves = |which: &dyn Fn(&Part) -> bool| {
-        let gap: f64 = parts
-            .iter()
-            .filter(|part| which(part))
-            .map(|part| 1.0 - part.covering.alone(part.r2).clamp(0.0, 1.0))
-            .product();
-        whole(sum(which), 1.0 - gap)
+    let alone = |which: &dyn Fn(&Part) -> bool| -> f64 {
+        let gaps = parts.iter().filter(|part| which(part)).map(|part| part.covering.alone(part.r2));
+        1.0 - gaps.map(|alone| 1.0 - alone.clamp(0.0, 1.0)).product::<f64>()
     };
-    let unclipped = without_curves(&|part| part.kept.is_none());
-    let cut: f64 = [false, true]
-        .into_iter()
-        .map(|side| {
-            let of_side = parts.iter().filter_map(|part| part.kept).filter(|kept| kept.side == side);
-            let kept = of_side.map(|kept| kept.part).fold(0.0, f64::max);
-            kept * without_curves(&|part| part.kept.is_none_or(|kept| kept.side == side))
-        })
-        .sum();
-    unclipped.max(cut).min(1.0)
+    let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which));
+    let cut = |part: &Part| part.kept.filter(|kept| kept.part < 1.0);
+    let kept_by_side = [false, true].map(|side| {
+        let of_side = parts.iter().filter_map(cut).filter(|kept| kept.side == side);
+        of_side.map(|kept| kept.part).fold(0.0, f64::max)
+    });
+    let kept = match kept_by_side.iter().sum::<f64>() {
+        0.0 => 1.0,
+        kept => kept.max(without_curves(&|part| cut(part).is_none())).min(1.0),
+    };
+    kept * without_curves(&|_| true)
 }
 
 /// What is opaque in a pixel.

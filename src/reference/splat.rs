@@ -120,18 +120,6 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             }
         }
     }
-    // What is opaque is drawn together, and what is not.
-    let clipped = |transparent: bool| {
-        scene.objects.iter().map(|object| &object.splats).any(|splats| {
-            (splats.colors.opacity() == Opacity::Transparent) == transparent && !splats.clips.is_empty()
-        })
-    };
-    let clipped = [false, true].map(clipped);
-    for splat in &mut drawn {
-        if let Some(covering) = &mut splat.covering {
-            covering.among_clipped = clipped[usize::from(splat.transparent)];
-        }
-    }
     (drawn, defects)
 }
 
@@ -269,7 +257,6 @@ fn prepare_one(
             share: area / overlap,
             minor_px: view.focal_px * minor,
             h_px: view.focal_px * h,
-            among_clipped: false,
         }),
         least_weight: settings.floors().weight,
         low_pass,
