@@ -22,6 +22,7 @@ mod machine;
 mod measure;
 mod outputs;
 mod parse;
+mod part;
 mod picture;
 mod pictures;
 mod reference;

@@ -1,5 +1,6 @@
 //! All that a run of `surfel bench` found: tables with what explains them, and what a later run is judged by.
 
+mod clips;
 mod empty_layers;
 mod floor;
 pub mod gate;
@@ -21,6 +22,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+pub use clips::{Clipped, ClipsReport, ClipsRow, PAPER_OCCUPANCIES, PAPER_PARTS};
 pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRound, FloorRow};
 pub use growth::{GrowthPoint, GrowthRate, GrowthReport, growth_powers};
@@ -83,6 +85,12 @@ pub struct BenchReport {
     /// `p1`: levels of detail in the making.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub p1: Option<HierarchyReport>,
+    /// `i1`: what clip curves cost over numbers of splats.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub i1: Option<ClipsReport>,
+    /// `i2`: what they cost over how much of the image splats cover.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub i2: Option<ClipsReport>,
     /// `counts`: the instructions of every pipeline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counts: Option<InstructionReport>,
@@ -96,7 +104,7 @@ pub struct BenchReport {
 }
 
 /// The tables that are written as CSV, by the names of their files.
-pub const TABLES: [&str; 16] = [
+pub const TABLES: [&str; 18] = [
     "floor",
     "floor-limits",
     "floor-bounds",
@@ -112,6 +120,8 @@ pub const TABLES: [&str; 16] = [
     "growth-pixels",
     "growth-passes",
     "p1",
+    "i1",
+    "i2",
     "counts",
 ];
 
@@ -139,6 +149,8 @@ impl BenchReport {
         tables.extend(self.transition.as_ref().map(|transition| ("transition", transition.grid())));
         tables.extend(self.growth.iter().flat_map(GrowthReport::grids));
         tables.extend(self.p1.as_ref().map(|p1| ("p1", p1.grid())));
+        tables.extend(self.i1.as_ref().map(|i1| ("i1", i1.grid())));
+        tables.extend(self.i2.as_ref().map(|i2| ("i2", i2.grid())));
         if let Some(counts) = &self.counts {
             tables.push(("counts", counts.grid()));
             tables.extend(counts.isa_grid().map(|grid| ("", grid)));
@@ -171,6 +183,7 @@ impl BenchReport {
         figures.extend(self.layers.iter().flat_map(LayersReport::gate));
         figures.extend(self.transition.iter().flat_map(TransitionReport::gate));
         figures.extend(self.growth.iter().flat_map(GrowthReport::gate));
+        figures.extend(self.i1.iter().chain(&self.i2).flat_map(ClipsReport::gate));
         figures.extend(self.p1.iter().flat_map(HierarchyReport::gate));
         figures.extend(self.counts.iter().flat_map(InstructionReport::gate));
         figures

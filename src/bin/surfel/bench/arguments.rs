@@ -50,13 +50,13 @@ pub struct BenchArguments {
     pub table: Bench,
 
     /// A PLY or OBJ file; for table1, slides, growth and p1 a mesh, which is resampled evenly over its area and for growth must be
-    /// closed; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
+    /// closed; for i1 and i2 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
     /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first; by itself layers takes it
-    /// for each of its 27 balls, and transition for the whole model; growth and p1 take all, growth the middle one over sizes [default:
-    /// the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M]
+    /// for each of its 27 balls, and transition for the whole model; growth, p1 and i1 take all, growth the middle one over sizes
+    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for i1 2500, 5000 and one a triangle]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -154,16 +154,20 @@ pub enum Bench {
     Growth,
     /// Levels of detail in the making: the octree and the ellipses of its nodes, beside the table 1 of Pajarola et al. 2003
     P1,
+    /// What clip curves cost over numbers of splats: nothing cut, lines, curves, beside the table 1 of Ivo et al. 2012
+    I1,
+    /// The same over how much of the image splats cover, beside their table 2
+    I2,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth and p1
+    /// All of them but growth, p1, i1 and i2
     All,
 }
 
 impl Bench {
     /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
-        self == table || self == Self::All && !matches!(table, Self::Growth | Self::P1)
+        self == table || self == Self::All && !matches!(table, Self::Growth | Self::P1 | Self::I1 | Self::I2)
     }
 
     /// Whether any of its figures are times of a device: instructions are counted without one, and hierarchies made.
@@ -207,7 +211,13 @@ impl BenchArguments {
     pub fn settings(&self) -> Settings {
         self.settings.over(Settings {
             // Other tables have their own, or are set beside the floor, which is made of points.
+            size_px: match self.table {
+                // The paper's.
+                Bench::I1 | Bench::I2 => [800, 800],
+                _ => Settings::default().size_px,
+            },
             rasterizer: match (self.table, self.rasterizer.as_slice()) {
+                (Bench::I1 | Bench::I2, _) => Rasterizer::Auto,
                 (Bench::Floor, [rasterizer]) => *rasterizer,
                 _ => Rasterizer::Perspective,
             },

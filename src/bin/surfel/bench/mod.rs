@@ -1,6 +1,7 @@
 //! `surfel bench`: tables of what things cost.
 
 pub mod arguments;
+mod clips;
 mod contest;
 mod context;
 mod counts;
@@ -120,6 +121,8 @@ fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut
     report.layers = table.has(Bench::Layers).then(|| layers::measure(headless, context)).transpose()?;
     report.transition =
         table.has(Bench::Transition).then(|| transition::measure(headless, context)).transpose()?;
+    report.i1 = table.has(Bench::I1).then(|| clips::over_splats(headless, context)).transpose()?;
+    report.i2 = table.has(Bench::I2).then(|| clips::over_occupancy(headless, context)).transpose()?;
     report.growth = table.has(Bench::Growth).then(|| growth::measure(headless, context)).transpose()?;
     let machine = watch.end(&context.clocks_mhz);
     report.flags = machine.flags(&context.limits);
