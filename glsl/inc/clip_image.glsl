@@ -14,8 +14,12 @@ layout(set = 0, binding = BIND_SPLATS_CLIPS, std430) readonly buffer Clips { vec
 
 const float ROOT_TWO_PI = 2.5066283;
 
-// Few curves run along the border between the two sides.
-const vec2 SIDES = vec2(0.9238795, 0.3826834);
+// The quarter of the circle, turned a little so that few edges lie on a border, in which the kept side is.
+uint quarter_of(vec2 n)
+{
+    vec2 turned = vec2(0.9238795 * n.x + 0.3826834 * n.y, 0.9238795 * n.y - 0.3826834 * n.x);
+    return turned.y >= 0.0 ? (turned.x >= 0.0 ? 0 : 1) : (turned.x < 0.0 ? 2 : 3);
+}
 
 // The ramp's width has an inverse.
 const float LEAST_RAMP2 = 1e-6;
@@ -105,13 +109,11 @@ Curve curve_in_image(uint first, PlaneRows rows, vec3 through)
         ramp_px = half_ramp * FORMULA(FORMULA_CLIP_RAMP, sqrt(max(dot(n, times(through, n)), LEAST_RAMP2)));
     }
     float unit = steepness > 0.0 ? 1.0 / (steepness * ramp_px) : 1.0;
-    // Of A and B themselves, not of how the filter lets them be seen.
-    vec2 gains = ramp_px * vec2(dot(a.xy, n), dot(b.xy, n));
     Curve curve = Curve(
-        unit * vec4(seen_line(rows, through, c), 0.0),
-        unit * vec4(seen_line(rows, through, a), gains.x),
-        unit * vec4(seen_line(rows, through, b), gains.y));
-    curve.c.w = clips[first].w + (dot(n, SIDES) < 0.0 ? float(CURVE_SIDE) : 0.0);
+        vec4(unit * seen_line(rows, through, c), 0.0),
+        vec4(unit * seen_line(rows, through, a), clips[first + 1].w),
+        vec4(unit * seen_line(rows, through, b), 0.0));
+    curve.c.w = clips[first].w + float(CURVE_TOWARD * quarter_of(n));
     return curve;
 }
 

@@ -224,7 +224,7 @@
 #define CURVE_IS 1   // There is one.
 #define CURVE_LEFT 2 // Its middle control point is to the left of the way from the start to the end.
 #define CURVE_BOTH 4 // Of the second one: only what both remove is cut off.
-#define CURVE_SIDE 8 // In the image it cuts off what is on one of two sides (`inc/clip_image.glsl`).
+#define CURVE_TOWARD 8 // In the image it keeps what is toward one of four directions, 0 to 3 times this (`inc/clip_image.glsl`).
 
 // Limits of numbers.
 #define MOST_LIGHTS 16              // Lights of a scene.

@@ -8,14 +8,14 @@
 float summed[ROWS];       // the sum of weights over the overlap; where splats are WEIGHTED and not clipped, that of colors
 float gap[ROWS];          // what disks by themselves leave uncovered
 vec2 uncut[ROWS];         // CLIPS: the same sum and gap of splats that no curve cuts in the pixel
-vec2 kept_by_side[ROWS];  // CLIPS: of others the largest part that curves leave, by the side on which they cut off
+vec4 kept_toward[ROWS];   // CLIPS: of others the largest part that curves leave, by the direction in which they keep
 
 void begin_covering(int row)
 {
     summed[row] = 0.0;
     gap[row] = 1.0;
     uncut[row] = vec2(0.0, 1.0);
-    kept_by_side[row] = vec2(0.0);
+    kept_toward[row] = vec4(0.0);
 }
 
 // `weight`: over the overlap, as if nothing were cut off. `part`: what the splat covers by itself. `kept`: what curves leave (tile/clip.glsl).
@@ -27,17 +27,21 @@ void cover(float weight, float part, float kept, int row)
         summed[row] += weight;
     }
     if (CLIPS) {
-        bool cut = abs(kept) < 1.0;
+        float part_kept = part_of(kept);
+        bool cut = part_kept < 1.0;
         uncut[row] = cut ? uncut[row] : vec2(uncut[row].x + weight, uncut[row].y * left);
-        float side = cut ? kept : 0.0;
-        kept_by_side[row] = max(kept_by_side[row], vec2(side, -side));
+        float most = cut ? part_kept : 0.0;
+        kept_toward[row] = max(kept_toward[row], mix(vec4(0.0), vec4(most), equal(vec4(floor(0.5 * kept)), vec4(0.0, 1.0, 2.0, 3.0))));
     }
 }
 
-// Of what the surface would cover, what curves leave.
+// Of what the surface would cover, what curves leave. Opposite directions are both sides of a ridge, and neighbors may be one side whose curves
+// differ a little: those of two of four that are not opposite count once, by whichever pairs leave less.
 float kept_part(int row)
 {
-    float kept = kept_by_side[row].x + kept_by_side[row].y;
+    vec4 toward = kept_toward[row];
+    vec4 pairs = max(toward, toward.yzwx);
+    float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
     return CLIPS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y)), 1.0) : 1.0;
 }
 

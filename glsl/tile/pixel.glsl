@@ -74,7 +74,7 @@ bool covers(vec3 uvw, float depth, bool away, float kept, int row)
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
     bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
     bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-    return inside && beyond_near && kept != 0.0 && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
+    return inside && beyond_near && part_of(kept) > 0.0 && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
 float r2_of(vec3 uvw)
@@ -97,6 +97,19 @@ void see(Splat splat, Column column, float kept, int row)
     visible[row] = inside ? max(visible[row], behind) : visible[row];
 }
 
+// Where curves of a ridge meet, each of its sides is shaded as it is: the mean of their normals would be that of neither, and shine. So the side
+// that has more of the pixel has next to all of its color.
+const float LEAST_PRIORITY = 1e-18; // what covers has a weight
+
+float priority(float kept)
+{
+    float part = part_of(kept);
+    part *= part;
+    part *= part;
+    part *= part;
+    return CLIPS ? max(part * part, LEAST_PRIORITY) : 1.0;
+}
+
 // Adds what a splat is at a pixel.
 void add(Splat splat, SplatAttributes attributes, Column column, float kept, int row)
 {
@@ -113,7 +126,8 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     float r2 = r2_of(uvw);
     float kernel = kernel_weight(r2);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
-    float weight = inside ? abs(kept) * (WEIGHTED ? shared_weight : kernel) : 0.0;
+    float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
+    weight *= priority(kept);
     if (COVERAGE_EDGES) {
         float part = attributes.own_part.x - attributes.own_part.y * r2;
         cover(inside ? shared_weight : 0.0, inside ? part : 0.0, inside ? kept : 1.0, row);

@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// What is cut off a splat: C, A and B of both curves, linear in (u, v, 1). The last number of C is the sum of what is known of the curve,
-/// `CURVE_*`.
+/// `CURVE_*`; that of A twice its weight.
 pub type ClipVectors = [[f32; 4]; CLIP_VECTORS as usize];
 
 /// From this weight on a curve is its control polygon, within f32.
@@ -44,11 +44,10 @@ fn lines(curve: &ClipCurve, turn_rad: f64) -> [[f32; 4]; 3] {
     let area = -chord.dot(middle.extend(1.0));
     let turn = if area < 0.0 { -1.0 } else { 1.0 };
     let weight = if area == 0.0 { 0.0 } else { f64::from(curve.weight).min(HEAVIEST) };
-    let sides =
-        [line_between(middle, end), line_between(start, middle)].map(|line| 2.0 * weight * turn * line);
+    let sides = [line_between(middle, end), line_between(start, middle)].map(|line| turn * line);
     let vector = |line: DVec3, last: f64| line.extend(last).as_vec4();
     let known = CURVE_IS + if area < 0.0 { CURVE_LEFT } else { 0 };
-    [vector(chord, known.into()), vector(sides[0], 0.0), vector(sides[1], 0.0)]
+    [vector(chord, known.into()), vector(sides[0], 2.0 * weight), vector(sides[1], 0.0)]
         .map(|line: Vec4| line.to_array())
 }
 
@@ -71,7 +70,7 @@ mod tests {
     fn kept_side([c, a, b]: [[f32; 4]; 3], [u, v]: [f32; 2]) -> f32 {
         let at = |line: [f32; 4]| line[0] * u + line[1] * v + line[2];
         let turn = if c[3] as u32 & CURVE_LEFT != 0 { -1.0 } else { 1.0 };
-        at(c) + turn * (at(a).max(0.0) * at(b).max(0.0)).sqrt()
+        at(c) + turn * a[3] * (at(a).max(0.0) * at(b).max(0.0)).sqrt()
     }
 
     fn shader_removes(vectors: ClipVectors, place: [f32; 2]) -> bool {

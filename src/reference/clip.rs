@@ -54,14 +54,22 @@ impl Curve {
         [left(q, self.middle, self.end), left(q, self.end, self.start), left(q, self.start, self.middle)]
     }
 
-    /// By how much a place is on the side that is kept: 0 on the curve, negative where it is removed. `over_depth`: times what distances of the
-    /// plane have in the image; negative beyond the plane's horizon, where what is seen through a filter has the lines of the image.
+    /// By how much a place is on the side that is kept: 0 on the curve, negative where it is removed, and as steep as the distance from the
+    /// chord. `over_depth`: times what distances of the plane have in the image; negative beyond the plane's horizon, where what is seen
+    /// through a filter has the lines of the image.
+    ///
+    /// Lines through the middle control point meet the curve once between it and the chord, or the chord.
     pub fn kept_side(&self, q: DVec2, over_depth: f64) -> f64 {
         let [at_start, at_middle, at_end] = self.areas(q).map(|area| over_depth * area);
         let turn = left(self.start, self.middle, self.end);
-        // Beside the control triangle the chord decides.
-        let product = if at_start * turn > 0.0 && at_end * turn > 0.0 { at_start * at_end } else { 0.0 };
-        turn.signum() * 2.0 * self.weight * product.sqrt() - at_middle
+        if !(at_start * turn > 0.0 && at_end * turn > 0.0) {
+            return -at_middle;
+        }
+        // In barycentric coordinates the curve is ((1 − t)², 2 t (1 − t) w, t²): so is t, and then the share of the second.
+        let t = 1.0 / (1.0 + (at_start / at_end).sqrt());
+        let [first, second, third] = [(1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t) * self.weight, t * t];
+        let share = second / (first + second + third);
+        share * (at_start + at_middle + at_end) - at_middle
     }
 
     fn is_inside(&self, areas: [f64; 3]) -> bool {

@@ -89,11 +89,13 @@ fn opacity(parts: &[Part]) -> f64 {
     };
     let without_curves = |which: &dyn Fn(&Part) -> bool| whole(sum(which), alone(which));
     let cut = |part: &Part| part.kept.filter(|kept| kept.part < 1.0);
-    let kept_by_side = [false, true].map(|side| {
-        let of_side = parts.iter().filter_map(cut).filter(|kept| kept.side == side);
-        of_side.map(|kept| kept.part).fold(0.0, f64::max)
+    let toward = [0, 1, 2, 3].map(|quarter| {
+        let toward = parts.iter().filter_map(cut).filter(|kept| kept.toward == quarter);
+        toward.map(|kept| kept.part).fold(0.0, f64::max)
     });
-    let kept = match kept_by_side.iter().sum::<f64>() {
+    // Both sides of a ridge keep in opposite directions. Splats of one side may fall into two quarters that are neighbors.
+    let pair = |i: usize| f64::max(toward[i], toward[(i + 1) % 4]);
+    let kept = match f64::min(pair(0) + pair(2), pair(1) + pair(3)) {
         0.0 => 1.0,
         kept => kept.max(without_curves(&|part| cut(part).is_none())).min(1.0),
     };

@@ -1,6 +1,6 @@
 //! What clip curves leave of a splat in a pixel.
 
-use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, PI};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_8, PI};
 
 use glam::{DMat2, DVec2, DVec3};
 
@@ -40,8 +40,17 @@ pub(super) enum Clipped {
 pub(super) struct Kept {
     /// Of a pixel, 0 to 1.
     pub part: f64,
-    /// On which of two sides the curve that decides cuts off.
-    pub side: bool,
+    /// In which quarter of the circle the curve that decides keeps, 0 to 3.
+    pub toward: usize,
+}
+
+impl Kept {
+    /// The factor of a splat's weight in colors and normals: of both sides of a ridge, the one that has more of the pixel has next to all of
+    /// it, for the mean of their normals would be that of neither.
+    pub fn priority(self) -> f64 {
+        // What covers has a weight.
+        self.part.powi(16).max(1e-18)
+    }
 }
 
 /// How near to nothing, as a part of a ramp, what is left is undecided.
@@ -96,11 +105,11 @@ impl DrawnClip {
     /// What a pixel sees of the splat.
     pub fn kept(&self, ray: DVec3) -> Kept {
         let Some(ramp) = &self.ramp else {
-            return Kept { part: f64::from(u8::from(!self.removes(ray, DVec2::ZERO))), side: false };
+            return Kept { part: f64::from(u8::from(!self.removes(ray, DVec2::ZERO))), toward: 0 };
         };
         let kept = |curve| self.kept_by(ramp, &Curve::of(curve), ray.truncate()).0;
         match &self.clip {
-            Clip::None => Kept { part: 1.0, side: false },
+            Clip::None => Kept { part: 1.0, toward: 0 },
             Clip::One(curve) => kept(curve),
             Clip::Either(first, second) => {
                 let (first, second) = (kept(first), kept(second));
@@ -128,11 +137,14 @@ impl DrawnClip {
         // Toward what the chord keeps, which is on another side where the splat is seen from behind.
         let across = along.perp() * (self.s.cross(self.t).dot(self.center)).signum();
         let half = (2.0 * PI).sqrt() / 2.0 * (ramp.h / 2.0) * across.dot(ramp.through * across).sqrt();
-        let ends = [-half, half].map(|ahead| kept_side(seen + ahead * across));
+        // Of pixels to both sides of this one, along the way on which what is seen through them crosses the chord fastest.
+        let steepest = ramp.through * across;
+        let step = ramp.through * steepest * (half / steepest.length_squared());
+        let ends = [-step, step].map(|step| kept_side(seen + step));
         let all = ends[0].abs() + ends[1].abs();
         let part = if all > 0.0 { (ends[0].max(0.0) + ends[1].max(0.0)) / all } else { 1.0 };
-        let side = across.dot(DVec2::from_angle(FRAC_PI_8)) < 0.0;
-        (Kept { part, side }, ends[0].max(ends[1]) / all)
+        let quarters = (across.to_angle() - FRAC_PI_8) / FRAC_PI_2;
+        (Kept { part, toward: quarters.floor().rem_euclid(4.0) as usize }, ends[0].max(ends[1]) / all)
     }
 
     /// What becomes of a pixel, with (u, v) off by up to `margin` in any direction.

@@ -34,8 +34,8 @@ impl DrawnSplat {
         if self.square.is_some_and(|square| square.depth_inside(x) < 0.0) {
             return None;
         }
-        let kept = self.kept(ray).map_or(1.0, |kept| kept.part);
-        if kept == 0.0 {
+        let kept = self.kept(ray);
+        if kept.is_some_and(|kept| kept.part == 0.0) {
             return None;
         }
         let disk = self.hit(ray, near).map(|hit| (hit.z, weight(kernel, hit.r2)));
@@ -45,7 +45,10 @@ impl DrawnSplat {
         // The depth is the disk's own wherever the disk is.
         let (z, _) = disk.or(low_pass)?;
         let weight = disk.map_or(0.0, |disk| disk.1).max(low_pass.map_or(0.0, |low_pass| low_pass.1));
-        Some(Fragment { z, weight: kept * (self.share * weight).max(self.least_weight) })
+        Some(Fragment {
+            z,
+            weight: kept.map_or(1.0, Kept::priority) * (self.share * weight).max(self.least_weight),
+        })
     }
 
     /// What clip curves leave of it in a pixel, where it has any.

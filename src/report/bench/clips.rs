@@ -105,8 +105,8 @@ mod tests {
             ClipsRow { wanted: 2_500, splats: 2_480, occupancy: 0.401, ways, paper: Some([114.65, 0.143]) };
         let report = ClipsReport { title: "i1".to_owned(), model: "part".to_owned(), rows: vec![row] };
         let rows = report.grid().rows;
-        assert_eq!(rows[0][8..], ["-", "-", "-"].map(str::to_owned));
-        assert_eq!(rows[1][8..], ["114.6", "0.496", "0.143"].map(str::to_owned));
+        assert_eq!(rows[0][7..], ["-"; 4].map(str::to_owned));
+        assert_eq!(rows[1][7..], ["200.0", "114.7", "0.496", "0.143"].map(str::to_owned));
         assert_eq!(rows[1][..4], ["2480", "40.1", "curves", "1300"].map(str::to_owned));
     }
 

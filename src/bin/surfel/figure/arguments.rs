@@ -10,7 +10,8 @@ use crate::{device::DeviceArguments, parse};
 const HELP: &str = "\
 Draw a figure of the papers as a labeled picture: comparisons as PNG, curves as SVG. G is Guennebaud, Barthe, Paulin, \
 \"Splat/Mesh Blending, Perspective Rasterization and Transparency for Point-Based Rendering\", 2006; P is Pajarola, Sainz, \
-Guidotti, \"Object-Space Blending and Splatting of Points\", 2003. Everything shown was drawn by the device. Without a name, \
+Guidotti, \"Object-Space Blending and Splatting of Points\", 2003; I is Ivo et al., \"Adaptive Clipping of Splats to Models with Sharp \
+Features\", 2012. Everything shown was drawn by the device. Without a name, \
 the figures are listed.";
 
 const EXAMPLES: &str = "Examples:
@@ -36,7 +37,8 @@ pub struct FigureArguments {
     #[arg(long, value_name = "WxH", requires = "name", value_parser = parse::size)]
     pub size: Option<[u32; 2]>,
 
-    /// The PLY or OBJ file that g5 (a mesh) and p19 show [default: the built-in model with few triangles or splats]
+    /// The PLY or OBJ file that g5 (a mesh), p19, and i1, i9 and i10 (a mesh with sharp edges) show [default: the built-in model with few triangles
+    /// or splats; for i1, i9 and i10 the built-in part]
     #[arg(long, value_name = "FILE", requires = "name")]
     pub model: Option<PathBuf>,
 
@@ -70,6 +72,12 @@ pub enum Figure {
     P18,
     /// P figure 19, a model with a narrow kernel and with one that has a plateau
     P19,
+    /// I figure 1, a curved edge of few splats from three distances: not cut, cut by lines, cut by curves
+    I1,
+    /// I figure 9, a mesh with sharp edges, and 2500 splats for it: not cut, cut by lines, cut by curves
+    I9,
+    /// I figure 10, 2500 splats with clip curves from three distances
+    I10,
     /// A figure of no paper: the error of pictures of 1 to 256 samples a pixel against the ground truth, as curves
     Samples,
 }
@@ -103,12 +111,14 @@ impl Figure {
             Self::P9 | Self::P10 | Self::Samples => [900, 600],
             Self::P18 => [512, 400],
             Self::P19 => [512, 512],
+            Self::I1 | Self::I10 => [360, 360],
+            Self::I9 => [512, 512],
         }
     }
 
     /// Whether it shows another model where one is given.
     pub fn takes_model(self) -> bool {
-        matches!(self, Self::G5 | Self::P19)
+        matches!(self, Self::G5 | Self::P19 | Self::I1 | Self::I9 | Self::I10)
     }
 
     /// Every figure with what it shows, a line each.

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod boards;
+mod clips;
 mod context;
 mod footprint;
 mod g1;
@@ -46,7 +47,7 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     let output = arguments.output(figure)?;
     let size_px = arguments.size_px(figure)?;
     if arguments.model.is_some() && !figure.takes_model() {
-        let problem = format!("{} has a scene of its own; expected g5 or p19", figure.name());
+        let problem = format!("{} has a scene of its own; expected g5, p19, i1, i9 or i10", figure.name());
         return Err(Error::option("--model", problem));
     }
     outputs::check_places([&output], None, &[], &arguments.model)?;
@@ -78,6 +79,9 @@ pub fn draw(
         Figure::P10 => kernels::p10(&mut context).map(Drawing::Plot),
         Figure::P18 => boards::p18(&mut context).map(Drawing::Sheet),
         Figure::P19 => p19::draw(&mut context).map(Drawing::Sheet),
+        Figure::I1 => clips::i1(&mut context).map(Drawing::Sheet),
+        Figure::I9 => clips::i9(&mut context).map(Drawing::Sheet),
+        Figure::I10 => clips::i10(&mut context).map(Drawing::Sheet),
         Figure::Samples => samples::draw(&mut context).map(Drawing::Plot),
     };
     bars.clear();
