@@ -13,6 +13,7 @@ mod crop;
 mod encoding;
 mod gather;
 mod layers;
+mod level_settings;
 mod levels;
 mod light;
 mod lod;

@@ -41,7 +41,7 @@ pub enum OfBlock {
 impl LevelView {
     /// That of a camera; `None` where the scene itself is drawn.
     pub fn new(levels: ChunkLevels, camera: &Camera, settings: &Settings) -> Option<Self> {
-        let tau_px = settings.lod.tau_px(settings.size_px);
+        let tau_px = settings.tau_px();
         let space = levels.space;
         let focal_px = camera.focal_px(settings.size_px[1]);
         let is_orthographic = camera.is_orthographic();

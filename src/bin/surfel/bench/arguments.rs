@@ -197,6 +197,7 @@ impl Taken for Common {
             "size" => Some(option.help("Width and height in pixels; for growth over splats")),
             "filter" => Some(option.help("The filter of all but slides, which has each method's own")),
             "kernel-eval" | "accumulate" => Some(option),
+            "lod" | "budget" => Some(option.help_heading("growth")),
             _ => None,
         }
     }
@@ -225,6 +226,9 @@ impl BenchArguments {
         };
         match self.table {
             Bench::Growth => Ok(()),
+            _ if self.settings().wants_levels() => {
+                refused("--lod, --budget", "draws the model itself: only growth draws levels of detail")
+            }
             _ if !self.sizes.is_empty() => refused("--sizes", "has one, by --size: only growth has several"),
             Bench::Floor if self.rasterizer.len() > 1 => {
                 refused("--rasterizer", "takes one: only growth takes several")
