@@ -59,6 +59,8 @@ pub(super) struct Leveled {
     pub leaves: Object,
     /// Their parents' balls.
     leaf_parents: Vec<u32>,
+    /// One over the overlap of each, where it is known.
+    pub inverse_overlaps: Option<Vec<f32>>,
     /// The nodes.
     pub nodes: Object,
     /// Their balls and their parents'.
@@ -94,6 +96,10 @@ impl Leveled {
             space: LevelSpace { origin: object.origin, scale: unit.recip() },
             balls: object.balls.clone(),
             leaf_parents: leaves.iter().map(|i| object.leaf_parents[*i]).collect(),
+            inverse_overlaps: object
+                .inverse_overlaps
+                .as_ref()
+                .map(|inverse| leaves.iter().map(|i| inverse[*i]).collect()),
             leaves: of(object.leaves.picked(leaves.into_iter())),
             node_balls: nodes.iter().map(|i| object.node_balls[*i]).collect(),
             weights: nodes.iter().map(|i| object.weights[*i]).collect(),
@@ -164,6 +170,35 @@ impl BallBounds {
             Self { reach: 0.0, far: 0.0, spreads: [0.0; 2] }
         } else {
             bounds
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::{
+            Overlaps,
+            hierarchy::{Hierarchy, tests::models::random_ellipses},
+        },
+        scene::Object,
+    };
+
+    /// Found once of all splats, they stay with them: as found of the sorted ones, but for the mean, which is looked for at other places.
+    #[test]
+    fn overlaps_are_those_of_the_splats_as_they_lie() {
+        let object = |splats| Object { name: String::new(), splats, closed: false };
+        let splats = random_ellipses(2000, 1.0, 5);
+        let whole = Hierarchy::build(&splats, &()).unwrap().leveled(object(splats));
+        let leveled = Leveled::of(&whole);
+        let (known, found) =
+            (leveled.inverse_overlaps.unwrap(), Overlaps::of(&leveled.leaves.splats).inverse);
+        let ratio = f64::from(known[0] / found[0]);
+        assert!(known.iter().any(|overlap| (overlap / known[0] - 1.0).abs() > 0.2));
+        for (i, (known, found)) in known.iter().zip(&found).enumerate() {
+            let own = f64::from(known / found);
+            assert!((own / ratio - 1.0).abs() < 1e-5, "splat {i}: {own}, the first {ratio}");
         }
     }
 }
