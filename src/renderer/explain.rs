@@ -199,7 +199,11 @@ fn levels(draws: &[passes::Draw<'_>], settings: &Settings) -> Option<String> {
             (_, Budget::Splats(most)) => format!(", for --budget {most}"),
             (_, Budget::Unlimited) => String::new(),
         };
-        format!("splats that spread by up to {tau_px:.3} px on the screen are drawn as one{why}")
+        let blended = match draws.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends()) {
+            true => format!(", blended up to {:.3} px", tau_px * settings.blended_size()),
+            false => String::new(),
+        };
+        format!("splats that spread by up to {tau_px:.3} px on the screen are drawn as one{blended}{why}")
     })
 }
 

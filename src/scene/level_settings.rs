@@ -1,6 +1,6 @@
 //! What settings ask of levels of detail, by a size and by a budget.
 
-use super::{Budget, Lod, Settings};
+use super::{Budget, Lod, LodSteps, Settings};
 
 impl Settings {
     /// Whether a scene has to have levels of detail for it.
@@ -15,6 +15,12 @@ impl Settings {
             (Lod::Auto, Budget::Splats(_)) => 0.0,
             (lod, _) => lod.tau_px(self.size_px),
         }
+    }
+
+    /// The size over [`Self::tau_px`] up to which nodes are drawn, beside those below them: 1 unless they blend. Opaque ones do, by tiles.
+    pub fn blended_size(&self) -> f64 {
+        let blends = self.lod_steps == LodSteps::Blend && self.covers_in_part() && self.weighs_splats();
+        if blends { LodSteps::BLENDED } else { 1.0 }
     }
 }
 

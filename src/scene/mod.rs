@@ -17,6 +17,7 @@ mod level_settings;
 mod levels;
 mod light;
 mod lod;
+mod lod_steps;
 mod mesh;
 mod methods;
 mod opacity;
@@ -43,6 +44,7 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use levels::{ErrorBall, LeveledObject, NodeBalls};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use lod::Lod;
+pub use lod_steps::LodSteps;
 pub use mesh::Mesh;
 pub use methods::{
     Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,

@@ -1,7 +1,8 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Budget, Camera, Layers, Light, Lod, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
+    Budget, Camera, Layers, Light, Lod, LodSteps, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes,
+    TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -50,6 +51,8 @@ settings! {
         /// hierarchy already (.surfel), and else the scene itself. For `render`, by `compute` and as opaque points; what else draws all splats. The reference
         /// draws the scene itself.
         "lod" "auto|PX|PERCENT%" lod: Lod,
+        /// How nodes take the place of those below them, as a camera moves away.
+        "lod-steps" "HOW" lod_steps: LodSteps,
         /// The most splats that are drawn of objects in levels of detail, such as 250k, of which about 99% are used; never finer than a `lod` that is given.
         "budget" "N|none" budget: Budget,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a

@@ -3,12 +3,15 @@
 use crate::common::{PICTURE, assert_same_bits, passes, render_as, scenes, shared, with};
 use glam::DVec3;
 use surfel::{
-    geometry::hierarchy::{Hierarchy, Projection},
+    geometry::hierarchy::{Hierarchy, Levels, Projection},
     hard_scenes::{Hard, transparent},
     load::builtin,
     math::random::SplitMix,
-    renderer::{Frame, Headless},
-    scene::{Accumulate, Backfaces, Budget, Camera, Cull, Edges, Lod, Rasterizer, Settings, TileInvocations},
+    renderer::{Frame, Headless, Wanted},
+    scene::{
+        Accumulate, Backfaces, Budget, Camera, Cull, Edges, Lod, LodSteps, Rasterizer, Settings,
+        TileInvocations,
+    },
 };
 
 /// A ball of many splats in a small picture, drawn by levels of this size.
@@ -56,6 +59,77 @@ fn what_is_drawn_is_what_the_hierarchy_selects() {
         drawn.push(found);
     }
     assert!(drawn.iter().any(|drawn| *drawn < 200) && drawn.iter().any(|drawn| *drawn > 10_000), "{drawn:?}");
+}
+
+/// What has a weight, and nothing else: nodes from half an octave above τ on, and those below them until the node is no larger than τ.
+#[test]
+fn what_is_blended_is_what_has_a_weight() {
+    let mut headless = shared();
+    let mut random = SplitMix(6);
+    let mut hard = with(&ball(20_000, 1.0), |settings| {
+        (settings.backfaces, settings.lod_steps) = (Backfaces::Flip, LodSteps::Blend);
+    });
+    let hierarchy = Hierarchy::build(&hard.scene.objects[0].splats, &()).unwrap();
+    let mut blended = 0;
+    for (round, tau_px) in [0.5, 1.0, 2.0, 8.0].into_iter().cycle().take(16).enumerate() {
+        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let orthographic_height = (round % 3 == 2).then_some(4.0);
+        hard.camera =
+            Camera { eye: (4.0 + 6.0 * random.unit()) * direction, orthographic_height, ..hard.camera };
+        hard.settings.lod = Lod::Px(tau_px);
+        let projection = Projection::of_camera(&hard.camera, hard.settings.size_px[1], &hierarchy);
+        // With both bounds moved by as much.
+        let count = |room: f64| {
+            let sizes = (tau_px * room, LodSteps::BLENDED / room.powi(2));
+            let has_weight = |levels: Levels| projection.weight(&levels, sizes.0, sizes.1) > 0.0;
+            let nodes = (0..hierarchy.tree.len()).filter(|&i| has_weight(hierarchy.node_levels(i))).count();
+            (nodes + (0..hierarchy.order.len()).filter(|&i| has_weight(hierarchy.leaf_levels(i))).count())
+                as u64
+        };
+        let near = [1.0 - 1e-5, 1.0 + 1e-5].map(count);
+        let found = listed(&mut headless, &hard);
+        let hard_steps = with(&hard, |settings| settings.lod_steps = LodSteps::Hard);
+        let without = listed(&mut headless, &hard_steps);
+        println!("round {round}: {tau_px} px, {found} drawn, {near:?} have a weight; {without} without");
+        assert!(near[1] <= found && found <= near[0], "round {round}: {found} of {near:?}");
+        assert!(without <= found, "round {round}: {found}, {without} without");
+        blended += found - without;
+    }
+    assert!(blended > 1000, "{blended}");
+}
+
+/// What a step of 0.25% toward a model does to sizes, as the same step of τ does: few pixels leap by more than 2 of 255 where levels blend, and next to
+/// none by more than 16.
+#[test]
+fn little_leaps_where_levels_blend() {
+    let mut headless = shared();
+    let size_px = [256, 256];
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![builtin::relief(100_000)];
+    (hard.settings.size_px, hard.settings.background) = (size_px, Some([1.0; 3]));
+    hard.camera = Camera::fit(&hard.scene.ball().unwrap(), size_px, Camera::DEFAULT_FOV_Y_RAD);
+    hard.scene.levels = true;
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let wanted = Wanted { linear: false, ..PICTURE };
+    let mut leaps = |steps: LodSteps| {
+        let mut last: Vec<[u8; 4]> = Vec::new();
+        let mut leaps = [0_usize; 2];
+        for step in 0..13 {
+            let lod = Lod::Px(1.0025_f64.powi(step));
+            let settings = Settings { lod, lod_steps: steps, ..hard.settings.clone() };
+            let picture = headless.render(&prepared, &hard.camera, &settings, wanted).unwrap().srgb;
+            for (a, b) in last.iter().zip(&picture) {
+                let most = (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap();
+                leaps[0] += usize::from(most > 2);
+                leaps[1] += usize::from(most > 16);
+            }
+            last = picture;
+        }
+        leaps
+    };
+    let (hard_steps, blended) = (leaps(LodSteps::Hard), leaps(LodSteps::Blend));
+    println!("pixels that leap by more than 2, and than 16: {hard_steps:?}, blended {blended:?}");
+    assert!(hard_steps[0] > 4 * blended[0] && hard_steps[1] > 4 * blended[1], "{hard_steps:?} {blended:?}");
 }
 
 /// In linear light, over nothing: alpha too.
@@ -225,6 +299,7 @@ fn a_budget_is_kept_and_filled() {
             orthographic_height,
             ..Camera::default()
         };
+        hard.settings.lod_steps = if round % 2 == 0 { LodSteps::Hard } else { LodSteps::Blend };
         for most in [4_000, 20_000, 60_000] {
             let in_use = |settings: &Settings| {
                 let in_use = headless.list_occupancy(&prepared, &hard.camera, settings).unwrap();

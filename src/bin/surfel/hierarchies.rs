@@ -149,7 +149,7 @@ fn load_for(
     bars: &Bars,
 ) -> Result<Read> {
     let view = |tau_px: f64| {
-        let view = PageView::new(camera, settings.size_px, tau_px);
+        let view = PageView::new(camera, settings.size_px, tau_px).with_blended(settings.blended_size());
         if settings.budget == Budget::Unlimited { view } else { view.with_coarser() }
     };
     let all: u64 = files.iter().map(|file| file.header().splats).sum();

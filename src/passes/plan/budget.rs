@@ -56,14 +56,19 @@ struct Counted {
 impl Counted {
     /// Those that a camera sees.
     fn new(objects: &[Refinements], camera: &Camera, settings: &Settings) -> Self {
+        let blended_size = settings.blended_size() as f32;
         let nodes = objects.iter().map(|object| {
             let view = View::new(object, camera, settings);
             let events = object.all.par_iter().flat_map_iter(|node| {
                 let size_px = view.size_px(&node.ball);
                 let [own, leaves] = [&node.own, &node.leaves].map(|group| view.seen(&node.ball, group));
                 let below = (own > 0).then(|| (view.size_px(&object.all[node.parent as usize].ball), own));
-                let of_own = (leaves != own).then_some((size_px, leaves - own));
-                below.into_iter().chain(of_own)
+                // Where nodes blend, one is drawn while the next are.
+                let (of_leaves, of_own) = match blended_size > 1.0 {
+                    true => (leaves, (own > 0).then_some((size_px / blended_size, -own))),
+                    false => (leaves - own, None),
+                };
+                below.into_iter().chain((of_leaves != 0).then_some((size_px, of_leaves))).chain(of_own)
             });
             events.collect::<Vec<_>>()
         });

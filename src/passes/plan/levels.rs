@@ -18,6 +18,8 @@ pub struct LevelView {
     eye: DVec3,
     /// τ over the focal length: what a size of τ is at distance 1; under parallel rays what it is.
     share: f64,
+    /// Up to so many times τ nodes are drawn beside those below them; 1 where they do not blend.
+    blended_size: f64,
     /// No size is larger than at this distance.
     near: f64,
     is_orthographic: bool,
@@ -40,8 +42,9 @@ pub enum OfBlock {
 
 impl LevelView {
     /// That of a camera; `None` where the scene itself is drawn.
-    pub fn new(levels: ChunkLevels, camera: &Camera, settings: &Settings) -> Option<Self> {
+    pub fn new(levels: ChunkLevels, transparent: bool, camera: &Camera, settings: &Settings) -> Option<Self> {
         let tau_px = settings.tau_px();
+        let blended_size = if transparent { 1.0 } else { settings.blended_size() };
         let space = levels.space;
         let focal_px = camera.focal_px(settings.size_px[1]);
         let is_orthographic = camera.is_orthographic();
@@ -56,6 +59,7 @@ impl LevelView {
         (tau_px > 0.0).then_some(Self {
             eye: (camera.eye - space.origin) * space.scale,
             share: tau_px / focal_px * unit,
+            blended_size,
             near: (camera.near() * space.scale).max(1e-30),
             is_orthographic,
             nodes: levels.nodes,
@@ -63,16 +67,32 @@ impl LevelView {
         })
     }
 
+    /// Whether nodes blend with those below them.
+    pub fn blends(&self) -> bool {
+        self.blended_size > 1.0
+    }
+
+    /// The same view, in which nodes take the place of those below them at once.
+    pub fn with_hard_steps(self) -> Self {
+        Self { blended_size: 1.0, ..self }
+    }
+
+    fn share_of_blended(&self) -> f64 {
+        self.share * self.blended_size
+    }
+
     /// The words of a shader's view.
     pub fn words(&self) -> [u32; LEVEL_WORDS as usize] {
         let [x, y, z] = self.eye.as_vec3().to_array();
-        [x, y, z, self.share as f32, self.near as f32, 0.0, 0.0, 0.0].map(f32::to_bits)
+        let [share, of_blended] = [self.share, self.share_of_blended()].map(|share| share as f32);
+        let weight_of_share = if self.blends() { (of_blended - share).recip() } else { 0.0 };
+        [x, y, z, share, self.near as f32, of_blended, weight_of_share, 0.0].map(f32::to_bits)
     }
 
     /// What no box of a node of a block exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
     pub fn largest_box_px(&self, block: &BlockLevels, filter_px: f64) -> f64 {
         // Three pixels for rounding, as in `math/size.rs`.
-        let px = 2.0 * block.longest * self.stretched_px;
+        let px = 2.0 * block.longest * self.stretched_px * self.blended_size;
         if self.nodes { 1.01 * px.hypot(4.0 * filter_px) + 3.0 } else { f64::INFINITY }
     }
 
@@ -80,18 +100,17 @@ impl LevelView {
     pub fn of(&self, block: &BlockLevels) -> OfBlock {
         let distance = self.eye.distance(block.center);
         // Between which the largest spreads lie that are small, of balls within bounds.
-        let at =
-            |distance: f64| self.share * if self.is_orthographic { 1.0 } else { distance.max(self.near) };
-        let least = |balls: &BallBounds| at(distance - balls.reach) * (1.0 - RESERVE);
-        let most = |balls: &BallBounds| at(distance + balls.far) * (1.0 + RESERVE);
+        let at = |distance: f64| if self.is_orthographic { 1.0 } else { distance.max(self.near) };
+        let least = |balls: &BallBounds, share: f64| share * at(distance - balls.reach) * (1.0 - RESERVE);
+        let most = |balls: &BallBounds, share: f64| share * at(distance + balls.far) * (1.0 + RESERVE);
         let (own, parent) = (&block.own, &block.parent);
-        let no_parent_is_large = parent.spreads[1] <= least(parent);
-        let no_own_is_small = self.nodes && own.spreads[0] > most(own);
+        let no_parent_is_large = parent.spreads[1] <= least(parent, self.share);
+        let no_own_is_small = self.nodes && own.spreads[0] > most(own, self.share_of_blended());
         if no_parent_is_large || no_own_is_small {
             return OfBlock::None;
         }
-        let all_parents_are_large = parent.spreads[0] > most(parent);
-        let all_own_are_small = !self.nodes || own.spreads[1] <= least(own);
+        let all_parents_are_large = parent.spreads[0] > most(parent, self.share);
+        let all_own_are_small = !self.nodes || own.spreads[1] <= least(own, self.share_of_blended());
         if all_parents_are_large && all_own_are_small { OfBlock::All } else { OfBlock::Some }
     }
 }
