@@ -14,6 +14,7 @@ mod measurement;
 mod plots;
 mod slides;
 mod throughput;
+mod tolerances;
 mod transition;
 mod trust;
 
@@ -35,6 +36,7 @@ pub use slides::{SLIDES, Slide};
 pub use throughput::{
     PAPER_SPLATS, PaperMethod, PaperThroughput, Throughput, ThroughputRow, paper_throughput,
 };
+pub use tolerances::{PAPER_TOLERANCES, PaperTolerance, Tolerance, TolerancesReport};
 pub use transition::{HalfAndHalf, Primitives, TransitionReport};
 pub use trust::{CardUse, Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};
 
@@ -83,6 +85,9 @@ pub struct BenchReport {
     /// `p1`: levels of detail in the making.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub p1: Option<HierarchyReport>,
+    /// `p2`: frames by levels of detail.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub p2: Option<TolerancesReport>,
     /// `counts`: the instructions of every pipeline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counts: Option<InstructionReport>,
@@ -96,7 +101,7 @@ pub struct BenchReport {
 }
 
 /// The tables that are written as CSV, by the names of their files.
-pub const TABLES: [&str; 16] = [
+pub const TABLES: [&str; 18] = [
     "floor",
     "floor-limits",
     "floor-bounds",
@@ -112,6 +117,8 @@ pub const TABLES: [&str; 16] = [
     "growth-pixels",
     "growth-passes",
     "p1",
+    "p2",
+    "p2-paper",
     "counts",
 ];
 
@@ -139,6 +146,7 @@ impl BenchReport {
         tables.extend(self.transition.as_ref().map(|transition| ("transition", transition.grid())));
         tables.extend(self.growth.iter().flat_map(GrowthReport::grids));
         tables.extend(self.p1.as_ref().map(|p1| ("p1", p1.grid())));
+        tables.extend(self.p2.iter().flat_map(TolerancesReport::grids));
         if let Some(counts) = &self.counts {
             tables.push(("counts", counts.grid()));
             tables.extend(counts.isa_grid().map(|grid| ("", grid)));
@@ -172,6 +180,7 @@ impl BenchReport {
         figures.extend(self.transition.iter().flat_map(TransitionReport::gate));
         figures.extend(self.growth.iter().flat_map(GrowthReport::gate));
         figures.extend(self.p1.iter().flat_map(HierarchyReport::gate));
+        figures.extend(self.p2.iter().flat_map(TolerancesReport::gate));
         figures.extend(self.counts.iter().flat_map(InstructionReport::gate));
         figures
     }

@@ -38,6 +38,7 @@ const EXAMPLES: &str = "Examples:
   surfel bench transition --model igea.ply
   surfel bench growth --model igea.ply --rasterizer perspective,raycast --plot growth.svg
   surfel bench p1 --splats 100k,1M,10M --markdown p1.md
+  surfel bench p2 --model igea.ply --splats 1M
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
 
@@ -49,14 +50,14 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1, slides, growth and p1 a mesh, which is resampled evenly over its area and for growth must be
+    /// A PLY or OBJ file; for table1, slides, growth, p1 and p2 a mesh, which is resampled evenly over its area and for growth must be
     /// closed; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
-    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first; by itself layers takes it
+    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides and p2 take the first; by itself layers takes it
     /// for each of its 27 balls, and transition for the whole model; growth and p1 take all, growth the middle one over sizes [default:
-    /// the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M]
+    /// the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for p2 1M]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -154,16 +155,18 @@ pub enum Bench {
     Growth,
     /// Levels of detail in the making: the octree and the ellipses of its nodes, beside the table 1 of Pajarola et al. 2003
     P1,
+    /// Levels of detail drawn: splats and times over tolerances, beside the table 2 of Pajarola et al. 2003
+    P2,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth and p1
+    /// All of them but growth, p1 and p2
     All,
 }
 
 impl Bench {
     /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
-        self == table || self == Self::All && !matches!(table, Self::Growth | Self::P1)
+        self == table || self == Self::All && !matches!(table, Self::Growth | Self::P1 | Self::P2)
     }
 
     /// Whether any of its figures are times of a device: instructions are counted without one, and hierarchies made.
