@@ -199,6 +199,83 @@ fn nothing_shows_through_a_surface_of_nodes() {
     }
 }
 
+/// Of pixels that the scene covers wholly, with all around them up to τ away, those of which a level shows half or less, and how many there are: from so
+/// many random views outside of a model, for sizes τ. What is merged is displaced by so much, and silhouettes with it.
+fn holes(views: usize, sizes_px: &[f64], steps: LodSteps) -> Vec<[usize; 2]> {
+    let mut headless = shared();
+    let mut random = SplitMix(21);
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![builtin::relief(200_000)];
+    hard.scene.levels = true;
+    (hard.settings.size_px, hard.settings.lod_steps) = ([256, 256], steps);
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let whole = hard.scene.ball().unwrap();
+    let mut found = vec![[0, 0]; sizes_px.len()];
+    for round in 0..views {
+        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let eye = whole.center + (1.2 + 3.0 * random.unit()) * whole.radius * direction;
+        let orthographic_height = (round % 5 == 4).then_some(1.5 * whole.radius);
+        let camera = Camera { eye, target: whole.center, orthographic_height, ..Camera::default() };
+        let mut alphas = |tau_px: f64| -> Vec<f32> {
+            let settings = Settings { lod: Lod::Px(tau_px), ..hard.settings.clone() };
+            let frame = headless.render(&prepared, &camera, &settings, PICTURE).unwrap();
+            frame.linear.iter().map(|pixel| pixel[3]).collect()
+        };
+        let scene = alphas(0.0);
+        for (found, tau_px) in found.iter_mut().zip(sizes_px) {
+            let level = alphas(*tau_px);
+            let inside = inside(&scene, hard.settings.size_px[0] as usize, tau_px.ceil() as usize);
+            found[0] += inside.iter().filter(|pixel| level[**pixel] <= 0.5).count();
+            found[1] += inside.len();
+        }
+    }
+    for (found, tau_px) in found.iter().zip(sizes_px) {
+        println!(
+            "{views} views, {steps:?}, {tau_px} px: {} of {} covered pixels are missing",
+            found[0], found[1]
+        );
+    }
+    found
+}
+
+/// The pixels of a picture so many pixels wide with none within `reach` along rows and columns that is not covered wholly.
+fn inside(alphas: &[f32], width: usize, reach: usize) -> Vec<usize> {
+    // Sums of pixels that are not, above and to the left.
+    let (row, height) = (width + 1, alphas.len() / width);
+    let mut open = vec![0_u32; row * (height + 1)];
+    for (i, alpha) in alphas.iter().enumerate() {
+        let at = (i / width + 1) * row + i % width + 1;
+        open[at] = open[at - 1] + open[at - row] - open[at - row - 1] + u32::from(*alpha < 0.999);
+    }
+    let is_inside = |i: &usize| {
+        let (x, y) = (i % width, i / width);
+        let (left, top) = (x.saturating_sub(reach), y.saturating_sub(reach));
+        let (right, bottom) = ((x + reach + 1).min(width), (y + reach + 1).min(height));
+        open[bottom * row + right] + open[top * row + left]
+            == open[bottom * row + left] + open[top * row + right]
+    };
+    (0..alphas.len()).filter(is_inside).collect()
+}
+
+#[test]
+fn levels_have_no_holes() {
+    for steps in [LodSteps::Hard, LodSteps::Blend] {
+        let found = holes(6, &[1.0, 2.0, 4.0], steps);
+        let few = |[missing, covered]: &[usize; 2]| 50_000 * missing <= *covered && *covered > 10_000;
+        assert!(found.iter().all(few) && found[0][0] == 0, "{found:?}");
+    }
+}
+
+/// Minutes.
+#[test]
+#[ignore = "minutes: 200 views for each of eight sizes"]
+fn levels_have_no_holes_from_200_views() {
+    let found = holes(200, &[0.5, 0.7, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0], LodSteps::Hard);
+    // A flat ellipse can't stand for what bends where it is seen from beyond 45 degrees (DECISIONS.md): single pixels from 2 pixels on.
+    assert!(found.iter().all(|[missing, covered]| 200_000 * missing < *covered), "{found:?}");
+    assert!(found[..3].iter().all(|[missing, _]| *missing == 0), "{found:?}");
+}
+
 /// With a size of 0 the scene itself is drawn, also where it has levels: without a pass, and without a bit, that it has not by itself.
 #[test]
 fn the_scene_itself_has_nothing_of_it() {
