@@ -32,6 +32,8 @@ fn levels_of_detail_are_measured_over_tolerances() {
     assert!(json["gate"].to_string().contains("p2, 2px, splats"), "{}", json["gate"]);
     let table = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
     assert!(table("tables/p2.csv").starts_with("tolerance,px,splats,LOD ms,splatting ms"));
+    let error = |row: usize| rows[row]["error"]["rms"].as_f64().unwrap();
+    assert!(error(0) == 0.0 && error(1) > 0.0 && error(2) > error(1), "{rows:?}");
     assert!(table("tables/p2-paper.csv").contains("David"));
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Measurement, gate::GateFigure};
+use super::{LevelError, Measurement, gate::GateFigure};
 use crate::report::{
     Grid,
     cells::{interval, median, number},
@@ -26,6 +26,8 @@ pub struct Tolerance {
     pub tau_px: f64,
     /// Splats that are set up: those that may be seen.
     pub drawn: u64,
+    /// Against the picture of the splats themselves.
+    pub error: LevelError,
 }
 
 /// A row of the paper's table 2: tolerance in percent of the window's area, splats, and milliseconds for levels of detail, splatting and in all, of
@@ -103,9 +105,12 @@ impl TolerancesReport {
             .column("total ms", |own| median(own.frames.frame_ms, 2))
             .column("95% of the median", |own| interval(own.frames.frame_ms, 2))
             .column("x first", |own| median(own.beside_first, 3))
+            .column("RMS", |own| number(Some(own.subject.error.rms), 2))
+            .column("FLIP", |own| number(Some(own.subject.error.flip), 2))
+            .column("silhouette px", |own| own.subject.error.silhouette_px)
             .note(
                 "splats: those that may be seen; LOD: to choose and list them; splatting: sums and, by tiles, their division and shading; the \
-                 parts are of frames whose passes are timed, the total is not",
+                 parts are of frames whose passes are timed, the total is not; RMS, FLIP: against tolerance 0 over white, means over covered pixels, in 255ths; silhouette: covered by half in one only",
             )
             .grid();
         let paper = Grid::of("the paper's table 2, of 2003, 512x512", &PAPER_TOLERANCES)
@@ -130,7 +135,7 @@ mod tests {
         let passes = ["mark visible splats", "list visible band-2 splats", "project splats", "finalize"];
         let row = |name: &str, tau_px, drawn| {
             let timed = timed(&passes, &[1.0, 2.0, 4.0, 8.0], &[None; 4], 1000);
-            (name.to_owned(), Tolerance { tau_px, drawn }, timed)
+            (name.to_owned(), Tolerance { tau_px, drawn, error: LevelError::default() }, timed)
         };
         let rows = Measurement::all(vec![row("0", 0.0, 100), row("1px", 1.0, 40)], None);
         let report = TolerancesReport { model: "ball".to_owned(), splats: 150, rows };

@@ -6,7 +6,7 @@ use clap::{Arg, Args, ValueEnum};
 use surfel::{
     Error, Result,
     report::bench::{PAPER_HIERARCHIES, PAPER_SPLATS},
-    scene::{Rasterizer, Settings},
+    scene::{Lod, Rasterizer, Settings},
 };
 
 use crate::{
@@ -67,6 +67,11 @@ pub struct BenchArguments {
     /// Sizes of growth over pixels, with commas between; a number alone is a square [default: 256 to 4096]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::square_or_size)]
     pub sizes: Vec<[u32; 2]>,
+
+    /// Tolerances of p2, with commas between, in pixels or percent of the picture; the first is what the others are set beside [default: 0 to 2px,
+    /// and the paper's]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::tolerance)]
+    pub tolerances: Vec<Lod>,
 
     /// The rasterizer of floor; of growth several, with commas between, in turn and beside the first [default: perspective]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = one_of(Rasterizer::NAMES))]
@@ -200,7 +205,7 @@ impl Taken for Common {
             "size" => Some(option.help("Width and height in pixels; for growth over splats")),
             "filter" => Some(option.help("The filter of all but slides, which has each method's own")),
             "kernel-eval" | "accumulate" => Some(option),
-            "lod" | "budget" => Some(option.help_heading("growth")),
+            "lod" | "lod-steps" | "budget" => Some(option.help_heading("growth, p2")),
             _ => None,
         }
     }
@@ -228,6 +233,9 @@ impl BenchArguments {
             Err(Error::option(option, format!("bench {} {problem}", self.table.name())))
         };
         match self.table {
+            _ if self.table != Bench::P2 && !self.tolerances.is_empty() => {
+                refused("--tolerances", "has none: only p2 has")
+            }
             Bench::Growth => Ok(()),
             _ if self.settings().wants_levels() => {
                 refused("--lod, --budget", "draws the model itself: only growth draws levels of detail")

@@ -2,8 +2,8 @@
 
 use surfel::{
     Error, Result,
-    renderer::Headless,
-    report::bench::{Tolerance, TolerancesReport},
+    renderer::{Headless, Wanted},
+    report::bench::{LevelError, Tolerance, TolerancesReport},
     scene::{Camera, Lod, OptionValue as _, Rasterizer, Settings},
 };
 
@@ -12,7 +12,7 @@ use super::{
     context::BenchContext,
     model::Source,
 };
-use crate::scene::Loaded;
+use crate::{scene::Loaded, settings::once};
 
 /// The number of splats where none is given.
 const SPLATS: u64 = 1_000_000;
@@ -37,14 +37,22 @@ pub fn measure(headless: &mut Headless, context: &mut BenchContext<'_>) -> Resul
     context.inputs.extend(inputs);
     let settings = |lod| Settings { lod, rasterizer: Rasterizer::default(), ..context.settings.clone() };
     let camera = Camera::fit(&ball, context.settings.size_px, Camera::DEFAULT_FOV_Y_RAD);
+    let picture = |headless: &mut Headless, settings: Settings| {
+        let wanted = Wanted { picture: true, linear: true, ..Wanted::default() };
+        let settings = Settings { background: None, ..settings };
+        headless.render(&prepared, &camera, &settings, wanted).map(|frame| frame.linear)
+    };
+    let whole = picture(headless, settings(Lod::Px(0.0)))?;
     let mut entries = Vec::new();
-    for settings in TOLERANCES.map(settings) {
+    for settings in once(&context.arguments.tolerances, &TOLERANCES).into_iter().map(settings) {
         headless.renderer.check(&camera, &settings)?;
         let drawn = match headless.count_listed(&prepared, &camera, &settings)? {
             0 => splats,
             listed => listed,
         };
-        let subject = Tolerance { tau_px: settings.tau_px(), drawn };
+        let own = picture(headless, settings.clone())?;
+        let error = LevelError::of(&own, &whole, settings.size_px[0] as usize);
+        let subject = Tolerance { tau_px: settings.tau_px(), drawn, error };
         entries.push(Entry { name: settings.lod.word(), scene: &prepared, settings, subject });
     }
     let (rows, _) = contest::measure(headless, context, "p2", &camera, entries, None)?;
