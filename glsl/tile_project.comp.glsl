@@ -5,6 +5,7 @@
 #include "inc/setup.glsl"
 #define LIST_BLOCKS BIND_VISIBLE_BLOCKS
 #include "inc/list.glsl"
+#include "inc/levels.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
 
@@ -95,6 +96,14 @@ void main()
     float w0 = map.at_x0.z;
     float uv_scale = map.affine ? 1.0 : 1.0 / w0;
     float share = share_of(m) * own_weight(index);
+    float blended = BLENDED ? weight_of_level(index) : 1.0;
+    share *= blended;
+    if (BLENDED) {
+        // What is to vanish has to leave no trace at the end. It hides ever less of what is behind it: its epsilon grows. Nor does it cover a
+        // pixel by itself any more (inc/edges.glsl), by what stands in the place of alpha; the larger one of a node and its children still does.
+        float more = max(0.5 / max(blended, 1e-20), 1.0);
+        m.shift = ORTHOGRAPHIC ? more * m.shift : m.shift / (m.shift + more * (1.0 - m.shift));
+    }
     vec3 normal = OUTWARD && m.faces_away ? -m.normal : m.normal;
     uvec2 color;
     if (PACKED && !UNIFORM_COLOR) {
@@ -102,6 +111,9 @@ void main()
         color = uvec2(packUnorm2x16(rgba.rg), packUnorm2x16(rgba.ba));
     } else {
         color = colors[UNIFORM_COLOR ? 0 : index];
+    }
+    if (BLENDED) {
+        color.y = packUnorm2x16(vec2(unpackUnorm2x16(color.y).x, 2.0 * blended));
     }
     float signed_shift = TWO_SIDED && m.faces_away ? -m.shift : m.shift;
     records0[place] = vec4(map.x0_px, CLIPS ? -w0 : w0, signed_shift);

@@ -42,8 +42,9 @@
 #define SPEC_SAMPLES 54       // Constant: samples of each pixel.
 #define SPEC_FILTER_PX 56     // Constant: h of the low-pass filter, pixels.
 #define SPEC_LEVELS 58        // Constant: one of `LEVELS_*`: what splats of a chunk are to levels of detail.
+#define SPEC_BLENDED 60       // Constant: levels of detail blend into each other (`inc/levels.glsl`).
 #define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
-#define SPEC_CLIPS 60          // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
+#define SPEC_CLIPS 61          // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 

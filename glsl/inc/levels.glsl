@@ -6,6 +6,10 @@
 // radius; under parallel rays focal spread. So it is at most tau where spread <= tau / focal max(d - r, near). Both the parent's ball and a
 // node's own are the same bits wherever they lie, and this is one function of them: of a parent and its child exactly one is drawn, whatever rounding does.
 //
+// BLENDED: nodes are drawn from a size of B tau on, and those below them until the node is as small as tau. How large a ball is makes a number F from 0 at
+// tau to 1 at B tau, and a splat weighs F(parent) - F(own): on each path from the root, above which F is 1, to a splat, of which it is 0, weights add
+// up to 1, and in sums of weights a node takes the place of those below it smoothly.
+//
 // All in the space of the hierarchy: from its origin, scaled by a power of two.
 
 // Of each word of splats (src/prepare/level_words.rs) where its parents begin, and where the last one's end. Then, of each node, its own ball: center,
@@ -19,6 +23,8 @@ struct LevelView {
     vec3 eye;
     float share; // tau / focal
     float near;
+    float share_of_blended; // the same of the size up to which nodes are drawn beside those below them; share, unless BLENDED
+    float weight_of_share;  // one over the difference of both
 };
 
 // Behind all blocks, that of the last chunk first.
@@ -29,14 +35,50 @@ LevelView level_view()
         uintBitsToFloat(visible_blocks[first]),
         uintBitsToFloat(visible_blocks[first + 1]),
         uintBitsToFloat(visible_blocks[first + 2]));
-    return LevelView(eye, uintBitsToFloat(visible_blocks[first + 3]), uintBitsToFloat(visible_blocks[first + 4]));
+    return LevelView(
+        eye,
+        uintBitsToFloat(visible_blocks[first + 3]),
+        uintBitsToFloat(visible_blocks[first + 4]),
+        uintBitsToFloat(visible_blocks[first + 5]),
+        uintBitsToFloat(visible_blocks[first + 6]));
 }
 
-bool is_small(LevelView view, uint ball)
+// What a ball's spread is over to be a share of the focal length.
+float distance_of(LevelView view, uint ball)
 {
     vec3 from_eye = vec3(levels[ball], levels[ball + 1], levels[ball + 2]) - view.eye;
     float nearest = max(sqrt(precise_dot(from_eye, from_eye)) - levels[ball + 3], view.near);
-    return levels[ball + 4] <= view.share * (ORTHOGRAPHIC ? 1.0 : nearest);
+    return ORTHOGRAPHIC ? 1.0 : nearest;
+}
+
+bool is_small(LevelView view, float share, uint ball)
+{
+    return levels[ball + 4] <= share * distance_of(view, ball);
+}
+
+// F.
+float largeness(LevelView view, uint ball)
+{
+    return clamp((levels[ball + 4] / distance_of(view, ball) - view.share) * view.weight_of_share, 0.0, 1.0);
+}
+
+uint own_ball(uint index)
+{
+    return (frame.splat_count + WORD - 1) / WORD + 1 + BALL_FLOATS * index;
+}
+
+// The part that a splat has of the weight on its path.
+float weight_of_level(uint index)
+{
+    LevelView view = level_view();
+    uint parent = floatBitsToUint(levels[index / WORD]);
+    uint end = floatBitsToUint(levels[index / WORD + 1]) - (BALL_FLOATS + 1);
+    uint bit = 1u << (index % WORD);
+    while (parent < end && (floatBitsToUint(levels[parent + BALL_FLOATS]) & bit) == 0) {
+        parent += BALL_FLOATS + 1;
+    }
+    float of_parent = largeness(view, parent);
+    return LEVELS == LEVELS_NODES ? of_parent - largeness(view, own_ball(index)) : of_parent;
 }
 
 // Those of a word of splats that are drawn.
@@ -46,13 +88,12 @@ uint bits_of_level(uint word)
     uint end = floatBitsToUint(levels[word + 1]);
     uint bits = 0;
     for (uint parent = floatBitsToUint(levels[word]); parent < end; parent += BALL_FLOATS + 1) {
-        bits |= is_small(view, parent) ? 0 : floatBitsToUint(levels[parent + BALL_FLOATS]);
+        bits |= is_small(view, view.share, parent) ? 0 : floatBitsToUint(levels[parent + BALL_FLOATS]);
     }
     if (LEVELS == LEVELS_NODES) {
-        uint own = (frame.splat_count + WORD - 1) / WORD + 1 + BALL_FLOATS * WORD * word;
         for (uint rest = bits; rest != 0; rest &= rest - 1) {
             uint bit = findLSB(rest);
-            bits &= is_small(view, own + BALL_FLOATS * bit) ? 0xffffffffu : ~(1u << bit);
+            bits &= is_small(view, view.share_of_blended, own_ball(WORD * word + bit)) ? 0xffffffffu : ~(1u << bit);
         }
     }
     return bits;

@@ -21,6 +21,7 @@ layout(constant_id = SPEC_PACKED) const bool PACKED = false;
 layout(constant_id = SPEC_FINE) const bool FINE = false;
 layout(constant_id = SPEC_HALF_SUMS) const bool HALF_SUMS = false;
 layout(constant_id = SPEC_LEVELS) const uint LEVELS = LEVELS_NONE;
+layout(constant_id = SPEC_BLENDED) const bool BLENDED = false;
 layout(constant_id = SPEC_COVERAGE_EDGES) const bool COVERAGE_EDGES = false;
 layout(constant_id = SPEC_TWO_SIDED) const bool TWO_SIDED = false;
 

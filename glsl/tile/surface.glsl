@@ -35,6 +35,9 @@ SplatAttributes load_attributes(Splat splat)
     attributes.normal = vec3(r2.w, uintBitsToFloat(r3.xy));
     attributes.share = r2.z;
     attributes.own_part = COVERAGE_EDGES ? own_coverage(splat.uv) : vec2(0.0);
+    if (BLENDED) {
+        attributes.own_part *= attributes.alpha; // of what is opaque (tile_project.comp.glsl)
+    }
     return attributes;
 }
 

@@ -12,11 +12,24 @@ use crate::{
     graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
     passes::{self, Inputs, Place},
     prepare::PreparedScene,
-    scene::{Camera, Settings},
+    scene::{Camera, Settings, TileMemory},
     vk::{Buffer, BufferDesc, MemoryUse},
 };
 
 impl Headless {
+    /// How many splats a frame sets up, where it lists those that may be seen, as it does of levels of detail: draws it once. 0 where it
+    /// lists none.
+    ///
+    /// # Errors
+    /// As [`Self::list_occupancy`].
+    pub fn count_listed(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<u64> {
+        // In one band: splats that reach into two are in the lists of both.
+        let settings = Settings { tile_memory: TileMemory::Most(1 << 33), ..settings.clone() };
+        let in_use = self.list_occupancy(scene, camera, &settings)?;
+        let lists = in_use.bytes.iter().filter(|(name, _)| name.starts_with("list of visible"));
+        Ok(lists.map(|(_, bytes)| bytes / 4).sum())
+    }
+
     /// What the lists of a frame hold: draws it once, in memory of its own, and reads back the buffers that tell it.
     ///
     /// # Errors

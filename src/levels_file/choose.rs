@@ -35,6 +35,8 @@ pub struct PageView {
     near: f64,
     is_orthographic: bool,
     tau_px: f64,
+    /// Nodes are drawn up to so many times τ.
+    blended_size: f64,
     /// What any larger τ needs is needed, too.
     coarser: bool,
 }
@@ -62,8 +64,14 @@ impl PageView {
             near: camera.near().max(f64::MIN_POSITIVE),
             is_orthographic: camera.is_orthographic(),
             tau_px,
+            blended_size: 1.0,
             coarser: false,
         }
+    }
+
+    /// With nodes up to so many times τ, beside those below them ([`crate::scene::Settings::blended_size`]).
+    pub fn with_blended(self, blended_size: f64) -> Self {
+        Self { blended_size, ..self }
     }
 
     /// With what any larger size needs, too, of which a frame is to choose one.
@@ -117,7 +125,8 @@ impl PageView {
         let least = |balls: &Reach| at(distance - balls.reach) * (1.0 - RESERVE);
         let most = |balls: &Reach| at(distance + balls.far) * (1.0 + RESERVE);
         let some_parent_is_large = page.parent.spreads[1] > least(&page.parent);
-        let some_own_is_small = !page.nodes || self.coarser || page.own.spreads[0] <= most(&page.own);
+        let some_own_is_small =
+            !page.nodes || self.coarser || page.own.spreads[0] <= self.blended_size * most(&page.own);
         some_parent_is_large && some_own_is_small
     }
 }

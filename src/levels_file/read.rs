@@ -199,6 +199,7 @@ impl<R: Read + Seek> LevelsFile<R> {
             balls: Vec::with_capacity(sum(&|page| page.balls) + nodes),
             leaves: splats(header.ellipses, leaves),
             leaf_parents: Vec::with_capacity(leaves),
+            inverse_overlaps: None,
             nodes: splats(true, nodes),
             node_balls: Vec::with_capacity(nodes),
             weights: Vec::with_capacity(nodes),

@@ -189,10 +189,12 @@ impl Cut<'_, '_> {
         // So that a bar is there meanwhile.
         self.step(0);
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
+        let known = levels.and_then(|(leveled, _)| leveled.inverse_overlaps.clone());
         let inverse_overlaps = match levels {
             Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
             // Where splats meet polygons of the same surface, their sum is to fall toward their border.
-            _ if exact && !self.beside_polygons => Overlaps::of(splats).inverse,
+            _ if exact && !self.beside_polygons => known.unwrap_or_else(|| Overlaps::of(splats).inverse),
+            Some((leveled, _)) if known.is_some() => one_for_all(leveled.overlap),
             _ => one_for_all(Overlaps::of(splats).mean),
         };
         let both_sides = auto && exact && (transparent || !object.closed);

@@ -44,7 +44,8 @@ impl LevelWords {
         let of_block = parents.chunks(BLOCK_SPLATS as usize / WORD);
         let blocks = of_block.zip(numbers.chunks(BLOCK_SPLATS as usize)).enumerate();
         let blocks = blocks.map(|(block, (parents, numbers))| {
-            let parents: Vec<ErrorBall> = parents.iter().flatten().map(|(ball, _)| *ball).collect();
+            let parents = parents.iter().flatten().map(|(ball, children)| (*ball, children.count_ones()));
+            let parents: Vec<(ErrorBall, u32)> = parents.collect();
             let own = own.iter().skip(block * BLOCK_SPLATS as usize).take(numbers.len());
             let own: Vec<ErrorBall> = own.copied().collect();
             let half_axes = numbers.iter().map(|number| leveled.nodes.splats.major_radius(*number));

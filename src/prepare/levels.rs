@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::{
     geometry::hierarchy::by_spread,
     scene::{ErrorBall, LeveledObject, NodeBalls, Object, Opacity, Splats},
+    shaders::config::BLOCK_SPLATS,
 };
 
 /// The space in which balls are told.
@@ -38,7 +39,15 @@ pub struct BlockLevels {
     pub parent: BallBounds,
     /// No splat's larger half axis is more times its own ball's spread; 0 where they are the object's.
     pub longest: f64,
+    /// Of the splats' own spreads, from the least on, those at each [`RANK`]th place behind the first; infinite behind the last.
+    pub least_own: [f32; RANKS],
+    /// Of their parents', one for each splat, from the largest on, alike; 0 behind the last.
+    pub largest_parents: [f32; RANKS],
 }
+
+/// Places between spreads of a block that are kept, and how many these are.
+const RANK: usize = 16;
+pub const RANKS: usize = BLOCK_SPLATS as usize / RANK - 1;
 
 /// Bounds of balls around a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +68,8 @@ pub(super) struct Leveled {
     pub leaves: Object,
     /// Their parents' balls.
     leaf_parents: Vec<u32>,
+    /// One over the overlap of each, where it is known.
+    pub inverse_overlaps: Option<Vec<f32>>,
     /// The nodes.
     pub nodes: Object,
     /// Their balls and their parents'.
@@ -94,6 +105,10 @@ impl Leveled {
             space: LevelSpace { origin: object.origin, scale: unit.recip() },
             balls: object.balls.clone(),
             leaf_parents: leaves.iter().map(|i| object.leaf_parents[*i]).collect(),
+            inverse_overlaps: object
+                .inverse_overlaps
+                .as_ref()
+                .map(|inverse| leaves.iter().map(|i| inverse[*i]).collect()),
             leaves: of(object.leaves.picked(leaves.into_iter())),
             node_balls: nodes.iter().map(|i| object.node_balls[*i]).collect(),
             weights: nodes.iter().map(|i| object.weights[*i]).collect(),
@@ -132,17 +147,40 @@ impl Leveled {
 }
 
 impl BlockLevels {
-    /// Around the balls of some splats and their parents.
-    pub(super) fn around(own: &[ErrorBall], parents: &[ErrorBall], longest: f64) -> Self {
+    /// How many splats at most have own spreads up to the one length and parents' spreads above the other. `nodes`: they have own ones.
+    pub fn most_between(&self, nodes: bool, own: f64, parent: f64, count: u32) -> u32 {
+        let up_to = |place: Option<usize>| place.map_or(count, |place| ((place + 1) * RANK) as u32);
+        let of_own = self.least_own.iter().position(|spread| nodes && f64::from(*spread) > own);
+        let of_parents = self.largest_parents.iter().position(|spread| f64::from(*spread) <= parent);
+        up_to(of_own).min(up_to(of_parents)).min(count)
+    }
+
+    /// Around the balls of some splats and their parents, each with how many of these splats are its children.
+    pub(crate) fn around(own: &[ErrorBall], parents: &[(ErrorBall, u32)], longest: f64) -> Self {
+        let mut least: Vec<f32> = own.iter().map(|ball| ball.spread).collect();
+        least.sort_unstable_by(f32::total_cmp);
+        let each = |(ball, children): &(ErrorBall, u32)| std::iter::repeat_n(ball.spread, *children as usize);
+        let mut largest: Vec<f32> = parents.iter().flat_map(each).collect();
+        largest.sort_unstable_by(|a, b| b.total_cmp(a));
+        let at =
+            |spreads: &[f32], rank: usize, behind| spreads.get((rank + 1) * RANK).copied().unwrap_or(behind);
+        let parents: Vec<ErrorBall> = parents.iter().map(|(ball, _)| *ball).collect();
         // The root's parent is nowhere.
-        let balls = own.iter().chain(parents).filter(|ball| ball.spread.is_finite());
+        let balls = own.iter().chain(&parents).filter(|ball| ball.spread.is_finite());
         let [lo, hi] = balls.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], ball| {
             let place = ball.center.as_dvec3();
             [lo.min(place), hi.max(place)]
         });
         let center = if lo.is_finite() { 0.5 * (lo + hi) } else { DVec3::ZERO };
         let of = |balls: &[ErrorBall]| BallBounds::of(center, balls.iter());
-        Self { center, own: of(own), parent: of(parents), longest }
+        Self {
+            center,
+            own: of(own),
+            parent: of(&parents),
+            longest,
+            least_own: std::array::from_fn(|rank| at(&least, rank, f32::INFINITY)),
+            largest_parents: std::array::from_fn(|rank| at(&largest, rank, 0.0)),
+        }
     }
 }
 
@@ -164,6 +202,35 @@ impl BallBounds {
             Self { reach: 0.0, far: 0.0, spreads: [0.0; 2] }
         } else {
             bounds
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::{
+            Overlaps,
+            hierarchy::{Hierarchy, tests::models::random_ellipses},
+        },
+        scene::Object,
+    };
+
+    /// Found once of all splats, they stay with them: as found of the sorted ones, but for the mean, which is looked for at other places.
+    #[test]
+    fn overlaps_are_those_of_the_splats_as_they_lie() {
+        let object = |splats| Object { name: String::new(), splats, closed: false };
+        let splats = random_ellipses(2000, 1.0, 5);
+        let whole = Hierarchy::build(&splats, &()).unwrap().leveled(object(splats));
+        let leveled = Leveled::of(&whole);
+        let (known, found) =
+            (leveled.inverse_overlaps.unwrap(), Overlaps::of(&leveled.leaves.splats).inverse);
+        let ratio = f64::from(known[0] / found[0]);
+        assert!(known.iter().any(|overlap| (overlap / known[0] - 1.0).abs() > 0.2));
+        for (i, (known, found)) in known.iter().zip(&found).enumerate() {
+            let own = f64::from(known / found);
+            assert!((own / ratio - 1.0).abs() < 1e-5, "splat {i}: {own}, the first {ratio}");
         }
     }
 }

@@ -95,10 +95,10 @@ impl DrawnClip {
             return removes(&self.clip, place, ClipTest::Conic);
         }
         let removed = |curve: &ClipCurve| Curve::of(curve).kept_side(place, over_depth) < 0.0;
-        let curves = self.clip.curves().into_iter().flatten();
+        let mut curves = self.clip.curves().into_iter().flatten();
         match &self.clip {
-            Clip::Both(..) => curves.map(removed).all(|removed| removed),
-            _ => curves.map(removed).any(|removed| removed),
+            Clip::Both(..) => curves.all(removed),
+            _ => curves.any(removed),
         }
     }
 

@@ -6,7 +6,7 @@ use crate::{
     graph::{Access, PassKind, Plan, ResourceDesc},
     passes,
     prepare::PreparedScene,
-    scene::{Budget, Camera, OptionValue as _, Settings},
+    scene::{Budget, Camera, Lod, OptionValue as _, Settings},
 };
 
 /// What a scene, a camera and settings made of a frame, and why. Lengths are in pixels, memory in bytes.
@@ -191,14 +191,19 @@ impl Renderer {
 
 /// `settings`: those with the size for their budget.
 fn levels(draws: &[passes::Draw<'_>], settings: &Settings) -> Option<String> {
-    let tau_px = settings.lod.tau_px(settings.size_px);
+    let tau_px = settings.tau_px();
     let has_any = draws.iter().any(|draw| draw.levels.is_some());
     has_any.then(|| {
-        let why = match settings.budget {
-            Budget::Unlimited => String::new(),
-            Budget::Splats(most) => format!(", for --budget {most}"),
+        let why = match (settings.lod, settings.budget) {
+            (Lod::Auto, _) => ": the default of what has levels of detail (--lod)".to_owned(),
+            (_, Budget::Splats(most)) => format!(", for --budget {most}"),
+            (_, Budget::Unlimited) => String::new(),
         };
-        format!("splats that spread by up to {tau_px:.3} px on the screen are drawn as one{why}")
+        let blended = match draws.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends()) {
+            true => format!(", blended up to {:.3} px", tau_px * settings.blended_size()),
+            false => String::new(),
+        };
+        format!("splats that spread by up to {tau_px:.3} px on the screen are drawn as one{blended}{why}")
     })
 }
 

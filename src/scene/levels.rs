@@ -47,6 +47,8 @@ pub struct LeveledObject {
     pub leaves: Splats,
     /// The number of each one's parent's ball.
     pub leaf_parents: Vec<u32>,
+    /// One over each one's overlap, where it is known from all of the object's splats.
+    pub inverse_overlaps: Option<Vec<f32>>,
     /// Splats that stand for others, alike.
     pub nodes: Splats,
     /// The numbers of each one's own ball and its parent's.

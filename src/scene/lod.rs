@@ -3,8 +3,11 @@
 use super::OptionValue;
 
 /// The largest size on the screen, τ, of a splat that is drawn in place of those below it (Pajarola, Sainz, Guidotti 2003, section 5.1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Lod {
+    /// One pixel, of what has levels of detail; none are made for it. With a [`super::Budget`], what that leaves.
+    #[default]
+    Auto,
     /// So many pixels, at least 0: how far the centers spread of what the splat stands for, the root of their mean squared distance from its own. One
     /// pixel is as far as the low-pass filter spreads what it sees. With 0, what is drawn is the scene itself.
     Px(f64),
@@ -14,8 +17,9 @@ pub enum Lod {
 
 impl Lod {
     /// In pixels, of a picture of this size.
-    pub fn tau_px(self, size_px: [u32; 2]) -> f64 {
+    pub(super) fn tau_px(self, size_px: [u32; 2]) -> f64 {
         match self {
+            Self::Auto => 1.0,
             Self::Px(px) => px,
             Self::Percent(percent) => {
                 let area = size_px.map(f64::from).iter().product::<f64>() * percent / 100.0;
@@ -26,22 +30,15 @@ impl Lod {
 
     /// Whether a scene has to have levels of detail for it.
     pub fn wants_levels(self) -> bool {
-        let (Self::Px(tau) | Self::Percent(tau)) = self;
-        tau > 0.0
+        matches!(self, Self::Px(tau) | Self::Percent(tau) if tau > 0.0)
     }
 }
 
-impl Default for Lod {
-    /// The scene itself.
-    fn default() -> Self {
-        Self::Px(0.0)
-    }
-}
-
-/// `1px`, `1`, `0.01%`.
+/// `auto`, `1px`, `1`, `0.01%`.
 impl OptionValue for Lod {
     fn word(&self) -> String {
         match self {
+            Self::Auto => "auto".to_owned(),
             Self::Px(px) if *px == 0.0 => "0".to_owned(),
             Self::Px(px) => format!("{px}px"),
             Self::Percent(percent) => format!("{percent}%"),
@@ -49,19 +46,24 @@ impl OptionValue for Lod {
     }
 
     fn parse(word: &str) -> Result<Self, String> {
+        if word == "auto" {
+            return Ok(Self::Auto);
+        }
         let parsed = match word.strip_suffix('%') {
             Some(percent) => percent.parse().map(Self::Percent),
             None => word.strip_suffix("px").unwrap_or(word).parse().map(Self::Px),
         };
-        parsed
-            .map_err(|_| "expected pixels, such as 1px, or percent of the picture, such as 0.01%".to_owned())
+        parsed.map_err(|_| {
+            "expected auto, pixels, such as 1px, or percent of the picture, such as 0.01%".to_owned()
+        })
     }
 
     fn check(&self) -> Result<(), String> {
-        let (Self::Px(tau) | Self::Percent(tau)) = self;
-        match *tau >= 0.0 && tau.is_finite() {
-            true => Ok(()),
-            false => Err(format!("{}: expected a finite number, at least 0", self.word())),
+        match self {
+            Self::Px(tau) | Self::Percent(tau) if !(*tau >= 0.0 && tau.is_finite()) => {
+                Err(format!("{}: expected a finite number, at least 0", self.word()))
+            }
+            _ => Ok(()),
         }
     }
 }
@@ -82,9 +84,10 @@ mod tests {
         for lod in [Lod::Px(-1.0), Lod::Px(f64::NAN), Lod::Percent(f64::INFINITY)] {
             assert!(lod.check().is_err(), "{lod:?}");
         }
-        for lod in [Lod::default(), Lod::Px(1.5), percent] {
+        for lod in [Lod::default(), Lod::Px(0.0), Lod::Px(1.5), percent] {
             assert_eq!(Lod::parse(&lod.word()), Ok(lod));
         }
-        assert!(Lod::Px(1.0).wants_levels() && !Lod::default().wants_levels());
+        assert!(Lod::Px(1.0).wants_levels());
+        assert!(!Lod::Px(0.0).wants_levels() && !Lod::default().wants_levels());
     }
 }

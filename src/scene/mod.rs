@@ -13,9 +13,11 @@ mod crop;
 mod encoding;
 mod gather;
 mod layers;
+mod level_settings;
 mod levels;
 mod light;
 mod lod;
+mod lod_steps;
 mod mesh;
 mod methods;
 mod opacity;
@@ -42,6 +44,7 @@ pub use layers::{Layers, MOST_LAYERS};
 pub use levels::{ErrorBall, LeveledObject, NodeBalls};
 pub use light::{Light, LightKind, MOST_LIGHTS};
 pub use lod::Lod;
+pub use lod_steps::LodSteps;
 pub use mesh::Mesh;
 pub use methods::{
     Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,

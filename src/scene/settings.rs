@@ -1,7 +1,8 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
 use super::{
-    Budget, Camera, Layers, Light, Lod, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes, TileMemory,
+    Budget, Camera, Layers, Light, Lod, LodSteps, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes,
+    TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -46,10 +47,13 @@ settings! {
         /// The precision of the sums; the reference sums in 64 bits whatever is given here.
         "accumulate" "TYPE" accumulate: Accumulate,
         /// The largest size on the screen of a splat that stands for those below it in a hierarchy, which is made of each object then: pixels, such
-        /// as 1px, or percent of the picture; 0 draws the scene itself. One pixel is as far as the filter spreads what it sees. For `render`, by
-        /// `compute` and as opaque points; what else draws all splats. The reference draws the scene itself.
-        "lod" "PX|PERCENT%" lod: Lod,
-        /// The most splats that are drawn of objects in levels of detail, such as 250k, of which about 99% are used; never finer than `lod`.
+        /// as 1px, or percent of the picture; 0 draws the scene itself. One pixel is as far as the filter spreads what it sees. `auto` is 1px of what has a
+        /// hierarchy already (.surfel), and else the scene itself. For `render`, by `compute` and as opaque points; what else draws all splats. The reference
+        /// draws the scene itself.
+        "lod" "auto|PX|PERCENT%" lod: Lod,
+        /// How nodes take the place of those below them, as a camera moves away.
+        "lod-steps" "HOW" lod_steps: LodSteps,
+        /// The most splats that are drawn of objects in levels of detail, such as 250k, of which about 99% are used; never finer than a `lod` that is given.
         "budget" "N|none" budget: Budget,
         /// How far behind the nearest splat others belong to the same surface: multiples of a splat's radius, such as 1r, or a
         /// length; `auto` is 1r, of what is transparent 2r, and less where the other side of something thin is near.
@@ -95,11 +99,6 @@ impl Settings {
             return Err(Error::option("--filter", problem));
         }
         Ok(())
-    }
-
-    /// Whether a scene has to have levels of detail for it.
-    pub fn wants_levels(&self) -> bool {
-        self.lod.wants_levels() || self.budget != Budget::Unlimited
     }
 
     /// The option that rules out tiles (`--rasterizer compute`), and why it does, as a part of a sentence.

@@ -16,6 +16,27 @@ fn bench(folder: &Folder, words: &[&str]) -> Run {
 /// Frames come in pairs, and an interval takes 6 of them.
 const TABLE1: [&str; 5] = ["table1", "--splats", "500,1k", "--frames", "12"];
 
+/// The fewer are drawn the larger they may be, beside the paper's table; what is counted is judged.
+#[test]
+fn levels_of_detail_are_measured_over_tolerances() {
+    let folder = Folder::new();
+    let run =
+        bench(&folder, &["p2", "--splats", "20k", "--frames", "6", "--json", "p2.json", "--csv", "tables"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let json = folder.json("p2.json");
+    let rows = json["p2"]["rows"].as_array().unwrap();
+    let names: Vec<_> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["0", "1px", "2px", "0.001%", "0.01%", "0.12%"]);
+    let drawn: Vec<_> = rows.iter().map(|row| row["drawn"].as_u64().unwrap()).collect();
+    assert!(drawn[0] > drawn[1] && drawn[1] > drawn[2] && drawn[2] > 10, "{drawn:?}");
+    assert!(json["gate"].to_string().contains("p2, 2px, splats"), "{}", json["gate"]);
+    let table = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+    assert!(table("tables/p2.csv").starts_with("tolerance,px,splats,LOD ms,splatting ms"));
+    let error = |row: usize| rows[row]["error"]["rms"].as_f64().unwrap();
+    assert!(error(0) == 0.0 && error(1) > 0.0 && error(2) > error(1), "{rows:?}");
+    assert!(table("tables/p2-paper.csv").contains("David"));
+}
+
 #[test]
 fn the_floor_is_measured_in_turn_with_the_passes() {
     let folder = Folder::new();

@@ -24,7 +24,7 @@ fn folder(splats: &str) -> Folder {
 
 fn picture(folder: &Folder, arguments: &[&str]) -> (Vec<u8>, String) {
     let drawn = done(folder, &[&["render", "-o", "picture.png"], &SMALL[..], arguments].concat());
-    (png(&folder.path("picture.png")).pixels, drawn.stderr)
+    (png(&folder.path("picture.png")).pixels, drawn.stderr + &drawn.stdout)
 }
 
 fn farthest(a: &[u8], b: &[u8]) -> Option<u8> {
@@ -52,6 +52,66 @@ fn what_is_drawn_of_a_file_is_what_is_drawn_of_its_splats() {
     {
         assert!(info.contains(words), "{words}: {info}");
     }
+}
+
+/// With levels a pixel is the default, and leaves where it is 0; without levels the splats themselves. What draws no levels draws all splats.
+#[test]
+fn a_pixel_is_the_default_where_there_are_levels() {
+    let folder = folder("200k");
+    done(&folder, &["convert", "splats.ply", "a.surfel"]);
+    let explained = |arguments: &[&str]| {
+        let (bytes, told) = picture(&folder, &[arguments, &["--explain", "--edges", "hard"]].concat());
+        let splats =
+            told.rsplit_once(" pages, ").and_then(|(_, rest)| rest.split_once(": ")?.1.split_once(' '));
+        (bytes, told.clone(), splats.and_then(|(number, _)| number.parse::<u32>().ok()))
+    };
+    let said = "splats that spread by up to 1.000 px on the screen are drawn as one";
+    let because = "the default of what has levels of detail (--lod)";
+    let (default, told, _) = explained(&["a.surfel"]);
+    assert!(told.contains(&format!("{said}: {because}")), "{told}");
+    let (asked, told, _) = explained(&["a.surfel", "--lod", "1px"]);
+    assert!(told.contains(said) && !told.contains(because), "{told}");
+    assert_eq!(default, asked);
+    let (leaves, told, read) = explained(&["a.surfel", "--lod", "0"]);
+    assert!(!told.contains("drawn as one") && read == Some(200_000), "{told}");
+    assert_ne!(default, leaves);
+    let (splats, told, _) = explained(&["splats.ply"]);
+    assert!(!told.contains("drawn as one"), "{told}");
+    assert!(farthest(&splats, &leaves) <= Some(1));
+    let (quads, told, read) = explained(&["a.surfel", "--rasterizer", "quad"]);
+    assert!(!told.contains("drawn as one") && read == Some(200_000), "{told}");
+    assert_eq!(quads, explained(&["a.surfel", "--rasterizer", "quad", "--lod", "0"]).0);
+}
+
+/// Filled from memory and from a file, and told; what is no number is refused in one line, by `bench`, too.
+#[test]
+fn a_budget_is_filled_and_what_is_none_is_refused() {
+    let folder = folder("60k");
+    done(&folder, &["convert", "splats.ply", "a.surfel"]);
+    for (file, most) in [("splats.ply", 500_u64), ("splats.ply", 3000), ("a.surfel", 3000)] {
+        let (_, told) = picture(&folder, &[file, "--budget", &most.to_string(), "--explain"]);
+        let words = format!("px on the screen are drawn as one, for --budget {most}");
+        assert!(told.contains(&words), "{told}");
+        let drawn = told.split_once("; ").and_then(|(_, rest)| rest.split_once(" splats are set up"));
+        let drawn: u64 = drawn.and_then(|(drawn, _)| drawn.rsplit(' ').next()?.parse().ok()).unwrap();
+        assert!(drawn <= most && 100 * drawn >= 97 * most, "{file}: {drawn} of {most}");
+    }
+    let refused = |arguments: &[&str], words: &str| {
+        let run = surfel(&folder, arguments);
+        assert!(run.code == 1 && run.stderr.contains(words), "{}", run.stderr);
+        assert_eq!(run.stderr.trim_end().lines().count(), 1, "{}", run.stderr);
+    };
+    for word in ["0", "-5", "many", "1.2.3", "5e20", "NaN", ""] {
+        refused(
+            &["render", "splats.ply", "--budget", word],
+            "expected none, or a number of splats from 1 on",
+        );
+    }
+    for word in ["-1", "inf", "wide", "1pixel"] {
+        refused(&["render", "splats.ply", "--lod", word], "expected");
+    }
+    refused(&["bench", "growth", "--budget", "0"], "expected none, or a number of splats from 1 on");
+    refused(&["bench", "table1", "--budget", "5k"], "only growth draws levels of detail");
 }
 
 #[test]

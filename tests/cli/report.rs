@@ -8,7 +8,7 @@ use super::{
 };
 
 /// The parts of the page, by their names in links and in the JSON.
-const PARTS: [(&str, &str); 10] = [
+const PARTS: [(&str, &str); 11] = [
     ("pictures", "Pictures"),
     ("methods", "Methods: speed against error"),
     ("distance", "Filters over distance"),
@@ -17,6 +17,7 @@ const PARTS: [(&str, &str); 10] = [
     ("tables", "The paper's tables"),
     ("layers", "Transparent layers"),
     ("transition", "From splats to polygons"),
+    ("levels", "Levels of detail"),
     ("counts", "Instructions"),
     ("stability", "Numerical stability"),
 ];

@@ -3,12 +3,15 @@
 use crate::common::{PICTURE, assert_same_bits, passes, render_as, scenes, shared, with};
 use glam::DVec3;
 use surfel::{
-    geometry::hierarchy::{Hierarchy, Projection},
+    geometry::hierarchy::{Hierarchy, Levels, Projection},
     hard_scenes::{Hard, transparent},
     load::builtin,
     math::random::SplitMix,
-    renderer::{Frame, Headless},
-    scene::{Accumulate, Backfaces, Budget, Camera, Cull, Edges, Lod, Rasterizer, Settings, TileInvocations},
+    renderer::{Frame, Headless, Wanted},
+    scene::{
+        Accumulate, Backfaces, Budget, Camera, Cull, Edges, Lod, LodSteps, Rasterizer, Settings,
+        TileInvocations,
+    },
 };
 
 /// A ball of many splats in a small picture, drawn by levels of this size.
@@ -56,6 +59,77 @@ fn what_is_drawn_is_what_the_hierarchy_selects() {
         drawn.push(found);
     }
     assert!(drawn.iter().any(|drawn| *drawn < 200) && drawn.iter().any(|drawn| *drawn > 10_000), "{drawn:?}");
+}
+
+/// What has a weight, and nothing else: nodes from half an octave above τ on, and those below them until the node is no larger than τ.
+#[test]
+fn what_is_blended_is_what_has_a_weight() {
+    let mut headless = shared();
+    let mut random = SplitMix(6);
+    let mut hard = with(&ball(20_000, 1.0), |settings| {
+        (settings.backfaces, settings.lod_steps) = (Backfaces::Flip, LodSteps::Blend);
+    });
+    let hierarchy = Hierarchy::build(&hard.scene.objects[0].splats, &()).unwrap();
+    let mut blended = 0;
+    for (round, tau_px) in [0.5, 1.0, 2.0, 8.0].into_iter().cycle().take(16).enumerate() {
+        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let orthographic_height = (round % 3 == 2).then_some(4.0);
+        hard.camera =
+            Camera { eye: (4.0 + 6.0 * random.unit()) * direction, orthographic_height, ..hard.camera };
+        hard.settings.lod = Lod::Px(tau_px);
+        let projection = Projection::of_camera(&hard.camera, hard.settings.size_px[1], &hierarchy);
+        // With both bounds moved by as much.
+        let count = |room: f64| {
+            let sizes = (tau_px * room, LodSteps::BLENDED / room.powi(2));
+            let has_weight = |levels: Levels| projection.weight(&levels, sizes.0, sizes.1) > 0.0;
+            let nodes = (0..hierarchy.tree.len()).filter(|&i| has_weight(hierarchy.node_levels(i))).count();
+            (nodes + (0..hierarchy.order.len()).filter(|&i| has_weight(hierarchy.leaf_levels(i))).count())
+                as u64
+        };
+        let near = [1.0 - 1e-5, 1.0 + 1e-5].map(count);
+        let found = listed(&mut headless, &hard);
+        let hard_steps = with(&hard, |settings| settings.lod_steps = LodSteps::Hard);
+        let without = listed(&mut headless, &hard_steps);
+        println!("round {round}: {tau_px} px, {found} drawn, {near:?} have a weight; {without} without");
+        assert!(near[1] <= found && found <= near[0], "round {round}: {found} of {near:?}");
+        assert!(without <= found, "round {round}: {found}, {without} without");
+        blended += found - without;
+    }
+    assert!(blended > 1000, "{blended}");
+}
+
+/// What a step of 0.25% toward a model does to sizes, as the same step of τ does: few pixels leap by more than 2 of 255 where levels blend, and next to
+/// none by more than 16.
+#[test]
+fn little_leaps_where_levels_blend() {
+    let mut headless = shared();
+    let size_px = [256, 256];
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![builtin::relief(100_000)];
+    (hard.settings.size_px, hard.settings.background) = (size_px, Some([1.0; 3]));
+    hard.camera = Camera::fit(&hard.scene.ball().unwrap(), size_px, Camera::DEFAULT_FOV_Y_RAD);
+    hard.scene.levels = true;
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let wanted = Wanted { linear: false, ..PICTURE };
+    let mut leaps = |steps: LodSteps| {
+        let mut last: Vec<[u8; 4]> = Vec::new();
+        let mut leaps = [0_usize; 2];
+        for step in 0..13 {
+            let lod = Lod::Px(1.0025_f64.powi(step));
+            let settings = Settings { lod, lod_steps: steps, ..hard.settings.clone() };
+            let picture = headless.render(&prepared, &hard.camera, &settings, wanted).unwrap().srgb;
+            for (a, b) in last.iter().zip(&picture) {
+                let most = (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap();
+                leaps[0] += usize::from(most > 2);
+                leaps[1] += usize::from(most > 16);
+            }
+            last = picture;
+        }
+        leaps
+    };
+    let (hard_steps, blended) = (leaps(LodSteps::Hard), leaps(LodSteps::Blend));
+    println!("pixels that leap by more than 2, and than 16: {hard_steps:?}, blended {blended:?}");
+    assert!(hard_steps[0] > 4 * blended[0] && hard_steps[1] > 4 * blended[1], "{hard_steps:?} {blended:?}");
 }
 
 /// In linear light, over nothing: alpha too.
@@ -123,6 +197,83 @@ fn nothing_shows_through_a_surface_of_nodes() {
         println!("{tau_px} px: {thin} of {} show what is behind", inside.len());
         assert!(10_000 * thin <= 5 * inside.len(), "{tau_px}: {thin} of {}", inside.len());
     }
+}
+
+/// Of pixels that the scene covers wholly, with all around them up to τ away, those of which a level shows half or less, and how many there are: from so
+/// many random views outside of a model, for sizes τ. What is merged is displaced by so much, and silhouettes with it.
+fn holes(views: usize, sizes_px: &[f64], steps: LodSteps) -> Vec<[usize; 2]> {
+    let mut headless = shared();
+    let mut random = SplitMix(21);
+    let mut hard = ball(1, 0.0);
+    hard.scene.objects = vec![builtin::relief(200_000)];
+    hard.scene.levels = true;
+    (hard.settings.size_px, hard.settings.lod_steps) = ([256, 256], steps);
+    let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
+    let whole = hard.scene.ball().unwrap();
+    let mut found = vec![[0, 0]; sizes_px.len()];
+    for round in 0..views {
+        let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+        let eye = whole.center + (1.2 + 3.0 * random.unit()) * whole.radius * direction;
+        let orthographic_height = (round % 5 == 4).then_some(1.5 * whole.radius);
+        let camera = Camera { eye, target: whole.center, orthographic_height, ..Camera::default() };
+        let mut alphas = |tau_px: f64| -> Vec<f32> {
+            let settings = Settings { lod: Lod::Px(tau_px), ..hard.settings.clone() };
+            let frame = headless.render(&prepared, &camera, &settings, PICTURE).unwrap();
+            frame.linear.iter().map(|pixel| pixel[3]).collect()
+        };
+        let scene = alphas(0.0);
+        for (found, tau_px) in found.iter_mut().zip(sizes_px) {
+            let level = alphas(*tau_px);
+            let inside = inside(&scene, hard.settings.size_px[0] as usize, tau_px.ceil() as usize);
+            found[0] += inside.iter().filter(|pixel| level[**pixel] <= 0.5).count();
+            found[1] += inside.len();
+        }
+    }
+    for (found, tau_px) in found.iter().zip(sizes_px) {
+        println!(
+            "{views} views, {steps:?}, {tau_px} px: {} of {} covered pixels are missing",
+            found[0], found[1]
+        );
+    }
+    found
+}
+
+/// The pixels of a picture so many pixels wide with none within `reach` along rows and columns that is not covered wholly.
+fn inside(alphas: &[f32], width: usize, reach: usize) -> Vec<usize> {
+    // Sums of pixels that are not, above and to the left.
+    let (row, height) = (width + 1, alphas.len() / width);
+    let mut open = vec![0_u32; row * (height + 1)];
+    for (i, alpha) in alphas.iter().enumerate() {
+        let at = (i / width + 1) * row + i % width + 1;
+        open[at] = open[at - 1] + open[at - row] - open[at - row - 1] + u32::from(*alpha < 0.999);
+    }
+    let is_inside = |i: &usize| {
+        let (x, y) = (i % width, i / width);
+        let (left, top) = (x.saturating_sub(reach), y.saturating_sub(reach));
+        let (right, bottom) = ((x + reach + 1).min(width), (y + reach + 1).min(height));
+        open[bottom * row + right] + open[top * row + left]
+            == open[bottom * row + left] + open[top * row + right]
+    };
+    (0..alphas.len()).filter(is_inside).collect()
+}
+
+#[test]
+fn levels_have_no_holes() {
+    for steps in [LodSteps::Hard, LodSteps::Blend] {
+        let found = holes(6, &[1.0, 2.0, 4.0], steps);
+        let few = |[missing, covered]: &[usize; 2]| 50_000 * missing <= *covered && *covered > 10_000;
+        assert!(found.iter().all(few) && found[0][0] == 0, "{found:?}");
+    }
+}
+
+/// Minutes.
+#[test]
+#[ignore = "minutes: 200 views for each of eight sizes"]
+fn levels_have_no_holes_from_200_views() {
+    let found = holes(200, &[0.5, 0.7, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0], LodSteps::Hard);
+    // A flat ellipse can't stand for what bends where it is seen from beyond 45 degrees (DECISIONS.md): single pixels from 2 pixels on.
+    assert!(found.iter().all(|[missing, covered]| 200_000 * missing < *covered), "{found:?}");
+    assert!(found[..3].iter().all(|[missing, _]| *missing == 0), "{found:?}");
 }
 
 /// With a size of 0 the scene itself is drawn, also where it has levels: without a pass, and without a bit, that it has not by itself.
@@ -225,6 +376,7 @@ fn a_budget_is_kept_and_filled() {
             orthographic_height,
             ..Camera::default()
         };
+        hard.settings.lod_steps = if round % 2 == 0 { LodSteps::Hard } else { LodSteps::Blend };
         for most in [4_000, 20_000, 60_000] {
             let in_use = |settings: &Settings| {
                 let in_use = headless.list_occupancy(&prepared, &hard.camera, settings).unwrap();

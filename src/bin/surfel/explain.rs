@@ -4,15 +4,15 @@ use std::fmt::Write as _;
 
 use surfel::renderer::{ExplainedChunk, ExplainedMesh, Explanation};
 
-/// The whole explanation.
-pub fn text(explanation: &Explanation) -> String {
+/// The whole explanation. `listed`: how many splats are drawn of levels of detail, where that was counted.
+pub fn text(explanation: &Explanation, listed: Option<u64>) -> String {
     let mut text = String::new();
     // Writing to a string can't fail.
-    let _ = write(&mut text, explanation);
+    let _ = write(&mut text, explanation, listed);
     text
 }
 
-fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
+fn write(text: &mut String, explanation: &Explanation, listed: Option<u64>) -> std::fmt::Result {
     let Explanation { chunks, meshes, passes, culled, pipelines, .. } = explanation;
     let splat_bytes: u64 = chunks.iter().map(|chunk| chunk.bytes).sum();
     writeln!(text, "splats: {} chunk(s), {splat_bytes} bytes", chunks.len())?;
@@ -32,7 +32,8 @@ fn write(text: &mut String, explanation: &Explanation) -> std::fmt::Result {
         }
     }
     if let Some(levels) = &explanation.levels {
-        writeln!(text, "levels of detail: {levels}")?;
+        let listed = listed.map_or_else(String::new, |listed| format!("; {listed} splats are set up"));
+        writeln!(text, "levels of detail: {levels}{listed}")?;
     }
     writeln!(text, "passes: {}", passes.len())?;
     for pass in passes {

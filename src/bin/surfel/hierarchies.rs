@@ -93,19 +93,17 @@ fn report(file: &LevelsFile) -> InputReport {
 /// # Errors
 /// As [`LevelsFile::load`].
 pub fn load(
-    files: Vec<LevelsFile>,
+    files: &mut [LevelsFile],
     scene: &mut Scene,
     (camera, settings): (&Camera, &Settings),
     arguments: &HierarchyArguments,
     bars: &Bars,
 ) -> Result<Settings> {
-    let mut files = files;
-    let asked_px = settings.lod.tau_px(settings.size_px);
+    let asked_px = settings.tau_px();
     let Budget::Splats(most) = settings.budget else {
-        let Read { objects, lines, tau_px } =
-            load_for(&mut files, (camera, settings, asked_px), arguments, bars)?;
+        let Read { objects, lines, tau_px } = load_for(files, (camera, settings, asked_px), arguments, bars)?;
         lines.iter().for_each(|line| console::say(line));
-        scene.leveled.extend(objects);
+        scene.leveled = objects;
         if tau_px > asked_px {
             console::say(&format!(
                 "--budget-memory does not suffice for --lod {asked_px:.3}px: drawn with --lod {tau_px:.3}px"
@@ -118,11 +116,11 @@ pub fn load(
     let mut tau_px = COARSE_PX.max(asked_px);
     loop {
         let Read { objects, lines, tau_px: read_px } =
-            load_for(&mut files, (camera, settings, tau_px), arguments, bars)?;
+            load_for(files, (camera, settings, tau_px), arguments, bars)?;
         let drawn = count_drawn(&objects, camera, settings, read_px);
         if drawn >= most.into() || tau_px <= asked_px || read_px > tau_px {
             lines.iter().for_each(|line| console::say(line));
-            scene.leveled.extend(objects);
+            scene.leveled = objects;
             return Ok(Settings { lod: Lod::Px(read_px), ..settings.clone() });
         }
         let step = (drawn as f64 / f64::from(most)).sqrt().clamp(0.125, 0.9);
@@ -151,7 +149,7 @@ fn load_for(
     bars: &Bars,
 ) -> Result<Read> {
     let view = |tau_px: f64| {
-        let view = PageView::new(camera, settings.size_px, tau_px);
+        let view = PageView::new(camera, settings.size_px, tau_px).with_blended(settings.blended_size());
         if settings.budget == Budget::Unlimited { view } else { view.with_coarser() }
     };
     let all: u64 = files.iter().map(|file| file.header().splats).sum();

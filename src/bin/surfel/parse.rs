@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
-use surfel::scene::OptionValue as _;
+use surfel::scene::{Lod, OptionValue as _};
 
 /// `1024x768`: width and height in pixels.
 pub fn size(word: &str) -> Result<[u32; 2], String> {
@@ -45,6 +45,12 @@ where
         let number = number.filter(|number| range.contains(number));
         number.ok_or_else(|| format!("expected a whole number, {} to {}", range.start(), range.end()))
     }
+}
+
+/// A tolerance of levels of detail.
+pub fn tolerance(word: &str) -> Result<Lod, String> {
+    let lod = Lod::parse(word)?;
+    lod.check().map(|()| lod)
 }
 
 /// A number of splats, 1 to 2³² − 1, such as `460000`, `460k` or `1.4M`.

@@ -129,7 +129,8 @@ mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
         Accumulate, Backfaces, Budget, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval,
-        LastLayer, Layers, Lod, Rasterizer, Samples, Shading, TileInvocations, TileMemory, Transition,
+        LastLayer, Layers, Lod, LodSteps, Rasterizer, Samples, Shading, TileInvocations, TileMemory,
+        Transition,
     };
 
     use super::*;
@@ -160,6 +161,7 @@ mod tests {
             kernel_eval: KernelEval::Texture,
             cull: Cull::List,
             lod: Lod::Percent(0.25),
+            lod_steps: LodSteps::Blend,
             budget: Budget::Splats(250_000),
             accumulate: Accumulate::F32,
             epsilon: Epsilon::Length(0.25),

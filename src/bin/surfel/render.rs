@@ -7,7 +7,7 @@ use surfel::{
     Result,
     renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Budget, CropView, Epsilon, Settings, Storage},
+    scene::{Ball, Budget, CropView, Epsilon, Lod, Settings, Storage},
 };
 
 use crate::{
@@ -111,21 +111,30 @@ fn draw(
     // What belongs to no scene was checked before it was loaded.
     let settings = &Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
     let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
-    let Loaded { mut scene, inputs, steps: loading, ball, hierarchies: files, .. } = loaded;
+    let Loaded { mut scene, inputs, steps: loading, ball, hierarchies: mut files, .. } = loaded;
     steps.0.extend(loading);
-    let has_hierarchies = !files.is_empty();
-    let settings = &steps.time("read pages", || {
-        hierarchies::load(files, &mut scene, (&camera, settings), &arguments.hierarchies, &bars)
-    })?;
-    settings.check_scene(&scene)?; // names the object, which the renderer does not know
     scene.storage = arguments.storage.over(Storage::default());
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     scene.levels = settings.wants_levels();
     scene.budget = settings.budget != Budget::Unlimited;
-    let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
-    if has_hierarchies {
-        headless.renderer.check_levels(&prepared, &camera, settings)?;
-    }
+    let mut asked = settings.clone();
+    let (settings, prepared) = loop {
+        let settings = steps.time("read pages", || {
+            hierarchies::load(&mut files, &mut scene, (&camera, &asked), &arguments.hierarchies, &bars)
+        })?;
+        settings.check_scene(&scene)?; // names the object, which the renderer does not know
+        let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
+        let checked = match files.is_empty() {
+            true => Ok(()),
+            false => headless.renderer.check_levels(&prepared, &camera, &settings),
+        };
+        match checked {
+            // Where nobody asked for a level, what draws none draws all splats.
+            Err(_) if settings.lod == Lod::Auto => asked.lod = Lod::Px(0.0),
+            checked => break checked.map(|()| (settings, prepared))?,
+        }
+    };
+    let settings = &settings;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };
@@ -188,7 +197,10 @@ fn write(
     }
     let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
     if arguments.explain {
-        return console::print(&explain::text(&explanation));
+        let has_levels = explanation.levels.is_some();
+        let count = || headless.count_listed(view.scene, view.camera, view.settings);
+        let listed = has_levels.then(count).transpose()?;
+        return console::print(&explain::text(&explanation, listed));
     }
     explanation.beyond_f32.iter().for_each(|note| console::say(note));
     Ok(())

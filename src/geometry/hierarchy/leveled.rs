@@ -43,6 +43,7 @@ impl Hierarchy {
             node_balls: own.map(|(own, node)| NodeBalls { own, parent: node.parent.min(above) }).collect(),
             leaves: splats.picked(self.order.iter().map(|i| *i as usize)),
             leaf_parents: self.leaf_parents.iter().map(|parent| (*parent).min(above)).collect(),
+            inverse_overlaps: Some(self.order.iter().map(|i| overlaps.inverse[*i as usize]).collect()),
             balls,
             nodes: self.nodes,
             weights,

@@ -74,6 +74,14 @@ impl Projection {
         }
     }
 
+    /// Where nodes blend with those below them from `blended_size` times `tau_px` on, above 1: the part of the weight on its path that what
+    /// has these levels has, 0 where it is not drawn. It is what its parent is larger than it, of sizes that are 0 up to τ and 1 where
+    /// nothing so large is drawn: on a path these differences add up to 1.
+    pub fn weight(&self, levels: &Levels, tau_px: f64, blended_size: f64) -> f64 {
+        let part = |ball| ((self.size_px(ball) / tau_px - 1.0) / (blended_size - 1.0)).clamp(0.0, 1.0);
+        part(&levels.parent) - part(&levels.own)
+    }
+
     /// Whether what has these levels is drawn for a largest size of `tau_px`, at least 0.
     pub fn draws(&self, levels: &Levels, tau_px: f64) -> bool {
         self.size_px(&levels.own) <= tau_px && self.size_px(&levels.parent) > tau_px

@@ -81,7 +81,10 @@ fn potentially_visible(
     let of_chunk = box_within_px(look.bound, largest_radius, most_x);
     Some(PotentiallyVisibleBlock {
         number,
-        count: block.count,
+        count: match (look.levels, &block.levels) {
+            (Some(view), Some(levels)) => view.most_drawn(levels, block.count),
+            _ => block.count,
+        },
         box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk).min(of_level),
         rows,
         all_seen: is_whole && (!look.culls || angles[0] > right),

@@ -36,7 +36,7 @@ pub(crate) fn within_budget<'s>(
     let without = scene.chunks.iter().filter(|chunk| chunk.levels.is_none());
     let others: u64 = without.map(|chunk| u64::from(chunk.count)).sum();
     let most = (SHARE * f64::from(most)) as i64 - others as i64;
-    let asked_px = settings.lod.tau_px(settings.size_px);
+    let asked_px = settings.tau_px();
     let tau_px = Counted::new(&scene.refinements, camera, settings).tau_px(most).max(asked_px);
     Cow::Owned(Settings { lod: Lod::Px(tau_px), ..settings.clone() })
 }
@@ -56,14 +56,19 @@ struct Counted {
 impl Counted {
     /// Those that a camera sees.
     fn new(objects: &[Refinements], camera: &Camera, settings: &Settings) -> Self {
+        let blended_size = settings.blended_size() as f32;
         let nodes = objects.iter().map(|object| {
             let view = View::new(object, camera, settings);
             let events = object.all.par_iter().flat_map_iter(|node| {
                 let size_px = view.size_px(&node.ball);
                 let [own, leaves] = [&node.own, &node.leaves].map(|group| view.seen(&node.ball, group));
                 let below = (own > 0).then(|| (view.size_px(&object.all[node.parent as usize].ball), own));
-                let of_own = (leaves != own).then_some((size_px, leaves - own));
-                below.into_iter().chain(of_own)
+                // Where nodes blend, one is drawn while the next are.
+                let (of_leaves, of_own) = match blended_size > 1.0 {
+                    true => (leaves, (own > 0).then_some((size_px / blended_size, -own))),
+                    false => (leaves - own, None),
+                };
+                below.into_iter().chain((of_leaves != 0).then_some((size_px, of_leaves))).chain(of_own)
             });
             events.collect::<Vec<_>>()
         });
@@ -211,7 +216,7 @@ mod tests {
             for (i, most) in budgets.into_iter().enumerate() {
                 let settings = Settings { size_px, budget: Budget::Splats(most), ..Settings::default() };
                 let counted = Counted::new(&prepared.refinements, &camera, &settings);
-                sizes_px[i] = within_budget(&prepared, &camera, &settings).lod.tau_px(size_px);
+                sizes_px[i] = within_budget(&prepared, &camera, &settings).tau_px();
                 let drawn = counted.count(sizes_px[i]) as f64 / f64::from(most);
                 // Near to it there are not so many.
                 assert!(drawn <= 1.0 && (drawn >= 0.98 || sizes_px[i] == 0.0), "{drawn} of {most}");
@@ -227,6 +232,6 @@ mod tests {
         println!("{most_change} of a budget changes in a step at most");
         assert!(most_change < 0.05, "{most_change}");
         let settings = Settings { budget: Budget::Splats(10_000_000), ..Settings::default() };
-        assert_eq!(within_budget(&prepared, &camera, &settings).lod.tau_px(size_px), 0.0);
+        assert_eq!(within_budget(&prepared, &camera, &settings).tau_px(), 0.0);
     }
 }

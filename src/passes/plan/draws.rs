@@ -128,7 +128,8 @@ pub fn draws<'a>(
             },
         };
         let point_cap_px = limits.point_size_range[1];
-        let levels = chunk.levels.and_then(|levels| LevelView::new(levels, camera, settings));
+        let levels =
+            chunk.levels.and_then(|levels| LevelView::new(levels, chunk.transparent, camera, settings));
         let of_level = |view: &LevelView| {
             let blocks = chunk.blocks.iter().filter_map(|block| block.levels.as_ref());
             let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
@@ -188,6 +189,7 @@ pub fn draws<'a>(
                 }
                 if let Some(levels) = levels {
                     constants.push((SPEC_LEVELS, if levels.nodes { LEVELS_NODES } else { LEVELS_LEAVES }));
+                    constants.extend(levels.blends().then_some((SPEC_BLENDED, 1)));
                 }
                 constants
             },
@@ -208,6 +210,14 @@ pub(crate) fn without_levels(splats: &mut Vec<Draw<'_>>) {
     for draw in splats {
         draw.levels = None;
         draw.variant.retain(|(number, _)| *number != SPEC_LEVELS);
+    }
+}
+
+/// The same splats, of whose levels of detail one takes the place of the other at once.
+pub(crate) fn with_hard_steps(splats: &mut [Draw<'_>]) {
+    for draw in splats {
+        draw.levels = draw.levels.map(LevelView::with_hard_steps);
+        draw.variant.retain(|(number, _)| *number != SPEC_BLENDED);
     }
 }
 

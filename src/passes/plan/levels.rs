@@ -18,6 +18,8 @@ pub struct LevelView {
     eye: DVec3,
     /// τ over the focal length: what a size of τ is at distance 1; under parallel rays what it is.
     share: f64,
+    /// Up to so many times τ nodes are drawn beside those below them; 1 where they do not blend.
+    blended_size: f64,
     /// No size is larger than at this distance.
     near: f64,
     is_orthographic: bool,
@@ -40,8 +42,9 @@ pub enum OfBlock {
 
 impl LevelView {
     /// That of a camera; `None` where the scene itself is drawn.
-    pub fn new(levels: ChunkLevels, camera: &Camera, settings: &Settings) -> Option<Self> {
-        let tau_px = settings.lod.tau_px(settings.size_px);
+    pub fn new(levels: ChunkLevels, transparent: bool, camera: &Camera, settings: &Settings) -> Option<Self> {
+        let tau_px = settings.tau_px();
+        let blended_size = if transparent { 1.0 } else { settings.blended_size() };
         let space = levels.space;
         let focal_px = camera.focal_px(settings.size_px[1]);
         let is_orthographic = camera.is_orthographic();
@@ -56,6 +59,7 @@ impl LevelView {
         (tau_px > 0.0).then_some(Self {
             eye: (camera.eye - space.origin) * space.scale,
             share: tau_px / focal_px * unit,
+            blended_size,
             near: (camera.near() * space.scale).max(1e-30),
             is_orthographic,
             nodes: levels.nodes,
@@ -63,35 +67,125 @@ impl LevelView {
         })
     }
 
+    /// Whether nodes blend with those below them.
+    pub fn blends(&self) -> bool {
+        self.blended_size > 1.0
+    }
+
+    /// The same view, in which nodes take the place of those below them at once.
+    pub fn with_hard_steps(self) -> Self {
+        Self { blended_size: 1.0, ..self }
+    }
+
+    fn share_of_blended(&self) -> f64 {
+        self.share * self.blended_size
+    }
+
     /// The words of a shader's view.
     pub fn words(&self) -> [u32; LEVEL_WORDS as usize] {
         let [x, y, z] = self.eye.as_vec3().to_array();
-        [x, y, z, self.share as f32, self.near as f32, 0.0, 0.0, 0.0].map(f32::to_bits)
+        let [share, of_blended] = [self.share, self.share_of_blended()].map(|share| share as f32);
+        let weight_of_share = if self.blends() { (of_blended - share).recip() } else { 0.0 };
+        [x, y, z, share, self.near as f32, of_blended, weight_of_share, 0.0].map(f32::to_bits)
     }
 
     /// What no box of a node of a block exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
     pub fn largest_box_px(&self, block: &BlockLevels, filter_px: f64) -> f64 {
         // Three pixels for rounding, as in `math/size.rs`.
-        let px = 2.0 * block.longest * self.stretched_px;
+        let px = 2.0 * block.longest * self.stretched_px * self.blended_size;
         if self.nodes { 1.01 * px.hypot(4.0 * filter_px) + 3.0 } else { f64::INFINITY }
+    }
+
+    /// Between which the largest spreads lie that are small, of balls within bounds, for this share of the focal length.
+    fn least(&self, distance: f64, balls: &BallBounds, share: f64) -> f64 {
+        share * self.at(distance - balls.reach) * (1.0 - RESERVE)
+    }
+
+    fn most(&self, distance: f64, balls: &BallBounds, share: f64) -> f64 {
+        share * self.at(distance + balls.far) * (1.0 + RESERVE)
+    }
+
+    fn at(&self, distance: f64) -> f64 {
+        if self.is_orthographic { 1.0 } else { distance.max(self.near) }
+    }
+
+    /// How many of a block's splats, of which there are `count`, are drawn at most.
+    pub fn most_drawn(&self, block: &BlockLevels, count: u32) -> u32 {
+        let distance = self.eye.distance(block.center);
+        let own = self.most(distance, &block.own, self.share_of_blended());
+        block.most_between(self.nodes, own, self.least(distance, &block.parent, self.share), count)
     }
 
     /// What of a block is drawn.
     pub fn of(&self, block: &BlockLevels) -> OfBlock {
         let distance = self.eye.distance(block.center);
-        // Between which the largest spreads lie that are small, of balls within bounds.
-        let at =
-            |distance: f64| self.share * if self.is_orthographic { 1.0 } else { distance.max(self.near) };
-        let least = |balls: &BallBounds| at(distance - balls.reach) * (1.0 - RESERVE);
-        let most = |balls: &BallBounds| at(distance + balls.far) * (1.0 + RESERVE);
         let (own, parent) = (&block.own, &block.parent);
-        let no_parent_is_large = parent.spreads[1] <= least(parent);
-        let no_own_is_small = self.nodes && own.spreads[0] > most(own);
-        if no_parent_is_large || no_own_is_small {
+        let [small_parent, large_parent] =
+            [self.least(distance, parent, self.share), self.most(distance, parent, self.share)];
+        let [small_own, large_own] = [
+            self.least(distance, own, self.share_of_blended()),
+            self.most(distance, own, self.share_of_blended()),
+        ];
+        if parent.spreads[1] <= small_parent || self.nodes && own.spreads[0] > large_own {
             return OfBlock::None;
         }
-        let all_parents_are_large = parent.spreads[0] > most(parent);
-        let all_own_are_small = !self.nodes || own.spreads[1] <= least(own);
+        let all_parents_are_large = parent.spreads[0] > large_parent;
+        let all_own_are_small = !self.nodes || own.spreads[1] <= small_own;
         if all_parents_are_large && all_own_are_small { OfBlock::All } else { OfBlock::Some }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::{
+        math::random::SplitMix,
+        prepare::LevelSpace,
+        scene::{ErrorBall, Lod},
+    };
+
+    /// Random blocks seen from anywhere: never more are drawn than the bound says, and where spreads differ it says less than all.
+    #[test]
+    fn no_more_of_a_block_are_drawn_than_is_known() {
+        let mut random = SplitMix(11);
+        let (mut all, mut bound, mut drawn) = (0, 0, 0);
+        for round in 0..2000 {
+            let nodes = round % 2 == 0;
+            let count = 1 + (random.unit() * 255.0) as usize;
+            let mut ball = |least: f64, octaves: f64| ErrorBall {
+                center: Vec3::from([(); 3].map(|()| 0.02 * random.unit() as f32)),
+                radius: 0.01 * random.unit() as f32,
+                spread: (least * (octaves * random.unit()).exp2()) as f32,
+            };
+            let own: Vec<ErrorBall> = (0..if nodes { count } else { 0 }).map(|_| ball(0.001, 1.0)).collect();
+            let parents: Vec<ErrorBall> = (0..count).map(|_| ball(0.002, 0.5)).collect();
+            let each: Vec<_> = parents.iter().map(|parent| (*parent, 1)).collect();
+            let block = BlockLevels::around(&own, &each, 1.0);
+            let space = LevelSpace { origin: DVec3::ZERO, scale: 1.0 };
+            let eye = DVec3::new(0.2 + 3.0 * random.unit(), random.unit(), random.unit());
+            let orthographic_height = (round % 5 == 4).then_some(1.0);
+            let camera = Camera { eye, orthographic_height, ..Camera::default() };
+            let settings = Settings { lod: Lod::Px(0.5 + 3.0 * random.unit()), ..Settings::default() };
+            let view = LevelView::new(ChunkLevels { space, nodes }, false, &camera, &settings).unwrap();
+            let size = |ball: &ErrorBall| {
+                let distance = eye.distance(ball.center.as_dvec3()) - f64::from(ball.radius);
+                f64::from(ball.spread) / view.at(distance)
+            };
+            let is_drawn = |i: &usize| {
+                own.get(*i).is_none_or(|own| size(own) <= view.share) && size(&parents[*i]) > view.share
+            };
+            let found = (0..count).filter(is_drawn).count() as u32;
+            let most = view.most_drawn(&block, count as u32);
+            assert!(
+                found <= most && most <= count as u32,
+                "round {round}: {found} of {count}, {most} at most"
+            );
+            assert!(found == 0 || view.of(&block) != OfBlock::None, "round {round}");
+            (all, bound, drawn) = (all + count as u32, bound + most, drawn + found);
+        }
+        println!("{drawn} drawn, {bound} at most, {all} in all");
+        assert!(drawn > 10_000 && bound < all * 7 / 10, "{drawn} {bound} {all}");
     }
 }

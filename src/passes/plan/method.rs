@@ -12,7 +12,7 @@ use crate::passes::{
         bands::Band,
         block_list::ListedBlocks,
         culling,
-        draws::{Draw, without_levels},
+        draws::{Draw, with_hard_steps, without_levels},
         invocations::Invocations,
         seen::PotentiallyVisibleBlocks,
         tiles::TilePlan,
@@ -60,6 +60,7 @@ pub(crate) fn primitives<'a>(
 ) -> SplatMethod<'a> {
     let half_sums = settings.accumulate == Accumulate::F16 && settings.weighs_splats();
     splats.iter_mut().for_each(|draw| draw.half_sums = half_sums);
+    with_hard_steps(splats);
     if !culling::lists_primitives(splats, settings, limits) {
         without_levels(splats);
         culling::number_splats(splats);

@@ -149,12 +149,13 @@ impl<'a> SurfacePlan<'a> {
             return;
         }
         let two_sided = !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
+        let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
         for band in self.bands_mut() {
             let sides = two_sided.then_some((SPEC_TWO_SIDED, 1));
             let told = || [(SPEC_COVERAGE_EDGES, 1)].into_iter().chain(sides);
             band.splats.iter_mut().for_each(|draw| draw.variant.extend(told()));
             if !transparent {
-                band.plan = band.plan.clone().with_edges(two_sided);
+                band.plan = band.plan.clone().with_edges(two_sided, blended);
             }
         }
     }

@@ -7,7 +7,7 @@ use std::{collections::BTreeMap, ops::Range};
 pub struct PotentiallyVisibleBlock {
     /// Its number in its chunk.
     pub number: u32,
-    /// Its splats.
+    /// Its splats, of levels of detail those that may be drawn.
     pub count: u32,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub box_px: f64,

@@ -92,6 +92,8 @@ pub struct TilePlan {
     pub hidden: bool,
     /// Surfaces are told apart by the side that they show.
     pub two_sided: bool,
+    /// Levels of detail blend into each other.
+    pub blended: bool,
     /// Clip curves cut something off some splats.
     pub clips: bool,
     /// What they draw, and how they come by splats.
@@ -187,6 +189,7 @@ impl TilePlan {
             overflows_somewhere: false,
             hidden: false,
             two_sided: false,
+            blended: false,
             clips: false,
             invocations,
         })
@@ -208,9 +211,9 @@ impl TilePlan {
     }
 
     /// The plan for what covers pixels in part where it ends: what one surface hides, the next may show.
-    /// `two_sided`: some splats that face away are drawn.
-    pub(crate) fn with_edges(self, two_sided: bool) -> Self {
-        Self { hidden: false, two_sided, ..self }
+    /// `two_sided`: some splats that face away are drawn. `blended`: levels of detail blend into each other.
+    pub(crate) fn with_edges(self, two_sided: bool, blended: bool) -> Self {
+        Self { hidden: false, two_sided, blended, ..self }
     }
 
     /// The bins of all lists: tiles, then chunks.

@@ -157,6 +157,7 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         let filter_px = settings.samples.filter_radius_px() as f32;
         constants.extend([(SPEC_COVERAGE_EDGES, 1), (SPEC_FILTER_PX, filter_px.to_bits())]);
         constants.extend(plan.two_sided.then_some((SPEC_TWO_SIDED, 1)));
+        constants.extend(plan.blended.then_some((SPEC_BLENDED, 1)));
     }
     constants
 }

@@ -9,12 +9,14 @@ mod hierarchy;
 mod instructions;
 mod judgement;
 mod layers;
+mod level_error;
 mod limits;
 mod limits_table;
 mod measurement;
 mod plots;
 mod slides;
 mod throughput;
+mod tolerances;
 mod transition;
 mod trust;
 
@@ -30,6 +32,7 @@ pub use hierarchy::{HierarchyReport, HierarchyRow, PAPER_HIERARCHIES};
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use judgement::{Judged, Judgement};
 pub use layers::{LayersDrawn, LayersReport, OpaqueClaim, Places};
+pub use level_error::LevelError;
 pub use limits::{BoundRow, LimitRow, LimitWork, LimitsReport, PassWork};
 pub use measurement::Measurement;
 pub use plots::{growth_plot, throughput_plot};
@@ -37,6 +40,7 @@ pub use slides::{SLIDES, Slide};
 pub use throughput::{
     PAPER_SPLATS, PaperMethod, PaperThroughput, Throughput, ThroughputRow, paper_throughput,
 };
+pub use tolerances::{PAPER_TOLERANCES, PaperTolerance, Tolerance, TolerancesReport};
 pub use transition::{HalfAndHalf, Primitives, TransitionReport};
 pub use trust::{CardUse, Machine, TrustLimits, drift, drift_flag, slowness, spread_flag};
 
@@ -85,6 +89,9 @@ pub struct BenchReport {
     /// `p1`: levels of detail in the making.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub p1: Option<HierarchyReport>,
+    /// `p2`: frames by levels of detail.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub p2: Option<TolerancesReport>,
     /// `i1`: what clip curves cost over numbers of splats.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub i1: Option<ClipsReport>,
@@ -104,7 +111,7 @@ pub struct BenchReport {
 }
 
 /// The tables that are written as CSV, by the names of their files.
-pub const TABLES: [&str; 18] = [
+pub const TABLES: [&str; 20] = [
     "floor",
     "floor-limits",
     "floor-bounds",
@@ -120,6 +127,8 @@ pub const TABLES: [&str; 18] = [
     "growth-pixels",
     "growth-passes",
     "p1",
+    "p2",
+    "p2-paper",
     "i1",
     "i2",
     "counts",
@@ -149,6 +158,7 @@ impl BenchReport {
         tables.extend(self.transition.as_ref().map(|transition| ("transition", transition.grid())));
         tables.extend(self.growth.iter().flat_map(GrowthReport::grids));
         tables.extend(self.p1.as_ref().map(|p1| ("p1", p1.grid())));
+        tables.extend(self.p2.iter().flat_map(TolerancesReport::grids));
         tables.extend(self.i1.as_ref().map(|i1| ("i1", i1.grid())));
         tables.extend(self.i2.as_ref().map(|i2| ("i2", i2.grid())));
         if let Some(counts) = &self.counts {
@@ -185,6 +195,7 @@ impl BenchReport {
         figures.extend(self.growth.iter().flat_map(GrowthReport::gate));
         figures.extend(self.i1.iter().chain(&self.i2).flat_map(ClipsReport::gate));
         figures.extend(self.p1.iter().flat_map(HierarchyReport::gate));
+        figures.extend(self.p2.iter().flat_map(TolerancesReport::gate));
         figures.extend(self.counts.iter().flat_map(InstructionReport::gate));
         figures
     }

@@ -6,7 +6,7 @@ use clap::{Arg, Args, ValueEnum};
 use surfel::{
     Error, Result,
     report::bench::{PAPER_HIERARCHIES, PAPER_SPLATS},
-    scene::{Rasterizer, Settings},
+    scene::{Lod, Rasterizer, Settings},
 };
 
 use crate::{
@@ -38,6 +38,7 @@ const EXAMPLES: &str = "Examples:
   surfel bench transition --model igea.ply
   surfel bench growth --model igea.ply --rasterizer perspective,raycast --plot growth.svg
   surfel bench p1 --splats 100k,1M,10M --markdown p1.md
+  surfel bench p2 --model igea.ply --splats 1M
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
 
@@ -49,14 +50,14 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1, slides, growth and p1 a mesh, which is resampled evenly over its area and for growth must be
+    /// A PLY or OBJ file; for table1, slides, growth, p1 and p2 a mesh, which is resampled evenly over its area and for growth must be
     /// closed; for i1 and i2 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
-    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides takes the first; by itself layers takes it
+    /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides, p2 and i2 take the first; by itself layers takes it
     /// for each of its 27 balls, and transition for the whole model; growth, p1 and i1 take all, growth the middle one over sizes
-    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for i1 2500, 5000 and one a triangle]
+    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for p2 1M, for i1 2500, 5000 and one a triangle, for i2 2500]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -66,6 +67,11 @@ pub struct BenchArguments {
     /// Sizes of growth over pixels, with commas between; a number alone is a square [default: 256 to 4096]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::square_or_size)]
     pub sizes: Vec<[u32; 2]>,
+
+    /// Tolerances of p2, with commas between, in pixels or percent of the picture; the first is what the others are set beside [default: 0 to 2px,
+    /// and the paper's]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::tolerance)]
+    pub tolerances: Vec<Lod>,
 
     /// The rasterizer of floor; of growth several, with commas between, in turn and beside the first [default: perspective]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = one_of(Rasterizer::NAMES))]
@@ -154,20 +160,23 @@ pub enum Bench {
     Growth,
     /// Levels of detail in the making: the octree and the ellipses of its nodes, beside the table 1 of Pajarola et al. 2003
     P1,
+    /// Levels of detail drawn: splats and times over tolerances, beside the table 2 of Pajarola et al. 2003
+    P2,
     /// What clip curves cost over numbers of splats: nothing cut, lines, curves, beside the table 1 of Ivo et al. 2012
     I1,
     /// The same over how much of the image splats cover, beside their table 2
     I2,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth, p1, i1 and i2
+    /// All of them but growth, p1, p2, i1 and i2
     All,
 }
 
 impl Bench {
     /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
-        self == table || self == Self::All && !matches!(table, Self::Growth | Self::P1 | Self::I1 | Self::I2)
+        let alone = matches!(table, Self::Growth | Self::P1 | Self::P2 | Self::I1 | Self::I2);
+        self == table || self == Self::All && !alone
     }
 
     /// Whether any of its figures are times of a device: instructions are counted without one, and hierarchies made.
@@ -201,6 +210,7 @@ impl Taken for Common {
             "size" => Some(option.help("Width and height in pixels; for growth over splats")),
             "filter" => Some(option.help("The filter of all but slides, which has each method's own")),
             "kernel-eval" | "accumulate" => Some(option),
+            "lod" | "lod-steps" | "budget" => Some(option.help_heading("growth, p2")),
             _ => None,
         }
     }
@@ -234,7 +244,13 @@ impl BenchArguments {
             Err(Error::option(option, format!("bench {} {problem}", self.table.name())))
         };
         match self.table {
+            _ if self.table != Bench::P2 && !self.tolerances.is_empty() => {
+                refused("--tolerances", "has none: only p2 has")
+            }
             Bench::Growth => Ok(()),
+            _ if self.settings().wants_levels() => {
+                refused("--lod, --budget", "draws the model itself: only growth draws levels of detail")
+            }
             _ if !self.sizes.is_empty() => refused("--sizes", "has one, by --size: only growth has several"),
             Bench::Floor if self.rasterizer.len() > 1 => {
                 refused("--rasterizer", "takes one: only growth takes several")

@@ -13,6 +13,7 @@ mod limits;
 mod model;
 mod outputs;
 mod p1;
+mod p2;
 mod slides;
 mod table1;
 mod transition;
@@ -124,6 +125,7 @@ fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut
     report.i1 = table.has(Bench::I1).then(|| clips::over_splats(headless, context)).transpose()?;
     report.i2 = table.has(Bench::I2).then(|| clips::over_occupancy(headless, context)).transpose()?;
     report.growth = table.has(Bench::Growth).then(|| growth::measure(headless, context)).transpose()?;
+    report.p2 = table.has(Bench::P2).then(|| p2::measure(headless, context)).transpose()?;
     let machine = watch.end(&context.clocks_mhz);
     report.flags = machine.flags(&context.limits);
     report.flags.append(&mut context.flags);

@@ -6,7 +6,7 @@ use surfel::{
     geometry::check_memory_for,
     load::{LoadOptions, Model, PictureDescription, builtin, load},
     report::InputReport,
-    scene::{Ball, Mesh, Object, Scene},
+    scene::{Ball, Budget, Mesh, Object, Scene},
 };
 
 use super::context::BenchContext;
@@ -47,7 +47,12 @@ impl Source {
             }
             Self::Mesh(mesh, path) => resample_mesh(mesh, path, splats, 0, &context.bars)?,
         };
-        let scene = Scene { objects: vec![object], ..Scene::default() };
+        let scene = Scene {
+            objects: vec![object],
+            levels: context.settings.wants_levels(),
+            budget: context.settings.budget != Budget::Unlimited,
+            ..Scene::default()
+        };
         let ball = scene.ball().unwrap_or(Ball { center: glam::DVec3::ZERO, radius: 1.0 });
         Ok(Loaded {
             scene,

@@ -115,9 +115,11 @@ impl ReportArguments {
             return line;
         }
         let (splats, size) = match name {
+            "p1" if !self.quick => (Some("137062,302948,437645,1M"), None),
             _ if !self.quick => (None, None),
             "table1" => (Some("20k,154k"), None),
             "slides" => (Some("154k"), None),
+            "p1" => (Some("100k,300k"), None),
             "layers" => (Some("300"), Some("512x512")),
             "transition" => (Some("20k"), Some("512x512")),
             _ => (None, None),
@@ -171,7 +173,7 @@ mod tests {
             let arguments = report(words);
             arguments.render("normals").arguments::<RenderArguments>().unwrap_or_else(|e| panic!("{e}"));
             arguments.figure("g1").arguments::<FigureArguments>().unwrap_or_else(|e| panic!("{e}"));
-            for table in ["floor", "table1", "slides", "layers", "transition", "counts"] {
+            for table in ["floor", "table1", "slides", "layers", "transition", "p1", "p2", "counts"] {
                 arguments.bench(table).arguments::<BenchArguments>().unwrap_or_else(|e| panic!("{e}"));
             }
             for line in [arguments.compare(), arguments.zoom()] {

@@ -133,6 +133,29 @@ pub fn transition(session: &mut Session<'_>) -> Result<Part> {
     Ok(part)
 }
 
+/// Levels of detail in the making, and frames by them over tolerances.
+///
+/// # Errors
+/// Whatever goes wrong; a model that is no mesh.
+pub fn levels(session: &mut Session<'_>) -> Result<Part> {
+    let (mut part, drawn) = of_bench(session, "p2", |report| {
+        let report = report.p2.as_ref()?;
+        let pixel = report.rows.iter().find(|own| own.subject.tau_px == 1.0)?;
+        let share = pixel.subject.drawn as f64 / report.rows.first()?.subject.drawn as f64;
+        Some(format!(
+            "At a pixel {:.0}% of the splats are drawn in {:.2} times the time of all; the paper draws half of David at 0.01% of the window.",
+            100.0 * share,
+            pixel.beside_first?.median
+        ))
+    })?;
+    let (made, _) = of_bench(session, "p1", |_| None)?;
+    part.blocks.extend(made.blocks);
+    part.commands.extend(made.commands);
+    part.flags.extend(made.flags);
+    part.data = vec![to_value(&drawn.p2)?, made.data].into();
+    Ok(part)
+}
+
 /// The instructions of every pipeline, beside the papers'.
 pub fn counts(session: &mut Session<'_>) -> Result<Part> {
     let (part, _) = of_bench(session, "counts", |_| {

@@ -52,6 +52,7 @@ const CHAPTERS: &[Chapter] = &[
     ("tables", "The paper's tables", benches::tables),
     ("layers", "Transparent layers", benches::layers),
     ("transition", "From splats to polygons", benches::transition),
+    ("levels", "Levels of detail", benches::levels),
     ("counts", "Instructions", benches::counts),
     ("stability", "Numerical stability", stability::gather),
 ];

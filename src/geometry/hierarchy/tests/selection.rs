@@ -51,6 +51,32 @@ fn each_splat_is_drawn_once_by_itself_or_a_node_above_it() {
     }
 }
 
+/// Of what is drawn at once on a path, where nodes blend with those below them.
+#[test]
+fn weights_of_blended_nodes_add_up_to_1_on_every_path() {
+    for (name, splats) in models() {
+        let hierarchy = Hierarchy::build(&splats, &()).unwrap();
+        let mut blended = 0;
+        for (i, (projection, tau_px)) in projections(&hierarchy).into_iter().enumerate().step_by(8) {
+            let weight = |levels: Levels| projection.weight(&levels, tau_px, 1.4);
+            let nodes: Vec<f64> =
+                (0..hierarchy.tree.len()).map(|node| weight(hierarchy.node_levels(node))).collect();
+            assert!(nodes.iter().all(|weight| *weight >= 0.0), "{name}: view {i}");
+            blended += nodes.iter().filter(|weight| (0.01..0.99).contains(*weight)).count();
+            for leaf in 0..hierarchy.order.len() {
+                let mut sum = weight(hierarchy.leaf_levels(leaf));
+                let mut node = hierarchy.leaf_parents[leaf];
+                while let Some(above) = hierarchy.tree.get(node as usize) {
+                    sum += nodes[node as usize];
+                    node = above.parent;
+                }
+                assert!((sum - 1.0).abs() < 1e-12, "{name}: view {i}, splat {leaf}: {sum}");
+            }
+        }
+        assert!(blended > 0 || hierarchy.tree.len() < 10, "{name}");
+    }
+}
+
 #[test]
 fn so_it_is_in_f32() {
     for (name, splats) in models() {
