@@ -74,7 +74,7 @@ bool covers(vec3 uvw, float depth, bool away, float kept, int row)
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
     bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
     bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-    return inside && beyond_near && part_of(kept) > 0.0 && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
+    return inside && beyond_near && (!CLIPS || part_of(kept) > 0.0) && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
 float r2_of(vec3 uvw)
@@ -107,7 +107,7 @@ float priority(float kept)
     part *= part;
     part *= part;
     part *= part;
-    return CLIPS ? max(part * part, LEAST_PRIORITY) : 1.0;
+    return max(part * part, LEAST_PRIORITY);
 }
 
 // Adds what a splat is at a pixel.
@@ -127,7 +127,9 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     float kernel = kernel_weight(r2);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
     float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
-    weight *= priority(kept);
+    if (CLIPS) {
+        weight *= priority(kept);
+    }
     if (COVERAGE_EDGES) {
         float part = attributes.own_part.x - attributes.own_part.y * r2;
         cover(inside ? shared_weight : 0.0, inside ? part : 0.0, inside ? kept : 1.0, row);

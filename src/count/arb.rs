@@ -73,7 +73,13 @@ pub fn simple(op: Op, width: u32, operand_width: u32) -> Option<Vec<&'static str
         Op::CompositeConstruct | Op::CompositeExtract | Op::CompositeInsert | Op::VectorShuffle => vec![],
         // What a descriptor tells is there.
         Op::ArrayLength | Op::ImageQuerySizeLod => vec![],
-        Op::Load | Op::AccessChain | Op::InBoundsAccessChain | Op::SampledImage | Op::Image | Op::Undef => {
+        Op::Variable
+        | Op::Load
+        | Op::AccessChain
+        | Op::InBoundsAccessChain
+        | Op::SampledImage
+        | Op::Image
+        | Op::Undef => {
             vec![]
         }
         _ if is_of_bits(op) => vec!["BIT"],

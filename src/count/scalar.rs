@@ -32,6 +32,7 @@ pub fn count(specialized: &Specialized<'_>, live: &Live<'_>) -> Result<u32, Stri
         let operand_width = first.map_or(1, |operand| specialized.module.width_of(operand));
         total += match op {
             Op::Load
+            | Op::Variable
             | Op::AccessChain
             | Op::InBoundsAccessChain
             | Op::Undef

@@ -92,7 +92,10 @@ fn without_a_name_the_figures_are_listed() {
     let run = surfel(&folder, &["figure"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let names: Vec<_> = run.stdout.lines().filter_map(|line| line.split(' ').next()).collect();
-    assert_eq!(names, ["g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19", "samples"]);
+    assert_eq!(
+        names,
+        ["g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19", "i1", "i9", "i10", "samples"]
+    );
     assert!(folder.names().is_empty());
 }
 
@@ -252,19 +255,35 @@ fn p9_and_p10_are_curves_with_the_papers_values() {
     }
 }
 
+/// What sticks out of the mesh's outline, or is missing, of splats that nothing, lines and curves cut.
+#[test]
+fn i9_curves_leave_the_outline_of_the_mesh() {
+    let panels = panels("i9", [160, 160], &[]);
+    let off = |panel: &Panel| {
+        let is_empty = |panel: &Panel, at: usize| panel.values[at] > 0.8;
+        (0..panel.values.len()).filter(|at| is_empty(panel, *at) != is_empty(&panels[0], *at)).count()
+    };
+    let [uncut, lines, curves] = [1, 2, 3].map(|i| off(&panels[i]));
+    println!("pixels off the outline: {uncut}, lines {lines}, curves {curves}");
+    assert!(3 * curves < uncut && curves <= lines, "{uncut}, {lines}, {curves}");
+}
+
 #[test]
 fn faults_are_one_line_and_leave_nothing() {
     let folder = Folder::new();
     folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n"));
     let before = folder.names();
     let cases: [(&[&str], &str); 10] = [
-        (&["g2"], "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19, samples"),
+        (&["g2"], "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19, i1, i9, i10, samples"),
         (&["--size", "64x64"], "required arguments"),
         (&["g3", "-o", "a.svg"], "--output: a.svg: expected a name in .png for g3"),
         (&["p9", "-o", "a.png"], "--output: a.png: expected a name in .svg for p9"),
         (&["g3", "--size", "31x64"], "--size: 31x64: expected 32 to 4096 pixels a side"),
         (&["g1", "--size", "64x32"], "--size: 64x32: expected a square"),
-        (&["g3", "--model", "model.ply"], "--model: g3 has a scene of its own; expected g5 or p19"),
+        (
+            &["g3", "--model", "model.ply"],
+            "--model: g3 has a scene of its own; expected g5, p19, i1, i9 or i10",
+        ),
         (&["g5", "--model", "model.ply"], "model.ply: the file holds splats; expected a mesh"),
         (&["p19", "--model", "none.ply"], "none.ply: cannot read"),
         (&["g3", "-o", "no/such/a.png"], "no/such/a.png: cannot write"),

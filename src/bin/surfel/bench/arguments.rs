@@ -9,6 +9,7 @@ use surfel::{
     scene::{Lod, Rasterizer, Settings},
 };
 
+use super::counts::CountsArguments;
 use crate::{
     device::DeviceArguments,
     parse,
@@ -122,24 +123,6 @@ pub struct BenchArguments {
 
     #[command(flatten)]
     pub counts: CountsArguments,
-}
-
-/// Options of `surfel bench counts` alone.
-#[derive(Args)]
-#[command(next_help_heading = "counts")]
-pub struct CountsArguments {
-    /// Every pipeline: ellipses, open surfaces and psi_e too, lists of large splats, weights, 32-bit sums, shadings [default: small disks]
-    #[arg(long)]
-    pub all: bool,
-
-    /// What compilers of these chips make of every pipeline: RADV's names, such as NAVI21 (RDNA2), VEGA10 (GCN 5), POLARIS10,
-    /// GFX1100; or `here` for the device of this machine. No such chip is needed, but RADV (package mesa-vulkan-drivers)
-    #[arg(long, value_name = "CHIP,...", value_delimiter = ',')]
-    pub isa: Vec<String>,
-
-    /// Print the rows of this machine's device as JSON: for a process of ours, one a chip
-    #[arg(long, hide = true)]
-    pub isa_rows: bool,
 }
 
 /// A table, or all of them.

@@ -1,6 +1,9 @@
 //! `surfel bench counts`: the instructions of every pipeline, by the two rules and as drivers' compilers have them.
 
+mod arguments;
 mod isa;
+
+pub use arguments::CountsArguments;
 
 use std::collections::{HashMap, HashSet};
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use surfel::{
     Error, Result,
-    geometry::sharp::Clipping,
+    geometry::{creased_mesh, sharp::Clipping},
     prepare::PreparedScene,
     scene::{Camera, ClipCurve, MeshObject, Scene, Settings, Shapes, Splats},
 };
@@ -92,7 +92,8 @@ pub fn i9(context: &mut FigureContext<'_>) -> Result<Sheet> {
     let settings = settings(context);
     let curves = made(context, &part, SPLATS, Clipping::Shared)?;
     let (camera, _) = camera_covering(context.headless, (&curves.scene, &curves.prepared), &settings, SHARE)?;
-    let polygons = MeshObject { name: part.name.clone(), mesh: part.mesh.clone(), closed: true };
+    let (mesh, report) = creased_mesh(part.mesh.clone());
+    let polygons = MeshObject { name: part.name.clone(), mesh, closed: report.closed };
     let polygons = context.prepare(&Scene { meshes: vec![polygons], ..Scene::default() })?;
     let lines = made(context, &part, SPLATS, Clipping::Lines)?;
     let whole = made(context, &part, SPLATS, Clipping::None)?;

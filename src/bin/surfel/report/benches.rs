@@ -156,6 +156,26 @@ pub fn levels(session: &mut Session<'_>) -> Result<Part> {
     Ok(part)
 }
 
+/// What clip curves cost: the tables of Ivo et al. 2012 beside this device, of the built-in part or a mesh.
+///
+/// # Errors
+/// Whatever goes wrong; a model that is no mesh.
+pub fn clips(session: &mut Session<'_>) -> Result<Part> {
+    let (mut part, over_splats) = of_bench(session, "i1", |report| {
+        let rows = report.i1.as_ref()?.rows.iter();
+        let (least, most) = ends(rows.filter_map(|row| Some(row.ways.last()?.beside_first?.median)))?;
+        Some(format!(
+            "Splats cut by curves take {least:.2} to {most:.2} times as long as the same that nothing cuts."
+        ))
+    })?;
+    let (over_occupancy, _) = of_bench(session, "i2", |_| None)?;
+    part.blocks.extend(over_occupancy.blocks);
+    part.commands.extend(over_occupancy.commands);
+    part.flags.extend(over_occupancy.flags);
+    part.data = vec![to_value(&over_splats.i1)?, over_occupancy.data].into();
+    Ok(part)
+}
+
 /// The instructions of every pipeline, beside the papers'.
 pub fn counts(session: &mut Session<'_>) -> Result<Part> {
     let (part, _) = of_bench(session, "counts", |_| {
