@@ -190,7 +190,7 @@ impl Taken for Common {
 
     fn option(name: &str, option: Arg) -> Option<Arg> {
         match name {
-            "size" => Some(option.help("Width and height in pixels; for growth over splats")),
+            "size" => Some(option.help("Width and height in pixels; for growth over splats; i1 and i2 have 800x800 where none is given")),
             "filter" => Some(option.help("The filter of all but slides, which has each method's own")),
             "kernel-eval" | "accumulate" => Some(option),
             "lod" | "lod-steps" | "budget" => Some(option.help_heading("growth, p2")),
@@ -202,15 +202,13 @@ impl Taken for Common {
 impl BenchArguments {
     /// The settings that all methods have in common.
     pub fn settings(&self) -> Settings {
+        if matches!(self.table, Bench::I1 | Bench::I2) {
+            // The paper's size.
+            return self.settings.said_over(Settings { size_px: [800, 800], ..Settings::default() });
+        }
         self.settings.over(Settings {
             // Other tables have their own, or are set beside the floor, which is made of points.
-            size_px: match self.table {
-                // The paper's.
-                Bench::I1 | Bench::I2 => [800, 800],
-                _ => Settings::default().size_px,
-            },
             rasterizer: match (self.table, self.rasterizer.as_slice()) {
-                (Bench::I1 | Bench::I2, _) => Rasterizer::Auto,
                 (Bench::Floor, [rasterizer]) => *rasterizer,
                 _ => Rasterizer::Perspective,
             },

@@ -3,6 +3,7 @@
 
 use surfel::{
     Result,
+    compose::finish,
     geometry::sharp::Clipping,
     renderer::Headless,
     report::bench::{Clipped, ClipsReport, ClipsRow, PAPER_OCCUPANCIES, PAPER_PARTS},
@@ -80,6 +81,9 @@ fn row(
     let (camera, occupancy) = camera_covering(headless, (scene, prepared), &context.settings, share)?;
     headless.renderer.check(&camera, &context.settings)?;
     let splats = scene.splat_count() as u64;
+    if context.inputs.is_empty() {
+        context.inputs.push(finish(scene.objects[0].clone(), String::new(), None).1);
+    }
     let entries = scenes.iter().map(|(name, _, report, prepared)| Entry {
         name: (*name).to_owned(),
         scene: prepared,
