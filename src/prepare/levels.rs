@@ -39,7 +39,7 @@ pub struct BlockLevels {
     pub parent: BallBounds,
     /// No splat's larger half axis is more times its own ball's spread; 0 where they are the object's.
     pub longest: f64,
-    /// Of the splats' own spreads, from the least on, those at each [`RANK`]th place behind the first; infinite behind the last.
+    /// Of the splats' own spreads, from the least on, those at each `RANK`th place behind the first; infinite behind the last.
     pub least_own: [f32; RANKS],
     /// Of their parents', one for each splat, from the largest on, alike; 0 behind the last.
     pub largest_parents: [f32; RANKS],
