@@ -1,7 +1,6 @@
 //! A splat as it is drawn: in view space, after culling and filter, with all that a pixel asks of it.
 //!
-//! This file, `ewa`, `intersect`, `fragment` and `surface` name each other, as the papers' sections do: a splat is met, filtered and summed in
-//! ways that are told of a splat.
+//! This file, `ewa`, `intersect`, `fragment` and `surface` name each other, as the papers' sections do: all tell of a splat.
 
 use glam::DVec3;
 

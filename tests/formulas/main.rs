@@ -174,6 +174,16 @@ fn every_formula_of_edges_is_seen() {
 }
 
 #[test]
+fn every_formula_of_clip_curves_is_seen() {
+    let clipped = with(&scenes::clipped(), |settings| {
+        (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
+    });
+    assert_seen(&mut shared(), &with_oracles([clipped]), &Formula::OF_CLIPS, &|headless, hard, oracle| {
+        light(&render_as(headless, hard, PICTURE), hard, oracle)
+    });
+}
+
+#[test]
 fn the_formula_of_eye_dome_lighting_is_seen_by_points_and_by_tiles() {
     for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute] {
         let ground = with(&scenes::ground(), |s| (s.shading, s.rasterizer) = (Shading::EyeDome, rasterizer));
