@@ -88,10 +88,8 @@ pub fn tables(session: &mut Session<'_>) -> Result<Part> {
     };
     part.blocks.insert(0, plot);
     let (slides, _) = of_bench(session, "slides", |_| None)?;
-    part.blocks.extend(slides.blocks);
-    part.commands.extend(slides.commands);
-    part.flags.extend(slides.flags);
-    part.data = vec![part.data, slides.data].into();
+    let slides = part.go_on_with(slides);
+    part.data = vec![part.data, slides].into();
     Ok(part)
 }
 
@@ -149,10 +147,8 @@ pub fn levels(session: &mut Session<'_>) -> Result<Part> {
         ))
     })?;
     let (made, _) = of_bench(session, "p1", |_| None)?;
-    part.blocks.extend(made.blocks);
-    part.commands.extend(made.commands);
-    part.flags.extend(made.flags);
-    part.data = vec![to_value(&drawn.p2)?, made.data].into();
+    let made = part.go_on_with(made);
+    part.data = vec![to_value(&drawn.p2)?, made].into();
     Ok(part)
 }
 
@@ -169,10 +165,8 @@ pub fn clips(session: &mut Session<'_>) -> Result<Part> {
         ))
     })?;
     let (over_occupancy, _) = of_bench(session, "i2", |_| None)?;
-    part.blocks.extend(over_occupancy.blocks);
-    part.commands.extend(over_occupancy.commands);
-    part.flags.extend(over_occupancy.flags);
-    part.data = vec![to_value(&over_splats.i1)?, over_occupancy.data].into();
+    let over_occupancy = part.go_on_with(over_occupancy);
+    part.data = vec![to_value(&over_splats.i1)?, over_occupancy].into();
     Ok(part)
 }
 

@@ -29,6 +29,16 @@ pub struct Part {
     pub data: serde_json::Value,
 }
 
+impl Part {
+    /// Puts another part's contents, commands and doubts behind its own; answers with the other's figures.
+    pub fn go_on_with(&mut self, other: Self) -> serde_json::Value {
+        self.blocks.extend(other.blocks);
+        self.commands.extend(other.commands);
+        self.flags.extend(other.flags);
+        other.data
+    }
+}
+
 /// Something to see. In all texts, what is between backticks is code.
 pub enum Block {
     /// A heading within the part.
