@@ -37,11 +37,15 @@ void main()
         }
     }
     // Of several dispatches, those after the last layer have nothing to do.
-    for (uint layer = 0; layer < push.surfaces && is_left(); layer++) {
-        begin_surface();
-        see(range);
-        sum(range, false);
-        compose();
+    uint layer = 0;
+    if (layer < push.surfaces && is_left()) {
+        do {
+            begin_surface();
+            see(range);
+            sum(range, false);
+            compose();
+            layer++;
+        } while (layer < push.surfaces && is_left());
     }
     if (push.blends_rest != 0) {
         begin_surface();

@@ -37,10 +37,15 @@ void find_kept(Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_O
         }
     }
     uint most = CLIPS ? most_curves(own, splats) : 0;
-    for (uint number = 0; number < most; number++) {
+    if (most == 0) {
+        return; // where invocations can
+    }
+    uint number = 0;
+    do { // a CPU driver runs a body once more than a condition before it says
         Curve own_curve = load_curve(own, splats, number);
         [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
             cut_by(broadcast(own_curve, place + k), kept[k]);
         }
-    }
+        number++;
+    } while (number < most);
 }

@@ -1,6 +1,7 @@
 // Visibility and accumulation of a tile's splats (Guennebaud et al. 2006, section 2, as in visibility.frag.glsl and
 // accumulate.frag.glsl), with depths and sums in registers: the single-pass splatting that Pajarola et al. 2003 name as future
-// work. One workgroup a tile, splats batch by batch.
+// work. One workgroup a tile, splats batch by batch. The condition is behind a batch, since llvmpipe runs a loop's body
+// once more than one before it says, with nothing to write; of an empty part the batch covers nothing.
 
 #define LIT
 #define LIGHTS_SET 0
@@ -55,7 +56,8 @@ uint place_of(uint base, Range range)
 void see(Range range)
 {
     Splat own;
-    for (uint base = range.first; base < range.end; base += TILE_BATCH) {
+    uint base = range.first;
+    do {
         uint place = place_of(base, range);
         if (place == 0) {
             own = load_splat(base, range.end);
@@ -75,7 +77,8 @@ void see(Range range)
                 }
             }
         }
-    }
+        base += TILE_BATCH;
+    } while (base < range.end);
 }
 
 // `lit`: each splat is lit by itself, at its center.
@@ -83,7 +86,8 @@ void sum(Range range, bool lit)
 {
     Splat own;
     SplatAttributes own_attributes;
-    for (uint base = range.first; base < range.end; base += TILE_BATCH) {
+    uint base = range.first;
+    do {
         uint place = place_of(base, range);
         if (place == 0) {
             own = load_splat(base, range.end);
@@ -113,5 +117,6 @@ void sum(Range range, bool lit)
                 }
             }
         }
-    }
+        base += TILE_BATCH;
+    } while (base < range.end);
 }
