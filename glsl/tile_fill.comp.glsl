@@ -16,7 +16,7 @@ void visit(uint record, uint bin)
     uint before = counts[place];
     counts[place] = before + 1;
     // The graphics pipeline, which draws what is in the bins of chunks, knows splats by their own numbers.
-    bool own_number = LISTED && MAY_BE_LARGE && bin >= push.tile_count;
+    bool own_number = LISTED && MAY_BE_LARGE && bin >= FIRST_CHUNK_BIN;
     entries[starts[bin] + before] = own_number ? visible_list[record] : record;
 }
 

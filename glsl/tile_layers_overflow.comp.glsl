@@ -46,7 +46,7 @@ void main()
         }
     }
     if (!is_left()) {
-        range.first = range.end; // the tile's last layer was found
+        range = Range(range.end, range.end, range.end); // the tile's last layer was found
     }
     if (push.step == STEP_SEE) {
         see(range);

@@ -9,6 +9,7 @@
 layout(local_size_x = TILE_WIDTH, local_size_y_id = SPEC_TILE_HEIGHT) in;
 #define TILE_HEIGHT gl_WorkGroupSize.y
 #define OWN_ROW int(gl_LocalInvocationID.y)
+#include "inc/clip.glsl"
 #include "tile/work.glsl"
 #define LIT
 #define LIGHTS_SET 0

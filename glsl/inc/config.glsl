@@ -44,7 +44,8 @@
 #define SPEC_LEVELS 58        // Constant: one of `LEVELS_*`: what splats of a chunk are to levels of detail.
 #define SPEC_BLENDED 60       // Constant: levels of detail blend into each other (`inc/levels.glsl`).
 #define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
-#define SPEC_CLIPS 61          // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
+#define SPEC_CLIPS 61         // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
+#define SPEC_PARTED 62        // Constant: each tile has two lists: of splats, and of those that clip curves cut (`tile/constants.glsl`).
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
@@ -204,10 +205,11 @@
 #define STEP_REST 2 // All that is left.
 
 // Where the arguments are, in words.
-#define ARGUMENTS_TILES 0    // VkDispatchIndirectCommand: tiles with splats; overflow tiles end at once.
+#define ARGUMENTS_TILES 0    // VkDispatchIndirectCommand: tiles with splats, where lists are parted with none that is clipped; overflow tiles end at once.
 #define ARGUMENTS_OVERFLOW 4 // VkDispatchIndirectCommand: overflow tiles.
 #define ARGUMENTS_QUADS 8    // VkDrawIndirectCommand: a quad for each run of tiles with splats.
-#define ARGUMENTS_CHUNKS 12  // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline.
+#define ARGUMENTS_CLIPPED 12 // VkDispatchIndirectCommand: where lists are parted, tiles with clipped splats.
+#define ARGUMENTS_CHUNKS 16  // VkDrawIndirectCommand a chunk: a quad for each splat that is drawn by the graphics pipeline.
 
 // Other sizes.
 #define CLIP_VECTORS 6          // Vectors of four floats of the clip curves of a splat: three for each of two curves.

@@ -28,15 +28,20 @@ void cut_by(Curve curve, inout float kept[ROWS])
     }
 }
 
-// What curves leave of splats, which `own` of invocations from `place` on have loaded; 1 where nothing is cut off.
-void find_kept(Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+void keep_all(out float kept[AT_ONCE][ROWS])
 {
     [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
             kept[k][row] = 1.0;
         }
     }
-    uint most = CLIPS ? most_curves(own, splats) : 0;
+}
+
+// What curves leave of splats, which `own` of invocations from `place` on have loaded; 1 where nothing is cut off.
+void find_kept(Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+{
+    keep_all(kept);
+    uint most = most_curves(own, splats);
     if (most == 0) {
         return; // where invocations can
     }

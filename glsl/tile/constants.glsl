@@ -6,7 +6,8 @@
 // space the records are; one invocation walks over one segment, in order (tile/walk.glsl), first to count what falls into each bin,
 // then to list it. So lists need no atomics and are the same in every run: by segment, and in each in the order of the records.
 //
-// Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular).
+// Bins: one a tile; behind them one a chunk, of splats that are drawn by the graphics pipeline (large, or not regular). PARTED: two a tile,
+// the second one of splats that clip curves cut (inc/clip.glsl), so that others need not look for curves.
 
 #include "inc/config.glsl"
 #include "inc/groups.glsl"
@@ -17,7 +18,7 @@ struct TileConstants {
     uint tiles_x;        // tiles in a row
     uint first_tile;     // of the band of rows that lists are of: all of the image, or as much as memory is meant for
     uint tile_count;     // of the band; all tiles are numbered from its first one
-    uint bin_count;      // tiles, then chunks
+    uint bin_count;      // of tiles, then of chunks
     uint record_count;   // at most; of listed splats, as many as are visible
     uint segments;
     uint segment_length; // records, a multiple of SEGMENT_BLOCK
@@ -32,9 +33,21 @@ struct TileConstants {
 };
 layout(push_constant, std430) uniform Push { TileConstants push; };
 
-// Words behind the starts of bins: how many entries there are in all, how many tiles have some, how many overflow.
+layout(constant_id = SPEC_PARTED) const bool PARTED = false;
+const uint TILE_BINS = PARTED ? 2 : 1;
+#define FIRST_CHUNK_BIN (TILE_BINS * push.tile_count)
+
+// Words behind the starts of bins: how many entries there are in all, how many tiles have some, how many overflow; PARTED: how many have
+// clipped ones, which are not among those with some.
 #define STARTS_TILES (push.bin_count + 1)
 #define STARTS_OVERFLOW (push.bin_count + 2)
+#define STARTS_CLIPPED (push.bin_count + 3)
+
+// Where the tile is listed: those with clipped splats from the end on.
+uint place_of_tile(bool clipped, uint number)
+{
+    return clipped ? push.tile_count - 1 - number : number;
+}
 
 // Counts of the segments of one workgroup lie beside each other: they walk over the same region at a time, and bins of theirs
 // in columns apart would fall on the same lines of a cache.

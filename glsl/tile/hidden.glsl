@@ -14,7 +14,7 @@ Range unhidden(Range range)
     }
     farthest = least_of_tile(farthest);
     vec2 first_px = top_px - vec2(gl_LocalInvocationID.x, 0.0);
-    Range left = Range(range.first, range.first);
+    Range left = Range(range.first, range.first, range.first);
     for (uint base = range.first; base < range.end; base += LANES) {
         Splat splat = load_splat(base, range.end);
         vec2 corner = vec2(greaterThan(splat.w, vec2(0.0))) * vec2(TILE_WIDTH - 1, TILE_HEIGHT - 1);
@@ -29,6 +29,7 @@ Range unhidden(Range range)
             entries[left.end + votes.x] = splat.record;
         }
         left.end += votes.y;
+        left.clipped += CLIPS ? votes_of_tile(kept && base + OWN_LANE < range.clipped).y : votes.y;
     }
     see_entries();
     return left;

@@ -48,19 +48,29 @@ vec3 turned(vec3 normal, vec3 v)
 }
 
 // Of all splats that are loaded at once, the place where a batch begins; at 0 they have to be loaded.
-uint place_of(uint base, Range range)
+uint place_of(uint base, uint first)
 {
-    return LOADED == TILE_BATCH ? 0 : (base - range.first) % LOADED;
+    return LOADED == TILE_BATCH ? 0 : (base - first) % LOADED;
 }
 
-void see(Range range)
+// What curves leave of splats; where none is `clipped`, all.
+void find_kept(bool clipped, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+{
+    if (clipped) {
+        find_kept(own, splats, place, kept);
+    } else {
+        keep_all(kept);
+    }
+}
+
+void see(uint list_first, uint end, bool clipped)
 {
     Splat own;
-    uint base = range.first;
+    uint base = list_first;
     do {
-        uint place = place_of(base, range);
+        uint place = place_of(base, list_first);
         if (place == 0) {
-            own = load_splat(base, range.end);
+            own = load_splat(base, end);
             stage_shared(own);
         }
         [[unroll]] for (uint first = 0; first < TILE_BATCH; first += AT_ONCE) {
@@ -69,28 +79,27 @@ void see(Range range)
                 splats[k] = broadcast(own, place + first + k);
             }
             float kept[AT_ONCE][ROWS];
-            find_kept(own, splats, place + first, kept);
+            find_kept(clipped, own, splats, place + first, kept);
             [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
                 Column column = column_of(splats[k]);
                 [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                    see(splats[k], column, CLIPS ? kept[k][row] : 1.0, row);
+                    see(splats[k], column, clipped ? kept[k][row] : 1.0, row);
                 }
             }
         }
         base += TILE_BATCH;
-    } while (base < range.end);
+    } while (base < end);
 }
 
-// `lit`: each splat is lit by itself, at its center.
-void sum(Range range, bool lit)
+void sum(uint list_first, uint end, bool clipped, bool lit)
 {
     Splat own;
     SplatAttributes own_attributes;
-    uint base = range.first;
+    uint base = list_first;
     do {
-        uint place = place_of(base, range);
+        uint place = place_of(base, list_first);
         if (place == 0) {
-            own = load_splat(base, range.end);
+            own = load_splat(base, end);
             stage_shared(own);
             own_attributes = load_attributes(own);
             if (lit) {
@@ -110,13 +119,34 @@ void sum(Range range, bool lit)
                 columns[k] = column_of(splats[k]);
             }
             float kept[AT_ONCE][ROWS];
-            find_kept(own, splats, place + first, kept);
+            find_kept(clipped, own, splats, place + first, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
                 [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
-                    add(splats[k], attributes[k], columns[k], CLIPS ? kept[k][row] : 1.0, row);
+                    add(splats[k], attributes[k], columns[k], clipped ? kept[k][row] : 1.0, row);
                 }
             }
         }
         base += TILE_BATCH;
-    } while (base < range.end);
+    } while (base < end);
+}
+
+void see(Range range)
+{
+    if (!CLIPS || range.first < range.clipped) {
+        see(range.first, range.clipped, false);
+    }
+    if (CLIPS && range.clipped < range.end) {
+        see(range.clipped, range.end, true);
+    }
+}
+
+// `lit`: each splat is lit by itself, at its center.
+void sum(Range range, bool lit)
+{
+    if (!CLIPS || range.first < range.clipped) {
+        sum(range.first, range.clipped, false, lit);
+    }
+    if (CLIPS && range.clipped < range.end) {
+        sum(range.clipped, range.end, true, lit);
+    }
 }

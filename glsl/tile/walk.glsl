@@ -12,12 +12,22 @@ layout(constant_id = SPEC_TEXELS) const bool TEXELS = false; // CPU drivers read
 layout(set = 0, binding = BIND_RECTS, std430) readonly buffer Rects { uint rects[]; };
 layout(set = 0, binding = BIND_RECT_TEXELS) uniform utextureBuffer rect_texels;
 
+// PARTED: the first quarter of records tells which are clipped (tile/splat.glsl).
+layout(set = 0, binding = BIND_RECORDS, std430) readonly buffer Records0 { vec4 records0[]; };
+layout(set = 0, binding = BIND_RECORD_TEXELS) uniform textureBuffer record_texels0;
+
 layout(constant_id = SPEC_LISTED) const bool LISTED = false; // records are those of a list, whose length only the device knows
 layout(set = 0, binding = BIND_VISIBLE_STARTS, std430) readonly buffer VisibleStarts { uint visible_starts[]; };
 
 uint rect_of(uint record)
 {
     return TEXELS ? texelFetch(rect_texels, int(record)).x : rects[record];
+}
+
+// Of the bins of a tile the one for the record.
+uint bin_within_tile(uint record)
+{
+    return PARTED && (TEXELS ? texelFetch(record_texels0, int(record)).z : records0[record].z) < 0.0 ? 1 : 0;
 }
 
 // Records of the segment.
@@ -44,6 +54,7 @@ void walk()
     uint tile = 0;
     uint row_tile = 0; // the first of the row
     uint outside = 0;
+    uint within_tile = 0;
     while (next < end || in_row > 0) {
         if (in_row == 0) {
             record = (next / SEGMENT_BLOCK * push.segments + segment) * SEGMENT_BLOCK + next % SEGMENT_BLOCK;
@@ -51,12 +62,13 @@ void walk()
             uint rect = record < record_count ? rect_of(record) : RECT_NONE;
             if (rect >= RECT_CHUNK) {
                 if (rect != RECT_NONE) {
-                    visit(record, push.tile_count + chunk_of(rect));
+                    visit(record, FIRST_CHUNK_BIN + chunk_of(rect));
                 }
             } else {
                 uvec2 first = first_of(rect);
                 uvec2 more = more_of(rect);
                 outside = outside_of(rect);
+                within_tile = bin_within_tile(record);
                 width = more.x + 1;
                 rows = more.y;
                 row_tile = first.x + first.y * push.tiles_x - push.first_tile;
@@ -65,7 +77,7 @@ void walk()
             }
         }
         if (in_row > 0) {
-            visit(record, tile);
+            visit(record, TILE_BINS * tile + within_tile);
             tile++;
             in_row--;
             if (in_row == 0 && rows > 0) {

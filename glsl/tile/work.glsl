@@ -8,9 +8,10 @@ layout(set = 0, binding = BIND_OVERFLOW_TILES, std430) readonly buffer OverflowT
 layout(constant_id = SPEC_PART_LENGTH) const uint PART_LENGTH = 200000;
 layout(constant_id = SPEC_HALF_FLOATS) const bool HALF_FLOATS = false; // in images; in registers there are none
 
-// Entries of a list.
+// Entries of a list; CLIPS: from `clipped` on of splats that curves cut.
 struct Range {
     uint first;
+    uint clipped;
     uint end;
 };
 
@@ -30,20 +31,23 @@ void enter_tile(uint tile)
 }
 
 // Answers whether there is any work; all of a workgroup have the same. `whole`: this dispatch does whole tiles and leaves out overflow
-// tiles; else it does the part push.part of those.
+// tiles; CLIPS: those with clipped splats. Else it does the part push.part of overflow tiles.
 bool find_work(bool whole, out Range range)
 {
-    if (GROUP_NUMBER >= starts[whole ? STARTS_TILES : STARTS_OVERFLOW]) {
+    if (GROUP_NUMBER >= starts[!whole ? STARTS_OVERFLOW : CLIPS ? STARTS_CLIPPED : STARTS_TILES]) {
         return false;
     }
-    uint tile = whole ? non_empty_tiles[GROUP_NUMBER] : overflow_tiles[GROUP_NUMBER];
+    uint tile = whole ? non_empty_tiles[place_of_tile(CLIPS, GROUP_NUMBER)] : overflow_tiles[GROUP_NUMBER];
     enter_tile(tile);
-    range = Range(starts[tile], starts[tile + 1]);
+    uint bin = TILE_BINS * tile;
+    uint end = starts[bin + TILE_BINS];
+    range = Range(starts[bin], CLIPS ? starts[bin + 1] : end, end);
     if (whole) {
         return range.end - range.first <= PART_LENGTH;
     }
     range.first = min(range.first + push.part * PART_LENGTH, range.end);
     range.end = min(range.first + PART_LENGTH, range.end);
+    range.clipped = clamp(range.clipped, range.first, range.end);
     return true;
 }
 

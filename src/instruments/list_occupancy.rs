@@ -125,8 +125,9 @@ impl ListOccupancy {
         let (tile_count, bins) = (u64::from(plan.tile_count), u64::from(plan.bin_count()));
         let records = rects.iter().take(set_up as usize).filter(|rect| **rect < RECT_CHUNK).count() as u64;
         // Behind those of tiles are those of chunks, which other passes read.
-        let entries = word(starts, tile_count);
-        let [tiles, overflow] = [bins + 1, bins + 2].map(|place| word(starts, place));
+        let entries = word(starts, plan.first_chunk_bin().into());
+        let [tiles, overflow, clipped] = [1, 2, 3].map(|place| word(starts, bins + place));
+        let tiles = if plan.clips { tiles + clipped } else { tiles };
         let runs: u64 = word(arguments, u64::from(ARGUMENTS_QUADS) + 1);
         let lists = [
             ("rects", 4 * set_up),

@@ -106,9 +106,14 @@ impl TilePlan {
         let records = self.record_room;
         // Four quarters and a rect; an index, a bit, and a 32nd of a count.
         let of_records = records * (4 * RECORD_BYTES + 4) + records * 4 + records / 4;
-        let counts = u64::from(self.segments) * u64::from(self.bin_count()) * 4;
         // Starts, tiles with splats, runs, overflow tiles.
-        of_records + self.clip_bytes() + self.entry_room * 4 + counts + u64::from(self.bin_count()) * 20
+        let of_bins = u64::from(self.bin_count()) * 4 + u64::from(self.tile_count) * 16;
+        of_records + self.clip_bytes() + self.entry_room * 4 + self.count_bytes() + of_bins
+    }
+
+    /// Bytes of what each segment counts in bins.
+    pub(crate) fn count_bytes(&self) -> u64 {
+        u64::from(self.segments) * u64::from(self.bin_count()) * 4
     }
 
     /// Bytes of the clip curves of records.
@@ -199,7 +204,7 @@ impl TilePlan {
     fn with_clips(self, limits: &Limits) -> Option<Self> {
         let plan = Self { clips: true, ..self };
         let texels = plan.clip_bytes() / RECORD_BYTES;
-        let fit = plan.clip_bytes() <= limits.max_storage_buffer_range
+        let fit = plan.clip_bytes().max(plan.count_bytes()) <= limits.max_storage_buffer_range
             && (!plan.invocations.fetch_texels() || texels <= limits.max_texels.into());
         fit.then_some(plan)
     }
@@ -216,9 +221,14 @@ impl TilePlan {
         Self { hidden: false, two_sided, blended, ..self }
     }
 
-    /// The bins of all lists: tiles, then chunks.
+    /// The bins of all lists: of tiles, then of chunks.
     pub fn bin_count(&self) -> u32 {
-        self.tile_count + self.chunk_count
+        self.first_chunk_bin() + self.chunk_count
+    }
+
+    /// The bins of tiles: where some splats are clipped, two each.
+    pub fn first_chunk_bin(&self) -> u32 {
+        if self.clips { 2 * self.tile_count } else { self.tile_count }
     }
 
     /// A tile's pixels along both sides.

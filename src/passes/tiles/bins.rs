@@ -32,6 +32,7 @@ fn walk_key(shader: &'static Shader, plan: &TilePlan, listed: bool) -> ComputeKe
         (SPEC_LISTED, u32::from(listed)),
         (SPEC_TEXELS, u32::from(plan.invocations.fetch_texels())),
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
+        (SPEC_PARTED, u32::from(plan.clips)),
     ];
     key(shader, constants)
 }
@@ -61,12 +62,13 @@ pub(crate) fn list<'a>(
 
     let (read, write, update) =
         (Access::StorageReadCompute, Access::StorageWriteCompute, Access::StorageUpdateCompute);
-    let rects = [BIND_RECTS, BIND_RECT_TEXELS];
     let pass = Pass::new(graph, inputs.source, &name("count"), WHY);
-    let pass = tiles
-        .read_as_texels(pass, rects, &tiles.rects)
-        .read_if(at(BIND_VISIBLE_STARTS), visible_starts, read)
-        .write(at(BIND_COUNTS), &mut tiles.counts, update, Start::Load);
+    let pass = tiles.read_for_walk(pass).read_if(at(BIND_VISIBLE_STARTS), visible_starts, read).write(
+        at(BIND_COUNTS),
+        &mut tiles.counts,
+        update,
+        Start::Load,
+    );
     let count = walk_key(&shaders::TILE_COUNT_COMP, plan, visible.is_some());
     finish(pass, inputs, (plan, count), walk)?;
 
@@ -83,14 +85,15 @@ pub(crate) fn list<'a>(
         .write(at(BIND_RUNS), &mut tiles.runs, write, Start::Discard)
         .write(at(BIND_ARGUMENTS), &mut tiles.arguments, write, Start::Discard)
         .write(at(BIND_OVERFLOW_TILES), &mut tiles.overflow, write, Start::Discard);
-    let start = key(&shaders::TILE_START_COMP, vec![(SPEC_PART_LENGTH, plan.part_length)]);
+    let start = vec![(SPEC_PART_LENGTH, plan.part_length), (SPEC_PARTED, u32::from(plan.clips))];
+    let start = key(&shaders::TILE_START_COMP, start);
     finish(pass, inputs, (plan, start), |pass| pass.groups(pass.constants, 1))?;
 
     // Where the graphics pipeline draws some, it wants the splats' own numbers.
     let numbers = visible.as_ref().filter(|_| plan.may_be_large).map(|list| &list.list);
     let pass = Pass::new(graph, inputs.source, &name("fill"), WHY);
     let pass = tiles
-        .read_as_texels(pass, rects, &tiles.rects)
+        .read_for_walk(pass)
         .read_if(at(BIND_VISIBLE_STARTS), visible_starts, read)
         .read_if(at(BIND_VISIBLE_LIST), numbers, read)
         .read(at(BIND_STARTS), &tiles.starts, read)

@@ -12,30 +12,42 @@ use crate::passes::{
     },
     place::{Place, arguments},
     plan::tiles::TilePlan,
-    recording::{Recording, rows_of},
+    recording::{Pipeline, Recording, rows_of},
 };
 use crate::{
     error::Result,
     shaders::{Shader, config::*},
 };
 
+/// Of a pipeline that cuts splats by curves.
+const CLIPS: (u32, u32) = (SPEC_CLIPS, 1);
+
 /// The pipeline of a shader in the layout of tiles.
 pub(crate) fn key(shader: &'static Shader, constants: Constants) -> ComputeKey {
     ComputeKey { shader, layout: Layout::Tile, constants }
 }
 
-/// Declares a pass of one pipeline over the tiles of a plan; `body` records its dispatches.
+/// Declares a pass over the tiles of a plan; `body` records its dispatches. Where the pipeline cuts splats by curves there is one more,
+/// which does not, for tiles of which no splat is cut.
 pub(crate) fn finish<'a>(
     pass: Pass<'_, 'a>,
     inputs: Inputs<'a>,
     (plan, key): (&TilePlan, ComputeKey),
     body: impl FnOnce(&TileDispatch<'_, '_>) -> Result<()> + 'a,
 ) -> Result<()> {
+    let unclipped = match key.constants.contains(&CLIPS) {
+        true => {
+            let mut key = key.clone();
+            key.constants.retain(|constant| *constant != CLIPS);
+            Some(pass.compute(key)?)
+        }
+        false => None,
+    };
     let (pipeline, constants) = (pass.compute(key)?, constants(inputs, plan));
     pass.finish(move |pass| {
         pass.bind(pipeline);
         pass.bind_sets(Layout::Tile, 0, &[pass.set(Place::Tiles(0))?])?;
-        body(&TileDispatch { pass, constants })
+        body(&TileDispatch { pass, constants, pipeline, unclipped })
     });
     Ok(())
 }
@@ -50,10 +62,21 @@ pub(crate) fn finish_indirect<'a>(
     finish(pass, inputs, pipeline, move |pass| pass.indirect(pass.constants, first_word))
 }
 
+/// The same of one dispatch over whole tiles.
+pub(crate) fn finish_whole<'a>(
+    pass: Pass<'_, 'a>,
+    inputs: Inputs<'a>,
+    pipeline: (&TilePlan, ComputeKey),
+) -> Result<()> {
+    finish(pass, inputs, pipeline, |pass| pass.whole_tiles(pass.constants))
+}
+
 /// A pass over tiles while it is recorded, with all bound.
 pub(crate) struct TileDispatch<'c, 'a> {
     pass: &'c Recording<'c, 'a>,
     pub constants: TileConstants,
+    pipeline: Pipeline,
+    unclipped: Option<Pipeline>,
 }
 
 impl TileDispatch<'_, '_> {
@@ -68,6 +91,19 @@ impl TileDispatch<'_, '_> {
     pub fn indirect(&self, constants: TileConstants, first_word: u32) -> Result<()> {
         self.pass.push(Layout::Tile, &constants)?;
         self.pass.dispatch_indirect(arguments(0), 4 * u64::from(first_word))
+    }
+
+    /// Records a dispatch over all tiles with splats that are not too many; where some are clipped, one over those without, and one over
+    /// the others.
+    pub fn whole_tiles(&self, constants: TileConstants) -> Result<()> {
+        let Some(unclipped) = self.unclipped else {
+            return self.indirect(constants, ARGUMENTS_TILES);
+        };
+        self.pass.bind(unclipped);
+        self.indirect(constants, ARGUMENTS_TILES)?;
+        self.wait();
+        self.pass.bind(self.pipeline);
+        self.indirect(constants, ARGUMENTS_CLIPPED)
     }
 
     /// Records such dispatches, each behind the one before, which works on the same memory.

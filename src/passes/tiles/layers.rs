@@ -100,12 +100,12 @@ fn declare<'a>(
     work: Work,
 ) -> Result<()> {
     let (settings, plan) = (inputs.settings, tiles.plan);
-    let (name, why, first_word) = match work {
+    let (name, why) = match work {
         Work::Whole | Work::Several => {
             let why = "transparent splats: all layers of one tile after the other";
-            (format!("layers of {band}tiles"), why, ARGUMENTS_TILES)
+            (format!("layers of {band}tiles"), why)
         }
-        Work::Parts => (format!("layers of {band}overflow tiles"), overflow::WHY, ARGUMENTS_OVERFLOW),
+        Work::Parts => (format!("layers of {band}overflow tiles"), overflow::WHY),
     };
     let mut peeled = (work == Work::Several)
         .then(|| graph.create_image(&format!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT)));
@@ -133,6 +133,15 @@ fn declare<'a>(
     }
     let key = key(settings, plan, Beside { opaque: opaque.is_some(), lights: inputs.lights }, work);
     dispatch::finish(pass, inputs, (plan, key), move |pass| {
-        pass.indirect_in_turn(dispatches(settings, plan, work, pass.constants), first_word)
+        for (number, constants) in dispatches(settings, plan, work, pass.constants).into_iter().enumerate() {
+            if number > 0 {
+                pass.wait();
+            }
+            match work {
+                Work::Whole | Work::Several => pass.whole_tiles(constants)?,
+                Work::Parts => pass.indirect(constants, ARGUMENTS_OVERFLOW)?,
+            }
+        }
+        Ok(())
     })
 }

@@ -66,8 +66,8 @@ impl<'a> Tiles<'a> {
             clips,
             entries,
             rects,
-            counts: buffer("counts", u64::from(plan.segments) * bins * 4),
-            starts: buffer("starts", (bins + 3) * 4),
+            counts: buffer("counts", plan.count_bytes()),
+            starts: buffer("starts", (bins + 4) * 4),
             seen: buffer("seen", tile_count * 4),
             runs: buffer("runs", tile_count * 8),
             arguments: buffer(
@@ -75,6 +75,15 @@ impl<'a> Tiles<'a> {
                 4 * u64::from(ARGUMENTS_CHUNKS) + 16 * u64::from(plan.chunk_count),
             ),
             overflow: buffer("overflow", tile_count * 4),
+        }
+    }
+
+    /// Adds to a pass what it reads that walks over records: the tiles of each, and where some are clipped, which ones.
+    pub fn read_for_walk<'g, 'b>(&self, pass: Pass<'g, 'b>) -> Pass<'g, 'b> {
+        let pass = self.read_as_texels(pass, [BIND_RECTS, BIND_RECT_TEXELS], &self.rects);
+        match self.plan.clips {
+            true => self.read_as_texels(pass, [BIND_RECORDS, BIND_RECORD_TEXELS], &self.records[0]),
+            false => pass,
         }
     }
 

@@ -23,7 +23,7 @@ pub(crate) fn extent_of_slots(tiles: u32, [tile_width, tile_height]: [u32; 2]) -
 /// Records the dispatches of a pass: perhaps of whole tiles, then of all parts of overflow ones.
 pub(crate) fn in_parts(pass: &TileDispatch<'_, '_>, whole: bool, parts: u32) -> Result<()> {
     if whole {
-        pass.indirect(pass.constants, ARGUMENTS_TILES)?;
+        pass.whole_tiles(pass.constants)?;
     }
     let part = |part| TileConstants { part, ..pass.constants };
     pass.indirect_in_turn((0..parts).map(part), ARGUMENTS_OVERFLOW)

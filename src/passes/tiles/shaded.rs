@@ -121,7 +121,7 @@ pub(crate) fn shaded<'a>(
     };
     shown.depth_start = Start::Load;
     let key = key(inputs.settings, plan, shown.precision, beside);
-    dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
+    dispatch::finish_whole(pass, inputs, (plan, key))?;
     match plan.may_overflow() {
         true => shade_overflow(graph, inputs, kind, tiles, shown, lights),
         false => Ok(()),

@@ -151,7 +151,7 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
         (SPEC_HALF_FLOATS, u32::from(images == Accumulate::F16)),
     ]);
     if plan.clips {
-        constants.push((SPEC_CLIPS, 1));
+        constants.extend([(SPEC_PARTED, 1), (SPEC_CLIPS, 1)]);
     }
     if settings.edges == Edges::Coverage {
         let filter_px = settings.samples.filter_radius_px() as f32;
@@ -212,7 +212,7 @@ pub(crate) fn fused<'a>(
         .write(at(BIND_NORMALS), &mut images.sums.normal, access, content)
         .write(at(BIND_VISIBLE_DEPTH), &mut images.depth, access, content)
         .read_if(at(BIND_DEPTH_BEFORE), before, Access::SampledCompute);
-    dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_TILES)?;
+    dispatch::finish_whole(pass, inputs, (plan, key))?;
     if plan.may_overflow() {
         see(graph, inputs, kind, tiles, images, before, false)?;
         sum(graph, inputs, kind, tiles, images, (None, with_depth), false)?;
