@@ -94,7 +94,10 @@ fn without_a_name_the_figures_are_listed() {
     let names: Vec<_> = run.stdout.lines().filter_map(|line| line.split(' ').next()).collect();
     assert_eq!(
         names,
-        ["g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19", "i1", "i9", "i10", "samples"]
+        [
+            "g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19", "i1", "i3", "i5", "i7", "i9",
+            "i10", "i11", "samples"
+        ]
     );
     assert!(folder.names().is_empty());
 }
@@ -268,13 +271,38 @@ fn i9_curves_leave_the_outline_of_the_mesh() {
     assert!(3 * curves < uncut && curves <= lines, "{uncut}, {lines}, {curves}");
 }
 
+/// The part of each panel that shows something.
+fn shown(panels: &[Panel]) -> Vec<f64> {
+    let part = |panel: &Panel| {
+        panel.values.iter().filter(|value| **value < 0.9).count() as f64 / panel.values.len() as f64
+    };
+    panels.iter().map(part).collect()
+}
+
+#[test]
+fn i3_i5_and_i7_single_splats_have_their_areas() {
+    let by_weight = shown(&panels("i3", [120, 96], &[]));
+    println!("by weight: {by_weight:.3?}");
+    assert!(by_weight.len() == 6 && by_weight.windows(2).all(|pair| pair[1] < pair[0] - 0.01));
+    // Both sides of a curve are a disk of radius 1 in 2.5 x 3.125, but for the dot that lies beside the second one.
+    let sides: f64 = shown(&panels("i5", [120, 96], &[])).iter().sum();
+    let disk = std::f64::consts::PI / (2.5 * 3.125);
+    assert!((sides - disk).abs() < 0.02, "{sides} and {disk}");
+    let around = shown(&panels("i7", [120, 96], &[]));
+    let least = |row: &[f64]| row[2] < row[0] && row[2] < row[1];
+    assert!(around.len() == 6 && around.chunks(3).all(least) && around[4] > around[3], "{around:?}");
+}
+
 #[test]
 fn faults_are_one_line_and_leave_nothing() {
     let folder = Folder::new();
     folder.write("model.ply", splats("0 0 0 0 0 1 1 255 0 0\n"));
     let before = folder.names();
     let cases: [(&[&str], &str); 10] = [
-        (&["g2"], "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19, i1, i9, i10, samples"),
+        (
+            &["g2"],
+            "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19, i1, i3, i5, i7, i9, i10, i11, samples",
+        ),
         (&["--size", "64x64"], "required arguments"),
         (&["g3", "-o", "a.svg"], "--output: a.svg: expected a name in .png for g3"),
         (&["p9", "-o", "a.png"], "--output: a.png: expected a name in .svg for p9"),

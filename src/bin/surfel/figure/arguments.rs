@@ -74,10 +74,18 @@ pub enum Figure {
     P19,
     /// I figure 1, a curved edge of few splats from three distances: not cut, cut by lines, cut by curves
     I1,
+    /// I figure 3, a splat cut by curves with six weights of the middle control point
+    I3,
+    /// I figure 5, a splat cut by the same curve in both directions
+    I5,
+    /// I figure 7, splats for a triangle: circles around its centroid and through its corners, the ellipse; and their areas
+    I7,
     /// I figure 9, a mesh with sharp edges, and 2500 splats for it: not cut, cut by lines, cut by curves
     I9,
     /// I figure 10, 2500 splats with clip curves from three distances
     I10,
+    /// I figure 11, a curved edge of few splats: the mesh's, of the splats of its flat side, and of those of both sides
+    I11,
     /// A figure of no paper: the error of pictures of 1 to 256 samples a pixel against the ground truth, as curves
     Samples,
 }
@@ -111,7 +119,8 @@ impl Figure {
             Self::P9 | Self::P10 | Self::Samples => [900, 600],
             Self::P18 => [512, 400],
             Self::P19 => [512, 512],
-            Self::I1 | Self::I10 => [360, 360],
+            Self::I1 | Self::I10 | Self::I11 => [360, 360],
+            Self::I3 | Self::I5 | Self::I7 => [300, 240],
             Self::I9 => [512, 512],
         }
     }

@@ -5,7 +5,7 @@ use surfel::{
     Error, Result,
     geometry::{creased_mesh, sharp::Clipping},
     prepare::PreparedScene,
-    scene::{Camera, ClipCurve, MeshObject, Scene, Settings, Shapes, Splats},
+    scene::{Camera, ClipCurve, Colors, MeshObject, Object, Scene, Settings, Shapes, Splats},
 };
 
 use super::{
@@ -28,6 +28,11 @@ const ZOOMS: [f64; 3] = [2.0, 8.0, 32.0];
 
 /// How much of the image the panels of figure 10 cover.
 const OCCUPANCIES: [f64; 3] = [0.031, 0.375, 0.807];
+
+/// Of figure 11: a place of the bore's rim, and linear colors of flat and bent sides.
+const BORE: DVec3 = DVec3::new(0.35, 0.35, 0.6);
+const FLAT: [f32; 4] = [0.15, 0.35, 0.75, 1.0];
+const BENT: [f32; 4] = [0.75, 0.35, 0.1, 1.0];
 
 const WAYS: [(&str, Clipping); 3] =
     [("not cut", Clipping::None), ("cut by lines", Clipping::Lines), ("cut by curves", Clipping::Shared)];
@@ -133,6 +138,58 @@ pub fn i10(context: &mut FigureContext<'_>) -> Result<Sheet> {
     }
     let title = "Few splats from three distances (Ivo et al. 2012, figure 10)";
     Ok(Sheet::new(title, 3, panels, &[&note(&part, SPLATS)]))
+}
+
+/// Figure 11: what clip curves do not repair, since splats are flat.
+///
+/// # Errors
+/// As those of [`FigureContext`].
+pub fn i11(context: &mut FigureContext<'_>) -> Result<Sheet> {
+    let part = Part::open(None, context.bars)?;
+    let settings = settings(context);
+    let both = made(context, &part, FEW_SPLATS, Clipping::Shared)?;
+    let splats = &both.scene.objects[0].splats;
+    // The built-in part has flat sides across z around its bore.
+    let Shapes::Ellipses { s, t } = &splats.shapes else {
+        return Err(Error::input(&part.name, "", "has no splat"));
+    };
+    let is_flat: Vec<bool> = s.iter().zip(t).map(|(s, t)| s.cross(*t).normalize().z > 0.99).collect();
+    let colors = is_flat.iter().map(|flat| if *flat { FLAT } else { BENT }).collect();
+    let colored = Splats { colors: Colors::Each(colors), ..splats.clone() };
+    let mut flat = colored.clone();
+    flat.keep(&is_flat);
+    let scene_of = |splats: Splats, closed: bool| Scene {
+        objects: vec![Object { name: part.name.clone(), splats, closed }],
+        ..Scene::default()
+    };
+    let camera = camera_covering(context.headless, (&both.scene, &both.prepared), &settings, SHARE)?.0;
+    let eye = BORE + 6.0 * DVec3::new(0.25, -0.35, 1.0).normalize();
+    let camera = Camera { eye, target: BORE, up: DVec3::Y, fov_y_rad: 0.1, ..camera };
+    let (mesh, report) = creased_mesh(part.mesh.clone());
+    let polygons = MeshObject { name: part.name.clone(), mesh, closed: report.closed };
+    let polygons = context.prepare(&Scene { meshes: vec![polygons], ..Scene::default() })?;
+    let flat = context.prepare(&scene_of(flat, false))?;
+    let colored = context.prepare(&scene_of(colored, true))?;
+    let panels = vec![
+        Panel::new(
+            "a) the mesh",
+            "a flat side meets a bore",
+            context.picture(&polygons, &camera, &settings)?,
+        ),
+        Panel::new(
+            "b) splats of the flat side",
+            "the edge is smooth",
+            context.picture(&flat, &camera, &settings)?,
+        ),
+        Panel::new(
+            "c) of both sides",
+            "the bore's are flat between its corners",
+            context.picture(&colored, &camera, &settings)?,
+        ),
+    ];
+    let title = "Where a flat and a bent side meet (Ivo et al. 2012, figure 11)";
+    let note = "Splats of the bent side are planes through its chords: between them and the arc of the flat side slivers are left or overlap.";
+    Ok(Sheet::new(title, 3, panels, &[&self::note(&part, FEW_SPLATS), note]))
 }
 
 /// The middle of the curve that is farthest from its chord as it is seen from a place, of splats that face it.

@@ -7,6 +7,7 @@ mod arguments;
 mod boards;
 mod clips;
 mod context;
+mod curves;
 mod footprint;
 mod g1;
 mod g5;
@@ -80,8 +81,12 @@ pub fn draw(
         Figure::P18 => boards::p18(&mut context).map(Drawing::Sheet),
         Figure::P19 => p19::draw(&mut context).map(Drawing::Sheet),
         Figure::I1 => clips::i1(&mut context).map(Drawing::Sheet),
+        Figure::I3 => curves::i3(&mut context).map(Drawing::Sheet),
+        Figure::I5 => curves::i5(&mut context).map(Drawing::Sheet),
+        Figure::I7 => curves::i7(&mut context).map(Drawing::Sheet),
         Figure::I9 => clips::i9(&mut context).map(Drawing::Sheet),
         Figure::I10 => clips::i10(&mut context).map(Drawing::Sheet),
+        Figure::I11 => clips::i11(&mut context).map(Drawing::Sheet),
         Figure::Samples => samples::draw(&mut context).map(Drawing::Plot),
     };
     bars.clear();
