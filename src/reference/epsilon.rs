@@ -18,8 +18,10 @@ impl EpsilonRule {
             Epsilon::Auto => {
                 let object = &scene.objects[object];
                 let radii = if opacity == Opacity::Transparent { 2.0 } else { 1.0 };
-                // The far side of what is closed and opaque is not drawn. Packed splats have no room for a share.
-                let sides = opacity == Opacity::Transparent || !object.closed;
+                // The far side of what is closed and opaque is not drawn, and where pixels are covered in part no opaque surface has both
+                // sides. Packed splats have no room for a share.
+                let one_side = object.closed || settings.covers_in_part();
+                let sides = opacity == Opacity::Transparent || !one_side;
                 let exact = scene.storage.format == SplatFormat::Exact;
                 Self::Radii(radii, (sides && exact).then(|| shares(&object.splats, radii)))
             }

@@ -34,7 +34,7 @@ use crate::passes::plan::{
 use crate::{
     prepare::PreparedScene,
     scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
-    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_TWO_SIDED},
+    shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_TWO_SIDED},
     vk::Limits,
 };
 
@@ -153,7 +153,13 @@ impl<'a> SurfacePlan<'a> {
         for band in self.bands_mut() {
             let sides = two_sided.then_some((SPEC_TWO_SIDED, 1));
             let told = || [(SPEC_COVERAGE_EDGES, 1)].into_iter().chain(sides);
-            band.splats.iter_mut().for_each(|draw| draw.variant.extend(told()));
+            for draw in &mut band.splats {
+                draw.variant.extend(told());
+                if two_sided {
+                    // Surfaces are of one side: how near the other one is does not matter.
+                    draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+                }
+            }
             if !transparent {
                 band.plan = band.plan.clone().with_edges(two_sided, blended);
             }
