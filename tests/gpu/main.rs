@@ -7,6 +7,7 @@ mod common;
 mod bands;
 mod by_design;
 mod clips;
+mod clips_measured;
 mod cull;
 mod culling;
 mod edges;

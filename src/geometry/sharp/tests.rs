@@ -2,6 +2,7 @@
 
 mod distances;
 mod gaps;
+mod rival;
 
 use glam::{DVec2, DVec3};
 

@@ -16,12 +16,12 @@ use crate::{
 
 /// Largest and root mean square distance.
 #[derive(Clone, Copy, Debug)]
-struct Distance {
-    most: f64,
-    rms: f64,
+pub(super) struct Distance {
+    pub most: f64,
+    pub rms: f64,
 }
 
-fn distance(all: &[f64]) -> Distance {
+pub(super) fn distance(all: &[f64]) -> Distance {
     let most = all.iter().copied().fold(0.0, f64::max);
     Distance { most, rms: (all.iter().map(|d| d * d).sum::<f64>() / all.len() as f64).sqrt() }
 }
@@ -51,7 +51,7 @@ fn to_mesh(splats: &Splats, mesh: &Mesh) -> Distance {
     distance(&places.par_iter().map(nearest).collect::<Vec<_>>())
 }
 
-fn to_triangle(place: DVec3, p: [DVec3; 3]) -> f64 {
+pub(super) fn to_triangle(place: DVec3, p: [DVec3; 3]) -> f64 {
     let normal = (p[1] - p[0]).cross(p[2] - p[0]);
     let inside = (0..3).all(|i| normal.dot((p[(i + 1) % 3] - p[i]).cross(place - p[i])) >= 0.0);
     if inside {
