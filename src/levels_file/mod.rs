@@ -13,6 +13,7 @@ mod choose;
 mod external;
 mod header;
 mod page;
+mod page_bounds;
 mod part;
 mod read;
 mod table;
@@ -32,4 +33,4 @@ pub use write_object::{Facts, Written, write_object};
 pub const MOST_PAGE_SPLATS: usize = 1 << 16;
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;

@@ -199,7 +199,7 @@ impl<R: Read + Seek> LevelsFile<R> {
             balls: Vec::with_capacity(sum(&|page| page.balls) + nodes),
             leaves: splats(header.ellipses, leaves),
             leaf_parents: Vec::with_capacity(leaves),
-            inverse_overlaps: None,
+            inverse_overlaps: Some(Vec::with_capacity(leaves)),
             nodes: splats(true, nodes),
             node_balls: Vec::with_capacity(nodes),
             weights: Vec::with_capacity(nodes),
@@ -249,6 +249,7 @@ fn add(object: &mut LeveledObject, page: Page) {
         object.weights.extend(page.own.iter().map(|(_, weight)| *weight));
     } else {
         object.leaf_parents.extend(parents);
+        object.inverse_overlaps.get_or_insert_default().extend(page.inverse_overlaps);
     }
     object.balls.extend(page.balls);
     object.balls.extend(page.own.iter().map(|(ball, _)| *ball));

@@ -114,7 +114,7 @@ impl PageEntry {
             parent: Reach::decode(&mut input),
         };
         if flags > NODES | WIDE || unused != 0 {
-            return Err("flags that version 1 does not have".to_owned());
+            return Err("flags that version 2 does not have".to_owned());
         }
         if !(1..=MOST_PAGE_SPLATS as u32).contains(&count) || !(1..=count).contains(&balls) {
             return Err(format!(
