@@ -4,6 +4,7 @@
 mod declare;
 mod explain;
 pub(crate) mod headless;
+mod in_parts;
 
 use std::sync::Arc;
 
@@ -11,7 +12,8 @@ use ash::vk;
 
 pub(crate) use declare::{bytes_per_pixel, declare, import_readback};
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
-pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
+pub use headless::{Frame, Headless, HeadlessOptions, PartSums, Wanted};
+pub use in_parts::Stage;
 
 use crate::{
     error::{Error, Result},

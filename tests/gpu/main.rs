@@ -19,6 +19,7 @@ mod floor;
 mod frame_graph;
 mod hard_cases;
 mod hierarchy_files;
+mod in_parts;
 mod in_use;
 mod levels;
 mod lifetime;

@@ -115,6 +115,6 @@ impl Targets {
     }
 }
 
-fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+pub(super) fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
     bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
 }
