@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use super::table::{PageEntry, Reach};
+use super::{
+    ladder::Rung,
+    table::{PageEntry, Reach},
+};
 use crate::{
     error::{Error, Result},
     scene::{Camera, ViewFromWorld},
@@ -109,6 +112,19 @@ impl PageView {
             }
             tau_px = tau_px.max(LEAST_PX) * TRIES_AN_OCTAVE.recip().exp2();
         }
+    }
+
+    /// What is needed for τ and for each size that is twice the one before, up to the one at which all of it is one splat.
+    pub(super) fn rungs(&self, pages: &[PageEntry]) -> Vec<Rung> {
+        let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(&pages[*i])).collect();
+        let sizes = std::iter::successors(Some(self.tau_px), |tau_px| {
+            (*tau_px <= LARGEST_PX).then_some((2.0 * tau_px).max(LEAST_PX))
+        });
+        let rung = |tau_px| {
+            let is_needed = |i: &usize| self.draws_of(&pages[*i], tau_px);
+            Rung { tau_px, pages: seen.iter().copied().filter(is_needed).collect() }
+        };
+        sizes.map(rung).collect()
     }
 
     /// What this reader reads of some pages, and how much memory the one takes who takes most. One page after the other goes to who has least so

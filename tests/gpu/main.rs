@@ -28,6 +28,7 @@ mod off_center;
 mod oracle;
 mod orthographic;
 mod packed;
+mod paged;
 mod paper_form;
 mod pictures;
 mod samples;
