@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use super::table::{PageEntry, Reach};
+use super::{
+    ladder::Rung,
+    table::{PageEntry, Reach},
+};
 use crate::{
     error::{Error, Result},
     scene::{Camera, ViewFromWorld},
@@ -39,6 +42,8 @@ pub struct PageView {
     blended_size: f64,
     /// What any larger τ needs is needed, too.
     coarser: bool,
+    /// Which of several readers this is, and how many there are.
+    reader: [u32; 2],
 }
 
 /// Pages, in the order of the file, and for which τ.
@@ -66,6 +71,7 @@ impl PageView {
             tau_px,
             blended_size: 1.0,
             coarser: false,
+            reader: [0, 1],
         }
     }
 
@@ -79,6 +85,12 @@ impl PageView {
         Self { coarser: true, ..self }
     }
 
+    /// Shared by `readers`, of which this is number `reader`, from 0 on: each reads other pages, for one τ, and all together read those that the view
+    /// needs. Memory is what each of them has.
+    pub fn with_readers(self, reader: u32, readers: u32) -> Self {
+        Self { reader: [reader, readers.max(1)], ..self }
+    }
+
     /// The pages for the smallest τ, the one that was asked for or more, for which memory suffices.
     ///
     /// # Errors
@@ -89,9 +101,9 @@ impl PageView {
         loop {
             let is_needed = |page: &PageEntry| self.draws_of(page, tau_px);
             let needed: Vec<usize> = seen.iter().copied().filter(|i| is_needed(&pages[*i])).collect();
-            let bytes: u64 = needed.iter().map(|i| pages[*i].host_bytes()).sum();
+            let (own, bytes) = self.shared(pages, needed);
             if bytes <= most_bytes {
-                return Ok(Choice { pages: needed, tau_px });
+                return Ok(Choice { pages: own, tau_px });
             }
             if tau_px > LARGEST_PX {
                 let problem =
@@ -100,6 +112,35 @@ impl PageView {
             }
             tau_px = tau_px.max(LEAST_PX) * TRIES_AN_OCTAVE.recip().exp2();
         }
+    }
+
+    /// What is needed for τ and for each size that is twice the one before, up to the one at which all of it is one splat.
+    pub(super) fn rungs(&self, pages: &[PageEntry]) -> Vec<Rung> {
+        let seen: Vec<usize> = (0..pages.len()).filter(|i| self.sees(&pages[*i])).collect();
+        let sizes = std::iter::successors(Some(self.tau_px), |tau_px| {
+            (*tau_px <= LARGEST_PX).then_some((2.0 * tau_px).max(LEAST_PX))
+        });
+        let rung = |tau_px| {
+            let is_needed = |i: &usize| self.draws_of(&pages[*i], tau_px);
+            Rung { tau_px, pages: seen.iter().copied().filter(is_needed).collect() }
+        };
+        sizes.map(rung).collect()
+    }
+
+    /// What this reader reads of some pages, and how much memory the one takes who takes most. One page after the other goes to who has least so
+    /// far, so that all of them have as much, in every part of the view.
+    fn shared(&self, pages: &[PageEntry], needed: Vec<usize>) -> (Vec<usize>, u64) {
+        let [reader, readers] = self.reader;
+        let mut bytes = vec![0_u64; readers as usize];
+        let mut own = Vec::new();
+        for i in needed {
+            let least = (0..bytes.len()).min_by_key(|of| bytes[*of]).unwrap_or(0);
+            bytes[least] += pages[i].host_bytes();
+            if least == reader as usize {
+                own.push(i);
+            }
+        }
+        (own, bytes.into_iter().max().unwrap_or(0))
     }
 
     /// Whether something of a page may be in the picture.

@@ -150,7 +150,7 @@ impl Header {
             table_crc,
         };
         if flags >= 2 * HAS_UP || input.0[..input.0.len() - 4].iter().any(|byte| *byte != 0) {
-            return Err("flags or bytes that version 1 does not have".to_owned());
+            return Err("flags or bytes that version 2 does not have".to_owned());
         }
         header.check(file_bytes).map(|()| header)
     }

@@ -7,12 +7,16 @@
 //! * **Writing** ([`write_object`], [`convert_splats`]): in memory, or part by part where that is too small.
 //! * **Reading** ([`LevelsFile`]): the table whole, then the pages that a [`PageView`] needs, by reads of whole pages at their places. Nothing
 //!   is mapped, and no memory is taken that the file's own size does not account for.
+//! * **Paging** ([`Pager`], [`Ladder`]): the same by a thread in the background, coarser pages first.
 
 mod bytes;
 mod choose;
 mod external;
 mod header;
+mod ladder;
 mod page;
+mod page_bounds;
+mod pager;
 mod part;
 mod read;
 mod table;
@@ -24,6 +28,8 @@ mod write_object;
 pub use choose::PageView;
 pub use external::{LEAST_MEMORY, convert_splats, fits};
 pub use header::Header;
+pub use ladder::{Ladder, Rung, Standing};
+pub use pager::{Arrived, Pager};
 pub use read::{Chosen, LevelsFile, is_levels_file};
 pub use table::{PageEntry, Reach};
 pub use write_object::{Facts, Written, write_object};
@@ -32,4 +38,4 @@ pub use write_object::{Facts, Written, write_object};
 pub const MOST_PAGE_SPLATS: usize = 1 << 16;
 
 /// The version of the format that is written, and the only one that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;

@@ -6,19 +6,19 @@ use glam::{DVec3, Vec3};
 
 use super::{
     bytes::{In, Out},
-    header::{Header, LARGEST},
-    table::{PageEntry, Reach},
+    header::Header,
+    table::PageEntry,
 };
 use crate::scene::{Bounds, Colors, ErrorBall, Shapes, Splats};
 
 /// The largest part of its radius by which 32-bit positions may move a splat; otherwise positions have 64 bits.
 const MOST_SHIFT: f64 = 1.0 / (1 << 14) as f64;
 
-/// By which part of themselves bounds in the table are larger than what they bound.
-const ROOM: f64 = 1e-9;
-
 /// Bytes of a ball.
 const BALL_BYTES: usize = 20;
+
+/// One over an overlap is in steps of this, as on a device.
+const OVERLAP_STEP: f32 = 1.0 / (1 << 14) as f32;
 
 /// Splats of a page.
 #[derive(Clone, Debug)]
@@ -31,6 +31,16 @@ pub(super) struct Page {
     pub balls: Vec<ErrorBall>,
     /// Of nodes: their own balls, and what they weigh.
     pub own: Vec<(ErrorBall, f32)>,
+    /// Of other splats: one over the overlap of each (`geometry::Overlaps`).
+    pub inverse_overlaps: Vec<f32>,
+}
+
+/// What a page tells of its splats by what they are.
+pub(super) enum Told {
+    /// Nodes: their own balls, and what they weigh.
+    Nodes(Vec<(ErrorBall, f32)>),
+    /// The object's own: one over the overlap of each.
+    Splats(Vec<f32>),
 }
 
 /// What all pages of a file have in common.
@@ -61,8 +71,8 @@ impl Form {
             (None, false) => 12,
             (None, true) => 16,
         };
-        let own = if nodes { BALL_BYTES + 4 } else { 0 };
-        position + shape + color + own + 2
+        let told = if nodes { BALL_BYTES + 4 } else { 2 };
+        position + shape + color + told + 2
     }
 
     /// Bytes of a page.
@@ -73,12 +83,12 @@ impl Form {
 }
 
 impl Page {
-    /// Of splats, the numbers of their parents, each of which has its ball, and of nodes their own balls and weights; of other splats none.
+    /// Of splats, and the numbers of their parents, each of which has its ball.
     pub fn of(
         splats: Splats,
         parents: impl Iterator<Item = u32>,
         ball: impl Fn(u32) -> ErrorBall,
-        own: Vec<(ErrorBall, f32)>,
+        told: Told,
     ) -> Self {
         let (mut numbers, mut balls) = (HashMap::new(), Vec::new());
         let mut number = |parent: u32| {
@@ -88,7 +98,11 @@ impl Page {
             })
         };
         let parents = parents.map(&mut number).collect();
-        Self { nodes: !own.is_empty(), splats, parents, balls, own }
+        let (own, inverse_overlaps) = match told {
+            Told::Nodes(own) => (own, Vec::new()),
+            Told::Splats(inverse) => (Vec::new(), inverse),
+        };
+        Self { nodes: !own.is_empty(), splats, parents, balls, own, inverse_overlaps }
     }
 
     /// Its bytes, and its entry of the table, but for its place in the file. Positions become what the file has.
@@ -129,42 +143,14 @@ impl Page {
             out.f32(*weight);
             push_ball(&mut out, ball);
         }
+        for inverse in &self.inverse_overlaps {
+            // The cast saturates.
+            out.0.extend(((inverse / OVERLAP_STEP).round() as u16).max(1).to_le_bytes());
+        }
         self.parents.iter().for_each(|parent| out.0.extend((*parent as u16).to_le_bytes()));
         self.balls.iter().for_each(|ball| push_ball(&mut out, ball));
         let entry = self.entry(form, center, wide, &out.0);
         (out.0, entry)
-    }
-
-    fn entry(&self, form: &Form, center: DVec3, wide: bool, bytes: &[u8]) -> PageEntry {
-        let found = self.bounds(form, center);
-        let roomy = |reach: Reach| Reach {
-            reach: reach.reach * (1.0 + ROOM),
-            far: reach.far + ROOM * reach.far.abs(),
-            ..reach
-        };
-        PageEntry {
-            at: 0,
-            bytes: bytes.len() as u32,
-            crc: crc32fast::hash(bytes),
-            count: self.splats.len() as u32,
-            balls: self.balls.len() as u32,
-            nodes: self.nodes,
-            wide,
-            center,
-            radius: found.radius * (1.0 + ROOM),
-            own: roomy(found.own),
-            parent: roomy(found.parent),
-        }
-    }
-
-    fn bounds(&self, form: &Form, center: DVec3) -> PageBounds {
-        let reach = |i: usize| self.splats.positions[i].distance(center) + self.splats.major_radius(i);
-        let middle = center - form.origin;
-        PageBounds {
-            radius: (0..self.splats.len()).map(reach).fold(0.0, f64::max),
-            own: reach_of(middle, self.own.iter().map(|(ball, _)| ball)),
-            parent: reach_of(middle, self.balls.iter()),
-        }
     }
 
     /// The page in these bytes, of which there are as many as [`Form::bytes`] says.
@@ -199,86 +185,15 @@ impl Page {
             let weight = input.f32();
             (ball(input), weight)
         };
-        let own = (0..if entry.nodes { count } else { 0 }).map(|_| own(&mut input)).collect();
+        let (nodes, others) = if entry.nodes { (count, 0) } else { (0, count) };
+        let own = (0..nodes).map(|_| own(&mut input)).collect();
+        let inverse_overlaps = (0..others).map(|_| OVERLAP_STEP * f32::from(input.u16())).collect();
         let parents = (0..count).map(|_| input.u16().into()).collect();
         let balls = (0..entry.balls).map(|_| ball(&mut input)).collect();
         let splats = Splats::new(positions, shapes, colors);
-        let page = Self { nodes: entry.nodes, splats, parents, balls, own };
+        let page = Self { nodes: entry.nodes, splats, parents, balls, own, inverse_overlaps };
         page.check(entry, form).map(|()| page)
     }
-
-    fn check(&self, entry: &PageEntry, form: &Form) -> Result<(), String> {
-        let kind = if self.nodes { "node" } else { "splat" };
-        for i in 0..self.splats.len() {
-            let largest = self.splats.positions[i].abs().max_element();
-            if self.splats.defect(i).is_some() || largest.max(self.splats.major_radius(i)) > LARGEST {
-                return Err(format!("{kind} {i} can't be drawn"));
-            }
-            let Some(parent) = self.balls.get(self.parents[i] as usize) else {
-                return Err(format!(
-                    "{kind} {i} is below parent {} of {}",
-                    self.parents[i],
-                    self.balls.len()
-                ));
-            };
-            let Some((own, weight)) = self.own.get(i) else { continue };
-            let is_node = is_ball(own) && *weight > 0.0 && weight.is_finite() && is_within(own, parent);
-            if !is_node {
-                return Err(format!("{kind} {i} has a ball or a weight that no node below its parent has"));
-            }
-        }
-        if let Some(i) = self.balls.iter().position(|ball| !is_ball(ball) && *ball != ErrorBall::ABOVE_ROOT) {
-            return Err(format!("parent {i} has no ball; expected a center, a radius and a spread above 0"));
-        }
-        let found = self.bounds(form, entry.center);
-        let is_inside = |found: Reach, bounds: Reach| {
-            let ([least, most], [bounds_least, bounds_most]) = (found.spreads, bounds.spreads);
-            let reaches = found.reach <= bounds.reach && found.far <= bounds.far;
-            reaches && bounds_least <= least && most <= bounds_most
-        };
-        let is_bounded = found.radius <= entry.radius
-            && is_inside(found.own, entry.own)
-            && is_inside(found.parent, entry.parent);
-        if is_bounded {
-            Ok(())
-        } else {
-            Err("its splats are beyond the bounds that the table has".to_owned())
-        }
-    }
-}
-
-/// What bounds the splats of a page, without any room.
-struct PageBounds {
-    radius: f64,
-    own: Reach,
-    parent: Reach,
-}
-
-fn reach_of<'a>(middle: DVec3, balls: impl Iterator<Item = &'a ErrorBall>) -> Reach {
-    let none = Reach { reach: 0.0, far: f64::NEG_INFINITY, spreads: [f64::INFINITY, 0.0] };
-    let found = balls.fold(none, |found, ball| {
-        let distance = middle.distance(ball.center.as_dvec3());
-        let (radius, spread) = (f64::from(ball.radius), f64::from(ball.spread));
-        let [least, most] = found.spreads;
-        Reach {
-            reach: found.reach.max(distance + radius),
-            far: found.far.max(distance - radius),
-            spreads: [least.min(spread), most.max(spread)],
-        }
-    });
-    if found.far == f64::NEG_INFINITY { Reach::NONE } else { found }
-}
-
-fn is_ball(ball: &ErrorBall) -> bool {
-    let is_length = |length: f32| length >= 0.0 && length.is_finite();
-    ball.center.is_finite() && is_length(ball.radius) && is_length(ball.spread) && ball.spread > 0.0
-}
-
-/// Sizes on the screen fall from a parent to what is below it, see `geometry::hierarchy`: on each path one is drawn.
-fn is_within(own: &ErrorBall, parent: &ErrorBall) -> bool {
-    let distance = own.center.as_dvec3().distance(parent.center.as_dvec3());
-    let fits = distance + f64::from(own.radius) <= f64::from(parent.radius) && own.spread <= parent.spread;
-    fits || *parent == ErrorBall::ABOVE_ROOT
 }
 
 fn push_ball(out: &mut Out, ball: &ErrorBall) {

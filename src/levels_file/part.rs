@@ -7,7 +7,10 @@ use std::{
 
 use glam::{DVec3, Vec3};
 
-use super::{page::Page, write::Writer};
+use super::{
+    page::{Page, Told},
+    write::Writer,
+};
 use crate::{
     geometry::{
         Overlaps,
@@ -27,8 +30,8 @@ const STEP_SPLATS: usize = 1 << 8;
 pub(super) enum Root {
     /// Its node.
     Node { splats: Splats, ball: ErrorBall, weight: f32 },
-    /// Its only splat.
-    Splat(Splats),
+    /// Its only splat, and one over its overlap.
+    Splat(Splats, f32),
 }
 
 impl Root {
@@ -36,7 +39,7 @@ impl Root {
     pub fn radius(&self) -> f64 {
         match self {
             Self::Node { ball, .. } => ball.radius.into(),
-            Self::Splat(_) => 0.0,
+            Self::Splat(..) => 0.0,
         }
     }
 }
@@ -50,7 +53,8 @@ pub(super) fn write_part<W: Write + Seek>(
 ) -> io::Result<Root> {
     let Hierarchy { nodes, tree, bounds, order, leaf_parents, .. } = hierarchy;
     if tree.is_empty() {
-        return Ok(Root::Splat(splats.picked(0..splats.len())));
+        let inverse = overlaps.0.inverse.first().copied().unwrap_or(1.0);
+        return Ok(Root::Splat(splats.picked(0..splats.len()), inverse));
     }
     let ball = |number: u32| bounds.get(number as usize).map_or(ErrorBall::ABOVE_ROOT, |bounds| bounds.error);
     let weights = hierarchy.weights(splats, overlaps);
@@ -59,14 +63,15 @@ pub(super) fn write_part<W: Write + Seek>(
         let which = sorted[pages].iter().map(|(i, _)| 1 + *i as usize);
         let own = which.clone().map(|i| (bounds[i].error, weights[i])).collect();
         let parents = which.clone().map(|i| tree[i].parent);
-        writer.page(Page::of(nodes.picked(which), parents, ball, own))?;
+        writer.page(Page::of(nodes.picked(which), parents, ball, Told::Nodes(own)))?;
     }
     let sorted = by_spread(order.len(), |i| ball(leaf_parents[i]).spread);
     for pages in runs(&sorted) {
         let places = sorted[pages].iter().map(|(place, _)| *place as usize);
-        let own_splats = splats.picked(places.clone().map(|place| order[place] as usize));
+        let numbers = places.clone().map(|place| order[place] as usize);
+        let inverse = numbers.clone().map(|i| overlaps.0.inverse[i]).collect();
         let parents = places.map(|place| leaf_parents[place]);
-        writer.page(Page::of(own_splats, parents, ball, Vec::new()))?;
+        writer.page(Page::of(splats.picked(numbers), parents, ball, Told::Splats(inverse)))?;
     }
     Ok(Root::Node { splats: nodes.picked(0..1), ball: bounds[0].error, weight: weights[0] })
 }
@@ -95,8 +100,9 @@ pub(super) fn write_top<W: Write + Seek>(
                 nodes.own.push((*ball, *weight));
                 nodes.parents.push(parent);
             }
-            Root::Splat(splats) => {
-                writer.page(Page::of(splats.clone(), [parent].into_iter(), ball, Vec::new()))?;
+            Root::Splat(splats, inverse) => {
+                let told = Told::Splats(vec![*inverse]);
+                writer.page(Page::of(splats.clone(), [parent].into_iter(), ball, told))?;
             }
         }
     }
@@ -108,7 +114,7 @@ pub(super) fn write_top<W: Write + Seek>(
         let which = sorted[pages].iter().map(|(i, _)| *i as usize);
         let own = which.clone().map(|i| own[i]).collect();
         let parents = which.clone().map(|i| parents[i]);
-        writer.page(Page::of(splats.picked(which), parents, ball, own))?;
+        writer.page(Page::of(splats.picked(which), parents, ball, Told::Nodes(own)))?;
     }
     Ok(())
 }

@@ -164,65 +164,72 @@ impl<R: Read + Seek> LevelsFile<R> {
             Some(view) => view.choose(&self.pages, most_bytes)?,
             None => Choice::all(&self.pages),
         };
-        let mut object = self.empty_object(&choice.pages);
+        let mut object = empty_object(&self.path, &self.header, &self.pages, &choice.pages);
         self.read(&choice.pages, progress, |page| add(&mut object, page))?;
         let bytes = choice.pages.iter().map(|number| u64::from(self.pages[*number].bytes)).sum();
         Ok(Chosen { object, tau_px: choice.tau_px, pages: choice.pages.len(), bytes })
     }
 
-    /// The object without splats, but with room for those of some pages.
-    fn empty_object(&self, pages: &[usize]) -> LeveledObject {
-        let header = &self.header;
-        let sum = |of: &dyn Fn(&PageEntry) -> u32| -> usize {
-            pages.iter().map(|number| of(&self.pages[*number]) as usize).sum()
-        };
-        let nodes = sum(&|page| if page.nodes { page.count } else { 0 });
-        let leaves = sum(&|page| page.count) - nodes;
-        let splats = |ellipses: bool, count: usize| {
-            let shapes = match ellipses {
-                true => Shapes::Ellipses { s: Vec::with_capacity(count), t: Vec::with_capacity(count) },
-                false => {
-                    Shapes::Disks { normals: Vec::with_capacity(count), radii: Vec::with_capacity(count) }
-                }
-            };
-            let colors =
-                header.color.map_or_else(|| Colors::Each(Vec::with_capacity(count)), Colors::Uniform);
-            Splats::new(Vec::with_capacity(count), shapes, colors)
-        };
-        LeveledObject {
-            name: self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
-            closed: header.closed,
-            opacity: header.opacity(),
-            overlap: header.overlap,
-            origin: header.origin,
-            radius: header.root_radius,
-            balls: Vec::with_capacity(sum(&|page| page.balls) + nodes),
-            leaves: splats(header.ellipses, leaves),
-            leaf_parents: Vec::with_capacity(leaves),
-            inverse_overlaps: None,
-            nodes: splats(true, nodes),
-            node_balls: Vec::with_capacity(nodes),
-            weights: Vec::with_capacity(nodes),
-        }
-    }
-
     /// Reads pages in the order of the file.
     fn read(&mut self, numbers: &[usize], progress: &dyn Progress, mut take: impl FnMut(Page)) -> Result<()> {
-        let form = Form::of(&self.header);
         let task = format!("read {}", self.path.display());
         for (done, number) in numbers.iter().enumerate() {
             progress.step(&task, done as u64, numbers.len() as u64);
-            let entry = &self.pages[*number];
-            let bytes = read_at(&mut self.source, entry.at, entry.bytes.into())
-                .map_err(|e| Error::file(&self.path, "read", e))?;
-            let refuse = |problem: String| Error::input(&self.path, format!("page {number}"), problem);
-            if crc32fast::hash(&bytes) != entry.crc {
-                return Err(refuse("its checksum is wrong: the file is damaged".to_owned()));
-            }
-            take(Page::decode(&bytes, entry, &form).map_err(refuse)?);
+            take(self.page(*number)?);
         }
         progress.step(&task, numbers.len() as u64, numbers.len() as u64);
         Ok(())
+    }
+
+    /// Reads a page.
+    pub(super) fn page(&mut self, number: usize) -> Result<Page> {
+        let refuse = |problem: String| Error::input(&self.path, format!("page {number}"), problem);
+        let Some(entry) = self.pages.get(number) else {
+            return Err(refuse(format!("expected one of {}", self.pages.len())));
+        };
+        let bytes = read_at(&mut self.source, entry.at, entry.bytes.into())
+            .map_err(|e| Error::file(&self.path, "read", e))?;
+        if crc32fast::hash(&bytes) != entry.crc {
+            return Err(refuse("its checksum is wrong: the file is damaged".to_owned()));
+        }
+        Page::decode(&bytes, entry, &Form::of(&self.header)).map_err(refuse)
+    }
+}
+
+/// The object of a file without splats, but with room for those of some pages.
+pub(super) fn empty_object(
+    path: &Path,
+    header: &Header,
+    entries: &[PageEntry],
+    pages: &[usize],
+) -> LeveledObject {
+    let sum = |of: &dyn Fn(&PageEntry) -> u32| -> usize {
+        pages.iter().map(|number| of(&entries[*number]) as usize).sum()
+    };
+    let nodes = sum(&|page| if page.nodes { page.count } else { 0 });
+    let leaves = sum(&|page| page.count) - nodes;
+    let splats = |ellipses: bool, count: usize| {
+        let shapes = match ellipses {
+            true => Shapes::Ellipses { s: Vec::with_capacity(count), t: Vec::with_capacity(count) },
+            false => Shapes::Disks { normals: Vec::with_capacity(count), radii: Vec::with_capacity(count) },
+        };
+        let colors = header.color.map_or_else(|| Colors::Each(Vec::with_capacity(count)), Colors::Uniform);
+        Splats::new(Vec::with_capacity(count), shapes, colors)
+    };
+    LeveledObject {
+        name: path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
+        closed: header.closed,
+        opacity: header.opacity(),
+        overlap: header.overlap,
+        origin: header.origin,
+        radius: header.root_radius,
+        balls: Vec::with_capacity(sum(&|page| page.balls) + nodes),
+        leaves: splats(header.ellipses, leaves),
+        leaf_parents: Vec::with_capacity(leaves),
+        inverse_overlaps: Some(Vec::with_capacity(leaves)),
+        nodes: splats(true, nodes),
+        node_balls: Vec::with_capacity(nodes),
+        weights: Vec::with_capacity(nodes),
     }
 }
 
@@ -240,7 +247,7 @@ fn read_at(source: &mut (impl Read + Seek), at: u64, bytes: u64) -> io::Result<V
 }
 
 /// Adds a page to what there is.
-fn add(object: &mut LeveledObject, page: Page) {
+pub(super) fn add(object: &mut LeveledObject, page: Page) {
     let first = object.balls.len() as u32;
     let parents = page.parents.iter().map(|parent| first + parent);
     if page.nodes {
@@ -249,6 +256,7 @@ fn add(object: &mut LeveledObject, page: Page) {
         object.weights.extend(page.own.iter().map(|(_, weight)| *weight));
     } else {
         object.leaf_parents.extend(parents);
+        object.inverse_overlaps.get_or_insert_default().extend(page.inverse_overlaps);
     }
     object.balls.extend(page.balls);
     object.balls.extend(page.own.iter().map(|(ball, _)| *ball));

@@ -78,7 +78,15 @@ impl Reach {
 /// device, and what finds its place and its neighbors.
 const HOST_BYTES: [u64; 2] = [220, 290];
 
+/// Bytes of memory on a device that a splat takes at most, and a node: itself, its color, and the balls of its parent and its own, of which there may be one for each.
+const DEVICE_BYTES: [u64; 2] = [84, 104];
+
 impl PageEntry {
+    /// Bytes of memory on a device that its splats take, at most.
+    pub fn device_bytes(&self) -> u64 {
+        u64::from(self.count) * DEVICE_BYTES[usize::from(self.nodes)]
+    }
+
     /// Bytes of memory that its splats take on their way to a device, at most.
     pub fn host_bytes(&self) -> u64 {
         u64::from(self.count) * HOST_BYTES[usize::from(self.nodes)]
@@ -114,7 +122,7 @@ impl PageEntry {
             parent: Reach::decode(&mut input),
         };
         if flags > NODES | WIDE || unused != 0 {
-            return Err("flags that version 1 does not have".to_owned());
+            return Err("flags that version 2 does not have".to_owned());
         }
         if !(1..=MOST_PAGE_SPLATS as u32).contains(&count) || !(1..=count).contains(&balls) {
             return Err(format!(

@@ -1,6 +1,7 @@
 //! The passes of a frame: one pass, one file, one function that declares it.
 
 pub(crate) mod cull;
+pub(crate) mod in_parts;
 pub(crate) mod inputs;
 pub(crate) mod layers;
 pub(crate) mod pass;

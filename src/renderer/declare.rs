@@ -48,25 +48,42 @@ pub(crate) fn declare<'a>(
         }
     };
 
-    let mut copy = |graph: &mut Graph<Body<'a>>, what: &str, source: &Handle<_>, format, buffer| {
-        let mut destination = import_readback(graph, what, format, target.extent);
-        imports.push((destination.id(), Physical::Buffer(buffer)));
-        let (name, of) = (format!("read back {what}"), (format, target.extent));
-        passes::readback(graph, inputs.source, &name, source, of, &mut destination);
-    };
     if let Some(buffer) = readbacks.target {
-        copy(&mut graph, "target", &image, target.format, buffer);
+        copy_out(&mut graph, &mut imports, inputs, ("target", &image, target.format), buffer);
     }
-    if let (Some(buffers), Some(exported)) = (readbacks.surface, &exported) {
-        let images = [&exported.weight, &exported.albedo, &exported.normal, &exported.depth];
-        let names = ["weight", "albedo", "normal", "depth"];
-        for (((what, source), format), buffer) in
-            names.into_iter().zip(images).zip(Exported::FORMATS).zip(buffers)
-        {
-            copy(&mut graph, what, source, format, buffer);
-        }
-    }
+    copy_surface(&mut graph, &mut imports, inputs, exported.as_ref(), readbacks.surface);
     Ok((graph, imports))
+}
+
+/// Declares the copy of what is in an image to a buffer that the host reads.
+pub(super) fn copy_out<'a>(
+    graph: &mut Graph<Body<'a>>,
+    imports: &mut Imports,
+    inputs: Inputs<'a>,
+    (what, image, format): (&str, &Handle<Image>, vk::Format),
+    buffer: vk::Buffer,
+) {
+    let mut destination = import_readback(graph, what, format, inputs.extent());
+    imports.push((destination.id(), Physical::Buffer(buffer)));
+    let of = (format, inputs.extent());
+    passes::readback(graph, inputs.source, &format!("read back {what}"), image, of, &mut destination);
+}
+
+/// The same for the surface as data, where it was exported and the host wants it.
+pub(super) fn copy_surface<'a>(
+    graph: &mut Graph<Body<'a>>,
+    imports: &mut Imports,
+    inputs: Inputs<'a>,
+    exported: Option<&Exported>,
+    buffers: Option<[vk::Buffer; 4]>,
+) {
+    let (Some(exported), Some(buffers)) = (exported, buffers) else { return };
+    let images = [&exported.weight, &exported.albedo, &exported.normal, &exported.depth];
+    let names = ["weight", "albedo", "normal", "depth"];
+    for (((what, image), format), buffer) in names.into_iter().zip(images).zip(Exported::FORMATS).zip(buffers)
+    {
+        copy_out(graph, imports, inputs, (what, image, format), buffer);
+    }
 }
 
 /// A frame into an image of its own, which is added to the sum of samples; the sum.

@@ -1,5 +1,6 @@
 //! A host of our own: a device, a queue, one frame at a time, pictures instead of a window.
 
+mod in_parts;
 mod samples;
 mod targets;
 
@@ -7,6 +8,8 @@ use std::{path::PathBuf, sync::Arc, time::Instant};
 
 use ash::vk;
 
+pub use in_parts::PartSums;
+use in_parts::Parts;
 use targets::Targets;
 
 use super::{Readbacks, Renderer};
@@ -42,6 +45,8 @@ pub struct Headless {
     commands: CommandPool,
     slot: FrameSlot,
     targets: Option<Targets>,
+    /// Of frames in parts, once there is one.
+    parts: Option<Parts>,
 }
 
 /// What is wanted of a frame, beside its being drawn.
@@ -98,6 +103,7 @@ impl Headless {
             commands: CommandPool::new(&device, "frame")?,
             slot: FrameSlot::new(&device),
             targets: None,
+            parts: None,
             device,
         })
     }

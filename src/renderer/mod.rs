@@ -4,6 +4,9 @@
 mod declare;
 mod explain;
 pub(crate) mod headless;
+mod in_parts;
+#[cfg(feature = "files")]
+mod paged;
 
 use std::sync::Arc;
 
@@ -11,7 +14,10 @@ use ash::vk;
 
 pub(crate) use declare::{bytes_per_pixel, declare, import_readback};
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
-pub use headless::{Frame, Headless, HeadlessOptions, Wanted};
+pub use headless::{Frame, Headless, HeadlessOptions, PartSums, Wanted};
+pub use in_parts::Stage;
+#[cfg(feature = "files")]
+pub use paged::{Drawn, PagedScene, Prepare};
 
 use crate::{
     error::{Error, Result},

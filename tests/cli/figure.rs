@@ -95,8 +95,8 @@ fn without_a_name_the_figures_are_listed() {
     assert_eq!(
         names,
         [
-            "g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p18", "p19", "i1", "i3", "i5", "i7", "i9",
-            "i10", "i11", "samples"
+            "g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p17", "p18", "p19", "p20", "i1", "i3", "i5", "i7",
+            "i9", "i10", "i11", "samples"
         ]
     );
     assert!(folder.names().is_empty());
@@ -212,6 +212,24 @@ fn p19_shows_the_built_in_model_or_another() {
     }
 }
 
+/// How much of a panel's surface differs from what is around it.
+#[test]
+fn p17_sums_are_uneven_and_their_quotient_is_not() {
+    let [weights, sums, colors] = <[Panel; 3]>::try_from(panels("p17", [128, 128], &[])).ok().unwrap();
+    let [a, b, c] = [&weights, &sums, &colors].map(|panel| panel.energy(2));
+    println!("between neighbors: weights {a:.2e}, sums {b:.2e}, colors {c:.2e}");
+    assert!(b > 1.2 * c && a > 1e-5, "{a} {b} {c}");
+    panels("p17", [64, 64], &["--model", "model.ply"]);
+}
+
+#[test]
+fn p20_levels_of_detail_look_alike() {
+    let [all, papers, half] = <[Panel; 3]>::try_from(panels("p20", [128, 128], &[])).ok().unwrap();
+    let [a, b] = [&papers, &half].map(|panel| panel.distance(&all));
+    println!("from all: the paper's {a:.4}, half of them {b:.4}");
+    assert!(a < 0.02 && b < 0.03 && a + b > 0.0, "{a} {b}");
+}
+
 #[test]
 fn p9_and_p10_are_curves_with_the_papers_values() {
     let folder = Folder::new();
@@ -301,7 +319,7 @@ fn faults_are_one_line_and_leave_nothing() {
     let cases: [(&[&str], &str); 10] = [
         (
             &["g2"],
-            "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p18, p19, i1, i3, i5, i7, i9, i10, i11, samples",
+            "possible values: g1, g3, g4, g5, g6, slides, p9, p10, p17, p18, p19, p20, i1, i3, i5, i7, i9, i10, i11, samples",
         ),
         (&["--size", "64x64"], "required arguments"),
         (&["g3", "-o", "a.svg"], "--output: a.svg: expected a name in .png for g3"),
@@ -310,7 +328,7 @@ fn faults_are_one_line_and_leave_nothing() {
         (&["g1", "--size", "64x32"], "--size: 64x32: expected a square"),
         (
             &["g3", "--model", "model.ply"],
-            "--model: g3 has a scene of its own; expected g5, p19, i1, i9 or i10",
+            "--model: g3 has a scene of its own; expected g5, p17, p19, p20, i1, i9 or i10",
         ),
         (&["g5", "--model", "model.ply"], "model.ply: the file holds splats; expected a mesh"),
         (&["p19", "--model", "none.ply"], "none.ply: cannot read"),

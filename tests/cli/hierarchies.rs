@@ -200,8 +200,8 @@ fn what_does_not_fit_and_can_not_be_read_in_parts_is_refused() {
     );
     refused(&["convert", "splats.ply", "a.surfel", "--memory", "1MB"], "16777216 at least");
     folder.write("half.surfel", [&b"\x89SURFEL\n"[..], &[0; 400]].concat());
-    refused(&["info", "half.surfel"], "half.surfel: header: version 0; expected 1");
-    refused(&["render", "half.surfel"], "half.surfel: header: version 0; expected 1");
+    refused(&["info", "half.surfel"], "half.surfel: header: version 0; expected 2");
+    refused(&["render", "half.surfel"], "half.surfel: header: version 0; expected 2");
 }
 
 /// A process that ends at any moment leaves the file whole or not at all; one that is asked to end leaves nothing else either.

@@ -99,7 +99,7 @@ fn the_page_has_every_part_is_well_formed_and_loads_nothing() {
     assert!(!page.contains("url(") && !page.contains("@import"));
     let of = |name: &str| elements.iter().filter(move |element| element.name == name).collect::<Vec<_>>();
     // Three shadings, the truth, thirteen methods with their differences, panels of the papers' figures.
-    assert_eq!(of("img").len(), 3 + 1 + 2 * 13 + 15 + 4 + 3 + 4 + 4 + 6);
+    assert_eq!(of("img").len(), 3 + 1 + 2 * 13 + 15 + 4 + 3 + 4 + 4 + 6 + 3 + 3);
     assert!(of("img").iter().all(|image| image.value("alt").is_some_and(|alt| alt.len() > 5)));
     assert_eq!(of("svg").len(), 4, "speed against error, error over distance, two plots of kernels");
     assert!(of("svg").iter().all(|plot| plot.value("aria-label").is_some_and(|alt| alt.len() > 20)));

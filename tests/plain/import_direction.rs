@@ -45,6 +45,7 @@ const ROOMS: &[&[&str]] = &[
     &["polygons", "tiles"],
     &["resolve"],
     &["layers"],
+    &["in_parts"],
 ];
 
 /// What a folder may not import although it stands above: (folder, import, why).

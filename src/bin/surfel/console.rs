@@ -2,7 +2,10 @@
 
 use std::{
     io::{self, Write as _},
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{
+        Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -23,8 +26,23 @@ pub fn print(text: &str) -> Result<()> {
     }
 }
 
+/// Another process says what this one would.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on this process tells nothing but why it fails.
+#[cfg(feature = "mpi")]
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
 /// Tells something that is no result. Names in it may be a file's.
 pub fn say(text: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        tell(text);
+    }
+}
+
+fn tell(text: &str) {
     let lines: Vec<String> = text.split('\n').map(one_line).collect();
     let _ = writeln!(io::stderr(), "{}", lines.join("\n"));
 }
@@ -33,7 +51,7 @@ pub fn say(text: &str) {
 pub fn fail(text: &str) {
     let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     let line = lines.join(" ");
-    say(&format!("surfel: {line}"));
+    tell(&format!("surfel: {line}"));
 }
 
 /// Lines of which equal ones that follow each other are one, with their number.

@@ -4,7 +4,7 @@ use clap::Args;
 use surfel::{
     Result,
     geometry::FoundUp,
-    levels_file::{LevelsFile, PageView, is_levels_file},
+    levels_file::{LevelsFile, PageView, VERSION, is_levels_file},
     passes::count_drawn,
     report::{InputReport, ModelReport},
     scene::{Ball, Budget, Camera, LeveledObject, Lod, Scene, Settings},
@@ -24,6 +24,20 @@ pub struct HierarchyArguments {
     /// suffice, and a line says so [default: what --lod asks for]
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
     pub budget_memory: Option<u64>,
+}
+
+/// The processes that share what a view needs.
+#[derive(Clone, Copy)]
+pub struct Readers {
+    /// This one, from 0 on.
+    pub number: u32,
+    /// How many there are.
+    pub count: u32,
+}
+
+impl Readers {
+    /// This process alone.
+    pub const ONE: Self = Self { number: 0, count: 1 };
 }
 
 /// As [`load_scene`], of inputs of which some may be hierarchies: these are opened, and said what they hold.
@@ -71,7 +85,7 @@ fn report(file: &LevelsFile) -> InputReport {
         dropped: 0,
         drawn_as: "splats",
         model: Some(ModelReport {
-            format: "hierarchy of splats, version 1".to_owned(),
+            format: format!("hierarchy of splats, version {VERSION}"),
             holds: "splats",
             points: usize::try_from(splats).unwrap_or(usize::MAX),
             triangles: None,
@@ -88,7 +102,7 @@ fn report(file: &LevelsFile) -> InputReport {
     }
 }
 
-/// Reads what a view needs of each file, and gives the settings for which it suffices. Files share the memory by the number of their splats.
+/// Reads what this process needs for a view of each file, and gives the settings for which it suffices. Files share the memory by the number of their splats.
 ///
 /// # Errors
 /// As [`LevelsFile::load`].
@@ -97,11 +111,13 @@ pub fn load(
     scene: &mut Scene,
     (camera, settings): (&Camera, &Settings),
     arguments: &HierarchyArguments,
+    readers: Readers,
     bars: &Bars,
 ) -> Result<Settings> {
     let asked_px = settings.tau_px();
     let Budget::Splats(most) = settings.budget else {
-        let Read { objects, lines, tau_px } = load_for(files, (camera, settings, asked_px), arguments, bars)?;
+        let Read { objects, lines, tau_px } =
+            load_for(files, (camera, settings, asked_px), arguments, readers, bars)?;
         lines.iter().for_each(|line| console::say(line));
         scene.leveled = objects;
         if tau_px > asked_px {
@@ -116,7 +132,7 @@ pub fn load(
     let mut tau_px = COARSE_PX.max(asked_px);
     loop {
         let Read { objects, lines, tau_px: read_px } =
-            load_for(files, (camera, settings, tau_px), arguments, bars)?;
+            load_for(files, (camera, settings, tau_px), arguments, readers, bars)?;
         let drawn = count_drawn(&objects, camera, settings, read_px);
         if drawn >= most.into() || tau_px <= asked_px || read_px > tau_px {
             lines.iter().for_each(|line| console::say(line));
@@ -146,10 +162,13 @@ fn load_for(
     files: &mut [LevelsFile],
     (camera, settings, asked_px): (&Camera, &Settings, f64),
     arguments: &HierarchyArguments,
+    readers: Readers,
     bars: &Bars,
 ) -> Result<Read> {
     let view = |tau_px: f64| {
-        let view = PageView::new(camera, settings.size_px, tau_px).with_blended(settings.blended_size());
+        let view = PageView::new(camera, settings.size_px, tau_px)
+            .with_blended(settings.blended_size())
+            .with_readers(readers.number, readers.count);
         if settings.budget == Budget::Unlimited { view } else { view.with_coarser() }
     };
     let all: u64 = files.iter().map(|file| file.header().splats).sum();
@@ -177,7 +196,10 @@ fn load_for(
             "{name}: read {} of {all} pages, {} bytes: {splats} splats and {nodes} nodes",
             chosen.pages, chosen.bytes
         ));
-        objects.push(chosen.object);
+        // A process may have no page of a file.
+        if splats + nodes > 0 {
+            objects.push(chosen.object);
+        }
     }
     Ok(Read { objects, lines, tau_px })
 }

@@ -25,6 +25,7 @@ mod parse;
 mod part;
 mod picture;
 mod pictures;
+mod ranks;
 mod reference;
 mod render;
 mod report;

@@ -1,11 +1,12 @@
 //! `surfel render`: a scene on a Vulkan device.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use clap::Args;
 use surfel::{
     Result,
-    renderer::{Headless, Wanted},
+    graph::Plan,
+    renderer::{Frame, Headless, Wanted},
     report::RunReport,
     scene::{Ball, Budget, CropView, Epsilon, Lod, Settings, Storage},
 };
@@ -15,7 +16,7 @@ use crate::{
     console::{self, Bars},
     device::DeviceArguments,
     emptiness, explain,
-    hierarchies::{self, HierarchyArguments, load_scene_with_hierarchies},
+    hierarchies::{self, HierarchyArguments, Readers, load_scene_with_hierarchies},
     inputs::INPUTS,
     json::write_json,
     measure::{self, View},
@@ -23,6 +24,7 @@ use crate::{
     parse,
     picture::{Drawn, PictureArguments},
     pictures::{self, Colors, Dump},
+    ranks,
     reports::{device_report, scene_report},
     scene::{Loaded, upload},
     scene_file_keys::KEYS,
@@ -51,26 +53,26 @@ pub struct RenderArguments {
     pub picture: PictureArguments,
 
     #[command(flatten, next_help_heading = "Device and measurement")]
-    device: DeviceArguments,
+    pub device: DeviceArguments,
 
     #[command(flatten)]
-    storage: Given<Storage>,
+    pub storage: Given<Storage>,
 
     #[command(flatten)]
-    hierarchies: HierarchyArguments,
+    pub hierarchies: HierarchyArguments,
 
     /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
     /// --timings, else none]
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
-    frames: Option<u32>,
+    pub frames: Option<u32>,
 
     /// Write what the passes cost, in milliseconds, and all that explains it, as JSON
     #[arg(long, value_name = "FILE.json")]
-    timings: Option<PathBuf>,
+    pub timings: Option<PathBuf>,
 
     /// Print why this scene got the passes, pipelines and bytes that it got
     #[arg(long)]
-    explain: bool,
+    pub explain: bool,
 }
 
 impl Taken for Storage {
@@ -85,6 +87,9 @@ const DEFAULT_TIMED_FRAMES: u32 = 10;
 /// # Errors
 /// Whatever goes wrong; what can be known before the long work is found before it.
 pub fn run(arguments: &RenderArguments) -> Result<()> {
+    if let Some(done) = ranks::run(arguments) {
+        return done;
+    }
     let part = arguments.picture.drawn(arguments.picture.settings())?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
     let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
@@ -120,7 +125,8 @@ fn draw(
     let mut asked = settings.clone();
     let (settings, prepared) = loop {
         let settings = steps.time("read pages", || {
-            hierarchies::load(&mut files, &mut scene, (&camera, &asked), &arguments.hierarchies, &bars)
+            let view = (&camera, &asked);
+            hierarchies::load(&mut files, &mut scene, view, &arguments.hierarchies, Readers::ONE, &bars)
         })?;
         settings.check_scene(&scene)?; // names the object, which the renderer does not know
         let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
@@ -164,16 +170,46 @@ fn write(
     view: View<'_>,
     crop: Option<CropView>,
     ball: &Ball,
-    (output, format): &(PathBuf, PictureFormat),
+    output: &(PathBuf, PictureFormat),
 ) -> Result<()> {
     let picture = &arguments.picture;
-    let (encoding, background) = (picture.encoding(), view.settings.background);
+    let mut draw = |settings: &Settings, wanted| headless.render(view.scene, view.camera, settings, wanted);
+    let (bytes, plan) = write_picture(picture, view.settings, crop, output, &mut draw)?;
+    let hint = || emptiness::hint(&bytes, view.settings.background, view.camera, ball);
+    if let Some(hint) = crop.is_none().then(hint).flatten() {
+        console::say(&hint);
+    }
+    if let Some(folder) = &picture.dump {
+        dump(view.settings, &mut draw)?.cut(crop).write(folder)?;
+    }
+    let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &plan);
+    if arguments.explain {
+        let has_levels = explanation.levels.is_some();
+        let count = || headless.count_listed(view.scene, view.camera, view.settings);
+        let listed = has_levels.then(count).transpose()?;
+        return console::print(&explain::text(&explanation, listed));
+    }
+    explanation.beyond_f32.iter().for_each(|note| console::say(note));
+    Ok(())
+}
+
+/// What draws a frame.
+type Draw<'d> = &'d mut dyn FnMut(&Settings, Wanted) -> Result<Frame>;
+
+/// Draws the picture and writes it; its bytes, and what was recorded.
+pub fn write_picture(
+    picture: &PictureArguments,
+    settings: &Settings,
+    crop: Option<CropView>,
+    (output, format): &(PathBuf, PictureFormat),
+    draw: Draw<'_>,
+) -> Result<(Vec<[u8; 4]>, Arc<Plan>)> {
+    let (encoding, background) = (picture.encoding(), settings.background);
     let linear = *format == PictureFormat::Exr || !encoding.is_plain();
     let wanted = Wanted { picture: true, linear, ..Wanted::default() };
     // A curve is of what is drawn alone; the background is put under it after that.
-    let without = (!encoding.is_plain()).then(|| Settings { background: None, ..view.settings.clone() });
-    let settings = without.as_ref().unwrap_or(view.settings);
-    let mut frame = headless.render(view.scene, view.camera, settings, wanted)?;
+    let without = (!encoding.is_plain()).then(|| Settings { background: None, ..settings.clone() });
+    let mut frame = draw(without.as_ref().unwrap_or(settings), wanted)?;
     if let Some(crop) = crop {
         frame.size_px = crop.size_px();
         (frame.srgb, frame.linear) = (crop.cut(&frame.srgb), crop.cut(&frame.linear));
@@ -186,32 +222,15 @@ fn write(
         PictureFormat::Png => Colors::Srgb(&bytes),
         PictureFormat::Exr => Colors::Linear(&frame.linear),
     };
-    let transparent = background.is_none();
-    pictures::write_picture(output, *format, frame.size_px, transparent, colors)?;
-    let hint = || emptiness::hint(&bytes, background, view.camera, ball);
-    if let Some(hint) = crop.is_none().then(hint).flatten() {
-        console::say(&hint);
-    }
-    if let Some(folder) = &picture.dump {
-        dump(headless, view)?.cut(crop).write(folder)?;
-    }
-    let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &frame.plan);
-    if arguments.explain {
-        let has_levels = explanation.levels.is_some();
-        let count = || headless.count_listed(view.scene, view.camera, view.settings);
-        let listed = has_levels.then(count).transpose()?;
-        return console::print(&explain::text(&explanation, listed));
-    }
-    explanation.beyond_f32.iter().for_each(|note| console::say(note));
-    Ok(())
+    pictures::write_picture(output, *format, frame.size_px, background.is_none(), colors)?;
+    Ok((bytes, frame.plan))
 }
 
 /// The picture, and the surface in a frame of its own, whose edges are hard.
-fn dump(headless: &mut Headless, view: View<'_>) -> Result<Dump> {
+pub fn dump(settings: &Settings, draw: Draw<'_>) -> Result<Dump> {
     let picture = Wanted { picture: true, linear: true, surface: false, profile: None };
-    let color = headless.render(view.scene, view.camera, view.settings, picture)?.linear;
-    let wanted = Wanted { surface: true, ..picture };
-    let frame = headless.render(view.scene, view.camera, view.settings, wanted)?;
+    let color = draw(settings, picture)?.linear;
+    let frame = draw(settings, Wanted { surface: true, ..picture })?;
     let three = |values: &[[f32; 4]]| values.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
     Ok(Dump {
         size_px: frame.size_px,

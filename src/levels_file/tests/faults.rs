@@ -143,11 +143,12 @@ fn hostile_values_are_refused_with_their_place() {
     let leaf_page = all.iter().position(|page| !page.nodes).unwrap();
     let node_page = all.iter().position(|page| page.nodes && page.count > 1).unwrap();
     let (leaves, nodes) = (&all[leaf_page], &all[node_page]);
-    let parent_of_first = leaves.at as usize + leaves.count as usize * (12 + 16 + 12);
+    let parent_of_first = leaves.at as usize + leaves.count as usize * (12 + 16 + 12 + 2);
+    let overlap_of_first = parent_of_first - leaves.count as usize * 2;
     let own_of_first = nodes.at as usize + nodes.count as usize * (12 + 24 + 12);
     let [nan, huge] = [f64::NAN, 1e300].map(f64::to_le_bytes);
     let cases: Vec<(Vec<u8>, String)> = vec![
-        (with(&bytes, 8, 2_u32.to_le_bytes()), "header: version 2; expected 1".to_owned()),
+        (with(&bytes, 8, 1_u32.to_le_bytes()), "header: version 1; expected 2".to_owned()),
         (with(&bytes, 12, 1_u32.wrapping_shl(5).to_le_bytes()), "header: flags or bytes".to_owned()),
         (with(&bytes, 200, [1]), "header: flags or bytes".to_owned()),
         (with(&bytes, 16, u64::MAX.to_le_bytes()), "table of pages: 60 splats".to_owned()),
@@ -193,6 +194,10 @@ fn hostile_values_are_refused_with_their_place() {
         (
             with(&bytes, parent_of_first, u16::MAX.to_le_bytes()),
             format!("page {leaf_page}: splat 0 is below parent 65535"),
+        ),
+        (
+            with(&bytes, overlap_of_first, 0_u16.to_le_bytes()),
+            format!("page {leaf_page}: splat 0 has an overlap without end"),
         ),
         (
             with(&bytes, own_of_first, f32::NAN.to_le_bytes()),

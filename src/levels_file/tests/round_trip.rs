@@ -26,7 +26,10 @@ fn floats(ball: &ErrorBall) -> [f32; 5] {
 fn assert_same(found: &LeveledObject, truth: &LeveledObject) {
     let of = |object: &LeveledObject| {
         let ball = |number: u32| floats(&object.balls[number as usize]);
-        let leaves = by_rest(&object.leaves, |i| ball(object.leaf_parents[i]).to_vec());
+        let inverse = object.inverse_overlaps.as_ref().unwrap();
+        // As a device has it.
+        let steps = |i: usize| (16_384.0 * inverse[i]).round();
+        let leaves = by_rest(&object.leaves, |i| [&ball(object.leaf_parents[i])[..], &[steps(i)]].concat());
         let nodes = by_rest(&object.nodes, |i| {
             let balls = object.node_balls[i];
             [&ball(balls.own)[..], &ball(balls.parent), &[object.weights[i]]].concat()

@@ -121,3 +121,34 @@ fn what_memory_does_not_suffice_for_is_drawn_coarser() {
     let error = file.load(Some(&view), 10, &()).unwrap_err().to_string();
     assert!(error.starts_with("--budget-memory: 10 bytes; expected 290 at least"), "{error}");
 }
+
+/// Each page goes to one of several readers, in even shares, and what one reader of all has memory for each of more has for its share.
+#[test]
+fn several_readers_read_each_page_once() {
+    let bytes = written(&relief(300_000));
+    let camera = cameras().remove(2);
+    let view = PageView::new(&camera, SIZE_PX, 0.5);
+    let read = |view: PageView, most_bytes: u64| {
+        let chosen = opened(&bytes).unwrap().load(Some(&view), most_bytes, &()).unwrap();
+        let splats =
+            |splats: &Splats| splats.positions.iter().map(|at| at.to_array().map(f64::to_bits)).collect();
+        let found: [Vec<[u64; 3]>; 2] = [splats(&chosen.object.leaves), splats(&chosen.object.nodes)];
+        (found.concat(), chosen.tau_px)
+    };
+    let (mut all, tau_px) = read(view, u64::MAX);
+    all.sort_unstable();
+    for readers in [1, 2, 4, 7] {
+        let parts: Vec<_> = (0..readers).map(|i| read(view.with_readers(i, readers), u64::MAX)).collect();
+        let counts: Vec<usize> = parts.iter().map(|(part, _)| part.len()).collect();
+        let mut found: Vec<_> = parts.iter().flat_map(|(part, _)| part.iter().copied()).collect();
+        found.sort_unstable();
+        assert!(found == all && parts.iter().all(|(_, of)| *of == tau_px), "{readers}: {counts:?}");
+        // A page more or less.
+        let (least, most) = (counts.iter().min().unwrap(), counts.iter().max().unwrap());
+        assert!(most - least <= 2 * (1 << 14), "{readers}: {counts:?}");
+    }
+    // Four have room for finer ones than one.
+    let budget = 12 << 20;
+    let (one, four) = (read(view, budget), [0, 1, 2, 3].map(|i| read(view.with_readers(i, 4), budget)));
+    assert!(one.1 > four[0].1 && four.iter().all(|(_, of)| *of == four[0].1), "{} {}", one.1, four[0].1);
+}

@@ -115,6 +115,10 @@ impl Targets {
     }
 }
 
-fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
-    bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+pub(super) fn copied<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+    match bytemuck::try_cast_slice(bytes) {
+        Ok(values) => values.to_vec(),
+        // Memory that does not begin where a value may.
+        Err(_) => bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect(),
+    }
 }

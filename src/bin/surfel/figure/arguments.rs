@@ -37,7 +37,7 @@ pub struct FigureArguments {
     #[arg(long, value_name = "WxH", requires = "name", value_parser = parse::size)]
     pub size: Option<[u32; 2]>,
 
-    /// The PLY or OBJ file that g5 (a mesh), p19, and i1, i9 and i10 (a mesh with sharp edges) show [default: the built-in model with few triangles
+    /// The PLY or OBJ file that g5 (a mesh), p17, p19, p20, and i1, i9 and i10 (a mesh with sharp edges) show [default: the built-in model with few triangles
     /// or splats; for i1, i9 and i10 the built-in part]
     #[arg(long, value_name = "FILE", requires = "name")]
     pub model: Option<PathBuf>,
@@ -68,10 +68,14 @@ pub enum Figure {
     P9,
     /// P figure 10, the kernels psi_E for six pairs of n and a, as curves
     P10,
+    /// P figure 17, normalization: sums of weights, sums of weighted colors, and their quotient
+    P17,
     /// P figure 18, a checkerboard of 512x512 points with a round kernel and a more localized one
     P18,
     /// P figure 19, a model with a narrow kernel and with one that has a plateau
     P19,
+    /// P figure 20, a model as it is, at the paper's tolerance, and with half as many splats
+    P20,
     /// I figure 1, a curved edge of few splats from three distances: not cut, cut by lines, cut by curves
     I1,
     /// I figure 3, a splat cut by curves with six weights of the middle control point
@@ -118,7 +122,7 @@ impl Figure {
             Self::Slides => [400, 400],
             Self::P9 | Self::P10 | Self::Samples => [900, 600],
             Self::P18 => [512, 400],
-            Self::P19 => [512, 512],
+            Self::P17 | Self::P19 | Self::P20 => [512, 512],
             Self::I1 | Self::I10 | Self::I11 => [360, 360],
             Self::I3 | Self::I5 | Self::I7 => [300, 240],
             Self::I9 => [512, 512],
@@ -127,7 +131,7 @@ impl Figure {
 
     /// Whether it shows another model where one is given.
     pub fn takes_model(self) -> bool {
-        matches!(self, Self::G5 | Self::P19 | Self::I1 | Self::I9 | Self::I10)
+        matches!(self, Self::G5 | Self::P17 | Self::P19 | Self::P20 | Self::I1 | Self::I9 | Self::I10)
     }
 
     /// Every figure with what it shows, a line each.

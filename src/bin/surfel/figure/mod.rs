@@ -13,7 +13,9 @@ mod g1;
 mod g5;
 mod glass;
 mod kernels;
+mod p17;
 mod p19;
+mod p20;
 mod raster;
 mod samples;
 mod sheet;
@@ -48,7 +50,8 @@ pub fn run(arguments: &FigureArguments) -> Result<()> {
     let output = arguments.output(figure)?;
     let size_px = arguments.size_px(figure)?;
     if arguments.model.is_some() && !figure.takes_model() {
-        let problem = format!("{} has a scene of its own; expected g5, p19, i1, i9 or i10", figure.name());
+        let problem =
+            format!("{} has a scene of its own; expected g5, p17, p19, p20, i1, i9 or i10", figure.name());
         return Err(Error::option("--model", problem));
     }
     outputs::check_places([&output], None, &[], &arguments.model)?;
@@ -78,8 +81,10 @@ pub fn draw(
         Figure::Slides => glass::slides(&mut context).map(Drawing::Sheet),
         Figure::P9 => kernels::p9(&mut context).map(Drawing::Plot),
         Figure::P10 => kernels::p10(&mut context).map(Drawing::Plot),
+        Figure::P17 => p17::draw(&mut context).map(Drawing::Sheet),
         Figure::P18 => boards::p18(&mut context).map(Drawing::Sheet),
         Figure::P19 => p19::draw(&mut context).map(Drawing::Sheet),
+        Figure::P20 => p20::draw(&mut context).map(Drawing::Sheet),
         Figure::I1 => clips::i1(&mut context).map(Drawing::Sheet),
         Figure::I3 => curves::i3(&mut context).map(Drawing::Sheet),
         Figure::I5 => curves::i5(&mut context).map(Drawing::Sheet),

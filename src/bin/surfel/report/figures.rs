@@ -9,7 +9,7 @@ use super::{
 use crate::figure::{self, Drawing, FigureArguments, Sheet};
 
 /// Figures by their names, with what one sees and what follows.
-const FIGURES: [(&str, &str); 8] = [
+const FIGURES: [(&str, &str); 10] = [
     (
         "g1",
         "Where a splat is magnified all filters agree, but for a trace. Where it is far below a pixel, no filter leaves it so \
@@ -53,6 +53,16 @@ const FIGURES: [(&str, &str); 8] = [
         "p10",
         "Kernels with a plateau: flat where the splat is surely the surface, falling where neighbors take over. They blur less \
          than a Gaussian of the same support.",
+    ),
+    (
+        "p17",
+        "What splats add up to is uneven wherever they lie unevenly. Divided by the sum of the weights it is the surface's own color; \
+         the paper does that by a texture, here it is a division a pixel.",
+    ),
+    (
+        "p20",
+        "Splats that spread by less than a tolerance on the screen are drawn as one, which looks alike as long as the tolerance is near a \
+         pixel. How many are left depends on how densely the model lies there.",
     ),
 ];
 

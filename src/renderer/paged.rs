@@ -1,0 +1,150 @@
+//! A scene of which pages come and go: what a file of levels of detail has for some views, on a device, within a fixed budget.
+//!
+//! Pages are read in the background ([`Pager`]), coarser ones first. A view draws with the finest size of which all pages are there ([`Ladder`]), so that there are
+//! neither holes nor two levels of one thing at any moment. What no view needs stays until its room is.
+
+use crate::{
+    error::{Error, Result},
+    levels_file::{Arrived, Ladder, PageView, Pager, Rung},
+    prepare::PreparedScene,
+    scene::{Scene, Storage},
+};
+
+/// Uploads a scene, such as [`super::Headless::prepare`].
+pub type Prepare<'p> = &'p mut dyn FnMut(&Scene) -> Result<PreparedScene>;
+
+/// Pages of a file on a device, for several views.
+pub struct PagedScene {
+    pager: Pager,
+    /// Of device memory.
+    most_bytes: u64,
+    prepared: PreparedScene,
+    /// In the order of the chunks.
+    groups: Vec<Group>,
+    /// Of each page.
+    is_there: Vec<bool>,
+}
+
+/// Pages that came together, and share chunks.
+struct Group {
+    pages: Vec<usize>,
+    chunks: usize,
+    bytes: u64,
+}
+
+/// What a view draws now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drawn {
+    /// The size for its settings ([`crate::scene::Lod::Px`]), in pixels.
+    pub tau_px: f64,
+    /// Whether that is as fine as it asked for, or as memory allows.
+    pub is_finest: bool,
+}
+
+impl PagedScene {
+    /// Nothing yet, of opaque splats, with at most so many bytes of device memory. Half of that is for what is drawn when all is there, the other half for
+    /// what is drawn until then.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Input`] for a file in which something is transparent, whose layers would need all levels at once.
+    pub fn new(pager: Pager, most_bytes: u64) -> Result<Self> {
+        if pager.header().transparent {
+            return Err(Error::input(pager.path(), "", "transparent; expected opaque splats to be paged"));
+        }
+        let is_there = vec![false; pager.pages().len()];
+        let prepared = PreparedScene {
+            chunks: Vec::new(),
+            meshes: Vec::new(),
+            lights: Vec::new(),
+            storage: Storage::default(),
+            mean_transparent_radius: 0.0,
+            refinements: Vec::new(),
+            defects: Default::default(),
+        };
+        Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there })
+    }
+
+    /// What is on the device. Each view of it draws with the size that [`Self::update`] gave it.
+    pub fn scene(&self) -> &PreparedScene {
+        &self.prepared
+    }
+
+    /// Bytes of device memory that it takes.
+    pub fn bytes(&self) -> u64 {
+        self.groups.iter().map(|group| group.bytes).sum()
+    }
+
+    /// Pages that are there.
+    pub fn pages(&self) -> usize {
+        self.is_there.iter().filter(|is_there| **is_there).count()
+    }
+
+    /// Takes what has arrived since, has what these views need read in the background, and tells what each of them can draw now: `None` where not even the coarsest
+    /// pages are there. Waits for nothing, or, with `wait`, for a page. What was dropped by this is destroyed when frames that use it are done.
+    ///
+    /// # Errors
+    /// As [`Pager::take`], and of `prepare`; [`crate::ErrorKind::Option`] where the memory does not suffice for the coarsest pages.
+    pub fn update(
+        &mut self,
+        views: &[PageView],
+        prepare: Prepare<'_>,
+        wait: bool,
+    ) -> Result<Vec<Option<Drawn>>> {
+        let pages = self.pager.pages();
+        let ladder = Ladder::new(views, pages, self.most_bytes / 2, |page| page.device_bytes());
+        if ladder.views.iter().any(Vec::is_empty) {
+            let problem =
+                format!("{} bytes; expected more, for the coarsest pages of the views", self.most_bytes);
+            return Err(Error::option("memory", problem));
+        }
+        let mut standing = ladder.standing(&self.is_there);
+        self.pager.want(&standing.missing);
+        let mut is_needed = vec![false; pages.len()];
+        standing.needed.iter().for_each(|page| is_needed[*page] = true);
+        if let Some(arrived) = self.pager.take(|page| is_needed[page] && !self.is_there[page], wait)? {
+            self.add(arrived, &is_needed, prepare)?;
+            standing = ladder.standing(&self.is_there);
+            self.pager.want(&standing.missing);
+        }
+        let drawn = ladder.views.iter().zip(standing.drawn);
+        let of = |(rungs, rung): (&Vec<Rung>, Option<usize>)| {
+            let rung = rung?;
+            Some(Drawn { tau_px: rungs[rung].tau_px, is_finest: rung == 0 })
+        };
+        Ok(drawn.map(of).collect())
+    }
+
+    /// Uploads what has arrived, once there is room for it.
+    fn add(&mut self, arrived: Arrived, is_needed: &[bool], prepare: Prepare<'_>) -> Result<()> {
+        let entries = self.pager.pages();
+        let bytes: u64 = arrived.pages.iter().map(|page| entries[*page].device_bytes()).sum();
+        while self.bytes() + bytes > self.most_bytes {
+            // The one of which the largest part is not needed. What else it has is read again.
+            let unneeded = |group: &Group| {
+                let count = group.pages.iter().filter(|page| !is_needed[**page]).count();
+                count as f64 / group.pages.len() as f64
+            };
+            let shares = self.groups.iter().map(unneeded).enumerate().filter(|(_, share)| *share > 0.0);
+            let Some((group, _)) = shares.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
+                // Views at several heights need more than there is: this view stays as coarse as it is, and memory as small.
+                return Ok(());
+            };
+            self.remove(group);
+        }
+        let scene = Scene { leveled: vec![arrived.object], ..Scene::default() };
+        let new = prepare(&scene)?;
+        self.groups.push(Group { pages: arrived.pages, chunks: new.chunks.len(), bytes: new.bytes() });
+        self.prepared.chunks.extend(new.chunks);
+        for page in self.groups.last().iter().flat_map(|group| &group.pages) {
+            self.is_there[*page] = true;
+        }
+        Ok(())
+    }
+
+    fn remove(&mut self, group: usize) {
+        let first: usize = self.groups[..group].iter().map(|group| group.chunks).sum();
+        let Group { pages, chunks, .. } = self.groups.remove(group);
+        self.prepared.chunks.drain(first..first + chunks);
+        pages.into_iter().for_each(|page| self.is_there[page] = false);
+    }
+}
