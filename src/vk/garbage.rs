@@ -19,6 +19,9 @@ pub(super) enum Retired {
     CommandPool(vk::CommandPool),
     Sampler(vk::Sampler),
     Semaphore(vk::Semaphore),
+    /// With the functions of the extension, and the surface, which goes after it.
+    #[cfg(feature = "view")]
+    Swapchain(vk::SwapchainKHR, Box<(ash::khr::swapchain::Device, super::surface::Surface)>),
 }
 
 /// The queue of retired objects, each with the epoch (submission) that may use it last.
@@ -73,6 +76,8 @@ unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Allocat
             Retired::CommandPool(raw) => device.destroy_command_pool(raw, None),
             Retired::Sampler(raw) => device.destroy_sampler(raw, None),
             Retired::Semaphore(raw) => device.destroy_semaphore(raw, None),
+            #[cfg(feature = "view")]
+            Retired::Swapchain(raw, owner) => owner.0.destroy_swapchain(raw, None),
         }
     }
 }
