@@ -2,6 +2,7 @@
 //! without one.
 
 mod bench;
+mod camera_words;
 mod compare;
 mod convert;
 mod counts;

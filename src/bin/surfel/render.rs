@@ -11,7 +11,7 @@ use surfel::{
 };
 
 use crate::{
-    camera::CameraChoice,
+    camera::{self, CameraChoice},
     console::{self, Bars},
     device::DeviceArguments,
     emptiness, explain,
@@ -110,7 +110,11 @@ fn draw(
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
     let settings = &Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
-    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
+    let camera = camera.camera(&loaded, part.whole_px)?;
+    if picture.print_camera {
+        console::print(&camera::words(&camera))?;
+    }
+    let (camera, crop) = part.view(camera)?;
     let Loaded { mut scene, inputs, steps: loading, ball, hierarchies: mut files, .. } = loaded;
     steps.0.extend(loading);
     scene.storage = arguments.storage.over(Storage::default());
