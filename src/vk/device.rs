@@ -233,6 +233,11 @@ impl Device {
         }
     }
 
+    /// Whether something that was dropped is destroyed once an epoch is done.
+    pub(super) fn frees_at(&self, epoch: u64) -> bool {
+        self.memory().as_ref().is_some_and(|(_, garbage)| garbage.has(epoch))
+    }
+
     /// Whether the queue was free; it is taken now.
     pub(super) fn take_queue(&self) -> bool {
         !self.0.queue_taken.swap(true, Ordering::AcqRel)

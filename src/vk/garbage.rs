@@ -36,12 +36,17 @@ impl Garbage {
         self.pending.push_back((last_epoch, object));
     }
 
+    /// Whether there is any that no epoch after `done` uses.
+    pub fn has(&self, done: u64) -> bool {
+        self.pending.front().is_some_and(|(epoch, _)| *epoch <= done)
+    }
+
     /// Destroys all that no epoch after `done` uses, in the order of retirement.
     ///
     /// # Safety
     /// The device has finished every submission up to epoch `done`, and `device` made every object.
     pub unsafe fn collect(&mut self, done: u64, device: &ash::Device, allocator: &mut Allocator) {
-        while self.pending.front().is_some_and(|(epoch, _)| *epoch <= done) {
+        while self.has(done) {
             if let Some((_, object)) = self.pending.pop_front() {
                 // SAFETY: this function's contract.
                 unsafe { destroy(object, device, allocator) };

@@ -159,9 +159,10 @@ impl Queue {
         // SAFETY: the semaphore is alive. Its values reach `epoch`, for that or a later one was submitted.
         unsafe { self.device.raw().wait_semaphores(&info, u64::MAX) }
             .of_call("vkWaitSemaphores", "timeline")?;
-        if self.device.instance().is_validated() && epoch == self.submitted.load(Ordering::Acquire) {
-            // Layers of 1.3.239 don't follow timeline semaphores when they look for hazards across submits. The
-            // queue is idle already; this tells them.
+        let is_last = epoch == self.submitted.load(Ordering::Acquire);
+        if self.device.instance().is_validated() && (is_last || self.device.frees_at(epoch)) {
+            // Layers of 1.3.239 don't follow timeline semaphores when they look for hazards across submits. Of what was submitted last the
+            // queue is idle already, and memory that others get from now on is not in use any more; this tells them.
             let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
             // SAFETY: the lock synchronizes the queue.
             unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;

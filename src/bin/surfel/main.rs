@@ -37,6 +37,7 @@ mod steps;
 mod turns;
 mod up;
 mod usage;
+mod view;
 
 use std::process::ExitCode;
 

@@ -12,7 +12,7 @@ use surfel::{
 };
 
 pub use arguments::{CameraArguments, Target};
-pub use words::words;
+pub use words::{degrees, words};
 
 use crate::{
     scene::Loaded,
