@@ -4,6 +4,7 @@
 mod declare;
 mod explain;
 pub(crate) mod headless;
+mod pick;
 
 use std::sync::Arc;
 

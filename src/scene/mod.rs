@@ -112,6 +112,9 @@ pub struct Scene {
     pub levels: bool,
     /// Frames of it may have a [`Settings::budget`]: for each node of levels of detail the host keeps 40 bytes.
     pub budget: bool,
+    /// For [`crate::renderer::Renderer::plan_pick`]: for each splat and triangle the host keeps 4 bytes, its number in its object, when the scene is
+    /// prepared.
+    pub numbered: bool,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
 }

@@ -16,6 +16,7 @@ mod hierarchies;
 mod inputs;
 mod orthographic;
 mod outputs;
+mod pick;
 mod program;
 mod refusals;
 mod report;

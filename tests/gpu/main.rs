@@ -28,6 +28,7 @@ mod oracle;
 mod orthographic;
 mod packed;
 mod paper_form;
+mod pick;
 mod pictures;
 mod samples;
 mod seam;

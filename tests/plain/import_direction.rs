@@ -44,7 +44,7 @@ const ROOMS: &[&[&str]] = &[
     &["splats"],
     &["polygons", "tiles"],
     &["resolve"],
-    &["layers"],
+    &["layers", "pick"],
 ];
 
 /// What a folder may not import although it stands above: (folder, import, why).

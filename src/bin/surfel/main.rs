@@ -23,6 +23,7 @@ mod measure;
 mod outputs;
 mod parse;
 mod part;
+mod pick;
 mod picture;
 mod pictures;
 mod reference;

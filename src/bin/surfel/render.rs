@@ -17,10 +17,11 @@ use crate::{
     emptiness, explain,
     hierarchies::{self, HierarchyArguments, load_scene_with_hierarchies},
     inputs::INPUTS,
-    json::write_json,
+    json::{to_json, write_json},
     measure::{self, View},
     outputs::{self, PictureFormat},
     parse,
+    pick::{PickArguments, PickReport},
     picture::{Drawn, PictureArguments},
     pictures::{self, Colors, Dump},
     reports::{device_report, scene_report},
@@ -37,6 +38,7 @@ const EXAMPLES: &str = "Examples:
   surfel render scene.toml              all keys of scene files: surfel render --help
   surfel render igea.ply --shading normals --background none -o normals.exr
   surfel render igea.ply --light direction=1,-1,-1 --light eye,intensity=0.2 --tonemap agx --exposure 1
+  surfel render igea.ply --pick 512,300 --pick 600,300      what is seen there, and how far the two are apart
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
 
@@ -58,6 +60,9 @@ pub struct RenderArguments {
 
     #[command(flatten)]
     hierarchies: HierarchyArguments,
+
+    #[command(flatten)]
+    pick: PickArguments,
 
     /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
     /// --timings, else none]
@@ -117,6 +122,7 @@ fn draw(
     let (camera, crop) = part.view(camera)?;
     let Loaded { mut scene, inputs, steps: loading, ball, hierarchies: mut files, .. } = loaded;
     steps.0.extend(loading);
+    scene.numbered = !arguments.pick.pixels.is_empty();
     scene.storage = arguments.storage.over(Storage::default());
     scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
     scene.levels = settings.wants_levels();
@@ -157,6 +163,13 @@ fn draw(
         };
         console::print(&report.to_string())?;
         write_json(arguments.timings.as_deref(), &report)?;
+    }
+    if !arguments.pick.pixels.is_empty() {
+        let report = PickReport::gather(headless, view, crop, &arguments.pick.pixels)?;
+        console::print(&to_json(&report)?)?;
+        if picture.output.is_none() && picture.dump.is_none() {
+            return Ok(());
+        }
     }
     write(headless, arguments, view, crop, &ball, output)
 }
