@@ -252,8 +252,18 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    let subcommands =
-        ["render", "reference", "compare", "convert", "figure", "bench", "report", "selftest", "info"];
+    let subcommands = [
+        "view",
+        "render",
+        "reference",
+        "compare",
+        "convert",
+        "figure",
+        "bench",
+        "report",
+        "selftest",
+        "info",
+    ];
     let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
     for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);

@@ -61,12 +61,20 @@ impl Viewer {
             CopiedAs::Options => camera::words(&camera),
             CopiedAs::Json => camera_file(&camera),
         };
-        let printed = crate::console::print(&text);
-        match (self.clipboard.copy(&text), printed) {
-            (Ok(()), _) => self.ui.tell("the camera is in the clipboard"),
-            (Err(error), Ok(())) => self.tell(&format!("no clipboard ({error}): the camera is printed")),
-            (Err(error), Err(_)) => self.tell(&format!("no clipboard: {error}")),
+        self.copy(&text);
+    }
+
+    /// Copies a text, prints it and shows it.
+    pub fn copy(&mut self, text: &str) {
+        self.ui.tell(text);
+        let printed = crate::console::print(text);
+        if let Err(error) = self.clipboard.copy(text) {
+            self.ui.tell(&format!("there is no clipboard: {error}"));
         }
+        if let Err(error) = printed {
+            self.tell(&error.to_string());
+        }
+        self.window.request_redraw();
     }
 
     /// Writes the picture to a file of its own in the current folder.

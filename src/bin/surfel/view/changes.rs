@@ -3,8 +3,7 @@
 use glam::DVec3;
 use surfel::{
     Result,
-    renderer::Wanted,
-    scene::{AXES, Crop, Layers, MOST_LAYERS, OptionValue as _, Settings, Stops, Tonemap},
+    scene::{AXES, Layers, MOST_LAYERS, OptionValue as _, Settings, Stops, Tonemap},
 };
 
 use super::{
@@ -82,6 +81,7 @@ impl Viewer {
             Action::Screenshot => self.write_picture(),
             Action::CopyCamera(how) => self.copy_camera(how),
             Action::Compare(how) => self.compare(how),
+            Action::Pick => self.measure()?,
             Action::Reload => self.reload(),
         }
         self.window.request_redraw();
@@ -95,7 +95,6 @@ impl Viewer {
         }
         match self.check(&settings) {
             Ok(()) => {
-                self.before = Some((self.settings.clone(), self.camera()));
                 self.settings = settings;
                 self.changed();
             }
@@ -150,7 +149,7 @@ impl Viewer {
         if self.edits.splat_scale != scale {
             self.edits.splat_scale = scale;
             self.ui.tell(&format!("splats {scale:.2} times as large"));
-            self.prepare();
+            self.prepare(false);
         }
     }
 
@@ -170,7 +169,6 @@ impl Viewer {
             self.navigation = Some(before);
             self.tell(&error.to_string());
         } else {
-            self.before = Some((self.settings.clone(), Some(before.camera)));
             self.changed();
         }
     }
@@ -183,31 +181,5 @@ impl Viewer {
             self.comparing = if self.comparing == Some(how) { None } else { Some(how) };
         }
         self.changed();
-    }
-
-    /// The point of the surface under the cursor is what the camera turns about from now on.
-    ///
-    /// # Errors
-    /// Of the device.
-    pub fn set_pivot(&mut self) -> Result<()> {
-        let (window_px, cursor) = (self.window_px(), self.input.cursor);
-        let (Some(camera), Some((scene, _))) = (self.camera(), &self.prepared) else { return Ok(()) };
-        let corner_px = [0, 1].map(|i| (cursor[i].max(0.0) as u32).min(window_px[i] - 1));
-        let view = Crop { corner_px, size_px: [1, 1] }.view(window_px, &camera)?;
-        let settings = Settings { size_px: view.drawn_px, ..self.settings.clone() };
-        let wanted = Wanted { surface: true, ..Wanted::default() };
-        let frame = self.gpu.headless.render(scene, &view.camera, &settings, wanted)?;
-        let depth = view.cut(&frame.depth).first().copied().map(f64::from);
-        let Some(navigation) = &mut self.navigation else { return Ok(()) };
-        match depth.filter(|depth| depth.is_finite()) {
-            Some(depth) => {
-                let middle = corner_px.map(|at| f64::from(at) + 0.5);
-                let point = navigation.at(middle, window_px, depth);
-                navigation.set_pivot(point);
-                self.ui.tell("turns about this point");
-            }
-            None => self.ui.tell("there is no surface under the cursor"),
-        }
-        Ok(())
     }
 }

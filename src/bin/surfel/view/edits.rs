@@ -31,6 +31,7 @@ impl Edits {
             storage: scene.storage,
             without_auto_epsilon: scene.without_auto_epsilon,
             levels: scene.levels,
+            numbered: scene.numbered,
             ..Scene::default()
         };
         for (number, object) in scene.objects.iter().enumerate() {

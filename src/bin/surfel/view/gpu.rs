@@ -15,7 +15,7 @@ use surfel::{
 use super::{
     frame::{Frame, begin_rendering, end_rendering},
     overlay::{OverlayFrame, OverlayPass},
-    picture::{Cost, Picture, Use},
+    picture::{Begun, Cost, Picture, Use},
     show::{Show, ShowDesc},
 };
 
@@ -68,6 +68,8 @@ pub struct FrameDesc<'a> {
     pub overlay: Option<&'a OverlayFrame>,
     /// What is measured of the scene's passes.
     pub profile: Option<Profile>,
+    /// The input that it answers to.
+    pub input: Option<Instant>,
 }
 
 /// What drawing came to.
@@ -172,14 +174,8 @@ impl Gpu {
                 self.fits = false;
                 index
             }
-            Turn::OutOfDate => {
-                self.fits = false;
-                return Ok(Drawn::Again);
-            }
-            Turn::SurfaceLost => {
-                self.renew_surface()?;
-                return Ok(Drawn::Again);
-            }
+            Turn::OutOfDate => return self.again(false),
+            Turn::SurfaceLost => return self.again(true),
         };
         match self.draw_to(index, desc) {
             Ok(drawn) => Ok(drawn),
@@ -252,7 +248,8 @@ impl Gpu {
         // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
         let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
         frame.epoch = epoch;
-        for (which, _) in desc.views {
+        for (which, view) in desc.views {
+            let begun = Begun { at: begun, input: desc.input, size_px: view.settings.size_px };
             self.pictures[which.index()].submitted(epoch, begun);
         }
         self.number = (self.number + 1) % IN_FLIGHT;
@@ -263,14 +260,8 @@ impl Gpu {
                 self.fits = false;
                 Ok(Drawn::Shown)
             }
-            Turn::OutOfDate => {
-                self.fits = false;
-                Ok(Drawn::Again)
-            }
-            Turn::SurfaceLost => {
-                self.renew_surface()?;
-                Ok(Drawn::Again)
-            }
+            Turn::OutOfDate => self.again(false),
+            Turn::SurfaceLost => self.again(true),
         }
     }
 
@@ -289,17 +280,16 @@ impl Gpu {
         self.pictures.iter().map(Picture::transient_bytes).sum()
     }
 
-    /// Another surface of the window, in place of one that is lost.
-    fn renew_surface(&mut self) -> Result<()> {
-        // SAFETY: nothing is being recorded now.
-        unsafe { self.headless.queue().wait_idle() }?;
-        self.swapchain = None;
+    /// The window wants other images; and another surface, where that is lost.
+    fn again(&mut self, is_lost: bool) -> Result<Drawn> {
         self.fits = false;
-        // Its swapchain goes before it.
-        // SAFETY: as above.
-        unsafe { self.headless.queue().wait_idle() }?;
-        self.surface = Surface::new(self.headless.device().instance(), Arc::clone(&self.window))?;
-        Ok(())
+        if is_lost {
+            self.swapchain = None;
+            // SAFETY: nothing is being recorded now.
+            unsafe { self.headless.queue().wait_idle() }?;
+            self.surface = Surface::new(self.headless.device().instance(), Arc::clone(&self.window))?;
+        }
+        Ok(Drawn::Again)
     }
 }
 

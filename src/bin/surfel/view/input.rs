@@ -52,7 +52,8 @@ impl Viewer {
             WindowEvent::RedrawRequested => return self.redraw(),
             WindowEvent::Resized(size) => {
                 self.gpu.resize([size.width, size.height]);
-                self.changed();
+                // A hand on the window's edge goes on moving it.
+                self.moved();
             }
             WindowEvent::ScaleFactorChanged { scale_factor, .. } => {
                 self.ui.rescale(scale_factor as f32);
@@ -79,7 +80,10 @@ impl Viewer {
             WindowEvent::KeyboardInput { event, .. } => {
                 let pressed = event.state == ElementState::Pressed;
                 self.hold(event.physical_key, pressed);
-                if pressed && let Some(key) = self.name(&event.logical_key) {
+                if pressed
+                    && !event.repeat
+                    && let Some(key) = self.name(&event.logical_key)
+                {
                     self.key(&key)?;
                 }
             }

@@ -39,6 +39,8 @@ pub enum Action {
     CopyCamera(CopiedAs),
     /// How the picture is compared with another method.
     Compare(Comparing),
+    /// Says what is under the cursor, and how far it is from what was before.
+    Pick,
     /// Reads the files again.
     Reload,
     /// Ends the program.
@@ -127,6 +129,7 @@ pub const BINDINGS: &[Binding] = &[
     binding("i", Action::Screenshot, "the picture to a file, with --samples"),
     binding("c", Action::CopyCamera(CopiedAs::Options), "copies the camera as options of surfel render"),
     binding("C", Action::CopyCamera(CopiedAs::Json), "copies the camera as a camera file"),
+    binding("j", Action::Pick, "what is under the cursor, where, and how far from the last; copied"),
     binding("F5", Action::Reload, "reads the files again"),
     binding("o", Action::Panel, "shows or hides the panel"),
     binding("?", Action::Keys, "shows or hides the keys"),

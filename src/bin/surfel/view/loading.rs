@@ -83,7 +83,7 @@ const LEVELS_FROM: usize = 300_000;
 
 enum Job {
     Open { number: u64, files: Inputs, size_px: [u32; 2] },
-    Prepare { number: u64, scene: Arc<Scene>, edits: Edits, device: Device },
+    Prepare { number: u64, scene: Arc<Scene>, edits: Edits, device: Device, in_parts: bool },
 }
 
 /// The thread, as the window knows it.
@@ -130,10 +130,10 @@ impl Loader {
         self.send(Job::Open { number, files, size_px });
     }
 
-    /// Brings a scene with changes to a device.
-    pub fn prepare(&self, scene: Arc<Scene>, edits: Edits, device: Device) {
+    /// Brings a scene with changes to a device; a part of it first, if so wanted.
+    pub fn prepare(&self, scene: Arc<Scene>, edits: Edits, device: Device, in_parts: bool) {
         let number = self.next();
-        self.send(Job::Prepare { number, scene, edits, device });
+        self.send(Job::Prepare { number, scene, edits, device, in_parts });
     }
 
     /// Whether a result is of the newest job.
@@ -176,8 +176,8 @@ impl Worker {
                     self.is_reading.store(false, Ordering::Release);
                     opened.map(|document| self.tell(News::Opened(Box::new(document))))
                 }
-                Job::Prepare { number, scene, edits, device } => {
-                    self.prepare(number, &scene, &edits, &device)
+                Job::Prepare { number, scene, edits, device, in_parts } => {
+                    self.prepare(number, (&scene, &edits), &device, in_parts)
                 }
             };
             if let Err(error) = done {
@@ -207,11 +207,18 @@ impl Worker {
             scene.lights.clone_from(&self.lights);
         }
         scene.storage = self.storage;
+        scene.numbered = true;
         Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files })
     }
 
     /// Step by step, until another job comes.
-    fn prepare(&self, job: u64, scene: &Arc<Scene>, edits: &Edits, device: &Device) -> Result<()> {
+    fn prepare(
+        &self,
+        job: u64,
+        (scene, edits): (&Arc<Scene>, &Edits),
+        device: &Device,
+        in_parts: bool,
+    ) -> Result<()> {
         let edited;
         let scene = match edits.are_none() {
             true => &**scene,
@@ -223,7 +230,7 @@ impl Worker {
         let splats = scene.splat_count();
         let has_levels = !scene.leveled.is_empty();
         let mut steps = Vec::new();
-        if splats > PART_FROM {
+        if in_parts && splats > PART_FROM {
             steps.push(Step::Part);
         }
         steps.push(if has_levels { Step::Leveled } else { Step::Whole });

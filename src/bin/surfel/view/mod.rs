@@ -1,6 +1,6 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
 //! picture is (`pace`), the thread that reads files (`loading`), the window's device (`gpu` and the files it names), what lies over the
-//! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `input`, `files`, `changes`, `capture`).
+//! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `input`, `files`, `changes`, `picking`, `capture`).
 
 mod app;
 mod capture;
@@ -17,6 +17,7 @@ mod navigation;
 mod overlay;
 mod pace;
 mod panel;
+mod picking;
 mod picture;
 mod popups;
 mod redraw;
@@ -64,6 +65,10 @@ pub struct ViewArguments {
     /// The size of pictures that the key i writes, which may be larger than the window [default: the window's]
     #[arg(long, value_name = "WxH", value_parser = <[u32; 2]>::parse)]
     picture_size: Option<[u32; 2]>,
+
+    /// Print a line for each frame of the scene: its size, its time on the device, and how long after its input it was done
+    #[arg(long, help_heading = "Device")]
+    print_frames: bool,
 
     #[command(flatten)]
     settings: Given<Settings>,

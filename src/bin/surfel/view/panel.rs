@@ -83,7 +83,7 @@ impl Viewer {
             }
             Change::Edits(edits) => {
                 self.edits = edits;
-                self.prepare();
+                self.prepare(false);
             }
             Change::SplatScale(scale) => self.set_splat_scale(scale),
         }

@@ -1,6 +1,6 @@
 //! A picture of a scene, drawn again and again for one use.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use ash::vk;
 use surfel::{
@@ -48,13 +48,28 @@ pub struct Cost {
     pub secs: f64,
     /// Of its passes.
     pub profile: FrameProfile,
+    /// Width and height.
+    pub size_px: [u32; 2],
+    /// From the input that it answers to when its end was seen.
+    pub since_input: Option<Duration>,
 }
 
 struct Slot {
     slot: FrameSlot,
     /// The submission that uses it; 0 before the first.
     epoch: u64,
-    begun: Option<Instant>,
+    begun: Option<Begun>,
+}
+
+/// A frame under way.
+#[derive(Clone, Copy)]
+pub struct Begun {
+    /// When its recording began.
+    pub at: Instant,
+    /// The input that it answers to.
+    pub input: Option<Instant>,
+    /// Width and height.
+    pub size_px: [u32; 2],
 }
 
 impl Picture {
@@ -120,7 +135,7 @@ impl Picture {
     }
 
     /// Its frame is submitted.
-    pub fn submitted(&mut self, epoch: u64, begun: Instant) {
+    pub fn submitted(&mut self, epoch: u64, begun: Begun) {
         let slot = &mut self.slots[self.next];
         (slot.epoch, slot.begun) = (epoch, Some(begun));
         self.next = (self.next + 1) % self.slots.len();
@@ -146,8 +161,9 @@ impl Picture {
             slot.begun = None;
             let profile = slot.slot.profiler().map(|profiler| profiler.read()).transpose()?;
             let profile = profile.unwrap_or_default();
-            let secs = profile.span_secs.unwrap_or_else(|| begun.elapsed().as_secs_f64());
-            self.costs.push(Cost { secs, profile });
+            let secs = profile.span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
+            let since_input = begun.input.map(|input| input.elapsed());
+            self.costs.push(Cost { secs, profile, size_px: begun.size_px, since_input });
         }
         Ok(all)
     }

@@ -14,15 +14,16 @@ use super::{
     keys::Comparing,
     loading::Step,
     overlay::OverlayFrame,
-    picture::Use,
+    picture::{Cost, Use},
     show::{ShowDesc, Shown},
     viewer::Viewer,
 };
+use crate::console;
 
 /// The camera rests once it has not moved for so long.
 const REST: Duration = Duration::from_millis(60);
 /// How soon the cost of a frame is looked for again that is not done.
-const COST: Duration = Duration::from_millis(30);
+const COST: Duration = Duration::from_millis(10);
 
 impl Viewer {
     /// When there is something to do without an event.
@@ -68,9 +69,10 @@ impl Viewer {
                 self.window.request_redraw();
             }
             Drawn::Shown => {
-                if let Some(which) = which {
+                if let (Some(which), Some(camera)) = (which, self.camera()) {
                     (self.is_stale, self.shown) = (false, which);
-                    self.looks_for_costs = self.ui.shows_times().then(|| Instant::now() + COST);
+                    self.drawn = Some((self.settings.clone(), camera));
+                    self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
                 }
                 if self.input.flies() {
                     self.window.request_redraw();
@@ -118,7 +120,8 @@ impl Viewer {
         let show = ShowDesc { window_px, light, background, shown };
         let shown = self.prepared.is_some().then_some((pictures, show));
         let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
-        Ok((self.gpu.draw(&FrameDesc { views: &views, shown, overlay, profile })?, drawn))
+        let desc = FrameDesc { views: &views, shown, overlay, profile, input: self.input_at };
+        Ok((self.gpu.draw(&desc)?, drawn))
     }
 
     /// Learns what frames have cost.
@@ -132,12 +135,19 @@ impl Viewer {
                     self.pace.learn(cost.secs);
                 }
                 self.ui.history.push(&cost);
+                if self.options.prints_frames {
+                    console::print(&line(which, &cost))?;
+                }
             }
-            if !all && self.ui.shows_times() {
+            if !all && self.shows_costs() {
                 self.looks_for_costs = Some(Instant::now() + COST);
             }
         }
         Ok(())
+    }
+
+    fn shows_costs(&self) -> bool {
+        self.ui.shows_times() || self.options.prints_frames
     }
 
     /// As coarse as a moving picture is.
@@ -161,4 +171,14 @@ impl Viewer {
     pub fn camera(&self) -> Option<Camera> {
         self.navigation.as_ref().map(|navigation| navigation.camera)
     }
+}
+
+/// A frame as it is printed.
+fn line(which: Use, cost: &Cost) -> String {
+    let [width, height] = cost.size_px;
+    let what = if which == Use::Moving { "moving" } else { "whole" };
+    let since = cost.since_input.map_or(String::new(), |since| {
+        format!(", its end seen {:.1} ms after its input", 1e3 * since.as_secs_f64())
+    });
+    format!("{what} {width}x{height}: {:.1} ms on the device{since}", 1e3 * cost.secs)
 }

@@ -5,6 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Headless, Result,
     prepare::PreparedScene,
@@ -49,17 +50,21 @@ pub struct Viewer {
     pub settings: Settings,
     pub encoding: Encoding,
     pub edits: Edits,
-    /// What was drawn before a change that may be refused.
-    pub before: Option<(Settings, Option<Camera>)>,
+    /// What was drawn last.
+    pub drawn: Option<(Settings, Camera)>,
     /// The method that is compared with, and how, if it is.
     pub other: Settings,
     pub comparing: Option<Comparing>,
     pub split: f32,
     pub clipboard: Clipboard,
+    /// The point that was measured last.
+    pub measured: Option<DVec3>,
     pub options: Options,
     pub pace: Pace,
     /// When the picture last moved, until it rests.
     pub moved: Option<Instant>,
+    /// The last input that moved it.
+    pub input_at: Option<Instant>,
     /// What is shown is not the scene, or not from the camera, of now.
     pub is_stale: bool,
     /// The picture that is shown.
@@ -80,6 +85,7 @@ pub struct Options {
     pub said: Box<dyn Fn(Settings) -> Settings>,
     pub picture_size: Option<[u32; 2]>,
     pub samples: surfel::scene::Samples,
+    pub prints_frames: bool,
 }
 
 impl Viewer {
@@ -105,7 +111,7 @@ impl Viewer {
             settings,
             input: Input::default(),
             files: Files::default(),
-            before: None,
+            drawn: None,
             document: None,
             prepared: None,
             navigation: None,
@@ -113,8 +119,10 @@ impl Viewer {
             comparing: None,
             split: 0.5,
             clipboard: Clipboard::default(),
+            measured: None,
             pace: Pace::default(),
             moved: None,
+            input_at: None,
             is_stale: true,
             looks_for_costs: None,
             shown: Use::Still,
@@ -132,6 +140,7 @@ impl Viewer {
     /// The camera has moved.
     pub fn moved(&mut self) {
         self.moved = Some(Instant::now());
+        self.input_at = self.moved;
         self.changed();
     }
 
@@ -199,17 +208,18 @@ impl Viewer {
         self.ui.reading = None;
         self.files.watch(&document.files.files);
         self.document = Some(document);
-        self.keeps_camera = false;
-        self.prepare();
+        let is_other = !std::mem::take(&mut self.keeps_camera);
+        self.prepare(is_other);
         self.changed();
         Ok(())
     }
 
-    /// Brings the scene to the device again, with the changes of now.
-    pub fn prepare(&mut self) {
+    /// Brings the scene to the device, with the changes of now. `is_other`: it is not that which is shown, so that a part of it is better
+    /// than nothing.
+    pub fn prepare(&mut self, is_other: bool) {
         if let Some(document) = &self.document {
             let device = self.gpu.headless.device().clone();
-            self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device);
+            self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device, is_other);
         }
     }
 
@@ -218,10 +228,11 @@ impl Viewer {
     /// # Errors
     /// The error, where it is not.
     pub fn recover(&mut self, error: Error) -> Result<()> {
-        if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.before.take()) {
+        // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
+        if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
             self.tell(&error.to_string());
             self.settings = settings;
-            if let (Some(navigation), Some(camera)) = (&mut self.navigation, camera) {
+            if let Some(navigation) = &mut self.navigation {
                 navigation.camera = camera;
             }
             self.changed();
@@ -238,7 +249,7 @@ impl Viewer {
         self.gpu = gpu;
         self.ui = Ui::new(self.window.scale_factor() as f32);
         self.tell("the device was lost and is opened again");
-        self.prepare();
+        self.prepare(true);
         self.changed();
         Ok(())
     }
@@ -261,6 +272,7 @@ impl Options {
             said: Box::new(move |settings| said.said_over(settings)),
             picture_size: arguments.picture_size,
             samples,
+            prints_frames: arguments.print_frames,
         }
     }
 }
