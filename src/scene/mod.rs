@@ -23,6 +23,7 @@ mod mesh;
 mod methods;
 mod opacity;
 mod option;
+mod path;
 mod points;
 mod samples;
 mod settings;
@@ -56,6 +57,7 @@ pub use opacity::Opacity;
 #[cfg(feature = "files")]
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
+pub use path::{CameraPath, Interpolation};
 pub use points::{Points, Viewpoint};
 pub use samples::{MOST_SAMPLES, Samples};
 pub use settings::{Settings, with_each};

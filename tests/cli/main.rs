@@ -9,6 +9,7 @@ mod counts;
 mod faults;
 mod figure;
 mod files;
+mod film;
 mod formats;
 mod growth;
 mod hard_files;

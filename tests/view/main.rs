@@ -60,7 +60,7 @@ fn every_key_does_its_work_without_a_message() {
     view.wait_until("something is shown", |shot| shot.colors() > 20);
     screen.drive(&["mousemove", "200", "150"]);
     let keys = "1 2 3 4 5 6 7 f h u u t t p p r r r R g g G k n b b v V l L bracketleft bracketright m m m period comma \
-                y r x z space space c C i o o question question F1 Escape F5 w s a d q e j j";
+                y r x z space space c C i o o question question F1 Escape F5 w s a d q e j j Return 1 Return K slash BackSpace";
     for key in keys.split_whitespace() {
         screen.key(key);
         std::thread::sleep(Duration::from_millis(40));
@@ -70,6 +70,10 @@ fn every_key_does_its_work_without_a_message() {
     screen.key("i");
     let picture = view.wait_for_file("surfel-002.png");
     assert_eq!(picture.size, [400, 300]);
+    // The path that was recorded makes pictures.
+    let words = ["a.ply", "--size", "32x32", "--path", "surfel-path-001.json", "--frames", "3"];
+    let film = surfel(&folder, &[&["render", "-o", "film%02d.png"], &words[..]].concat(), &[]);
+    assert_eq!(film.code, 0, "{}", film.stderr);
     let said = view.end();
     assert!(said.stdout.contains("--eye ") && said.stdout.contains("\"fov_deg\":45"), "{}", said.stdout);
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::{Deserialize, de::DeserializeOwned};
 use surfel::{Error, ErrorKind, Result, scene::Camera, small_file::read_small_file};
 
 /// More than any camera file holds: what is larger is something else.
@@ -11,15 +11,15 @@ const MAX_FILE_BYTES: u64 = 1 << 16;
 /// A camera file. Angles in degrees, points in world space.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CameraFile {
-    eye: [f64; 3],
-    target: [f64; 3],
-    up: [f64; 3],
+pub struct CameraFile {
+    pub eye: [f64; 3],
+    pub target: [f64; 3],
+    pub up: [f64; 3],
     /// Or `orthographic`.
-    fov_deg: Option<f64>,
+    pub fov_deg: Option<f64>,
     /// The picture's height.
-    orthographic: Option<f64>,
-    near: Option<f64>,
+    pub orthographic: Option<f64>,
+    pub near: Option<f64>,
 }
 
 /// Reads a camera.
@@ -28,41 +28,56 @@ struct CameraFile {
 /// A file that can't be read or is no camera, with its line.
 pub fn read(path: &Path) -> Result<Camera> {
     let text = read_small_file(path, MAX_FILE_BYTES, "a camera file (see surfel render --help)")?;
-    let file: CameraFile = serde_json::from_slice(&text).map_err(|e| {
+    let file: CameraFile = parse(path, &text)?;
+    file.camera().map_err(|(key, problem)| Error::input(path, key, problem))
+}
+
+/// JSON of a known form.
+///
+/// # Errors
+/// What is not of that form, with its line.
+pub fn parse<T: DeserializeOwned>(path: &Path, text: &[u8]) -> Result<T> {
+    serde_json::from_slice(text).map_err(|e| {
         let (line, column) = (e.line(), e.column());
         let problem = e.to_string();
         let problem = problem.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&problem);
         Error::input(path, format!("line {line}, column {column}"), problem)
-    })?;
-    let projection = |problem: &str| Error::input(path, "", problem);
-    let fov_deg = match (file.fov_deg, file.orthographic) {
-        (Some(_), Some(_)) => {
-            return Err(projection("both fov_deg and orthographic; expected one of them"));
+    })
+}
+
+impl CameraFile {
+    /// The camera, or what is wrong with which key; without one, with all of it.
+    pub fn camera(self) -> std::result::Result<Camera, (&'static str, String)> {
+        let fov_deg = match (self.fov_deg, self.orthographic) {
+            (Some(_), Some(_)) => {
+                return Err(("", "both fov_deg and orthographic; expected one of them".to_owned()));
+            }
+            (None, None) => {
+                return Err(("", "neither fov_deg nor orthographic; expected one of them".to_owned()));
+            }
+            (fov_deg, _) => fov_deg,
+        };
+        let camera = Camera {
+            eye: self.eye.into(),
+            target: self.target.into(),
+            up: self.up.into(),
+            fov_y_rad: fov_deg.map_or(Camera::DEFAULT_FOV_Y_RAD, f64::to_radians),
+            orthographic_height: self.orthographic,
+            near: self.near,
+            ..Camera::default()
+        };
+        match camera.validate() {
+            Ok(()) => Ok(camera),
+            Err(error) => Err(match error.kind() {
+                ErrorKind::Option { option, problem } => match option.as_str() {
+                    "--fov" => ("fov_deg", problem.clone()),
+                    "--orthographic" => ("orthographic", problem.clone()),
+                    _ => ("", problem.clone()),
+                },
+                _ => ("", error.to_string()),
+            }),
         }
-        (None, None) => return Err(projection("neither fov_deg nor orthographic; expected one of them")),
-        (fov_deg, _) => fov_deg,
-    };
-    let camera = Camera {
-        eye: file.eye.into(),
-        target: file.target.into(),
-        up: file.up.into(),
-        fov_y_rad: fov_deg.map_or(Camera::DEFAULT_FOV_Y_RAD, f64::to_radians),
-        orthographic_height: file.orthographic,
-        near: file.near,
-        ..Camera::default()
-    };
-    camera.validate().map_err(|error| match error.kind() {
-        ErrorKind::Option { option, problem } => {
-            let key = match option.as_str() {
-                "--fov" => "fov_deg",
-                "--orthographic" => "orthographic",
-                _ => "",
-            };
-            Error::input(path, key, problem.as_str())
-        }
-        _ => error,
-    })?;
-    Ok(camera)
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod file;
+mod path_file;
 mod words;
 
 use glam::DVec3;
@@ -12,6 +13,7 @@ use surfel::{
 };
 
 pub use arguments::{CameraArguments, Target};
+pub use path_file::{read as read_path, text as path_text};
 pub use words::{degrees, words};
 
 use crate::{

@@ -48,8 +48,8 @@ fn camera_file(camera: &Camera) -> String {
 }
 
 /// The first name of a series that no file has.
-fn free_name() -> PathBuf {
-    let name = |number: u32| PathBuf::from(format!("surfel-{number:03}.png"));
+pub fn free_name(series: &str, ending: &str) -> PathBuf {
+    let name = |number: u32| PathBuf::from(format!("{series}-{number:03}.{ending}"));
     (1..).map(name).find(|path| !path.exists()).unwrap_or_else(|| name(0))
 }
 
@@ -79,7 +79,7 @@ impl Viewer {
 
     /// Writes the picture to a file of its own in the current folder.
     pub fn write_picture(&mut self) {
-        let path = free_name();
+        let path = free_name("surfel", "png");
         match self.picture_to(path.clone()) {
             Ok(true) => self.tell(&format!("{} is written", path.display())),
             Ok(false) => {}

@@ -81,6 +81,7 @@ impl Viewer {
             Action::Screenshot => self.write_picture(),
             Action::CopyCamera(how) => self.copy_camera(how),
             Action::Compare(how) => self.compare(how),
+            Action::Path(what) => self.on_path(what),
             Action::Pick => self.measure()?,
             Action::Reload => self.reload(),
         }

@@ -1,6 +1,9 @@
 //! A window's device: what draws a scene to a picture, and pictures to the window, a few frames in flight.
 
-use std::{sync::Arc, time::Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use ash::vk;
 use surfel::{
@@ -36,6 +39,9 @@ pub struct Gpu {
     cache: PipelineCache,
     window_px: [u32; 2],
     fits: bool,
+    /// When the frame before began; none where the window rested.
+    before: Option<Instant>,
+    period: Option<Duration>,
 }
 
 /// The passes that draw to windows of a format.
@@ -103,6 +109,8 @@ impl Gpu {
             headless,
             window_px: [0; 2],
             fits: false,
+            before: None,
+            period: None,
         })
     }
 
@@ -165,7 +173,7 @@ impl Gpu {
             return Ok(Drawn::Hidden);
         }
         let Some(swapchain) = &self.swapchain else { return Ok(Drawn::Hidden) };
-        let frame = &self.frames[self.number];
+        let (frame, begun) = (&self.frames[self.number], Instant::now());
         self.headless.queue().wait(frame.epoch)?;
         // SAFETY: the submission that waited for the semaphore last is done, and each image is presented before the next is acquired.
         let index = match unsafe { swapchain.acquire(&frame.acquired) }? {
@@ -177,6 +185,9 @@ impl Gpu {
             Turn::OutOfDate => return self.again(false),
             Turn::SurfaceLost => return self.again(true),
         };
+        // Where the host waits, frames follow each other as fast as they can, whatever it is that takes the time.
+        let waited = begun.elapsed() > Duration::from_millis(1);
+        self.period = self.before.replace(begun).filter(|_| waited).map(|before| begun - before);
         match self.draw_to(index, desc) {
             Ok(drawn) => Ok(drawn),
             Err(error) => {
@@ -263,6 +274,11 @@ impl Gpu {
             Turn::OutOfDate => self.again(false),
             Turn::SurfaceLost => self.again(true),
         }
+    }
+
+    /// The time from frame to frame, where the host waited for the device or the window system.
+    pub fn take_period(&mut self) -> Option<Duration> {
+        self.period.take()
     }
 
     /// What frames for a use have cost since this was asked for last, and whether that is all of them.

@@ -219,6 +219,8 @@ impl Viewer {
             Key::Character(character) => character.to_string(),
             Key::Named(NamedKey::Space) => "Space".to_owned(),
             Key::Named(NamedKey::Escape) => "Escape".to_owned(),
+            Key::Named(NamedKey::Enter) => "Enter".to_owned(),
+            Key::Named(NamedKey::Backspace) => "Backspace".to_owned(),
             Key::Named(NamedKey::F1) => "F1".to_owned(),
             Key::Named(NamedKey::F5) => "F5".to_owned(),
             _ => return None,

@@ -39,6 +39,8 @@ pub enum Action {
     CopyCamera(CopiedAs),
     /// How the picture is compared with another method.
     Compare(Comparing),
+    /// What is done with a path of cameras.
+    Path(OnPath),
     /// Says what is under the cursor, and how far it is from what was before.
     Pick,
     /// Reads the files again.
@@ -63,6 +65,19 @@ pub enum CopiedAs {
     Options,
     /// As a camera file.
     Json,
+}
+
+/// What is done with a path of cameras.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnPath {
+    /// The camera of now is its next place.
+    Add,
+    /// Its last place goes.
+    Remove,
+    /// It is played, or stops.
+    Play,
+    /// It goes to a file.
+    Save,
 }
 
 /// How two methods are compared.
@@ -129,6 +144,10 @@ pub const BINDINGS: &[Binding] = &[
     binding("i", Action::Screenshot, "the picture to a file, with --samples"),
     binding("c", Action::CopyCamera(CopiedAs::Options), "copies the camera as options of surfel render"),
     binding("C", Action::CopyCamera(CopiedAs::Json), "copies the camera as a camera file"),
+    binding("Enter", Action::Path(OnPath::Add), "the camera is the next place of a path, 2 s on"),
+    binding("Backspace", Action::Path(OnPath::Remove), "the last place of the path goes"),
+    binding("/", Action::Path(OnPath::Play), "plays the path, or stops"),
+    binding("K", Action::Path(OnPath::Save), "the path to a file, for surfel render --path"),
     binding("j", Action::Pick, "what is under the cursor, where, and how far from the last; copied"),
     binding("F5", Action::Reload, "reads the files again"),
     binding("o", Action::Panel, "shows or hides the panel"),

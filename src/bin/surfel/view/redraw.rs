@@ -21,7 +21,7 @@ use super::{
 use crate::console;
 
 /// The camera rests once it has not moved for so long.
-const REST: Duration = Duration::from_millis(60);
+const REST: Duration = Duration::from_millis(40);
 /// How soon the cost of a frame is looked for again that is not done.
 const COST: Duration = Duration::from_millis(10);
 
@@ -50,6 +50,7 @@ impl Viewer {
     /// As [`super::gpu::Gpu::draw`].
     pub fn redraw(&mut self) -> Result<()> {
         self.fly();
+        self.play();
         let now = Instant::now();
         let is_moving = self.input.flies() || self.moved.is_some_and(|moved| now < moved + REST);
         if !is_moving {
@@ -74,7 +75,7 @@ impl Viewer {
                     self.drawn = Some((self.settings.clone(), camera));
                     self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
                 }
-                if self.input.flies() {
+                if self.input.flies() || self.path.plays() {
                     self.window.request_redraw();
                 }
             }
@@ -127,12 +128,15 @@ impl Viewer {
     /// Learns what frames have cost.
     fn learn(&mut self, is_moving: bool) -> Result<()> {
         self.looks_for_costs = None;
+        // With what it takes to show the picture, too.
+        let period = self.gpu.take_period().filter(|_| is_moving && self.was_moving);
+        self.was_moving = is_moving;
         for which in [Use::Moving, Use::Still] {
             let (costs, all) = self.gpu.take_costs(which)?;
             for cost in costs {
                 // A picture at rest tells of moving ones where they are the same.
                 if is_moving && (which == Use::Moving || self.pace.is_finest()) {
-                    self.pace.learn(cost.secs);
+                    self.pace.learn(period.map_or(cost.secs, |period| period.as_secs_f64()));
                 }
                 self.ui.history.push(&cost);
                 if self.options.prints_frames {

@@ -25,6 +25,7 @@ use super::{
     loading::{Document, Loader, News, Step},
     navigation::Navigation,
     pace::Pace,
+    path::Path,
     picture::Use,
     ui::Ui,
 };
@@ -41,6 +42,7 @@ pub struct Viewer {
     pub loader: Loader,
     pub input: Input,
     pub files: Files,
+    pub path: Path,
     pub ui: Ui,
     /// What the files hold, once they are read.
     pub document: Option<Document>,
@@ -63,6 +65,8 @@ pub struct Viewer {
     pub pace: Pace,
     /// When the picture last moved, until it rests.
     pub moved: Option<Instant>,
+    /// The frame before was one of those that move.
+    pub was_moving: bool,
     /// The last input that moved it.
     pub input_at: Option<Instant>,
     /// What is shown is not the scene, or not from the camera, of now.
@@ -111,6 +115,7 @@ impl Viewer {
             settings,
             input: Input::default(),
             files: Files::default(),
+            path: Path::default(),
             drawn: None,
             document: None,
             prepared: None,
@@ -122,6 +127,7 @@ impl Viewer {
             measured: None,
             pace: Pace::default(),
             moved: None,
+            was_moving: false,
             input_at: None,
             is_stale: true,
             looks_for_costs: None,
