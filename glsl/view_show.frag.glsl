@@ -12,15 +12,18 @@ layout(push_constant) uniform Show
     // What is empty in a picture of light, linear.
     vec4 background;
     ivec2 window_px;
-    // The column at which the other picture begins; and how the two are shown, see below.
+    // The column at which the other picture begins.
     float split_px;
-    uint mode;
-    // 2 to the power of the stops; and which curve, see `inc/tonemap.glsl`; of pictures of light.
+    // 2 to the power of the stops, of pictures of light.
     float exposure;
-    uint curve;
-    // The pictures are light that is to be exposed, not what is to be shown.
-    uint is_light;
 };
+
+// Pipelines of their own, for devices that are CPUs run all branches: how the two are shown, see below; whether the pictures have the
+// window's size; whether they are light that is to be exposed, not what is to be shown; and by which curve, see `inc/tonemap.glsl`.
+layout(constant_id = 0) const uint MODE = 0;
+layout(constant_id = 1) const bool FITS = true;
+layout(constant_id = 2) const bool IS_LIGHT = false;
+layout(constant_id = 3) const uint CURVE = CURVE_NONE;
 
 const uint SHOWS_PICTURE = 0;
 const uint SHOWS_BOTH = 1;
@@ -30,11 +33,9 @@ layout(location = 0) out vec4 color;
 
 vec3 shown_of(sampler2D image)
 {
-    vec4 drawn = textureSize(image, 0) == window_px ? texelFetch(image, ivec2(gl_FragCoord.xy), 0)
-                                                    : textureLod(image, gl_FragCoord.xy / vec2(window_px), 0.0);
-    if (is_light == 0)
-        return drawn.rgb;
-    return mix(background.rgb, tonemapped(drawn.rgb * exposure, curve), drawn.a);
+    vec4 drawn = FITS ? texelFetch(image, ivec2(gl_FragCoord.xy), 0)
+                      : textureLod(image, gl_FragCoord.xy / vec2(window_px), 0.0);
+    return IS_LIGHT ? mix(background.rgb, tonemapped(drawn.rgb * exposure, CURVE), drawn.a) : drawn.rgb;
 }
 
 vec3 srgb_of(vec3 linear)
@@ -54,12 +55,12 @@ vec3 color_of_steps(float steps)
 void main()
 {
     color = vec4(0, 0, 0, 1);
-    if (mode == SHOWS_DIFFERENCE)
+    if (MODE == SHOWS_DIFFERENCE)
     {
         vec3 steps = 255.0 * abs(srgb_of(shown_of(picture)) - srgb_of(shown_of(other)));
         color.rgb = color_of_steps(max(steps.x, max(steps.y, steps.z)));
     }
-    else if (mode == SHOWS_BOTH && gl_FragCoord.x >= split_px)
+    else if (MODE == SHOWS_BOTH && gl_FragCoord.x >= split_px)
         color.rgb = gl_FragCoord.x < split_px + 1.0 ? vec3(1) : shown_of(other);
     else
         color.rgb = shown_of(picture);

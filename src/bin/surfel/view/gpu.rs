@@ -156,7 +156,7 @@ impl Gpu {
         (self.window_px, self.fits) = ([width, height], true);
         let format = swapchain.format();
         if self.drawing.as_ref().is_none_or(|drawing| drawing.format != format) {
-            let show = Show::new(device, &self.cache, format)?;
+            let show = Show::new(device, format)?;
             let before = self.drawing.take().map(|drawing| drawing.overlay);
             let overlay = OverlayPass::new(device, &self.cache, format, before)?;
             self.drawing = Some(Drawing { format, show, overlay });
@@ -244,9 +244,9 @@ impl Gpu {
             frame.sets.reset()?;
             begin_rendering(self.headless.device(), commands, image, swapchain.extent());
             if let Some((uses, show)) = &desc.shown {
-                let views = uses.map(|which| self.pictures[which.index()].view());
-                if let [Some(first), Some(second)] = views {
-                    drawing.show.record(commands, &frame.sets, [first, second], show)?;
+                let shots = uses.map(|which| self.pictures[which.index()].shot());
+                if let [Some(first), Some(second)] = shots {
+                    drawing.show.record(commands, (&self.cache, &frame.sets), [first, second], show)?;
                 }
             }
             if let Some(overlay) = desc.overlay {

@@ -10,7 +10,7 @@ use surfel::{
     vk::{Device, Image, ImageDesc},
 };
 
-use super::gpu::SceneView;
+use super::{gpu::SceneView, show::Shot};
 
 /// What pictures are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,9 +141,11 @@ impl Picture {
         self.next = (self.next + 1) % self.slots.len();
     }
 
-    /// A view of the image, once it was drawn.
-    pub fn view(&self) -> Option<vk::ImageView> {
-        self.image.as_ref().filter(|_| self.is_drawn).map(Image::view)
+    /// The image, once it was drawn.
+    pub fn shot(&self) -> Option<Shot> {
+        let image = self.image.as_ref().filter(|_| self.is_drawn)?;
+        let vk::Extent2D { width, height } = image.extent();
+        Some(Shot { view: image.view(), size_px: [width, height] })
     }
 
     /// Learns what frames have cost that are done; whether all of them are.
