@@ -52,6 +52,11 @@ pub enum ErrorKind {
         /// Why, in a sentence; and for each device that was looked at, its name and the reason of its refusal.
         reasons: Vec<String>,
     },
+    /// No window can be opened.
+    NoWindow {
+        /// Why, and what can be done about it.
+        reason: String,
+    },
     /// A Vulkan call failed.
     Vulkan {
         /// The call, such as `vkCreateBuffer`.
@@ -125,6 +130,7 @@ impl Error {
         match *self.0 {
             ErrorKind::Input { .. } | ErrorKind::Option { .. } | ErrorKind::File { .. } => 1,
             ErrorKind::NoDevice { .. }
+            | ErrorKind::NoWindow { .. }
             | ErrorKind::Vulkan { .. }
             | ErrorKind::Memory { .. }
             | ErrorKind::Graph { .. }
@@ -177,6 +183,7 @@ impl fmt::Display for Error {
             ErrorKind::NoDevice { reasons } => {
                 write!(f, "no Vulkan device can be used: {}", reasons.join("; "))
             }
+            ErrorKind::NoWindow { reason } => write!(f, "no window can be opened: {reason}"),
             ErrorKind::Vulkan { call, object, result } if object.is_empty() => {
                 write!(f, "{call} failed: {result:?}")
             }
@@ -239,6 +246,11 @@ mod tests {
                 ErrorKind::NoDevice { reasons: vec!["a".into(), "b".into()] }.into(),
                 2,
                 "no Vulkan device can be used: a; b",
+            ),
+            (
+                ErrorKind::NoWindow { reason: "DISPLAY is not set".into() }.into(),
+                2,
+                "no window can be opened: DISPLAY is not set",
             ),
             (
                 Error::vulkan("vkCreateBuffer", "splats 0", ash::vk::Result::ERROR_OUT_OF_DEVICE_MEMORY),

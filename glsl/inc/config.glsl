@@ -65,6 +65,7 @@
 #define BIND_SPLATS_COLORS 1 // Binding: their colors.
 #define BIND_SPLATS_LEVELS 2 // Binding: what decides about their levels of detail.
 #define BIND_SPLATS_CLIPS 3  // Binding: their clip curves.
+#define BIND_SPLATS_INDICES 2 // Binding: of triangles, the numbers of their corners.
 
 // Bindings of the set of lists.
 #define BIND_LIST_BITS 0      // Binding: a bit a splat.

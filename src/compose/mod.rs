@@ -22,11 +22,11 @@ pub use sharp::sharpened;
 pub use words::{finish, splats_kind};
 
 use crate::{
-    error::Result,
+    error::{Error, Result},
     load::{LoadOptions, ObjectDescription, PictureDescription, load_scene_file},
     progress::Progress,
     report::InputReport,
-    scene::{CameraParts, Light, Scene},
+    scene::{Ball, CameraParts, Light, Scene},
 };
 
 /// The scene of a scene file.
@@ -45,11 +45,26 @@ pub struct Composed {
 /// Loads a scene file and all that it names.
 ///
 /// # Errors
-/// As [`load_scene_file`] and [`build`].
+/// As [`load_scene_file`] and [`build`]; a camera that looks at an object that is not there.
 pub fn compose(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Composed> {
     let file = load_scene_file(path, options)?;
     let (scene, reports) = build(&file.objects, file.lights, options, progress, &mut |_| {})?;
-    Ok(Composed { scene, camera: file.camera.unwrap_or_default(), picture: file.picture, reports })
+    let mut camera = file.camera.unwrap_or_default();
+    if let Some(name) = &file.camera_target {
+        camera.subject = Some(ball_of_target(&scene, name, path)?);
+    }
+    Ok(Composed { scene, camera, picture: file.picture, reports })
+}
+
+/// A ball around the object that the camera of a scene file looks at.
+///
+/// # Errors
+/// [`crate::ErrorKind::Input`] where no object has this name.
+pub fn ball_of_target(scene: &Scene, name: &str, scene_file: &Path) -> Result<Ball> {
+    scene.ball_named(name).ok_or_else(|| {
+        let problem = format!("no object is called '{name}'; expected the name of one, or three numbers");
+        Error::input(scene_file, "camera, target", problem)
+    })
 }
 
 /// Makes all objects and puts them into a scene; tells of each when it is made. With it what was done, one an object.

@@ -5,6 +5,7 @@ pub(crate) mod in_parts;
 pub(crate) mod inputs;
 pub(crate) mod layers;
 pub(crate) mod pass;
+pub(crate) mod pick;
 pub(crate) mod pipeline;
 pub(crate) mod place;
 pub(crate) mod plan;
@@ -19,6 +20,8 @@ use ash::vk;
 
 pub use crate::passes::inputs::Inputs;
 pub use crate::passes::pass::{Place, Source};
+pub use crate::passes::pick::{PickPlan, Picked, PickedPart};
+pub(crate) use crate::passes::pick::{needs as needs_of_pick, pick};
 pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
     FinalizeConstants, FrameConstants, PaperConstants, TileConstants,

@@ -34,6 +34,10 @@ pub(super) fn part_of(capacity: usize, fine: bool) -> usize {
 
 /// Splats of one object in buffers of their own.
 pub struct Chunk {
+    /// The number of its object in [`super::PreparedScene::objects`].
+    pub object: usize,
+    /// The numbers of its splats in the object, where they are kept.
+    pub(super) numbers: Option<Vec<u32>>,
     /// Its local space.
     pub rebase: Rebase,
     /// How many splats.
@@ -108,6 +112,8 @@ impl Chunk {
             ChunkMemory::new(uploader, &format!("chunk {number}"), buffers, named)
         };
         Ok(Self {
+            object: 0,
+            numbers: None,
             rebase: survey.rebase,
             count: survey.count,
             ellipses: survey.ellipses,
@@ -191,6 +197,11 @@ impl Chunk {
             (uploader.submit)(staging)?;
         }
         Ok(())
+    }
+
+    /// The number in its object of a splat of this chunk, where it is kept ([`crate::scene::Scene::numbered`]).
+    pub fn number_of(&self, splat: usize) -> Option<u32> {
+        self.numbers.as_ref()?.get(splat).copied()
     }
 
     /// Whether its splats stand for others, and are drawn in their place.

@@ -9,8 +9,8 @@ use super::{
     levels::{ChunkLevels, Leveled},
     memory::Uploader,
     mesh_chunk::PackedMesh,
-    near_surfaces,
-    pack::{self, Beside},
+    near_surfaces, pack,
+    part::{Numbers, Part},
     pieces,
     refinements::Refinements,
     sequence::Sequence,
@@ -40,6 +40,9 @@ pub(super) fn cut(
     scene: &Scene,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
+    let of_splats = scene.objects.iter().map(|object| object.name.as_str());
+    let leveled = scene.leveled.iter().map(|object| object.name.as_str());
+    let names = of_splats.chain(leveled).chain(scene.meshes.iter().map(|object| object.name.as_str()));
     let mut cut = Cut {
         uploader,
         capacity: chunk::capacity(limits.max_storage_buffer_range),
@@ -47,10 +50,12 @@ pub(super) fn cut(
         total: scene.splat_count() as u64,
         progress,
         budget: scene.budget,
+        numbered: scene.numbered,
         transparent_splats: 0,
         transparent_radii: 0.0,
         beside_polygons: !scene.meshes.is_empty(),
         prepared: PreparedScene {
+            objects: names.map(str::to_owned).collect(),
             chunks: Vec::new(),
             meshes: Vec::new(),
             lights: scene.lights.clone(),
@@ -65,17 +70,20 @@ pub(super) fn cut(
         let auto = epsilon.map_or(!scene.without_auto_epsilon, |epsilon| epsilon == Epsilon::Auto);
         let leveled = if scene.levels { cut.leveled(object)? } else { None };
         match &leveled {
-            None => cut.object(object, epsilon, auto)?,
-            Some(leveled) => cut.levels(leveled, (epsilon, auto))?,
+            None => cut.object((number, object), epsilon, auto)?,
+            Some((leveled, leaves)) => {
+                cut.levels((number, leveled), (epsilon, auto), leaves.as_deref())?;
+            }
         }
     }
-    for object in &scene.leveled {
+    let first_of_meshes = scene.objects.len() + scene.leveled.len();
+    for (number, object) in (scene.objects.len()..).zip(&scene.leveled) {
         cut.total += (object.leaves.len() + object.nodes.len()) as u64;
         if object.opacity != Opacity::Invisible {
-            cut.levels(object, (None, !scene.without_auto_epsilon))?;
+            cut.levels((number, object), (None, !scene.without_auto_epsilon), None)?;
         }
     }
-    scene.meshes.iter().try_for_each(|object| cut.mesh(object))?;
+    (first_of_meshes..).zip(&scene.meshes).try_for_each(|object| cut.mesh(object))?;
     let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
     prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
     Ok(prepared)
@@ -90,33 +98,12 @@ struct Cut<'u, 'a> {
     total: u64,
     progress: &'a dyn Fn(u64, u64),
     budget: bool,
+    numbered: bool,
     transparent_splats: u32,
     transparent_radii: f64,
     /// The scene has polygons, too.
     beside_polygons: bool,
     prepared: PreparedScene,
-}
-
-/// An object on its way.
-struct Part<'a> {
-    object: &'a Object,
-    transparent: bool,
-    /// One over the overlap of each splat.
-    inverse_overlaps: Vec<f32>,
-    epsilon: Option<Epsilon>,
-    /// Of the object's splats, where they have any.
-    shares: Option<Vec<f32>>,
-    levels: Option<(&'a Leveled, ChunkLevels)>,
-}
-
-impl Part<'_> {
-    fn beside(&self) -> Beside<'_> {
-        Beside {
-            shares: self.shares.as_deref(),
-            inverse_overlaps: Some(&self.inverse_overlaps),
-            levels: self.levels,
-        }
-    }
 }
 
 /// Progress of building levels of detail is that of one who waits for a chunk.
@@ -130,37 +117,55 @@ impl Cut<'_, '_> {
         (self.progress)(self.done, self.total);
     }
 
-    /// An object in levels of detail, without its defects, which are counted; `None` where it has no room for any.
-    fn leveled(&mut self, object: &Object) -> Result<Option<LeveledObject>> {
+    /// An object in levels of detail, without its defects, which are counted, and where numbers are kept, those of its leaves; `None` where it
+    /// has no room for any.
+    fn leveled(&mut self, object: &Object) -> Result<Option<(LeveledObject, Option<Vec<u32>>)>> {
         if object.splats.colors.opacity() == Opacity::Invisible {
             return Ok(None);
         }
         let mut whole = object.clone();
+        let kept = |i: &u32| object.splats.defect(*i as usize).is_none();
+        let kept: Option<Vec<u32>> =
+            self.numbered.then(|| (0..object.splats.len() as u32).filter(kept).collect());
         let defects = whole.splats.drop_defective();
         self.step(0);
         let hierarchy = Hierarchy::build(&whole.splats, &Quiet)?;
+        let leaves = kept.map(|kept| hierarchy.order.iter().map(|i| kept[*i as usize]).collect());
         let leveled = (!hierarchy.tree.is_empty()).then(|| hierarchy.leveled(whole));
         if leveled.is_some() {
             self.prepared.defects.merge(&defects);
             self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.len() as u64);
             self.done += defects.total() as u64;
         }
-        Ok(leveled)
+        Ok(leveled.map(|leveled| (leveled, leaves)))
     }
 
-    /// Its own splats, then the nodes, which have ε in radii of their own.
-    fn levels(&mut self, object: &LeveledObject, (epsilon, auto): (Option<Epsilon>, bool)) -> Result<()> {
+    /// Its own splats, then the nodes, which have ε in radii of their own. `numbers`: of its own splats, where they are known.
+    fn levels(
+        &mut self,
+        (number, object): (usize, &LeveledObject),
+        (epsilon, auto): (Option<Epsilon>, bool),
+        numbers: Option<&[u32]>,
+    ) -> Result<()> {
         if self.budget {
             self.prepared.refinements.push(Refinements::of(object));
         }
-        let leveled = &Leveled::of(object);
+        let leveled = &Leveled::of(object, numbers);
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
-        self.part_of(&leveled.leaves, (epsilon, auto), Order::Input, levels(false))?;
-        self.part_of(&leveled.nodes, (epsilon, false), Order::Input, levels(true))
+        let numbers = leveled.numbers.as_deref().map_or(Numbers::Unknown, Numbers::Listed);
+        let leaves = (number, &leveled.leaves, numbers);
+        self.part_of(leaves, (epsilon, auto), Order::Input, levels(false))?;
+        let nodes = (number, &leveled.nodes, Numbers::Unknown);
+        self.part_of(nodes, (epsilon, false), Order::Input, levels(true))
     }
 
     /// `auto`: ε is to fit what is near each splat.
-    fn object(&mut self, object: &Object, epsilon: Option<Epsilon>, auto: bool) -> Result<()> {
+    fn object(
+        &mut self,
+        (number, object): (usize, &Object),
+        epsilon: Option<Epsilon>,
+        auto: bool,
+    ) -> Result<()> {
         let splats = &object.splats;
         let opacity = splats.colors.opacity();
         if opacity == Opacity::Invisible {
@@ -168,13 +173,14 @@ impl Cut<'_, '_> {
             return Ok(());
         }
         let order = self.prepared.storage.order;
-        self.part_of(object, (epsilon, auto), order, None)
+        let numbers = if self.numbered { Numbers::Own } else { Numbers::Unknown };
+        self.part_of((number, object, numbers), (epsilon, auto), order, None)
     }
 
     /// An object that can be seen, or one of its two parts.
     fn part_of(
         &mut self,
-        object: &Object,
+        (number, object, numbers): (usize, &Object, Numbers<'_>),
         (epsilon, auto): (Option<Epsilon>, bool),
         order: Order,
         levels: Option<(&Leveled, ChunkLevels)>,
@@ -204,7 +210,7 @@ impl Cut<'_, '_> {
         };
         // Before it is cut, so that chunks are compact; and after what needs room of its own.
         let sequence = Sequence::of(splats, order);
-        let part = Part { object, transparent, inverse_overlaps, epsilon, shares, levels };
+        let part = Part { number, object, numbers, transparent, inverse_overlaps, epsilon, shares, levels };
         if splats.clips.is_empty() {
             return self.sequence(&part, &sequence);
         }
@@ -250,6 +256,9 @@ impl Cut<'_, '_> {
             });
             let of_levels = levels.as_ref().map(|(levels, words)| (*levels, words));
             let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, (&survey, of_levels))?;
+            let numbers = || part.numbered(pack::packable(splats, which(range.clone()), survey.rebase));
+            chunk.numbers = if self.numbered { numbers() } else { None };
+            chunk.object = part.number;
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
@@ -270,7 +279,7 @@ impl Cut<'_, '_> {
         Ok(())
     }
 
-    fn mesh(&mut self, object: &MeshObject) -> Result<()> {
+    fn mesh(&mut self, (object_number, object): (usize, &MeshObject)) -> Result<()> {
         let opacity = object.mesh.colors.opacity();
         if opacity == Opacity::Invisible {
             return Ok(());
@@ -278,7 +287,10 @@ impl Cut<'_, '_> {
         for packed in PackedMesh::pieces(&object.mesh, self.capacity).filter(|packed| !packed.is_empty()) {
             let number = self.prepared.meshes.len();
             let traits = (object.closed, opacity == Opacity::Transparent);
-            self.prepared.meshes.push(MeshChunk::new(self.uploader.as_mut(), number, traits, &packed)?);
+            let mut chunk = MeshChunk::new(self.uploader.as_mut(), number, traits, &packed)?;
+            chunk.object = object_number;
+            chunk.numbers = self.numbered.then_some(packed.numbers);
+            self.prepared.meshes.push(chunk);
         }
         Ok(())
     }

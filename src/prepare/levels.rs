@@ -62,6 +62,8 @@ pub struct BallBounds {
 
 /// An object in levels.
 pub(super) struct Leveled {
+    /// The numbers of the leaves in the object as it came, where they are known.
+    pub numbers: Option<Vec<u32>>,
     space: LevelSpace,
     balls: Vec<ErrorBall>,
     /// The object's own splats.
@@ -90,8 +92,8 @@ impl ChunkLevels {
 }
 
 impl Leveled {
-    /// What there is of an object in levels.
-    pub fn of(object: &LeveledObject) -> Self {
+    /// What there is of an object in levels. `numbers`: of its own splats in the object as it came, where they are known.
+    pub fn of(object: &LeveledObject, numbers: Option<&[u32]>) -> Self {
         let unit = object.radius.log2().ceil().clamp(-100.0, 100.0).exp2();
         let spread = |ball: u32| object.balls[ball as usize].spread;
         let sorted = |count: usize, parent: &dyn Fn(usize) -> u32| -> Vec<usize> {
@@ -109,6 +111,7 @@ impl Leveled {
                 .inverse_overlaps
                 .as_ref()
                 .map(|inverse| leaves.iter().map(|i| inverse[*i]).collect()),
+            numbers: numbers.map(|numbers| leaves.iter().map(|i| numbers[*i]).collect()),
             leaves: of(object.leaves.picked(leaves.into_iter())),
             node_balls: nodes.iter().map(|i| object.node_balls[*i]).collect(),
             weights: nodes.iter().map(|i| object.weights[*i]).collect(),
@@ -223,7 +226,7 @@ mod tests {
         let object = |splats| Object { name: String::new(), splats, closed: false };
         let splats = random_ellipses(2000, 1.0, 5);
         let whole = Hierarchy::build(&splats, &()).unwrap().leveled(object(splats));
-        let leveled = Leveled::of(&whole);
+        let leveled = Leveled::of(&whole, None);
         let (known, found) =
             (leveled.inverse_overlaps.unwrap(), Overlaps::of(&leveled.leaves.splats).inverse);
         let ratio = f64::from(known[0] / found[0]);

@@ -10,7 +10,8 @@ use crate::{
     },
 };
 
-/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors, binding 2 levels of detail, binding 3 clip curves.
+/// The descriptor set of a chunk: binding 0 shapes, binding 1 colors, binding 2 levels of detail or a mesh's
+/// indices, binding 3 clip curves.
 pub struct SplatSetLayout(SetLayout);
 
 impl SplatSetLayout {

@@ -25,6 +25,10 @@ const BATCH_BYTES: usize = 1 << 22;
 
 /// Triangles of one object in buffers of their own.
 pub struct MeshChunk {
+    /// The number of its object in [`super::PreparedScene::objects`].
+    pub object: usize,
+    /// The numbers of its triangles in the object, where they are kept.
+    pub(super) numbers: Option<Vec<u32>>,
     /// Its local space.
     pub(crate) rebase: Rebase,
     /// How many triangles.
@@ -53,6 +57,8 @@ pub(super) struct PackedMesh {
     vertices: Vec<[f32; 4]>,
     colors: Vec<[u16; 4]>,
     indices: Vec<[u32; 3]>,
+    /// The numbers of its triangles in the mesh.
+    pub numbers: Vec<u32>,
 }
 
 impl PackedMesh {
@@ -67,6 +73,7 @@ impl PackedMesh {
             vertices: Vec::new(),
             colors: uniform.map(packed_color).into_iter().collect(),
             indices: Vec::new(),
+            numbers: Vec::new(),
         };
         let mut places = std::collections::HashMap::new();
         for i in range {
@@ -103,6 +110,7 @@ impl PackedMesh {
                 });
             }
             packed.indices.push(triangle);
+            packed.numbers.push(u32::try_from(i).unwrap_or(u32::MAX));
         }
         packed
     }
@@ -148,7 +156,7 @@ impl PackedMesh {
         let buffers = vec![
             buffer("vertices", contents[0].len(), storage)?,
             buffer("colors", contents[1].len(), storage)?,
-            buffer("indices", contents[2].len(), vk::BufferUsageFlags::INDEX_BUFFER)?,
+            buffer("indices", contents[2].len(), vk::BufferUsageFlags::INDEX_BUFFER | storage)?,
         ];
         for (buffer, content) in buffers.iter().zip(contents) {
             for (i, batch) in content.chunks(BATCH_BYTES).enumerate() {
@@ -157,7 +165,7 @@ impl PackedMesh {
                 (uploader.submit)(staging)?;
             }
         }
-        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers, 2) // the third holds indices
+        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers, 3)
     }
 }
 
@@ -170,6 +178,8 @@ impl MeshChunk {
         packed: &PackedMesh,
     ) -> Result<Self> {
         Ok(Self {
+            object: 0,
+            numbers: None,
             rebase: packed.rebase,
             triangles: packed.indices.len() as u32,
             vertices: (packed.vertices.len() / 2) as u32,
@@ -187,6 +197,11 @@ impl MeshChunk {
     pub fn rounding(&self) -> Option<[f64; 2]> {
         let farthest = self.farthest / self.rebase.scale;
         (farthest > HOME * self.mean_edge).then_some([farthest / 16_777_216.0, self.mean_edge])
+    }
+
+    /// The number in its object of a triangle of this piece, where it is kept ([`crate::scene::Scene::numbered`]).
+    pub fn number_of(&self, triangle: usize) -> Option<u32> {
+        self.numbers.as_ref()?.get(triangle).copied()
     }
 
     /// The descriptor set; null without memory.

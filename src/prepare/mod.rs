@@ -17,6 +17,7 @@ mod mesh_chunk;
 mod near_surfaces;
 mod pack;
 mod packed;
+mod part;
 mod radii;
 mod rebase;
 mod refinements;
@@ -50,6 +51,8 @@ use crate::{
 pub struct PreparedScene {
     /// Pieces of objects, each within the device's limits. What is invisible has none.
     pub chunks: Vec<Chunk>,
+    /// The names of all objects: of splats, of those that came with their levels of detail, then of meshes.
+    pub objects: Vec<String>,
     /// Pieces of meshes alike.
     pub meshes: Vec<MeshChunk>,
     /// The scene's lights.

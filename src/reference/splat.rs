@@ -24,6 +24,8 @@ use crate::scene::{
 /// A splat in view space. A point of it is `center + u·s + v·t`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnSplat {
+    /// The number of its object, and its own in there.
+    pub source: [usize; 2],
     pub center: DVec3,
     /// First tangent vector after the filter.
     pub s: DVec3,
@@ -113,9 +115,8 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             if defect.is_none() && opacity != Opacity::Invisible {
                 let overlap = overlaps.as_ref().map(|overlaps| overlaps[i]);
                 let splat = prepare_one(object, i, (cull, opacity, overlap), &rule, view, settings);
-                drawn.extend(
-                    splat.map(|splat| DrawnSplat { transparent: opacity == Opacity::Transparent, ..splat }),
-                );
+                let transparent = opacity == Opacity::Transparent;
+                drawn.extend(splat.map(|splat| DrawnSplat { source: [number, i], transparent, ..splat }));
             }
         }
     }
@@ -237,6 +238,7 @@ fn prepare_one(
     let (u_direction, v_direction) = (t.cross(plane_normal), plane_normal.cross(s));
     let [red, green, blue, alpha] = splats.color(i).map(f64::from);
     Some(DrawnSplat {
+        source: [0, i],
         center,
         s,
         t,

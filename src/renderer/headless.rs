@@ -4,7 +4,11 @@ mod in_parts;
 mod samples;
 mod targets;
 
-use std::{path::PathBuf, sync::Arc, time::Instant};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Instant,
+};
 
 use ash::vk;
 
@@ -97,8 +101,16 @@ impl Headless {
     pub fn new(options: &HeadlessOptions) -> Result<Self> {
         let instance = Instance::new(options.validation)?;
         let device = Device::new(&instance, options.device.as_deref())?;
+        Self::on(device, options.cache_folder.as_deref())
+    }
+
+    /// A host on a device of our own whose queue nobody has taken. `cache_folder`: as [`HeadlessOptions::cache_folder`].
+    ///
+    /// # Errors
+    /// As [`Queue::new`]; whatever the driver answers.
+    pub fn on(device: Device, cache_folder: Option<&Path>) -> Result<Self> {
         Ok(Self {
-            renderer: Renderer::new(&device, options.cache_folder.as_deref())?,
+            renderer: Renderer::new(&device, cache_folder)?,
             queue: Queue::new(&device)?,
             commands: CommandPool::new(&device, "frame")?,
             slot: FrameSlot::new(&device),

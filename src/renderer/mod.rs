@@ -7,6 +7,7 @@ pub(crate) mod headless;
 mod in_parts;
 #[cfg(feature = "files")]
 mod paged;
+mod pick;
 
 use std::sync::Arc;
 

@@ -54,6 +54,7 @@ impl PagedScene {
         let is_there = vec![false; pager.pages().len()];
         let prepared = PreparedScene {
             chunks: Vec::new(),
+            objects: vec![crate::load::file_name(pager.path())],
             meshes: Vec::new(),
             lights: Vec::new(),
             storage: Storage::default(),

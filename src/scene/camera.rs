@@ -89,6 +89,15 @@ impl Camera {
         2.0 * FIT_MARGIN * seen_radius(ball) / aspect.min(1.0)
     }
 
+    /// With things in the middle of the picture so many times as large, seen from the same eye: of the picture's height, so much less is
+    /// shown. The field of view is one that is a number of degrees in f64.
+    #[must_use]
+    pub fn zoomed(&self, zoom: f64) -> Self {
+        let fov_y_rad = 2.0 * ((0.5 * self.fov_y_rad).tan() / zoom).atan();
+        let orthographic_height = self.orthographic_height.map(|height| height / zoom);
+        Self { fov_y_rad: fov_y_rad.to_degrees().to_radians(), orthographic_height, ..*self }
+    }
+
     /// Where the view's axis meets a drawn image of this size, in pixels from its top left corner: its middle, unless the
     /// camera is off-center.
     pub fn middle_px(&self, size_px: [u32; 2]) -> [f64; 2] {
@@ -110,10 +119,15 @@ impl Camera {
         Self { window: self.window.shifted(offset_px), ..*self }
     }
 
+    /// `up`, or where it is zero or parallel to the view the coordinate axis that takes its place.
+    pub fn usable_up(&self) -> DVec3 {
+        usable_up(self.up, self.forward())
+    }
+
     /// The motion from world to view space.
     pub fn view_from_world(&self) -> ViewFromWorld {
         let forward = self.forward();
-        let up = usable_up(self.up, forward);
+        let up = self.usable_up();
         let right = forward.cross(up).normalize();
         let down = forward.cross(right);
         ViewFromWorld { rotation: DMat3::from_cols(right, down, forward).transpose(), eye: self.eye }

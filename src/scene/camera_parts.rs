@@ -2,25 +2,35 @@
 
 use glam::DVec3;
 
-use super::{Ball, Camera};
+use super::{
+    Ball, Camera,
+    camera_view::{are_parallel, front, toward_eye},
+};
 use crate::error::{Error, Result};
 
 /// Parts of a camera, in world space. Each may be missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraParts {
-    /// The eye; without, it is in the direction `from`.
+    /// The eye; without, it is in the direction of the angles, so far that it sees all of what is looked at.
     pub eye: Option<DVec3>,
-    /// The direction from the target to an eye that is not given, from which it sees all of the scene; without, the eye looks along
-    /// −z, or along ±y where up is ±z, which would be parallel to the view. Of any length above 0.
-    pub from: Option<DVec3>,
-    /// The point in the middle of the picture; without, the middle of the scene.
+    /// The turn of an eye that is not given about what is up, in radians: 0 in front, positive to the right, see
+    /// [`toward_eye`](super::toward_eye); without, 0.
+    pub azimuth_rad: Option<f64>,
+    /// The height of an eye that is not given above the horizon, in radians from −π/2 to π/2; without, 0.
+    pub elevation_rad: Option<f64>,
+    /// The point in the middle of the picture; without, the middle of what is looked at.
     pub target: Option<DVec3>,
+    /// A ball around the part of the scene that is looked at and shown all of; without, the whole scene.
+    pub subject: Option<Ball>,
     /// The direction that is up; without, +y.
     pub up: Option<DVec3>,
     /// The height of an orthographic picture; without, the camera has a field of view.
     pub orthographic: Option<PictureHeight>,
     /// The vertical field of view in radians; without, [`Camera::DEFAULT_FOV_Y_RAD`].
     pub fov_y_rad: Option<f64>,
+    /// How many times as large as without it things are in the middle of the picture, above 0: the picture shows so much less, from the
+    /// same eye.
+    pub zoom: Option<f64>,
     /// The depth of the near plane in world units; without, as [`Camera::near`] has it.
     pub near: Option<f64>,
 }
@@ -28,24 +38,40 @@ pub struct CameraParts {
 /// The height of what an orthographic camera shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PictureHeight {
-    /// As much as shows all of the scene.
+    /// As much as shows all of what is looked at.
     Fit,
     /// So many world units.
     World(f64),
 }
 
 impl CameraParts {
-    /// These parts, and of `other` what is missing.
+    /// These parts, and of `other` what is missing and goes with them: an eye is given or found by angles, a target is a point or a part of
+    /// the scene, and what is said of the projection is said of all of it but the zoom.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
+        let has_angles = self.azimuth_rad.is_some() || self.elevation_rad.is_some();
+        let projects = self.fov_y_rad.is_some() || self.orthographic.is_some();
+        let other = Self {
+            eye: other.eye.filter(|_| !has_angles),
+            azimuth_rad: other.azimuth_rad.filter(|_| self.eye.is_none()),
+            elevation_rad: other.elevation_rad.filter(|_| self.eye.is_none()),
+            target: other.target.filter(|_| self.subject.is_none()),
+            subject: other.subject.filter(|_| self.target.is_none()),
+            orthographic: other.orthographic.filter(|_| !projects),
+            fov_y_rad: other.fov_y_rad.filter(|_| !projects),
+            zoom: other.zoom.filter(|_| !projects),
+            ..other
+        };
         Self {
             eye: self.eye.or(other.eye),
-            from: self.from.or(other.from),
+            azimuth_rad: self.azimuth_rad.or(other.azimuth_rad),
+            elevation_rad: self.elevation_rad.or(other.elevation_rad),
             target: self.target.or(other.target),
+            subject: self.subject.or(other.subject),
             up: self.up.or(other.up),
-            // Either is what is said of the projection.
-            orthographic: self.orthographic.or(other.orthographic.filter(|_| self.fov_y_rad.is_none())),
-            fov_y_rad: self.fov_y_rad.or(other.fov_y_rad.filter(|_| self.orthographic.is_none())),
+            orthographic: self.orthographic.or(other.orthographic),
+            fov_y_rad: self.fov_y_rad.or(other.fov_y_rad),
+            zoom: self.zoom.or(other.zoom),
             near: self.near.or(other.near),
         }
     }
@@ -55,11 +81,12 @@ impl CameraParts {
     /// # Errors
     /// As [`Camera::validate`]; for an `up` that is parallel to the view from `eye`.
     pub fn camera(&self, ball: &Ball, size_px: [u32; 2]) -> Result<Camera> {
+        let ball = self.subject.as_ref().unwrap_or(ball);
         let fit = Camera::fit(ball, size_px, self.fov_y_rad.unwrap_or(Camera::DEFAULT_FOV_Y_RAD));
         let target = self.target.unwrap_or(fit.target);
-        let distance = fit.eye.distance(fit.target);
-        let eye = self.eye.unwrap_or(target + distance * self.toward_eye());
-        if let Some(up) = self.up.filter(|up| are_parallel(*up, target - eye)) {
+        let (toward_eye, up) = self.direction();
+        let eye = self.eye.unwrap_or_else(|| target + fit.eye.distance(fit.target) * toward_eye);
+        if let Some(up) = up.filter(|up| are_parallel(*up, target - eye)) {
             let problem = format!(
                 "{},{},{}: parallel to the view; expected another direction, or another --eye",
                 up.x, up.y, up.z
@@ -70,47 +97,44 @@ impl CameraParts {
             PictureHeight::Fit => Camera::height_of(ball, size_px),
             PictureHeight::World(height) => height,
         });
-        let up = self.up.unwrap_or(fit.up);
+        let up = up.unwrap_or(fit.up);
         let camera = Camera { eye, target, up, near: self.near, orthographic_height, ..fit };
+        let camera = self.zoom.map_or(camera, |zoom| camera.zoomed(zoom));
         camera.validate()?;
         Ok(camera)
     }
 
-    /// These parts with a direction that was found to be up; the eye, if it is not given, sees things from above by 30°, because
-    /// what lies on the ground is seen from there.
+    /// These parts with a direction that was found to be up; the eye, if nothing is said of its height, sees things from above by 30°,
+    /// because what lies on the ground is seen from there.
     #[must_use]
     pub fn with_found_up(self, up: DVec3) -> Self {
         let level = Self { up: Some(up), ..self };
-        let Some(up) = up.try_normalize().filter(|up| up.distance(DVec3::Y) > 1e-9) else { return level };
-        let (sin, cos) = RAISED_RAD.sin_cos();
-        Self { from: self.from.or(Some(cos * level.toward_eye() + sin * up)), ..level }
+        match up.try_normalize().filter(|up| up.distance(DVec3::Y) > 1e-9) {
+            Some(_) => Self { elevation_rad: self.elevation_rad.or(Some(RAISED_RAD)), ..level },
+            None => level,
+        }
     }
 
-    /// The direction from the target to an eye that is not given: so turned about x that up is not along it.
-    fn toward_eye(&self) -> DVec3 {
-        match (self.from.and_then(DVec3::try_normalize), self.up.filter(|up| are_parallel(*up, DVec3::Z))) {
-            (Some(from), _) => from,
-            (None, Some(up)) => DVec3::NEG_Y * up.z.signum(),
-            (None, None) => DVec3::Z,
+    /// The direction from the target to an eye that is not given, and what is up in the picture.
+    fn direction(&self) -> (DVec3, Option<DVec3>) {
+        if self.eye.is_some() || (self.azimuth_rad, self.elevation_rad) == (None, None) {
+            return (front(self.up), self.up);
         }
+        let angles_rad = [self.azimuth_rad, self.elevation_rad].map(Option::unwrap_or_default);
+        let [toward_eye, up] = toward_eye(self.up, angles_rad);
+        let own = self.up.unwrap_or(DVec3::Y);
+        // Seen from above there is nothing but the picture's own.
+        (toward_eye, Some(if are_parallel(own, toward_eye) { up } else { own }))
     }
 }
 
 /// 30°.
 const RAISED_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
-/// Within half a degree, where the picture would turn by any angle. A vector without length or direction is parallel to none.
-fn are_parallel(a: DVec3, b: DVec3) -> bool {
-    const LARGEST_SINE: f64 = 0.0087;
-    match (a.try_normalize(), b.try_normalize()) {
-        (Some(a), Some(b)) => a.cross(b).length() < LARGEST_SINE,
-        _ => false,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::View;
 
     #[test]
     fn parts_that_are_missing_come_from_the_scene() {
@@ -149,6 +173,35 @@ mod tests {
         assert!(toward.distance(DVec3::new(0.0, -0.75_f64.sqrt(), 0.5)) < 1e-12, "{toward}");
         assert_eq!(none.with_found_up(DVec3::Y).camera(&ball, [8, 8]).unwrap(), fit);
         assert_eq!(only_eye.with_found_up(DVec3::Z).camera(&ball, [8, 8]).unwrap().eye, DVec3::ONE);
+        // By angles; from above, too.
+        let [right, top] = [View::Right, View::Top].map(|view| {
+            let [azimuth, elevation] = view.angles_rad();
+            CameraParts { azimuth_rad: Some(azimuth), elevation_rad: Some(elevation), ..none }
+        });
+        let camera = CameraParts { up: Some(DVec3::Z), ..right }.camera(&ball, [8, 8]).unwrap();
+        assert_eq!((camera.eye - camera.target).normalize().round(), DVec3::X);
+        let camera = CameraParts { up: Some(DVec3::Z), ..top }.camera(&ball, [8, 8]).unwrap();
+        assert_eq!(((camera.eye - camera.target).normalize().round(), camera.up), (DVec3::Z, DVec3::Y));
+        assert_eq!(right.with_found_up(DVec3::Z).elevation_rad, Some(0.0));
+        assert_eq!((right.or(only_eye).eye, only_eye.or(right).azimuth_rad), (None, None));
+        // What is looked at is a part of the scene.
+        let part = Ball { center: DVec3::X, radius: 0.25 };
+        let part = CameraParts { subject: Some(part), ..none };
+        let camera = part.camera(&ball, [8, 8]).unwrap();
+        let nearer = camera.eye.distance(camera.target) / fit.eye.distance(fit.target);
+        assert!(camera.target == DVec3::X && (nearer - 0.25).abs() < 1e-12);
+        let point = CameraParts { target: Some(DVec3::Y), ..none };
+        assert_eq!((point.or(part).subject, part.or(point).target), (None, None));
+        // Twice as large, from the same eye.
+        let zoomed = CameraParts { zoom: Some(2.0), ..none };
+        let camera = zoomed.camera(&ball, [8, 8]).unwrap();
+        assert_eq!(camera.eye, fit.eye);
+        assert!((camera.focal_px(8) / fit.focal_px(8) - 2.0).abs() < 1e-12);
+        assert!(
+            (zoomed.or(fitted).camera(&ball, [8, 8]).unwrap().orthographic_height.unwrap() - 1.05).abs()
+                < 1e-12
+        );
+        assert_eq!((narrow.or(zoomed).zoom, zoomed.or(narrow).fov_y_rad), (None, Some(0.1)));
         let above = CameraParts { eye: Some(ball.center + DVec3::Z), up: Some(DVec3::Z), ..none };
         assert!(above.camera(&ball, [8, 8]).unwrap_err().to_string().starts_with("--up: 0,0,1: parallel"));
         let inside = CameraParts { eye: Some(ball.center), ..none };

@@ -59,6 +59,11 @@ impl CropView {
         self.cut.size_px
     }
 
+    /// The drawn pixel that is this one of what [`Self::cut`] leaves.
+    pub fn drawn_pixel(&self, pixel: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|i| self.cut.corner_px[i].saturating_add(pixel[i]))
+    }
+
     /// Of all drawn pixels, row by row, those of the crop; nothing of nothing.
     pub fn cut<T: Clone>(&self, drawn: &[T]) -> Vec<T> {
         let [[left, top], [width, height]] =

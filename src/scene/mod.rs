@@ -7,6 +7,7 @@ mod bounds;
 mod budget;
 mod camera;
 mod camera_parts;
+mod camera_view;
 mod clip;
 mod colors;
 mod crop;
@@ -22,6 +23,7 @@ mod mesh;
 mod methods;
 mod opacity;
 mod option;
+mod path;
 mod points;
 mod samples;
 mod settings;
@@ -36,6 +38,7 @@ pub use bounds::{Ball, Bounds};
 pub use budget::Budget;
 pub use camera::{Camera, ViewFromWorld};
 pub use camera_parts::{CameraParts, PictureHeight};
+pub use camera_view::{AXES, View, toward_eye};
 pub use clip::{Clip, ClipCurve, ClipTest, Clips};
 pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
@@ -54,6 +57,7 @@ pub use opacity::Opacity;
 #[cfg(feature = "files")]
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
+pub use path::{CameraPath, Interpolation};
 pub use points::{Points, Viewpoint};
 pub use samples::{MOST_SAMPLES, Samples};
 pub use settings::{Settings, with_each};
@@ -110,6 +114,9 @@ pub struct Scene {
     pub levels: bool,
     /// Frames of it may have a [`Settings::budget`]: for each node of levels of detail the host keeps 40 bytes.
     pub budget: bool,
+    /// For [`crate::renderer::Renderer::plan_pick`]: for each splat and triangle the host keeps 4 bytes, its number in its object, when the scene is
+    /// prepared.
+    pub numbered: bool,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
 }
@@ -139,7 +146,20 @@ impl Scene {
     /// The smallest ball around all disks and triangles that has its center in the middle of [`Scene::bounds`]: less
     /// than the ball around that box, for a round thing by √3. `None` where there is neither.
     pub fn ball(&self) -> Option<Ball> {
-        let center = self.bounds()?.center();
+        self.ball_of(&|_| true)
+    }
+
+    /// As [`Scene::ball`], of the objects and meshes of this name; `None` where there is none.
+    pub fn ball_named(&self, name: &str) -> Option<Ball> {
+        self.ball_of(&|own| own == name)
+    }
+
+    fn ball_of(&self, is_meant: &dyn Fn(&str) -> bool) -> Option<Ball> {
+        let objects = || self.objects.iter().filter(|object| is_meant(&object.name));
+        let meshes = || self.meshes.iter().filter(|object| is_meant(&object.name));
+        let disks = objects().filter_map(|object| object.splats.bounds());
+        let bounds = disks.chain(meshes().filter_map(|object| object.mesh.bounds())).reduce(Bounds::union)?;
+        let center = bounds.center();
         let reach = |splats: &Splats| {
             let drawn = (0..splats.len()).filter(|&i| splats.defect(i).is_none());
             drawn.map(|i| splats.positions[i].distance(center) + splats.major_radius(i)).fold(0.0, f64::max)
@@ -148,8 +168,8 @@ impl Scene {
             let corners = (0..mesh.triangles.len()).filter_map(|i| mesh.corners(i)).flatten();
             corners.map(|corner| corner.distance(center)).fold(0.0, f64::max)
         };
-        let disks = self.objects.iter().map(|object| reach(&object.splats)).fold(0.0, f64::max);
-        let radius = self.meshes.iter().map(|object| reach_of_triangles(&object.mesh)).fold(disks, f64::max);
+        let disks = objects().map(|object| reach(&object.splats)).fold(0.0, f64::max);
+        let radius = meshes().map(|object| reach_of_triangles(&object.mesh)).fold(disks, f64::max);
         Some(Ball { center, radius })
     }
 }

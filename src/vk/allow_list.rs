@@ -40,4 +40,9 @@ pub const ALLOWED: &[Allowed] = &[
         about: &["32 bytes were never set"],
         reason: "the papers' programs read 96 of the 128 bytes that their layout has room for; layer 1.4.309",
     },
+    Allowed {
+        vuid: "UNASSIGNED-BestPractices-SuboptimalSwapchain",
+        about: &["VK_SUBOPTIMAL_KHR was returned"],
+        reason: "a window changed its size after its image was acquired; the next frame has another swapchain; layer 1.3.239",
+    },
 ];

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
-use ash::{ext, khr, vk};
+use ash::{ext, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::{
@@ -15,6 +15,7 @@ use super::{
     garbage::{Garbage, Retired},
     instance::Instance,
     result::VkResultExt,
+    wanted::Wanted,
 };
 use crate::error::{Error, ErrorKind, Result};
 
@@ -45,7 +46,7 @@ const FIRST_EPOCH: u64 = 1;
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Origin {
     /// It is destroyed with us.
-    Ours { executables: bool },
+    Ours { executables: bool, presents: bool },
     /// The host destroys it.
     Host,
 }
@@ -56,11 +57,22 @@ impl Device {
     /// # Errors
     /// As [`choose`], or whatever the driver answers.
     pub fn new(instance: &Instance, asked: Option<&str>) -> Result<Self> {
-        Self::open(instance, asked, false)
+        Self::open(instance, asked, Wanted::default())
     }
 
-    pub(super) fn open(instance: &Instance, asked: Option<&str>, executables: bool) -> Result<Self> {
+    /// As [`Device::new`], of the devices that can present to a surface.
+    ///
+    /// # Errors
+    /// As [`Device::new`]; where none presents to the surface, for each the reason.
+    #[cfg(feature = "view")]
+    pub fn for_surface(surface: &super::Surface, asked: Option<&str>) -> Result<Self> {
+        Self::open(surface.instance(), asked, Wanted { executables: false, surface: Some(surface) })
+    }
+
+    pub(super) fn open(instance: &Instance, asked: Option<&str>, wanted: Wanted<'_>) -> Result<Self> {
+        let executables = wanted.executables;
         let mut all = all_facts(instance)?;
+        wanted.refuse(&mut all);
         let facts: Vec<_> = all.iter().map(|(_, facts)| facts.clone()).collect();
         let (physical, facts) = all.swap_remove(choose(&facts, asked)?);
         let Some(queue_family) = facts.queue_family else {
@@ -84,7 +96,7 @@ impl Device {
             .shader_terminate_invocation(true);
         let mut executable_info = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
             .pipeline_executable_info(true);
-        let extensions = [khr::pipeline_executable_properties::NAME.as_ptr()];
+        let extensions = wanted.extensions();
         let queues =
             [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
         let mut info = vk::DeviceCreateInfo::default()
@@ -92,13 +104,15 @@ impl Device {
             .push_next(&mut features10)
             .push_next(&mut features12)
             .push_next(&mut features13);
+        info = info.enabled_extension_names(&extensions);
         if executables {
-            info = info.enabled_extension_names(&extensions).push_next(&mut executable_info);
+            info = info.push_next(&mut executable_info);
         }
         // SAFETY: `physical` was enumerated from this instance and offers all that is enabled here.
         let raw = unsafe { instance.raw().create_device(physical, &info, None) }
             .of_call("vkCreateDevice", &facts.name)?;
-        Self::assemble(instance, physical, facts, raw, queue_family, Origin::Ours { executables })
+        let origin = Origin::Ours { executables, presents: wanted.surface.is_some() };
+        Self::assemble(instance, physical, facts, raw, queue_family, origin)
     }
 
     /// Takes a host's device, which the host destroys after everything of ours is dropped.
@@ -217,6 +231,11 @@ impl Device {
             // SAFETY: this function's contract.
             unsafe { garbage.collect(epoch, &self.0.raw, allocator) };
         }
+    }
+
+    /// Whether something that was dropped is destroyed once an epoch is done.
+    pub(super) fn frees_at(&self, epoch: u64) -> bool {
+        self.memory().as_ref().is_some_and(|(_, garbage)| garbage.has(epoch))
     }
 
     /// Whether the queue was free; it is taken now.

@@ -9,6 +9,7 @@ use super::{
     device::{Device, Origin},
     instance::Instance,
     result::VkResultExt,
+    wanted::Wanted,
 };
 use crate::error::{Error, Result};
 
@@ -31,12 +32,12 @@ impl Device {
     /// # Errors
     /// As [`Self::new`], and where the driver lacks the extension.
     pub fn with_executables(instance: &Instance, asked: Option<&str>) -> Result<Self> {
-        Self::open(instance, asked, true)
+        Self::open(instance, asked, Wanted { executables: true, ..Wanted::default() })
     }
 
     /// Whether pipelines can be asked what they became.
     pub fn captures_executables(&self) -> bool {
-        self.origin() == Origin::Ours { executables: true }
+        matches!(self.origin(), Origin::Ours { executables: true, .. })
     }
 
     /// The flags that all pipelines are made with.

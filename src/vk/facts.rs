@@ -172,7 +172,11 @@ pub(super) unsafe fn facts(
 
 /// # Safety
 /// As [`facts`].
-unsafe fn has_extension(instance: &ash::Instance, device: vk::PhysicalDevice, name: &CStr) -> bool {
+pub(super) unsafe fn has_extension(
+    instance: &ash::Instance,
+    device: vk::PhysicalDevice,
+    name: &CStr,
+) -> bool {
     // SAFETY: this function's contract.
     let extensions = unsafe { instance.enumerate_device_extension_properties(device) };
     extensions.is_ok_and(|all| all.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)))

@@ -19,6 +19,9 @@ pub(super) enum Retired {
     CommandPool(vk::CommandPool),
     Sampler(vk::Sampler),
     Semaphore(vk::Semaphore),
+    /// With the functions of the extension, and the surface, which goes after it.
+    #[cfg(feature = "view")]
+    Swapchain(vk::SwapchainKHR, Box<(ash::khr::swapchain::Device, super::surface::Surface)>),
 }
 
 /// The queue of retired objects, each with the epoch (submission) that may use it last.
@@ -33,12 +36,17 @@ impl Garbage {
         self.pending.push_back((last_epoch, object));
     }
 
+    /// Whether there is any that no epoch after `done` uses.
+    pub fn has(&self, done: u64) -> bool {
+        self.pending.front().is_some_and(|(epoch, _)| *epoch <= done)
+    }
+
     /// Destroys all that no epoch after `done` uses, in the order of retirement.
     ///
     /// # Safety
     /// The device has finished every submission up to epoch `done`, and `device` made every object.
     pub unsafe fn collect(&mut self, done: u64, device: &ash::Device, allocator: &mut Allocator) {
-        while self.pending.front().is_some_and(|(epoch, _)| *epoch <= done) {
+        while self.has(done) {
             if let Some((_, object)) = self.pending.pop_front() {
                 // SAFETY: this function's contract.
                 unsafe { destroy(object, device, allocator) };
@@ -73,6 +81,8 @@ unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Allocat
             Retired::CommandPool(raw) => device.destroy_command_pool(raw, None),
             Retired::Sampler(raw) => device.destroy_sampler(raw, None),
             Retired::Semaphore(raw) => device.destroy_semaphore(raw, None),
+            #[cfg(feature = "view")]
+            Retired::Swapchain(raw, owner) => owner.0.destroy_swapchain(raw, None),
         }
     }
 }

@@ -19,6 +19,9 @@ pub enum Blend {
     AddWeighted,
     /// It is put under it: added, all four components times what the attachment's fourth leaves of 1.
     Under,
+    /// It is put over it, its first three components times its fourth already.
+    #[cfg(feature = "view")]
+    Over,
 }
 
 /// The depth test.
@@ -87,20 +90,25 @@ impl GraphicsPipeline {
                 .depth_write_enable(state.write)
                 .depth_compare_op(state.compare)
         });
+        let left_of_destination = match desc.blend {
+            #[cfg(feature = "view")]
+            Blend::Over => vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
+            _ => vk::BlendFactor::ONE,
+        };
         let add = vk::PipelineColorBlendAttachmentState::default()
             .blend_enable(desc.blend != Blend::Replace)
             .src_color_blend_factor(match desc.blend {
                 Blend::AddWeighted => vk::BlendFactor::SRC_ALPHA,
                 Blend::Under => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
-                Blend::Add | Blend::Replace => vk::BlendFactor::ONE,
+                _ => vk::BlendFactor::ONE,
             })
-            .dst_color_blend_factor(vk::BlendFactor::ONE)
+            .dst_color_blend_factor(left_of_destination)
             .color_blend_op(vk::BlendOp::ADD)
             .src_alpha_blend_factor(match desc.blend {
                 Blend::Under => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
                 _ => vk::BlendFactor::ONE,
             })
-            .dst_alpha_blend_factor(vk::BlendFactor::ONE)
+            .dst_alpha_blend_factor(left_of_destination)
             .alpha_blend_op(vk::BlendOp::ADD)
             .color_write_mask(vk::ColorComponentFlags::RGBA);
         let attachments = vec![add; desc.color_formats.len()];

@@ -153,19 +153,48 @@ impl Image {
         if copied.contains(desc.usage) {
             return Ok(());
         }
-        let range =
-            vk::ImageSubresourceRange::default().aspect_mask(desc.aspect()).level_count(1).layer_count(1);
-        let info = vk::ImageViewCreateInfo::default()
-            .image(self.raw)
-            .view_type(vk::ImageViewType::TYPE_2D)
-            .format(self.format)
-            .subresource_range(range);
         // SAFETY: the image is alive and bound.
-        self.view = unsafe { self.device.raw().create_image_view(&info, None) }
-            .of_call("vkCreateImageView", desc.name)?;
-        self.device.set_name(self.view, desc.name);
+        self.view = unsafe { view(&self.device, self.raw, self.format, desc.aspect(), desc.name) }?;
         Ok(())
     }
+}
+
+/// A view of all of an image, and its name.
+///
+/// # Safety
+/// The image is the device's, alive and bound, of this format and aspect.
+unsafe fn view(
+    device: &Device,
+    image: vk::Image,
+    format: vk::Format,
+    aspect: vk::ImageAspectFlags,
+    name: &str,
+) -> Result<vk::ImageView> {
+    let range = vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(1);
+    let info = vk::ImageViewCreateInfo::default()
+        .image(image)
+        .view_type(vk::ImageViewType::TYPE_2D)
+        .format(format)
+        .subresource_range(range);
+    // SAFETY: this function's contract.
+    let view = unsafe { device.raw().create_image_view(&info, None) }.of_call("vkCreateImageView", name)?;
+    device.set_name(view, name);
+    Ok(view)
+}
+
+/// As [`view`], of colors.
+///
+/// # Safety
+/// As [`view`].
+#[cfg(feature = "view")]
+pub(super) unsafe fn color_view(
+    device: &Device,
+    image: vk::Image,
+    format: vk::Format,
+    name: &str,
+) -> Result<vk::ImageView> {
+    // SAFETY: this function's contract.
+    unsafe { view(device, image, format, vk::ImageAspectFlags::COLOR, name) }
 }
 
 impl Drop for Image {

@@ -34,6 +34,11 @@ impl Instance {
     /// [`ErrorKind::NoDevice`] without a Vulkan loader or driver, or where validation is asked for and its layer is
     /// not installed.
     pub fn new(validation: Validation) -> Result<Self> {
+        Self::with_extensions(validation, &[])
+    }
+
+    /// As [`Instance::new`], with extensions of which it is known that the loader has them.
+    pub(super) fn with_extensions(validation: Validation, wanted: &[&CStr]) -> Result<Self> {
         let no_device = |reason: String| ErrorKind::NoDevice { reasons: vec![reason] };
         let (entry, version) = load_entry()?;
         if version < vk::API_VERSION_1_3 {
@@ -52,7 +57,11 @@ impl Instance {
             .engine_name(c"surfel")
             .api_version(vk::API_VERSION_1_3);
         let layers: &[_] = if watch { &[VALIDATION_LAYER.as_ptr()] } else { &[] };
-        let mut extensions = Vec::new();
+        if let Some(missing) = first_missing(&entry, wanted)? {
+            let reason = format!("the Vulkan loader lacks {}", missing.to_string_lossy());
+            return Err(no_device(reason).into());
+        }
+        let mut extensions: Vec<_> = wanted.iter().map(|name| name.as_ptr()).collect();
         if debug_utils {
             extensions.push(ext::debug_utils::NAME.as_ptr());
         }
@@ -109,6 +118,12 @@ impl Instance {
         &self.0.raw
     }
 
+    /// The loader's entry points; `None` of a host's instance.
+    #[cfg(feature = "view")]
+    pub(super) fn entry(&self) -> Option<&ash::Entry> {
+        self.0._entry.as_ref()
+    }
+
     /// Whether `VK_EXT_debug_utils` is enabled.
     pub fn has_debug_utils(&self) -> bool {
         self.0.debug_utils
@@ -157,6 +172,15 @@ fn has_layer(entry: &ash::Entry, name: &CStr) -> Result<bool> {
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .of_call("vkEnumerateInstanceLayerProperties", "")?;
     Ok(layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(name)))
+}
+
+fn first_missing<'a>(entry: &ash::Entry, wanted: &[&'a CStr]) -> Result<Option<&'a CStr>> {
+    for name in wanted {
+        if !has_extension(entry, name)? {
+            return Ok(Some(name));
+        }
+    }
+    Ok(None)
 }
 
 fn has_extension(entry: &ash::Entry, name: &CStr) -> Result<bool> {

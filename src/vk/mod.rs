@@ -31,9 +31,16 @@ mod queries;
 mod queue;
 mod result;
 mod sampler;
+#[cfg(feature = "view")]
+mod semaphore;
 mod staging;
 mod stand_ins;
+#[cfg(feature = "view")]
+mod surface;
+#[cfg(feature = "view")]
+mod swapchain;
 mod validation;
+mod wanted;
 
 pub use allow_list::{ALLOWED, Allowed};
 pub use borrowed::{BorrowedDevice, EnabledFeatures};
@@ -60,9 +67,15 @@ pub use queries::{Occlusion, QueryPool, Statistics, Timestamps};
 pub use queue::Queue;
 pub use result::VkResultExt;
 pub use sampler::Sampler;
+#[cfg(feature = "view")]
+pub use semaphore::Semaphore;
 pub use staging::Staging;
 pub(crate) use stand_ins::STAND_IN_BYTES;
 pub use stand_ins::StandIns;
+#[cfg(feature = "view")]
+pub use surface::{Surface, Window};
+#[cfg(feature = "view")]
+pub use swapchain::{Swapchain, SwapchainImage, Turn};
 pub use validation::{Validation, arm_validation_across_submits};
 
 /// One shader stage of a pipeline: its name for messages, its SPIR-V, its specialization constants.

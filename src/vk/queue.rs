@@ -54,19 +54,93 @@ impl Queue {
     /// # Errors
     /// Whatever the driver answers.
     pub unsafe fn submit(&self, commands: vk::CommandBuffer) -> Result<u64> {
+        // SAFETY: this function's contract.
+        unsafe { self.submit_with(commands, &[], None) }
+    }
+
+    /// Submits between the acquisition of a window's image and its presentation: colors are written once `acquired` is signaled, and
+    /// `drawn` is signaled at the end.
+    ///
+    /// # Safety
+    /// As [`Queue::submit`]; `acquired` is signaled or about to be, and nothing else waits for it; `drawn` is waited for by nothing but the
+    /// presentation that follows, and neither signaled nor about to be.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    #[cfg(feature = "view")]
+    pub unsafe fn submit_for_window(
+        &self,
+        commands: vk::CommandBuffer,
+        acquired: &super::Semaphore,
+        drawn: &super::Semaphore,
+    ) -> Result<u64> {
+        let waits = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(acquired.raw())
+            .stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)];
+        // SAFETY: this function's contract.
+        unsafe { self.submit_with(commands, &waits, Some(drawn.raw())) }
+    }
+
+    /// Presents an image of a window once it is drawn.
+    ///
+    /// # Safety
+    /// The image was acquired and is not presented yet; a submission that signals its `drawn` came before.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    #[cfg(feature = "view")]
+    pub unsafe fn present(&self, swapchain: &super::Swapchain, index: usize) -> Result<super::Turn<()>> {
+        let (loader, raw) = swapchain.raw();
+        let Some(image) = swapchain.image(index) else {
+            return Err(Error::option("window image", format!("{index}: there is none of this number")));
+        };
+        let (semaphores, swapchains, indices) = ([image.drawn.raw()], [raw], [index as u32]);
+        let info = vk::PresentInfoKHR::default()
+            .wait_semaphores(&semaphores)
+            .swapchains(&swapchains)
+            .image_indices(&indices);
+        let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: this function's contract; the lock synchronizes the queue.
+        let answer = unsafe { loader.queue_present(*queue, &info) };
+        super::swapchain::turn(answer.map(|suboptimal| ((), suboptimal)), "vkQueuePresentKHR")
+    }
+
+    /// # Safety
+    /// As [`Queue::submit`]; the semaphores are as Vulkan wants them for a submission.
+    unsafe fn submit_with(
+        &self,
+        commands: vk::CommandBuffer,
+        waits: &[vk::SemaphoreSubmitInfo<'_>],
+        signaled: Option<vk::Semaphore>,
+    ) -> Result<u64> {
         let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
         let epoch = self.device.end_epoch();
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
-        let signals = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(self.timeline)
-            .value(epoch)
-            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
-        let info = vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signals);
+        let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+        let timeline =
+            vk::SemaphoreSubmitInfo::default().semaphore(self.timeline).value(epoch).stage_mask(all);
+        let others = signaled.map(|raw| vk::SemaphoreSubmitInfo::default().semaphore(raw).stage_mask(all));
+        let signals: Vec<_> = std::iter::once(timeline).chain(others).collect();
+        let info = vk::SubmitInfo2::default()
+            .wait_semaphore_infos(waits)
+            .command_buffer_infos(&buffers)
+            .signal_semaphore_infos(&signals);
         // SAFETY: this function's contract; the lock synchronizes the queue.
         unsafe { self.device.raw().queue_submit2(*queue, &[info], vk::Fence::null()) }
             .of_call("vkQueueSubmit2", "queue")?;
         self.submitted.store(epoch, Ordering::Release);
         Ok(epoch)
+    }
+
+    /// Whether an epoch is done.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    #[cfg(feature = "view")]
+    pub fn is_done(&self, epoch: u64) -> Result<bool> {
+        // SAFETY: the semaphore is alive.
+        let reached = unsafe { self.device.raw().get_semaphore_counter_value(self.timeline) };
+        Ok(reached.of_call("vkGetSemaphoreCounterValue", "timeline")? >= epoch)
     }
 
     /// Waits until an epoch is done, then destroys what was dropped up to it.
@@ -85,9 +159,10 @@ impl Queue {
         // SAFETY: the semaphore is alive. Its values reach `epoch`, for that or a later one was submitted.
         unsafe { self.device.raw().wait_semaphores(&info, u64::MAX) }
             .of_call("vkWaitSemaphores", "timeline")?;
-        if self.device.instance().is_validated() && epoch == self.submitted.load(Ordering::Acquire) {
-            // Layers of 1.3.239 don't follow timeline semaphores when they look for hazards across submits. The
-            // queue is idle already; this tells them.
+        let is_last = epoch == self.submitted.load(Ordering::Acquire);
+        if self.device.instance().is_validated() && (is_last || self.device.frees_at(epoch)) {
+            // Layers of 1.3.239 don't follow timeline semaphores when they look for hazards across submits. Of what was submitted last the
+            // queue is idle already, and memory that others get from now on is not in use any more; this tells them.
             let queue = self.raw.lock().unwrap_or_else(PoisonError::into_inner);
             // SAFETY: the lock synchronizes the queue.
             unsafe { self.device.raw().queue_wait_idle(*queue) }.of_call("vkQueueWaitIdle", "queue")?;

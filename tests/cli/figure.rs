@@ -95,8 +95,8 @@ fn without_a_name_the_figures_are_listed() {
     assert_eq!(
         names,
         [
-            "g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p17", "p18", "p19", "p20", "i1", "i3", "i5", "i7",
-            "i9", "i10", "i11", "samples"
+            "g1", "g3", "g4", "g5", "g6", "slides", "p9", "p10", "p17", "p18", "p19", "p20", "i1", "i3",
+            "i5", "i7", "i9", "i10", "i11", "samples"
         ]
     );
     assert!(folder.names().is_empty());

@@ -2,12 +2,14 @@
 //! without one.
 
 mod bench;
+mod camera_words;
 mod compare;
 mod convert;
 mod counts;
 mod faults;
 mod figure;
 mod files;
+mod film;
 mod formats;
 mod growth;
 mod hard_files;
@@ -15,6 +17,7 @@ mod hierarchies;
 mod inputs;
 mod orthographic;
 mod outputs;
+mod pick;
 mod program;
 mod refusals;
 mod report;
@@ -250,8 +253,18 @@ fn a_run_under_validation_is_silent() {
 #[test]
 fn the_manual_is_complete_and_plain() {
     let folder = Folder::new();
-    let subcommands =
-        ["render", "reference", "compare", "convert", "figure", "bench", "report", "selftest", "info"];
+    let subcommands = [
+        "view",
+        "render",
+        "reference",
+        "compare",
+        "convert",
+        "figure",
+        "bench",
+        "report",
+        "selftest",
+        "info",
+    ];
     let helps = subcommands.map(|subcommand| vec![subcommand, "--help"]);
     for words in [vec!["--help"]].iter().chain(&helps) {
         let run = surfel(&folder, words);

@@ -31,6 +31,7 @@ mod orthographic;
 mod packed;
 mod paged;
 mod paper_form;
+mod pick;
 mod pictures;
 mod samples;
 mod seam;

@@ -44,7 +44,7 @@ const ROOMS: &[&[&str]] = &[
     &["splats"],
     &["polygons", "tiles"],
     &["resolve"],
-    &["layers"],
+    &["layers", "pick"],
     &["in_parts"],
 ];
 

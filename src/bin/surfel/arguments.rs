@@ -13,12 +13,14 @@ use crate::{
     render::{self, RenderArguments},
     report::{self, ReportArguments},
     selftest::{self, SelftestArguments},
+    view::{self, ViewArguments},
 };
 
 /// Draws surfaces made of splats (oriented disks, surfels) with Vulkan.
 #[derive(Parser)]
 #[command(name = "surfel", version, arg_required_else_help = true)]
 #[command(after_help = "Start here:
+  surfel view scan.ply                 a window with a file
   surfel render                        a picture of the built-in model, surfel.png
   surfel render scan.ply -o scan.png   a picture of a file
   surfel convert scan.obj splats.ply   a file of splats
@@ -35,6 +37,7 @@ pub struct Arguments {
 /// The subcommands, in the order of the manual.
 #[derive(Subcommand)]
 pub enum Command {
+    View(ViewArguments),
     Render(RenderArguments),
     Reference(ReferenceArguments),
     Compare(CompareArguments),
@@ -50,6 +53,7 @@ impl Command {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
         match self {
+            Self::View(arguments) => view::run(arguments),
             Self::Render(arguments) => render::run(arguments),
             Self::Reference(arguments) => reference::run(arguments),
             Self::Compare(arguments) => compare::run(arguments),

@@ -12,7 +12,7 @@ use surfel::{
 use crate::console;
 
 /// The device.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct DeviceArguments {
     /// The device: its number or a part of its name, see `surfel info` [default: the best]
     #[arg(long = "device", id = "device", value_name = "NAME|INDEX")]
@@ -55,7 +55,7 @@ impl DeviceArguments {
 
 /// The folder in which compiled pipelines are kept from run to run: `$XDG_CACHE_HOME/surfel`, else `~/.cache/surfel`; `None` where
 /// neither is known, which costs time only.
-fn cache_folder() -> Option<PathBuf> {
+pub fn cache_folder() -> Option<PathBuf> {
     let absolute = |name| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let caches = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")))?;
     Some(caches.join("surfel"))

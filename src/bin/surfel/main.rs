@@ -9,9 +9,11 @@ mod compare;
 mod console;
 mod convert;
 mod device;
+mod drawing;
 mod emptiness;
 mod explain;
 mod figure;
+mod film;
 mod hierarchies;
 mod info;
 mod inputs;
@@ -23,6 +25,7 @@ mod measure;
 mod outputs;
 mod parse;
 mod part;
+mod pick;
 mod picture;
 mod pictures;
 mod ranks;
@@ -38,6 +41,7 @@ mod steps;
 mod turns;
 mod up;
 mod usage;
+mod view;
 
 use std::process::ExitCode;
 

@@ -21,6 +21,13 @@ pub fn triple(word: &str) -> Result<[f64; 3], String> {
     <[f64; 3]>::parse(word)
 }
 
+/// `512,300`: a pixel.
+pub fn pixel(word: &str) -> Result<[u32; 2], String> {
+    let pixel =
+        word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    pixel.ok_or_else(|| "expected a pixel from the picture's top left corner, such as 512,300".to_owned())
+}
+
 /// `256MB`: a number of bytes, `least` or more, with k, M or G for thousands, and a B behind it or not.
 pub fn bytes(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
     move |word| {

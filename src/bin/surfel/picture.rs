@@ -38,6 +38,10 @@ pub struct PictureArguments {
     #[command(flatten)]
     pub camera: CameraArguments,
 
+    /// Print the camera as one line of options that make it again
+    #[arg(long, help_heading = "Camera")]
+    pub print_camera: bool,
+
     /// A light in place of those of scene files, and of the one at the eye: eye, or the direction in which it travels, with color (sRGB)
     /// and intensity where they are not 1, such as direction=0,-1,-1,color=1,0.9,0.8,intensity=2; once for each light
     #[arg(long = "light", value_name = "LIGHT", value_parser = Light::parse, allow_hyphen_values = true, help_heading = "Method")]

@@ -19,8 +19,28 @@ pub enum Colors<'a> {
     Linear(&'a [[f32; 4]]),
 }
 
-/// Writes the picture and says so. PNG has an alpha channel only where something can be transparent.
+/// Writes the picture and says so.
+///
+/// # Errors
+/// As [`save_picture`].
 pub fn write_picture(
+    path: &Path,
+    format: PictureFormat,
+    size_px: [u32; 2],
+    transparent: bool,
+    colors: Colors<'_>,
+) -> Result<()> {
+    save_picture(path, format, size_px, transparent, colors)?;
+    let [width, height] = size_px;
+    console::say(&format!("wrote {}, {width}x{height} pixels", path.display()));
+    Ok(())
+}
+
+/// Writes the picture. PNG has an alpha channel only where something can be transparent.
+///
+/// # Errors
+/// As [`save::png`] and [`save::exr`].
+pub fn save_picture(
     path: &Path,
     format: PictureFormat,
     size_px: [u32; 2],
@@ -39,10 +59,7 @@ pub fn write_picture(
             let srgb: Vec<[u8; 4]> = linear.iter().map(|color| encode(*color)).collect();
             write_png(path, size_px, transparent, &srgb)
         }
-    }?;
-    let [width, height] = size_px;
-    console::say(&format!("wrote {}, {width}x{height} pixels", path.display()));
-    Ok(())
+    }
 }
 
 fn write_png(path: &Path, size_px: [u32; 2], transparent: bool, srgb: &[[u8; 4]]) -> Result<()> {

@@ -8,7 +8,7 @@ use surfel::{
 };
 
 use crate::{
-    camera::CameraChoice,
+    camera::{self, CameraChoice},
     console::{self, Bars},
     emptiness,
     inputs::INPUTS,
@@ -46,7 +46,11 @@ pub fn run(arguments: &ReferenceArguments) -> Result<()> {
     let mut loaded = load_scene(&picture.input.inputs(), &bars)?;
     picture.light(&mut loaded.scene);
     let settings = Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
-    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
+    let camera = camera.camera(&loaded, part.whole_px)?;
+    if picture.print_camera {
+        console::print(&camera::words(&camera))?;
+    }
+    let (camera, crop) = part.view(camera)?;
     let progress = |done, total| bars.step("reference, row by row", done, total);
     let (encoding, background) = (picture.encoding(), settings.background);
     // A curve is of what is drawn alone; the background is put under it after that.

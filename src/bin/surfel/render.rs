@@ -1,32 +1,33 @@
 //! `surfel render`: a scene on a Vulkan device.
 
-use std::{path::PathBuf, sync::Arc};
+use std::path::PathBuf;
 
 use clap::Args;
 use surfel::{
-    Result,
-    graph::Plan,
-    renderer::{Frame, Headless, Wanted},
+    Error, Result,
+    renderer::{Headless, Wanted},
     report::RunReport,
-    scene::{Ball, Budget, CropView, Epsilon, Lod, Settings, Storage},
+    scene::{Ball, Budget, CropView, Epsilon, Settings, Storage},
 };
 
 use crate::{
-    camera::CameraChoice,
+    camera::{self, CameraChoice},
     console::{self, Bars},
     device::DeviceArguments,
-    emptiness, explain,
-    hierarchies::{self, HierarchyArguments, Readers, load_scene_with_hierarchies},
+    drawing, emptiness, explain,
+    film::{self, FilmArguments},
+    hierarchies::{HierarchyArguments, load_scene_with_hierarchies},
     inputs::INPUTS,
-    json::write_json,
+    json::{to_json, write_json},
     measure::{self, View},
     outputs::{self, PictureFormat},
     parse,
+    pick::{PickArguments, PickReport},
     picture::{Drawn, PictureArguments},
-    pictures::{self, Colors, Dump},
+    pictures::{self, Dump},
     ranks,
     reports::{device_report, scene_report},
-    scene::{Loaded, upload},
+    scene::Loaded,
     scene_file_keys::KEYS,
     settings::{Given, Taken},
     steps::Steps,
@@ -39,8 +40,14 @@ const EXAMPLES: &str = "Examples:
   surfel render scene.toml              all keys of scene files: surfel render --help
   surfel render igea.ply --shading normals --background none -o normals.exr
   surfel render igea.ply --light direction=1,-1,-1 --light eye,intensity=0.2 --tonemap agx --exposure 1
+  surfel render igea.ply --pick 512,300 --pick 600,300      what is seen there, and how far the two are apart
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
+
+  surfel render igea.ply --turntable 6 -o out%04d.png       180 pictures around it; go on where it stopped by the same line
+  surfel render igea.ply --path path.json --frames 300 -o film.mp4
+
+A path: {\"version\":1, \"interpolation\":\"smooth\", \"cameras\":[{\"time\":0, ... as in a camera file}, {\"time\":2.5, ...}]}; times in seconds; linear is straight from camera to camera, smooth (the default) without a jolt, by cubics in time; the field of view goes by the logarithm of its half's tangent. A file of the pictures' name in .frames.txt tells which are whole and of which job.
 
 A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\":45, \"near\":0.01}; near may be left out, and orthographic, the picture's height, may stand for fov_deg.";
 
@@ -61,8 +68,14 @@ pub struct RenderArguments {
     #[command(flatten)]
     pub hierarchies: HierarchyArguments,
 
+    #[command(flatten)]
+    pub pick: PickArguments,
+
+    #[command(flatten)]
+    pub film: FilmArguments,
+
     /// Time that many frames, after two to warm up, and the passes of as many more, and print a table [default: 10 with
-    /// --timings, else none]
+    /// --timings, else none]. With --path or --turntable: so many pictures [default: as many as --fps has in their time]
     #[arg(long, value_name = "N", value_parser = parse::whole::<u32>(1..=100_000), allow_hyphen_values = true)]
     pub frames: Option<u32>,
 
@@ -92,6 +105,18 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     }
     let part = arguments.picture.drawn(arguments.picture.settings())?;
     let camera = CameraChoice::of(&arguments.picture.camera)?;
+    if arguments.film.is_given() {
+        refuse_beside_a_film(arguments)?;
+        let output = film::Output::of(&arguments.picture, &arguments.film)?;
+        let headless = arguments.device.open()?;
+        return arguments.device.watch(headless, |headless| {
+            headless.renderer.check_settings(&part.settings)?;
+            draw_film(headless, arguments, &part, &camera, &output)
+        });
+    }
+    if arguments.film.fps.is_some() {
+        return Err(Error::option("--fps", "has no meaning for a picture; expected --path or --turntable"));
+    }
     let output = outputs::check(&arguments.picture, "surfel.png", &arguments.timings)?;
     let mut steps = Steps::default();
     let headless = steps.time("open the device", || arguments.device.open())?;
@@ -99,6 +124,22 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         headless.renderer.check_settings(&part.settings)?;
         draw(headless, arguments, &part, &camera, &output, steps)
     })
+}
+
+/// Refuses what is of one picture.
+fn refuse_beside_a_film(arguments: &RenderArguments) -> Result<()> {
+    let given = [
+        ("--timings", arguments.timings.is_some()),
+        ("--explain", arguments.explain),
+        ("--pick", !arguments.pick.pixels.is_empty()),
+        ("--dump", arguments.picture.dump.is_some()),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => {
+            Err(Error::option(*option, "is of one picture; expected no --path or --turntable"))
+        }
+        None => Ok(()),
+    }
 }
 
 fn draw(
@@ -111,36 +152,18 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), &bars)?;
-    picture.light(&mut loaded.scene);
-    // What belongs to no scene was checked before it was loaded.
-    let settings = &Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
-    let (camera, crop) = part.view(camera.camera(&loaded, part.whole_px)?)?;
-    let Loaded { mut scene, inputs, steps: loading, ball, hierarchies: mut files, .. } = loaded;
-    steps.0.extend(loading);
-    scene.storage = arguments.storage.over(Storage::default());
-    scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
-    scene.levels = settings.wants_levels();
-    scene.budget = settings.budget != Budget::Unlimited;
-    let mut asked = settings.clone();
-    let (settings, prepared) = loop {
-        let settings = steps.time("read pages", || {
-            let view = (&camera, &asked);
-            hierarchies::load(&mut files, &mut scene, view, &arguments.hierarchies, Readers::ONE, &bars)
-        })?;
-        settings.check_scene(&scene)?; // names the object, which the renderer does not know
-        let prepared = steps.time("upload", || upload(headless, &scene, &bars))?;
-        let checked = match files.is_empty() {
-            true => Ok(()),
-            false => headless.renderer.check_levels(&prepared, &camera, &settings),
-        };
-        match checked {
-            // Where nobody asked for a level, what draws none draws all splats.
-            Err(_) if settings.lod == Lod::Auto => asked.lod = Lod::Px(0.0),
-            checked => break checked.map(|()| (settings, prepared))?,
-        }
-    };
+    let (mut loaded, settings) = load(arguments, part, &bars)?;
+    let camera = camera.camera(&loaded, part.whole_px)?;
+    if picture.print_camera {
+        console::print(&camera::words(&camera))?;
+    }
+    let (camera, crop) = part.view(camera)?;
+    steps.0.append(&mut loaded.steps);
+    let seen = (&camera, &settings);
+    let drawing::Ready { settings, scene: prepared } =
+        drawing::ready(headless, &mut loaded, seen, &arguments.hierarchies, (&mut steps, &bars))?;
     let settings = &settings;
+    let Loaded { inputs, ball, scene, .. } = loaded;
     // The device has it all: what the host had is free for what a software driver needs to draw.
     drop(scene);
     let view = View { scene: &prepared, camera: &camera, settings };
@@ -160,7 +183,50 @@ fn draw(
         console::print(&report.to_string())?;
         write_json(arguments.timings.as_deref(), &report)?;
     }
+    if !arguments.pick.pixels.is_empty() {
+        let report = PickReport::gather(headless, view, crop, &arguments.pick.pixels)?;
+        console::print(&to_json(&report)?)?;
+        if picture.output.is_none() && picture.dump.is_none() {
+            return Ok(());
+        }
+    }
     write(headless, arguments, view, crop, &ball, output)
+}
+
+/// All inputs, and the settings that they are drawn with.
+fn load(arguments: &RenderArguments, part: &Drawn, bars: &Bars) -> Result<(Loaded, Settings)> {
+    let picture = &arguments.picture;
+    let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), bars)?;
+    picture.light(&mut loaded.scene);
+    // What belongs to no scene was checked before it was loaded.
+    let settings = Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
+    let scene = &mut loaded.scene;
+    scene.numbered = !arguments.pick.pixels.is_empty();
+    scene.storage = arguments.storage.over(Storage::default());
+    scene.without_auto_epsilon = settings.epsilon != Epsilon::Auto;
+    scene.levels = settings.wants_levels();
+    scene.budget = settings.budget != Budget::Unlimited;
+    Ok((loaded, settings))
+}
+
+/// Draws a film.
+fn draw_film(
+    headless: &mut Headless,
+    arguments: &RenderArguments,
+    part: &Drawn,
+    camera: &CameraChoice,
+    output: &film::Output,
+) -> Result<()> {
+    let bars = Bars::new();
+    let (loaded, settings) = load(arguments, part, &bars)?;
+    let shots = film::shots(&arguments.film, arguments.frames, || camera.camera(&loaded, part.whole_px))?;
+    if arguments.picture.print_camera {
+        shots.iter().try_for_each(|camera| console::print(&camera::words(camera)))?;
+    }
+    let fps = arguments.film.fps.unwrap_or(film::FPS);
+    let making =
+        film::Making { picture: &arguments.picture, hierarchies: &arguments.hierarchies, part, output, fps };
+    film::make(headless, loaded, &settings, &shots, &making, &bars)
 }
 
 /// Draws and writes the picture, and the surface where it is asked for.
@@ -170,19 +236,23 @@ fn write(
     view: View<'_>,
     crop: Option<CropView>,
     ball: &Ball,
-    output: &(PathBuf, PictureFormat),
+    (output, format): &(PathBuf, PictureFormat),
 ) -> Result<()> {
     let picture = &arguments.picture;
-    let mut draw = |settings: &Settings, wanted| headless.render(view.scene, view.camera, settings, wanted);
-    let (bytes, plan) = write_picture(picture, view.settings, crop, output, &mut draw)?;
-    let hint = || emptiness::hint(&bytes, view.settings.background, view.camera, ball);
+    let background = view.settings.background;
+    let drawn = drawing::draw(headless, &picture.encoding(), view, crop, *format)?;
+    let transparent = background.is_none();
+    pictures::write_picture(output, *format, drawn.size_px, transparent, drawn.colors(*format))?;
+    let hint = || emptiness::hint(&drawn.bytes, background, view.camera, ball);
     if let Some(hint) = crop.is_none().then(hint).flatten() {
         console::say(&hint);
     }
     if let Some(folder) = &picture.dump {
+        let mut draw =
+            |settings: &Settings, wanted| headless.render(view.scene, view.camera, settings, wanted);
         dump(view.settings, &mut draw)?.cut(crop).write(folder)?;
     }
-    let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &plan);
+    let explanation = headless.renderer.explain(view.scene, view.camera, view.settings, &drawn.plan);
     if arguments.explain {
         let has_levels = explanation.levels.is_some();
         let count = || headless.count_listed(view.scene, view.camera, view.settings);
@@ -193,41 +263,8 @@ fn write(
     Ok(())
 }
 
-/// What draws a frame.
-type Draw<'d> = &'d mut dyn FnMut(&Settings, Wanted) -> Result<Frame>;
-
-/// Draws the picture and writes it; its bytes, and what was recorded.
-pub fn write_picture(
-    picture: &PictureArguments,
-    settings: &Settings,
-    crop: Option<CropView>,
-    (output, format): &(PathBuf, PictureFormat),
-    draw: Draw<'_>,
-) -> Result<(Vec<[u8; 4]>, Arc<Plan>)> {
-    let (encoding, background) = (picture.encoding(), settings.background);
-    let linear = *format == PictureFormat::Exr || !encoding.is_plain();
-    let wanted = Wanted { picture: true, linear, ..Wanted::default() };
-    // A curve is of what is drawn alone; the background is put under it after that.
-    let without = (!encoding.is_plain()).then(|| Settings { background: None, ..settings.clone() });
-    let mut frame = draw(without.as_ref().unwrap_or(settings), wanted)?;
-    if let Some(crop) = crop {
-        frame.size_px = crop.size_px();
-        (frame.srgb, frame.linear) = (crop.cut(&frame.srgb), crop.cut(&frame.linear));
-    }
-    let bytes = match linear {
-        true => pictures::encode_shown(&encoding, &frame.linear, without.and(background)),
-        false => frame.srgb,
-    };
-    let colors = match format {
-        PictureFormat::Png => Colors::Srgb(&bytes),
-        PictureFormat::Exr => Colors::Linear(&frame.linear),
-    };
-    pictures::write_picture(output, *format, frame.size_px, background.is_none(), colors)?;
-    Ok((bytes, frame.plan))
-}
-
 /// The picture, and the surface in a frame of its own, whose edges are hard.
-pub fn dump(settings: &Settings, draw: Draw<'_>) -> Result<Dump> {
+pub fn dump(settings: &Settings, draw: drawing::Draw<'_>) -> Result<Dump> {
     let picture = Wanted { picture: true, linear: true, surface: false, profile: None };
     let color = draw(settings, picture)?.linear;
     let frame = draw(settings, Wanted { surface: true, ..picture })?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Progress as _, Result,
-    compose::{build, make, resampled},
+    compose::{ball_of_target, build, make, resampled},
     geometry::{FoundUp, up_of_shape},
     levels_file::LevelsFile,
     load::{
@@ -70,6 +70,7 @@ pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
     let up = up::of(ups).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
+    let camera = camera.map(|camera| camera.of(&scene)).transpose()?;
     Ok(Loaded { scene, ball, camera, picture, up, inputs: reports, steps, hierarchies: Vec::new() })
 }
 
@@ -133,9 +134,26 @@ pub fn resample_mesh(
 struct Described {
     objects: Vec<ObjectDescription>,
     lights: Vec<Light>,
-    camera: Option<(PathBuf, CameraParts)>,
+    camera: Option<DescribedCamera>,
     /// With the file that says it.
     picture: (PathBuf, PictureDescription),
+}
+
+/// What a scene file says of the camera.
+struct DescribedCamera {
+    file: PathBuf,
+    parts: CameraParts,
+    /// The object that it looks at.
+    object: Option<String>,
+}
+
+impl DescribedCamera {
+    /// With the place of the object.
+    fn of(self, scene: &Scene) -> Result<(PathBuf, CameraParts)> {
+        let Some(name) = &self.object else { return Ok((self.file, self.parts)) };
+        let subject = Some(ball_of_target(scene, name, &self.file)?);
+        Ok((self.file, CameraParts { subject, ..self.parts }))
+    }
 }
 
 fn describe(inputs: &Inputs) -> Result<Described> {
@@ -172,12 +190,12 @@ fn describe(inputs: &Inputs) -> Result<Described> {
             }
             described.picture = (file.path.clone(), file.picture);
         }
-        if let Some(camera) = file.camera {
-            if let Some((other, _)) = &described.camera {
-                let problem = format!("{} has one too; expected one camera", other.display());
+        if let Some(parts) = file.camera {
+            if let Some(other) = &described.camera {
+                let problem = format!("{} has one too; expected one camera", other.file.display());
                 return Err(Error::input(path, "camera", problem));
             }
-            described.camera = Some((file.path, camera));
+            described.camera = Some(DescribedCamera { file: file.path, parts, object: file.camera_target });
         }
     }
     Ok(described)

@@ -7,9 +7,11 @@ a light its kind. Unknown keys are faults. Points and directions, such as [1, 2,
 space; colors are sRGB from 0 to 1.
 
 [camera]                   options replace it key by key, --camera as a whole
-  eye, target, up          as the options
-  fov_deg = 45             the vertical field of view in degrees
-  near                     the depth of the near plane
+  eye, view, target, up    as the options; points are arrays, sides, axes and objects texts
+  azimuth_deg, elevation_deg, zoom, near
+                           as the options without _deg
+  fov_deg = 45             the vertical field of view in degrees; or
+  orthographic             the picture's height, or \"fit\"
 epsilon = \"auto\"           as the option, or a number: a length; these three stand above all
 background = [1, 1, 1]     or \"none\"; tables, and options replace each of them
 shading = \"phong\"          as the option

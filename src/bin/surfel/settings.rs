@@ -30,6 +30,13 @@ pub struct Given<T: Taken> {
     taken: PhantomData<T>,
 }
 
+impl<T: Taken<Table: Clone>> Clone for Given<T> {
+    fn clone(&self) -> Self {
+        let (given, said) = (self.given.clone(), self.said.clone());
+        Self { values: self.values.clone(), given, said, taken: PhantomData }
+    }
+}
+
 impl<T: Taken> Given<T> {
     /// `base` but for what is given.
     pub fn over(&self, mut base: T::Table) -> T::Table {

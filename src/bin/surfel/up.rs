@@ -1,7 +1,10 @@
 //! The direction that is up in the picture: asked for, or told by files.
 
 use glam::DVec3;
-use surfel::{geometry::FoundUp, scene::OptionValue as _};
+use surfel::{
+    geometry::FoundUp,
+    scene::{AXES, OptionValue as _},
+};
 
 use crate::console;
 
@@ -14,24 +17,14 @@ pub enum Up {
     Given([f64; 3]),
 }
 
-/// The directions that have a name.
-const NAMED: [(&str, [f64; 3]); 6] = [
-    ("x", [1.0, 0.0, 0.0]),
-    ("y", [0.0, 1.0, 0.0]),
-    ("z", [0.0, 0.0, 1.0]),
-    ("-x", [-1.0, 0.0, 0.0]),
-    ("-y", [0.0, -1.0, 0.0]),
-    ("-z", [0.0, 0.0, -1.0]),
-];
-
 /// `auto`, `z`, `-x` or `0,0.5,1`.
 pub fn parse(word: &str) -> Result<Up, String> {
     if word == "auto" {
         return Ok(Up::Auto);
     }
     let name = word.strip_prefix('+').unwrap_or(word);
-    if let Some((_, direction)) = NAMED.iter().find(|(own, _)| *own == name) {
-        return Ok(Up::Given(*direction));
+    if let Some((_, direction)) = AXES.iter().find(|(own, _)| *own == name) {
+        return Ok(Up::Given(direction.to_array()));
     }
     let expected = || "expected auto, x, y, z, -x, -y, -z, or a direction such as 0,0.5,1".to_owned();
     let direction = <[f64; 3]>::parse(word).map_err(|_| expected())?;
@@ -43,8 +36,7 @@ pub fn parse(word: &str) -> Result<Up, String> {
 
 /// The direction in a word.
 fn word(direction: DVec3) -> String {
-    let is_named = |(_, own): &&(&str, [f64; 3])| direction.distance(DVec3::from(*own)) < 1e-9;
-    match NAMED.iter().find(is_named) {
+    match AXES.iter().find(|(_, own)| direction.distance(*own) < 1e-9) {
         Some((name, _)) if name.starts_with('-') => (*name).to_owned(),
         Some((name, _)) => format!("+{name}"),
         None => {

@@ -16,6 +16,9 @@ pub struct SceneFile {
     pub path: PathBuf,
     /// The camera, where it says anything of it.
     pub camera: Option<CameraParts>,
+    /// The name of the object that the camera looks at, where it says one: [`crate::scene::Scene::ball_named`] is its
+    /// [`CameraParts::subject`].
+    pub camera_target: Option<String>,
     /// At most [`crate::scene::MOST_LIGHTS`]; none: [`Light::DEFAULT`].
     pub lights: Vec<Light>,
     /// At least one, at most [`super::MOST_OBJECTS`], in the order of the file.

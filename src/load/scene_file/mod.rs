@@ -65,6 +65,7 @@ fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
         &["camera", "light", "object", "epsilon", "background", "shading"],
     )?;
     let camera = root.table("camera", camera::KEYS)?.map(|table| camera::read(&table)).transpose()?;
+    let (camera, camera_target) = camera.map_or((None, None), |(camera, target)| (Some(camera), target));
     let lights = root.tables("light", light::KEYS, crate::scene::MOST_LIGHTS)?;
     let lights = lights.iter().map(light::read).collect::<Result<_>>()?;
     let objects = root.tables("object", object::KEYS, MOST_OBJECTS)?;
@@ -73,5 +74,12 @@ fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
     }
     let objects =
         objects.iter().map(|object| object::read(object, options.allow_outside)).collect::<Result<_>>()?;
-    Ok(SceneFile { path: path.to_owned(), camera, lights, objects, picture: picture::read(&root)? })
+    Ok(SceneFile {
+        path: path.to_owned(),
+        camera,
+        camera_target,
+        lights,
+        objects,
+        picture: picture::read(&root)?,
+    })
 }

@@ -70,13 +70,12 @@ fn everything_that_can_be_said() {
         )
         .unwrap();
     let camera = CameraParts {
-        from: None,
         eye: Some(DVec3::new(0.0, 1.5, 4.0)),
         target: Some(DVec3::ZERO),
         up: Some(DVec3::Z),
-        orthographic: None,
         fov_y_rad: Some(60_f64.to_radians()),
         near: Some(1e-3),
+        ..CameraParts::default()
     };
     assert_eq!(file.camera, Some(camera));
     let parts =
@@ -84,6 +83,15 @@ fn everything_that_can_be_said() {
     let parallel = |height| Some(CameraParts { orthographic: Some(height), ..CameraParts::default() });
     assert_eq!(parts("orthographic = 2.5"), parallel(PictureHeight::World(2.5)));
     assert_eq!(parts("orthographic = \"fit\""), parallel(PictureHeight::Fit));
+    let none = CameraParts::default();
+    let angles = CameraParts { azimuth_rad: Some(FRAC_PI_2), elevation_rad: Some(0.0), ..none };
+    assert_eq!(parts("view = \"right\""), Some(angles));
+    assert_eq!(parts("azimuth_deg = 90\nelevation_deg = 0"), Some(angles));
+    assert_eq!(parts("zoom = 2"), Some(CameraParts { zoom: Some(2.0), ..none }));
+    assert_eq!(parts("up = \"-z\""), Some(CameraParts { up: Some(DVec3::NEG_Z), ..none }));
+    assert_eq!(parts("up = \"auto\""), Some(none));
+    let looks = read("[camera]\ntarget = \"left ball\"\n[[object]]\nbuiltin = \"sphere\"\n").unwrap();
+    assert_eq!((looks.camera, looks.camera_target.as_deref()), (Some(none), Some("left ball")));
     let orange = [2.0, 2.0 * linear_from_srgb(0.5), 0.0];
     let directional = Light { kind: LightKind::Directional(DVec3::NEG_Y), color: orange };
     assert_eq!(file.lights, [Light::DEFAULT, directional]);

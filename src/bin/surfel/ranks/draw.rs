@@ -16,10 +16,12 @@ use super::{frame, world::Ranks};
 use crate::{
     camera::CameraChoice,
     console::{self, Bars},
+    drawing,
     hierarchies::{self, Readers, load_scene_with_hierarchies},
     measure::View,
     outputs::{self, PictureFormat},
     picture::Drawn,
+    pictures,
     render::{self, RenderArguments},
     scene::{Loaded, upload},
 };
@@ -71,6 +73,12 @@ fn check(arguments: &RenderArguments) -> Result<(Drawn, CameraChoice, (PathBuf, 
     }
     if arguments.explain {
         return refused("--explain");
+    }
+    if !arguments.pick.pixels.is_empty() {
+        return refused("--pick");
+    }
+    if arguments.film.is_given() {
+        return refused("--path and --turntable");
     }
     if drawn.settings.budget != Budget::Unlimited {
         return refused("--budget");
@@ -152,7 +160,10 @@ fn write(
     let mut shade = |settings: &Settings, wanted| -> Result<Frame> {
         headless.shade_parts(view.scene, view.camera, settings, sums, wanted)
     };
-    render::write_picture(&arguments.picture, view.settings, crop, output, &mut shade)?;
+    let (output, format) = output;
+    let drawn = drawing::draw_by(&mut shade, &arguments.picture.encoding(), view.settings, crop, *format)?;
+    let transparent = view.settings.background.is_none();
+    pictures::write_picture(output, *format, drawn.size_px, transparent, drawn.colors(*format))?;
     if let Some(folder) = &arguments.picture.dump {
         render::dump(view.settings, &mut shade)?.cut(crop).write(folder)?;
     }

@@ -95,7 +95,13 @@ fn cameras_and_lights_that_cannot_be() {
 camera = 1 => line 1, camera: 1: expected a table
 [camera]↵eye = [0, 1] => line 2, camera, eye: [0, 1]: expected three numbers
 [camera]↵eye = [0, 1, nan] => line 2, camera, eye: [0, 1, nan]: expected three numbers
-[camera]↵up = "y" => line 2, camera, up: "y": expected three numbers
+[camera]↵up = "w" => line 2, camera, up: "w": expected three numbers, "auto", "x", "y", "z"
+[camera]↵target = [1, 2] => line 2, camera, target: [1, 2]: expected three numbers, or the name of an object
+[camera]↵view = "rigth" => line 2, camera, view: "rigth": expected 'right'
+[camera]↵view = "top"↵eye = [0, 0, 1] => line 1, camera: both eye and view; expected one of them
+[camera]↵view = "top"↵azimuth_deg = 1 => line 1, camera: both view and azimuth_deg or elevation_deg; expected one of them
+[camera]↵elevation_deg = 91 => line 2, camera, elevation_deg: 91: expected degrees, -90 to 90
+[camera]↵zoom = 0 => line 2, camera, zoom: 0: expected a number, 1e-6 to 1e6
 [camera]↵fov_deg = 180 => line 2, camera, fov_deg: 180: expected degrees above 1e-10 and below 180
 [camera]↵fov_deg = 0 => line 2, camera, fov_deg: 0: expected degrees
 [camera]↵orthographic = 0 => line 2, camera, orthographic: 0: expected a height above 0, or "fit"

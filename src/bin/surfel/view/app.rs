@@ -1,0 +1,150 @@
+//! The application, as the event loop knows it: opens the window once it may, and hands events on.
+
+use std::{sync::Arc, time::Instant};
+
+use surfel::{
+    Error, ErrorKind, Result,
+    scene::{Settings, Storage},
+    vk::Messages,
+};
+use winit::{
+    application::ApplicationHandler,
+    dpi::PhysicalSize,
+    event::{StartCause, WindowEvent},
+    event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy},
+    window::{Window, WindowId},
+};
+
+use super::{
+    ViewArguments,
+    loading::{Loader, News},
+    viewer::Viewer,
+};
+use crate::camera::CameraChoice;
+
+/// The application.
+pub struct App<'a> {
+    arguments: &'a ViewArguments,
+    settings: Settings,
+    proxy: EventLoopProxy<News>,
+    /// Until the window is open.
+    camera: Option<CameraChoice>,
+    viewer: Option<Viewer>,
+    messages: Option<Arc<Messages>>,
+    failure: Option<Error>,
+}
+
+/// What is left of it.
+pub struct Ended {
+    /// What the validation layer said.
+    pub messages: Option<Arc<Messages>>,
+    /// Why it ended, where it did not by itself.
+    pub failure: Option<Error>,
+}
+
+impl<'a> App<'a> {
+    /// Without a window yet.
+    pub fn new(
+        arguments: &'a ViewArguments,
+        settings: Settings,
+        camera: CameraChoice,
+        proxy: EventLoopProxy<News>,
+    ) -> Self {
+        let camera = Some(camera);
+        Self { arguments, settings, proxy, camera, viewer: None, messages: None, failure: None }
+    }
+
+    /// Closes the window and destroys all of Vulkan.
+    pub fn end(mut self) -> Ended {
+        self.close();
+        Ended { messages: self.messages, failure: self.failure }
+    }
+
+    fn close(&mut self) {
+        if let Some(viewer) = self.viewer.take() {
+            viewer.close();
+        }
+    }
+
+    fn open(&mut self, events: &ActiveEventLoop, camera: CameraChoice) -> Result<Viewer> {
+        let [width, height] = self.settings.size_px;
+        let attributes = Window::default_attributes()
+            .with_title("surfel (? shows the keys)")
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = events.create_window(attributes);
+        let window = window.map_err(|error| ErrorKind::NoWindow { reason: error.to_string() })?;
+        let window = Arc::new(window);
+        let (gpu, messages) = super::viewer::open_gpu(&window, &self.arguments.device)?;
+        self.messages = Some(messages);
+        gpu.headless.renderer.check_settings(&self.settings)?;
+        let limits = gpu.headless.device().facts().limits;
+        let storage = self.arguments.storage.over(Storage::default());
+        let lights = (self.arguments.lights.clone(), storage);
+        let loader = Loader::new(self.proxy.clone(), limits, camera, lights);
+        loader.open(self.arguments.input.inputs(), gpu.window_px());
+        Ok(Viewer::new(window, gpu, loader, self.settings.clone(), self.arguments))
+    }
+
+    /// Ends the program for a reason.
+    fn fail(&mut self, events: &ActiveEventLoop, error: Error) {
+        self.failure = Some(error);
+        events.exit();
+    }
+
+    fn hand_on(
+        &mut self,
+        events: &ActiveEventLoop,
+        event: impl FnOnce(&mut Viewer, &ActiveEventLoop) -> Result<()>,
+    ) {
+        let Some(viewer) = &mut self.viewer else { return };
+        let done = event(viewer, events);
+        match done.or_else(|error| viewer.recover(error)) {
+            Ok(()) => {}
+            Err(error) => self.fail(events, error),
+        }
+    }
+}
+
+impl ApplicationHandler<News> for App<'_> {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        let Some(camera) = self.camera.take() else { return };
+        match self.open(events, camera) {
+            Ok(viewer) => self.viewer = Some(viewer),
+            Err(error) => self.fail(events, error),
+        }
+    }
+
+    fn new_events(&mut self, _events: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(viewer)) = (cause, &mut self.viewer) {
+            viewer.wake();
+        }
+    }
+
+    fn user_event(&mut self, events: &ActiveEventLoop, news: News) {
+        self.hand_on(events, |viewer, _| viewer.hear(news));
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        self.hand_on(events, |viewer, events| {
+            viewer.event(event)?;
+            if viewer.ends {
+                events.exit();
+            }
+            Ok(())
+        });
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let Some(viewer) = &mut self.viewer else { return };
+        let flow = match viewer.next_wake(Instant::now()) {
+            Some(when) => ControlFlow::WaitUntil(when),
+            None => ControlFlow::Wait,
+        };
+        events.set_control_flow(flow);
+    }
+
+    fn exiting(&mut self, _events: &ActiveEventLoop) {
+        // Before the connection to the display goes.
+        self.close();
+    }
+}

@@ -1,0 +1,186 @@
+//! What keys and the panel change.
+
+use glam::DVec3;
+use surfel::{
+    Result,
+    scene::{AXES, Layers, MOST_LAYERS, OptionValue as _, Settings, Stops, Tonemap},
+};
+
+use super::{
+    keys::{self, Action, Comparing},
+    values,
+    viewer::Viewer,
+};
+
+/// Splats may be made so much smaller and larger.
+const SPLAT_SCALES: [f32; 2] = [0.1, 10.0];
+
+impl Viewer {
+    /// A key, by its character or name.
+    ///
+    /// # Errors
+    /// Of the device.
+    pub fn key(&mut self, key: &str) -> Result<()> {
+        match keys::action(key) {
+            Some(action) => self.act(action),
+            None => Ok(()),
+        }
+    }
+
+    /// Does what a key is for.
+    ///
+    /// # Errors
+    /// Of the device.
+    pub fn act(&mut self, action: Action) -> Result<()> {
+        let window_px = self.window_px();
+        match action {
+            Action::Quit => self.ends = true,
+            Action::Panel => {
+                self.ui.toggle_panel();
+                // Its frames are timed by passes.
+                self.changed();
+            }
+            Action::Keys => self.ui.toggle_keys(),
+            Action::Close => self.ui.close(),
+            Action::Home | Action::Fit | Action::See(_) | Action::Turns | Action::NextUp => {
+                let up = self.next_up();
+                let Some(navigation) = &mut self.navigation else { return Ok(()) };
+                match action {
+                    Action::Home => navigation.go_home(),
+                    Action::Fit => navigation.fit(window_px),
+                    Action::See(view) => navigation.see_from(view, window_px),
+                    Action::NextUp => navigation.set_axis(up),
+                    _ => navigation.is_free = !navigation.is_free,
+                }
+                if action == Action::Turns {
+                    let how = if navigation.is_free { "free turns" } else { "turntable" };
+                    self.ui.tell(how);
+                }
+                self.changed();
+            }
+            Action::Projection => self.toggle_projection(),
+            Action::Setting(name, step) => self.step_setting(name, step),
+            Action::Layers(by) => self.add_layers(by),
+            Action::Exposure(by) => {
+                let Stops(stops) = self.encoding.exposure;
+                self.set_exposure(stops + by);
+            }
+            Action::Tonemap => {
+                let all = Tonemap::NAMES;
+                let now = all.iter().position(|(_, tonemap)| *tonemap == self.encoding.tonemap).unwrap_or(0);
+                let (name, tonemap) = all[(now + 1) % all.len()];
+                self.encoding.tonemap = tonemap;
+                self.ui.tell(&format!("tonemap: {name}"));
+                self.changed();
+            }
+            Action::SplatScale(by) => {
+                let [least, most] = SPLAT_SCALES;
+                let scale = (self.edits.splat_scale * by as f32).clamp(least, most);
+                self.set_splat_scale(scale);
+            }
+            Action::Screenshot => self.write_picture(),
+            Action::CopyCamera(how) => self.copy_camera(how),
+            Action::Compare(how) => self.compare(how),
+            Action::Path(what) => self.on_path(what),
+            Action::Pick => self.measure()?,
+            Action::Reload => self.reload(),
+        }
+        self.window.request_redraw();
+        Ok(())
+    }
+
+    /// Other settings, if they can be drawn.
+    pub fn set(&mut self, settings: Settings) {
+        if settings == self.settings {
+            return;
+        }
+        match self.check(&settings) {
+            Ok(()) => {
+                self.settings = settings;
+                self.changed();
+            }
+            Err(error) => self.tell(&error.to_string()),
+        }
+    }
+
+    /// Refuses settings that the device, the camera or the scene rule out.
+    fn check(&self, settings: &Settings) -> Result<()> {
+        let settings = Settings { size_px: self.window_px(), ..settings.clone() };
+        self.gpu.headless.renderer.check_settings(&settings)?;
+        if let Some(camera) = self.camera() {
+            self.gpu.headless.renderer.check(&camera, &settings)?;
+        }
+        self.document.as_ref().map_or(Ok(()), |document| settings.check_scene(&document.scene))
+    }
+
+    fn step_setting(&mut self, name: &str, step: keys::Step) {
+        let accept = |settings: &Settings| self.check(settings);
+        let Some(settings) = values::stepped(&self.settings, name, step, accept) else { return };
+        if let Some(setting) = values::setting(name) {
+            self.ui.tell(&format!("{name}: {}", (setting.get)(&settings)));
+        }
+        self.set(settings);
+    }
+
+    fn add_layers(&mut self, by: i64) {
+        let (Layers::Fixed(layers) | Layers::Auto(layers)) = self.settings.layers;
+        let layers = (i64::from(layers) + by).clamp(1, i64::from(MOST_LAYERS)) as u32;
+        let layers = match self.settings.layers {
+            Layers::Fixed(_) => Layers::Fixed(layers),
+            Layers::Auto(_) => Layers::Auto(layers),
+        };
+        self.ui.tell(&format!("layers: {}", layers.word()));
+        self.set(Settings { layers, ..self.settings.clone() });
+    }
+
+    /// Light so many stops brighter than it is.
+    pub fn set_exposure(&mut self, stops: f64) {
+        let stops = Stops(stops);
+        if stops.check().is_ok() && stops != self.encoding.exposure {
+            self.encoding.exposure = stops;
+            self.ui.tell(&format!("exposure: {} stops", stops.0));
+            self.changed();
+        }
+    }
+
+    /// Splats so many times as large as in the files.
+    pub fn set_splat_scale(&mut self, scale: f32) {
+        // Where steps up and down meet again, it is the files' own.
+        let scale = if (scale - 1.0).abs() < 1e-3 { 1.0 } else { scale };
+        if self.edits.splat_scale != scale {
+            self.edits.splat_scale = scale;
+            self.ui.tell(&format!("splats {scale:.2} times as large"));
+            self.prepare(false);
+        }
+    }
+
+    fn next_up(&self) -> DVec3 {
+        let up = self.camera().map_or(DVec3::Y, |camera| camera.usable_up().normalize_or(DVec3::Y));
+        let nearest = |axis: &DVec3| axis.dot(up);
+        let now = (0..AXES.len()).max_by(|a, b| nearest(&AXES[*a].1).total_cmp(&nearest(&AXES[*b].1)));
+        AXES[(now.unwrap_or(0) + 1) % AXES.len()].1
+    }
+
+    fn toggle_projection(&mut self) {
+        let Some(navigation) = &mut self.navigation else { return };
+        let before = navigation.clone();
+        navigation.toggle_projection();
+        let camera = navigation.camera;
+        if let Err(error) = self.settings.check_camera(&camera) {
+            self.navigation = Some(before);
+            self.tell(&error.to_string());
+        } else {
+            self.changed();
+        }
+    }
+
+    fn compare(&mut self, how: Comparing) {
+        if how == Comparing::Keep {
+            self.other = self.settings.clone();
+            self.ui.tell("kept as the other method; x, z and Space compare with it");
+        } else {
+            self.comparing = if self.comparing == Some(how) { None } else { Some(how) };
+        }
+        self.changed();
+    }
+}

@@ -1,0 +1,136 @@
+//! What the viewer changes of a scene before it goes to the device: what is seen, how transparent, how large splats are.
+
+use surfel::scene::{Object, Opacity, Scene, Shapes, Splats};
+
+/// Changes of a scene. Things are objects, then meshes, then those in levels of detail.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edits {
+    /// For each thing whether it is seen, and its alpha over that of the file.
+    pub things: Vec<(bool, f32)>,
+    /// Sizes of splats over those of the file.
+    pub splat_scale: f32,
+}
+
+impl Edits {
+    /// None of a scene.
+    pub fn none(scene: &Scene) -> Self {
+        let things = scene.objects.len() + scene.meshes.len() + scene.leveled.len();
+        Self { things: vec![(true, 1.0); things], splat_scale: 1.0 }
+    }
+
+    /// Whether they leave the scene as it is.
+    pub fn are_none(&self) -> bool {
+        self.splat_scale == 1.0 && self.things.iter().all(|thing| *thing == (true, 1.0))
+    }
+
+    /// The scene with these changes. An object in levels of detail that is changed is drawn as its own splats.
+    pub fn of(&self, scene: &Scene) -> Scene {
+        let thing = |number: usize| self.things.get(number).copied().unwrap_or((true, 1.0));
+        let mut edited = Scene {
+            lights: scene.lights.clone(),
+            storage: scene.storage,
+            without_auto_epsilon: scene.without_auto_epsilon,
+            levels: scene.levels,
+            numbered: scene.numbered,
+            ..Scene::default()
+        };
+        for (number, object) in scene.objects.iter().enumerate() {
+            if let (true, alpha) = thing(number) {
+                let splats = self.splats(&object.splats, alpha);
+                let (name, closed) = (object.name.clone(), object.closed);
+                edited.objects.push(Object { name, splats, closed });
+                edited.epsilons.push(scene.own_epsilon(number));
+            }
+        }
+        let before = scene.objects.len();
+        for (number, object) in scene.meshes.iter().enumerate() {
+            if let (true, alpha) = thing(before + number) {
+                let mut object = object.clone();
+                object.mesh.colors.tint(None, alpha);
+                edited.meshes.push(object);
+            }
+        }
+        let before = before + scene.meshes.len();
+        for (number, object) in scene.leveled.iter().enumerate() {
+            match thing(before + number) {
+                (false, _) => {}
+                (true, 1.0) if self.splat_scale == 1.0 => edited.leveled.push(object.clone()),
+                (true, alpha) => {
+                    let splats = self.splats(&object.leaves, alpha);
+                    let (name, closed) = (object.name.clone(), object.closed);
+                    edited.objects.push(Object { name, splats, closed });
+                    edited.epsilons.push(None);
+                }
+            }
+        }
+        edited
+    }
+
+    fn splats(&self, splats: &Splats, alpha: f32) -> Splats {
+        let mut splats = splats.clone();
+        scale(&mut splats, self.splat_scale);
+        if alpha != 1.0 {
+            splats.colors.tint(None, alpha);
+        }
+        splats
+    }
+}
+
+/// Splats so many times as large, about their centers.
+pub fn scale(splats: &mut Splats, by: f32) {
+    match &mut splats.shapes {
+        Shapes::Disks { radii, .. } => radii.iter_mut().for_each(|radius| *radius *= by),
+        Shapes::Ellipses { s, t } => s.iter_mut().chain(t).for_each(|tangent| *tangent *= by),
+    }
+}
+
+/// The names of a scene's things, in the order of [`Edits`], with what they are in a word or two.
+pub fn things(scene: &Scene) -> Vec<(String, String)> {
+    let transparent = |opacity| if opacity == Opacity::Opaque { "" } else { ", transparent" };
+    let objects = scene.objects.iter().map(|object| {
+        let (count, opacity) = (object.splats.len(), object.splats.colors.opacity());
+        (object.name.clone(), format!("{count} splats{}", transparent(opacity)))
+    });
+    let meshes = scene.meshes.iter().map(|object| {
+        let (count, opacity) = (object.mesh.triangles.len(), object.mesh.colors.opacity());
+        (object.name.clone(), format!("{count} triangles{}", transparent(opacity)))
+    });
+    let leveled = scene.leveled.iter().map(|object| {
+        let count = object.leaves.len();
+        (object.name.clone(), format!("{count} splats in levels{}", transparent(object.opacity)))
+    });
+    objects.chain(meshes).chain(leveled).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+    use surfel::scene::{Colors, Epsilon};
+
+    use super::*;
+
+    fn object(name: &str, radius: f32) -> Object {
+        let shapes = Shapes::Disks { normals: vec![Vec3::Z; 2], radii: vec![radius; 2] };
+        let splats = Splats::new(vec![DVec3::ZERO, DVec3::X], shapes, Colors::Uniform([1.0; 4]));
+        Object { name: name.to_owned(), splats, closed: false }
+    }
+
+    #[test]
+    fn what_is_hidden_goes_and_the_rest_keeps_its_own() {
+        let scene = Scene {
+            objects: vec![object("a", 1.0), object("b", 2.0)],
+            epsilons: vec![None, Some(Epsilon::Length(3.0))],
+            ..Scene::default()
+        };
+        let mut edits = Edits::none(&scene);
+        assert!(edits.are_none() && edits.of(&scene).objects.len() == 2);
+        edits.things = vec![(false, 1.0), (true, 0.5)];
+        edits.splat_scale = 1.5;
+        let edited = edits.of(&scene);
+        assert_eq!((edited.objects.len(), edited.objects[0].name.as_str()), (1, "b"));
+        assert_eq!(edited.own_epsilon(0), Some(Epsilon::Length(3.0)));
+        assert_eq!(edited.objects[0].splats.color(0), [1.0, 1.0, 1.0, 0.5]);
+        assert_eq!(edited.objects[0].splats.major_radius(0), 3.0);
+        assert_eq!(things(&scene)[1], ("b".to_owned(), "2 splats".to_owned()));
+    }
+}

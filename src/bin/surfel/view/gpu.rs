@@ -1,0 +1,315 @@
+//! A window's device: what draws a scene to a picture, and pictures to the window, a few frames in flight.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use ash::vk;
+use surfel::{
+    Error, ErrorKind, Headless, Result,
+    graph::execute::Profile,
+    prepare::PreparedScene,
+    renderer::Readbacks,
+    scene::{Camera, Settings},
+    vk::{PipelineCache, Semaphore, Surface, Swapchain, Turn, Window},
+};
+
+use super::{
+    frame::{Frame, begin_rendering, end_rendering},
+    overlay::{OverlayFrame, OverlayPass},
+    picture::{Begun, Cost, Picture, Use},
+    show::{Show, ShowDesc},
+};
+
+/// How many frames the host records ahead of the device.
+const IN_FLIGHT: usize = 2;
+
+/// The device of a window.
+pub struct Gpu {
+    frames: Vec<Frame>,
+    number: usize,
+    pictures: [Picture; Use::ALL.len()],
+    drawing: Option<Drawing>,
+    swapchain: Option<Swapchain>,
+    surface: Surface,
+    window: Arc<dyn Window>,
+    /// The host under it, for pictures beside the window's.
+    pub headless: Headless,
+    cache: PipelineCache,
+    window_px: [u32; 2],
+    fits: bool,
+    /// When the frame before began; none where the window rested.
+    before: Option<Instant>,
+    period: Option<Duration>,
+}
+
+/// The passes that draw to windows of a format.
+struct Drawing {
+    format: vk::Format,
+    show: Show,
+    overlay: OverlayPass,
+}
+
+/// A scene as a picture of it is drawn.
+#[derive(Clone, Copy)]
+pub struct SceneView<'a> {
+    /// The scene.
+    pub scene: &'a PreparedScene,
+    /// From where.
+    pub camera: &'a Camera,
+    /// How, and in which size.
+    pub settings: &'a Settings,
+    /// The picture is light, not colors.
+    pub is_light: bool,
+}
+
+/// A frame to draw.
+pub struct FrameDesc<'a> {
+    /// Pictures to draw anew; others stay as they are.
+    pub views: &'a [(Use, SceneView<'a>)],
+    /// The pictures to show; nothing where there is none yet.
+    pub shown: Option<([Use; 2], ShowDesc)>,
+    /// What lies over it.
+    pub overlay: Option<&'a OverlayFrame>,
+    /// What is measured of the scene's passes.
+    pub profile: Option<Profile>,
+    /// The input that it answers to.
+    pub input: Option<Instant>,
+}
+
+/// What drawing came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// The window shows it, or will soon.
+    Shown,
+    /// The window has no pixels.
+    Hidden,
+    /// The window changes; it is to be tried again.
+    Again,
+}
+
+impl Gpu {
+    /// A device that was opened for a surface of the window.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn new(headless: Headless, surface: Surface, window: Arc<dyn Window>) -> Result<Self> {
+        let device = headless.device();
+        let frames = (0..IN_FLIGHT).map(|number| Frame::new(device, number)).collect::<Result<_>>()?;
+        Ok(Self {
+            frames,
+            number: 0,
+            pictures: Use::ALL.map(|_| Picture::new(device)),
+            drawing: None,
+            swapchain: None,
+            cache: PipelineCache::open(device, None)?,
+            surface,
+            window,
+            headless,
+            window_px: [0; 2],
+            fits: false,
+            before: None,
+            period: None,
+        })
+    }
+
+    /// The size of the window's images, as far as is known.
+    pub fn window_px(&self) -> [u32; 2] {
+        self.window_px
+    }
+
+    /// The window has this size now.
+    pub fn resize(&mut self, window_px: [u32; 2]) {
+        if self.window_px != window_px {
+            (self.window_px, self.fits) = (window_px, false);
+        }
+    }
+
+    /// The atlas of letters changes.
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub fn update_overlay(&mut self, delta: &egui::TexturesDelta) -> Result<()> {
+        self.make_images()?;
+        if let Some(drawing) = &mut self.drawing {
+            drawing.overlay.update(delta);
+        }
+        Ok(())
+    }
+
+    /// Whether the window has images to draw to, made anew where it has changed.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    pub fn make_images(&mut self) -> Result<bool> {
+        if self.fits && self.swapchain.is_some() {
+            return Ok(true);
+        }
+        // SAFETY: nothing is being recorded now.
+        unsafe { self.headless.queue().wait_idle() }?;
+        let device = self.headless.device();
+        let old = self.swapchain.take();
+        self.swapchain = Swapchain::new(device, &self.surface, self.window_px, old)?;
+        let Some(swapchain) = &self.swapchain else { return Ok(false) };
+        let vk::Extent2D { width, height } = swapchain.extent();
+        (self.window_px, self.fits) = ([width, height], true);
+        let format = swapchain.format();
+        if self.drawing.as_ref().is_none_or(|drawing| drawing.format != format) {
+            let show = Show::new(device, format)?;
+            let before = self.drawing.take().map(|drawing| drawing.overlay);
+            let overlay = OverlayPass::new(device, &self.cache, format, before)?;
+            self.drawing = Some(Drawing { format, show, overlay });
+        }
+        Ok(true)
+    }
+
+    /// Draws a frame and shows it.
+    ///
+    /// # Errors
+    /// As [`surfel::Renderer::record`]; whatever the driver answers, such as a lost device.
+    pub fn draw(&mut self, desc: &FrameDesc<'_>) -> Result<Drawn> {
+        if !self.make_images()? {
+            return Ok(Drawn::Hidden);
+        }
+        let Some(swapchain) = &self.swapchain else { return Ok(Drawn::Hidden) };
+        let (frame, begun) = (&self.frames[self.number], Instant::now());
+        self.headless.queue().wait(frame.epoch)?;
+        // SAFETY: the submission that waited for the semaphore last is done, and each image is presented before the next is acquired.
+        let index = match unsafe { swapchain.acquire(&frame.acquired) }? {
+            Turn::Done(index) => index,
+            Turn::Suboptimal(index) => {
+                self.fits = false;
+                index
+            }
+            Turn::OutOfDate => return self.again(false),
+            Turn::SurfaceLost => return self.again(true),
+        };
+        // Where the host waits, frames follow each other as fast as they can, whatever it is that takes the time.
+        let waited = begun.elapsed() > Duration::from_millis(1);
+        self.period = self.before.replace(begun).filter(|_| waited).map(|before| begun - before);
+        match self.draw_to(index, desc) {
+            Ok(drawn) => Ok(drawn),
+            Err(error) => {
+                // What was recorded is never submitted.
+                desc.views.iter().for_each(|(which, _)| self.pictures[which.index()].forget());
+                // The image is acquired, and nothing waits for its semaphore.
+                let device = self.headless.device();
+                self.frames[self.number].acquired = Semaphore::new(device, "window image is free")?;
+                self.fits = false;
+                Err(error)
+            }
+        }
+    }
+
+    /// Records, submits and presents.
+    fn draw_to(&mut self, index: usize, desc: &FrameDesc<'_>) -> Result<Drawn> {
+        let (Some(swapchain), Some(drawing)) = (&self.swapchain, &mut self.drawing) else {
+            return Ok(Drawn::Hidden);
+        };
+        let Some(image) = swapchain.image(index) else { return Ok(Drawn::Again) };
+        let (queue, frame) = (self.headless.queue(), &mut self.frames[self.number]);
+        for (which, _) in desc.views {
+            let slot = &mut self.pictures[which.index()];
+            queue.wait(slot.next_epoch())?;
+            slot.collect(|epoch| queue.is_done(epoch))?;
+        }
+        let begun = Instant::now();
+        // SAFETY: the frame's submission before was waited for.
+        let commands = unsafe { frame.commands.begin() }?;
+        for (which, view) in desc.views {
+            let slot = &mut self.pictures[which.index()];
+            let target = slot.target(self.headless.device(), view)?;
+            let readbacks = Readbacks::default();
+            // SAFETY: recording; the slot's frame before was waited for; scene, target and renderer live until the queue is idle, for all
+            // that is dropped waits for its epoch.
+            let recorded = unsafe {
+                self.headless.renderer.record(
+                    commands,
+                    slot.slot(),
+                    view.scene,
+                    view.camera,
+                    view.settings,
+                    &target,
+                    readbacks,
+                    desc.profile,
+                )
+            };
+            recorded?;
+            slot.recorded();
+        }
+        // SAFETY: recording; the frame's submission before was waited for, so its pool and buffers are free; pictures are in the layout
+        // that fragments sample them in once they were drawn.
+        unsafe {
+            frame.sets.reset()?;
+            begin_rendering(self.headless.device(), commands, image, swapchain.extent());
+            if let Some((uses, show)) = &desc.shown {
+                let shots = uses.map(|which| self.pictures[which.index()].shot());
+                if let [Some(first), Some(second)] = shots {
+                    drawing.show.record(commands, (&self.cache, &frame.sets), [first, second], show)?;
+                }
+            }
+            if let Some(overlay) = desc.overlay {
+                let (sets, buffers) = (&frame.sets, &mut frame.overlay);
+                drawing.overlay.record(commands, sets, buffers, overlay, self.window_px)?;
+            }
+            end_rendering(self.headless.device(), commands, image);
+        }
+        let commands = frame.commands.end()?;
+        // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
+        let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
+        frame.epoch = epoch;
+        for (which, view) in desc.views {
+            let begun = Begun { at: begun, input: desc.input, size_px: view.settings.size_px };
+            self.pictures[which.index()].submitted(epoch, begun);
+        }
+        self.number = (self.number + 1) % IN_FLIGHT;
+        // SAFETY: acquired and submitted above.
+        match unsafe { queue.present(swapchain, index) }? {
+            Turn::Done(()) => Ok(Drawn::Shown),
+            Turn::Suboptimal(()) => {
+                self.fits = false;
+                Ok(Drawn::Shown)
+            }
+            Turn::OutOfDate => self.again(false),
+            Turn::SurfaceLost => self.again(true),
+        }
+    }
+
+    /// The time from frame to frame, where the host waited for the device or the window system.
+    pub fn take_period(&mut self) -> Option<Duration> {
+        self.period.take()
+    }
+
+    /// What frames for a use have cost since this was asked for last, and whether that is all of them.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn take_costs(&mut self, which: Use) -> Result<(Vec<Cost>, bool)> {
+        let (queue, picture) = (self.headless.queue(), &mut self.pictures[which.index()]);
+        let all = picture.collect(|epoch| queue.is_done(epoch))?;
+        Ok((picture.take_costs(), all))
+    }
+
+    /// Bytes of device memory in transients of all pictures.
+    pub fn transient_bytes(&self) -> u64 {
+        self.pictures.iter().map(Picture::transient_bytes).sum()
+    }
+
+    /// The window wants other images; and another surface, where that is lost.
+    fn again(&mut self, is_lost: bool) -> Result<Drawn> {
+        self.fits = false;
+        if is_lost {
+            self.swapchain = None;
+            // SAFETY: nothing is being recorded now.
+            unsafe { self.headless.queue().wait_idle() }?;
+            self.surface = Surface::new(self.headless.device().instance(), Arc::clone(&self.window))?;
+        }
+        Ok(Drawn::Again)
+    }
+}
+
+/// Whether the device is lost, and another one must be opened.
+pub fn is_device_lost(error: &Error) -> bool {
+    matches!(error.kind(), ErrorKind::Vulkan { result: vk::Result::ERROR_DEVICE_LOST, .. })
+}

@@ -1,0 +1,302 @@
+//! The thread that reads files and prepares scenes, while the window goes on.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+        mpsc::{Receiver, Sender, SyncSender, channel, sync_channel},
+    },
+    thread::JoinHandle,
+};
+
+use surfel::{
+    Error, Result,
+    load::PictureDescription,
+    prepare::{PreparedScene, SplatSetLayout, prepare},
+    report::InputReport,
+    scene::{Ball, Camera, Light, Object, Scene, Storage},
+    vk::{Device, Limits, Staging},
+};
+use winit::event_loop::EventLoopProxy;
+
+use super::edits::{Edits, scale};
+use crate::{
+    camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
+    scene::Loaded,
+};
+
+/// What the thread tells the window.
+pub enum News {
+    /// Files are read.
+    Opened(Box<Document>),
+    /// A scene is on the device; as the last step of its preparation, or as one before.
+    Prepared(Box<Prepared>),
+    /// Bytes are to be submitted; the thread waits for the answer.
+    Upload(Staging, SyncSender<Result<()>>),
+    /// Files can't be read, or have no room on the device.
+    Failed(Error),
+}
+
+/// What files hold.
+pub struct Document {
+    /// The scene, with the lights that are asked for.
+    pub scene: Arc<Scene>,
+    /// A ball around it.
+    pub ball: Ball,
+    /// The camera for it.
+    pub camera: Camera,
+    /// What scene files say of the picture.
+    pub picture: PictureDescription,
+    /// One an object.
+    pub inputs: Vec<InputReport>,
+    /// What was read.
+    pub files: Inputs,
+}
+
+/// A scene on the device.
+pub struct Prepared {
+    /// The scene.
+    pub scene: PreparedScene,
+    /// How much of it that is.
+    pub step: Step,
+    /// The number of the job.
+    pub job: u64,
+}
+
+/// How far a preparation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Step {
+    /// A part of its splats, larger.
+    Part,
+    /// All of it.
+    Whole,
+    /// All of it, and levels of detail for moving pictures.
+    Leveled,
+}
+
+/// A part of a scene is shown first where it has more splats.
+const PART_FROM: usize = 200_000;
+/// So many then.
+const PART_SPLATS: usize = 60_000;
+/// Levels of detail are made of more splats.
+const LEVELS_FROM: usize = 300_000;
+
+enum Job {
+    Open { number: u64, files: Inputs, size_px: [u32; 2] },
+    Prepare { number: u64, scene: Arc<Scene>, edits: Edits, device: Device, in_parts: bool },
+}
+
+/// The thread, as the window knows it.
+pub struct Loader {
+    jobs: Option<Sender<Job>>,
+    thread: Option<JoinHandle<()>>,
+    newest: Arc<AtomicU64>,
+    is_reading: Arc<AtomicBool>,
+}
+
+/// The thread, as it knows itself.
+struct Worker {
+    proxy: EventLoopProxy<News>,
+    newest: Arc<AtomicU64>,
+    is_reading: Arc<AtomicBool>,
+    limits: Limits,
+    camera: CameraChoice,
+    lights: Vec<Light>,
+    storage: Storage,
+    bars: Bars,
+}
+
+impl Loader {
+    /// Starts the thread.
+    pub fn new(
+        proxy: EventLoopProxy<News>,
+        limits: Limits,
+        camera: CameraChoice,
+        (lights, storage): (Vec<Light>, Storage),
+    ) -> Self {
+        let (jobs, received) = channel();
+        let (newest, is_reading) = (Arc::new(AtomicU64::new(0)), Arc::new(AtomicBool::new(false)));
+        let (numbers, reading) = (Arc::clone(&newest), Arc::clone(&is_reading));
+        let bars = Bars::new();
+        let worker =
+            Worker { proxy, newest: numbers, is_reading: reading, limits, camera, lights, storage, bars };
+        let thread = std::thread::spawn(move || worker.run(&received));
+        Self { jobs: Some(jobs), thread: Some(thread), newest, is_reading }
+    }
+
+    /// Reads files; the camera is for a picture of this size.
+    pub fn open(&self, files: Inputs, size_px: [u32; 2]) {
+        let number = self.next();
+        self.send(Job::Open { number, files, size_px });
+    }
+
+    /// Brings a scene with changes to a device; a part of it first, if so wanted.
+    pub fn prepare(&self, scene: Arc<Scene>, edits: Edits, device: Device, in_parts: bool) {
+        let number = self.next();
+        self.send(Job::Prepare { number, scene, edits, device, in_parts });
+    }
+
+    /// Whether a result is of the newest job.
+    pub fn is_newest(&self, job: u64) -> bool {
+        job == self.newest.load(Ordering::Acquire)
+    }
+
+    fn next(&self) -> u64 {
+        self.newest.fetch_add(1, Ordering::AcqRel) + 1
+    }
+
+    fn send(&self, job: Job) {
+        if let Some(jobs) = &self.jobs {
+            // A thread that is gone has told why.
+            let _ = jobs.send(job);
+        }
+    }
+}
+
+impl Drop for Loader {
+    fn drop(&mut self) {
+        // What it is at is of no use any more.
+        self.next();
+        self.jobs = None;
+        // Reading can't be interrupted, and has nothing of the device.
+        if let Some(thread) = self.thread.take().filter(|_| !self.is_reading.load(Ordering::Acquire)) {
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Worker {
+    fn run(&self, jobs: &Receiver<Job>) {
+        while let Ok(job) = jobs.recv() {
+            let done = match job {
+                Job::Open { number, .. } | Job::Prepare { number, .. } if !self.is_newest(number) => Ok(()),
+                Job::Open { files, size_px, .. } => {
+                    self.is_reading.store(true, Ordering::Release);
+                    let opened = self.open(files, size_px);
+                    self.is_reading.store(false, Ordering::Release);
+                    opened.map(|document| self.tell(News::Opened(Box::new(document))))
+                }
+                Job::Prepare { number, scene, edits, device, in_parts } => {
+                    self.prepare(number, (&scene, &edits), &device, in_parts)
+                }
+            };
+            if let Err(error) = done {
+                self.tell(News::Failed(error));
+            }
+        }
+    }
+
+    /// Nobody hears it once the window is closed.
+    fn tell(&self, news: News) {
+        let _ = self.proxy.send_event(news);
+    }
+
+    fn is_newest(&self, job: u64) -> bool {
+        job == self.newest.load(Ordering::Acquire)
+    }
+
+    fn open(&self, files: Inputs, size_px: [u32; 2]) -> Result<Document> {
+        let mut loaded = load_scene_with_hierarchies(&files, &self.bars)?;
+        let camera = self.camera.camera(&loaded, size_px)?;
+        for mut file in std::mem::take(&mut loaded.hierarchies) {
+            loaded.scene.leveled.push(file.load(None, u64::MAX, &self.bars)?.object);
+        }
+        self.bars.clear();
+        let Loaded { mut scene, ball, picture, inputs, .. } = loaded;
+        if !self.lights.is_empty() {
+            scene.lights.clone_from(&self.lights);
+        }
+        scene.storage = self.storage;
+        scene.numbered = true;
+        Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files })
+    }
+
+    /// Step by step, until another job comes.
+    fn prepare(
+        &self,
+        job: u64,
+        (scene, edits): (&Arc<Scene>, &Edits),
+        device: &Device,
+        in_parts: bool,
+    ) -> Result<()> {
+        let edited;
+        let scene = match edits.are_none() {
+            true => &**scene,
+            false => {
+                edited = edits.of(scene);
+                &edited
+            }
+        };
+        let splats = scene.splat_count();
+        let has_levels = !scene.leveled.is_empty();
+        let mut steps = Vec::new();
+        if in_parts && splats > PART_FROM {
+            steps.push(Step::Part);
+        }
+        steps.push(if has_levels { Step::Leveled } else { Step::Whole });
+        if splats > LEVELS_FROM && !has_levels {
+            steps.push(Step::Leveled);
+        }
+        for step in steps {
+            let part;
+            let scene = match step {
+                Step::Part => {
+                    part = part_of(scene);
+                    &part
+                }
+                Step::Leveled if !has_levels => {
+                    part = Scene { levels: true, ..scene.clone() };
+                    &part
+                }
+                _ => scene,
+            };
+            match self.upload(job, scene, device) {
+                Ok(scene) => self.tell(News::Prepared(Box::new(Prepared { scene, step, job }))),
+                // Nobody waits for it any more.
+                Err(_) if !self.is_newest(job) => return Ok(()),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    /// Prepares a scene; the window's thread, which has the queue, submits.
+    fn upload(&self, job: u64, scene: &Scene, device: &Device) -> Result<PreparedScene> {
+        let left = || Error::option("scene", "another one has come, or the window is closed");
+        let layout = SplatSetLayout::new(device)?;
+        let mut submit = |staging| {
+            let (answer, answered) = sync_channel(1);
+            if !self.is_newest(job) || self.proxy.send_event(News::Upload(staging, answer)).is_err() {
+                return Err(left());
+            }
+            loop {
+                let patience = std::time::Duration::from_millis(100);
+                match answered.recv_timeout(patience) {
+                    Ok(answer) => return answer,
+                    Err(std::sync::mpsc::RecvTimeoutError::Timeout) if self.is_newest(job) => {}
+                    Err(_) => return Err(left()),
+                }
+            }
+        };
+        prepare(device, &self.limits, &layout, scene, &mut submit, &|_, _| {})
+    }
+}
+
+/// Some splats of each object, as much larger as they are fewer; and all polygons.
+fn part_of(scene: &Scene) -> Scene {
+    let step = scene.splat_count().div_ceil(PART_SPLATS).max(1);
+    let objects = scene.objects.iter().map(|object| {
+        let mut splats = object.splats.picked((0..object.splats.len()).step_by(step));
+        scale(&mut splats, (step as f32).sqrt());
+        Object { name: object.name.clone(), splats, closed: object.closed }
+    });
+    Scene {
+        objects: objects.collect(),
+        meshes: scene.meshes.clone(),
+        lights: scene.lights.clone(),
+        epsilons: scene.epsilons.clone(),
+        without_auto_epsilon: true,
+        leveled: scene.leveled.clone(),
+        ..Scene::default()
+    }
+}

@@ -1,0 +1,120 @@
+//! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
+//! picture is (`pace`), the thread that reads files (`loading`), the window's device (`gpu` and the files it names), what lies over the
+//! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `input`, `files`, `changes`, `picking`, `path`, `capture`).
+
+mod app;
+mod capture;
+mod changes;
+mod display;
+mod edits;
+mod files;
+mod frame;
+mod gpu;
+mod input;
+mod keys;
+mod loading;
+mod navigation;
+mod overlay;
+mod pace;
+mod panel;
+mod path;
+mod picking;
+mod picture;
+mod popups;
+mod redraw;
+mod show;
+mod ui;
+mod values;
+mod viewer;
+
+use clap::Args;
+use surfel::{
+    ErrorKind, Result,
+    scene::{Encoding, Light, OptionValue as _, Settings, Storage},
+};
+use winit::event_loop::EventLoop;
+
+use crate::{
+    camera::{CameraArguments, CameraChoice},
+    device::{DeviceArguments, conclude},
+    inputs::{INPUTS, InputArguments},
+    settings::Given,
+};
+
+const EXAMPLES: &str = "Examples:
+  surfel view
+  surfel view scan.ply
+  surfel view a.ply b.obj --view iso --shading normals
+  surfel view scene.toml --samples 16 --background none      i writes a picture: 16 samples a pixel, transparent";
+
+/// Look at a scene in a window
+#[derive(Args)]
+#[command(long_about = format!("Look at a scene in a window.\n\n{INPUTS}\n\nA .surfel file is read whole. Files that change on disk are read again; \
+files that are dropped on the window take the place of the scene."))]
+#[command(after_help = format!("{}\n\n{EXAMPLES}", manual_of_keys()))]
+pub struct ViewArguments {
+    #[command(flatten)]
+    input: InputArguments,
+
+    #[command(flatten)]
+    camera: CameraArguments,
+
+    /// A light in place of those of scene files, and of the one at the eye, as of surfel render; once for each light
+    #[arg(long = "light", value_name = "LIGHT", value_parser = Light::parse, allow_hyphen_values = true, help_heading = "Method")]
+    lights: Vec<Light>,
+
+    /// The size of pictures that the key i writes, which may be larger than the window [default: the window's]
+    #[arg(long, value_name = "WxH", value_parser = <[u32; 2]>::parse)]
+    picture_size: Option<[u32; 2]>,
+
+    /// Print a line for each frame of the scene: its size, its time on the device, and how long after its input it was done
+    #[arg(long, help_heading = "Device")]
+    print_frames: bool,
+
+    #[command(flatten)]
+    settings: Given<Settings>,
+
+    #[command(flatten)]
+    encoding: Given<Encoding>,
+
+    #[command(flatten, next_help_heading = "Device")]
+    device: DeviceArguments,
+
+    #[command(flatten)]
+    storage: Given<Storage>,
+}
+
+/// Keys and mouse, as help has them.
+fn manual_of_keys() -> String {
+    let line = |(key, help): (&str, &str)| format!("  {key:<24} {help}");
+    let keys = keys::BINDINGS.iter().map(|binding| (binding.key, binding.help));
+    let lines: Vec<String> = keys::MOUSE.iter().copied().chain(keys).map(line).collect();
+    format!("Mouse and keys:\n{}", lines.join("\n"))
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`ErrorKind::NoWindow`] without a display; whatever is wrong with options, the first files or the device; with `--validate`, messages
+/// of the layer.
+pub fn run(arguments: &ViewArguments) -> Result<()> {
+    let settings = arguments.settings.over(Settings::default());
+    settings.validate()?;
+    let camera = CameraChoice::of(&arguments.camera)?;
+    display::check()?;
+    let events = EventLoop::<loading::News>::with_user_event()
+        .build()
+        .map_err(|error| ErrorKind::NoWindow { reason: display::explain(&error.to_string()) })?;
+    let mut app = app::App::new(arguments, settings, camera, events.create_proxy());
+    let ran = events.run_app(&mut app);
+    let done = app.end();
+    let said = match (&done.messages, arguments.device.validate) {
+        (Some(messages), true) => conclude(messages),
+        _ => Ok(()),
+    };
+    if let Some(error) = done.failure {
+        return Err(error);
+    }
+    ran.map_err(|error| ErrorKind::NoWindow { reason: error.to_string() })?;
+    said
+}

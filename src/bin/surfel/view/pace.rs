@@ -1,0 +1,104 @@
+//! How coarse the picture is while it moves: as fine as the device draws often enough.
+
+use surfel::scene::Lod;
+
+/// What a moving frame may cost.
+const GOAL_SECS: f64 = 0.040;
+
+/// The picture's side over the window's, and the size up to which splats are drawn as one, in pixels of the picture. From fine to coarse, each
+/// about two thirds of the cost of the one before.
+const STEPS: &[(f64, f64)] = &[
+    (1.0, 0.0),
+    (1.0, 0.75),
+    (1.0, 1.25),
+    (0.8, 1.5),
+    (0.65, 1.75),
+    (0.55, 2.0),
+    (0.45, 2.0),
+    (0.35, 2.0),
+    (0.25, 2.0),
+    (0.25, 3.0),
+];
+
+/// The pace of a window.
+#[derive(Clone, Debug, Default)]
+pub struct Pace {
+    step: usize,
+    /// Frames in a row that would have been fast enough one step finer.
+    fast: u32,
+}
+
+impl Pace {
+    /// The size of a moving picture.
+    pub fn size_px(&self, window_px: [u32; 2]) -> [u32; 2] {
+        let (scale, _) = STEPS[self.step];
+        window_px.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
+    }
+
+    /// Its level of detail, where the scene has levels; `own`: that of the picture at rest.
+    pub fn lod(&self, own: Lod) -> Lod {
+        let (_, lod_px) = STEPS[self.step];
+        match own {
+            Lod::Px(px) => Lod::Px(px.max(lod_px)),
+            _ if lod_px > 0.0 => Lod::Px(lod_px),
+            other => other,
+        }
+    }
+
+    /// Whether a moving picture is as fine as one at rest.
+    pub fn is_finest(&self) -> bool {
+        self.step == 0
+    }
+
+    /// Learns what a moving frame has cost.
+    pub fn learn(&mut self, secs: f64) {
+        if secs > 1.15 * GOAL_SECS && self.step + 1 < STEPS.len() {
+            // Several at once where it is far too slow.
+            let by = if secs > 4.0 * GOAL_SECS { 3 } else { 1 };
+            (self.step, self.fast) = ((self.step + by).min(STEPS.len() - 1), 0);
+        } else if secs < 0.5 * GOAL_SECS && self.step > 0 {
+            self.fast += 1;
+            if self.fast >= 8 {
+                (self.step, self.fast) = (self.step - 1, 0);
+            }
+        } else {
+            self.fast = 0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A device that takes so long for a full picture.
+    fn settled(full_secs: f64) -> Pace {
+        let mut pace = Pace::default();
+        for _ in 0..200 {
+            let (scale, lod_px) = STEPS[pace.step];
+            pace.learn(full_secs * scale * scale / (1.0 + lod_px * lod_px));
+        }
+        pace
+    }
+
+    #[test]
+    fn fast_devices_draw_all_of_it_and_slow_ones_what_they_can_at_the_goal() {
+        assert!(settled(0.01).is_finest());
+        assert_eq!(settled(0.01).size_px([300, 200]), [300, 200]);
+        for full_secs in [0.1, 0.3, 1.0] {
+            let pace = settled(full_secs);
+            let (scale, lod_px) = STEPS[pace.step];
+            let secs = full_secs * scale * scale / (1.0 + lod_px * lod_px);
+            assert!(!pace.is_finest() && secs < 1.15 * GOAL_SECS, "{full_secs}: {pace:?}");
+        }
+        assert_eq!(settled(1e9).size_px([300, 1]), [75, 1]);
+    }
+
+    #[test]
+    fn levels_are_never_finer_than_those_at_rest() {
+        let pace = settled(1.0);
+        assert_eq!(pace.lod(Lod::Px(100.0)), Lod::Px(100.0));
+        assert_eq!(Pace::default().lod(Lod::Auto), Lod::Auto);
+        assert!(matches!(pace.lod(Lod::Px(0.0)), Lod::Px(px) if px > 0.0));
+    }
+}

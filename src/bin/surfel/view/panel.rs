@@ -1,0 +1,233 @@
+//! The panel, the keys and the messages over the picture. Everything in the panel can be done by keys, too.
+
+use egui::{Color32, ComboBox, Context, Grid, Id, ScrollArea, Slider, Ui, Vec2};
+use surfel::scene::{Encoding, Layers, MOST_LAYERS, Settings, Tonemap};
+
+use super::{
+    edits::{Edits, things},
+    keys::Comparing,
+    loading::Step,
+    ui::History,
+    values,
+    viewer::Viewer,
+};
+
+/// What the panel shows.
+pub struct State {
+    pub settings: Settings,
+    pub encoding: Encoding,
+    pub edits: Edits,
+    /// Names and kinds of the scene's things.
+    pub things: Vec<(String, String)>,
+    pub facts: Vec<(&'static str, String)>,
+    pub shows_difference: bool,
+}
+
+/// What is to be changed.
+pub enum Change {
+    /// Other settings.
+    Settings(Settings),
+    /// Other exposure, in stops.
+    Exposure(f64),
+    /// Another curve.
+    Tonemap(Tonemap),
+    /// Other things seen, or another alpha of them.
+    Edits(Edits),
+    /// Splats of another size.
+    SplatScale(f32),
+}
+
+impl State {
+    /// That of now.
+    pub fn of(viewer: &Viewer) -> Self {
+        let gpu = &viewer.gpu;
+        let device = gpu.headless.device();
+        let mib = |bytes: u64| format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20));
+        let [width, height] = viewer.window_px();
+        let mut facts = vec![
+            ("device", device.facts().name.clone()),
+            ("window", format!("{width} x {height}")),
+            ("device memory", mib(device.memory_held())),
+            ("of pictures", mib(gpu.transient_bytes())),
+        ];
+        if let Some((scene, step)) = &viewer.prepared {
+            let how = match step {
+                Step::Part => " (a part for now)",
+                Step::Whole => "",
+                Step::Leveled => " (in levels)",
+            };
+            facts.push(("splats", format!("{}{how}", scene.splat_count())));
+            facts.push(("triangles", scene.triangle_count().to_string()));
+            facts.push(("of the scene", mib(scene.bytes())));
+        }
+        Self {
+            settings: viewer.settings.clone(),
+            encoding: viewer.encoding,
+            edits: viewer.edits.clone(),
+            things: viewer.document.as_ref().map(|document| things(&document.scene)).unwrap_or_default(),
+            facts,
+            shows_difference: viewer.comparing == Some(Comparing::Difference),
+        }
+    }
+}
+
+impl Viewer {
+    /// Does what the panel asks for.
+    pub fn change(&mut self, change: Change) {
+        match change {
+            Change::Settings(settings) => self.set(settings),
+            Change::Exposure(stops) => self.set_exposure(stops),
+            Change::Tonemap(tonemap) => {
+                self.encoding.tonemap = tonemap;
+                self.changed();
+            }
+            Change::Edits(edits) => {
+                self.edits = edits;
+                self.prepare(false);
+            }
+            Change::SplatScale(scale) => self.set_splat_scale(scale),
+        }
+    }
+}
+
+/// White on nearly black, 15 to 1, whatever the picture is.
+pub fn visuals() -> egui::Visuals {
+    let mut visuals = egui::Visuals::dark();
+    visuals.override_text_color = Some(Color32::from_gray(245));
+    visuals.panel_fill = Color32::from_rgb(20, 20, 24);
+    visuals.window_fill = visuals.panel_fill;
+    visuals
+}
+
+/// The panel.
+pub fn show(context: &Context, state: &State, history: &History, changes: &mut Vec<Change>) {
+    egui::SidePanel::right("panel").default_width(300.0).show(context, |ui| {
+        ScrollArea::vertical().show(ui, |ui| {
+            ui.heading("Scene");
+            scene(ui, state, changes);
+            ui.separator();
+            ui.heading("Method");
+            method(ui, state, changes);
+            ui.separator();
+            ui.heading("Light");
+            light(ui, state, changes);
+            ui.separator();
+            ui.heading("Cost");
+            cost(ui, history);
+            ui.separator();
+            Grid::new("facts").num_columns(2).show(ui, |ui| {
+                for (name, value) in &state.facts {
+                    ui.label(*name);
+                    ui.label(value);
+                    ui.end_row();
+                }
+            });
+        });
+    });
+}
+
+fn scene(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
+    for (number, (name, kind)) in state.things.iter().enumerate() {
+        let Some((mut seen, mut alpha)) = state.edits.things.get(number).copied() else { continue };
+        let mut changed = ui.checkbox(&mut seen, name).on_hover_text(kind).changed();
+        // Taken when it is let go: the scene goes to the device again.
+        let key = Id::new(("alpha", number));
+        let dragged: Option<f32> = ui.data(|data| data.get_temp(key));
+        let mut shown = dragged.unwrap_or(alpha);
+        ui.horizontal(|ui| {
+            ui.add_space(22.0);
+            let slider = ui.add(Slider::new(&mut shown, 0.05..=1.0).text("alpha"));
+            if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
+                (alpha, changed) = (shown, true);
+                ui.data_mut(|data| data.remove::<f32>(key));
+            } else if slider.dragged() {
+                ui.data_mut(|data| data.insert_temp(key, shown));
+            }
+        });
+        if changed {
+            let mut edits = state.edits.clone();
+            edits.things[number] = (seen, alpha);
+            changes.push(Change::Edits(edits));
+        }
+    }
+    let key = Id::new("splat scale");
+    let dragged: Option<f32> = ui.data(|data| data.get_temp(key));
+    let mut scale = dragged.unwrap_or(state.edits.splat_scale);
+    let slider = ui.add(Slider::new(&mut scale, 0.1..=10.0).logarithmic(true).text("splat scale"));
+    if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
+        changes.push(Change::SplatScale(scale));
+        ui.data_mut(|data| data.remove::<f32>(key));
+    } else if slider.dragged() {
+        ui.data_mut(|data| data.insert_temp(key, scale));
+    }
+}
+
+fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
+    Grid::new("method").num_columns(2).show(ui, |ui| {
+        for setting in values::IN_PANEL.iter().filter_map(|name| values::setting(name)) {
+            let now = (setting.get)(&state.settings);
+            ui.label(setting.name).on_hover_text(setting.help.trim());
+            ComboBox::from_id_salt(setting.name).selected_text(&now).show_ui(ui, |ui| {
+                for value in values::values(setting) {
+                    let help = setting.choices.iter().find(|choice| choice.name == value);
+                    let label = ui.selectable_label(now == value, value);
+                    let label = help.map_or(label.clone(), |choice| label.on_hover_text(choice.help.trim()));
+                    if label.clicked() {
+                        changes.extend(values::with(&state.settings, setting, value).map(Change::Settings));
+                    }
+                }
+            });
+            ui.end_row();
+        }
+    });
+    let (Layers::Fixed(now) | Layers::Auto(now)) = state.settings.layers;
+    let mut layers = now;
+    ui.add(Slider::new(&mut layers, 1..=MOST_LAYERS.min(32)).text("layers"));
+    if layers != now {
+        let layers = match state.settings.layers {
+            Layers::Fixed(_) => Layers::Fixed(layers),
+            Layers::Auto(_) => Layers::Auto(layers),
+        };
+        changes.push(Change::Settings(Settings { layers, ..state.settings.clone() }));
+    }
+}
+
+fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
+    let mut stops = state.encoding.exposure.0;
+    if ui.add(Slider::new(&mut stops, -8.0..=8.0).text("exposure, stops")).changed() {
+        changes.push(Change::Exposure(stops));
+    }
+    ui.horizontal(|ui| {
+        for (name, tonemap) in Tonemap::NAMES {
+            if ui.selectable_label(state.encoding.tonemap == *tonemap, *name).clicked() {
+                changes.push(Change::Tonemap(*tonemap));
+            }
+        }
+        ui.label("tone curve");
+    });
+}
+
+fn cost(ui: &mut Ui, history: &History) {
+    let size = Vec2::new(ui.available_width().min(400.0), 48.0);
+    let (response, painter) = ui.allocate_painter(size, egui::Sense::hover());
+    let rect = response.rect;
+    painter.rect_filled(rect, 2.0, Color32::from_gray(40));
+    let most = history.frames_ms.iter().copied().fold(1.0, f32::max);
+    let step = rect.width() / history.frames_ms.len().max(2) as f32;
+    for (number, ms) in history.frames_ms.iter().enumerate() {
+        let x = rect.left() + (number as f32 + 0.5) * step;
+        let top = rect.bottom() - rect.height() * ms / most;
+        let stroke = egui::Stroke::new(step.max(1.0), Color32::from_rgb(90, 170, 255));
+        painter.line_segment([egui::pos2(x, rect.bottom()), egui::pos2(x, top)], stroke);
+    }
+    if let Some(last) = history.frames_ms.back() {
+        ui.label(format!("frame {last:.2} ms; the tallest of these {most:.2} ms"));
+    }
+    Grid::new("passes").num_columns(2).striped(true).show(ui, |ui| {
+        for (name, ms) in &history.passes {
+            ui.label(name);
+            ui.label(format!("{ms:.3} ms"));
+            ui.end_row();
+        }
+    });
+}

@@ -1,0 +1,127 @@
+//! Paths of cameras: recorded by key, played, saved for `surfel render --path`.
+
+use std::{fs, time::Instant};
+
+use surfel::{
+    Error, Result,
+    scene::{Camera, CameraPath, Interpolation},
+};
+
+use super::{capture::free_name, keys::OnPath, viewer::Viewer};
+use crate::camera::path_text;
+
+/// Seconds from one place to the next.
+const STEP_SECS: f64 = 2.0;
+
+/// The places of a path, and how far it is played.
+#[derive(Default)]
+pub struct Path {
+    places: Vec<Camera>,
+    playing: Option<(Instant, CameraPath)>,
+}
+
+impl Path {
+    /// Whether it is being played.
+    pub fn plays(&self) -> bool {
+        self.playing.is_some()
+    }
+
+    /// The camera of now, if it is being played; at its end it stops.
+    fn play(&mut self, now: Instant) -> Option<Camera> {
+        let (begun, path) = self.playing.as_ref()?;
+        let secs = (now - *begun).as_secs_f64();
+        let camera = path.at(secs);
+        if secs >= path.times()[1] {
+            self.playing = None;
+        }
+        Some(camera)
+    }
+
+    /// # Errors
+    /// As [`CameraPath::new`].
+    fn made(&self) -> Result<CameraPath> {
+        let times = (0..self.places.len()).map(|number| STEP_SECS * number as f64);
+        CameraPath::new(Interpolation::Smooth, times.zip(self.places.iter().copied()).collect())
+    }
+
+    /// One place more, if the path goes on with it.
+    fn add(&mut self, camera: Camera) -> Result<()> {
+        self.places.push(camera);
+        let made = self.made();
+        if made.is_err() {
+            self.places.pop();
+        }
+        made.map(drop)
+    }
+}
+
+impl Viewer {
+    /// Records, plays or saves.
+    pub fn on_path(&mut self, what: OnPath) {
+        let Some(camera) = self.camera() else { return };
+        let done = match what {
+            OnPath::Add => {
+                self.path.add(camera).map(|()| format!("place {} of the path", self.path.places.len()))
+            }
+            OnPath::Remove => {
+                self.path.places.pop();
+                Ok(format!("the path has {} places", self.path.places.len()))
+            }
+            OnPath::Play if self.path.plays() => {
+                self.path.playing = None;
+                Ok("the path stops".to_owned())
+            }
+            OnPath::Play => self.path.made().map(|path| {
+                self.path.playing = Some((Instant::now(), path));
+                "the path is played".to_owned()
+            }),
+            OnPath::Save => self.save_path(),
+        };
+        match done {
+            Ok(text) => self.ui.tell(&text),
+            Err(error) => self.tell(&error.to_string()),
+        }
+    }
+
+    fn save_path(&self) -> Result<String> {
+        let text = path_text(&self.path.made()?)?;
+        let name = free_name("surfel-path", "json");
+        fs::write(&name, text).map_err(|error| Error::file(&name, "write", error))?;
+        let name = name.display();
+        Ok(format!("{name} is written: surfel render --path {name} --frames 100 -o out%04d.png"))
+    }
+
+    /// Goes on along the path, if it is being played.
+    pub fn play(&mut self) {
+        let camera = self.path.play(Instant::now());
+        if let (Some(camera), Some(navigation)) = (camera, &mut self.navigation) {
+            navigation.camera = camera;
+            self.moved();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn a_path_goes_through_its_places_and_stops_at_the_last() {
+        let mut path = Path::default();
+        assert!(path.made().is_err() && path.play(Instant::now()).is_none());
+        let at = |x: f64| Camera { eye: DVec3::new(x, 0.0, 5.0), ..Camera::default() };
+        path.add(at(0.0)).unwrap();
+        path.add(at(1.0)).unwrap();
+        assert!(path.add(Camera { orthographic_height: Some(1.0), ..at(2.0) }).is_err());
+        assert_eq!(path.made().unwrap().times(), [0.0, STEP_SECS]);
+        let begun = Instant::now();
+        path.playing = Some((begun, path.made().unwrap()));
+        assert_eq!(path.play(begun).unwrap().eye.x, 0.0);
+        let between = path.play(begun + std::time::Duration::from_secs(1)).unwrap().eye.x;
+        assert!(between > 0.1 && between < 0.9 && path.plays());
+        assert_eq!(path.play(begun + std::time::Duration::from_secs(9)).unwrap().eye.x, 1.0);
+        assert!(!path.plays());
+    }
+}

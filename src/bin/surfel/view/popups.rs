@@ -1,0 +1,86 @@
+//! What pops up over the picture: the keys, messages, the meaning of colors.
+
+use egui::{Align2, Area, Color32, Context, Frame, Grid, Id, Label, Mesh, RichText, ScrollArea, Ui, Vec2};
+
+use super::{
+    keys::{BINDINGS, MOUSE},
+    panel::visuals,
+};
+
+fn popup(context: &Context, name: &str, (align, offset): (Align2, [f32; 2]), add: impl FnOnce(&mut Ui)) {
+    let frame = Frame::popup(&context.style()).fill(visuals().panel_fill);
+    let area = Area::new(Id::new(name)).anchor(align, Vec2::from(offset)).constrain(true);
+    area.show(context, |ui| frame.show(ui, add));
+}
+
+/// All keys, in as many columns as there is room for.
+pub fn keys(context: &Context) {
+    const COLUMN_POINTS: f32 = 480.0;
+    let size = context.content_rect().size();
+    let columns = ((size.x / COLUMN_POINTS) as usize).clamp(1, 3);
+    popup(context, "keys", (Align2::CENTER_CENTER, [0.0; 2]), |ui| {
+        ui.set_max_size(size - Vec2::splat(60.0));
+        ScrollArea::both().show(ui, |ui| {
+            let of_keys = BINDINGS.iter().map(|binding| (binding.key, binding.help));
+            let lines: Vec<(&str, &str)> = MOUSE.iter().copied().chain(of_keys).collect();
+            let rows = lines.len().div_ceil(columns);
+            Grid::new("keys").num_columns(2 * columns).spacing([16.0, 3.0]).show(ui, |ui| {
+                for row in 0..rows {
+                    for (key, help) in lines.iter().skip(row).step_by(rows) {
+                        ui.add(Label::new(RichText::new(*key).strong()).extend());
+                        ui.add(Label::new(*help).extend());
+                    }
+                    ui.end_row();
+                }
+            });
+        });
+    });
+}
+
+/// What is being read, and messages.
+pub fn messages(context: &Context, reading: Option<&str>, texts: &[&str]) {
+    const MOST_POINTS: f32 = 560.0;
+    if reading.is_none() && texts.is_empty() {
+        return;
+    }
+    let width = (context.content_rect().width() - 48.0).clamp(1.0, MOST_POINTS);
+    popup(context, "messages", (Align2::LEFT_BOTTOM, [12.0, -12.0]), |ui| {
+        ui.set_width(width);
+        for text in texts.iter().copied().chain(reading) {
+            ui.label(text);
+        }
+    });
+}
+
+/// What the colors of differences mean, in steps of 8 bits: those of `glsl/view_show.frag.glsl`.
+pub fn color_bar(context: &Context) {
+    const RAMP: [Color32; 6] = [
+        Color32::BLACK,
+        Color32::from_rgb(0, 0, 255),
+        Color32::from_rgb(0, 255, 255),
+        Color32::from_rgb(255, 255, 0),
+        Color32::from_rgb(255, 0, 0),
+        Color32::WHITE,
+    ];
+    popup(context, "color bar", (Align2::CENTER_TOP, [0.0, 12.0]), |ui| {
+        ui.add(Label::new("difference, in steps of 8 bits").extend());
+        let (response, painter) = ui.allocate_painter(Vec2::new(270.0, 34.0), egui::Sense::hover());
+        let bar = response.rect.shrink2(Vec2::new(10.0, 0.0));
+        let mut mesh = Mesh::default();
+        for (number, color) in RAMP.iter().enumerate() {
+            let x = bar.left() + bar.width() * number as f32 / 5.0;
+            mesh.colored_vertex(egui::pos2(x, bar.top()), *color);
+            mesh.colored_vertex(egui::pos2(x, bar.top() + 16.0), *color);
+            if number > 0 {
+                let at = 2 * number as u32;
+                mesh.add_triangle(at - 2, at - 1, at);
+                mesh.add_triangle(at - 1, at, at + 1);
+            }
+            // The ramp goes by the logarithm of one more than the steps, 33 at its end.
+            let text = format!("{:.0}", 33_f32.powf(number as f32 / 5.0) - 1.0);
+            let (font, white) = (egui::FontId::default(), Color32::WHITE);
+            painter.text(egui::pos2(x, bar.bottom()), Align2::CENTER_BOTTOM, text, font, white);
+        }
+        painter.add(mesh);
+    });
+}

@@ -1,0 +1,188 @@
+//! What is drawn when: a picture that moves is as coarse as it must be, one at rest is the whole one, and where nothing has changed
+//! nothing is drawn.
+
+use std::time::{Duration, Instant};
+
+use surfel::{
+    Result,
+    graph::execute::Profile,
+    scene::{Camera, Lod, Settings},
+};
+
+use super::{
+    gpu::{Drawn, FrameDesc, SceneView},
+    keys::Comparing,
+    loading::Step,
+    overlay::OverlayFrame,
+    picture::{Cost, Use},
+    show::{ShowDesc, Shown},
+    viewer::Viewer,
+};
+use crate::console;
+
+/// The camera rests once it has not moved for so long.
+const REST: Duration = Duration::from_millis(40);
+/// How soon the cost of a frame is looked for again that is not done.
+const COST: Duration = Duration::from_millis(10);
+
+impl Viewer {
+    /// When there is something to do without an event.
+    pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
+        let rest = self.moved.map(|moved| moved + REST);
+        let all = [rest, self.files.next_look(), self.ui.next_wake(), self.looks_for_costs];
+        all.into_iter().flatten().min().map(|when| when.max(now))
+    }
+
+    /// That time has come.
+    pub fn wake(&mut self) {
+        let now = Instant::now();
+        self.look_at_files();
+        let rests = self.moved.is_some_and(|moved| now >= moved + REST);
+        let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
+        if rests || is_due(self.ui.next_wake()) || is_due(self.looks_for_costs) {
+            self.window.request_redraw();
+        }
+    }
+
+    /// Draws a frame.
+    ///
+    /// # Errors
+    /// As [`super::gpu::Gpu::draw`].
+    pub fn redraw(&mut self) -> Result<()> {
+        self.fly();
+        self.play();
+        let now = Instant::now();
+        let is_moving = self.input.flies() || self.moved.is_some_and(|moved| now < moved + REST);
+        if !is_moving {
+            self.moved = None;
+        }
+        // Nothing is drawn to a window without pixels, until it has some again.
+        if !self.gpu.make_images()? {
+            return Ok(());
+        }
+        self.learn(is_moving)?;
+        let overlay = self.run_ui()?;
+        let (drawn, which) = self.draw(is_moving, overlay.as_ref())?;
+        match drawn {
+            Drawn::Hidden => {}
+            Drawn::Again => {
+                self.is_stale = true;
+                self.window.request_redraw();
+            }
+            Drawn::Shown => {
+                if let (Some(which), Some(camera)) = (which, self.camera()) {
+                    (self.is_stale, self.shown) = (false, which);
+                    self.drawn = Some((self.settings.clone(), camera));
+                    self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
+                }
+                if self.input.flies() || self.path.plays() {
+                    self.window.request_redraw();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the scene, if it is to be drawn, and shows what there is; for what use it was drawn.
+    fn draw(&mut self, is_moving: bool, overlay: Option<&OverlayFrame>) -> Result<(Drawn, Option<Use>)> {
+        let window_px = self.window_px();
+        let whole = self.at_rest(&Settings { size_px: window_px, ..self.settings.clone() });
+        let (which, settings) = match is_moving && !self.pace.is_finest() {
+            true => (Use::Moving, self.coarse(&whole)),
+            false => (Use::Still, whole),
+        };
+        let is_light = !self.encoding.is_plain();
+        let drawn_so = |settings: Settings| match is_light {
+            true => Settings { background: None, ..settings },
+            false => settings,
+        };
+        let other = self.comparing.map(|_| {
+            drawn_so(Settings { size_px: settings.size_px, lod: settings.lod, ..self.other.clone() })
+        });
+        let background = self.settings.background;
+        let settings = drawn_so(settings);
+        let camera = self.camera();
+        let wants = self.is_stale || (self.shown == Use::Moving && !is_moving);
+        let mut views = Vec::new();
+        if let (true, Some((scene, _)), Some(camera)) = (wants, &self.prepared, &camera) {
+            let view = |settings| SceneView { scene, camera, settings, is_light };
+            views.push((which, view(&settings)));
+            views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
+        }
+        let drawn = (!views.is_empty()).then_some(which);
+        let first = drawn.unwrap_or(self.shown);
+        let (pictures, shown) = match self.comparing {
+            None | Some(Comparing::Keep) => ([first; 2], Shown::One),
+            Some(Comparing::Flicker) => ([Use::Other; 2], Shown::One),
+            Some(Comparing::Split) => ([first, Use::Other], Shown::Both(self.split * window_px[0] as f32)),
+            Some(Comparing::Difference) => ([first, Use::Other], Shown::Difference),
+        };
+        let light = is_light.then_some(self.encoding);
+        let show = ShowDesc { window_px, light, background, shown };
+        let shown = self.prepared.is_some().then_some((pictures, show));
+        let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
+        let desc = FrameDesc { views: &views, shown, overlay, profile, input: self.input_at };
+        Ok((self.gpu.draw(&desc)?, drawn))
+    }
+
+    /// Learns what frames have cost.
+    fn learn(&mut self, is_moving: bool) -> Result<()> {
+        self.looks_for_costs = None;
+        // With what it takes to show the picture, too.
+        let period = self.gpu.take_period().filter(|_| is_moving && self.was_moving);
+        self.was_moving = is_moving;
+        for which in [Use::Moving, Use::Still] {
+            let (costs, all) = self.gpu.take_costs(which)?;
+            for cost in costs {
+                // A picture at rest tells of moving ones where they are the same.
+                if is_moving && (which == Use::Moving || self.pace.is_finest()) {
+                    self.pace.learn(period.map_or(cost.secs, |period| period.as_secs_f64()));
+                }
+                self.ui.history.push(&cost);
+                if self.options.prints_frames {
+                    console::print(&line(which, &cost))?;
+                }
+            }
+            if !all && self.shows_costs() {
+                self.looks_for_costs = Some(Instant::now() + COST);
+            }
+        }
+        Ok(())
+    }
+
+    fn shows_costs(&self) -> bool {
+        self.ui.shows_times() || self.options.prints_frames
+    }
+
+    /// As coarse as a moving picture is.
+    fn coarse(&self, whole: &Settings) -> Settings {
+        let has_levels = self.prepared.as_ref().is_some_and(|(_, step)| *step == Step::Leveled);
+        let lod = if has_levels { self.pace.lod(whole.lod) } else { whole.lod };
+        Settings { size_px: self.pace.size_px(whole.size_px), lod, ..whole.clone() }
+    }
+
+    /// As all of it is drawn: levels of detail that were made for moving pictures are for those alone.
+    pub fn at_rest(&self, settings: &Settings) -> Settings {
+        let own = self.document.as_ref().is_some_and(|document| !document.scene.leveled.is_empty());
+        let lod = match settings.lod {
+            Lod::Auto if !own => Lod::Px(0.0),
+            lod => lod,
+        };
+        Settings { lod, ..settings.clone() }
+    }
+
+    /// The camera of now.
+    pub fn camera(&self) -> Option<Camera> {
+        self.navigation.as_ref().map(|navigation| navigation.camera)
+    }
+}
+
+/// A frame as it is printed.
+fn line(which: Use, cost: &Cost) -> String {
+    let [width, height] = cost.size_px;
+    let what = if which == Use::Moving { "moving" } else { "whole" };
+    let since = cost.since_input.map_or(String::new(), |since| {
+        format!(", its end seen {:.1} ms after its input", 1e3 * since.as_secs_f64())
+    });
+    format!("{what} {width}x{height}: {:.1} ms on the device{since}", 1e3 * cost.secs)
+}

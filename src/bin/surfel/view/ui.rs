@@ -1,0 +1,244 @@
+//! What lies over the picture, and its events: egui, which runs only while there is something of it to see.
+
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
+
+use egui::{Event, PointerButton, Pos2, RawInput, Rect, ViewportId};
+use surfel::Result;
+use winit::event::MouseButton;
+
+use super::{
+    overlay::OverlayFrame,
+    panel::{self, Change, State},
+    picture::Cost,
+    popups,
+    viewer::Viewer,
+};
+
+/// Messages are seen for so long.
+const MESSAGE: Duration = Duration::from_secs(4);
+/// The most messages at once.
+const MOST_MESSAGES: usize = 6;
+
+/// What lies over the picture.
+pub struct Ui {
+    context: egui::Context,
+    px_a_point: f32,
+    events: Vec<Event>,
+    pointer: Pos2,
+    /// A button was pressed over it, and is not released yet.
+    is_pressed: bool,
+    has_panel: bool,
+    has_keys: bool,
+    messages: VecDeque<(Instant, String)>,
+    started: Instant,
+    wakes: Option<Instant>,
+    /// What is being read.
+    pub reading: Option<String>,
+    /// What frames have cost.
+    pub history: History,
+}
+
+/// What the last frames have cost, the latest last.
+#[derive(Default)]
+pub struct History {
+    /// Milliseconds of a frame.
+    pub frames_ms: VecDeque<f32>,
+    /// The passes of the last frame that was timed by passes.
+    pub passes: Vec<(String, f32)>,
+}
+
+/// Frames in the history.
+const MOST_FRAMES: usize = 120;
+
+impl History {
+    /// One more.
+    pub fn push(&mut self, cost: &Cost) {
+        self.frames_ms.push_back(1e3 * cost.secs as f32);
+        while self.frames_ms.len() > MOST_FRAMES {
+            self.frames_ms.pop_front();
+        }
+        let passes = cost.profile.passes.iter();
+        let timed: Vec<_> =
+            passes.filter_map(|pass| Some((pass.name.clone(), 1e3 * pass.secs? as f32))).collect();
+        if !timed.is_empty() {
+            self.passes = timed;
+        }
+    }
+}
+
+impl Ui {
+    /// Nothing but what is read.
+    pub fn new(px_a_point: f32) -> Self {
+        let context = egui::Context::default();
+        context.set_visuals(panel::visuals());
+        Self {
+            context,
+            px_a_point,
+            events: Vec::new(),
+            pointer: Pos2::ZERO,
+            is_pressed: false,
+            has_panel: false,
+            has_keys: false,
+            messages: VecDeque::new(),
+            started: Instant::now(),
+            wakes: None,
+            reading: Some("reading".to_owned()),
+            history: History::default(),
+        }
+    }
+
+    /// The monitor has so many pixels a point.
+    pub fn rescale(&mut self, px_a_point: f32) {
+        self.px_a_point = px_a_point;
+    }
+
+    /// Shows a message for a while.
+    pub fn tell(&mut self, text: &str) {
+        self.messages.push_back((Instant::now() + MESSAGE, text.to_owned()));
+        while self.messages.len() > MOST_MESSAGES {
+            self.messages.pop_front();
+        }
+    }
+
+    /// Shows or hides the panel.
+    pub fn toggle_panel(&mut self) {
+        self.has_panel = !self.has_panel;
+    }
+
+    /// Shows or hides the keys.
+    pub fn toggle_keys(&mut self) {
+        self.has_keys = !self.has_keys;
+    }
+
+    /// Hides all of it.
+    pub fn close(&mut self) {
+        (self.has_panel, self.has_keys) = (false, false);
+        self.messages.clear();
+    }
+
+    /// Whether there is anything of it to see.
+    pub fn is_shown(&self) -> bool {
+        self.has_panel || self.has_keys || !self.messages.is_empty() || self.reading.is_some()
+    }
+
+    /// Whether passes are to be timed.
+    pub fn shows_times(&self) -> bool {
+        self.has_panel
+    }
+
+    /// When it changes without an event.
+    pub fn next_wake(&self) -> Option<Instant> {
+        let message = self.messages.front().map(|(until, _)| *until);
+        [message, self.wakes].into_iter().flatten().min()
+    }
+
+    /// The pointer has moved to a pixel.
+    pub fn pointer_moved(&mut self, [x, y]: [f64; 2]) {
+        self.pointer = Pos2::new(x as f32, y as f32) / self.px_a_point;
+        self.event(Event::PointerMoved(self.pointer));
+    }
+
+    /// The pointer has left the window.
+    pub fn pointer_left(&mut self) {
+        self.event(Event::PointerGone);
+    }
+
+    /// A button; whether it is for what lies over the picture.
+    pub fn pointer_button(&mut self, at: [f64; 2], button: MouseButton, pressed: bool) -> bool {
+        let button = match button {
+            MouseButton::Left => PointerButton::Primary,
+            MouseButton::Right => PointerButton::Secondary,
+            MouseButton::Middle => PointerButton::Middle,
+            _ => return false,
+        };
+        let is_mine = if pressed { self.is_over() } else { self.is_pressed };
+        self.is_pressed = pressed && is_mine;
+        self.pointer_moved(at);
+        if is_mine {
+            let modifiers = egui::Modifiers::default();
+            self.event(Event::PointerButton { pos: self.pointer, button, pressed, modifiers });
+        }
+        is_mine
+    }
+
+    /// The wheel, in lines; whether it is for what lies over the picture.
+    pub fn wheel(&mut self, lines: f32) -> bool {
+        if !self.is_over() {
+            return false;
+        }
+        let (unit, modifiers) = (egui::MouseWheelUnit::Line, egui::Modifiers::default());
+        self.event(Event::MouseWheel { unit, delta: egui::vec2(0.0, lines), modifiers });
+        true
+    }
+
+    fn is_over(&self) -> bool {
+        self.is_shown() && self.context.is_pointer_over_area()
+    }
+
+    fn event(&mut self, event: Event) {
+        // Without anything to see nobody takes them.
+        if self.is_shown() {
+            self.events.push(event);
+        }
+    }
+
+    /// Runs it for a frame: its triangles, its textures, and what is to be changed.
+    fn run(
+        &mut self,
+        window_px: [u32; 2],
+        state: &State,
+    ) -> (OverlayFrame, egui::TexturesDelta, Vec<Change>) {
+        let now = Instant::now();
+        self.messages.retain(|(until, _)| *until > now);
+        let px_a_point = self.px_a_point;
+        self.context.set_pixels_per_point(px_a_point);
+        let size = egui::vec2(window_px[0] as f32, window_px[1] as f32) / px_a_point;
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
+            time: Some((now - self.started).as_secs_f64()),
+            events: std::mem::take(&mut self.events),
+            focused: true,
+            ..RawInput::default()
+        };
+        let mut changes = Vec::new();
+        let texts: Vec<&str> = self.messages.iter().map(|(_, text)| text.as_str()).collect();
+        let output = self.context.run(input, |context| {
+            if self.has_panel {
+                panel::show(context, state, &self.history, &mut changes);
+            }
+            if self.has_keys {
+                popups::keys(context);
+            }
+            popups::messages(context, self.reading.as_deref(), &texts);
+            if state.shows_difference {
+                popups::color_bar(context);
+            }
+        });
+        let delay = output.viewport_output.get(&ViewportId::ROOT).map(|output| output.repaint_delay);
+        self.wakes = delay.filter(|delay| *delay < Duration::from_secs(60)).map(|delay| now + delay);
+        let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
+        let frame = OverlayFrame { primitives, px_a_point: output.pixels_per_point };
+        (frame, output.textures_delta, changes)
+    }
+}
+
+impl Viewer {
+    /// What lies over the picture of this frame; nothing, mostly. What it changes is changed.
+    ///
+    /// # Errors
+    /// Of the device.
+    pub fn run_ui(&mut self) -> Result<Option<OverlayFrame>> {
+        let state = State::of(self);
+        if !self.ui.is_shown() && !state.shows_difference {
+            return Ok(None);
+        }
+        let window_px = self.window_px();
+        let (frame, textures, changes) = self.ui.run(window_px, &state);
+        self.gpu.update_overlay(&textures)?;
+        changes.into_iter().for_each(|change| self.change(change));
+        Ok(Some(frame))
+    }
+}

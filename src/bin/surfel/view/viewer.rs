@@ -1,0 +1,303 @@
+//! A scene in a window: what it is made of, and what comes from elsewhere.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use glam::DVec3;
+use surfel::{
+    Error, ErrorKind, Headless, Result,
+    prepare::PreparedScene,
+    scene::{Camera, Encoding, Settings},
+    vk::{Device, Instance, Messages, Surface, Validation},
+};
+use winit::window::Window;
+
+use super::{
+    ViewArguments,
+    capture::Clipboard,
+    edits::Edits,
+    files::Files,
+    gpu::{Gpu, is_device_lost},
+    input::Input,
+    keys::Comparing,
+    loading::{Document, Loader, News, Step},
+    navigation::Navigation,
+    pace::Pace,
+    path::Path,
+    picture::Use,
+    ui::Ui,
+};
+use crate::{
+    console,
+    device::{DeviceArguments, cache_folder},
+    settings::Given,
+};
+
+/// A window, and all that is shown in it.
+pub struct Viewer {
+    pub window: Arc<Window>,
+    pub gpu: Gpu,
+    pub loader: Loader,
+    pub input: Input,
+    pub files: Files,
+    pub path: Path,
+    pub ui: Ui,
+    /// What the files hold, once they are read.
+    pub document: Option<Document>,
+    /// The scene on the device, and how much of it that is.
+    pub prepared: Option<(PreparedScene, Step)>,
+    pub navigation: Option<Navigation>,
+    pub settings: Settings,
+    pub encoding: Encoding,
+    pub edits: Edits,
+    /// What was drawn last.
+    pub drawn: Option<(Settings, Camera)>,
+    /// The method that is compared with, and how, if it is.
+    pub other: Settings,
+    pub comparing: Option<Comparing>,
+    pub split: f32,
+    pub clipboard: Clipboard,
+    /// The point that was measured last.
+    pub measured: Option<DVec3>,
+    pub options: Options,
+    pub pace: Pace,
+    /// When the picture last moved, until it rests.
+    pub moved: Option<Instant>,
+    /// The frame before was one of those that move.
+    pub was_moving: bool,
+    /// The last input that moved it.
+    pub input_at: Option<Instant>,
+    /// What is shown is not the scene, or not from the camera, of now.
+    pub is_stale: bool,
+    /// The picture that is shown.
+    pub shown: Use,
+    /// When the costs of frames are looked for.
+    pub looks_for_costs: Option<Instant>,
+    /// The program is to end.
+    pub ends: bool,
+    /// The camera of files that are read stays what it is.
+    pub keeps_camera: bool,
+    /// When the device was lost last.
+    lost: Option<Instant>,
+}
+
+/// What the command line says, for later.
+pub struct Options {
+    pub device: DeviceArguments,
+    pub said: Box<dyn Fn(Settings) -> Settings>,
+    pub picture_size: Option<[u32; 2]>,
+    pub samples: surfel::scene::Samples,
+    pub prints_frames: bool,
+}
+
+impl Viewer {
+    /// Nothing is shown yet.
+    pub fn new(
+        window: Arc<Window>,
+        gpu: Gpu,
+        loader: Loader,
+        settings: Settings,
+        arguments: &ViewArguments,
+    ) -> Self {
+        let ui = Ui::new(window.scale_factor() as f32);
+        let samples = settings.samples;
+        let settings = Settings { samples: surfel::scene::Samples(1), ..settings };
+        Self {
+            other: settings.clone(),
+            encoding: arguments.encoding.over(Encoding::default()),
+            options: Options::of(arguments, samples),
+            window,
+            gpu,
+            loader,
+            ui,
+            settings,
+            input: Input::default(),
+            files: Files::default(),
+            path: Path::default(),
+            drawn: None,
+            document: None,
+            prepared: None,
+            navigation: None,
+            edits: Edits { things: Vec::new(), splat_scale: 1.0 },
+            comparing: None,
+            split: 0.5,
+            clipboard: Clipboard::default(),
+            measured: None,
+            pace: Pace::default(),
+            moved: None,
+            was_moving: false,
+            input_at: None,
+            is_stale: true,
+            looks_for_costs: None,
+            shown: Use::Still,
+            ends: false,
+            keeps_camera: false,
+            lost: None,
+        }
+    }
+
+    /// Width and height of the window's pictures.
+    pub fn window_px(&self) -> [u32; 2] {
+        self.gpu.window_px().map(|side| side.max(1))
+    }
+
+    /// The camera has moved.
+    pub fn moved(&mut self) {
+        self.moved = Some(Instant::now());
+        self.input_at = self.moved;
+        self.changed();
+    }
+
+    /// Something that the picture shows has changed.
+    pub fn changed(&mut self) {
+        self.is_stale = true;
+        self.window.request_redraw();
+    }
+
+    /// Tells something, in the window and on the standard error.
+    pub fn tell(&mut self, text: &str) {
+        console::say(text);
+        self.ui.tell(text);
+        self.window.request_redraw();
+    }
+
+    /// News of the thread that reads files.
+    ///
+    /// # Errors
+    /// Of the first files, or the device.
+    pub fn hear(&mut self, news: News) -> Result<()> {
+        match news {
+            News::Opened(document) => self.opened(*document),
+            News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
+                self.prepared = Some((prepared.scene, prepared.step));
+                self.changed();
+                Ok(())
+            }
+            News::Prepared(_) => Ok(()),
+            News::Upload(staging, answer) => {
+                let done = self.gpu.headless.queue().run_once("upload", |commands| {
+                    // SAFETY: recording; the thread keeps what it uploads to until it has the answer, which comes after the wait.
+                    unsafe { staging.record(commands) };
+                    Ok(())
+                });
+                // A thread that is gone needs no answer.
+                let _ = answer.send(done);
+                Ok(())
+            }
+            News::Failed(error) if self.document.is_none() => Err(error),
+            News::Failed(error) => {
+                self.ui.reading = None;
+                self.tell(&error.to_string());
+                Ok(())
+            }
+        }
+    }
+
+    fn opened(&mut self, document: Document) -> Result<()> {
+        let first = self.document.is_none();
+        if first {
+            self.settings = (self.options.said)(document.picture.over(self.settings.clone()));
+            self.other = self.settings.clone();
+        }
+        self.settings.check_scene(&document.scene)?;
+        match &mut self.navigation {
+            Some(navigation) if self.keeps_camera => navigation.set_ball(document.ball),
+            navigation => *navigation = Some(Navigation::new(document.camera, document.ball)),
+        }
+        if !(self.keeps_camera && self.edits.things.len() == Edits::none(&document.scene).things.len()) {
+            self.edits = Edits::none(&document.scene);
+        }
+        let names: Vec<_> = document.inputs.iter().map(|input| input.name.as_str()).collect();
+        self.window.set_title(&format!("{} - surfel (? shows the keys)", names.join(", ")));
+        self.ui.reading = None;
+        self.files.watch(&document.files.files);
+        self.document = Some(document);
+        let is_other = !std::mem::take(&mut self.keeps_camera);
+        self.prepare(is_other);
+        self.changed();
+        Ok(())
+    }
+
+    /// Brings the scene to the device, with the changes of now. `is_other`: it is not that which is shown, so that a part of it is better
+    /// than nothing.
+    pub fn prepare(&mut self, is_other: bool) {
+        if let Some(document) = &self.document {
+            let device = self.gpu.headless.device().clone();
+            self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device, is_other);
+        }
+    }
+
+    /// Goes on after an error, if that is possible: with settings that are accepted, or on another device.
+    ///
+    /// # Errors
+    /// The error, where it is not.
+    pub fn recover(&mut self, error: Error) -> Result<()> {
+        // Methods that a camera rules out, and cameras beyond what 32 bits tell apart.
+        if let (ErrorKind::Option { .. }, Some((settings, camera))) = (error.kind(), self.drawn.take()) {
+            self.tell(&error.to_string());
+            self.settings = settings;
+            if let Some(navigation) = &mut self.navigation {
+                navigation.camera = camera;
+            }
+            self.changed();
+            return Ok(());
+        }
+        let now = Instant::now();
+        let again_so_soon = self.lost.is_some_and(|lost| now - lost < Duration::from_secs(10));
+        if !is_device_lost(&error) || again_so_soon {
+            return Err(error);
+        }
+        self.lost = Some(now);
+        self.prepared = None;
+        let (gpu, _) = open_gpu(&self.window, &self.options.device)?;
+        self.gpu = gpu;
+        self.ui = Ui::new(self.window.scale_factor() as f32);
+        self.tell("the device was lost and is opened again");
+        self.prepare(true);
+        self.changed();
+        Ok(())
+    }
+
+    /// Closes the window; keeps what was compiled.
+    pub fn close(self) {
+        let Self { gpu, loader, prepared, .. } = self;
+        drop(loader);
+        drop(prepared);
+        // A lost cache costs the next run some time, that is all.
+        let _ = gpu.headless.renderer.shaders.save_cache();
+    }
+}
+
+impl Options {
+    fn of(arguments: &ViewArguments, samples: surfel::scene::Samples) -> Self {
+        let said: Given<Settings> = arguments.settings.clone();
+        Self {
+            device: arguments.device.clone(),
+            said: Box::new(move |settings| said.said_over(settings)),
+            picture_size: arguments.picture_size,
+            samples,
+            prints_frames: arguments.print_frames,
+        }
+    }
+}
+
+/// Opens the device for a window.
+///
+/// # Errors
+/// As [`Instance::for_display`], [`Device::for_surface`]; whatever the driver answers.
+pub fn open_gpu(window: &Arc<Window>, arguments: &DeviceArguments) -> Result<(Gpu, Arc<Messages>)> {
+    let validation = if arguments.validate { Validation::On } else { Validation::Off };
+    let instance = Instance::for_display(validation, &**window)?;
+    let messages = instance.messages();
+    let as_window: Arc<dyn surfel::vk::Window> = Arc::clone(window) as Arc<dyn surfel::vk::Window>;
+    let surface = Surface::new(&instance, Arc::clone(&as_window))?;
+    let device = Device::for_surface(&surface, arguments.asked.as_deref())?;
+    let headless = Headless::on(device, cache_folder().as_deref())?;
+    let mut gpu = Gpu::new(headless, surface, as_window)?;
+    let size = window.inner_size();
+    gpu.resize([size.width, size.height]);
+    gpu.make_images()?;
+    Ok((gpu, messages))
+}

@@ -1,0 +1,196 @@
+//! What is looked at for a pick, and what the device's answer means.
+
+use glam::DVec3;
+
+use super::{NOTHING_MOVED, Nearest, RUN};
+use crate::passes::plan::{
+    FramePlan, SurfacePlan,
+    block_list::ListedBlocks,
+    budget::within_budget,
+    draws::{Draw, draws, with_hard_steps, without_levels},
+    mesh_draws::{MeshDraw, mesh_draws},
+    range::DepthRange,
+};
+use crate::{
+    prepare::PreparedScene,
+    scene::{Camera, Edges, Lod, Settings, Window},
+    shaders::config::*,
+    vk::Limits,
+};
+
+/// What is looked at for a pick.
+pub struct PickPlan<'a> {
+    pub(super) draws: Vec<Draw<'a>>,
+    pub(super) meshes: Vec<MeshDraw<'a>>,
+    pub(super) listed: ListedBlocks,
+    /// Sees the one pixel.
+    pub(super) camera: Camera,
+    /// Where the camera is.
+    eye: DVec3,
+    range: DepthRange,
+    scene: &'a PreparedScene,
+}
+
+/// What is seen in a pixel: of splats the one whose depth, moved away from the eye by ε, is nearest, as visibility has it; of polygons the
+/// nearest. Transparent things count as any.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picked {
+    /// Where the ray through the pixel's center meets it, in world space.
+    pub position: DVec3,
+    /// Its unit normal, toward the eye, in world space.
+    pub normal: DVec3,
+    /// How far the position is from the eye.
+    pub distance: f64,
+    /// Its depth along the view's axis, in world units.
+    pub depth: f64,
+    /// The number of its object in [`PreparedScene::objects`].
+    pub object: usize,
+    /// What of the object.
+    pub part: PickedPart,
+}
+
+/// What of an object is picked, by its number among all of its kind, from 0 on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PickedPart {
+    /// A splat. Its number in the object is known of scenes that were prepared so ([`crate::scene::Scene::numbered`]), but not of objects that
+    /// came with their levels of detail, of which only a part may be there.
+    Splat(Option<u32>),
+    /// A splat that stands for others in levels of detail.
+    Node,
+    /// A triangle; its number is known alike.
+    Triangle(Option<u32>),
+}
+
+impl<'a> PickPlan<'a> {
+    /// What is looked at for a pixel of a picture with these settings, whose frame is planned so.
+    pub(crate) fn new(
+        frame: &FramePlan<'_>,
+        scene: &'a PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        limits: &Limits,
+        pixel: [u32; 2],
+    ) -> Self {
+        // Sizes are of the picture, not of the pixel.
+        let settings = within_budget(scene, camera, settings);
+        let lod = Lod::Px(settings.tau_px());
+        let window = Window {
+            whole_px: Some(camera.window.whole_px.unwrap_or(settings.size_px)),
+            corner_px: [0, 1].map(|i| camera.window.corner_px[i] + f64::from(pixel[i])),
+        };
+        let range = DepthRange::of(scene, camera);
+        let eye = camera.eye;
+        let camera = Camera { window, ..range.begin(camera) };
+        let settings = Settings { size_px: [1; 2], lod, ..settings.into_owned() };
+        let all = draws(scene, (&camera, range), &settings, limits).into_iter();
+        let (transparent, opaque) = all.partition(|draw| draw.chunk.transparent);
+        let mut draws = as_drawn(opaque, &frame.opaque);
+        draws.extend(as_drawn(transparent, &frame.transparent));
+        let seen: Vec<_> = draws.iter().map(Draw::potentially_visible_blocks).collect();
+        let listed = ListedBlocks::of(&mut draws, &seen, 0..1);
+        let mut meshes = mesh_draws(scene, (&camera, range), &settings);
+        let mut first = words_of(&draws);
+        for draw in &mut meshes {
+            draw.constants.splat_count = draw.chunk.triangles;
+            draw.constants.first_record = first;
+            first += runs_of(draw);
+        }
+        Self { draws, meshes, listed, camera, eye, range, scene }
+    }
+
+    /// Bytes of the device's answer.
+    pub fn size_bytes(&self) -> u64 {
+        let records = words_of(&self.draws) + self.meshes.iter().map(runs_of).sum::<u32>();
+        u64::from(records.max(1)) * size_of::<Nearest>() as u64
+    }
+
+    /// What the device's answer means; `None` where nothing is seen. Of depths that are equal, the first one is taken.
+    pub fn read(&self, answer: &[u8]) -> Option<Picked> {
+        let records = answer.chunks_exact(size_of::<Nearest>());
+        let nearest = |(found, best): (usize, Nearest), (place, record): (usize, &[u8])| {
+            let record: Nearest = bytemuck::pod_read_unaligned(record);
+            if record.moved > best.moved { (place, record) } else { (found, best) }
+        };
+        let nothing = Nearest { moved: NOTHING_MOVED, depth: 0.0, index: 0, unused: 0, normal: [0.0; 4] };
+        let anything = !(self.draws.is_empty() && self.meshes.is_empty());
+        let (place, record) = records.enumerate().filter(|_| anything).fold((0, nothing), nearest);
+        if record.moved <= NOTHING_MOVED {
+            return None;
+        }
+        let place = place as u32;
+        let index = record.index as usize;
+        let of_mesh = self.meshes.iter().rfind(|draw| draw.constants.first_record <= place);
+        let of_splats = || self.draws.iter().rfind(|draw| draw.constants.first_record / WORD <= place);
+        let (object, part) = match of_mesh {
+            Some(MeshDraw { chunk, .. }) => (chunk.object, PickedPart::Triangle(chunk.number_of(index))),
+            None => {
+                let chunk = of_splats()?.chunk;
+                let splat = PickedPart::Splat(chunk.number_of(index));
+                (chunk.object, if chunk.stands_for_others() { PickedPart::Node } else { splat })
+            }
+        };
+        let (position, depth) = self.place(record.depth.into());
+        let view_from_world = self.camera.view_from_world();
+        let [x, y, z, _] = record.normal.map(f64::from);
+        Some(Picked {
+            position,
+            normal: (view_from_world.rotation.transpose() * DVec3::new(x, y, z)).normalize(),
+            distance: position.distance(self.eye),
+            depth,
+            object,
+            part,
+        })
+    }
+
+    /// The names of the scene's objects.
+    pub fn object_name(&self, object: usize) -> &str {
+        self.scene.objects.get(object).map_or("", String::as_str)
+    }
+
+    /// Where the pixel's ray has a reversed depth, in world space, and the depth there from the camera as it was given.
+    fn place(&self, reversed: f64) -> (DVec3, f64) {
+        let camera = &self.camera;
+        let focal_px = camera.focal_px(1);
+        let [x, y] = camera.middle_px([1; 2]).map(|middle| (0.5 - middle) / focal_px);
+        let (depth, at) = match camera.is_orthographic() {
+            true => {
+                let z = (1.0 - reversed) * self.range.end;
+                (self.range.from_eye + z, DVec3::new(x, y, z))
+            }
+            false => {
+                let z = camera.near() / reversed;
+                (z, z * DVec3::new(x, y, 1.0))
+            }
+        };
+        let view = camera.view_from_world();
+        (view.eye + view.rotation.transpose() * at, depth)
+    }
+}
+
+/// Splats with the levels of detail and the ε that a frame draws them with.
+fn as_drawn<'a>(mut splats: Vec<Draw<'a>>, plan: &SurfacePlan<'_>) -> Vec<Draw<'a>> {
+    let drawn = plan.bands().first().map_or(&plan.splats, |band| &band.splats);
+    let mut levels = drawn.iter().filter_map(|draw| draw.levels).peekable();
+    if levels.peek().is_none() {
+        without_levels(&mut splats);
+    } else if !levels.any(|levels| levels.blends()) {
+        with_hard_steps(&mut splats);
+    }
+    if plan.settings.edges == Edges::Coverage {
+        splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_COVERAGE_EDGES, 1)));
+    }
+    splats
+}
+
+/// Splats of a record.
+const WORD: u32 = u32::BITS;
+
+/// Records of splats.
+fn words_of(draws: &[Draw<'_>]) -> u32 {
+    draws.iter().map(|draw| draw.constants.listed_blocks()).sum::<u32>() * (BLOCK_SPLATS / WORD)
+}
+
+/// Records of a piece of a mesh.
+pub(super) fn runs_of(draw: &MeshDraw<'_>) -> u32 {
+    draw.chunk.triangles.div_ceil(RUN)
+}

@@ -1,0 +1,262 @@
+//! The program with its window, and beside it.
+
+use std::{
+    fs,
+    path::PathBuf,
+    process::{Child, Command, Stdio},
+    sync::{Arc, Mutex},
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+
+use super::screen::{Screen, Shot};
+
+/// Patience with a machine that does other things, too.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A folder that goes away with its content.
+pub struct Folder(temp_dir::TempDir);
+
+impl Folder {
+    pub fn new() -> Self {
+        Self(temp_dir::TempDir::new().unwrap())
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, content: &str) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    /// So many disks in colors on a ball, replaced at once.
+    pub fn splats(&self, name: &str, count: u32) {
+        let properties =
+            ["x", "y", "z", "nx", "ny", "nz", "radius"].map(|name| format!("property float {name}\n"));
+        let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+        let lines: String = (0..count)
+            .map(|i| {
+                let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(count);
+                let (sin, cos) = (2.399_963 * f64::from(i)).sin_cos();
+                let ring = (1.0 - z * z).sqrt();
+                let (x, y) = (ring * cos, ring * sin);
+                let radius = 3.0 / f64::from(count).sqrt();
+                let [red, green, blue] = [37, 91, 53].map(|step| i * step % 256);
+                format!("{x} {y} {z} {x} {y} {z} {radius} {red} {green} {blue}\n")
+            })
+            .collect();
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement vertex {count}\n{}{colors}end_header\n{lines}",
+            properties.concat()
+        );
+        self.write("new", &text);
+        fs::rename(self.path("new"), self.path(name)).unwrap();
+    }
+}
+
+/// How the program ended, and what it said.
+pub struct Run {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// Runs the program to its end.
+pub fn surfel(folder: &Folder, arguments: &[&str], environment: &[(&str, &str)]) -> Run {
+    let output = command(folder, arguments).envs(environment.iter().copied()).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Run { code: output.status.code().unwrap_or(-1), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+fn command(folder: &Folder, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_surfel"));
+    command.args(arguments).current_dir(folder.0.path()).stdin(Stdio::null());
+    command
+}
+
+/// The picture that `surfel render` writes.
+pub fn render(folder: &Folder, words: &[&str]) -> Shot {
+    let run = surfel(folder, &[&["render", "-o", "rendered.png"], words].concat(), &[]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    shot_of(&folder.path("rendered.png"))
+}
+
+fn shot_of(path: &std::path::Path) -> Shot {
+    let image = image::open(path).unwrap().into_rgb8();
+    let size = [image.width(), image.height()];
+    Shot { size, pixels: image.pixels().map(|pixel| pixel.0).collect() }
+}
+
+/// The program with its window in the top left corner of a screen, under validation.
+pub struct View<'a> {
+    screen: &'a Screen,
+    folder: &'a Folder,
+    child: Child,
+    window: String,
+    stdout: Arc<Mutex<String>>,
+    readers: Vec<JoinHandle<()>>,
+    stderr: Arc<Mutex<String>>,
+}
+
+impl<'a> View<'a> {
+    /// Opens it, and gives it the keyboard.
+    pub fn open(screen: &'a Screen, folder: &'a Folder, words: &[&str]) -> Self {
+        let mut child = command(folder, &[&["view", "--validate"], words].concat())
+            .env("DISPLAY", screen.name())
+            .env_remove("WAYLAND_DISPLAY")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let (stdout, stderr) = (Arc::default(), Arc::default());
+        let readers = vec![
+            collect(child.stdout.take().unwrap(), &stdout),
+            collect(child.stderr.take().unwrap(), &stderr),
+        ];
+        let mut view = Self { screen, folder, child, window: String::new(), stdout, readers, stderr };
+        view.wait("a window is there", |view| {
+            view.window = view.screen.drive(&["search", "--name", "surfel"]).trim().to_owned();
+            view.window.lines().count() == 1
+        });
+        // Without a window manager nobody else does it.
+        view.screen.drive(&["windowfocus", "--sync", &view.window]);
+        view
+    }
+
+    fn wait(&mut self, what: &str, mut is_so: impl FnMut(&mut Self) -> bool) {
+        let begun = Instant::now();
+        while !is_so(self) {
+            let said = || self.stderr.lock().unwrap().clone();
+            assert!(begun.elapsed() < PATIENCE, "waited in vain: {what}; {}", said());
+            assert!(self.is_running(), "it ended: {what}; {}", self.stderr.lock().unwrap());
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    pub fn is_running(&mut self) -> bool {
+        self.child.try_wait().unwrap().is_none()
+    }
+
+    fn size(&self) -> [u32; 2] {
+        let told = self.screen.drive(&["getwindowgeometry", "--shell", &self.window]);
+        let field = |name: &str| {
+            let line = told.lines().find_map(|line| line.strip_prefix(name));
+            line.and_then(|value| value.parse().ok()).unwrap_or(1)
+        };
+        [field("WIDTH="), field("HEIGHT=")]
+    }
+
+    /// Waits until the screen shows a picture, but for a step of 8 bits.
+    pub fn wait_for(&mut self, picture: &Shot) {
+        let screen = self.screen;
+        let mut least = usize::MAX;
+        let begun = Instant::now();
+        loop {
+            let differ = screen.shot(picture.size).differs_from(picture);
+            least = least.min(differ);
+            if differ == 0 {
+                return;
+            }
+            let said = self.stderr.lock().unwrap().clone();
+            assert!(begun.elapsed() < PATIENCE, "at best {least} pixels differ, {differ} at the end; {said}");
+            assert!(self.is_running(), "it ended: {said}");
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Waits until what the window shows is so.
+    pub fn wait_until(&mut self, what: &str, is_so: impl Fn(&Shot) -> bool) {
+        let size = self.size();
+        self.wait(what, |view| is_so(&view.screen.shot(size)));
+    }
+
+    /// The camera, as the program prints it where it is copied.
+    pub fn camera(&mut self) -> Vec<String> {
+        let before = self.stdout.lock().unwrap().len();
+        self.screen.key("c");
+        self.wait("the camera is printed", |view| view.stdout.lock().unwrap()[before..].ends_with('\n'));
+        // The message over the picture goes.
+        self.screen.key("Escape");
+        self.stdout.lock().unwrap()[before..].split_whitespace().map(str::to_owned).collect()
+    }
+
+    /// Waits for a picture that the program writes.
+    pub fn wait_for_file(&mut self, name: &str) -> Shot {
+        let path = self.folder.path(name);
+        self.wait(name, |_| path.exists());
+        shot_of(&path)
+    }
+
+    pub fn resize(&mut self, [width, height]: [u32; 2]) {
+        self.screen.drive(&["windowsize", &self.window, &width.to_string(), &height.to_string()]);
+    }
+
+    /// Mouse and keys at random, all but those that end it.
+    pub fn play_at_random(&mut self, mut random: Random, long: Duration) {
+        const KEYS: &str = "h f 1 2 3 4 5 6 7 u p t r R g G k n b v V l L bracketright bracketleft m period comma x z space y o question \
+                            Escape F5 w a s d q e j";
+        let keys: Vec<_> = KEYS.split_whitespace().collect();
+        let begun = Instant::now();
+        while begun.elapsed() < long {
+            let at = |random: &mut Random| [random.below(320) as i32, random.below(220) as i32];
+            match random.below(6) {
+                0 | 1 => self.screen.key(keys[random.below(keys.len() as u32) as usize]),
+                2 => {
+                    let (from, to) = (at(&mut random), at(&mut random));
+                    self.screen.drag(from, to, 1 + random.below(3));
+                }
+                3 => drop(self.screen.drive(&["click", if random.below(2) == 0 { "4" } else { "5" }])),
+                4 => drop(self.screen.drive(&["click", "--repeat", "2", "--delay", "30", "1"])),
+                _ => self.resize([1 + random.below(500), 1 + random.below(400)]),
+            }
+            assert!(self.is_running(), "it ended: {}", self.stderr.lock().unwrap());
+        }
+    }
+
+    /// Ends it by key: it has ended well, and the layer has said nothing.
+    pub fn end(mut self) -> Run {
+        self.screen.drive(&["windowfocus", &self.window]);
+        self.screen.key("ctrl+q");
+        let begun = Instant::now();
+        while self.is_running() {
+            assert!(begun.elapsed() < PATIENCE, "it does not end");
+            thread::sleep(Duration::from_millis(20));
+        }
+        let code = self.child.wait().unwrap().code().unwrap_or(-1);
+        self.readers.drain(..).for_each(|reader| reader.join().unwrap());
+        let (stdout, stderr) = (self.stdout.lock().unwrap().clone(), self.stderr.lock().unwrap().clone());
+        assert_eq!(code, 0, "{stderr}");
+        assert!(stderr.contains("validation: no message"), "{stderr}");
+        Run { code, stdout, stderr }
+    }
+}
+
+impl Drop for View<'_> {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn collect(mut from: impl std::io::Read + Send + 'static, into: &Arc<Mutex<String>>) -> JoinHandle<()> {
+    let into = Arc::clone(into);
+    thread::spawn(move || {
+        let mut bytes = [0; 4096];
+        while let Ok(count @ 1..) = from.read(&mut bytes) {
+            into.lock().unwrap().push_str(&String::from_utf8_lossy(&bytes[..count]));
+        }
+    })
+}
+
+/// Numbers at random, the same in every run.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Below `end`.
+    pub fn below(&mut self, end: u32) -> u32 {
+        // Knuth's MMIX.
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) % u64::from(end)) as u32
+    }
+}
