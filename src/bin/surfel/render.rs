@@ -41,6 +41,7 @@ const EXAMPLES: &str = "Examples:
   surfel render igea.ply --light direction=1,-1,-1 --light eye,intensity=0.2 --tonemap agx --exposure 1
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
+  mpirun -n 4 surfel render huge.surfel   by four processes, each with a part of it (built with --features mpi)
 
 A camera file: {\"eye\":[0,1,4], \"target\":[0,0,0], \"up\":[0,1,0], \"fov_deg\":45, \"near\":0.01}; near may be left out, and orthographic, the picture's height, may stand for fov_deg.";
 
