@@ -60,6 +60,7 @@ fn assert_one_picture(found: &Frame, truth: &Frame, what: &str) {
 /// and without levels; lit, by depth.
 #[test]
 fn readers_of_a_file_make_the_picture_of_one() {
+    type Change<'c> = &'c dyn Fn(&mut Settings);
     let mut headless = shared();
     let folder = temp_dir::TempDir::new().unwrap();
     let path = folder.path().join("a.surfel");
@@ -70,7 +71,7 @@ fn readers_of_a_file_make_the_picture_of_one() {
         (settings.rasterizer, settings.cull) = (Rasterizer::Perspective, Cull::List);
     };
     let by_depth = |settings: &mut Settings| settings.shading = Shading::EyeDome;
-    let cases: [(&dyn Fn(&mut Settings), f64, f64); 5] = [
+    let cases: [(Change<'_>, f64, f64); 5] = [
         (&compute, 3.5, 1.0),
         (&compute, 1.02, 0.0),
         (&points, 3.5, 2.0),

@@ -43,6 +43,7 @@ const EXAMPLES: &str = "Examples:
   surfel render igea.ply --pick 512,300 --pick 600,300      what is seen there, and how far the two are apart
   surfel render igea.ply --frames 20 --timings igea.json
   surfel render igea.ply --accumulate f32 --dump buffers --validate
+  mpirun -n 4 surfel render huge.surfel   by four processes, each with a part of it (built with --features mpi)
 
   surfel render igea.ply --turntable 6 -o out%04d.png       180 pictures around it; go on where it stopped by the same line
   surfel render igea.ply --path path.json --frames 300 -o film.mp4

@@ -148,7 +148,7 @@ fn several_readers_read_each_page_once() {
         assert!(most - least <= 2 * (1 << 14), "{readers}: {counts:?}");
     }
     // Four have room for finer ones than one.
-    let budget = 12 << 20;
+    let budget = 16 << 20;
     let (one, four) = (read(view, budget), [0, 1, 2, 3].map(|i| read(view.with_readers(i, 4), budget)));
     assert!(one.1 > four[0].1 && four.iter().all(|(_, of)| *of == four[0].1), "{} {}", one.1, four[0].1);
 }

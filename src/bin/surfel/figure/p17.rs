@@ -80,7 +80,7 @@ pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
     ];
     let notes = [
         &format!("Model: {what}; not the paper's. Unlit colors."),
-        "Weights are over how much the surface overlaps itself around each splat, so that they sum to about 1: the paper's sum to more.",
+        "Weights are over how much the surface overlaps itself around each splat, and so vary less than the paper's.",
     ];
     Ok(Sheet::new("Per-pixel normalization (Pajarola et al. 2003, figure 17)", 3, panels, &notes))
 }

@@ -16,7 +16,7 @@ use crate::{inputs::Inputs, scene::load_scene};
 const SPLATS: usize = 400_000;
 
 /// So often the size is halved for which there are half as many splats.
-const HALVINGS: u32 = 10;
+const HALVINGS: u32 = 16;
 
 /// The paper's tolerance, in percent of the window.
 const PAPERS_PERCENT: f64 = 0.01;
