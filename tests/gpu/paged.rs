@@ -61,6 +61,11 @@ fn camera(distance: f64, x: f64) -> Camera {
     Camera { eye, target, near: Some(0.01), ..Camera::default() }
 }
 
+/// Whether a pixel differs by more than rounding.
+fn is_another(a: &[f32; 4], b: &[f32; 4]) -> bool {
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > 1.0 / 1024.0)
+}
+
 /// Takes what there is for some views.
 fn update(headless: &Headless, paged: &mut PagedScene, views: &[PageView], wait: bool) -> Vec<Option<Drawn>> {
     paged.update(views, &mut |scene| headless.prepare(scene, &|_, _| {}), wait).unwrap()
@@ -103,13 +108,14 @@ fn a_camera_that_moves_sees_the_whole_at_every_moment() {
         hard.scene = Scene { leveled: vec![object], ..Scene::default() };
         let truth = render_as(&mut headless, &hard, PICTURE);
         let error = rms(&truth, &found);
+        let others = truth.linear.iter().zip(&found.linear).filter(|(a, b)| is_another(a, b)).count();
         println!(
-            "step {step}: {tau_px} px, finest {is_finest}, {} pages, {} bytes: {error:.1e}",
+            "step {step}: {tau_px} px, finest {is_finest}, {} pages, {} bytes: {error:.1e}, {others} others",
             paged.pages(),
             paged.bytes()
         );
-        // The same splats in other chunks, see `in_parts.rs`: a pixel at a rim more or less.
-        assert!(error < 3e-3, "step {step}: {error}");
+        // The same splats in other chunks, see `in_parts.rs`: a pixel at a rim more or less, of which there are 1e-4 at most.
+        assert!(others <= 6 && error < 3e-3, "step {step}: {others}, {error}");
         assert!(truth.linear.iter().filter(|pixel| pixel[3] > 0.5).count() > 5000, "step {step}");
     }
     // From coarse to fine.
