@@ -7,19 +7,17 @@ use std::{
 
 use ash::vk;
 use surfel::{
-    Error, ErrorKind, Headless, Result,
-    graph::execute::Profile,
-    prepare::PreparedScene,
+    Headless, Result,
     renderer::Readbacks,
-    scene::{Camera, Settings},
     vk::{PipelineCache, Semaphore, Surface, Swapchain, Turn, Window},
 };
 
 use super::{
     frame::{Frame, begin_rendering, end_rendering},
-    overlay::{OverlayFrame, OverlayPass},
+    frame_desc::{Drawn, FrameDesc},
+    overlay::OverlayPass,
     picture::{Begun, Cost, Picture, Use},
-    show::{Show, ShowDesc},
+    show::Show,
 };
 
 /// How many frames the host records ahead of the device.
@@ -49,44 +47,6 @@ struct Drawing {
     format: vk::Format,
     show: Show,
     overlay: OverlayPass,
-}
-
-/// A scene as a picture of it is drawn.
-#[derive(Clone, Copy)]
-pub struct SceneView<'a> {
-    /// The scene.
-    pub scene: &'a PreparedScene,
-    /// From where.
-    pub camera: &'a Camera,
-    /// How, and in which size.
-    pub settings: &'a Settings,
-    /// The picture is light, not colors.
-    pub is_light: bool,
-}
-
-/// A frame to draw.
-pub struct FrameDesc<'a> {
-    /// Pictures to draw anew; others stay as they are.
-    pub views: &'a [(Use, SceneView<'a>)],
-    /// The pictures to show; nothing where there is none yet.
-    pub shown: Option<([Use; 2], ShowDesc)>,
-    /// What lies over it.
-    pub overlay: Option<&'a OverlayFrame>,
-    /// What is measured of the scene's passes.
-    pub profile: Option<Profile>,
-    /// The input that it answers to.
-    pub input: Option<Instant>,
-}
-
-/// What drawing came to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drawn {
-    /// The window shows it, or will soon.
-    Shown,
-    /// The window has no pixels.
-    Hidden,
-    /// The window changes; it is to be tried again.
-    Again,
 }
 
 impl Gpu {
@@ -307,9 +267,4 @@ impl Gpu {
         }
         Ok(Drawn::Again)
     }
-}
-
-/// Whether the device is lost, and another one must be opened.
-pub fn is_device_lost(error: &Error) -> bool {
-    matches!(error.kind(), ErrorKind::Vulkan { result: vk::Result::ERROR_DEVICE_LOST, .. })
 }

@@ -14,12 +14,12 @@ use surfel::{
     load::PictureDescription,
     prepare::{PreparedScene, SplatSetLayout, prepare},
     report::InputReport,
-    scene::{Ball, Camera, Light, Object, Scene, Storage},
+    scene::{Ball, Camera, Light, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 use winit::event_loop::EventLoopProxy;
 
-use super::edits::{Edits, scale};
+use super::edits::{Edits, part_of};
 use crate::{
     camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
     scene::Loaded,
@@ -76,8 +76,6 @@ pub enum Step {
 
 /// A part of a scene is shown first where it has more splats.
 const PART_FROM: usize = 200_000;
-/// So many then.
-const PART_SPLATS: usize = 60_000;
 /// Levels of detail are made of more splats.
 const LEVELS_FROM: usize = 300_000;
 
@@ -279,24 +277,5 @@ impl Worker {
             }
         };
         prepare(device, &self.limits, &layout, scene, &mut submit, &|_, _| {})
-    }
-}
-
-/// Some splats of each object, as much larger as they are fewer; and all polygons.
-fn part_of(scene: &Scene) -> Scene {
-    let step = scene.splat_count().div_ceil(PART_SPLATS).max(1);
-    let objects = scene.objects.iter().map(|object| {
-        let mut splats = object.splats.picked((0..object.splats.len()).step_by(step));
-        scale(&mut splats, (step as f32).sqrt());
-        Object { name: object.name.clone(), splats, closed: object.closed }
-    });
-    Scene {
-        objects: objects.collect(),
-        meshes: scene.meshes.clone(),
-        lights: scene.lights.clone(),
-        epsilons: scene.epsilons.clone(),
-        without_auto_epsilon: true,
-        leveled: scene.leveled.clone(),
-        ..Scene::default()
     }
 }

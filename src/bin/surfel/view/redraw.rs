@@ -10,7 +10,7 @@ use surfel::{
 };
 
 use super::{
-    gpu::{Drawn, FrameDesc, SceneView},
+    frame_desc::{Drawn, FrameDesc, SceneView},
     keys::Comparing,
     loading::Step,
     overlay::OverlayFrame,
