@@ -172,7 +172,12 @@ impl Viewer {
                 Ok(())
             }
             News::Prepared(_) => Ok(()),
-            News::Upload(staging, answer) => {
+            // It may be for a device that is lost.
+            News::Upload(_, job, answer) if !self.loader.is_newest(job) => {
+                let _ = answer.send(Err(Error::option("scene", "another one has come")));
+                Ok(())
+            }
+            News::Upload(staging, _, answer) => {
                 let done = self.gpu.headless.queue().run_once("upload", |commands| {
                     // SAFETY: recording; the thread keeps what it uploads to until it has the answer, which comes after the wait.
                     unsafe { staging.record(commands) };
