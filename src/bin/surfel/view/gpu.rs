@@ -9,7 +9,7 @@ use ash::vk;
 use surfel::{
     Headless, Result,
     renderer::Readbacks,
-    vk::{PipelineCache, Semaphore, Surface, Swapchain, Turn, Window},
+    vk::{PipelineCache, Surface, Swapchain, Turn, Window},
 };
 
 use super::{
@@ -40,6 +40,8 @@ pub struct Gpu {
     /// When the frame before began; none where the window rested.
     before: Option<Instant>,
     period: Option<Duration>,
+    /// An image is acquired, and nothing is submitted yet that waits for its semaphore.
+    is_acquired: bool,
 }
 
 /// The passes that draw to windows of a format.
@@ -71,6 +73,7 @@ impl Gpu {
             fits: false,
             before: None,
             period: None,
+            is_acquired: false,
         })
     }
 
@@ -148,15 +151,15 @@ impl Gpu {
         // Where the host waits, frames follow each other as fast as they can, whatever it is that takes the time.
         let waited = begun.elapsed() > Duration::from_millis(1);
         self.period = self.before.replace(begun).filter(|_| waited).map(|before| begun - before);
+        self.is_acquired = true;
         match self.draw_to(index, desc) {
             Ok(drawn) => Ok(drawn),
             Err(error) => {
                 // What was recorded is never submitted.
                 desc.views.iter().for_each(|(which, _)| self.pictures[which.index()].forget());
-                // The image is acquired, and nothing waits for its semaphore.
-                let device = self.headless.device();
-                self.frames[self.number].acquired = Semaphore::new(device, "window image is free")?;
-                self.fits = false;
+                if self.is_acquired {
+                    self.show_nothing(index)?;
+                }
                 Err(error)
             }
         }
@@ -218,7 +221,7 @@ impl Gpu {
         let commands = frame.commands.end()?;
         // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
         let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
-        frame.epoch = epoch;
+        (frame.epoch, self.is_acquired) = (epoch, false);
         for (which, view) in desc.views {
             let begun = Begun { at: begun, input: desc.input, size_px: view.settings.size_px };
             self.pictures[which.index()].submitted(epoch, begun);
@@ -239,6 +242,29 @@ impl Gpu {
     /// The time from frame to frame, where the host waited for the device or the window system.
     pub fn take_period(&mut self) -> Option<Duration> {
         self.period.take()
+    }
+
+    /// Shows an empty image in place of a frame that can't be recorded: an image that is acquired has to be presented, and its semaphore
+    /// waited for.
+    fn show_nothing(&mut self, index: usize) -> Result<()> {
+        let Some(swapchain) = &self.swapchain else { return Ok(()) };
+        let Some(image) = swapchain.image(index) else { return Ok(()) };
+        let (device, queue, frame) =
+            (self.headless.device(), self.headless.queue(), &mut self.frames[self.number]);
+        // SAFETY: the frame's submission before was waited for, and what was recorded since is not submitted.
+        let commands = unsafe { frame.commands.begin() }?;
+        // SAFETY: recording; the image is acquired.
+        unsafe {
+            begin_rendering(device, commands, image, swapchain.extent());
+            end_rendering(device, commands, image);
+        }
+        let commands = frame.commands.end()?;
+        // SAFETY: as in `draw_to`.
+        frame.epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
+        self.number = (self.number + 1) % IN_FLIGHT;
+        (self.is_acquired, self.fits) = (false, false);
+        // SAFETY: acquired and submitted above; what it comes to shows at the next frame.
+        unsafe { queue.present(swapchain, index) }.map(drop)
     }
 
     /// What frames for a use have cost since this was asked for last, and whether that is all of them.
