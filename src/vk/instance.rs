@@ -21,6 +21,9 @@ struct Shared {
     debug_utils: bool,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     owned: bool,
+    /// It has the extensions of a display.
+    #[cfg_attr(not(feature = "view"), expect(dead_code, reason = "only windows ask"))]
+    presents: bool,
     // Dropped after the messenger, which points to it, is destroyed (`drop` below runs before any field's).
     messages: Arc<Messages>,
     // The library with Vulkan's code: dropped last.
@@ -90,8 +93,15 @@ impl Instance {
             }
             other => crate::error::Error::vulkan("vkCreateInstance", "", other),
         })?;
-        let mut shared =
-            Shared { raw, debug_utils, messenger: None, owned: true, messages, _entry: Some(entry.clone()) };
+        let mut shared = Shared {
+            raw,
+            debug_utils,
+            messenger: None,
+            owned: true,
+            presents: !wanted.is_empty(),
+            messages,
+            _entry: Some(entry.clone()),
+        };
         if watch {
             let loader = ext::debug_utils::Instance::new(&entry, &shared.raw);
             let info = messenger_info(&shared.messages);
@@ -110,7 +120,15 @@ impl Instance {
     /// `raw` must be a live Vulkan 1.3 instance and stay alive until every object made from it here is dropped.
     pub unsafe fn borrow(raw: ash::Instance, debug_utils: bool) -> Self {
         let messages = Arc::default();
-        Self(Arc::new(Shared { raw, debug_utils, messenger: None, owned: false, messages, _entry: None }))
+        Self(Arc::new(Shared {
+            raw,
+            debug_utils,
+            messenger: None,
+            owned: false,
+            presents: false,
+            messages,
+            _entry: None,
+        }))
     }
 
     /// The raw instance.
@@ -118,10 +136,10 @@ impl Instance {
         &self.0.raw
     }
 
-    /// The loader's entry points; `None` of a host's instance.
+    /// The loader's entry points; `None` of an instance that was not made for a display.
     #[cfg(feature = "view")]
     pub(super) fn entry(&self) -> Option<&ash::Entry> {
-        self.0._entry.as_ref()
+        self.0._entry.as_ref().filter(|_| self.0.presents)
     }
 
     /// Whether `VK_EXT_debug_utils` is enabled.

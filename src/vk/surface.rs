@@ -59,8 +59,8 @@ impl Surface {
         let raw = {
             let display = window.display_handle().map_err(no_handle)?.as_raw();
             let handle = window.window_handle().map_err(no_handle)?.as_raw();
-            // SAFETY: both handles are of a window that lives as long as the surface. Without the extension of this kind of
-            // display ash's table has a function in its place that panics, which ends no memory's life.
+            // SAFETY: both handles are of a window that lives as long as the surface; the instance was made for a display. One of another
+            // kind has no such function, in whose place ash ends the program.
             unsafe { ash_window::create_surface(entry, instance.raw(), display, handle, None) }
                 .of_call("vkCreateSurfaceKHR", "window")?
         };

@@ -77,6 +77,10 @@ impl Swapchain {
         if !capabilities.supported_usage_flags.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT) {
             return Err(refused("can't draw to the window"));
         }
+        // One of another window has nothing to make way for.
+        let old = old.filter(|old| {
+            old.surface.raw() == surface.raw() && old.device.raw().handle() == device.raw().handle()
+        });
         let most = if capabilities.max_image_count == 0 { u32::MAX } else { capabilities.max_image_count };
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(surface.raw())
@@ -95,7 +99,7 @@ impl Swapchain {
             .clipped(true)
             .old_swapchain(old.as_ref().map_or(vk::SwapchainKHR::null(), |old| old.raw));
         let loader = khr::swapchain::Device::new(device.instance().raw(), device.raw());
-        // SAFETY: the surface is alive and of the same instance; the old swapchain is of this surface, or of one that is lost.
+        // SAFETY: the surface is alive and of the same instance; the old swapchain is of this surface and device, and alive until the end of this function.
         let raw =
             unsafe { loader.create_swapchain(&info, None) }.of_call("vkCreateSwapchainKHR", "window")?;
         device.set_name(raw, "window");

@@ -4,6 +4,7 @@ use std::{
     fs,
     io::{BufRead as _, BufReader},
     process::{Child, Command, Stdio},
+    sync::atomic::{AtomicU32, Ordering},
     thread,
     time::Duration,
 };
@@ -27,8 +28,12 @@ pub struct Shot {
 impl Screen {
     /// A server with a screen of 1280x1000 pixels.
     pub fn new() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
         let folder = TempDir::new().unwrap();
+        // Servers that choose for themselves may choose alike where they start at the same time.
+        let display = 1000 + (8 * std::process::id() + COUNT.fetch_add(1, Ordering::Relaxed)) % 50_000;
         let mut server = Command::new("Xvfb")
+            .arg(format!(":{display}"))
             .args(["-displayfd", "1", "-screen", "0", "1280x1000x24", "-nolisten", "tcp", "-fbdir"])
             .arg(folder.path())
             .stdout(Stdio::piped())
@@ -37,8 +42,8 @@ impl Screen {
             .expect("needs Xvfb: third_party/with-deps installs it");
         let mut number = String::new();
         BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
-        assert!(number.trim().parse::<u32>().is_ok(), "Xvfb told no display: '{number}'");
-        Self { server, name: format!(":{}", number.trim()), folder }
+        assert_eq!(number.trim().parse(), Ok(display), "Xvfb is not ready");
+        Self { server, name: format!(":{display}"), folder }
     }
 
     /// As in `DISPLAY`.

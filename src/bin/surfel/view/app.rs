@@ -74,7 +74,7 @@ impl<'a> App<'a> {
         let window = events.create_window(attributes);
         let window = window.map_err(|error| ErrorKind::NoWindow { reason: error.to_string() })?;
         let window = Arc::new(window);
-        let (gpu, messages) = super::viewer::open_gpu(&window, &self.arguments.device)?;
+        let (gpu, messages) = super::device::open_gpu(&window, &self.arguments.device)?;
         self.messages = Some(messages);
         gpu.headless.renderer.check_settings(&self.settings)?;
         let limits = gpu.headless.device().facts().limits;

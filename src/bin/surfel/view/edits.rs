@@ -77,10 +77,32 @@ impl Edits {
 }
 
 /// Splats so many times as large, about their centers.
-pub fn scale(splats: &mut Splats, by: f32) {
+fn scale(splats: &mut Splats, by: f32) {
     match &mut splats.shapes {
         Shapes::Disks { radii, .. } => radii.iter_mut().for_each(|radius| *radius *= by),
         Shapes::Ellipses { s, t } => s.iter_mut().chain(t).for_each(|tangent| *tangent *= by),
+    }
+}
+
+/// So many splats are a part of a scene.
+const PART_SPLATS: usize = 60_000;
+
+/// Some splats of each object, as much larger as they are fewer; and all polygons.
+pub fn part_of(scene: &Scene) -> Scene {
+    let step = scene.splat_count().div_ceil(PART_SPLATS).max(1);
+    let objects = scene.objects.iter().map(|object| {
+        let mut splats = object.splats.picked((0..object.splats.len()).step_by(step));
+        scale(&mut splats, (step as f32).sqrt());
+        Object { name: object.name.clone(), splats, closed: object.closed }
+    });
+    Scene {
+        objects: objects.collect(),
+        meshes: scene.meshes.clone(),
+        lights: scene.lights.clone(),
+        epsilons: scene.epsilons.clone(),
+        without_auto_epsilon: true,
+        leveled: scene.leveled.clone(),
+        ..Scene::default()
     }
 }
 

@@ -7,19 +7,17 @@ use std::{
 
 use ash::vk;
 use surfel::{
-    Error, ErrorKind, Headless, Result,
-    graph::execute::Profile,
-    prepare::PreparedScene,
+    Headless, Result,
     renderer::Readbacks,
-    scene::{Camera, Settings},
-    vk::{PipelineCache, Semaphore, Surface, Swapchain, Turn, Window},
+    vk::{PipelineCache, Surface, Swapchain, Turn, Window},
 };
 
 use super::{
     frame::{Frame, begin_rendering, end_rendering},
-    overlay::{OverlayFrame, OverlayPass},
+    frame_desc::{Drawn, FrameDesc},
+    overlay::OverlayPass,
     picture::{Begun, Cost, Picture, Use},
-    show::{Show, ShowDesc},
+    show::Show,
 };
 
 /// How many frames the host records ahead of the device.
@@ -42,6 +40,8 @@ pub struct Gpu {
     /// When the frame before began; none where the window rested.
     before: Option<Instant>,
     period: Option<Duration>,
+    /// An image is acquired, and nothing is submitted yet that waits for its semaphore.
+    is_acquired: bool,
 }
 
 /// The passes that draw to windows of a format.
@@ -49,44 +49,6 @@ struct Drawing {
     format: vk::Format,
     show: Show,
     overlay: OverlayPass,
-}
-
-/// A scene as a picture of it is drawn.
-#[derive(Clone, Copy)]
-pub struct SceneView<'a> {
-    /// The scene.
-    pub scene: &'a PreparedScene,
-    /// From where.
-    pub camera: &'a Camera,
-    /// How, and in which size.
-    pub settings: &'a Settings,
-    /// The picture is light, not colors.
-    pub is_light: bool,
-}
-
-/// A frame to draw.
-pub struct FrameDesc<'a> {
-    /// Pictures to draw anew; others stay as they are.
-    pub views: &'a [(Use, SceneView<'a>)],
-    /// The pictures to show; nothing where there is none yet.
-    pub shown: Option<([Use; 2], ShowDesc)>,
-    /// What lies over it.
-    pub overlay: Option<&'a OverlayFrame>,
-    /// What is measured of the scene's passes.
-    pub profile: Option<Profile>,
-    /// The input that it answers to.
-    pub input: Option<Instant>,
-}
-
-/// What drawing came to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drawn {
-    /// The window shows it, or will soon.
-    Shown,
-    /// The window has no pixels.
-    Hidden,
-    /// The window changes; it is to be tried again.
-    Again,
 }
 
 impl Gpu {
@@ -111,6 +73,7 @@ impl Gpu {
             fits: false,
             before: None,
             period: None,
+            is_acquired: false,
         })
     }
 
@@ -188,15 +151,15 @@ impl Gpu {
         // Where the host waits, frames follow each other as fast as they can, whatever it is that takes the time.
         let waited = begun.elapsed() > Duration::from_millis(1);
         self.period = self.before.replace(begun).filter(|_| waited).map(|before| begun - before);
+        self.is_acquired = true;
         match self.draw_to(index, desc) {
             Ok(drawn) => Ok(drawn),
             Err(error) => {
                 // What was recorded is never submitted.
                 desc.views.iter().for_each(|(which, _)| self.pictures[which.index()].forget());
-                // The image is acquired, and nothing waits for its semaphore.
-                let device = self.headless.device();
-                self.frames[self.number].acquired = Semaphore::new(device, "window image is free")?;
-                self.fits = false;
+                if self.is_acquired {
+                    self.show_nothing(index)?;
+                }
                 Err(error)
             }
         }
@@ -258,7 +221,7 @@ impl Gpu {
         let commands = frame.commands.end()?;
         // SAFETY: recorded just now; `acquired` is to be signaled by the acquisition, `drawn` is waited for by the presentation below.
         let epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
-        frame.epoch = epoch;
+        (frame.epoch, self.is_acquired) = (epoch, false);
         for (which, view) in desc.views {
             let begun = Begun { at: begun, input: desc.input, size_px: view.settings.size_px };
             self.pictures[which.index()].submitted(epoch, begun);
@@ -279,6 +242,29 @@ impl Gpu {
     /// The time from frame to frame, where the host waited for the device or the window system.
     pub fn take_period(&mut self) -> Option<Duration> {
         self.period.take()
+    }
+
+    /// Shows an empty image in place of a frame that can't be recorded: an image that is acquired has to be presented, and its semaphore
+    /// waited for.
+    fn show_nothing(&mut self, index: usize) -> Result<()> {
+        let Some(swapchain) = &self.swapchain else { return Ok(()) };
+        let Some(image) = swapchain.image(index) else { return Ok(()) };
+        let (device, queue, frame) =
+            (self.headless.device(), self.headless.queue(), &mut self.frames[self.number]);
+        // SAFETY: the frame's submission before was waited for, and what was recorded since is not submitted.
+        let commands = unsafe { frame.commands.begin() }?;
+        // SAFETY: recording; the image is acquired.
+        unsafe {
+            begin_rendering(device, commands, image, swapchain.extent());
+            end_rendering(device, commands, image);
+        }
+        let commands = frame.commands.end()?;
+        // SAFETY: as in `draw_to`.
+        frame.epoch = unsafe { queue.submit_for_window(commands, &frame.acquired, &image.drawn) }?;
+        self.number = (self.number + 1) % IN_FLIGHT;
+        (self.is_acquired, self.fits) = (false, false);
+        // SAFETY: acquired and submitted above; what it comes to shows at the next frame.
+        unsafe { queue.present(swapchain, index) }.map(drop)
     }
 
     /// What frames for a use have cost since this was asked for last, and whether that is all of them.
@@ -307,9 +293,4 @@ impl Gpu {
         }
         Ok(Drawn::Again)
     }
-}
-
-/// Whether the device is lost, and another one must be opened.
-pub fn is_device_lost(error: &Error) -> bool {
-    matches!(error.kind(), ErrorKind::Vulkan { result: vk::Result::ERROR_DEVICE_LOST, .. })
 }

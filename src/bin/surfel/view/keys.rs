@@ -148,7 +148,7 @@ pub const BINDINGS: &[Binding] = &[
     binding("Backspace", Action::Path(OnPath::Remove), "the last place of the path goes"),
     binding("/", Action::Path(OnPath::Play), "plays the path, or stops"),
     binding("K", Action::Path(OnPath::Save), "the path to a file, for surfel render --path"),
-    binding("j", Action::Pick, "what is under the cursor, where, and how far from the last; copied"),
+    binding("j", Action::Pick, "what is under the cursor, and how far from the last"),
     binding("F5", Action::Reload, "reads the files again"),
     binding("o", Action::Panel, "shows or hides the panel"),
     binding("?", Action::Keys, "shows or hides the keys"),

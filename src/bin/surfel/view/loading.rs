@@ -4,9 +4,10 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicBool, AtomicU64, Ordering},
-        mpsc::{Receiver, Sender, SyncSender, channel, sync_channel},
+        mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel},
     },
     thread::JoinHandle,
+    time::Duration,
 };
 
 use surfel::{
@@ -14,12 +15,12 @@ use surfel::{
     load::PictureDescription,
     prepare::{PreparedScene, SplatSetLayout, prepare},
     report::InputReport,
-    scene::{Ball, Camera, Light, Object, Scene, Storage},
+    scene::{Ball, Camera, Light, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 use winit::event_loop::EventLoopProxy;
 
-use super::edits::{Edits, scale};
+use super::edits::{Edits, part_of};
 use crate::{
     camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
     scene::Loaded,
@@ -31,8 +32,8 @@ pub enum News {
     Opened(Box<Document>),
     /// A scene is on the device; as the last step of its preparation, or as one before.
     Prepared(Box<Prepared>),
-    /// Bytes are to be submitted; the thread waits for the answer.
-    Upload(Staging, SyncSender<Result<()>>),
+    /// Bytes of a job are to be submitted; the thread waits for the answer, and keeps what they go to until then.
+    Upload(Staging, u64, SyncSender<Result<()>>),
     /// Files can't be read, or have no room on the device.
     Failed(Error),
 }
@@ -76,8 +77,6 @@ pub enum Step {
 
 /// A part of a scene is shown first where it has more splats.
 const PART_FROM: usize = 200_000;
-/// So many then.
-const PART_SPLATS: usize = 60_000;
 /// Levels of detail are made of more splats.
 const LEVELS_FROM: usize = 300_000;
 
@@ -92,6 +91,7 @@ pub struct Loader {
     thread: Option<JoinHandle<()>>,
     newest: Arc<AtomicU64>,
     is_reading: Arc<AtomicBool>,
+    is_closing: Arc<AtomicBool>,
 }
 
 /// The thread, as it knows itself.
@@ -99,6 +99,8 @@ struct Worker {
     proxy: EventLoopProxy<News>,
     newest: Arc<AtomicU64>,
     is_reading: Arc<AtomicBool>,
+    /// Nothing that the window is asked for is done any more.
+    is_closing: Arc<AtomicBool>,
     limits: Limits,
     camera: CameraChoice,
     lights: Vec<Light>,
@@ -115,13 +117,21 @@ impl Loader {
         (lights, storage): (Vec<Light>, Storage),
     ) -> Self {
         let (jobs, received) = channel();
-        let (newest, is_reading) = (Arc::new(AtomicU64::new(0)), Arc::new(AtomicBool::new(false)));
-        let (numbers, reading) = (Arc::clone(&newest), Arc::clone(&is_reading));
-        let bars = Bars::new();
-        let worker =
-            Worker { proxy, newest: numbers, is_reading: reading, limits, camera, lights, storage, bars };
+        let newest = Arc::new(AtomicU64::new(0));
+        let (is_reading, is_closing) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
+        let worker = Worker {
+            proxy,
+            newest: Arc::clone(&newest),
+            is_reading: Arc::clone(&is_reading),
+            is_closing: Arc::clone(&is_closing),
+            limits,
+            camera,
+            lights,
+            storage,
+            bars: Bars::new(),
+        };
         let thread = std::thread::spawn(move || worker.run(&received));
-        Self { jobs: Some(jobs), thread: Some(thread), newest, is_reading }
+        Self { jobs: Some(jobs), thread: Some(thread), newest, is_reading, is_closing }
     }
 
     /// Reads files; the camera is for a picture of this size.
@@ -155,8 +165,9 @@ impl Loader {
 
 impl Drop for Loader {
     fn drop(&mut self) {
-        // What it is at is of no use any more.
+        // What it is at is of no use any more, and what it waits for does not come: this is the thread that would do it.
         self.next();
+        self.is_closing.store(true, Ordering::Release);
         self.jobs = None;
         // Reading can't be interrupted, and has nothing of the device.
         if let Some(thread) = self.thread.take().filter(|_| !self.is_reading.load(Ordering::Acquire)) {
@@ -266,37 +277,18 @@ impl Worker {
         let layout = SplatSetLayout::new(device)?;
         let mut submit = |staging| {
             let (answer, answered) = sync_channel(1);
-            if !self.is_newest(job) || self.proxy.send_event(News::Upload(staging, answer)).is_err() {
+            if !self.is_newest(job) || self.proxy.send_event(News::Upload(staging, job, answer)).is_err() {
                 return Err(left());
             }
             loop {
-                let patience = std::time::Duration::from_millis(100);
-                match answered.recv_timeout(patience) {
+                // Even if the job is not the newest any more: the window may be about to record the copies.
+                match answered.recv_timeout(Duration::from_millis(50)) {
                     Ok(answer) => return answer,
-                    Err(std::sync::mpsc::RecvTimeoutError::Timeout) if self.is_newest(job) => {}
+                    Err(RecvTimeoutError::Timeout) if !self.is_closing.load(Ordering::Acquire) => {}
                     Err(_) => return Err(left()),
                 }
             }
         };
         prepare(device, &self.limits, &layout, scene, &mut submit, &|_, _| {})
-    }
-}
-
-/// Some splats of each object, as much larger as they are fewer; and all polygons.
-fn part_of(scene: &Scene) -> Scene {
-    let step = scene.splat_count().div_ceil(PART_SPLATS).max(1);
-    let objects = scene.objects.iter().map(|object| {
-        let mut splats = object.splats.picked((0..object.splats.len()).step_by(step));
-        scale(&mut splats, (step as f32).sqrt());
-        Object { name: object.name.clone(), splats, closed: object.closed }
-    });
-    Scene {
-        objects: objects.collect(),
-        meshes: scene.meshes.clone(),
-        lights: scene.lights.clone(),
-        epsilons: scene.epsilons.clone(),
-        without_auto_epsilon: true,
-        leveled: scene.leveled.clone(),
-        ..Scene::default()
     }
 }

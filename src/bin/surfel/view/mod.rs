@@ -1,14 +1,16 @@
 //! `surfel view`: a scene in a window. One file a part: what keys do (`keys`), how the camera moves (`navigation`), how coarse a moving
-//! picture is (`pace`), the thread that reads files (`loading`), the window's device (`gpu` and the files it names), what lies over the
+//! picture is (`pace`), the thread that reads files (`loading`), the window's device (`device`, `gpu` and the files it names), what lies over the
 //! picture (`ui`, `panel`, `popups`), and the window itself (`app`, `viewer`, `redraw`, `input`, `files`, `changes`, `picking`, `path`, `capture`).
 
 mod app;
 mod capture;
 mod changes;
+mod device;
 mod display;
 mod edits;
 mod files;
 mod frame;
+mod frame_desc;
 mod gpu;
 mod input;
 mod keys;

@@ -6,7 +6,7 @@ use surfel::{
     scene::Settings,
 };
 
-use super::{gpu::is_device_lost, viewer::Viewer};
+use super::{device::is_device_lost, viewer::Viewer};
 
 impl Viewer {
     /// The point of the surface under the cursor is what the camera turns about from now on.

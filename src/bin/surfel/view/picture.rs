@@ -10,7 +10,7 @@ use surfel::{
     vk::{Device, Image, ImageDesc},
 };
 
-use super::{gpu::SceneView, show::Shot};
+use super::{frame_desc::SceneView, show::Shot};
 
 /// What pictures are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

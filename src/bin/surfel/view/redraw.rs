@@ -10,7 +10,7 @@ use surfel::{
 };
 
 use super::{
-    gpu::{Drawn, FrameDesc, SceneView},
+    frame_desc::{Drawn, FrameDesc, SceneView},
     keys::Comparing,
     loading::Step,
     overlay::OverlayFrame,
@@ -131,9 +131,9 @@ impl Viewer {
         // With what it takes to show the picture, too.
         let period = self.gpu.take_period().filter(|_| is_moving && self.was_moving);
         self.was_moving = is_moving;
-        for which in [Use::Moving, Use::Still] {
+        for which in Use::ALL {
             let (costs, all) = self.gpu.take_costs(which)?;
-            for cost in costs {
+            for cost in costs.into_iter().filter(|_| which != Use::Other) {
                 // A picture at rest tells of moving ones where they are the same.
                 if is_moving && (which == Use::Moving || self.pace.is_finest()) {
                     self.pace.learn(period.map_or(cost.secs, |period| period.as_secs_f64()));

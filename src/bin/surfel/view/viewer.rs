@@ -7,19 +7,19 @@ use std::{
 
 use glam::DVec3;
 use surfel::{
-    Error, ErrorKind, Headless, Result,
+    Error, ErrorKind, Result,
     prepare::PreparedScene,
     scene::{Camera, Encoding, Settings},
-    vk::{Device, Instance, Messages, Surface, Validation},
 };
 use winit::window::Window;
 
 use super::{
     ViewArguments,
     capture::Clipboard,
+    device::{is_device_lost, open_gpu},
     edits::Edits,
     files::Files,
-    gpu::{Gpu, is_device_lost},
+    gpu::Gpu,
     input::Input,
     keys::Comparing,
     loading::{Document, Loader, News, Step},
@@ -29,11 +29,7 @@ use super::{
     picture::Use,
     ui::Ui,
 };
-use crate::{
-    console,
-    device::{DeviceArguments, cache_folder},
-    settings::Given,
-};
+use crate::{console, device::DeviceArguments, settings::Given};
 
 /// A window, and all that is shown in it.
 pub struct Viewer {
@@ -176,7 +172,12 @@ impl Viewer {
                 Ok(())
             }
             News::Prepared(_) => Ok(()),
-            News::Upload(staging, answer) => {
+            // It may be for a device that is lost.
+            News::Upload(_, job, answer) if !self.loader.is_newest(job) => {
+                let _ = answer.send(Err(Error::option("scene", "another one has come")));
+                Ok(())
+            }
+            News::Upload(staging, _, answer) => {
                 let done = self.gpu.headless.queue().run_once("upload", |commands| {
                     // SAFETY: recording; the thread keeps what it uploads to until it has the answer, which comes after the wait.
                     unsafe { staging.record(commands) };
@@ -281,23 +282,4 @@ impl Options {
             prints_frames: arguments.print_frames,
         }
     }
-}
-
-/// Opens the device for a window.
-///
-/// # Errors
-/// As [`Instance::for_display`], [`Device::for_surface`]; whatever the driver answers.
-pub fn open_gpu(window: &Arc<Window>, arguments: &DeviceArguments) -> Result<(Gpu, Arc<Messages>)> {
-    let validation = if arguments.validate { Validation::On } else { Validation::Off };
-    let instance = Instance::for_display(validation, &**window)?;
-    let messages = instance.messages();
-    let as_window: Arc<dyn surfel::vk::Window> = Arc::clone(window) as Arc<dyn surfel::vk::Window>;
-    let surface = Surface::new(&instance, Arc::clone(&as_window))?;
-    let device = Device::for_surface(&surface, arguments.asked.as_deref())?;
-    let headless = Headless::on(device, cache_folder().as_deref())?;
-    let mut gpu = Gpu::new(headless, surface, as_window)?;
-    let size = window.inner_size();
-    gpu.resize([size.width, size.height]);
-    gpu.make_images()?;
-    Ok((gpu, messages))
 }

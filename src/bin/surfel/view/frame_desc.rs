@@ -1,0 +1,49 @@
+//! What a frame of the window is to be, and what came of it.
+
+use std::time::Instant;
+
+use surfel::{
+    graph::execute::Profile,
+    prepare::PreparedScene,
+    scene::{Camera, Settings},
+};
+
+use super::{overlay::OverlayFrame, picture::Use, show::ShowDesc};
+
+/// A scene as a picture of it is drawn.
+#[derive(Clone, Copy)]
+pub struct SceneView<'a> {
+    /// The scene.
+    pub scene: &'a PreparedScene,
+    /// From where.
+    pub camera: &'a Camera,
+    /// How, and in which size.
+    pub settings: &'a Settings,
+    /// The picture is light, not colors.
+    pub is_light: bool,
+}
+
+/// A frame to draw.
+pub struct FrameDesc<'a> {
+    /// Pictures to draw anew; others stay as they are.
+    pub views: &'a [(Use, SceneView<'a>)],
+    /// The pictures to show; nothing where there is none yet.
+    pub shown: Option<([Use; 2], ShowDesc)>,
+    /// What lies over it.
+    pub overlay: Option<&'a OverlayFrame>,
+    /// What is measured of the scene's passes.
+    pub profile: Option<Profile>,
+    /// The input that it answers to.
+    pub input: Option<Instant>,
+}
+
+/// What drawing came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// The window shows it, or will soon.
+    Shown,
+    /// The window has no pixels.
+    Hidden,
+    /// The window changes; it is to be tried again.
+    Again,
+}
