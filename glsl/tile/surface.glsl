@@ -71,7 +71,7 @@ void see(Range range)
             [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
                 Column column = column_of(splats[k]);
                 [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                    see(splats[k], column, CLIPS ? kept[k][row] : 1.0, row);
+                    see(splats[k], column, CUTS ? kept[k][row] : 1.0, row);
                 }
             }
         }
@@ -109,7 +109,7 @@ void sum(Range range, bool lit)
             find_kept(own, splats, place + first, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
                 [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
-                    add(splats[k], attributes[k], columns[k], CLIPS ? kept[k][row] : 1.0, row);
+                    add(splats[k], attributes[k], columns[k], CUTS ? kept[k][row] : 1.0, row);
                 }
             }
         }

@@ -30,6 +30,7 @@ mod packed;
 mod paper_form;
 mod pick;
 mod pictures;
+mod planes;
 mod samples;
 mod seam;
 mod selftest;
