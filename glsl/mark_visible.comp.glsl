@@ -12,11 +12,14 @@
 // A filter makes of half an axis l at most sqrt(l^2 + h^2) <= l + h, at the center's depth, p_z / (p_z - R) <= 8/7 of it where
 // the splat is nearest; that of adjust_paper.glsl may make both h long in one direction, 8/7 sqrt(2) h: below 2 h, the more so as the
 // image ends half a pixel beyond its last pixel's center, and that a box is larger by its margin. No filter makes a splat deeper.
-// Parallel rays show a splat within R of its center, filters aside. Any other splat is marked. So is NaN, which no comparison leaves out.
+// Parallel rays show a splat within R of its center, filters aside. Nor those that a plane cuts off wholly. Any other splat is marked. So is NaN, which no comparison leaves out.
 #version 460
 #include "inc/setup.glsl"
 #include "inc/list.glsl"
 #include "inc/levels.glsl"
+#define PLANES_SET 1
+#define PLANES_BINDING BIND_LIST_PLANES
+#include "inc/planes.glsl"
 
 layout(local_size_x = LIST_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint visible_bits[]; };
@@ -39,6 +42,15 @@ bool is_outside(vec3 p, float radius)
     return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
 }
 
+// Of one in front of the eye, by a ball around it.
+bool is_beyond_planes(vec3 p, float radius)
+{
+    bool in_front = ORTHOGRAPHIC || 2.0 * radius <= 0.25 * p.z;
+    float divisor = ORTHOGRAPHIC ? 1.0 : p.z;
+    float w = ORTHOGRAPHIC ? 1.0 - p.z / frame.near : frame.near / p.z;
+    return in_front && is_wholly_cut_off(p.xy / divisor * frame.focal_px, w, 2.0 * radius / divisor * frame.focal_px);
+}
+
 // `ray`: through the center, in the axes of local space.
 bool faces_away(vec3 n, vec3 ray)
 {
@@ -54,6 +66,9 @@ bool may_be_seen(uint index)
     vec3 p = center_of(stored.position_radius.xyz, d);
     float radius = frame.view_from_local_scale * stored.position_radius.w;
     vec3 ray = ORTHOGRAPHIC ? frame.view_from_local_z.xyz : d.high;
+    if (PLANES > 0 && is_beyond_planes(p, radius)) {
+        return false;
+    }
     return !(CULL_BACKFACES && faces_away(normal_of(stored), ray)) && !is_outside(p, radius);
 }
 

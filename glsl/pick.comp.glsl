@@ -6,6 +6,9 @@
 #include "inc/list.glsl"
 #include "inc/levels.glsl"
 #include "inc/picked.glsl"
+#define PLANES_SET 1
+#define PLANES_BINDING BIND_LIST_PLANES
+#include "inc/planes.glsl"
 
 layout(local_size_x = LIST_GROUP_SIZE) in;
 
@@ -39,7 +42,8 @@ float depth_of(uint index, Mapping m, vec2 px)
             depth = center_depth(m);
         }
     }
-    return min(depth, 1.0);
+    depth = min(depth, 1.0);
+    return PLANES > 0 && is_cut_off(px, depth) ? 0.0 : depth;
 }
 
 void main()

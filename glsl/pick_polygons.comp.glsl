@@ -9,6 +9,9 @@
 #include "inc/variant.glsl"
 #include "inc/groups.glsl"
 #include "inc/picked.glsl"
+#define PLANES_SET 1
+#define PLANES_BINDING BIND_LIST_PLANES
+#include "inc/planes.glsl"
 
 #define RUN 32
 
@@ -51,7 +54,7 @@ Picked pick_triangle(uint index)
     // The sides are shares of the corners, in space.
     float z = dot(sides, vec3(a.z, b.z, c.z)) / sum;
     float depth = ORTHOGRAPHIC ? 1.0 - z / frame.near : frame.near / z;
-    if (!(depth > 0.0 && depth <= 1.0)) {
+    if (!(depth > 0.0 && depth <= 1.0) || PLANES > 0 && is_cut_off(0.5 - frame.middle_px, depth)) {
         return NOTHING_PICKED;
     }
     // As polygons_depth.frag.glsl has it.

@@ -16,6 +16,9 @@
 #include "inc/normalized.glsl"
 #include "inc/summed.glsl"
 #include "inc/peel.glsl"
+#define PLANES_SET 2
+#define PLANES_BINDING BIND_READ_PLANES
+#include "inc/planes.glsl"
 
 layout(location = 0) in vec4 color_alpha; // linear
 layout(location = 1) in vec3 normal;      // view space, on the side from which the corners are counterclockwise
@@ -39,6 +42,9 @@ void main()
 {
     // A triangle that is seen exactly edge-on has no area, but some devices give it fragments, between whose corners nothing can be found.
     if (any(isnan(color_alpha))) {
+        discard;
+    }
+    if (PLANES > 0 && is_cut_off(gl_FragCoord.xy - frame.middle_px, gl_FragCoord.z)) {
         discard;
     }
 #if defined(TRANSPARENT)

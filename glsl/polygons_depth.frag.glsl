@@ -7,10 +7,16 @@
 #include "inc/config.glsl"
 #include "inc/projection.glsl"
 #include "inc/peel.glsl"
+#define PLANES_SET 2
+#define PLANES_BINDING BIND_READ_PLANES
+#include "inc/planes.glsl"
 
 void main()
 {
     float w = gl_FragCoord.z;
+    if (PLANES > 0 && is_cut_off(gl_FragCoord.xy - frame.middle_px, w)) {
+        discard;
+    }
     if (PEELED) {
         peel(w);
     }

@@ -8,6 +8,9 @@
 #include "inc/levels.glsl"
 #include "tile/rect.glsl"
 #include "tile/corners.glsl"
+#define PLANES_SET 1
+#define PLANES_BINDING BIND_PLANES
+#include "inc/planes.glsl"
 
 layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
@@ -38,6 +41,12 @@ bool find_splat(out uint index, out uint place)
         index = visible_list[place];
     }
     return index < frame.splat_count;
+}
+
+bool is_beyond_planes(Mapping m)
+{
+    float length_px = (length(m.s) + length(m.t)) * frame.focal_px / (ORTHOGRAPHIC ? 1.0 : m.p.z);
+    return is_wholly_cut_off(projected_center_px(m), center_depth(m), length_px);
 }
 
 // Where MAY_BE_LARGE is not set, the host has proved that there are none.
@@ -84,6 +93,10 @@ void main()
     }
     Mapping m;
     if (!map_splat(index, m)) {
+        rects[place] = RECT_NONE;
+        return;
+    }
+    if (PLANES > 0 && !LISTED && m.regular && is_beyond_planes(m)) {
         rects[place] = RECT_NONE;
         return;
     }

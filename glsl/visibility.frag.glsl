@@ -9,6 +9,9 @@
 #include "inc/perturb.glsl"
 #include "inc/frame.glsl"
 #include "inc/variant.glsl"
+#if defined(TRIANGLES) && !defined(OWN_DEPTH)
+#define MOVED_DEPTH // the rasterizer's
+#endif
 #include "inc/coverage.glsl"
 #include "inc/peel.glsl"
 

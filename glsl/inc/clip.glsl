@@ -26,6 +26,13 @@ struct Curve {
     vec4 b;
 };
 
+// The quarter of the circle, turned a little so that few edges lie on a border, in which the kept side is.
+uint quarter_of(vec2 n)
+{
+    vec2 turned = vec2(0.9238795 * n.x + 0.3826834 * n.y, 0.9238795 * n.y - 0.3826834 * n.x);
+    return turned.y >= 0.0 ? (turned.x >= 0.0 ? 0 : 1) : (turned.x < 0.0 ? 2 : 3);
+}
+
 bool is_told(vec4 c, uint what)
 {
     return (uint(c.w) & what) != 0;

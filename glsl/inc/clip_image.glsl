@@ -14,13 +14,6 @@ layout(set = 0, binding = BIND_SPLATS_CLIPS, std430) readonly buffer Clips { vec
 
 const float ROOT_TWO_PI = 2.5066283;
 
-// The quarter of the circle, turned a little so that few edges lie on a border, in which the kept side is.
-uint quarter_of(vec2 n)
-{
-    vec2 turned = vec2(0.9238795 * n.x + 0.3826834 * n.y, 0.9238795 * n.y - 0.3826834 * n.x);
-    return turned.y >= 0.0 ? (turned.x >= 0.0 ? 0 : 1) : (turned.x < 0.0 ? 2 : 3);
-}
-
 // The ramp's width has an inverse.
 const float LEAST_RAMP2 = 1e-6;
 

@@ -47,6 +47,7 @@
 #define SPEC_CLIPS 61         // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
 #define SPEC_PARTED 62        // Constant: each tile has two lists: of splats, and of those that clip curves cut (`tile/constants.glsl`).
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
+#define SPEC_PLANES 62         // Constant: how many planes cut what is seen (`inc/planes.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // Values of SPEC_SUMMED.
@@ -75,6 +76,7 @@
 #define BIND_LIST_BLOCKS 4    // Binding: the blocks in which visible splats are looked for.
 #define BIND_LIST_UNHIDDEN_BITS 1 // Binding: where hidden ones are looked for, a bit for each that is not.
 #define BIND_LIST_CELLS 2     // Binding: there, the hierarchy of the visible depth.
+#define BIND_LIST_PLANES 5    // Binding: the planes that cut what is seen.
 #define BIND_LIST_POINTS 0    // Binding: precomputed points of the floor.
 
 // Bindings of the set of the depth's hierarchy.
@@ -86,6 +88,7 @@
 #define BIND_READ_KERNEL 1        // Binding: the kernel as a texture.
 #define BIND_READ_POLYGON_DEPTH 2 // Binding: the depth of polygons, or of splats where those are nearer.
 #define BIND_READ_LIGHTS 3        // Binding: the scene's own lights.
+#define BIND_READ_PLANES 4        // Binding: the planes that cut what is seen.
 
 // Bindings of the set of sums.
 #define BIND_SUMS_COLORS 0          // Binding: colors of splats.
@@ -184,6 +187,7 @@
 #define BIND_VISIBLE_BEFORE 30 // Binding: `BIND_VISIBLE_DEPTH` as it was before.
 #define BIND_CLIPS 31          // Binding: the clip curves of projected splats.
 #define BIND_CLIP_TEXELS 32    // Binding: the same, as texels.
+#define BIND_PLANES 33         // Binding: the planes that cut what is seen.
 
 // Sizes of tiles and of the work on them.
 #define TILE_WIDTH 8          // Pixels along a row of a tile.
@@ -231,6 +235,7 @@
 #define CURVE_TOWARD 8 // In the image it keeps what is toward one of four directions, 0 to 3 times this (`inc/clip_image.glsl`).
 
 // Limits of numbers.
+#define MOST_PLANES 6               // Planes that cut what is seen.
 #define MOST_LIGHTS 16              // Lights of a scene.
 #define HALF_FLOAT_MAX 65504.0      // The largest finite 16-bit float.
 #define HALF_FLOAT_FITS 60000.0     // Sums above it are scaled to it, so that their rounding cannot end beyond the largest.

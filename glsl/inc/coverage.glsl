@@ -35,6 +35,18 @@ vec2 from_px(vec2 place)
 #define EXTRA_W 0.0
 #endif
 
+#define PLANES_SET 2
+#define PLANES_BINDING BIND_READ_PLANES
+#include "inc/planes.glsl"
+
+// Discards the fragment if a plane cuts it off.
+void cut_fragment(float w)
+{
+    if (PLANES > 0 && is_cut_off(at_px(), w)) {
+        discard;
+    }
+}
+
 #if defined(CLIPPED)
 #include "inc/clip.glsl"
 
@@ -61,6 +73,15 @@ Covered covered(float limit_r2)
     if (!(dot(triangle_uv, triangle_uv) <= FORMULA(FORMULA_COVERAGE, limit_r2))) {
         discard;
     }
+#if defined(MOVED_DEPTH)
+    // Found again, and so off by a rounding: what is seen here must be accumulated later.
+    float w = ORTHOGRAPHIC ? gl_FragCoord.z + triangle_extra.x : gl_FragCoord.z / triangle_extra.x;
+    if (PLANES > 0 && is_cut_off(at_px(), w, 1e-6)) {
+        discard;
+    }
+#else
+    cut_fragment(gl_FragCoord.z);
+#endif
     return Covered(triangle_uv, gl_FragCoord.z);
 }
 
@@ -200,12 +221,14 @@ Covered covered(float limit_r2)
         if (center.z > 0.0 && r2 <= limit_r2) {
             float w = inside ? uvw.z : center.z;
             bool kernel_is_larger = inside && dot(uvw.xy, uvw.xy) <= r2;
+            cut_fragment(w);
             return Covered(kernel_is_larger ? uvw.xy : argument, min(w, 1.0));
         }
     }
     if (!inside) {
         discard;
     }
+    cut_fragment(uvw.z);
     // At the near plane w is 1 but for rounding; a depth above 1 is undefined.
     return Covered(uvw.xy, min(uvw.z, 1.0));
 }

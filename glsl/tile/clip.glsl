@@ -1,4 +1,4 @@
-// What clip curves leave of a splat in the pixels of an invocation (inc/clip.glsl).
+// What clip curves and planes leave of a splat in the pixels of an invocation (inc/clip.glsl, inc/planes.glsl).
 
 // The part of a pixel that a curve leaves, from 0 to 1; COVERAGE_EDGES: plus twice the number of the direction in which it keeps, and f goes
 // from half a ramp behind the pixel to half a ramp before it.
@@ -28,19 +28,41 @@ void cut_by(Curve curve, inout float kept[ROWS])
     }
 }
 
-void keep_all(out float kept[AT_ONCE][ROWS])
+#define PLANE_RAMP_PX (1.2533141 * FILTER_PX) // sqrt(2 pi) sigma of the low-pass filter (inc/clip_image.glsl)
+
+const float HARD = 1e30; // of a ramp where a plane does not cross the splat's, one over its width in pixels
+
+// What planes leave, where it is less than what curves do. COVERAGE_EDGES: the surface goes on beyond the splat as the plane cuts it, and what is low-passed is
+// its edge: a ramp across the cut, with the slope of the normal distribution, as that of a curve of a large splat.
+void cut_by_planes(Splat splat, inout float kept[ROWS])
 {
-    [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+    vec2 d = top_px - splat.x0_px;
+    vec2 w_per_px = depth_of(splat) * splat.w;
+    float w = depth_of(splat) + (w_per_px.x * d.x + w_per_px.y * d.y);
+    for (uint plane = 0; plane < PLANES; plane++) {
+        vec2 per_px = planes[plane].xy + planes[plane].w * w_per_px;
+        float steepness = length(per_px);
+        float per_ramp = !COVERAGE_EDGES ? 1.0 : steepness > 0.0 ? 1.0 / (steepness * PLANE_RAMP_PX) : HARD;
+        // In half a ramp behind the pixel nothing is left, in half a ramp before it all. Linear along the column.
+        float at_top = per_ramp * inside_px(plane, top_px, w);
+        float per_row = per_ramp * per_px.y;
+        float first = at_top + per_row * float(first_row);
+        float last = at_top + per_row * float(first_row + OWN_ROWS - 1);
+        if (min(first, last) >= (COVERAGE_EDGES ? 0.5 : 0.0)) {
+            continue; // as most columns have it
+        }
+        float toward = 2.0 * float(quarter_of(per_px));
         [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-            kept[k][row] = 1.0;
+            float inside = at_top + per_row * float(first_row + row);
+            float part = COVERAGE_EDGES ? clamp(0.5 + inside, 0.0, 1.0) : inside < 0.0 ? 0.0 : 1.0;
+            kept[row] = part < part_of(kept[row]) ? part + toward : kept[row];
         }
     }
 }
 
-// What curves leave of splats, which `own` of invocations from `place` on have loaded; 1 where nothing is cut off.
-void find_kept(Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+// What curves cut off splats, which `own` of invocations from `place` on have loaded.
+void cut_by_curves(Splat own, Splat splats[AT_ONCE], uint place, inout float kept[AT_ONCE][ROWS])
 {
-    keep_all(kept);
     uint most = most_curves(own, splats);
     if (most == 0) {
         return; // where invocations can
@@ -53,4 +75,22 @@ void find_kept(Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_O
         }
         number++;
     } while (number < most);
+}
+
+// What curves leave of splats if they are `clipped`, and planes; 1 where nothing is cut off.
+void find_kept(bool clipped, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
+{
+    [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+        [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
+            kept[k][row] = 1.0;
+        }
+    }
+    if (clipped) {
+        cut_by_curves(own, splats, place, kept);
+    }
+    if (PLANES > 0) {
+        [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
+            cut_by_planes(splats[k], kept[k]);
+        }
+    }
 }

@@ -1,14 +1,14 @@
 // What part of a pixel the splats of a surface cover (inc/edges.glsl), while they are added; COVERAGE_EDGES.
 //
-// CLIPS: up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part. A ridge has a
+// CUTS: a plane that cuts what is seen is as a curve of all splats. Up to a clip curve the surface goes on as it would without it, and of what it would cover the curve leaves a part. A ridge has a
 // curve on both of its sides, which cut off opposite ones, and what they leave adds up. What no curve cuts there is left, too.
 
 #include "inc/edges.glsl"
 
 float summed[ROWS];       // the sum of weights over the overlap; where splats are WEIGHTED and not clipped, that of colors
 float gap[ROWS];          // what disks by themselves leave uncovered
-vec2 uncut[ROWS];         // CLIPS: the same sum and gap of splats that no curve cuts in the pixel
-vec4 kept_toward[ROWS];   // CLIPS: of others the largest part that curves leave, by the direction in which they keep
+vec2 uncut[ROWS];         // CUTS: the same sum and gap of splats that no curve cuts in the pixel
+vec4 kept_toward[ROWS];   // CUTS: of others the largest part that curves leave, by the direction in which they keep
 
 void begin_covering(int row)
 {
@@ -23,10 +23,10 @@ void cover(float weight, float part, float kept, int row)
 {
     float left = 1.0 - clamp(part, 0.0, 1.0);
     gap[row] *= left;
-    if (CLIPS || !WEIGHTED) {
+    if (CUTS || !WEIGHTED) {
         summed[row] += weight;
     }
-    if (CLIPS) {
+    if (CUTS) {
         float part_kept = part_of(kept);
         bool cut = part_kept < 1.0;
         uncut[row] = cut ? uncut[row] : vec2(uncut[row].x + weight, uncut[row].y * left);
@@ -42,7 +42,7 @@ float kept_part(int row)
     vec4 toward = kept_toward[row];
     vec4 pairs = max(toward, toward.yzwx);
     float kept = min(pairs.x + pairs.z, pairs.y + pairs.w);
-    return CLIPS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y)), 1.0) : 1.0;
+    return CUTS && kept > 0.0 ? min(max(kept, edge_opacity(uncut[row].x, 1.0 - uncut[row].y)), 1.0) : 1.0;
 }
 
 // The sum of weights alone, for whoever finds the opacity from it.
@@ -54,5 +54,5 @@ float covering_sum(int row)
 // The part of the pixel that the surface covers.
 float opacity_of(int row)
 {
-    return kept_part(row) * edge_opacity(CLIPS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row]);
+    return kept_part(row) * edge_opacity(CUTS || !WEIGHTED ? summed[row] : colors[row].w, 1.0 - gap[row]);
 }

@@ -68,13 +68,13 @@ float shift_of(Splat splat)
 }
 
 // Whether the splat covers the pixel, behind the layer before. A regular splat lies wholly beyond the near plane, but an affine map
-// reaches further than the splat. `kept`: what clip curves leave of it.
+// reaches further than the splat. `kept`: what clip curves and planes leave of it.
 bool covers(vec3 uvw, float depth, bool away, float kept, int row)
 {
     float limit = FORMULA(FORMULA_COVERAGE, COVERAGE_R2);
     bool inside = dot(uvw.xy, uvw.xy) <= (AFFINE ? limit : limit * (uvw.z * uvw.z));
     bool beyond_near = !AFFINE || depth > 0.0 && depth <= FORMULA(FORMULA_NEAR_CUT, 1.0);
-    return inside && beyond_near && (!CLIPS || part_of(kept) > 0.0) && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
+    return inside && beyond_near && (!CUTS || part_of(kept) > 0.0) && (!PEELS || depth < FORMULA_LESS(FORMULA_PEELED, away ? before_away[row] : before[row]));
 }
 
 float r2_of(vec3 uvw)
@@ -127,7 +127,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     float kernel = kernel_weight(r2);
     float shared_weight = max(kernel * attributes.share, LEAST_WEIGHT);
     float weight = inside ? (WEIGHTED ? shared_weight : kernel) : 0.0;
-    if (CLIPS) {
+    if (CUTS) {
         weight *= priority(kept);
     }
     if (COVERAGE_EDGES) {

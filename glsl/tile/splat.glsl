@@ -9,6 +9,12 @@
 // coverage needs no division: u^2 + v^2 <= R^2 is (uw)^2 + (vw)^2 <= R^2 w^2. Where the map is affine, u and v are as they are.
 
 #include "inc/clip.glsl"
+#define PLANES_SET 0
+#define PLANES_BINDING BIND_PLANES
+#include "inc/planes.glsl"
+
+// Something cuts parts off some splats.
+const bool CUTS = CLIPS || PLANES > 0;
 
 // What tells whether it covers a pixel, and how deep.
 struct Splat {

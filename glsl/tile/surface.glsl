@@ -53,16 +53,6 @@ uint place_of(uint base, uint first)
     return LOADED == TILE_BATCH ? 0 : (base - first) % LOADED;
 }
 
-// What curves leave of splats; where none is `clipped`, all.
-void find_kept(bool clipped, Splat own, Splat splats[AT_ONCE], uint place, out float kept[AT_ONCE][ROWS])
-{
-    if (clipped) {
-        find_kept(own, splats, place, kept);
-    } else {
-        keep_all(kept);
-    }
-}
-
 void see(uint list_first, uint end, bool clipped)
 {
     Splat own;
@@ -83,7 +73,7 @@ void see(uint list_first, uint end, bool clipped)
             [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
                 Column column = column_of(splats[k]);
                 [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
-                    see(splats[k], column, clipped ? kept[k][row] : 1.0, row);
+                    see(splats[k], column, clipped || PLANES > 0 ? kept[k][row] : 1.0, row);
                 }
             }
         }
@@ -122,7 +112,7 @@ void sum(uint list_first, uint end, bool clipped, bool lit)
             find_kept(clipped, own, splats, place + first, kept);
             [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
                 [[unroll]] for (uint k = 0; k < AT_ONCE; k++) {
-                    add(splats[k], attributes[k], columns[k], clipped ? kept[k][row] : 1.0, row);
+                    add(splats[k], attributes[k], columns[k], clipped || PLANES > 0 ? kept[k][row] : 1.0, row);
                 }
             }
         }

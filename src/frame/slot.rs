@@ -10,8 +10,8 @@ use crate::{
         Graph, Plan, ResourceId,
         execute::{Body, Kept, Physical, Profile, Profiler},
     },
-    passes::Needs,
-    vk::{DescriptorPool, Device, Occlusion, PoolSizes},
+    passes::{Needs, PLANES_BYTES, Planes, ShaderPlane},
+    vk::{Buffer, BufferDesc, DescriptorPool, Device, MemoryUse, Occlusion, PoolSizes},
 };
 
 /// Descriptor sets, queries, plan and transients of one frame at a time.
@@ -20,6 +20,8 @@ pub struct FrameSlot {
     descriptors: Option<(DescriptorPool, PoolSizes)>,
     profiler: Option<(Profiler, Profile)>,
     occlusion: Option<Occlusion>,
+    /// What cuts the frame, where something does: written by the host, so that it takes no pass.
+    planes: Option<Buffer>,
     kept: Kept,
 }
 
@@ -41,7 +43,14 @@ impl FrameSlot {
     /// An empty slot.
     pub fn new(device: &Device) -> Self {
         let device = device.clone();
-        Self { device, descriptors: None, profiler: None, occlusion: None, kept: Kept::default() }
+        Self {
+            device,
+            descriptors: None,
+            profiler: None,
+            occlusion: None,
+            planes: None,
+            kept: Kept::default(),
+        }
     }
 
     /// The profiler of the frame recorded last, if it was measured.
@@ -81,6 +90,29 @@ impl FrameSlot {
             self.profiler = profile.map(profiler).transpose()?;
         }
         Ok(())
+    }
+
+    /// Puts the planes that cut the frame where shaders find them.
+    ///
+    /// # Safety
+    /// As [`Self::begin`].
+    ///
+    /// # Errors
+    /// Whatever the allocator answers.
+    pub(crate) unsafe fn planes(&mut self, planes: &[ShaderPlane]) -> Result<Planes> {
+        if planes.is_empty() {
+            self.planes = None;
+            return Ok(Planes::default());
+        }
+        let desc =
+            BufferDesc { name: "planes", size: PLANES_BYTES, usage: vk::BufferUsageFlags::UNIFORM_BUFFER };
+        let buffer = match &mut self.planes {
+            Some(buffer) => buffer,
+            none => none.insert(Buffer::new(&self.device, desc, MemoryUse::Upload)?),
+        };
+        let bytes: &[u8] = bytemuck::cast_slice(planes);
+        buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
+        Ok(Planes { count: planes.len() as u32, buffer: buffer.raw() })
     }
 
     /// Its parts.

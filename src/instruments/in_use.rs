@@ -47,10 +47,13 @@ impl Headless {
         let counts_draws = device.facts().draw_indirect_count;
         // SAFETY: nothing was recorded in it.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), None) }?;
+        // SAFETY: as above.
+        let planes = unsafe { slot.planes(&frame.planes) }?;
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
         let place = Place::Device(&renderer.shaders, descriptors);
         let inputs = Inputs { occlusion, range: frame.range, ..Inputs::new(camera, settings, place) };
-        let source = inputs.source;
+        let source = inputs.source.cut_by(planes);
+        let inputs = Inputs { source, ..inputs };
         let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };

@@ -29,12 +29,15 @@ pub use crate::passes::pipeline::constants::{
 #[cfg(feature = "test-formulas")]
 pub use crate::passes::pipeline::formula::Formula;
 pub use crate::passes::pipeline::recipe::{PipelineRecipe, PipelineStages};
+pub(crate) use crate::passes::place::PLANES_BYTES;
+pub use crate::passes::place::Planes;
 pub use crate::passes::plan::budget::count_drawn;
 pub(crate) use crate::passes::plan::budget::within_budget;
 pub(crate) use crate::passes::plan::digits::{beyond_f32, check as check_digits, floors, unused_levels};
 pub use crate::passes::plan::draws::{Draw, draws};
 pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};
 pub use crate::passes::plan::needs::{Needs, needs};
+pub(crate) use crate::passes::plan::planes::ShaderPlane;
 pub use crate::passes::plan::range::DepthRange;
 pub use crate::passes::plan::{
     FramePlan, SplatMethod, SurfacePlan, method::check as check_method, sums::with_sums,

@@ -5,19 +5,19 @@ use std::cell::{Cell, RefCell};
 
 use crate::passes::pipeline::{
     cache::Shaders,
-    key::{ComputeKey, GraphicsKey},
+    key::{ComputeKey, GraphicsKey, Layout},
     recipe::{Key, PipelineRecipe},
     variant::Constants,
 };
 use crate::passes::{
-    place::At,
+    place::{At, Planes},
     recording::{Pipeline, Recording},
 };
 use crate::{
     error::Result,
     graph::{Access, Graph, Handle, PassBuilder, ResourceId, Role, Start, execute::Body},
     scene::Camera,
-    shaders::config::SPEC_ORTHOGRAPHIC,
+    shaders::config::{SPEC_ORTHOGRAPHIC, SPEC_PLANES},
     vk::DescriptorPool,
 };
 
@@ -28,6 +28,8 @@ pub struct Source<'a> {
     pub place: Place<'a>,
     /// The camera's rays are parallel, in all of them.
     pub is_orthographic: bool,
+    /// The planes that cut what is seen.
+    pub planes: Planes,
 }
 
 /// Where pipelines and descriptor sets come from.
@@ -42,13 +44,22 @@ pub enum Place<'a> {
 impl<'a> Source<'a> {
     /// Pipelines for the camera that a pass is seen by.
     pub fn new(place: Place<'a>, camera: &Camera) -> Self {
-        Self { place, is_orthographic: camera.is_orthographic() }
+        Self { place, is_orthographic: camera.is_orthographic(), planes: Planes::default() }
     }
 
-    /// The specialization constants of a pipeline, with that of the camera. A shader that has no use for it does not know it.
-    fn complete(&self, constants: &mut Constants) {
+    /// The same for a frame that planes cut.
+    #[must_use]
+    pub fn cut_by(self, planes: Planes) -> Self {
+        Self { planes, ..self }
+    }
+
+    /// The specialization constants of a pipeline, with those of the camera and of planes. A shader that has no use for one does not know it.
+    fn complete(&self, layout: Layout, constants: &mut Constants) {
         if self.is_orthographic {
             constants.push((SPEC_ORTHOGRAPHIC, 1));
+        }
+        if self.planes.count > 0 && layout.has_planes() {
+            constants.push((SPEC_PLANES, self.planes.count));
         }
     }
 }
@@ -70,7 +81,7 @@ impl<'g, 'a> Pass<'g, 'a> {
     /// A pipeline of compute, made where it was not made yet.
     pub fn compute(&self, mut key: ComputeKey) -> Result<Pipeline> {
         let layout = key.layout;
-        self.source.complete(&mut key.constants);
+        self.source.complete(layout, &mut key.constants);
         let raw = match self.source.place {
             Place::Device(shaders, _) => shaders.compute(key)?,
             Place::List(list) => self.list(list, Key::Compute(key)),
@@ -81,7 +92,7 @@ impl<'g, 'a> Pass<'g, 'a> {
     /// A pipeline of graphics, made where it was not made yet.
     pub fn graphics(&self, mut key: GraphicsKey) -> Result<Pipeline> {
         let layout = key.layout;
-        self.source.complete(&mut key.constants);
+        self.source.complete(layout, &mut key.constants);
         let raw = match self.source.place {
             Place::Device(shaders, _) => shaders.graphics(key)?,
             Place::List(list) => self.list(list, Key::Graphics(key)),
@@ -147,8 +158,8 @@ impl<'g, 'a> Pass<'g, 'a> {
         bound.sort_unstable();
         declared.finish(Box::new(move |context| match source.place {
             Place::Device(shaders, descriptors) => {
-                let pipeline = Cell::default();
-                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline })
+                let (pipeline, planes) = (Cell::default(), source.planes);
+                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline, planes })
             }
             Place::List(_) => Ok(()),
         }));

@@ -74,3 +74,15 @@ pub(crate) const INDICES: At = Place::Indices.at(0);
 pub(crate) const fn transfer(number: u32) -> At {
     Place::Transfer.at(number)
 }
+
+/// Planes that cut what is seen: how many, and the buffer that holds them, which is the frame slot's; null in a frame that is only listed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Planes {
+    /// How many there are.
+    pub count: u32,
+    /// A uniform buffer of [`PLANES_BYTES`].
+    pub buffer: ash::vk::Buffer,
+}
+
+/// Bytes of as many planes as there may be.
+pub(crate) const PLANES_BYTES: u64 = crate::shaders::config::MOST_PLANES as u64 * 16;

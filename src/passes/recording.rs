@@ -6,12 +6,12 @@ use ash::vk;
 
 use crate::passes::{
     pipeline::{cache::Shaders, key::Layout},
-    place::{At, Place},
+    place::{At, PLANES_BYTES, Place, Planes},
 };
 use crate::{
     error::{ErrorKind, Result},
     graph::{ResourceId, execute::PassContext},
-    shaders::config::MOST_GROUPS_IN_ROW,
+    shaders::config::{BIND_LIST_PLANES, BIND_PLANES, BIND_READ_PLANES, MOST_GROUPS_IN_ROW},
     vk::{Descriptor, DescriptorPool},
 };
 
@@ -32,6 +32,8 @@ pub(crate) struct Recording<'c, 'a> {
     pub descriptors: &'a DescriptorPool,
     /// In order.
     pub bound: &'c [(At, ResourceId)],
+    /// The planes that cut what is seen.
+    pub planes: Planes,
     /// The pipeline that was bound last: chunks in a row often share one.
     pub pipeline: Cell<vk::Pipeline>,
 }
@@ -57,6 +59,16 @@ impl Recording<'_, '_> {
         let first = self.bound.partition_point(|(at, _)| at.place < place);
         let own = self.bound[first..].iter().take_while(|(at, _)| at.place == place);
         let mut given = others.to_vec();
+        if self.planes.count > 0 {
+            let binding = match place {
+                Place::Read => Some(BIND_READ_PLANES),
+                Place::Tiles(_) => Some(BIND_PLANES),
+                Place::Lists(_) | Place::NoLists => Some(BIND_LIST_PLANES),
+                _ => None,
+            };
+            let buffer = Descriptor::Buffer(self.planes.buffer, PLANES_BYTES);
+            given.extend(binding.map(|binding| (binding, buffer)));
+        }
         for (at, id) in own {
             given.push((at.binding, self.context.descriptor(*id)?));
         }

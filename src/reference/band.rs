@@ -95,7 +95,7 @@ fn nearest_surface(frame: &Frame, rows: &Range<u32>, pixels: usize) -> Vec<Neare
     for_each_candidate(frame, &frame.splats.boxes, rows, |splat_index, pixel, column, row| {
         let splat = &frame.splats.things[splat_index];
         let ray = frame.view.ray(column, row);
-        let Some(fragment) = splat.fragment(ray, frame.view.near, frame.settings.kernel) else { return };
+        let Some(fragment) = splat.fragment(ray, &frame.view, frame.settings.kernel) else { return };
         let z_shifted = fragment.z * splat.shift;
         if z_shifted < nearest[pixel].z_shifted {
             nearest[pixel] = Nearest { z_shifted, splat: splat_index };
@@ -120,7 +120,7 @@ fn accumulate(frame: &Frame, rows: &Range<u32>, fronts: &[Front], pixels: &mut [
         {
             pixel.rim = true;
         }
-        let Some(fragment) = splat.fragment(ray, view.near, frame.settings.kernel) else { return };
+        let Some(fragment) = splat.fragment(ray, view, frame.settings.kernel) else { return };
         let counts = front.counts(splat_index, fragment.z, splat.shift);
         pixel.note_margin(counts.margin);
         if counts.holds {
@@ -179,7 +179,7 @@ fn translucent(
     [column, row]: [u32; 2],
 ) -> Option<Translucent> {
     let (ray, near, kernel) = (frame.view.ray(column, row), frame.view.near, frame.settings.kernel);
-    let fragment = splat.fragment(ray, near, kernel)?;
+    let fragment = splat.fragment(ray, &frame.view, kernel)?;
     // With the filter `max`, where the disk is not, the low-pass filter is.
     let r2 = splat.hit(ray, near).map_or(1.0, |hit| hit.r2);
     Some(Translucent {
@@ -188,7 +188,7 @@ fn translucent(
         weight: fragment.weight,
         kernel: weight(kernel, r2),
         r2,
-        kept: splat.kept(ray),
+        kept: splat.kept(ray, fragment.z, &frame.view),
         source: Source::Splat(splat_index),
     })
 }

@@ -29,21 +29,21 @@ pub(super) struct Rim {
 
 impl DrawnSplat {
     /// `None` where the splat does not cover.
-    pub fn fragment(&self, ray: DVec3, near: f64, kernel: Kernel) -> Option<Fragment> {
+    pub fn fragment(&self, ray: DVec3, view: &View, kernel: Kernel) -> Option<Fragment> {
         let x = ray.truncate();
         if self.square.is_some_and(|square| square.depth_inside(x) < 0.0) {
             return None;
         }
-        let kept = self.kept(ray);
-        if kept.is_some_and(|kept| kept.part == 0.0) {
-            return None;
-        }
-        let disk = self.hit(ray, near).map(|hit| (hit.z, weight(kernel, hit.r2)));
+        let disk = self.hit(ray, view.near).map(|hit| (hit.z, weight(kernel, hit.r2)));
         let disk = disk.filter(|(_, weight)| *weight > 0.0);
         let low_pass = self.low_pass.map(|low_pass| (low_pass.z, weight(kernel, low_pass.r2(x))));
         let low_pass = low_pass.filter(|(_, weight)| *weight > 0.0);
         // The depth is the disk's own wherever the disk is.
         let (z, _) = disk.or(low_pass)?;
+        let kept = self.kept(ray, z, view);
+        if kept.is_some_and(|kept| kept.part == 0.0) {
+            return None;
+        }
         let weight = disk.map_or(0.0, |disk| disk.1).max(low_pass.map_or(0.0, |low_pass| low_pass.1));
         Some(Fragment {
             z,
@@ -51,9 +51,13 @@ impl DrawnSplat {
         })
     }
 
-    /// What clip curves leave of it in a pixel, where it has any.
-    pub fn kept(&self, ray: DVec3) -> Option<Kept> {
-        self.clip.map(|clip| clip.kept(ray))
+    /// What clip curves and planes leave of it in a pixel that it covers at that depth, where there are any.
+    pub fn kept(&self, ray: DVec3, z: f64, view: &View) -> Option<Kept> {
+        let by_curves = self.clip.map(|clip| clip.kept(ray));
+        match (by_curves, self.left_by_planes(ray, z, view)) {
+            (Some(curves), Some(planes)) => Some(if planes.part < curves.part { planes } else { curves }),
+            (curves, planes) => curves.or(planes),
+        }
     }
 
     /// `None` where no rounding can change what the splat is here. `limit_r2` is the kernel's.
@@ -87,8 +91,13 @@ impl DrawnSplat {
         // Of (u, v) the error is no larger than that of r² where that is 1.
         let margin = disk.map(|disk| disk.1.margin).or(low_pass.map(|part| part.1.margin)).unwrap_or(0.0);
         let clipped = self.clip.map_or(Clipped::Kept, |clip| clip.near(ray, margin));
-        let at_curve = clipped == Clipped::Undecided;
-        if clipped == Clipped::Removed || !(at_disk || at_low_pass || at_square || at_curve) {
+        let z = disk.map(|disk| disk.1.z).or(low_pass.map(|part| part.1.z));
+        let cut = z.map_or(Clipped::Kept, |z| self.near_planes(ray, z, view));
+        let at_curve = clipped == Clipped::Undecided || cut == Clipped::Undecided;
+        if clipped == Clipped::Removed
+            || cut == Clipped::Removed
+            || !(at_disk || at_low_pass || at_square || at_curve)
+        {
             return None;
         }
         let parts = [disk, low_pass].into_iter().flatten().filter(may_cover);

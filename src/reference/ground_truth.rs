@@ -91,7 +91,8 @@ pub fn ground_truth(
         filter_weight: FilterWeight::Unit,
         ..settings.clone()
     };
-    let view = View::of(scene, camera, settings.size_px).sampled(taps.reach_px, samples_per_side);
+    let view =
+        View::of(scene, camera, settings.size_px).cut_by(settings).sampled(taps.reach_px, samples_per_side);
     let (splats, defects) = splat::prepare(scene, &view, &plain);
     let limit_r2 = limit_r2(settings.kernel);
     let field = Field {
@@ -244,7 +245,7 @@ impl Field<'_> {
                 let y = self.view.ray(0, row).y;
                 for column in row_span(splat, search, self.limit_r2, y, &self.view) {
                     let ray = DVec3::new(self.columns[column], y, 1.0);
-                    if let Some(fragment) = splat.fragment(ray, self.view.near, self.kernel) {
+                    if let Some(fragment) = splat.fragment(ray, &self.view, self.kernel) {
                         f(first + column, splat_index, splat, fragment);
                     }
                 }

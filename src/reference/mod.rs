@@ -21,6 +21,8 @@
 //! What a clip curve removes of a splat is left out of each of its fragments (`clip`), by the (u, v) where the ray meets the plane of the
 //! splat as the scene has it: no filter moves a curve. Where edges cover pixels in part, it leaves a part of each (`drawn_clip`).
 //!
+//! Planes that cut what is seen leave out of all fragments, of polygons too, those that are on their other side (`planes`).
+//!
 //! Which levels of detail a view has is found by walking down from the root (`selection`).
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
@@ -55,6 +57,7 @@ mod overlap;
 mod paper_filter;
 mod pick;
 mod picture;
+mod planes;
 mod polygons;
 mod row_span;
 mod samples;
@@ -116,7 +119,7 @@ pub fn render(
     if settings.samples.0 > 1 {
         return samples::render(scene, camera, settings, progress);
     }
-    render_view(scene, View::of(scene, camera, settings.size_px), settings, progress)
+    render_view(scene, View::of(scene, camera, settings.size_px).cut_by(settings), settings, progress)
 }
 
 /// One sample of each pixel.

@@ -1,6 +1,7 @@
 //! What is seen in one pixel, and where: all that covers it, one after the other.
 
 use super::band::Drawn;
+use super::drawn_clip::Clipped;
 use super::kernel::limit_r2;
 use super::splat::DrawnSplat;
 use super::triangle::DrawnTriangle;
@@ -35,7 +36,7 @@ impl<'a> Picker<'a> {
         camera.validate()?;
         settings.check_camera(camera)?;
         settings.check_scene(scene)?;
-        let view = View::of(scene, camera, settings.size_px);
+        let view = View::of(scene, camera, settings.size_px).cut_by(settings);
         let (splats, _) = splat::prepare(scene, &view, settings);
         Ok(Self(frame(scene, view, settings, splats)))
     }
@@ -70,7 +71,7 @@ impl<'a> Picker<'a> {
         let ray = view.ray(column, row);
         let [x_px, y_px] = view.offset_px(column, row);
         let rim = splat.rim(ray, x_px.hypot(y_px), limit_r2(kernel), view);
-        let fragment = splat.fragment(ray, view.near, kernel);
+        let fragment = splat.fragment(ray, view, kernel);
         let z = fragment.map(|fragment| fragment.z).or(rim.map(|rim| rim.z))?;
         let certain = fragment.is_some() && rim.is_none();
         Some(Candidate { z, z_shifted: z * splat.shift, splat: Some(splat.source), certain })
@@ -84,11 +85,11 @@ impl<'a> Picker<'a> {
     ) -> Option<Candidate> {
         let view = &self.0.view;
         let ray = view.ray(column, row);
-        let z = triangle.depth(ray).filter(|z| *z >= view.near);
+        let z = triangle.depth(ray).filter(|z| *z >= view.near && view.cuts(ray, *z) != Clipped::Removed);
         // Beside an edge that two triangles share, either may be taken.
         let near_edge = triangle.border(ray, view);
         let at = z.or(near_edge.map(|border| border.z))?;
-        let certain = z.is_some() && near_edge.is_none();
+        let certain = z.is_some_and(|z| view.cuts(ray, z) == Clipped::Kept) && near_edge.is_none();
         Some(Candidate { z: at, z_shifted: at + epsilon, splat: None, certain })
     }
 }

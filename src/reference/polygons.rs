@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::band::{Drawn, Frame, for_each_candidate};
 use super::decision::Decision;
+use super::drawn_clip::Clipped;
 use super::front::{Front, VisiblePolygon};
 use super::layers::{Source, Translucent};
 use super::picture::Pixel;
@@ -84,7 +85,9 @@ fn for_each_fragment(
     for_each_candidate(frame, &triangles.boxes, rows, |triangle, i, column, row| {
         let Some(z) = triangles.things[triangle].depth(frame.view.ray(column, row)) else { return };
         pixels[i].note_margin(Decision::at_most(z, near).margin);
-        if z >= near {
+        let cut = frame.view.cuts(frame.view.ray(column, row), z);
+        pixels[i].rim |= z >= near && cut == Clipped::Undecided;
+        if z >= near && frame.view.inside_px(frame.view.ray(column, row), z) >= 0.0 {
             f(triangle, i, z, &mut pixels[i]);
         }
     });

@@ -102,7 +102,7 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
     let mut defects = DefectCounts::default();
     for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
-        let cull = culls(settings.backfaces, object.closed, opacity);
+        let cull = culls(settings, object.closed, opacity);
         let overlaps = covers_in_part(scene, settings, opacity).then(|| match scene.meshes.is_empty() {
             true => overlaps(&object.splats, settings.kernel),
             // Where splats meet polygons, their sum is to fall toward their border.
@@ -144,9 +144,11 @@ pub(super) fn mean_epsilon(scene: &Scene, epsilon: Epsilon) -> f64 {
 }
 
 /// Whether what faces away is not drawn. Through a transparent surface its far side is seen.
-pub(super) fn culls(backfaces: Backfaces, closed: bool, opacity: Opacity) -> bool {
-    match backfaces {
-        Backfaces::Auto => closed && opacity == Opacity::Opaque,
+pub(super) fn culls(settings: &Settings, closed: bool, opacity: Opacity) -> bool {
+    // Through a cut its inside is seen.
+    let is_cut_open = settings.clip_box.0.is_some() || !settings.clip_planes.0.is_empty();
+    match settings.backfaces {
+        Backfaces::Auto => closed && opacity == Opacity::Opaque && !is_cut_open,
         Backfaces::Flip => false,
         Backfaces::Cull => true,
     }

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::planes::Planes;
 use crate::scene::{Ball, Camera, Scene, ViewFromWorld};
 
 /// Camera and image size, ready for use.
@@ -25,6 +26,8 @@ pub(super) struct View {
     pub filter_px: f64,
     /// How much farther from the scene the eye is here than the camera's own.
     pub moved_back: f64,
+    /// The planes that cut what is seen.
+    pub planes: Planes,
     /// The part of depths that belongs to the scene: what digits and margins of depth are relative to; 1 of a pinhole camera.
     pub depth_share: f64,
 }
@@ -66,6 +69,7 @@ impl View {
             near: camera.near(),
             filter_px: std::f64::consts::SQRT_2,
             moved_back: 0.0,
+            planes: Planes::default(),
             depth_share: 1.0,
         }
     }

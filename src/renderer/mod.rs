@@ -199,13 +199,13 @@ impl Renderer {
         let counts_draws = self.device.facts().draw_indirect_count;
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::needs(&frame, settings, counts_draws), profile) }?;
+        // SAFETY: this function's contract.
+        let planes = unsafe { slot.planes(&frame.planes) }?;
         // The graph's bodies borrow the pool of sets while the execution borrows the rest of the slot.
         let SlotParts { descriptors, occlusion, execution } = slot.parts()?;
-        let inputs = Inputs {
-            occlusion,
-            range: frame.range,
-            ..Inputs::new(camera, settings, Place::Device(&self.shaders, descriptors))
-        };
+        let inputs = Inputs::new(camera, settings, Place::Device(&self.shaders, descriptors));
+        let source = inputs.source.cut_by(planes);
+        let inputs = Inputs { occlusion, range: frame.range, source, ..inputs };
         let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
         // SAFETY: this function's contract.
         unsafe {

@@ -53,6 +53,8 @@ impl Renderer {
     ) -> Result<()> {
         // SAFETY: this function's contract.
         unsafe { slot.begin(passes::needs_of_pick(), None) }?;
+        // SAFETY: this function's contract.
+        let planes = unsafe { slot.planes(plan.planes()) }?;
         let parts = slot.parts()?;
         let mut graph = Graph::new();
         let initial = BufferState {
@@ -63,7 +65,7 @@ impl Renderer {
         let desc = GraphBufferDesc::of_bytes(plan.size_bytes());
         let mut to = graph.import_buffer("read-back of picked", desc, initial, Some(last));
         let imports = [(to.id(), Physical::Buffer(answer))];
-        passes::pick(&mut graph, Place::Device(&self.shaders, parts.descriptors), plan, &mut to)?;
+        passes::pick(&mut graph, (Place::Device(&self.shaders, parts.descriptors), planes), plan, &mut to)?;
         // SAFETY: this function's contract.
         unsafe {
             self.shaders.begin_frame(commands)?;

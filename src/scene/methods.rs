@@ -130,7 +130,7 @@ named! {
 named! {
     /// The treatment of splats whose normal points away from the eye.
     Backfaces {
-        /// `cull` for objects that are closed and opaque, `flip` for the others.
+        /// `cull` for objects that are closed, opaque, and not cut open by a plane or a box, `flip` for the others.
         Auto = "auto",
         /// Their normal is turned to the eye.
         Flip = "flip",

@@ -1,8 +1,10 @@
 //! How a scene is rendered: the table of settings, and the combinations that have no picture.
 
+use glam::DVec4;
+
 use super::{
-    Budget, Camera, Layers, Light, Lod, LodSteps, MOST_LIGHTS, Object, Opacity, Samples, Scene, Shapes,
-    TileMemory,
+    Budget, Camera, ClipBox, ClipPlanes, Layers, Light, Lod, LodSteps, MOST_LIGHTS, MOST_PLANES, Object,
+    Opacity, Samples, Scene, Shapes, TileMemory,
     methods::{
         Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
         Shading, TileInvocations, Transition,
@@ -67,6 +69,10 @@ settings! {
         "last-layer" "WHAT" last_layer: LastLayer,
         /// How splats and polygons of one surface meet.
         "transition" "HOW" transition: Transition,
+        /// The box outside of which nothing is seen, by the smallest and the largest coordinates of the world: splats are cut at its sides pixel by pixel.
+        "clip-box" "X,Y,Z,X,Y,Z|none" clip_box: ClipBox,
+        /// A plane that cuts what is seen: a x + b y + c z >= d is left, in the world. Up to 6 with those of the box, each by an option of its own.
+        "clip-plane" "A,B,C,D|none" clip_planes: ClipPlanes,
         /// How the surface is colored, with one light at the eye where a scene file has none.
         "shading" "NAME" shading: Shading,
         /// The color of empty pixels, sRGB from 0 to 1; none leaves them transparent (and black).
@@ -84,6 +90,11 @@ impl Settings {
     pub fn validate(&self) -> Result<()> {
         for option in Self::OPTIONS {
             (option.check)(self).map_err(|problem| Error::option(format!("--{}", option.name), problem))?;
+        }
+        let planes = self.clip().len();
+        if planes > MOST_PLANES {
+            let problem = format!("{planes} planes with those of --clip-box; expected at most {MOST_PLANES}");
+            return Err(Error::option("--clip-plane", problem));
         }
         self.filter.check(self.rasterizer)?;
         if let (Rasterizer::Compute, Some((option, reason))) = (self.rasterizer, self.why_not_tiles()) {
@@ -112,6 +123,20 @@ impl Settings {
             return Some(("--kernel-eval", reason));
         }
         None
+    }
+
+    /// The planes that cut what is seen, in world space: unit normals toward what is left, and by how much the origin is on that side.
+    pub fn clip(&self) -> Vec<DVec4> {
+        self.clip_box.planes().chain(self.clip_planes.planes()).collect()
+    }
+
+    /// Whether what faces away is not drawn of an object that is closed and opaque, or is not so. What is cut open is seen from inside.
+    pub fn culls(&self, closed: bool) -> bool {
+        match self.backfaces {
+            Backfaces::Auto => closed && self.clip().is_empty(),
+            Backfaces::Flip => false,
+            Backfaces::Cull => true,
+        }
     }
 
     /// Whether the filter gives splats weights of their own.

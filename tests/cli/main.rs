@@ -3,6 +3,7 @@
 
 mod bench;
 mod camera_words;
+mod clip_planes;
 mod compare;
 mod convert;
 mod counts;

@@ -33,6 +33,7 @@ mod paged;
 mod paper_form;
 mod pick;
 mod pictures;
+mod planes;
 mod samples;
 mod seam;
 mod selftest;

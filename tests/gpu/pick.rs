@@ -9,8 +9,8 @@ use surfel::{
     reference::{Candidate, Picker},
     renderer::Headless,
     scene::{
-        Camera, Edges, Epsilon, Filter, Lod, Object, Order, Rasterizer, Scene, Settings, SplatFormat,
-        Storage, Transition,
+        Camera, ClipPlanes, Edges, Epsilon, Filter, Lod, Object, Order, Rasterizer, Scene, Settings,
+        SplatFormat, Storage, Transition,
     },
 };
 
@@ -124,6 +124,18 @@ fn so_they_are_by_every_rasterizer_and_filter_and_in_parts_of_pictures() {
     let middle = [width / 2, height / 2];
     let packed = headless.pick(&prepared, &hard.camera, &hard.settings, middle).unwrap().unwrap();
     assert!(packed.position.length() > 0.9 && packed.normal.dot(packed.position.normalize()) > 0.99);
+}
+
+#[test]
+fn what_planes_cut_off_is_not_picked() {
+    let mut headless = shared();
+    let all = [scenes::sphere_of_disks(), transparent::hybrid(Transition::Color), transparent::spheres()];
+    for hard in all {
+        let cut = with(&hard, |settings| settings.clip_planes = ClipPlanes(vec![[0.3, 1.0, 0.2, -0.1]]));
+        let (off, seen) = worst(&mut headless, &cut);
+        println!("{}: {seen} places, off by {off:.1e} of the distance", hard.name);
+        assert!(seen > 10, "{}: {seen}", hard.name);
+    }
 }
 
 /// UTM metres: f32 places a coordinate to half a metre.

@@ -132,9 +132,9 @@ impl Drawn {
 mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
-        Accumulate, Backfaces, Budget, Cull, Edges, Epsilon, Filter, FilterWeight, Kernel, KernelEval,
-        LastLayer, Layers, Lod, LodSteps, Rasterizer, Samples, Shading, TileInvocations, TileMemory,
-        Transition,
+        Accumulate, Backfaces, Budget, ClipBox, ClipPlanes, Cull, Edges, Epsilon, Filter, FilterWeight,
+        Kernel, KernelEval, LastLayer, Layers, Lod, LodSteps, Rasterizer, Samples, Shading, TileInvocations,
+        TileMemory, Transition,
     };
 
     use super::*;
@@ -173,12 +173,16 @@ mod tests {
             layers: Layers::Fixed(7),
             last_layer: LastLayer::Drop,
             transition: Transition::Attributes,
+            clip_box: ClipBox(None),
+            clip_planes: ClipPlanes(vec![[1.0, 0.0, -2.5, 0.25], [0.0, 1.0, 0.0, -3.0]]),
             shading: Shading::Normals,
             background: None,
         };
         let others = Settings {
             backfaces: Backfaces::Flip,
             layers: Layers::Auto(16),
+            clip_box: ClipBox(Some([[-1.0, -2.0, -3.5], [1.0, 2.0, 3.0]])),
+            clip_planes: ClipPlanes::default(),
             shading: Shading::Albedo,
             background: Some([0.5, 0.25, 0.0]),
             ..settings.clone()

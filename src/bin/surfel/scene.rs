@@ -186,7 +186,7 @@ fn describe(inputs: &Inputs) -> Result<Described> {
             let (other, said) = &described.picture;
             if *said != PictureDescription::default() {
                 let problem = format!("{} has some too; expected them in one file", other.display());
-                return Err(Error::input(path, "epsilon, background or shading", problem));
+                return Err(Error::input(path, "epsilon, background, shading or clips", problem));
             }
             described.picture = (file.path.clone(), file.picture);
         }

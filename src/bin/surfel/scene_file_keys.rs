@@ -12,9 +12,10 @@ space; colors are sRGB from 0 to 1.
                            as the options without _deg
   fov_deg = 45             the vertical field of view in degrees; or
   orthographic             the picture's height, or \"fit\"
-epsilon = \"auto\"           as the option, or a number: a length; these three stand above all
+epsilon = \"auto\"           as the option, or a number: a length; these five stand above all
 background = [1, 1, 1]     or \"none\"; tables, and options replace each of them
 shading = \"phong\"          as the option
+clip_box, clip_planes      as the options: six numbers; arrays of four
 [[light]]                  at most 16; without any, a white one at the eye
   kind = \"eye\"             or \"directional\"
   direction                in which a directional light travels

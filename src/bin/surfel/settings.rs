@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use clap::{
-    Arg, ArgMatches, Args, Command, FromArgMatches,
+    Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser},
     error::ErrorKind,
     parser::ValueSource,
@@ -70,9 +70,11 @@ impl<T: Taken> FromArgMatches for Given<T> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let (mut values, mut given, mut said) = (T::Table::default(), Vec::new(), Vec::new());
         for setting in T::Table::OPTIONS {
-            if let Ok(Some(word)) = matches.try_get_one::<String>(setting.name) {
+            if let Ok(Some(words)) = matches.try_get_many::<String>(setting.name) {
                 let refused = |problem| clap::Error::raw(ErrorKind::ValueValidation, problem);
-                (setting.set)(&mut values, word).map_err(refused)?;
+                // One word, but of what is given more than once.
+                let word = words.map(String::as_str).collect::<Vec<_>>().join(";");
+                (setting.set)(&mut values, &word).map_err(refused)?;
                 given.push(setting);
                 if matches.value_source(setting.name) != Some(ValueSource::DefaultValue) {
                     said.push(setting);
@@ -87,6 +89,9 @@ impl<T: Taken> FromArgMatches for Given<T> {
         Ok(())
     }
 }
+
+/// The setting that may be given more than once.
+const REPEATED: &str = "clip-plane";
 
 /// The option of a setting, as its table has it.
 fn option<S: OptionTable>(setting: &'static Setting<S>) -> Arg {
@@ -103,6 +108,7 @@ fn option<S: OptionTable>(setting: &'static Setting<S>) -> Arg {
         .help(plain(setting.help))
         .value_parser(parser)
         .allow_hyphen_values(setting.choices.is_empty())
+        .action(if setting.name == REPEATED { ArgAction::Append } else { ArgAction::Set })
 }
 
 /// Markdown as help has it.

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::{
     load::builtin::{DEFAULT_RELIEF_SPLATS, DEFAULT_SPHERE_SPLATS},
-    scene::{CameraParts, Epsilon, Light, Settings, Shading, named},
+    scene::{CameraParts, ClipBox, ClipPlanes, Epsilon, Light, Settings, Shading, named},
 };
 
 /// A scene file: what is drawn, under which light and from where.
@@ -36,6 +36,10 @@ pub struct PictureDescription {
     pub background: Option<Option<[f32; 3]>>,
     /// As [`Settings::shading`](crate::scene::Settings::shading).
     pub shading: Option<Shading>,
+    /// As [`Settings::clip_box`](crate::scene::Settings::clip_box).
+    pub clip_box: Option<ClipBox>,
+    /// As [`Settings::clip_planes`](crate::scene::Settings::clip_planes).
+    pub clip_planes: Option<ClipPlanes>,
 }
 
 impl PictureDescription {
@@ -44,6 +48,8 @@ impl PictureDescription {
         settings.epsilon = self.epsilon.unwrap_or(settings.epsilon);
         settings.background = self.background.unwrap_or(settings.background);
         settings.shading = self.shading.unwrap_or(settings.shading);
+        settings.clip_box = self.clip_box.unwrap_or(settings.clip_box);
+        settings.clip_planes = self.clip_planes.clone().unwrap_or(settings.clip_planes);
         settings
     }
 }

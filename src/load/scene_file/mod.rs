@@ -62,7 +62,7 @@ fn parse(path: &Path, text: &str, options: &LoadOptions) -> Result<SceneFile> {
         parsed.get_ref(),
         0,
         "",
-        &["camera", "light", "object", "epsilon", "background", "shading"],
+        &["camera", "light", "object", "epsilon", "background", "shading", "clip_box", "clip_planes"],
     )?;
     let camera = root.table("camera", camera::KEYS)?.map(|table| camera::read(&table)).transpose()?;
     let (camera, camera_target) = camera.map_or((None, None), |(camera, target)| (Some(camera), target));

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     error::Result,
-    scene::{Epsilon, OptionValue, Shading},
+    scene::{ClipBox, ClipPlanes, Epsilon, MOST_PLANES, OptionValue, Shading},
 };
 
 /// Reads the keys of the file itself.
@@ -14,6 +14,8 @@ pub(super) fn read(root: &Table<'_>) -> Result<PictureDescription> {
     Ok(PictureDescription {
         epsilon: root.get("epsilon").map(|value| epsilon(&value)).transpose()?,
         background: root.get("background").map(|value| background(&value)).transpose()?,
+        clip_box: root.get("clip_box").map(|value| clip_box(&value)).transpose()?,
+        clip_planes: root.get("clip_planes").map(|value| clip_planes(&value)).transpose()?,
         shading: root.get("shading").map(|value| value.one_of(Shading::NAMES)).transpose()?,
     })
 }
@@ -28,6 +30,27 @@ pub(super) fn epsilon(value: &Value<'_>) -> Result<Epsilon> {
             parsed.filter(|epsilon| epsilon.check().is_ok()).ok_or_else(|| value.expected(what))
         }
         Err(_) => value.number(what, |length| length >= 0.0).map(Epsilon::Length),
+    }
+}
+
+/// Two corners.
+fn clip_box(value: &Value<'_>) -> Result<ClipBox> {
+    let what = "six numbers: the smallest x, y and z, then the largest";
+    let [a, b, c, d, e, f] = value.numbers(what, |_| true)?;
+    let clip_box = ClipBox(Some([[a, b, c], [d, e, f]]));
+    clip_box.check().map(|()| clip_box).map_err(|_| value.expected("smallest coordinates below the largest"))
+}
+
+/// Four numbers each.
+fn clip_planes(value: &Value<'_>) -> Result<ClipPlanes> {
+    let what = "arrays of four numbers, [a, b, c, d], of which a x + b y + c z >= d is seen";
+    let planes = value.elements().ok_or_else(|| value.expected(what))?;
+    let planes = planes.iter().map(|plane| plane.numbers(what, |_| true)).collect::<Result<Vec<_>>>()?;
+    let planes = ClipPlanes(planes);
+    planes.check().map_err(|_| value.expected("a, b and c that are not all 0"))?;
+    match planes.0.len() <= MOST_PLANES {
+        true => Ok(planes),
+        false => Err(value.expected(&format!("at most {MOST_PLANES} planes"))),
     }
 }
 

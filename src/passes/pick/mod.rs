@@ -14,7 +14,7 @@ use crate::passes::{
     },
     pass::{self, Pass, Source},
     pipeline::cache::room_of_lists,
-    place::{Place, lists, transfer},
+    place::{Place, Planes, lists, transfer},
     plan::{draws::Draw, mesh_draws::MeshDraw, needs::Needs},
     recording::rows_of,
     resolve::readback::readback_buffer,
@@ -50,12 +50,12 @@ pub(crate) fn needs() -> Needs {
 /// Declares the passes; `to` is filled with [`PickPlan::size_bytes`].
 pub(crate) fn pick<'a>(
     graph: &mut Graph<Body<'a>>,
-    place: pass::Place<'a>,
+    (place, planes): (pass::Place<'a>, Planes),
     plan: &'a PickPlan<'a>,
     to: &mut Handle<Buffer>,
 ) -> Result<()> {
     const WHY: &str = "a pixel is picked";
-    let source = Source::new(place, &plan.camera);
+    let source = Source::new(place, &plan.camera).cut_by(planes);
     let bytes: &[u8] = bytemuck::cast_slice(plan.listed.words());
     let mut blocks = graph.create_buffer("picked blocks", BufferDesc::of_bytes(bytes.len() as u64));
     Pass::new(graph, source, "picked blocks", WHY)

@@ -9,6 +9,7 @@ use crate::passes::plan::{
     budget::within_budget,
     draws::{Draw, draws, with_hard_steps, without_levels},
     mesh_draws::{MeshDraw, mesh_draws},
+    planes::{ShaderPlane, shader_planes},
     range::DepthRange,
 };
 use crate::{
@@ -28,6 +29,7 @@ pub struct PickPlan<'a> {
     /// Where the camera is.
     eye: DVec3,
     range: DepthRange,
+    planes: Vec<ShaderPlane>,
     scene: &'a PreparedScene,
 }
 
@@ -95,7 +97,13 @@ impl<'a> PickPlan<'a> {
             draw.constants.first_record = first;
             first += runs_of(draw);
         }
-        Self { draws, meshes, listed, camera, eye, range, scene }
+        let planes = shader_planes((&camera, range), &settings);
+        Self { draws, meshes, listed, camera, eye, range, planes, scene }
+    }
+
+    /// The planes that cut what is seen.
+    pub(crate) fn planes(&self) -> &[ShaderPlane] {
+        &self.planes
     }
 
     /// Bytes of the device's answer.

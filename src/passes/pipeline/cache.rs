@@ -33,7 +33,7 @@ const _: () = assert!(2 + LIST_BINDINGS <= crate::vk::LEAST_STORAGE_BUFFERS);
 
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
 pub fn room_of_lists(sets: u32) -> PoolSizes {
-    PoolSizes { sets, buffers: LIST_BINDINGS * sets, ..PoolSizes::default() }
+    PoolSizes { sets, buffers: LIST_BINDINGS * sets, uniform_buffers: sets, ..PoolSizes::default() }
 }
 
 /// The layouts of all passes and the pipelines made so far.
@@ -82,9 +82,12 @@ impl Shaders {
         let set = |name, bindings: &[Binding]| -> Result<SetLayout> {
             Ok(SetLayout::new(device, name, bindings)?.with_stand_ins(&stand_ins, &[]))
         };
-        let list_set = set("lists", &vec![buffer; LIST_BINDINGS as usize])?;
+        let planes = |stages| Binding { kind: vk::DescriptorType::UNIFORM_BUFFER, stages };
+        let mut of_lists = vec![buffer; LIST_BINDINGS as usize];
+        of_lists.push(planes(compute));
+        let list_set = set("lists", &of_lists)?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
-        let read_set = set("read by fragments", &[image, filtered, image, lights])?;
+        let read_set = set("read by fragments", &[image, filtered, image, lights, planes(fragment)])?;
         let sums_set = set("sums", &[image, image, image, image, image, lights])?;
         let splat_layout = PipelineLayout::new(
             device,

@@ -20,6 +20,13 @@ pub(crate) enum Layout {
     TileQuads,
 }
 
+impl Layout {
+    /// Whether its sets have a place for the planes that cut what is seen.
+    pub fn has_planes(self) -> bool {
+        matches!(self, Self::Splat | Self::List | Self::Record | Self::Tile)
+    }
+}
+
 /// All that a graphics pipeline is made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GraphicsKey {

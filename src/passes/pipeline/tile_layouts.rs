@@ -25,7 +25,7 @@ pub(crate) struct TileLayouts {
 }
 
 /// The last binding of the set.
-const LAST_BINDING: u32 = BIND_CLIP_TEXELS;
+const LAST_BINDING: u32 = BIND_PLANES;
 
 /// The type of a binding.
 fn kind_of(binding: u32) -> vk::DescriptorType {
@@ -33,7 +33,7 @@ fn kind_of(binding: u32) -> vk::DescriptorType {
         BIND_COLORS | BIND_NORMALS | BIND_VISIBLE_DEPTH => vk::DescriptorType::STORAGE_IMAGE,
         BIND_DEPTH_BEFORE | BIND_POLYGON_DEPTH | BIND_COLORS_BEFORE | BIND_NORMALS_BEFORE
         | BIND_VISIBLE_BEFORE => vk::DescriptorType::SAMPLED_IMAGE,
-        BIND_LIGHTS => vk::DescriptorType::UNIFORM_BUFFER,
+        BIND_LIGHTS | BIND_PLANES => vk::DescriptorType::UNIFORM_BUFFER,
         BIND_RECORD_TEXELS..=BIND_RECT_TEXELS | BIND_CLIP_TEXELS => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
         _ => vk::DescriptorType::STORAGE_BUFFER,
     }

@@ -4,7 +4,7 @@ use std::f64::consts::LOG2_E;
 
 use crate::{
     math::kernel::{gaussian_coverage_r2, gaussian_mean, psi_e_coverage_r2, psi_e_mean},
-    scene::{Backfaces, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, Transition},
+    scene::{Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, Transition},
     shaders::config::*,
 };
 
@@ -21,11 +21,7 @@ pub fn culls(constants: &Constants) -> bool {
 
 /// The constants of the splat passes for one kind of chunk, in an image that is a part of a whole picture of that size.
 pub fn splat_constants(settings: &Settings, whole_px: [u32; 2], ellipses: bool, closed: bool) -> Constants {
-    let cull = match settings.backfaces {
-        Backfaces::Auto => closed,
-        Backfaces::Flip => false,
-        Backfaces::Cull => true,
-    };
+    let cull = settings.culls(closed);
     let filter = match settings.filter {
         Filter::None => FILTER_NONE,
         Filter::Adjust => FILTER_ADJUST,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use crate::passes::plan::{
     levels::{LevelView, OfBlock},
@@ -25,6 +25,8 @@ pub struct BlockCullView<'a> {
     pub culls: bool,
     /// Levels of detail, where some are drawn.
     pub levels: Option<&'a LevelView>,
+    /// The planes that cut what is seen, in view space.
+    pub planes: &'a [DVec4],
 }
 
 /// What a device finds in f32 of a unit vector may differ from this file's f64 by so much of an angle: some roundings of 2⁻²⁴, and a
@@ -70,6 +72,9 @@ fn potentially_visible(
     if look.culls && angles[1] < right {
         return None;
     }
+    if look.planes.iter().any(|plane| ball.is_beyond(*plane, look)) {
+        return None;
+    }
     let Image { rows, most_x, is_whole } = ball.image(look)?;
     let scale = look.view.view_from_local_scale;
     let largest_radius = block.largest_radius * scale;
@@ -87,7 +92,7 @@ fn potentially_visible(
         },
         box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk).min(of_level),
         rows,
-        all_seen: is_whole && (!look.culls || angles[0] > right),
+        all_seen: is_whole && look.planes.is_empty() && (!look.culls || angles[0] > right),
         all_of_level: of_levels == OfBlock::All,
     })
 }
@@ -127,6 +132,16 @@ impl Ball {
         let [x, y, z] = (look.view.rotation * middle).into();
         // A splat's points are within its radius, its image within that of twice as much.
         Self { middle, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
+    }
+
+    /// Whether all that is drawn of its splats is on the side of a plane that is cut off: no farther from a splat than it is large and a filter, which is the larger
+    /// the deeper, reaches.
+    fn is_beyond(&self, plane: DVec4, look: &BlockCullView<'_>) -> bool {
+        let depth = if look.bound.is_orthographic { 1.0 } else { self.z + self.reach };
+        let of_filter = FILTER_RESERVE_PX / look.bound.focal_px * depth.max(0.0);
+        let inside = plane.truncate().dot(DVec3::new(self.x, self.y, self.z)) + plane.w;
+        let reserve = LENGTH_RESERVE * (plane.w.abs() + self.z.abs());
+        inside < -(self.reach + of_filter + reserve)
     }
 
     /// `None` where nothing of it may be seen.

@@ -41,6 +41,8 @@ pub struct Draw<'a> {
     bound: SizeBound,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
+    /// The planes that cut what is seen, in view space: unit normals toward what is left, and by how much the eye is inside.
+    pub(super) planes: Vec<DVec4>,
     /// How the camera sees its levels of detail, where some of its splats are of none that is drawn.
     pub(crate) levels: Option<LevelView>,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
@@ -55,9 +57,12 @@ pub struct Draw<'a> {
 impl Draw<'_> {
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_blocks(&self) -> Vec<PotentiallyVisibleBlock> {
-        let Self { view, bound, levels, .. } = self;
+        let Self { view, bound, levels, planes, .. } = self;
         let culls = culls(&self.variant);
-        potentially_visible_blocks(self.chunk, &BlockCullView { view, bound, culls, levels: levels.as_ref() })
+        potentially_visible_blocks(
+            self.chunk,
+            &BlockCullView { view, bound, culls, levels: levels.as_ref(), planes },
+        )
     }
 }
 
@@ -103,6 +108,7 @@ pub fn draws<'a>(
     let filter_radius_px = settings.samples.filter_radius_px();
     let sums = sums_under(settings.kernel);
     let primitive = Primitive::of(settings.rasterizer);
+    let clip = settings.clip();
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
         let is_orthographic = camera.is_orthographic();
@@ -158,7 +164,9 @@ pub fn draws<'a>(
             boxes: chunk.radii.iter().map(box_of).collect(),
             view,
             bound,
-            wholly_in_view: wholly_in_view(chunk, &view, &bound),
+            // What planes cut off is looked for, too.
+            wholly_in_view: clip.is_empty() && wholly_in_view(chunk, &view, &bound),
+            planes: clip.iter().map(|plane| in_view(*plane, camera, &view)).collect(),
             levels,
             may_be_large: match primitive {
                 Primitive::Point => largest_box_px > f64::from(point_cap_px),
@@ -236,6 +244,13 @@ fn point_step_px(granularity: f32) -> f32 {
 /// What a device finds in f32 of a depth may differ by so much from f64's, as a part of the distances of which it is the sum: some 6
 /// roundings of 2⁻²⁴, with room.
 const DEPTH_RESERVE: f64 = 1e-6;
+
+/// A plane in view space.
+fn in_view(plane: DVec4, camera: &Camera, view: &ViewFromLocal) -> DVec4 {
+    let normal = plane.truncate();
+    let eye = normal.dot(camera.eye) + plane.w;
+    (camera.view_from_world().rotation * normal).extend(eye * view.view_from_world_scale)
+}
 
 /// The smallest depth of any point of the chunk's splats, in view space: of the box of centers, less the largest radius, as a device may
 /// find it. The host proves by it that splats are regular, and those that a device finds otherwise would have no place.

@@ -6,7 +6,7 @@ use crate::passes::{
 };
 use crate::{
     prepare::{MeshChunk, PreparedScene},
-    scene::{Backfaces, Camera, Epsilon, Settings},
+    scene::{Camera, Epsilon, Settings},
 };
 
 /// A piece of a mesh in this frame.
@@ -38,11 +38,7 @@ pub fn mesh_draws<'a>(
                 chunk_color: u32::from(chunk.uniform_color),
                 ..frame_constants(&view, (camera, range), settings, (0.0, epsilon))
             },
-            cull: match settings.backfaces {
-                Backfaces::Auto => chunk.closed && !chunk.transparent,
-                Backfaces::Flip => false,
-                Backfaces::Cull => true,
-            },
+            cull: settings.culls(chunk.closed && !chunk.transparent),
         }
     };
     scene.meshes.iter().map(draw).collect()

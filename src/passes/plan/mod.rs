@@ -16,6 +16,7 @@ pub(crate) mod lights;
 pub(crate) mod mesh_draws;
 pub(crate) mod method;
 pub(crate) mod needs;
+pub(crate) mod planes;
 pub(crate) mod range;
 pub(crate) mod seen;
 pub(crate) mod sums;
@@ -47,6 +48,8 @@ pub struct FramePlan<'a> {
     pub transparent: SurfacePlan<'a>,
     /// What shines on both, where the scene has lights of its own.
     pub lights: Vec<lights::ShaderLight>,
+    /// The planes that cut both.
+    pub planes: Vec<planes::ShaderPlane>,
     /// How deep it reaches.
     pub range: DepthRange,
 }
@@ -107,6 +110,7 @@ impl<'a> FramePlan<'a> {
             opaque: SurfacePlan::new(splats, meshes, settings, limits),
             transparent,
             lights: lights::shader_lights(&scene.lights, camera),
+            planes: planes::shader_planes((camera, range), settings),
             range,
         }
     }

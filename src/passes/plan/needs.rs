@@ -43,7 +43,7 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     Needs {
         room: PoolSizes {
             sets: reads + sums + 1,
-            uniform_buffers: reads + sums,
+            uniform_buffers: 2 * reads + sums,
             // The cells of depth have a buffer and an image.
             buffers: 1,
             images: 2 * reads + 5 * sums + 1,
@@ -62,7 +62,7 @@ fn room_of_tiles() -> PoolSizes {
     PoolSizes {
         sets,
         buffers: STORAGE_BUFFERS * sets,
-        uniform_buffers: sets,
+        uniform_buffers: 2 * sets,
         texel_buffers: 6 * sets,
         images: 6 * sets,
         storage_images: 6 * sets,

@@ -157,7 +157,7 @@ fn no_pixel_outside_the_search_box_is_covered_or_near_the_rim() {
         let concerns = |splat: &DrawnSplat, column, row| {
             let [x_px, y_px] = view.offset_px(column, row);
             let ray = view.ray(column, row);
-            splat.fragment(ray, view.near, settings.kernel).is_some()
+            splat.fragment(ray, &view, settings.kernel).is_some()
                 || splat.rim(ray, x_px.hypot(y_px), limit_r2, &view).is_some()
         };
         let (mut concerned, mut smaller_boxes) = (0, 0);

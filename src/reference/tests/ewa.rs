@@ -54,7 +54,7 @@ fn the_weight_is_that_of_the_sum_of_covariances() {
                 let exponent = delta.dot(variance.inverse() * delta);
                 let inside = exponent <= 1.0 / (sigma * sigma);
                 let expected = factor.max(settings.floors().share) * (-0.5 * exponent).exp();
-                let got = splat.fragment(ray, view.near, settings.kernel);
+                let got = splat.fragment(ray, &view, settings.kernel);
                 assert_eq!(got.is_some(), inside, "case {case}");
                 if let Some(fragment) = got {
                     covering += 1;
@@ -91,7 +91,7 @@ fn the_weight_is_the_convolution_of_splat_and_filter() {
                 sum += kernel(y) * low_pass(x - y) * step * step;
             }
         }
-        let got = splat.fragment(x.extend(1.0), view.near, Kernel::default()).unwrap().weight;
+        let got = splat.fragment(x.extend(1.0), &view, Kernel::default()).unwrap().weight;
         // The tangents are 32 bits: 2⁻²⁴ of each axis.
         assert!((got / sum - 1.0).abs() < 1e-6, "{got} {sum}");
     }
@@ -147,7 +147,7 @@ fn an_edge_on_splat_is_drawn_as_wide_as_the_filter() {
         let edge_on = (DVec3::Z, Vec3::X * 0.5, Vec3::Z * 0.5, GRAY);
         let (splat, view) = drawn(edge_on, &ewa(rasterizer));
         let pixel = 1.0 / 32.0;
-        let at = |x: f64, y: f64| splat.fragment(DVec3::new(x, y, 1.0), view.near, Kernel::default());
+        let at = |x: f64, y: f64| splat.fragment(DVec3::new(x, y, 1.0), &view, Kernel::default());
         let middle = at(0.0, 0.0).unwrap();
         assert_eq!((middle.weight, middle.z), (ewa(rasterizer).floors().share, 1.0));
         assert!(at(0.0, 1.41 * pixel).is_some() && at(0.0, 1.42 * pixel).is_none());

@@ -67,7 +67,8 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             middle_px: camera.middle_px(SIZE_PX),
             filter_px: std::f64::consts::SQRT_2,
         };
-        let look = BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0, levels: None };
+        let look =
+            BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0, levels: None, planes: &[] };
         let seen = potentially_visible(0, &block, &look);
         for disk in &disks {
             let faces_away = disk.normal.dot(ray_to(disk.center)) > 0.0;

@@ -1,0 +1,70 @@
+//! The planes that cut what is seen, as a camera sees them.
+
+use glam::DVec4;
+
+use crate::{
+    passes::plan::range::DepthRange,
+    scene::{Camera, MOST_PLANES, Settings},
+};
+
+/// A plane as `glsl/inc/planes.glsl` has it.
+pub type ShaderPlane = [f32; 4];
+
+const _: () = assert!(MOST_PLANES == crate::shaders::config::MOST_PLANES as usize);
+
+/// Planes as a camera sees them, whose depth begins where it is ([`DepthRange::begin`]).
+pub(crate) fn shader_planes((camera, range): (&Camera, DepthRange), settings: &Settings) -> Vec<ShaderPlane> {
+    let view = camera.view_from_world();
+    let focal_px = camera.focal_px(settings.size_px[1]);
+    let of = |plane: DVec4| {
+        let normal = view.rotation * plane.truncate();
+        // By how much the eye is inside.
+        let eye = plane.truncate().dot(view.eye) + plane.w;
+        let [at_axis, of_depth] = match camera.is_orthographic() {
+            true => [eye + normal.z * range.end, -normal.z * range.end],
+            false => [normal.z, eye / camera.near()],
+        };
+        [normal.x, normal.y, focal_px * at_axis, focal_px * of_depth].map(|part| part as f32)
+    };
+    settings.clip().into_iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{ClipBox, ClipPlanes};
+    use glam::DVec3;
+
+    /// What the shader finds, in f64, is by how many pixels a place is inside.
+    #[test]
+    fn places_are_inside_by_as_many_pixels_as_they_are_seen() {
+        let far = DVec3::new(5e5, 4.6e6, 300.0);
+        let perspective = Camera { eye: far + DVec3::new(1.0, 2.0, 3.0), target: far, ..Camera::default() };
+        let parallel = Camera { orthographic_height: Some(4.0), ..perspective };
+        let settings = Settings {
+            size_px: [100, 80],
+            clip_box: ClipBox(Some([(far - 1.0).to_array(), (far + 0.5).to_array()])),
+            ..Settings::default()
+        };
+        for camera in [perspective, parallel] {
+            let range = DepthRange { from_eye: 0.0, end: 20.0 };
+            let planes = shader_planes((&camera, range), &settings);
+            assert_eq!(planes.len(), 6);
+            let place = far + DVec3::new(0.25, -0.5, 0.1);
+            let at = camera.view_from_world().point(place);
+            let focal_px = camera.focal_px(80);
+            let (px, w, scale) = match camera.is_orthographic() {
+                true => (at.truncate() * focal_px, 1.0 - at.z / range.end, focal_px),
+                false => (at.truncate() / at.z * focal_px, camera.near() / at.z, focal_px / at.z),
+            };
+            let inside = [1.25, 0.25, 0.5, 1.0, 1.1, 0.4];
+            for (plane, expected) in planes.iter().zip(inside) {
+                let [x, y, z, of_depth] = plane.map(f64::from);
+                let found = x * px.x + y * px.y + z + of_depth * w;
+                assert!((found / scale - expected).abs() < 1e-5, "{found} {scale} {expected}");
+            }
+        }
+        let other = Settings { clip_planes: ClipPlanes(vec![[0.0, 0.0, 1.0, 0.0]]), ..Settings::default() };
+        assert_eq!(shader_planes((&perspective, DepthRange::default()), &other).len(), 1);
+    }
+}

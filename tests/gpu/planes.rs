@@ -1,0 +1,243 @@
+//! Boxes and planes that cut what is seen: the GPU against the oracle, pixel by pixel, by every way to draw.
+
+use crate::common::{
+    PICTURE, oracle_of, passes, render, render_as,
+    scenes::{self, Hard},
+    shared, with,
+};
+use crate::samples::errors;
+use glam::DVec3;
+use surfel::{
+    hard_scenes::transparent,
+    reference::Picture,
+    renderer::{Frame, Headless},
+    scene::{
+        Camera, ClipBox, ClipPlanes, Cull, Edges, Epsilon, Filter, Rasterizer, Samples, Settings,
+        TileInvocations, Transition,
+    },
+    selftest::{agreement, light::compare_light, tolerance},
+};
+
+/// A box that cuts a ball around the origin at all of its sides, and planes that cut it aslant.
+fn cuts() -> [(&'static str, ClipBox, ClipPlanes); 3] {
+    let none = ClipPlanes::default();
+    [
+        ("box", ClipBox(Some([[-0.7, -0.6, -0.8], [0.65, 0.55, 0.75]])), none),
+        ("plane", ClipBox(None), ClipPlanes(vec![[1.0, 0.5, 0.3, 0.1]])),
+        (
+            "six planes",
+            ClipBox(None),
+            ClipPlanes(vec![
+                [1.0, 0.1, 0.2, -0.7],
+                [-1.0, 0.1, 0.3, -0.8],
+                [0.1, 1.0, 0.2, -0.75],
+                [0.1, -2.0, 0.3, -1.3],
+                [0.0, 0.2, 1.0, -0.6],
+                [0.2, 0.1, -1.0, -0.9],
+            ]),
+        ),
+    ]
+}
+
+fn cut(hard: &Hard, (_, clip_box, clip_planes): &(&str, ClipBox, ClipPlanes)) -> Hard {
+    with(hard, |settings| {
+        (settings.clip_box, settings.clip_planes) = (*clip_box, clip_planes.clone());
+    })
+}
+
+/// Fails where the surface differs from the oracle's, or nothing was cut off.
+fn agrees(headless: &mut Headless, hard: &Hard, cut: &str, most_left: f64) -> (Frame, Picture) {
+    let (frame, oracle) = (render(headless, hard), oracle_of(hard));
+    let errors = agreement::compare(&frame, &oracle);
+    let name = format!("{}, {cut}", hard.name);
+    println!("{}", errors.row(&name));
+    let beyond = errors.beyond(&tolerance::of(hard).of_at_least(50));
+    assert!(beyond.is_empty(), "{name}, {:?}: {beyond:#?}", hard.settings.rasterizer);
+    let uncut = with(hard, |settings| (settings.clip_box, settings.clip_planes) = Default::default());
+    let covered = |frame: &Frame| frame.weight.iter().map(|weight| f64::from(*weight)).sum::<f64>();
+    let left = covered(&frame) / covered(&render(headless, &uncut));
+    assert!(left < most_left, "{name}: {left}");
+    (frame, oracle)
+}
+
+#[test]
+fn every_rasterizer_and_filter_is_cut_as_the_oracle_is() {
+    let mut headless = shared();
+    let sphere = scenes::sphere_of_disks();
+    for (_, rasterizer) in Rasterizer::METHODS {
+        for filter in [Filter::Adjust, Filter::None, Filter::Max, Filter::Ewa, Filter::AdjustPaper] {
+            let hard = with(&sphere, |settings| {
+                (settings.rasterizer, settings.filter) = (*rasterizer, filter);
+            });
+            if hard.settings.validate().is_ok() {
+                let plane = &cuts()[1];
+                agrees(&mut headless, &cut(&hard, plane), plane.0, 0.9);
+            }
+        }
+        let hard = with(&sphere, |settings| settings.rasterizer = *rasterizer);
+        let hard = with(&hard, |settings| {
+            if settings.validate().is_err() {
+                settings.filter = Filter::None
+            }
+        });
+        for cut_by in [&cuts()[0], &cuts()[2]] {
+            agrees(&mut headless, &cut(&hard, cut_by), cut_by.0, 0.9);
+        }
+    }
+}
+
+#[test]
+fn every_hard_scene_is_cut_as_the_oracle_is() {
+    let mut headless = shared();
+    for hard in scenes::all() {
+        // Through what is looked at, aslant.
+        let toward = (hard.camera.target - hard.camera.eye).normalize();
+        let ball = hard.scene.ball().unwrap();
+        let normal = (toward.cross(hard.camera.up).normalize() + 0.2 * toward + 0.1 * DVec3::Y).normalize();
+        let middle = if ball.radius < 100.0 { ball.center } else { hard.camera.target };
+        let plane = ClipPlanes(vec![normal.extend(normal.dot(middle)).to_array()]);
+        for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+            let hard = with(&hard, |settings| {
+                settings.clip_planes = plane.clone();
+                settings.rasterizer = rasterizer;
+            });
+            agrees(&mut headless, &hard, "plane", 0.95);
+        }
+    }
+}
+
+#[test]
+fn cuts_cover_pixels_in_part_as_the_oracles_do() {
+    let mut headless = shared();
+    for filter in [Filter::Adjust, Filter::Ewa] {
+        for invocations in [TileInvocations::Pixel, TileInvocations::Column] {
+            for cut_by in &cuts() {
+                for hard in [scenes::sphere_of_disks(), scenes::clipped()] {
+                    let hard = with(&cut(&hard, cut_by), |settings| {
+                        (settings.edges, settings.rasterizer) = (Edges::Coverage, Rasterizer::Compute);
+                        (settings.filter, settings.tile_invocations) = (filter, invocations);
+                        settings.background = None;
+                    });
+                    let frame = render_as(&mut headless, &hard, PICTURE);
+                    assert!(!passes(&frame).contains(&"accumulate"));
+                    let errors = compare_light(&frame, &oracle_of(&hard));
+                    println!("{}", errors.row(&format!("{}, {}", hard.name, cut_by.0)));
+                    let good = errors.worst <= tolerance::LIGHT && errors.not_finite == 0;
+                    assert!(
+                        good && errors.seen >= 300,
+                        "{}, {}, {filter:?}: {errors:?}",
+                        hard.name,
+                        cut_by.0
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn layers_polygons_samples_and_parallel_rays_are_cut_too() {
+    let mut headless = shared();
+    let length = |hard: &Hard| with(hard, |settings| settings.epsilon = Epsilon::Length(0.02));
+    let samples = |hard: &Hard| with(hard, |settings| settings.samples = Samples(4));
+    let [sphere, hybrid, spheres] =
+        [scenes::sphere_of_disks(), transparent::hybrid(Transition::Color), transparent::spheres()];
+    let parallel_camera = |hard: &Hard| Hard {
+        camera: Camera { orthographic_height: Some(3.0), ..hard.camera },
+        ..hard.clone()
+    };
+    let all = [
+        hybrid.clone(),
+        spheres.clone(),
+        length(&spheres),
+        samples(&sphere),
+        parallel_camera(&sphere),
+        parallel_camera(&hybrid),
+        parallel_camera(&spheres),
+    ];
+    for hard in &all {
+        for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective, Rasterizer::Triangle] {
+            for cut_by in &cuts() {
+                let hard = with(&cut(hard, cut_by), |settings| {
+                    settings.rasterizer = rasterizer;
+                    settings.background = None;
+                });
+                let (frame, oracle) = (render_as(&mut headless, &hard, PICTURE), oracle_of(&hard));
+                let [mean, beyond] = errors(&frame.linear, oracle.pixels.iter().map(|pixel| pixel.color));
+                let name = format!("{}, {}, {rasterizer:?}", hard.name, cut_by.0);
+                println!("{name}: mean {mean:.1e}, {:.2}% of pixels beyond 1/255", 100.0 * beyond);
+                assert!(mean < 2e-4 && beyond < 8e-3, "{name}: {mean:e}, {beyond}");
+                let seen = frame.linear.iter().filter(|pixel| pixel[3] > 0.0).count();
+                assert!(seen > 100, "{name}: {seen}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_wholly_cut_off_is_not_listed_and_nothing_is_left_of_all() {
+    let mut headless = shared();
+    let sphere = with(&scenes::sphere_of_disks(), |settings| settings.background = None);
+    let prepared = headless.prepare(&sphere.scene, &|_, _| {}).unwrap();
+    for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+        let listed = |headless: &mut Headless, plane: [f64; 4]| {
+            let settings = Settings {
+                rasterizer,
+                cull: Cull::List,
+                clip_planes: ClipPlanes(vec![plane]),
+                ..sphere.settings.clone()
+            };
+            let frame = headless.render(&prepared, &sphere.camera, &settings, PICTURE).unwrap();
+            let seen = frame.linear.iter().filter(|pixel| pixel[3] > 0.0).count();
+            (headless.count_listed(&prepared, &sphere.camera, &settings).unwrap(), seen)
+        };
+        let [all, some, none] = [-9.0, 0.3, 9.0].map(|d| listed(&mut headless, [1.0, 0.0, 0.0, d]));
+        println!("{rasterizer:?}: {all:?}, {some:?}, {none:?}");
+        assert!(some.0 < all.0 * 3 / 4 && some.1 < all.1 && some.1 > 0);
+        assert_eq!(none, (0, 0));
+    }
+}
+
+#[test]
+fn what_is_cut_open_is_seen_from_inside() {
+    let mut headless = shared();
+    for hard in [scenes::sphere_of_disks(), transparent::hybrid(Transition::Color)] {
+        let mut hard = with(&hard, |settings| settings.background = None);
+        hard.scene.objects.iter_mut().for_each(|object| object.closed = true);
+        hard.scene.meshes.iter_mut().for_each(|object| object.closed = true);
+        // The half that is farther away.
+        let away = (hard.camera.target - hard.camera.eye).normalize();
+        let plane = ClipPlanes(vec![away.extend(away.dot(hard.camera.target)).to_array()]);
+        for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+            let hard = with(&hard, |settings| {
+                (settings.rasterizer, settings.clip_planes) = (rasterizer, plane.clone());
+            });
+            let (frame, oracle) = (render_as(&mut headless, &hard, PICTURE), oracle_of(&hard));
+            let [mean, beyond] = errors(&frame.linear, oracle.pixels.iter().map(|pixel| pixel.color));
+            let seen = frame.linear.iter().filter(|pixel| pixel[3] > 0.0).count();
+            println!("{}, {rasterizer:?}: {seen} seen, mean {mean:.1e}, {:.2}%", hard.name, 100.0 * beyond);
+            assert!(seen > 1000 && mean < 2e-4 && beyond < 8e-3, "{}: {seen}, {mean:e}, {beyond}", hard.name);
+        }
+    }
+}
+
+#[test]
+fn planes_far_from_the_origin_and_none_at_all() {
+    let mut headless = shared();
+    let far = DVec3::new(500_000.0, 4_600_000.0, 300.0);
+    let mut hard = scenes::sphere_of_disks();
+    hard.scene.objects[0].splats.positions.iter_mut().for_each(|position| *position += far);
+    (hard.camera.eye, hard.camera.target) = (hard.camera.eye + far, hard.camera.target + far);
+    let normal = DVec3::new(1.0, 0.5, 0.3);
+    let plane = ClipPlanes(vec![normal.extend(normal.dot(far) + 0.1).to_array()]);
+    let cut = with(&hard, |settings| settings.clip_planes = plane.clone());
+    agrees(&mut headless, &cut, "far from the origin", 0.9);
+    // A plane that cuts nothing changes no bit of what the graphics pipeline draws.
+    let whole = ClipBox(Some([(far - 9.0).to_array(), (far + 9.0).to_array()]));
+    for rasterizer in [Rasterizer::Perspective, Rasterizer::Quad] {
+        let plain = with(&hard, |settings| (settings.rasterizer, settings.cull) = (rasterizer, Cull::Setup));
+        let boxed = with(&plain, |settings| settings.clip_box = whole);
+        let [plain, boxed] = [plain, boxed].map(|hard| render(&mut headless, &hard));
+        crate::common::assert_same_bits(&plain, &boxed, "a box around all");
+    }
+}
