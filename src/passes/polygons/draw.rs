@@ -97,6 +97,9 @@ pub(crate) fn polygons<'a>(
     .attach(&mut seen.normal, Access::ColorAttachment, zero)
     .attach(&mut depth, Access::DepthAttachment, start);
     let pipelines = mesh_pass(inputs.settings).pipelines(&pass, inputs)?;
-    pass.finish(move |pass| draw_meshes(pass, inputs, &pipelines));
+    pass.finish(move |pass| {
+        bind_read(pass)?;
+        draw_meshes(pass, inputs, &pipelines)
+    });
     Ok((seen, depth))
 }
