@@ -80,7 +80,7 @@ pub(crate) const fn transfer(number: u32) -> At {
 pub struct Planes {
     /// How many there are.
     pub count: u32,
-    /// A uniform buffer of [`PLANES_BYTES`].
+    /// A uniform buffer of `PLANES_BYTES`.
     pub buffer: ash::vk::Buffer,
 }
 
