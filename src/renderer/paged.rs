@@ -2,9 +2,6 @@
 //!
 //! Pages are read in the background ([`Pager`]), coarser ones first. A view draws with the finest size of which all pages are there ([`Ladder`]), so that there are
 //! neither holes nor two levels of one thing at any moment. What no view needs stays until its room is.
-//!
-//! **A known fault:** from near, at a rung of 16 pixels, a picture was seen of which 2% of the pixels are others than of the whole file (`tests/gpu/paged.rs`, ignored). No
-//! command draws by it yet.
 
 use crate::{
     error::{Error, Result},

@@ -14,7 +14,7 @@ use surfel::{
     levels_file::{LevelsFile, PageView, Pager, write_object},
     load::builtin,
     renderer::{Drawn, Headless, PagedScene},
-    scene::{Camera, Epsilon, Lod, Scene},
+    scene::{Camera, Edges, Epsilon, Lod, Scene},
 };
 
 use crate::{
@@ -73,7 +73,6 @@ fn update(headless: &Headless, paged: &mut PagedScene, views: &[PageView], wait:
 
 /// A camera that comes nearer, turns and goes back, and does not wait for pages; at each step what is drawn of what is there is what a file gives for that size.
 #[test]
-#[ignore = "fails where a nearer view falls back to 16 px: 1296 of 65 536 pixels are others than of the whole file, from the same splats as is thought; not understood"]
 fn a_camera_that_moves_sees_the_whole_at_every_moment() {
     let mut headless = shared();
     let bytes = file_of(400_000);
@@ -82,7 +81,10 @@ fn a_camera_that_moves_sees_the_whole_at_every_moment() {
     // Half of that is for the finest step: about a third of all is needed from afar.
     let most_bytes = all;
     let mut paged = PagedScene::new(Pager::start(file).unwrap(), most_bytes).unwrap();
-    let mut hard = with(&ball(1, 1.0), |settings| settings.epsilon = Epsilon::Radii(1.0));
+    // Hard edges: whether some chunk has splats for the graphics pipeline, which decides whether tiles cover pixels in part, differs between the two scenes.
+    let mut hard = with(&ball(1, 1.0), |settings| {
+        (settings.epsilon, settings.edges) = (Epsilon::Radii(1.0), Edges::Hard);
+    });
     let (mut sizes, mut kept) = (Vec::new(), 0);
     let way = (0..24).map(|step| match step {
         0..10 => (4.0 - 0.3 * f64::from(step), 0.0),
