@@ -167,10 +167,23 @@ impl Tree {
     }
 
     /// Hands the places of points and their squared distances from `target` to `take`, those of the nearer side first; points
-    /// are left out that are not nearer than what `take` answered last, which is also the answer.
+    /// are left out that are not nearer than what `take` answered last.
     fn search(
         &self,
         node: Range<usize>,
+        target: DVec3,
+        bound: f64,
+        take: &mut impl FnMut(usize, f64) -> f64,
+    ) {
+        self.search_node(node, DVec3::ZERO, target, bound, take);
+    }
+
+    /// [`Tree::search`] in a node that is `outside` from the target along each axis (Arya, Mount, "Algorithms for Fast Vector
+    /// Quantization", 1993): planes of several axes keep it away together. Answers what `take` did last.
+    fn search_node(
+        &self,
+        node: Range<usize>,
+        outside: DVec3,
         target: DVec3,
         bound: f64,
         take: &mut impl FnMut(usize, f64) -> f64,
@@ -185,9 +198,15 @@ impl Tree {
         let beyond = target[axis] - self.points[middle].position[axis];
         let (below, above) = (node.start..middle, middle + 1..node.end);
         let (near, far) = if beyond < 0.0 { (below, above) } else { (above, below) };
-        let bound = self.search(near, target, bound, take);
-        // Not where it is equal: all of many equal points would be searched.
-        if beyond * beyond < bound { self.search(far, target, bound, take) } else { bound }
+        let bound = self.search_node(near, outside, target, bound, take);
+        let mut beside = outside;
+        beside[axis] = beyond;
+        // Rounded as the distances are, which for a point of the node are not less then. Not where it is equal: all of many equal
+        // points would be searched.
+        match beside.length_squared() < bound {
+            true => self.search_node(far, beside, target, bound, take),
+            false => bound,
+        }
     }
 }
 

@@ -34,7 +34,8 @@ type Corner = (DVec2, bool);
 pub(super) fn reach(normal: DVec3, offsets: &[DVec3]) -> Reach {
     let Some(sixth) = offsets.get(5).or(offsets.last()) else { return Reach { distance: 0.0, open: true } };
     let (u, v) = normal.any_orthonormal_pair();
-    let mut cell = octagon(WIDEST_GAP * sixth.length());
+    // One is cut into the other, and back.
+    let (mut cell, mut rest) = (&mut octagon(WIDEST_GAP * sixth.length()), &mut Cell { ..Cell::EMPTY });
     let mut farthest_squared = farthest(cell.corners(), |_| true);
     for offset in offsets {
         let squared = offset.length_squared();
@@ -44,7 +45,8 @@ pub(super) fn reach(normal: DVec3, offsets: &[DVec3]) -> Reach {
         }
         let along = DVec2::new(offset.dot(u), offset.dot(v));
         if along.length_squared() * farthest_squared > 0.25 * squared * squared {
-            cell.cut(along, 0.5 * squared);
+            cell.cut(along, 0.5 * squared, rest);
+            std::mem::swap(&mut cell, &mut rest);
             farthest_squared = farthest(cell.corners(), |_| true);
         }
     }
@@ -74,40 +76,43 @@ struct Cell {
 
 /// Regular, around a circle of that radius.
 fn octagon(radius: f64) -> Cell {
-    let mut corners = [(DVec2::ZERO, false); MOST_CORNERS];
+    let mut cell = Cell { len: 8, ..Cell::EMPTY };
     // tan(π/8): the half of an edge.
     let half = radius * (2.0_f64.sqrt() - 1.0);
     let ways = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
     for (i, (x, y)) in ways.into_iter().enumerate() {
         let pair = [DVec2::new(x * radius, y * half), DVec2::new(x * half, y * radius)];
         let [first, second] = if i % 2 == 0 { pair } else { [pair[1], pair[0]] };
-        corners[2 * i].0 = first;
-        corners[2 * i + 1].0 = second;
+        cell.corners[2 * i].0 = first;
+        cell.corners[2 * i + 1].0 = second;
     }
-    Cell { corners, len: 8 }
+    cell
 }
 
 impl Cell {
+    const EMPTY: Self = Self { corners: [(DVec2::ZERO, false); MOST_CORNERS], len: 0 };
+
     fn corners(&self) -> &[Corner] {
         &self.corners[..self.len]
     }
 
-    /// Leaves the x with x·along ≤ limit.
-    fn cut(&mut self, along: DVec2, limit: f64) {
-        let old = self.corners;
-        let old = &old[..self.len];
-        let beyond = |i: usize| old[i % old.len()].0.dot(along) - limit;
-        self.len = 0;
-        for (i, &(corner, by_neighbor)) in old.iter().enumerate() {
-            let (here, next) = (beyond(i), beyond(i + 1));
-            if here <= 0.0 {
-                self.push((corner, by_neighbor));
-            }
-            if (here <= 0.0) != (next <= 0.0) {
-                let crossing = corner.lerp(old[(i + 1) % old.len()].0, here / (here - next));
+    /// The x with x·along ≤ limit become `rest`.
+    fn cut(&self, along: DVec2, limit: f64, rest: &mut Self) {
+        let beyond = |corner: &Corner| corner.0.dot(along) - limit;
+        rest.len = 0;
+        let Some(mut from) = self.corners().last() else { return };
+        let mut before = beyond(from);
+        for corner in self.corners() {
+            let here = beyond(corner);
+            if (before <= 0.0) != (here <= 0.0) {
+                let crossing = from.0.lerp(corner.0, before / (before - here));
                 // Outward through this edge the new one begins; inward the rest of this one does.
-                self.push((crossing, here <= 0.0 || by_neighbor));
+                rest.push((crossing, before <= 0.0 || from.1));
             }
+            if here <= 0.0 {
+                rest.push(*corner);
+            }
+            (from, before) = (corner, here);
         }
     }
 
