@@ -61,6 +61,7 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
         ("FrameConstants", "crate::passes::FrameConstants"),
         ("PaperConstants", "crate::passes::PaperConstants"),
         ("FinalizeConstants", "crate::passes::FinalizeConstants"),
+        ("HostDepth", "crate::passes::HostDepth"),
         ("TileConstants", "crate::passes::TileConstants"),
     ];
     let one = |problem: String| vec![problem];

@@ -26,6 +26,9 @@ layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linea
 layout(constant_id = SPEC_KEEPS_DEPTH) const bool KEEPS_DEPTH = false;
 layout(set = 0, binding = BIND_VISIBLE_DEPTH) writeonly uniform image2D visible_depth;
 
+// WITH_DEPTH: a host wants the depth of what is seen itself: the mean of its splats' own, not shifted; 0 where nothing is.
+layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D own_depth;
+
 // WITH_POLYGONS: these were drawn and shaded as if there were no splats.
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D shown_before;
 layout(set = 0, binding = BIND_POLYGON_DEPTH) uniform texture2D polygon_depth;
@@ -41,6 +44,13 @@ void begin_surface()
     }
 }
 
+// The depth of the surface that was summed.
+float own_depth_of(int row)
+{
+    float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, normals[row].w / colors[row].w);
+    return colors[row].w > 0.0 ? depth_of_mean(visible[row], mean) : 0.0;
+}
+
 // What a polygon shows at the pixel, behind all splats that it does not hide.
 vec4 polygon_behind(int row)
 {
@@ -53,9 +63,11 @@ void shade_edges(Range range)
     vec4 light[ROWS];
     float nearest_polygon[ROWS];
     float hiding[ROWS]; // depth of what covers half of a pixel, for transparent layers
+    float own[ROWS];    // WITH_DEPTH: the same, not shifted; where nothing covers as much, of what is nearest
     [[unroll]] for (int row = 0; row < OWN_ROWS; row++) {
         light[row] = vec4(0.0);
         hiding[row] = 0.0;
+        own[row] = 0.0;
         before[row] = INFINITELY_NEAR;
         before_away[row] = INFINITELY_NEAR;
         nearest_polygon[row] = WITH_POLYGONS ? texelFetch(polygon_depth, pixel_within_image(row), 0).r : 0.0;
@@ -86,7 +98,11 @@ void shade_edges(Range range)
                 opacity = TRANSITION == TRANSITION_NONE ? 0.0 : min(FORMULA(FORMULA_TRANSITION, surface.weight / WHOLE_SEAM_SUM), 1.0);
             }
             float part = surface.weight > 0.0 ? min(opacity, 1.0 - light[row].a) : 0.0;
-            hiding[row] = light[row].a < 0.5 && light[row].a + part >= 0.5 ? visible[row] : hiding[row];
+            bool covers_half = light[row].a < 0.5 && light[row].a + part >= 0.5;
+            hiding[row] = covers_half ? visible[row] : hiding[row];
+            if (WITH_DEPTH) {
+                own[row] = part > 0.0 && (covers_half || own[row] == 0.0) ? own_depth_of(row) : own[row];
+            }
             light[row] += part * vec4(color, 1.0);
             bool ends = !(surface.weight > 0.0) || WITH_POLYGONS && beside || light[row].a >= 1.0;
             if (BY_SIDES) {
@@ -107,6 +123,9 @@ void shade_edges(Range range)
         imageStore(shown, pixel_of(row), seen);
         if (KEEPS_DEPTH) {
             imageStore(visible_depth, pixel_of(row), vec4(hiding[row]));
+        }
+        if (WITH_DEPTH) {
+            imageStore(own_depth, pixel_of(row), vec4(max(own[row], nearest_polygon[row])));
         }
     }
 }
@@ -143,5 +162,9 @@ void main()
         }
         light = HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light;
         imageStore(shown, pixel_of(row), covered ? vec4(light, 1.0) : vec4(0.0));
+        if (WITH_DEPTH) {
+            float of_polygon = WITH_POLYGONS ? polygon[row] : 0.0;
+            imageStore(own_depth, pixel_of(row), vec4(max(own_depth_of(row), of_polygon)));
+        }
     }
 }

@@ -19,6 +19,9 @@ layout(local_size_x = TILE_WIDTH, local_size_y_id = SPEC_TILE_HEIGHT) in;
 
 layout(set = 0, binding = BIND_COLORS_BEFORE) uniform texture2D color_sums;
 layout(set = 0, binding = BIND_NORMALS_BEFORE) uniform texture2D normal_sums;
+layout(set = 0, binding = BIND_VISIBLE_BEFORE) uniform texture2D visible_before;
+layout(constant_id = SPEC_WITH_DEPTH) const bool WITH_DEPTH = false; // as in tile_shade.comp.glsl
+layout(set = 0, binding = BIND_NORMALS) writeonly uniform image2D own_depth;
 layout(set = 0, binding = BIND_COLORS) writeonly uniform image2D shown; // linear light and opacity, which multiplies it
 
 void main()
@@ -32,6 +35,11 @@ void main()
     Surface surface = normalized(texelFetch(color_sums, in_slot, 0), normal_sum.xyz);
     vec3 light = shaded(surface.albedo, surface.normal, to_eye(top_px + vec2(0.0, float(first_row))));
     light = HALF_FLOATS ? min(light, HALF_FLOAT_MAX) : light;
-    float opacity = COVERAGE_EDGES ? edge_opacity(WEIGHTED ? surface.weight : normal_sum.w, 0.0) : 1.0;
+    if (WITH_DEPTH) {
+        float mean = FORMULA(FORMULA_NORMALIZED_DEPTH, normal_sum.w / surface.weight);
+        float own = depth_of_mean(texelFetch(visible_before, in_slot, 0).r, mean);
+        imageStore(own_depth, pixel_of(0), vec4(surface.weight > 0.0 ? own : 0.0));
+    }
+    float opacity = COVERAGE_EDGES ? edge_opacity(WEIGHTED || WITH_DEPTH ? surface.weight : normal_sum.w, 0.0) : 1.0;
     imageStore(shown, pixel_of(0), surface.weight > 0.0 ? opacity * vec4(light, 1.0) : vec4(0.0));
 }

@@ -37,6 +37,7 @@
 pub mod compose;
 #[cfg(feature = "counts")]
 pub mod count;
+pub mod embed;
 pub mod error;
 pub mod frame;
 pub mod geometry;
@@ -65,8 +66,10 @@ pub mod shaders;
 pub mod small_file;
 pub mod vk;
 
+pub use ash;
 pub use error::{Error, ErrorKind, Result};
+pub use glam;
 pub use progress::Progress;
 pub use renderer::{Headless, HeadlessOptions, Renderer, Wanted};
 pub use scene::{Camera, Scene, Settings};
-pub use vk::Validation;
+pub use vk::{Validation, requirements};

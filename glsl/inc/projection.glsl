@@ -24,6 +24,12 @@ float depth_term(float w_visible, float w)
     return ORTHOGRAPHIC ? w - w_visible : w_visible / w;
 }
 
+// The depth of which that is the mean.
+float depth_of_mean(float w_visible, float mean)
+{
+    return ORTHOGRAPHIC ? w_visible + mean : w_visible / mean;
+}
+
 // The direction to the eye where a view-space point is seen.
 vec3 direction_to_eye(vec3 seen_at)
 {

@@ -13,7 +13,7 @@ use crate::passes::{self, FramePlan, Inputs, PipelineRecipe, Place, pipeline::re
 use crate::{
     error::Result,
     graph::{BufferDesc, Graph, Handle, Image, execute::Body},
-    prepare::prepare_without_device,
+    prepare::{Placed, prepare_without_device},
     scene::{
         Camera, Colors, Light, LightKind, Mesh, MeshObject, Object, Scene, Settings, Shapes, Splats, Storage,
     },
@@ -88,7 +88,7 @@ const TARGET: vk::Format = vk::Format::R8G8B8A8_SRGB;
 pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<PipelineRecipe>> {
     settings.validate()?;
     let mut all = listed(settings, traits, |graph, inputs, plan, target| {
-        passes::frame(graph, inputs, plan, target, TARGET, traits.export).map(drop)
+        passes::frame(graph, inputs, plan, target, TARGET, (traits.export, None)).map(drop)
     })?;
     if traits.floor {
         all.extend(listed(settings, traits, |graph, inputs, plan, target| {
@@ -127,7 +127,7 @@ fn listed(
         ..Camera::default()
     };
     let prepared = prepare_without_device(&limits, &scene)?;
-    let plan = FramePlan::new(&prepared, &camera, settings, &limits);
+    let plan = FramePlan::new(&[Placed::at_home(&prepared)], &camera, settings, &limits);
     let list = RefCell::default();
     {
         let mut graph = Graph::new();

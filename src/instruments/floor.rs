@@ -12,7 +12,7 @@ use crate::{
         execute::{FrameProfile, Physical, Profile},
     },
     passes::{self, DepthRange, Inputs, Needs, Place},
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, Staging},
 };
@@ -68,8 +68,12 @@ impl<'a> Floor<'a> {
         survivors: bool,
     ) -> Result<Self> {
         let device = headless.device();
-        let draws =
-            passes::draws(scene, (camera, DepthRange::default()), settings, &headless.renderer.limits);
+        let draws = passes::draws(
+            Placed::at_home(scene),
+            (camera, DepthRange::default()),
+            settings,
+            &headless.renderer.limits,
+        );
         if draws.iter().any(|draw| draw.may_be_large) {
             let problem = "a splat may exceed the device's largest point: expected more and smaller splats, or a smaller --size";
             return Err(Error::option("bench", problem));
@@ -122,7 +126,7 @@ impl<'a> Floor<'a> {
 
     fn record(&mut self, headless: &Headless, profile: Option<Profile>, precompute: bool) -> Result<()> {
         let draws = passes::draws(
-            self.scene,
+            Placed::at_home(self.scene),
             (&self.camera, DepthRange::default()),
             &self.settings,
             &headless.renderer.limits,

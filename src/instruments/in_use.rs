@@ -11,7 +11,7 @@ use crate::{
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
     passes::{self, Inputs, Place},
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Camera, Settings, TileMemory},
     vk::{Buffer, BufferDesc, MemoryUse},
 };
@@ -41,7 +41,7 @@ impl Headless {
         settings: &Settings,
     ) -> Result<ListOccupancy> {
         let (device, renderer) = (self.device(), &self.renderer);
-        let frame = renderer.frame_plan(scene, camera, settings)?;
+        let frame = renderer.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
         let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
         let mut slot = FrameSlot::new(device);
         let counts_draws = device.facts().draw_indirect_count;

@@ -9,7 +9,7 @@ use crate::{
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{Graph, ImageDesc, execute::Physical},
     passes::{self, DepthRange, Inputs, Needs, Place},
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse, PoolSizes},
 };
@@ -47,7 +47,12 @@ pub fn draw_as_published(
     let pixels = Buffer::new(device, desc, MemoryUse::Readback)?;
     let mut slot = FrameSlot::new(device);
 
-    let draws = passes::draws(scene, (camera, DepthRange::default()), settings, &headless.renderer.limits);
+    let draws = passes::draws(
+        Placed::at_home(scene),
+        (camera, DepthRange::default()),
+        settings,
+        &headless.renderer.limits,
+    );
     // Two sets that fragments read, with the kernel, and one of sums: with stand-ins where nothing is read.
     let room = PoolSizes {
         sets: 3,

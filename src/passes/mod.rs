@@ -1,6 +1,7 @@
 //! The passes of a frame: one pass, one file, one function that declares it.
 
 pub(crate) mod cull;
+pub(crate) mod host;
 pub(crate) mod in_parts;
 pub(crate) mod inputs;
 pub(crate) mod layers;
@@ -24,7 +25,7 @@ pub use crate::passes::pick::{PickPlan, Picked, PickedPart};
 pub(crate) use crate::passes::pick::{needs as needs_of_pick, pick};
 pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
-    FinalizeConstants, FrameConstants, PaperConstants, TileConstants,
+    FinalizeConstants, FrameConstants, HostDepth, PaperConstants, TileConstants,
 };
 #[cfg(feature = "test-formulas")]
 pub use crate::passes::pipeline::formula::Formula;
@@ -50,7 +51,9 @@ pub use crate::passes::{
     plan::{bands::Band, invocations::Invocations, tiles::TilePlan},
 };
 
-use crate::passes::{cull::lists::Lists, plan::Outputs, resolve::finalize::Opaque, tiles::splat::TileStart};
+use crate::passes::{
+    cull::lists::Lists, host::BesideHost, plan::Outputs, resolve::finalize::Opaque, tiles::splat::TileStart,
+};
 use crate::{
     error::Result,
     graph::{Buffer, Graph, Handle, Image, execute::Body},
@@ -63,13 +66,13 @@ use crate::{
 ///
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
-pub fn frame<'a>(
+pub(crate) fn frame<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
-    export: bool,
+    (export, beside): (bool, Option<BesideHost<'_>>),
 ) -> Result<Option<Exported>> {
     let kernel = match plan.opaque.splats.is_empty() && plan.transparent.splats.is_empty() {
         true => None,
@@ -78,30 +81,44 @@ pub fn frame<'a>(
     let lights = resolve::lights::lights(graph, inputs.source, &plan.lights);
     let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
     let by_depth = inputs.settings.shading == Shading::EyeDome;
-    let outputs =
-        Outputs { surface: export || by_depth, layers: !plan.transparent.is_empty(), target_format };
+    let outputs = Outputs {
+        surface: export || by_depth,
+        depth: beside.is_some(),
+        layers: !plan.transparent.is_empty(),
+        target_format,
+    };
 
     let opaque_inputs = inputs.of(&plan.opaque);
-    let opaque = if plan.opaque.bands().is_empty() {
-        by_primitives(graph, opaque_inputs, kernel.as_ref(), outputs)?
+    let (opaque, own_depth) = if plan.opaque.bands().is_empty() {
+        (by_primitives(graph, opaque_inputs, kernel.as_ref(), outputs)?, None)
     } else if outputs.may_be_shaded(&plan.opaque) {
         shaded_by_tiles(graph, opaque_inputs, lights.as_ref(), outputs)?
     } else {
-        summed_by_tiles(graph, opaque_inputs, outputs)?
+        (summed_by_tiles(graph, opaque_inputs, outputs)?, None)
     };
 
-    let layers = match plan.transparent.is_empty() {
+    let of_host = beside.as_ref().and_then(|beside| beside.hides).filter(|_| outputs.layers);
+    let with_host = of_host
+        .map(|of_host| host::depth_in::depth_with_host(graph, inputs, opaque.depth(), of_host))
+        .transpose()?;
+    let hides = with_host.as_ref().or(opaque.depth());
+    let mut layers = match plan.transparent.is_empty() {
         true => None,
         false => {
             let inputs = inputs.of(&plan.transparent);
             match inputs.bands.is_empty() {
-                false => Some(tiles::layers(graph, inputs, opaque.depth(), lights.as_ref())?),
-                true => {
-                    layers::frame::layers(graph, inputs, opaque.depth(), kernel.as_ref(), lights.as_ref())?
-                }
+                false => Some(tiles::layers(graph, inputs, hides, lights.as_ref())?),
+                true => layers::frame::layers(graph, inputs, hides, kernel.as_ref(), lights.as_ref())?,
             }
         }
     };
+    if let Some(BesideHost { depth, layers: target, .. }) = beside {
+        let polygons = !plan.opaque.meshes.is_empty();
+        host::depth_out::surface_depth(graph, inputs, (&opaque, own_depth.as_ref()), polygons, depth)?;
+        if let (Some(layers), Some(target)) = (layers.take(), target) {
+            host::layers_out::layers_alone(graph, inputs, &layers, (target, target_format))?;
+        }
+    }
     let surface = opaque.splats.as_ref().zip(opaque.splat_depth.as_ref());
     match surface.filter(|_| by_depth) {
         Some(surface) => resolve::eye_dome::eye_dome(graph, inputs, surface, target, target_format)?,
@@ -144,20 +161,21 @@ fn by_primitives<'a>(
             depth,
             polygons,
             kernel,
-            outputs.surface,
+            outputs.sums_depth(),
         )?);
     }
     Ok(opaque)
 }
 
 /// Opaque things by tiles that are shaded at once, for a frame of which nobody reads sums: polygons; then, band by band, lists, and
-/// the tiles. Transparent layers want the depth, too, and all of both images.
+/// the tiles. Transparent layers want the depth, too, and all of both images. What a host draws beside wants the surface's own depth, which is
+/// the second answer.
 fn shaded_by_tiles<'a>(
     graph: &mut Graph<Body<'a>>,
     inputs: Inputs<'a>,
     lights: Option<&Handle<Buffer>>,
     outputs: Outputs,
-) -> Result<Opaque<'a>> {
+) -> Result<(Opaque<'a>, Option<Handle<Image>>)> {
     let mut shown = tiles::ShadedTiles::create(graph, inputs, outputs);
     let mut opaque = Opaque::default();
     let mut start = if outputs.layers { TileStart::Cleared } else { TileStart::Empty };
@@ -177,7 +195,7 @@ fn shaded_by_tiles<'a>(
         opaque.tiles.push(tiles);
     }
     opaque.shown = Some(shown.image);
-    Ok(opaque)
+    Ok((opaque, shown.own_depth))
 }
 
 /// Opaque things by tiles that leave sums and a depth. Where all of the images is read, tiles without splats need content, too; so
@@ -188,7 +206,7 @@ fn summed_by_tiles<'a>(
     inputs: Inputs<'a>,
     outputs: Outputs,
 ) -> Result<Opaque<'a>> {
-    let (polygons, with_depth) = (!inputs.meshes.is_empty(), outputs.surface);
+    let (polygons, with_depth) = (!inputs.meshes.is_empty(), outputs.sums_depth());
     let mut opaque = Opaque::default();
     let Some(common) = inputs.bands.first().map(|band| &band.plan) else { return Ok(opaque) };
     let complete = outputs.reads_whole_images() || common.may_be_large || polygons;

@@ -186,7 +186,7 @@ impl Layout {
     /// Whether pipelines of it draw or dispatch.
     fn bind_point(self) -> vk::PipelineBindPoint {
         match self {
-            Self::Splat | Self::Finalize | Self::TileQuads => vk::PipelineBindPoint::GRAPHICS,
+            Self::Splat | Self::Finalize | Self::Host | Self::TileQuads => vk::PipelineBindPoint::GRAPHICS,
             Self::List | Self::DepthCells | Self::Record | Self::Tile => vk::PipelineBindPoint::COMPUTE,
         }
     }

@@ -41,7 +41,7 @@ pub(crate) fn declare<'a>(
 
     let export = readbacks.surface.is_some();
     let exported = match &sum {
-        None => passes::frame(&mut graph, inputs, plan, &mut image, target.format, export)?,
+        None => passes::frame(&mut graph, inputs, plan, &mut image, target.format, (export, None))?,
         Some(sum) => {
             passes::resolve_samples(&mut graph, inputs, sum, (&mut image, target.format))?;
             None
@@ -98,7 +98,7 @@ fn one_sample<'a>(
     let format = passes::SAMPLE_FORMAT;
     let desc = ImageDesc { format, extent };
     let mut drawn = graph.create_image("sample", desc);
-    passes::frame(graph, inputs, plan, &mut drawn, format, false)?;
+    passes::frame(graph, inputs, plan, &mut drawn, format, (false, None))?;
     let between = ImageState {
         stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
         access: vk::AccessFlags2::COLOR_ATTACHMENT_READ | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,

@@ -5,7 +5,7 @@ use crate::{
     error::{Error, Result},
     graph::{Access, PassKind, Plan, ResourceDesc},
     passes,
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Budget, Camera, Lod, OptionValue as _, Settings},
 };
 
@@ -117,8 +117,8 @@ impl Renderer {
     /// # Errors
     /// [`crate::ErrorKind::Option`].
     pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
-        let settings = &*passes::within_budget(scene, camera, settings);
-        let frame = passes::FramePlan::new(scene, camera, settings, &self.limits);
+        let settings = &*passes::within_budget(&[Placed::at_home(scene)], camera, settings);
+        let frame = passes::FramePlan::new(&[Placed::at_home(scene)], camera, settings, &self.limits);
         match passes::unused_levels(scene, &frame, settings) {
             None => Ok(()),
             Some(_) => {
@@ -138,10 +138,10 @@ impl Renderer {
         plan: &Plan,
     ) -> Explanation {
         let limits = &self.limits;
-        let settings = &*passes::within_budget(scene, camera, settings);
-        let frame = passes::FramePlan::new(scene, camera, settings, limits);
+        let settings = &*passes::within_budget(&[Placed::at_home(scene)], camera, settings);
+        let frame = passes::FramePlan::new(&[Placed::at_home(scene)], camera, settings, limits);
         let seen_from = &frame.range.begin(camera);
-        let draws = passes::draws(scene, (seen_from, frame.range), settings, limits);
+        let draws = passes::draws(Placed::at_home(scene), (seen_from, frame.range), settings, limits);
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
             ellipses: draw.chunk.ellipses,
@@ -158,7 +158,7 @@ impl Renderer {
                 .bands()
                 .is_empty(),
         });
-        let meshes = passes::mesh_draws(scene, (seen_from, frame.range), settings);
+        let meshes = passes::mesh_draws(Placed::at_home(scene), (seen_from, frame.range), settings);
         let meshes = meshes.iter().map(|draw| ExplainedMesh {
             triangles: draw.chunk.triangles,
             vertices: draw.chunk.vertices,

@@ -20,7 +20,7 @@ use crate::{
         self, FramePlan, Inputs, Place,
         in_parts::{self, OfAll, PART_DEPTH_FORMAT, PART_SUM_FORMAT},
     },
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Accumulate, Budget, Camera, Edges, Settings},
 };
 
@@ -78,7 +78,7 @@ impl Renderer {
     ) -> Result<Arc<Plan>> {
         check(camera, settings)?;
         let settings = &Settings { edges: Edges::Hard, accumulate: Accumulate::F32, ..settings.clone() };
-        let frame = self.frame_plan(scene, camera, settings)?;
+        let frame = self.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
         if !frame.transparent.is_empty() || !frame.opaque.meshes.is_empty() {
             let problem = "polygons, or something transparent; expected opaque splats of a frame in parts";
             return Err(Error::input("the scene", "", problem));

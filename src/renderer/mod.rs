@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-pub(crate) use declare::{bytes_per_pixel, declare, import_readback};
+pub(crate) use declare::{Imports, bytes_per_pixel, declare, import_readback};
 pub use explain::{ExplainedChunk, ExplainedMesh, ExplainedPass, ExplainedUse, Explanation};
 pub use headless::{Frame, Headless, HeadlessOptions, PartSums, Wanted};
 pub use in_parts::Stage;
@@ -25,7 +25,7 @@ use crate::{
     frame::{FrameSlot, SlotParts, Target},
     graph::{Plan, execute::Profile},
     passes::{self, FramePlan, Inputs, Place, Shaders},
-    prepare::{PreparedScene, prepare},
+    prepare::{Placed, PreparedScene, prepare},
     scene::{Accumulate, Camera, Edges, Scene, Settings, Shading},
     vk::{Device, Limits, Staging},
 };
@@ -73,6 +73,11 @@ impl Renderer {
     pub fn new(device: &Device, cache_folder: Option<&std::path::Path>) -> Result<Self> {
         let limits = device.facts().limits;
         Ok(Self { device: device.clone(), limits, shaders: Shaders::new(device, cache_folder)? })
+    }
+
+    /// The device that it records for.
+    pub fn device(&self) -> &Device {
+        &self.device
     }
 
     /// Stays within lower limits than the device's own: points, storage buffers and images as on another device, so
@@ -142,25 +147,28 @@ impl Renderer {
         passes::check_method(settings, &self.limits)
     }
 
-    /// The plan of a scene that can be drawn so.
+    /// The plan of scenes that can be drawn so.
     pub(crate) fn frame_plan<'a>(
         &self,
-        scene: &'a PreparedScene,
+        scenes: &[Placed<'a>],
         camera: &Camera,
         settings: &Settings,
     ) -> Result<FramePlan<'a>> {
         self.check(camera, settings)?;
-        for chunk in &scene.chunks {
-            settings.check_object("the scene", chunk.ellipses)?;
-            if chunk.transparent {
-                settings.check_eye_dome("the scene", "transparent in part")?;
+        for Placed { scene, at } in scenes {
+            at.validate()?;
+            for chunk in &scene.chunks {
+                settings.check_object("the scene", chunk.ellipses)?;
+                if chunk.transparent {
+                    settings.check_eye_dome("the scene", "transparent in part")?;
+                }
+            }
+            if !scene.meshes.is_empty() {
+                settings.check_eye_dome("the scene", "drawn as triangles in part")?;
             }
         }
-        if !scene.meshes.is_empty() {
-            settings.check_eye_dome("the scene", "drawn as triangles in part")?;
-        }
-        passes::check_digits(scene, camera)?;
-        Ok(FramePlan::new(scene, camera, settings, &self.limits))
+        passes::check_digits(scenes, camera)?;
+        Ok(FramePlan::new(scenes, camera, settings, &self.limits))
     }
 
     /// Records one frame. Returns the plan that was recorded.
@@ -189,7 +197,7 @@ impl Renderer {
         // The surface as data has no opacity of its own: a pixel is of it or not.
         let edges = if readbacks.surface.is_some() { Edges::Hard } else { settings.edges };
         let settings = &Settings { edges, ..settings.clone() };
-        let frame = self.frame_plan(scene, camera, settings)?;
+        let frame = self.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
         let [width, height] = settings.size_px;
         if target.extent != (vk::Extent2D { width, height }) {
             let vk::Extent2D { width: w, height: h } = target.extent;

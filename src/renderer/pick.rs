@@ -8,7 +8,7 @@ use crate::{
     frame::FrameSlot,
     graph::{BufferDesc as GraphBufferDesc, BufferState, Graph, execute::Physical},
     passes::{self, PickPlan, Picked, Place},
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Camera, Settings},
     vk::{Buffer, BufferDesc, MemoryUse},
 };
@@ -27,7 +27,7 @@ impl Renderer {
         pixel: [u32; 2],
     ) -> Result<PickPlan<'a>> {
         // Whatever cannot be drawn cannot be seen.
-        let frame = self.frame_plan(scene, camera, settings)?;
+        let frame = self.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
         let [width, height] = settings.size_px;
         if pixel[0] >= width || pixel[1] >= height {
             let [x, y] = pixel;

@@ -9,11 +9,11 @@ use ash::{ext, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::{
-    borrowed::BorrowedDevice,
     choose::{DeviceFacts, choose},
-    facts::{all_facts, check_executables, facts},
+    facts::{all_facts, check_executables},
     garbage::{Garbage, Retired},
     instance::Instance,
+    requirements::offered,
     result::VkResultExt,
     wanted::Wanted,
 };
@@ -81,19 +81,11 @@ impl Device {
         if executables {
             check_executables(instance, physical, &facts)?;
         }
-        let core = vk::PhysicalDeviceFeatures::default()
-            .large_points(facts.large_points)
-            .draw_indirect_first_instance(facts.limits.first_instance)
-            .pipeline_statistics_query(facts.pipeline_statistics);
-        let mut features10 = vk::PhysicalDeviceFeatures2::default().features(core);
-        let mut features12 = vk::PhysicalDeviceVulkan12Features::default()
-            .timeline_semaphore(true)
-            .draw_indirect_count(facts.draw_indirect_count);
-        let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
-            .synchronization2(true)
-            .dynamic_rendering(true)
-            .maintenance4(true)
-            .shader_terminate_invocation(true);
+        let features = offered(&facts);
+        let mut features10 = vk::PhysicalDeviceFeatures2::default().features(features.core());
+        // Our own queue counts by it.
+        let mut features12 = features.vulkan12().timeline_semaphore(true);
+        let mut features13 = features.vulkan13();
         let mut executable_info = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
             .pipeline_executable_info(true);
         let extensions = wanted.extensions();
@@ -115,34 +107,7 @@ impl Device {
         Self::assemble(instance, physical, facts, raw, queue_family, origin)
     }
 
-    /// Takes a host's device, which the host destroys after everything of ours is dropped.
-    ///
-    /// # Safety
-    /// All handles must belong together and to `instance`, and stay alive until every object made from this device
-    /// is dropped. The host must have enabled `timelineSemaphore`, `synchronization2`, `dynamicRendering`,
-    /// `maintenance4`, `shaderTerminateInvocation` and what `features` says. Before the last of our objects is dropped, all submissions of
-    /// commands recorded by them must have finished.
-    ///
-    /// # Errors
-    /// [`ErrorKind::NoDevice`] if the device, or the queue's family, lacks what we need.
-    pub unsafe fn borrow(instance: &Instance, host: BorrowedDevice) -> Result<Self> {
-        // SAFETY: this function's contract.
-        let mut facts = unsafe { facts(instance.raw(), host.physical, Some(host.queue_family)) };
-        let refusals = facts.refusals();
-        if !refusals.is_empty() {
-            return Err(ErrorKind::NoDevice { reasons: refusals }.into());
-        }
-        facts.large_points = host.features.large_points;
-        facts.pipeline_statistics = host.features.pipeline_statistics;
-        facts.limits.first_instance = host.features.first_instance;
-        facts.draw_indirect_count &= host.features.draw_indirect_count;
-        if !host.features.large_points {
-            facts.limits.point_size_range = [1.0, 1.0];
-        }
-        Self::assemble(instance, host.physical, facts, host.raw, host.queue_family, Origin::Host)
-    }
-
-    fn assemble(
+    pub(super) fn assemble(
         instance: &Instance,
         physical: vk::PhysicalDevice,
         facts: DeviceFacts,

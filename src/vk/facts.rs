@@ -99,7 +99,6 @@ pub(super) unsafe fn facts(
     let depth = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT | vk::FormatFeatureFlags::SAMPLED_IMAGE;
     let limits = properties.limits;
     let needed = [
-        (features12.timeline_semaphore == vk::TRUE, "timelineSemaphore"),
         (features13.synchronization2 == vk::TRUE, "synchronization2"),
         (features13.dynamic_rendering == vk::TRUE, "dynamicRendering"),
         (features13.maintenance4 == vk::TRUE, "maintenance4"),

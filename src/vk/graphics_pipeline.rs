@@ -20,7 +20,6 @@ pub enum Blend {
     /// It is put under it: added, all four components times what the attachment's fourth leaves of 1.
     Under,
     /// It is put over it, its first three components times its fourth already.
-    #[cfg(feature = "view")]
     Over,
 }
 
@@ -33,6 +32,23 @@ pub struct DepthState {
     pub compare: vk::CompareOp,
     /// Whether the fragment's depth is then written.
     pub write: bool,
+}
+
+/// What else the attachments are that a pipeline draws to; the default is our own passes': one sample a pixel, all color attachments written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Attachments {
+    /// Samples of a pixel.
+    pub samples: vk::SampleCountFlags,
+    /// The format of the stencil attachment, which is left as it is.
+    pub stencil_format: vk::Format,
+    /// The one color attachment that is written; `None`: all.
+    pub written: Option<usize>,
+}
+
+impl Default for Attachments {
+    fn default() -> Self {
+        Self { samples: vk::SampleCountFlags::TYPE_1, stencil_format: vk::Format::UNDEFINED, written: None }
+    }
 }
 
 /// The description of a graphics pipeline.
@@ -54,6 +70,8 @@ pub struct GraphicsPipelineDesc<'a> {
     pub blend: Blend,
     /// The depth test, where there is one.
     pub depth: Option<DepthState>,
+    /// The rest of what it draws to.
+    pub attachments: Attachments,
     /// Sets and push constants.
     pub layout: &'a PipelineLayout,
 }
@@ -82,8 +100,8 @@ impl GraphicsPipeline {
             .cull_mode(if desc.cull_clockwise { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
             .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0);
-        let samples = vk::PipelineMultisampleStateCreateInfo::default()
-            .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let samples =
+            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(desc.attachments.samples);
         let depth = desc.depth.map_or_else(vk::PipelineDepthStencilStateCreateInfo::default, |state| {
             vk::PipelineDepthStencilStateCreateInfo::default()
                 .depth_test_enable(true)
@@ -91,7 +109,6 @@ impl GraphicsPipeline {
                 .depth_compare_op(state.compare)
         });
         let left_of_destination = match desc.blend {
-            #[cfg(feature = "view")]
             Blend::Over => vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
             _ => vk::BlendFactor::ONE,
         };
@@ -111,13 +128,17 @@ impl GraphicsPipeline {
             .dst_alpha_blend_factor(left_of_destination)
             .alpha_blend_op(vk::BlendOp::ADD)
             .color_write_mask(vk::ColorComponentFlags::RGBA);
-        let attachments = vec![add; desc.color_formats.len()];
+        let untouched = vk::PipelineColorBlendAttachmentState::default();
+        let written = |i| desc.attachments.written.is_none_or(|written| written == i);
+        let attachments: Vec<_> =
+            (0..desc.color_formats.len()).map(|i| if written(i) { add } else { untouched }).collect();
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
             .color_attachment_formats(desc.color_formats)
-            .depth_attachment_format(desc.depth.map_or(vk::Format::UNDEFINED, |state| state.format));
+            .depth_attachment_format(desc.depth.map_or(vk::Format::UNDEFINED, |state| state.format))
+            .stencil_attachment_format(desc.attachments.stencil_format);
         let info = vk::GraphicsPipelineCreateInfo::default()
             .flags(device.pipeline_flags())
             .stages(&stages)

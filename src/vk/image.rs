@@ -106,6 +106,11 @@ impl Image {
         Ok(image)
     }
 
+    /// Bytes of memory of its own.
+    pub fn bytes(&self) -> u64 {
+        self.allocation.as_ref().map_or(0, Allocation::size)
+    }
+
     /// The raw image.
     pub fn raw(&self) -> vk::Image {
         self.raw

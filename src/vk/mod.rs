@@ -6,7 +6,6 @@
 //! else works on both alike.
 
 mod allow_list;
-mod borrowed;
 mod buffer;
 mod choose;
 mod commands;
@@ -16,9 +15,11 @@ mod descriptors;
 mod device;
 mod executables;
 mod facts;
+mod features;
 mod garbage;
 mod graphics_pipeline;
 mod image;
+mod import;
 mod instance;
 mod labels;
 mod layout;
@@ -29,6 +30,7 @@ mod owned;
 mod pipeline_cache;
 mod queries;
 mod queue;
+mod requirements;
 mod result;
 mod sampler;
 #[cfg(feature = "view")]
@@ -43,7 +45,6 @@ mod validation;
 mod wanted;
 
 pub use allow_list::{ALLOWED, Allowed};
-pub use borrowed::{BorrowedDevice, EnabledFeatures};
 pub(crate) use buffer::texel_bytes;
 pub use buffer::{Buffer, BufferDesc};
 pub use choose::{DeviceFacts, DeviceKind, Limits, choose};
@@ -55,8 +56,10 @@ pub use device::Device;
 pub use executables::{Executable, executables};
 pub(crate) use facts::LEAST_STORAGE_BUFFERS;
 pub use facts::all_facts;
-pub use graphics_pipeline::{Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
+pub use features::Features;
+pub use graphics_pipeline::{Attachments, Blend, DepthState, GraphicsPipeline, GraphicsPipelineDesc};
 pub use image::{Image, ImageDesc};
+pub use import::Import;
 pub use instance::Instance;
 pub use layout::PipelineLayout;
 pub use loader::{LoaderFacts, loader_facts};
@@ -65,6 +68,7 @@ pub use messages::{Message, Messages};
 pub use pipeline_cache::PipelineCache;
 pub use queries::{Occlusion, QueryPool, Statistics, Timestamps};
 pub use queue::Queue;
+pub use requirements::{Requirements, requirements};
 pub use result::VkResultExt;
 pub use sampler::Sampler;
 #[cfg(feature = "view")]

@@ -6,7 +6,7 @@ use std::{
 };
 
 use ash::{ext, vk};
-use surfel::vk::{BorrowedDevice, Device, EnabledFeatures, Instance};
+use surfel::vk::{Device, Features, Import, Instance};
 
 /// What a host has before it knows of us. Destroys everything itself, after all of ours is dropped.
 pub struct Host {
@@ -15,7 +15,7 @@ pub struct Host {
     pub device: ash::Device,
     pub queue_family: u32,
     pub queue: vk::Queue,
-    pub features: EnabledFeatures,
+    pub features: Features,
     messenger: (ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT),
     // Boxed: the messenger points to it.
     said: Box<Mutex<Vec<String>>>,
@@ -25,7 +25,7 @@ pub struct Host {
 impl Host {
     /// A host under validation that enables these optional features, and the device's first queue for graphics and
     /// compute.
-    pub fn new(features: EnabledFeatures) -> Self {
+    pub fn new(features: Features) -> Self {
         super::arm();
         let said = Box::new(Mutex::new(Vec::new()));
         // SAFETY: handles are used in their creation's order, everything pointed to lives until each call returns,
@@ -67,17 +67,8 @@ impl Host {
             let (physical, facts) = &facts[surfel::vk::choose(&plain, asked.as_deref()).unwrap()];
             let (physical, queue_family) = (*physical, facts.queue_family.unwrap());
 
-            let core = vk::PhysicalDeviceFeatures::default()
-                .large_points(features.large_points)
-                .draw_indirect_first_instance(features.first_instance)
-                .pipeline_statistics_query(features.pipeline_statistics);
-            let mut features10 = vk::PhysicalDeviceFeatures2::default().features(core);
-            let mut features12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
-            let mut features13 = vk::PhysicalDeviceVulkan13Features::default()
-                .synchronization2(true)
-                .dynamic_rendering(true)
-                .maintenance4(true)
-                .shader_terminate_invocation(true);
+            let mut features10 = vk::PhysicalDeviceFeatures2::default().features(features.core());
+            let (mut features12, mut features13) = (features.vulkan12(), features.vulkan13());
             let queues = [vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(queue_family)
                 .queue_priorities(&[1.0])];
@@ -95,13 +86,16 @@ impl Host {
 
     /// The host's device as ours, with `raw` in place of the host's own table of functions.
     pub fn lend(&self, raw: ash::Device) -> Device {
+        let host = Import {
+            instance: &self.instance,
+            debug_utils: true,
+            physical: self.physical,
+            device: &raw,
+            queue_family: self.queue_family,
+            enabled: self.features,
+        };
         // SAFETY: all handles are the host's own and belong together; the tests drop all of ours before the host.
-        unsafe {
-            let instance = Instance::borrow(self.instance.clone(), true);
-            let (physical, queue_family) = (self.physical, self.queue_family);
-            let host = BorrowedDevice { physical, raw, queue_family, features: self.features };
-            Device::borrow(&instance, host).unwrap()
-        }
+        unsafe { Device::import(&host) }.unwrap()
     }
 
     /// What the layer said since the last call.

@@ -12,15 +12,10 @@ use surfel::{
     prepare::PreparedScene,
     renderer::{Readbacks, Renderer, Wanted},
     scene::{Camera, Scene, Settings},
-    vk::{Device, EnabledFeatures, Queue, Staging},
+    vk::{Device, Features, Queue, Staging},
 };
 
-const POINTS: EnabledFeatures = EnabledFeatures {
-    large_points: true,
-    pipeline_statistics: false,
-    draw_indirect_count: false,
-    first_instance: false,
-};
+const POINTS: Features = Features { large_points: true, ..Features::NEEDED };
 
 fn scene() -> Scene {
     Scene { objects: vec![scenes::sphere(3000, DVec3::ZERO)], ..Scene::default() }
@@ -175,7 +170,7 @@ fn a_hosts_queue_is_not_ours_to_take_and_an_owned_one_has_one_owner() {
 fn without_large_points_every_splat_is_a_quad() {
     let settings = settings();
     let expected = expected(&settings, 1);
-    let host = Host::new(EnabledFeatures::default());
+    let host = Host::new(Features::NEEDED);
     let ours = host.lend(host.device.clone());
     assert_eq!(ours.facts().limits.point_size_range, [1.0, 1.0]);
     let renderer = Renderer::new(&ours, None).unwrap();

@@ -18,9 +18,7 @@ use surfel::{
     graph::execute::Profile,
     prepare::PreparedScene,
     renderer::{Readbacks, Renderer},
-    vk::{
-        Buffer, BufferDesc, CommandPool, Device, EnabledFeatures, Image, ImageDesc, MemoryUse, Queue, Staging,
-    },
+    vk::{Buffer, BufferDesc, CommandPool, Device, Features, Image, ImageDesc, MemoryUse, Queue, Staging},
 };
 
 /// Fisher and Yates.
@@ -66,7 +64,7 @@ fn a_leaked_object_is_reported_when_the_device_is_destroyed() {
     let vuids: Vec<_> = messages.all().into_iter().map(|message| message.vuid).collect();
     assert!(matches!(&vuids[..], [vuid] if LEAKED.contains(&vuid.as_str())), "{vuids:?}");
 
-    let host = Host::new(EnabledFeatures::default());
+    let host = Host::new(Features::NEEDED);
     // SAFETY: as above.
     unsafe { host.device.create_fence(&vk::FenceCreateInfo::default(), None) }.unwrap();
     let said = host.destroy();
@@ -212,7 +210,7 @@ fn assert_fail<T>(
 
 #[test]
 fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
-    let host = Host::new(EnabledFeatures { large_points: true, ..EnabledFeatures::default() });
+    let host = Host::new(Features { large_points: true, ..Features::NEEDED });
     let device = host.lend(faults::device(&host.device));
     faults::take_called();
     let own = set_up(&device).unwrap();

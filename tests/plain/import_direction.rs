@@ -27,6 +27,7 @@ const LAYERS: &[&[&str]] = &[
     &["passes"],
     &["frame"],
     &["renderer"],
+    &["embed"],
     &["instruments"],
     &["selftest"],
 ];
@@ -46,6 +47,7 @@ const ROOMS: &[&[&str]] = &[
     &["resolve"],
     &["layers", "pick"],
     &["in_parts"],
+    &["host"],
 ];
 
 /// What a folder may not import although it stands above: (folder, import, why).

@@ -13,7 +13,7 @@ use crate::passes::plan::{
     range::DepthRange,
 };
 use crate::{
-    prepare::PreparedScene,
+    prepare::{Placed, PreparedScene},
     scene::{Camera, Edges, Lod, Settings, Window},
     shaders::config::*,
     vk::Limits,
@@ -74,23 +74,23 @@ impl<'a> PickPlan<'a> {
         pixel: [u32; 2],
     ) -> Self {
         // Sizes are of the picture, not of the pixel.
-        let settings = within_budget(scene, camera, settings);
+        let settings = within_budget(&[Placed::at_home(scene)], camera, settings);
         let lod = Lod::Px(settings.tau_px());
         let window = Window {
             whole_px: Some(camera.window.whole_px.unwrap_or(settings.size_px)),
             corner_px: [0, 1].map(|i| camera.window.corner_px[i] + f64::from(pixel[i])),
         };
-        let range = DepthRange::of(scene, camera);
+        let range = DepthRange::of(&[Placed::at_home(scene)], camera);
         let eye = camera.eye;
         let camera = Camera { window, ..range.begin(camera) };
         let settings = Settings { size_px: [1; 2], lod, ..settings.into_owned() };
-        let all = draws(scene, (&camera, range), &settings, limits).into_iter();
+        let all = draws(Placed::at_home(scene), (&camera, range), &settings, limits).into_iter();
         let (transparent, opaque) = all.partition(|draw| draw.chunk.transparent);
         let mut draws = as_drawn(opaque, &frame.opaque);
         draws.extend(as_drawn(transparent, &frame.transparent));
         let seen: Vec<_> = draws.iter().map(Draw::potentially_visible_blocks).collect();
         let listed = ListedBlocks::of(&mut draws, &seen, 0..1);
-        let mut meshes = mesh_draws(scene, (&camera, range), &settings);
+        let mut meshes = mesh_draws(Placed::at_home(scene), (&camera, range), &settings);
         let mut first = words_of(&draws);
         for draw in &mut meshes {
             draw.constants.splat_count = draw.chunk.triangles;

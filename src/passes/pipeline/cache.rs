@@ -58,6 +58,8 @@ pub struct Shaders {
     /// counts begins after constants were pushed for the stages of a graphics pipeline and before one was bound.
     pub(crate) list_layout: PipelineLayout,
     pub(crate) finalize_layout: PipelineLayout,
+    /// What meets a host's depth.
+    pub(crate) host_layout: PipelineLayout,
     pub(crate) cells_layout: PipelineLayout,
     /// Those of tiles; none on a device with too few storage buffers.
     tiles: Option<TileLayouts>,
@@ -110,6 +112,13 @@ impl Shaders {
             size_of::<constants::FinalizeConstants>() as u32,
             fragment,
         )?;
+        let host_layout = PipelineLayout::new(
+            device,
+            "beside a host",
+            &[&sums_set],
+            size_of::<constants::HostDepth>() as u32,
+            fragment,
+        )?;
         let fetched = Binding { kind: vk::DescriptorType::SAMPLED_IMAGE, stages: compute };
         let cells_set = set("cells of depth", &[fetched, buffer])?;
         let cells_layout = PipelineLayout::new(device, "cells of depth", &[&cells_set], 0, compute)?;
@@ -130,6 +139,7 @@ impl Shaders {
             splat_layout,
             list_layout,
             finalize_layout,
+            host_layout,
             cells_set,
             cells_layout,
             tiles,
@@ -179,6 +189,7 @@ impl Shaders {
             Layout::Splat => &self.splat_layout,
             Layout::List => &self.list_layout,
             Layout::Finalize => &self.finalize_layout,
+            Layout::Host => &self.host_layout,
             Layout::DepthCells => &self.cells_layout,
             Layout::Record => &self.tiles()?.record,
             Layout::Tile => &self.tiles()?.tile,
@@ -202,11 +213,8 @@ impl Shaders {
             cull_clockwise: key.cull_clockwise,
             color_formats: &key.color_formats,
             blend: key.blend,
-            depth: key.depth.map(|(compare, write)| DepthState {
-                format: crate::passes::pipeline::formats::DEPTH_FORMAT,
-                compare,
-                write,
-            }),
+            depth: key.depth.map(|(compare, write)| DepthState { format: key.depth_format, compare, write }),
+            attachments: key.attachments,
             layout: self.layout(key.layout)?,
         };
         let pipeline = GraphicsPipeline::new(&self.device, &self.cache, &desc)?;

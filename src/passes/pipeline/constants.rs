@@ -110,6 +110,18 @@ pub struct FinalizeConstants {
     pub eye_to_depth: f32,
 }
 
+/// How a host's depth follows from ours, w: `scale` w + `offset`; see `glsl/inc/host.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct HostDepth {
+    /// Where the picture's corner lies in the host's image.
+    pub corner_px: [i32; 2],
+    /// The host's depth where w is 1, less that where it is 0.
+    pub scale: f32,
+    /// The host's depth where w is 0.
+    pub offset: f32,
+}
+
 /// What the passes over tiles are told; see `glsl/tile/constants.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

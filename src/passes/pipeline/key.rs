@@ -2,10 +2,10 @@
 
 use ash::vk;
 
-use crate::passes::pipeline::{splat_shaders::Stages, variant::Constants};
+use crate::passes::pipeline::{formats::DEPTH_FORMAT, splat_shaders::Stages, variant::Constants};
 use crate::{
     shaders::{self, Shader},
-    vk::Blend,
+    vk::{Attachments, Blend},
 };
 
 /// One of the layouts that pipelines share.
@@ -14,6 +14,7 @@ pub(crate) enum Layout {
     Splat,
     List,
     Finalize,
+    Host,
     DepthCells,
     Record,
     Tile,
@@ -41,6 +42,10 @@ pub(crate) struct GraphicsKey {
     pub blend: Blend,
     /// The depth test: the comparison and whether it writes.
     pub depth: Option<(vk::CompareOp, bool)>,
+    /// The format of what is tested.
+    pub depth_format: vk::Format,
+    /// The rest of what it draws to.
+    pub attachments: Attachments,
 }
 
 /// All that a compute pipeline is made of.
@@ -75,6 +80,8 @@ impl GraphicsKey {
             color_formats: Vec::new(),
             blend: Blend::Replace,
             depth: None,
+            depth_format: DEPTH_FORMAT,
+            attachments: Attachments::default(),
         }
     }
 

@@ -13,7 +13,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::{
-    prepare::{Group, PreparedScene, Refinements},
+    prepare::{Chunk, Group, Placed, Refinements},
     scene::{Backfaces, Budget, Camera, ErrorBall, Filter, LeveledObject, Lod, Settings, ViewFromWorld},
 };
 
@@ -25,19 +25,24 @@ const RESERVE: f64 = 1e-5;
 
 /// The settings with the size for their budget in the place of [`Settings::lod`], where they have one and something has levels of detail.
 pub(crate) fn within_budget<'s>(
-    scene: &PreparedScene,
+    scenes: &[Placed<'_>],
     camera: &Camera,
     settings: &'s Settings,
 ) -> Cow<'s, Settings> {
     let Budget::Splats(most) = settings.budget else { return Cow::Borrowed(settings) };
-    if scene.refinements.is_empty() {
+    if scenes.iter().all(|placed| placed.scene.refinements.is_empty()) {
         return Cow::Borrowed(settings);
     }
-    let without = scene.chunks.iter().filter(|chunk| chunk.levels.is_none());
-    let others: u64 = without.map(|chunk| u64::from(chunk.count)).sum();
+    let without = |chunk: &&Chunk| chunk.levels.is_none();
+    let others = scenes.iter().flat_map(|placed| placed.scene.chunks.iter().filter(without));
+    let others: u64 = others.map(|chunk| u64::from(chunk.count)).sum();
     let most = (SHARE * f64::from(most)) as i64 - others as i64;
     let asked_px = settings.tau_px();
-    let tau_px = Counted::new(&scene.refinements, camera, settings).tau_px(most).max(asked_px);
+    let counted = |Placed { scene, at }: &Placed<'_>| {
+        Counted::new(&scene.refinements, &at.camera(camera), settings).nodes
+    };
+    let nodes = scenes.iter().map(counted).collect::<Vec<_>>().concat();
+    let tau_px = Counted { nodes }.tau_px(most).max(asked_px);
     Cow::Owned(Settings { lod: Lod::Px(tau_px), ..settings.clone() })
 }
 
@@ -216,7 +221,7 @@ mod tests {
             for (i, most) in budgets.into_iter().enumerate() {
                 let settings = Settings { size_px, budget: Budget::Splats(most), ..Settings::default() };
                 let counted = Counted::new(&prepared.refinements, &camera, &settings);
-                sizes_px[i] = within_budget(&prepared, &camera, &settings).tau_px();
+                sizes_px[i] = within_budget(&[Placed::at_home(&prepared)], &camera, &settings).tau_px();
                 let drawn = counted.count(sizes_px[i]) as f64 / f64::from(most);
                 // Near to it there are not so many.
                 assert!(drawn <= 1.0 && (drawn >= 0.98 || sizes_px[i] == 0.0), "{drawn} of {most}");
@@ -232,6 +237,6 @@ mod tests {
         println!("{most_change} of a budget changes in a step at most");
         assert!(most_change < 0.05, "{most_change}");
         let settings = Settings { budget: Budget::Splats(10_000_000), ..Settings::default() };
-        assert_eq!(within_budget(&prepared, &camera, &settings).tau_px(), 0.0);
+        assert_eq!(within_budget(&[Placed::at_home(&prepared)], &camera, &settings).tau_px(), 0.0);
     }
 }

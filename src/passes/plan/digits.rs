@@ -3,7 +3,7 @@
 use crate::passes::plan::{FramePlan, SurfacePlan, draws::Draw, range::DepthRange};
 use crate::{
     error::{Error, Result},
-    prepare::{Chunk, PreparedScene, Rebase},
+    prepare::{Chunk, Placed, PreparedScene, Rebase},
     scene::{Camera, Settings},
     shaders::config::LEAST_SHIFT,
 };
@@ -21,10 +21,15 @@ const LARGEST_EDGE: f64 = 1e6;
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] with the nearest that it may be.
-pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
+pub fn check(scenes: &[Placed<'_>], camera: &Camera) -> Result<()> {
     if camera.is_orthographic() {
-        return check_range(scene, camera);
+        return check_range(scenes, camera);
     }
+    scenes.iter().try_for_each(|Placed { scene, at }| check_near(scene, &at.camera(camera)))
+}
+
+/// The same of one scene, from a camera in its own space.
+fn check_near(scene: &PreparedScene, camera: &Camera) -> Result<()> {
     // Depths that are handed out have the world's unit, and 32 bits.
     let near = camera.near() as f32;
     if near == 0.0 || near.is_infinite() {
@@ -63,8 +68,8 @@ pub fn check(scene: &PreparedScene, camera: &Camera) -> Result<()> {
 }
 
 /// The same of an orthographic camera, whose depth ends where the scene does.
-fn check_range(scene: &PreparedScene, camera: &Camera) -> Result<()> {
-    let range = DepthRange::of(scene, camera);
+fn check_range(scenes: &[Placed<'_>], camera: &Camera) -> Result<()> {
+    let range = DepthRange::of(scenes, camera);
     let ends = [range.end as f32, range.from_eye.abs().max(1.0) as f32];
     if ends.iter().all(|end| end.is_normal()) {
         return Ok(());
@@ -196,7 +201,7 @@ mod tests {
     fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {
         let limits = Limits::plain();
         let prepared = prepare_without_device(&limits, scene).unwrap();
-        let frame = FramePlan::new(&prepared, &camera(1e-3), settings, &limits);
+        let frame = FramePlan::new(&[Placed::at_home(&prepared)], &camera(1e-3), settings, &limits);
         beyond_f32(&prepared, &frame, &camera(1e-3)).into_iter().chain(super::floors(&frame)).collect()
     }
 
@@ -204,7 +209,7 @@ mod tests {
     fn a_near_plane_without_depth_is_refused_whether_things_are_far_or_large() {
         let problem_of = |scene: &Scene, near: f64| {
             let prepared = prepare_without_device(&Limits::plain(), scene).unwrap();
-            check(&prepared, &camera(near)).map_err(|error| error.to_string())
+            check(&[Placed::at_home(&prepared)], &camera(near)).map_err(|error| error.to_string())
         };
         assert_eq!(problem_of(&disks(&[1.0, 3.0], 0.1), 1e-30), Ok(()));
         assert_eq!(problem_of(&disks(&[1e6], 0.1), 1e-20), Ok(()));

@@ -19,7 +19,7 @@ use crate::passes::{
 use crate::{
     error::Result,
     math::size::{SizeBound, box_px, largest_box_px},
-    prepare::{Chunk, PreparedScene, RadiusStep, ViewFromLocal, inverse_overlap_in_upper_half},
+    prepare::{Chunk, Placed, RadiusStep, ViewFromLocal, inverse_overlap_in_upper_half},
     scene::{Camera, Epsilon, Filter, Settings},
     shaders::config::*,
     vk::Limits,
@@ -98,17 +98,19 @@ pub(crate) fn by_variant<T: Copy>(
     Ok(all)
 }
 
-/// All chunks of splats as seen from a camera.
+/// All chunks of splats of a scene as seen from a camera.
 pub fn draws<'a>(
-    scene: &'a PreparedScene,
+    Placed { scene, at }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
     settings: &Settings,
     limits: &Limits,
 ) -> Vec<Draw<'a>> {
+    // All of it is in the scene's own space, in which a camera stands elsewhere.
+    let (camera, range) = (&at.camera(camera), range.within(&at));
     let filter_radius_px = settings.samples.filter_radius_px();
     let sums = sums_under(settings.kernel);
     let primitive = Primitive::of(settings.rasterizer);
-    let clip = settings.clip();
+    let clip: Vec<_> = settings.clip().into_iter().map(|plane| at.plane(plane)).collect();
     let draw = |chunk: &'a Chunk| {
         let view = chunk.rebase.view_from_local(camera);
         let is_orthographic = camera.is_orthographic();
@@ -116,7 +118,7 @@ pub fn draws<'a>(
         let epsilon = match wanted {
             Epsilon::Auto => (Epsilon::auto_radii(chunk.transparent), 0.0),
             Epsilon::Radii(radii) => (radii, 0.0),
-            Epsilon::Length(length) => (0.0, length),
+            Epsilon::Length(length) => (0.0, length / at.scale),
         };
         let bound = SizeBound {
             nearest_z: nearest_z(chunk, &view),

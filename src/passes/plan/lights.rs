@@ -1,6 +1,9 @@
 //! Lights as a camera sees them.
 
-use crate::scene::{Camera, Light, LightKind, MOST_LIGHTS};
+use crate::{
+    prepare::Placed,
+    scene::{Camera, Light, LightKind, MOST_LIGHTS},
+};
 
 /// A light as `glsl/inc/shading.glsl` has it: the unit direction to it in view space and 1 where it is at the eye; linear
 /// color.
@@ -8,8 +11,14 @@ pub type ShaderLight = [[f32; 4]; 2];
 
 const _: () = assert!((MOST_LIGHTS * size_of::<ShaderLight>()) as u64 <= crate::vk::STAND_IN_BYTES);
 
-/// Lights as a camera sees them.
-pub(crate) fn shader_lights(lights: &[Light], camera: &Camera) -> Vec<ShaderLight> {
+/// The lights of all scenes as a camera sees them.
+pub(crate) fn shader_lights(scenes: &[Placed<'_>], camera: &Camera) -> Vec<ShaderLight> {
+    let of_scene = |Placed { scene, at }: &Placed<'_>| of_scene(&scene.lights, &at.camera(camera));
+    scenes.iter().flat_map(of_scene).take(MOST_LIGHTS).collect()
+}
+
+/// Those of one, from a camera in its own space.
+fn of_scene(lights: &[Light], camera: &Camera) -> Vec<ShaderLight> {
     let view = camera.view_from_world();
     let of = |light: &Light| {
         let [red, green, blue] = light.color;
@@ -21,5 +30,5 @@ pub(crate) fn shader_lights(lights: &[Light], camera: &Camera) -> Vec<ShaderLigh
         };
         [to_light.extend(at_eye).into(), [red, green, blue, 0.0]]
     };
-    lights.iter().take(MOST_LIGHTS).map(of).collect()
+    lights.iter().map(of).collect()
 }

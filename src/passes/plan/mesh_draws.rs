@@ -5,7 +5,7 @@ use crate::passes::{
     plan::{frame_constants::frame_constants, range::DepthRange},
 };
 use crate::{
-    prepare::{MeshChunk, PreparedScene},
+    prepare::{MeshChunk, Placed},
     scene::{Camera, Epsilon, Settings},
 };
 
@@ -19,16 +19,17 @@ pub struct MeshDraw<'a> {
     pub cull: bool,
 }
 
-/// All pieces of meshes as seen from a camera.
+/// All pieces of meshes of a scene as seen from a camera.
 pub fn mesh_draws<'a>(
-    scene: &'a PreparedScene,
+    Placed { scene, at }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
     settings: &Settings,
 ) -> Vec<MeshDraw<'a>> {
+    let (camera, range) = (&at.camera(camera), range.within(&at));
     let epsilon = match settings.epsilon {
         Epsilon::Auto => Epsilon::auto_radii(true) * scene.mean_transparent_radius,
         Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
-        Epsilon::Length(length) => length,
+        Epsilon::Length(length) => length / at.scale,
     };
     let draw = |chunk: &'a MeshChunk| {
         let view = chunk.rebase.view_from_local(camera);

@@ -33,7 +33,7 @@ use crate::passes::plan::{
     tiles::TilePlan,
 };
 use crate::{
-    prepare::PreparedScene,
+    prepare::Placed,
     scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
     shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_TWO_SIDED},
     vk::Limits,
@@ -92,24 +92,24 @@ impl Default for SplatMethod<'_> {
 }
 
 impl<'a> FramePlan<'a> {
-    /// Plans the frame of a scene.
-    pub fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
-        let settings = &*budget::within_budget(scene, camera, settings);
-        let range = DepthRange::of(scene, camera);
+    /// Plans the frame that shows scenes.
+    pub fn new(scenes: &[Placed<'a>], camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
+        let settings = &*budget::within_budget(scenes, camera, settings);
+        let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
-        let splats = draws(scene, (camera, range), settings, limits).into_iter();
+        let splats = scenes.iter().flat_map(|placed| draws(*placed, (camera, range), settings, limits));
         let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
-        let meshes = mesh_draws(scene, (camera, range), settings).into_iter();
+        let meshes = scenes.iter().flat_map(|placed| mesh_draws(*placed, (camera, range), settings));
         let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
         let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
+        let lights = lights::shader_lights(scenes, camera);
         for band in transparent.bands_mut() {
-            let (most, lights) = (settings.layers.most(), scene.lights.len() as u32);
-            band.plan = band.plan.clone().with_layers(most, lights);
+            band.plan = band.plan.clone().with_layers(settings.layers.most(), lights.len() as u32);
         }
         Self {
             opaque: SurfacePlan::new(splats, meshes, settings, limits),
             transparent,
-            lights: lights::shader_lights(&scene.lights, camera),
+            lights,
             planes: planes::shader_planes((camera, range), settings),
             range,
         }
@@ -213,6 +213,8 @@ impl<'a> SurfacePlan<'a> {
 pub(crate) struct Outputs {
     /// The opaque surface as data: sums, of depth too, are read everywhere.
     pub surface: bool,
+    /// The opaque surface's own depth, for a host that draws beside it.
+    pub depth: bool,
     /// Transparent layers lie before the opaque surface.
     pub layers: bool,
     /// The picture's format.
@@ -222,7 +224,12 @@ pub(crate) struct Outputs {
 impl Outputs {
     /// Sums and depth are read everywhere, not only where finalization shades.
     pub fn reads_whole_images(self) -> bool {
-        self.surface || self.layers
+        self.surface || self.depth || self.layers
+    }
+
+    /// Depth is summed where sums are.
+    pub fn sums_depth(self) -> bool {
+        self.surface || self.depth
     }
 
     /// Whether tiles of these opaque things can be shaded at once. Where they cover pixels in part, they leave layers a depth beside

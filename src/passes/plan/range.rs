@@ -1,6 +1,9 @@
 //! How deep a scene reaches under an orthographic camera, whose depth is linear and so has to end.
 
-use crate::{prepare::PreparedScene, scene::Camera};
+use crate::{
+    prepare::Placed,
+    scene::{Camera, Placement},
+};
 
 /// Depth under an orthographic camera: w = 1 − z / end, with z from a plane in front of all that is seen. Of a perspective it means nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -12,24 +15,27 @@ pub struct DepthRange {
 }
 
 impl DepthRange {
-    /// That of a scene.
-    pub fn of(scene: &PreparedScene, camera: &Camera) -> Self {
+    /// That of all that a frame shows.
+    pub fn of(scenes: &[Placed<'_>], camera: &Camera) -> Self {
         if !camera.is_orthographic() {
             return Self::default();
         }
-        let splats = scene.chunks.iter().map(|chunk| {
-            let view = chunk.rebase.view_from_local(camera);
-            (view, chunk.bounds, chunk.largest_radius)
-        });
-        let meshes = scene.meshes.iter().map(|mesh| {
-            let farthest = glam::DVec3::splat(mesh.farthest);
-            (mesh.rebase.view_from_local(camera), [-farthest, farthest], 0.0)
-        });
-        let ends = splats.chain(meshes).map(|(view, [lo, hi], radius)| {
-            let row = view.rotation.row(2);
-            let middle = row.dot(0.5 * (lo + hi)) * view.view_from_local_scale + view.translation.z;
-            let half = (row.abs().dot(0.5 * (hi - lo)) + radius) * view.view_from_local_scale;
-            [middle - half, middle + half].map(|z| z / view.view_from_world_scale)
+        let ends = scenes.iter().flat_map(|Placed { scene, at }| {
+            let (camera, scale) = (at.camera(camera), at.scale);
+            let splats = scene.chunks.iter().map(move |chunk| {
+                let view = chunk.rebase.view_from_local(&camera);
+                (view, chunk.bounds, chunk.largest_radius)
+            });
+            let meshes = scene.meshes.iter().map(move |mesh| {
+                let farthest = glam::DVec3::splat(mesh.farthest);
+                (mesh.rebase.view_from_local(&camera), [-farthest, farthest], 0.0)
+            });
+            splats.chain(meshes).map(move |(view, [lo, hi], radius)| {
+                let row = view.rotation.row(2);
+                let middle = row.dot(0.5 * (lo + hi)) * view.view_from_local_scale + view.translation.z;
+                let half = (row.abs().dot(0.5 * (hi - lo)) + radius) * view.view_from_local_scale;
+                [middle - half, middle + half].map(|z| z / view.view_from_world_scale * scale)
+            })
         });
         let [first, last] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[first, last], [near, far]| {
             [first.min(near), last.max(far)]
@@ -43,6 +49,12 @@ impl DepthRange {
         } else {
             Self { from_eye: camera.near(), end: 1.0 }
         }
+    }
+
+    /// The same in the lengths of a scene that stands so in the world.
+    #[must_use]
+    pub fn within(&self, at: &Placement) -> Self {
+        Self { from_eye: self.from_eye / at.scale, end: self.end / at.scale }
     }
 
     /// The camera with its eye on that plane, where depth begins; a perspective as it is.

@@ -32,7 +32,9 @@ pub(crate) struct ShadedTiles {
     pub precision: Accumulate,
     /// The depth that hides transparent layers, where there are any.
     pub depth: Option<Handle<Image>>,
-    /// What the depth holds when the next band's tiles write to it.
+    /// The surface's own depth, where a host wants it.
+    pub own_depth: Option<Handle<Image>>,
+    /// What both depths hold when the next band's tiles write to them.
     depth_start: Start,
 }
 
@@ -41,12 +43,14 @@ impl ShadedTiles {
     pub fn create<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, outputs: Outputs) -> Self {
         let precision = outputs.shaded_precision(inputs.settings);
         let mut image = graph.create_image("shaded tiles", inputs.image(sum_format(precision)));
-        let depth = outputs.layers.then(|| graph.create_image("visible depth", inputs.image(VISIBLE_FORMAT)));
+        let mut of_depth = |name| graph.create_image(name, inputs.image(VISIBLE_FORMAT));
+        let depth = outputs.layers.then(|| of_depth("visible depth"));
+        let own_depth = outputs.depth.then(|| of_depth("own depth"));
         if outputs.layers && inputs.meshes.is_empty() {
             let why = "transparent layers lie over all of what tiles show";
             clear(graph, inputs.source, "clear shaded tiles", why, &mut [&mut image]);
         }
-        Self { image, precision, depth, depth_start: Start::Discard }
+        Self { image, precision, depth, own_depth, depth_start: Start::Discard }
     }
 }
 
@@ -56,6 +60,8 @@ struct Beside {
     polygons: bool,
     /// Transparent layers, which read the depth.
     layers: bool,
+    /// A host, which reads the surface's own.
+    host: bool,
     /// The scene's own lights.
     lights: u32,
 }
@@ -65,7 +71,7 @@ fn key(
     settings: &Settings,
     plan: &TilePlan,
     precision: Accumulate,
-    Beside { polygons, layers, lights }: Beside,
+    Beside { polygons, layers, host, lights }: Beside,
 ) -> ComputeKey {
     let shader = plan.invocations.shader(match plan.hidden {
         false => [&shaders::TILE_SHADE_COLUMN_COMP, &shaders::TILE_SHADE_PIXEL_COMP],
@@ -77,6 +83,7 @@ fn key(
         constants.extend(beside_polygons(settings));
     }
     constants.push((SPEC_KEEPS_DEPTH, layers.into()));
+    constants.extend(host.then_some((SPEC_WITH_DEPTH, 1)));
     dispatch::key(shader, constants)
 }
 
@@ -93,7 +100,8 @@ pub(crate) fn shaded<'a>(
 ) -> Result<()> {
     let plan = tiles.plan;
     let layers = shown.depth.is_some();
-    let beside = Beside { polygons: polygons.is_some(), layers, lights: inputs.lights };
+    let host = shown.own_depth.is_some();
+    let beside = Beside { polygons: polygons.is_some(), layers, host, lights: inputs.lights };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
     let pass =
@@ -109,16 +117,17 @@ pub(crate) fn shaded<'a>(
         pass = pass.also(at(BIND_COLORS_BEFORE));
     }
     // An image that is not written has to be one that may be: a stand-in is only read.
-    pass = match &mut shown.depth {
-        Some(depth) => {
-            let access = match shown.depth_start {
-                Start::Discard => Access::StorageWriteCompute,
-                _ => Access::StorageReadWriteCompute,
-            };
-            pass.write(at(BIND_VISIBLE_DEPTH), depth, access, shown.depth_start)
-        }
-        None => pass.also(at(BIND_VISIBLE_DEPTH)),
+    let access = match shown.depth_start {
+        Start::Discard => Access::StorageWriteCompute,
+        _ => Access::StorageReadWriteCompute,
     };
+    let depths = [(BIND_VISIBLE_DEPTH, &mut shown.depth), (BIND_NORMALS, &mut shown.own_depth)];
+    for (binding, depth) in depths {
+        pass = match depth {
+            Some(depth) => pass.write(at(binding), depth, access, shown.depth_start),
+            None => pass.also(at(binding)),
+        };
+    }
     shown.depth_start = Start::Load;
     let key = key(inputs.settings, plan, shown.precision, beside);
     dispatch::finish_whole(pass, inputs, (plan, key))?;
@@ -140,18 +149,25 @@ fn shade_overflow<'a>(
     let plan = tiles.plan;
     let mut images = TileImages::of_overflow(graph, kind, plan);
     splat::see(graph, inputs, kind, tiles, &mut images, None, false)?;
-    splat::sum(graph, inputs, kind, tiles, &mut images, (None, false), false)?;
+    let host = shown.own_depth.is_some();
+    splat::sum(graph, inputs, kind, tiles, &mut images, (None, host), false)?;
 
     let mut constants = shading_constants(inputs.settings.shading, inputs.lights);
     constants.extend(splat::constants(inputs.settings, plan, shown.precision));
     let (access, content) = TileStart::Bands.access(); // the other tiles
     let pass = Pass::new(graph, inputs.source, &format!("shade {kind}overflow tiles"), overflow::WHY);
-    let pass = tiles
+    let mut pass = tiles
         .read_lists(pass)
+        .read(at(BIND_VISIBLE_BEFORE), &images.depth, Access::SampledCompute)
         .read(at(BIND_COLORS_BEFORE), &images.sums.color, Access::SampledCompute)
         .read(at(BIND_NORMALS_BEFORE), &images.sums.normal, Access::SampledCompute)
         .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
         .write(at(BIND_COLORS), &mut shown.image, access, content);
+    pass = match &mut shown.own_depth {
+        Some(depth) => pass.write(at(BIND_NORMALS), depth, Access::StorageReadWriteCompute, Start::Load),
+        None => pass.also(at(BIND_NORMALS)),
+    };
+    constants.extend(host.then_some((SPEC_WITH_DEPTH, 1)));
     let key = dispatch::key(&shaders::TILE_SHADE_OVERFLOW_COMP, constants);
     dispatch::finish_indirect(pass, inputs, (plan, key), ARGUMENTS_OVERFLOW)
 }

@@ -5,7 +5,7 @@ use surfel::{
     Camera, Settings,
     renderer::{Readbacks, Renderer, Wanted},
     scene::{Cull, Rasterizer, Scene},
-    vk::EnabledFeatures,
+    vk::Features,
 };
 
 use crate::{
@@ -30,7 +30,7 @@ fn camera(scene: &Scene, settings: &Settings, frame: usize) -> Camera {
 
 /// Goes around with two frames in flight. What was made in each frame, and the compared pictures.
 fn go_around(scene: &Scene, settings: &Settings) -> (Vec<Vec<&'static str>>, Vec<Vec<u8>>) {
-    let features = EnabledFeatures { large_points: true, first_instance: true, ..EnabledFeatures::default() };
+    let features = Features { large_points: true, draw_indirect_first_instance: true, ..Features::NEEDED };
     let host = Host::new(features);
     let ours = host.lend(faults::device(&host.device));
     let renderer = Renderer::new(&ours, None).unwrap();

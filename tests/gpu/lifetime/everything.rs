@@ -95,6 +95,7 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
         color_formats: &[FORMAT],
         blend: Blend::Replace,
         depth: None,
+        attachments: surfel::vk::Attachments::default(),
         layout: &layout,
     };
     keep(Box::new(GraphicsPipeline::new(&device, &cache, &desc).unwrap()));

@@ -103,6 +103,7 @@ impl OverlayPass {
                 color_formats: &[format],
                 blend: Blend::Over,
                 depth: None,
+                attachments: surfel::vk::Attachments::default(),
                 layout: &layout,
             },
         )?;

@@ -114,6 +114,7 @@ impl Show {
                 color_formats: &[self.format],
                 blend: Blend::Replace,
                 depth: None,
+                attachments: surfel::vk::Attachments::default(),
                 layout: &self.layout,
             },
         )?;

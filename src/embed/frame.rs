@@ -1,0 +1,44 @@
+//! What a host says of a frame.
+
+use ash::vk;
+
+use crate::{
+    graph::{ImageState, execute::Profile},
+    prepare::Placed,
+    scene::{HostCamera, Settings},
+};
+
+/// What a view shows in a frame, and from where.
+#[derive(Clone, Copy)]
+pub struct ViewFrame<'a> {
+    /// What is shown, each where it stands: the list may differ from frame to frame, nothing is uploaded by that.
+    pub scenes: &'a [Placed<'a>],
+    /// From where.
+    pub camera: &'a HostCamera,
+    /// How. The size is the view's, in pixels; the background is the host's picture, whatever is said here.
+    pub settings: &'a Settings,
+    /// Where the view's top left corner lies in the host's images, in pixels.
+    pub corner_px: [i32; 2],
+    /// What the host has drawn hides transparent things pixel by pixel between each other: its depth. Needed where anything is transparent
+    /// and the host's rendering has a depth; what is opaque is tested by the host's own test in [`super::View::draw`].
+    pub hides: Option<DepthImage>,
+    /// Each pass is timed, for [`super::View::profile`].
+    pub profile: Option<Profile>,
+}
+
+/// The depth of what a host has drawn so far.
+#[derive(Clone, Copy, Debug)]
+pub struct DepthImage {
+    /// The image: one sample a pixel, one layer, one mip level; usage `SAMPLED`.
+    pub image: vk::Image,
+    /// A view of its depth alone.
+    pub view: vk::ImageView,
+    /// Its format.
+    pub format: vk::Format,
+    /// Width and height in pixels.
+    pub extent: vk::Extent2D,
+    /// What was done with it just before: its writes are waited for.
+    pub before: ImageState,
+    /// What will be done with it just after; it is left in that layout.
+    pub after: ImageState,
+}

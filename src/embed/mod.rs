@@ -1,0 +1,26 @@
+//! Splats within an engine's own frame: the engine owns instance, device, queue, memory's lifetime, command buffers, images and submission; we record.
+//!
+//! 1. [`requirements`] says what a device must be created with; [`Device::import`] takes the device, and what was really enabled on it.
+//! 2. [`Renderer::upload`] records the upload of a scene into the engine's commands.
+//! 3. Each frame, [`View::prepare`] records all passes, outside of rendering, and [`View::draw`] one to three draws within the engine's own
+//!    rendering: splats are hidden by what the engine has drawn and hide what it draws later, by the engine's own depth and its comparison.
+//! 4. [`Device::end_epoch`] at each submission, [`Device::epoch_done`] once the device has finished it: what was dropped goes then.
+//!
+//! `docs/embedding.md` tells all of it: state, threads, lifetimes.
+
+mod commands;
+mod frame;
+mod images;
+mod over;
+mod view;
+
+pub use crate::{
+    graph::ImageState,
+    prepare::{Placed, PreparedScene},
+    renderer::Renderer,
+    scene::{HostCamera, Placement},
+    vk::{Device, Features, Import, Requirements, requirements},
+};
+pub use frame::{DepthImage, ViewFrame};
+pub use over::Rendering;
+pub use view::View;

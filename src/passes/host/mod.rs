@@ -1,0 +1,25 @@
+//! A frame beside what a host draws itself: the host's depth comes in, and what the host lays over its own picture is left to it: the opaque
+//! surface and its own depth, and the transparent layers.
+
+pub(crate) mod depth_in;
+pub(crate) mod depth_out;
+pub(crate) mod layers_out;
+
+use ash::vk;
+
+use crate::graph::{Handle, Image};
+
+/// The format in which the depth of the opaque surface is left: w as `glsl/inc/projection.glsl` has it, 0 where there is nothing.
+pub(crate) const SURFACE_DEPTH_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
+
+/// What a host gives to a frame, and gets of it beside the opaque surface, which is the frame's target.
+pub(crate) struct BesideHost<'h> {
+    /// The depth of what the host has drawn, and how it follows from w; it hides transparent layers.
+    pub hides: Option<(&'h Handle<Image>, HostDepth)>,
+    /// Where the opaque surface's own depth is left.
+    pub depth: &'h mut Handle<Image>,
+    /// Where transparent layers are left, where there are any.
+    pub layers: Option<&'h mut Handle<Image>>,
+}
+
+pub use crate::passes::pipeline::constants::HostDepth;
