@@ -214,7 +214,12 @@ fn no_hard_scene_is_another_where_memory_is_short() {
         hard.settings.accumulate = Accumulate::F32;
         let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
         let [whole, cut] = [u64::MAX, 0].map(|most| {
-            let plan = FramePlan::new(&prepared, &hard.camera, &by_tiles(&hard, most), &limits);
+            let plan = FramePlan::new(
+                &[surfel::prepare::Placed::at_home(&prepared)],
+                &hard.camera,
+                &by_tiles(&hard, most),
+                &limits,
+            );
             [plan.opaque, plan.transparent].map(|part| {
                 let bands = part.bands().iter().map(|band| band.plan.clone());
                 bands.collect::<Vec<_>>()

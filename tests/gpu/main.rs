@@ -5,6 +5,7 @@
 mod common;
 
 mod bands;
+mod beside;
 mod by_design;
 mod clips;
 mod clips_measured;

@@ -115,7 +115,12 @@ fn images_without_room_for_tiles_half_as_high_have_full_ones() {
     let own = headless.device().facts().limits;
     let little = Limits { max_storage_buffer_range: 200_000, ..own };
     let tile_heights = [little, own].map(|limits| {
-        let plan = FramePlan::new(&prepared, &hard.camera, &hard.settings, &limits);
+        let plan = FramePlan::new(
+            &[surfel::prepare::Placed::at_home(&prepared)],
+            &hard.camera,
+            &hard.settings,
+            &limits,
+        );
         plan.opaque.bands()[0].plan.invocations.tile_height()
     });
     assert_eq!(tile_heights, [8, 4]);

@@ -111,8 +111,12 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
         .run_once("probe", |commands| {
             let raw = device.raw();
             for (number, asked) in asked.iter().enumerate() {
-                let draw =
-                    &draws(asked.scene, (asked.camera, DepthRange::default()), asked.settings, &limits)[0];
+                let draw = &draws(
+                    surfel::prepare::Placed::at_home(asked.scene),
+                    (asked.camera, DepthRange::default()),
+                    asked.settings,
+                    &limits,
+                )[0];
                 let constants = FrameConstants { splat_count: number as u32, ..draw.constants };
                 let filter = usize::from(asked.settings.filter == Filter::Adjust);
                 let pipeline = &pipelines[usize::from(draw.chunk.ellipses)][filter];

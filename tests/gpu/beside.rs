@@ -1,0 +1,151 @@
+//! Beside an engine's own triangles, in every convention of depth: each hides the other where it is nearer, and no other pixel.
+
+#[path = "../../examples/embed/engine.rs"]
+mod engine;
+
+mod changing;
+mod conventions;
+mod transparent;
+
+use ash::vk;
+use engine::{COLOR_FORMAT, Engine, Style};
+use glam::{DVec3, DVec4};
+use surfel::{
+    Scene, Settings,
+    embed::{
+        DepthImage, Device, HostCamera, ImageState, Import, Placed, Renderer, Rendering, View, ViewFrame,
+    },
+    prepare::PreparedScene,
+};
+
+const SIZE_PX: [u32; 2] = [160, 120];
+
+/// The color of the engine's triangle.
+const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
+
+const REVERSED: Style = Style {
+    size_px: SIZE_PX,
+    depth_format: vk::Format::D32_SFLOAT,
+    compare: vk::CompareOp::GREATER,
+    clear_depth: 0.0,
+    samples: vk::SampleCountFlags::TYPE_1,
+};
+
+/// Depth from 0 at the near plane to 1.
+const FORWARD: Style = Style { compare: vk::CompareOp::LESS, clear_depth: 1.0, ..REVERSED };
+
+/// An engine and its guest.
+struct Beside {
+    view: View,
+    renderer: Renderer,
+    device: Device,
+    engine: Engine,
+}
+
+impl Beside {
+    fn new(style: Style) -> Self {
+        crate::common::arm();
+        let engine = Engine::new(style);
+        let host = Import {
+            instance: &engine.instance,
+            debug_utils: true,
+            physical: engine.physical,
+            device: &engine.device,
+            queue_family: engine.family,
+            enabled: engine.enabled,
+        };
+        // SAFETY: all is the engine's own, which goes last.
+        let device = unsafe { Device::import(&host) }.unwrap();
+        let renderer = Renderer::new(&device, None).unwrap();
+        let Style { depth_format, compare, samples, .. } = style;
+        let rendering = Rendering {
+            color_formats: vec![COLOR_FORMAT],
+            depth_format,
+            compare,
+            samples,
+            ..Rendering::default()
+        };
+        let view = View::new(&renderer, &rendering).unwrap();
+        Self { view, renderer, device, engine }
+    }
+
+    fn upload(&self, scene: &Scene) -> PreparedScene {
+        self.engine.begin();
+        // SAFETY: recording; submitted at once.
+        let prepared = unsafe { self.renderer.upload(self.engine.commands, scene) }.unwrap();
+        self.engine.begin_rendering(true);
+        self.engine.end_rendering();
+        self.submit();
+        prepared
+    }
+
+    /// A frame of an engine that draws its triangle first and gives its depth, where that is asked for.
+    fn draw(
+        &mut self,
+        scenes: &[Placed<'_>],
+        camera: &HostCamera,
+        settings: &Settings,
+        corners: &[DVec3; 3],
+        gives_depth: bool,
+    ) {
+        let depth = self.engine.depth;
+        let written = ImageState {
+            stages: vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
+            access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
+            layout: vk::ImageLayout::ATTACHMENT_OPTIMAL,
+        };
+        let [width, height] = self.engine.style.size_px;
+        let hides = DepthImage {
+            image: depth.image,
+            view: depth.view,
+            format: self.engine.style.depth_format,
+            extent: vk::Extent2D { width, height },
+            before: written,
+            after: written,
+        };
+        let hides = gives_depth.then_some(hides);
+        let frame = ViewFrame { scenes, camera, settings, corner_px: [0; 2], hides, profile: None };
+        let in_clip =
+            |at: &DVec3| (camera.clip_from_view * camera.view_from_world * at.extend(1.0)).as_vec4();
+        let corners = [0, 1, 2].map(|i| in_clip(&corners[i]).to_array());
+        let Self { engine, view, renderer, .. } = self;
+        engine.begin();
+        engine.begin_rendering(true);
+        engine.triangle(corners, RED, camera.flips_y);
+        engine.end_rendering();
+        // SAFETY: recording; all is alive until the wait.
+        unsafe { view.prepare(renderer, engine.commands, &frame) }.unwrap();
+        engine.begin_rendering(false);
+        // SAFETY: inside of the rendering that the view was made for.
+        unsafe { view.draw(renderer, engine.commands) }.unwrap();
+        engine.end_rendering();
+        self.submit();
+    }
+
+    fn submit(&self) {
+        self.engine.submit();
+        let epoch = self.device.end_epoch();
+        self.engine.wait();
+        // SAFETY: waited for.
+        unsafe { self.device.epoch_done(epoch) };
+    }
+
+    /// All of ours goes, with nothing left and nothing said.
+    fn end(self) {
+        let Self { view, renderer, device, engine } = self;
+        drop((view, renderer));
+        // SAFETY: nothing is under way.
+        unsafe { device.epoch_done(device.end_epoch()) };
+        assert_eq!(device.memory_in_use(), (0, 0));
+        drop(device);
+        assert_eq!(engine.said(), [] as [String; 0]);
+    }
+}
+
+/// The view-space depth of a plane through three points along the ray of a pixel, which has a direction of depth 1, or under parallel rays
+/// its own place; both in view space.
+fn plane_depth(corners: [DVec3; 3], origin: DVec3, direction: DVec3) -> f64 {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let plane: DVec4 = normal.extend(-normal.dot(corners[0]));
+    -(plane.truncate().dot(origin) + plane.w) / plane.truncate().dot(direction)
+}

@@ -1,0 +1,104 @@
+//! Scenes that come, go and move from frame to frame.
+
+use glam::{
+    DQuat, DVec3,
+    dcamera::rh::{proj::directx, view::look_at_mat4},
+};
+use surfel::{
+    Settings,
+    embed::{HostCamera, Placed, Placement},
+    math::random::SplitMix,
+    scene::{Edges, Scene, Shading},
+};
+
+use super::{Beside, REVERSED, SIZE_PX};
+use crate::common::scenes;
+
+const CAMERA_AT: DVec3 = DVec3::new(0.4, 0.9, 6.0);
+
+/// Behind all that is seen.
+const BEHIND: [DVec3; 3] =
+    [DVec3::new(-90.0, -60.0, -30.0), DVec3::new(90.0, -60.0, -30.0), DVec3::new(0.0, 90.0, -30.0)];
+
+fn camera() -> HostCamera {
+    HostCamera {
+        view_from_world: look_at_mat4(CAMERA_AT, DVec3::ZERO, DVec3::Y),
+        clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
+        flips_y: true,
+    }
+}
+
+/// A placed scene is the scene whose splats were moved.
+#[test]
+fn placed_scenes_are_seen_as_if_they_had_been_uploaded_there() {
+    let at = Placement {
+        rotation: DQuat::from_axis_angle(DVec3::new(1.0, 1.0, 0.3).normalize(), 0.8),
+        scale: 1.4,
+        translation: DVec3::new(0.5, -0.3, 0.2),
+    };
+    let own = scenes::sphere(1500, DVec3::new(0.3, 0.2, 0.0));
+    let matrix =
+        glam::DAffine3::from_scale_rotation_translation(DVec3::splat(at.scale), at.rotation, at.translation);
+    let mut moved = own.clone();
+    moved.splats = own.splats.clone().transformed(&matrix);
+    // How much of a pixel an edge covers follows from overlaps, which are measured on a grid of the world's axes.
+    let settings = Settings { size_px: SIZE_PX, edges: Edges::Hard, ..Settings::default() };
+    let mut beside = Beside::new(REVERSED);
+    let of = |object| Scene { objects: vec![object], ..Scene::default() };
+    let [own, moved] = [own, moved].map(|object| beside.upload(&of(object)));
+    let mut picture = |placed: Placed<'_>| {
+        beside.draw(&[placed], &camera(), &settings, &BEHIND, false);
+        (beside.engine.pixels(), beside.engine.depths())
+    };
+    let (placed, depths) = picture(Placed { scene: &own, at });
+    let (uploaded, expected_depths) = picture(Placed::at_home(&moved));
+    let off = placed.iter().flatten().zip(uploaded.iter().flatten()).map(|(a, b)| (a - b).abs());
+    let far = off.clone().filter(|off| *off > 1e-3).count();
+    println!("{far} values differ by more than 1e-3, the largest by {}", off.fold(0.0, f32::max));
+    assert!(far < 40, "{far}");
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-5 * b.abs();
+    let same = depths.iter().zip(&expected_depths).filter(|pair| near(*pair)).count();
+    assert!(same + 20 > depths.len(), "{same}");
+    drop((own, moved));
+    beside.end();
+}
+
+/// Steady frames take nothing from the allocator, nor do changing ones after a while.
+fn memory_after(frames: usize) {
+    let settings = Settings { size_px: SIZE_PX, shading: Shading::Lambert, ..Settings::default() };
+    let mut beside = Beside::new(REVERSED);
+    let scene = Scene { objects: vec![scenes::sphere(2000, DVec3::ZERO)], ..Scene::default() };
+    let balls = [(); 3].map(|()| beside.upload(&scene));
+    let mut random = SplitMix(5);
+    let mut most = [0, 0];
+    for number in 0..frames {
+        let count = (5.0 * random.unit()) as usize;
+        let placed: Vec<_> = (0..count)
+            .map(|_| {
+                let mut unit = || 2.0 * random.unit() - 1.0;
+                let translation = 1.5 * DVec3::new(unit(), unit(), unit());
+                let at = Placement { translation, scale: 0.6 + 0.4 * unit(), ..Placement::default() };
+                Placed { scene: &balls[(3.0 * random.unit()) as usize], at }
+            })
+            .collect();
+        beside.draw(&placed, &camera(), &settings, &BEHIND, false);
+        let half = usize::from(number >= frames / 2);
+        most[half] = most[half].max(beside.device.memory_in_use().0);
+    }
+    println!("at most {most:?} bytes in the first and the second half of {frames} frames");
+    assert!(most[1] <= most[0], "{most:?}");
+    drop(balls);
+    beside.end();
+}
+
+#[test]
+fn memory_does_not_grow_as_scenes_come_and_go() {
+    memory_after(200);
+}
+
+/// Minutes: `cargo test --release --test gpu ten_thousand -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes of frames"]
+fn memory_does_not_grow_in_ten_thousand_frames() {
+    memory_after(10_000);
+}
