@@ -80,6 +80,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let file = std::env::args().nth(1).unwrap_or_else(|| "embed.png".to_owned());
     save(&file, &engine.pixels())?;
+    let [width, height] = SIZE_PX.map(|side| side as usize);
+    println!("{file}; the depth in its middle is {}", engine.depths()[height / 2 * width + width / 2]);
     drop((view, ball, renderer, device));
     match engine.said() {
         said if said.is_empty() => Ok(()),

@@ -8,15 +8,15 @@
 //!
 //! `docs/embedding.md` tells all of it: state, threads, lifetimes.
 
-mod commands;
 mod frame;
 mod images;
 mod over;
+mod scenes;
 mod view;
 
 pub use crate::{
     graph::ImageState,
-    prepare::{Placed, PreparedScene},
+    prepare::{DynamicBuffers, DynamicSplats, Placed, PreparedScene, dynamic},
     renderer::Renderer,
     scene::{HostCamera, Placement},
     vk::{Device, Features, Import, Requirements, requirements},

@@ -72,6 +72,8 @@ pub struct Chunk {
     pub radii: Vec<RadiusStep>,
     /// The bytes of its splats in a scene ([`crate::scene::Splats::bytes`]).
     pub scene_bytes: u64,
+    /// A host writes its splats.
+    pub(super) dynamic: bool,
     /// Its splats in runs of [`BLOCK_SPLATS`](crate::shaders::config::BLOCK_SPLATS).
     pub blocks: Vec<Block>,
     /// Bytes of a shape and of a color.
@@ -131,6 +133,7 @@ impl Chunk {
             largest_radius: survey.largest_radius,
             radii: survey.radii.clone(),
             scene_bytes: 0,
+            dynamic: false,
             blocks: Vec::new(),
             bytes_each,
             memory: uploader.map(memory).transpose()?,
@@ -202,6 +205,20 @@ impl Chunk {
     /// The number in its object of a splat of this chunk, where it is kept ([`crate::scene::Scene::numbered`]).
     pub fn number_of(&self, splat: usize) -> Option<u32> {
         self.numbers.as_ref()?.get(splat).copied()
+    }
+
+    /// How many splats its buffers have room for.
+    pub(super) fn room(&self) -> u32 {
+        let bytes = self.memory.as_ref().map_or(0, |memory| memory.buffers[0].size());
+        u32::try_from(bytes / self.bytes_each[0]).unwrap_or(u32::MAX)
+    }
+
+    /// The buffers of shapes and colors of disks that have no other, as those have that a host writes.
+    pub(super) fn written_by_host(&self) -> Option<[vk::Buffer; 2]> {
+        match self.memory.as_ref()?.buffers.as_slice() {
+            [shapes, colors] if self.dynamic => Some([shapes.raw(), colors.raw()]),
+            _ => None,
+        }
     }
 
     /// Whether its splats stand for others, and are drawn in their place.

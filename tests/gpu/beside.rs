@@ -6,6 +6,7 @@ mod engine;
 mod changing;
 mod conventions;
 mod transparent;
+mod written;
 
 use ash::vk;
 use engine::{COLOR_FORMAT, Engine, Style};

@@ -209,6 +209,7 @@ pub fn draws<'a>(
     scene
         .chunks
         .iter()
+        .filter(|chunk| chunk.count > 0)
         .map(draw)
         .filter(|draw| draw.levels.is_some() || !draw.chunk.stands_for_others())
         .collect()

@@ -50,7 +50,7 @@ fn points_have_the_engines_pixels_and_depths() {
                 let [x, y, d] = [clip.x, clip.y, clip.z].map(|part| part / clip.w);
                 let y = if flips_y { -y } else { y };
                 let expected =
-                    [x, y].iter().zip(SIZE_PX).map(|(at, size)| 0.5 * (at + 1.0) * f64::from(size));
+                    [x, y].into_iter().zip(SIZE_PX).map(|(at, size)| 0.5 * (at + 1.0) * f64::from(size));
                 let seen = view.point(origin + point);
                 let unit = if camera.is_orthographic() { 1.0 } else { seen.z };
                 let middle_px = camera.middle_px(SIZE_PX);

@@ -1,8 +1,14 @@
-//! Uploads within a host's own commands.
+//! Scenes that a host brings to the device by its own commands, or writes there.
 
 use ash::vk;
 
-use crate::{error::Result, prepare::PreparedScene, renderer::Renderer, scene::Scene, vk::Staging};
+use crate::{
+    error::Result,
+    prepare::{DynamicSplats, PreparedScene},
+    renderer::Renderer,
+    scene::Scene,
+    vk::Staging,
+};
 
 impl Renderer {
     /// Records the upload of a scene, which frames recorded later may show.
@@ -20,5 +26,14 @@ impl Renderer {
             Ok(())
         };
         self.prepare(scene, &mut record, &|_, _| {})
+    }
+
+    /// A scene of splats that the host writes on the device, by a compute shader or by copies: each time before a frame reads them, with a barrier to
+    /// `SHADER_STORAGE_READ` of the compute and vertex stages. See [`crate::prepare::dynamic`] for the layout.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`] for what is no bound; whatever the allocator or the driver answers.
+    pub fn dynamic(&self, splats: &DynamicSplats) -> Result<PreparedScene> {
+        PreparedScene::dynamic((self.device(), &self.limits), &self.shaders.splat_set, splats)
     }
 }
