@@ -1,13 +1,14 @@
 //! Splats within an engine: its own device, triangles, depth and submission; each hides the other where it is nearer.
 //!
-//! `cargo run --release --example embed -- out.png`. All that concerns splats is in [`main`]; `engine.rs` is what an engine has anyway.
+//! `cargo run --release --example embed -- out.png`. All that concerns splats is in [`main`]; `examples/engine/` is what an engine has anyway.
 
+#[path = "../engine/mod.rs"]
 mod engine;
 
 use ash::vk;
 use engine::{COLOR_FORMAT, Engine, Style};
 use glam::{
-    DVec3, DVec4,
+    DVec3,
     dcamera::rh::{proj::vulkan, view},
 };
 use surfel::{
@@ -24,6 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         compare: vk::CompareOp::GREATER,
         clear_depth: 0.0,
         samples: vk::SampleCountFlags::TYPE_1,
+        validates: true,
     });
     // Once: the engine's device becomes ours too, and a scene goes there.
     let host = Import {
@@ -79,25 +81,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     unsafe { device.epoch_done(epoch) };
 
     let file = std::env::args().nth(1).unwrap_or_else(|| "embed.png".to_owned());
-    save(&file, &engine.pixels())?;
+    engine.save(&file)?;
     let [width, height] = SIZE_PX.map(|side| side as usize);
     println!("{file}; the depth in its middle is {}", engine.depths()[height / 2 * width + width / 2]);
     drop((view, ball, renderer, device));
-    match engine.said() {
-        said if said.is_empty() => Ok(()),
-        said => Err(format!("the validation layer says: {}", said.join("\n")).into()),
-    }
-}
-
-/// Linear light over gray, as sRGB.
-fn save(file: &str, pixels: &[[f32; 4]]) -> Result<(), image::ImageError> {
-    let over_gray = |[r, g, b, a]: [f32; 4]| {
-        (DVec4::new(r.into(), g.into(), b.into(), 1.0) + (1.0 - f64::from(a)) * 0.5).truncate()
-    };
-    let encode = |x: f64| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-    let bytes = pixels.iter().flat_map(|pixel| {
-        over_gray(*pixel).to_array().map(|x| (255.0 * encode(x.clamp(0.0, 1.0))).round() as u8)
-    });
-    let [width, height] = SIZE_PX;
-    image::save_buffer(file, &bytes.collect::<Vec<_>>(), width, height, image::ColorType::Rgb8)
+    engine.end()
 }

@@ -33,13 +33,17 @@ pub struct DynamicSplats {
     pub bounds: [DVec3; 2],
     /// The largest radius.
     pub largest_radius: f64,
-    /// How often the surface is covered: the mean number of disks over a place of it. It tells how much of a pixel a silhouette covers.
+    /// How many disks lie over a place of the surface, where they are fewest: it tells how much of a pixel a silhouette covers. Where fewer lie
+    /// than that, a surface inside of its silhouette shows what is behind it.
     pub overlap: f64,
     /// They belong to a closed surface and their normals point outward: those that face away are not drawn.
     pub closed: bool,
     /// Some may be transparent: they are drawn in layers.
     pub transparent: bool,
 }
+
+/// The mean of the default kernel, exp(−2 r²), over a disk: (1 − e⁻²) / 2. Disks sum to that times their number.
+const MEAN_WEIGHT: f64 = 0.432_332_358_381_693_65;
 
 /// Where a host writes them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,11 +68,11 @@ impl DynamicSplats {
         if !(finite
             && largest_radius > 0.0
             && largest_radius.is_finite()
-            && overlap >= 0.25
+            && overlap >= 1.0
             && overlap.is_finite())
         {
             return refused(
-                "expected finite bounds, the smaller coordinates first, a radius above 0 and an overlap of 0.25 or more".to_owned(),
+                "expected finite bounds, the smaller coordinates first, a radius above 0 and an overlap of 1 or more".to_owned(),
             );
         }
         Ok(())
@@ -154,7 +158,7 @@ impl PreparedScene {
         chunk.rebase.origin = splats.origin;
         chunk.largest_radius = splats.largest_radius;
         chunk.radii = vec![RadiusStep { count: splats.count, radius: splats.largest_radius }];
-        chunk.inverse_overlap = splats.overlap.recip();
+        chunk.inverse_overlap = (splats.overlap * MEAN_WEIGHT).recip();
         chunk.blocks = splats.blocks();
         Ok(())
     }

@@ -7,6 +7,7 @@ mod clip_planes;
 mod compare;
 mod convert;
 mod counts;
+mod examples;
 mod faults;
 mod figure;
 mod files;

@@ -1,10 +1,11 @@
 //! Beside an engine's own triangles, in every convention of depth: each hides the other where it is nearer, and no other pixel.
 
-#[path = "../../examples/embed/engine.rs"]
+#[path = "../../examples/engine/mod.rs"]
 mod engine;
 
 mod changing;
 mod conventions;
+mod recording;
 mod transparent;
 mod written;
 
@@ -30,6 +31,7 @@ const REVERSED: Style = Style {
     compare: vk::CompareOp::GREATER,
     clear_depth: 0.0,
     samples: vk::SampleCountFlags::TYPE_1,
+    validates: true,
 };
 
 /// Depth from 0 at the near plane to 1.

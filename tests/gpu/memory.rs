@@ -31,7 +31,7 @@ struct Counting;
 
 thread_local! {
     /// Allocations of this thread.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    pub static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
 static LIVE: AtomicUsize = AtomicUsize::new(0);

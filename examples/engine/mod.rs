@@ -1,4 +1,12 @@
-//! An engine in small: its own instance, device, images and triangles, with nothing of surfel but what a device must be created with.
+//! An engine in small: its own instance, device, images and triangles, with nothing of surfel but what a device must be created with, and a way to
+//! write pictures.
+
+#![allow(dead_code, reason = "each example, and the tests, use a part of it")]
+
+mod compute;
+
+#[allow(unused_imports, reason = "as above")]
+pub use compute::Compute;
 
 use std::{
     ffi::{CStr, c_void},
@@ -16,6 +24,8 @@ pub struct Style {
     /// What its depth is cleared to.
     pub clear_depth: f32,
     pub samples: vk::SampleCountFlags,
+    /// The validation layer watches.
+    pub validates: bool,
 }
 
 /// The format of its picture: linear light.
@@ -64,12 +74,14 @@ impl Engine {
             let app = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
             let layers = [c"VK_LAYER_KHRONOS_validation".as_ptr()];
             let extensions = [ext::debug_utils::NAME.as_ptr(), ext::validation_features::NAME.as_ptr()];
+            // The second is the layer's.
+            let extensions = if style.validates { &extensions[..] } else { &extensions[..1] };
             let enables = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
             let mut validation = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enables);
             let info = vk::InstanceCreateInfo::default()
                 .application_info(&app)
-                .enabled_layer_names(&layers)
-                .enabled_extension_names(&extensions)
+                .enabled_layer_names(if style.validates { &layers } else { &[] })
+                .enabled_extension_names(extensions)
                 .push_next(&mut validation);
             let instance = entry.create_instance(&info, None).expect("Vulkan 1.3 and its validation layer");
             let loader = ext::debug_utils::Instance::new(&entry, &instance);
@@ -291,6 +303,27 @@ impl Engine {
                     all.iter().map(|d| f64::from(*d)).collect()
                 }
             }
+        }
+    }
+
+    /// Writes the picture over gray.
+    pub fn save(&self, file: &str) -> Result<(), Box<dyn std::error::Error>> {
+        let encode = |x: f32| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+        let byte = |light: f32, alpha: f32| {
+            (255.0 * encode((light + 0.5 * (1.0 - alpha)).clamp(0.0, 1.0))).round() as u8
+        };
+        let pixels = self.pixels();
+        let bytes: Vec<u8> =
+            pixels.iter().flat_map(|[r, g, b, a]| [r, g, b].map(|light| byte(*light, *a))).collect();
+        Ok(surfel::save::png(file.as_ref(), self.style.size_px, 3, &bytes)?)
+    }
+
+    /// The engine goes; an error if the validation layer has said anything.
+    pub fn end(self) -> Result<(), Box<dyn std::error::Error>> {
+        let said = self.said();
+        match said.is_empty() {
+            true => Ok(()),
+            false => Err(format!("the validation layer says: {}", said.join("\n")).into()),
         }
     }
 
