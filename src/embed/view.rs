@@ -275,3 +275,16 @@ fn host_depth(depth: DepthOfHost, camera: &Camera, range: DepthRange) -> HostDep
     };
     HostDepth { scale: scale as f32, offset: offset as f32, ..HostDepth::default() }
 }
+
+#[cfg(test)]
+mod tests {
+    /// As `docs/embedding.md` says. Fails to compile where that is not so.
+    #[test]
+    fn devices_and_renderers_are_shared_between_threads_and_views_go_to_one() {
+        fn shared<T: Send + Sync>() {}
+        fn sent<T: Send>() {}
+        shared::<crate::vk::Device>();
+        shared::<crate::renderer::Renderer>();
+        sent::<super::View>();
+    }
+}

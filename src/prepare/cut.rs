@@ -43,6 +43,7 @@ pub(super) fn cut(
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());
     let names = of_splats.chain(leveled).chain(scene.meshes.iter().map(|object| object.name.as_str()));
+    let device = uploader.as_ref().map(|uploader| uploader.device.clone());
     let mut cut = Cut {
         uploader,
         capacity: chunk::capacity(limits.max_storage_buffer_range),
@@ -58,6 +59,7 @@ pub(super) fn cut(
             objects: names.map(str::to_owned).collect(),
             chunks: Vec::new(),
             meshes: Vec::new(),
+            device,
             lights: scene.lights.clone(),
             refinements: Vec::new(),
             storage: scene.storage,

@@ -131,6 +131,7 @@ impl PreparedScene {
             chunks: vec![chunk],
             objects: vec!["dynamic splats".to_owned()],
             meshes: Vec::new(),
+            device: Some(device.clone()),
             lights: Vec::new(),
             storage: Storage::default(),
             mean_transparent_radius: if splats.transparent { splats.largest_radius } else { 0.0 },

@@ -54,11 +54,13 @@ use crate::{
 /// A scene on the device. Chunks have the order of the scene's objects, and their splats that of its [`Storage`].
 pub struct PreparedScene {
     /// Pieces of objects, each within the device's limits. What is invisible has none.
-    pub chunks: Vec<Chunk>,
+    pub(crate) chunks: Vec<Chunk>,
     /// The names of all objects: of splats, of those that came with their levels of detail, then of meshes.
     pub objects: Vec<String>,
     /// Pieces of meshes alike.
-    pub meshes: Vec<MeshChunk>,
+    pub(crate) meshes: Vec<MeshChunk>,
+    /// Where it is; nowhere, where frames of it are only listed.
+    pub(crate) device: Option<Device>,
     /// The scene's lights.
     pub lights: Vec<Light>,
     /// How its splats are kept.
@@ -73,6 +75,21 @@ pub struct PreparedScene {
 }
 
 impl PreparedScene {
+    /// Pieces of objects, each within the device's limits. What is invisible has none.
+    pub fn chunks(&self) -> &[Chunk] {
+        &self.chunks
+    }
+
+    /// Pieces of meshes alike.
+    pub fn meshes(&self) -> &[MeshChunk] {
+        &self.meshes
+    }
+
+    /// Whether it is on that device, or nowhere.
+    pub(crate) fn is_on(&self, device: &Device) -> bool {
+        self.device.as_ref().is_none_or(|own| own.is(device))
+    }
+
     /// How many splats there are, without those that stand for others.
     pub fn splat_count(&self) -> u64 {
         let own = self.chunks.iter().filter(|chunk| !chunk.stands_for_others());

@@ -157,6 +157,9 @@ impl Renderer {
         self.check(camera, settings)?;
         for Placed { scene, at } in scenes {
             at.validate()?;
+            if !scene.is_on(&self.device) {
+                return Err(Error::option("scene", "was prepared for another device"));
+            }
             for chunk in &scene.chunks {
                 settings.check_object("the scene", chunk.ellipses)?;
                 if chunk.transparent {

@@ -56,6 +56,7 @@ impl PagedScene {
             chunks: Vec::new(),
             objects: vec![crate::load::file_name(pager.path())],
             meshes: Vec::new(),
+            device: None,
             lights: Vec::new(),
             storage: Storage::default(),
             mean_transparent_radius: 0.0,
@@ -134,7 +135,14 @@ impl PagedScene {
         }
         let scene = Scene { leveled: vec![arrived.object], ..Scene::default() };
         let new = prepare(&scene)?;
+        // One `prepare` goes to one device.
+        if let (Some(own), Some(others)) = (&self.prepared.device, &new.device)
+            && !own.is(others)
+        {
+            return Err(Error::option("prepare", "of another device than before"));
+        }
         self.groups.push(Group { pages: arrived.pages, chunks: new.chunks.len(), bytes: new.bytes() });
+        self.prepared.device = new.device;
         self.prepared.chunks.extend(new.chunks);
         for page in self.groups.last().iter().flat_map(|group| &group.pages) {
             self.is_there[*page] = true;

@@ -146,6 +146,11 @@ impl Device {
         })))
     }
 
+    /// Whether this is a clone of that one.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
     /// Whose device it is.
     pub(super) fn origin(&self) -> Origin {
         self.0.origin

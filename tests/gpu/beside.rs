@@ -5,6 +5,7 @@ mod engine;
 
 mod changing;
 mod conventions;
+mod faults;
 mod recording;
 mod transparent;
 mod written;

@@ -110,10 +110,10 @@ fn splats_without_clips_have_no_buffer_and_no_pipeline_for_them() {
     whole.scene.objects[0].splats.clips = Clips::default();
     for (hard, clipped) in [(&scenes::clipped(), 438), (&whole, 0)] {
         let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-        let of_clipped = prepared.chunks.iter().filter(|chunk| chunk.clipped).map(|chunk| chunk.count);
+        let of_clipped = prepared.chunks().iter().filter(|chunk| chunk.clipped).map(|chunk| chunk.count);
         assert_eq!(of_clipped.sum::<u32>(), clipped);
         let bytes = |chunk: &Chunk| u64::from(chunk.count) * (if chunk.fine { 64 } else { 48 } + 8);
-        let expected = prepared.chunks.iter().map(bytes).sum::<u64>() + 96 * u64::from(clipped);
+        let expected = prepared.chunks().iter().map(bytes).sum::<u64>() + 96 * u64::from(clipped);
         assert_eq!(prepared.bytes(), expected);
     }
 }

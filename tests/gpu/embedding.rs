@@ -3,8 +3,11 @@
 mod in_flight;
 mod no_waits;
 mod orbit;
+mod threads;
 
 use crate::common::{builder, host::Host, scenes, shared, watched::Watched};
+use std::sync::Mutex;
+
 use glam::DVec3;
 use in_flight::InFlight;
 use no_waits::{SUBMISSIONS_AND_WAITS, without_submission_and_waits};
@@ -33,8 +36,12 @@ fn settings() -> Settings {
 
 /// The same frame from our own host.
 fn expected(settings: &Settings, frames: usize) -> Vec<Vec<u8>> {
+    expected_of(&scene(), settings, frames)
+}
+
+fn expected_of(scene: &Scene, settings: &Settings, frames: usize) -> Vec<Vec<u8>> {
     let mut headless = shared();
-    let prepared = headless.prepare(&scene(), &|_, _| {}).unwrap();
+    let prepared = headless.prepare(scene, &|_, _| {}).unwrap();
     let wanted = Wanted { picture: true, ..Wanted::default() };
     let mut picture = |frame| {
         let frame = headless.render(&prepared, &camera(frame), settings, wanted).unwrap();
@@ -51,6 +58,18 @@ fn upload(
     frame: &mut InFlight,
     scene: &Scene,
 ) -> PreparedScene {
+    upload_when(host, ours, renderer, frame, scene, &Mutex::new(()))
+}
+
+/// The same; what is submitted waits for its turn.
+fn upload_when(
+    host: &Host,
+    ours: &Device,
+    renderer: &Renderer,
+    frame: &mut InFlight,
+    scene: &Scene,
+    turn: &Mutex<()>,
+) -> PreparedScene {
     let mut batches: Vec<Staging> = Vec::new();
     frame.begin(host);
     let mut submit = |staging: Staging| {
@@ -60,7 +79,10 @@ fn upload(
         Ok(())
     };
     let prepared = renderer.prepare(scene, &mut submit, &|_, _| {}).unwrap();
-    frame.submit(host, ours);
+    {
+        let _turn = turn.lock().unwrap();
+        frame.submit(host, ours);
+    }
     frame.wait(host, ours);
     drop(batches);
     prepared

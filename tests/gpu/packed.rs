@@ -107,16 +107,17 @@ fn packed_disks_have_half_the_bytes_and_the_rest_stays_exact() {
     let headless = shared();
     let prepare = |hard: &Hard| headless.prepare(&packed(hard).scene, &|_, _| {}).unwrap();
     let disks = prepare(&scenes::sphere_of_disks());
-    assert!(disks.chunks.iter().all(|chunk| chunk.packed));
+    assert!(disks.chunks().iter().all(|chunk| chunk.packed));
     assert_eq!(disks.bytes(), 20 * disks.splat_count());
-    assert!(prepare(&scenes::random_ellipses(Filter::Adjust)).chunks.iter().all(|chunk| !chunk.packed));
+    assert!(prepare(&scenes::random_ellipses(Filter::Adjust)).chunks().iter().all(|chunk| !chunk.packed));
 
     // One point far off: all others would lose their digits. Farther off it has a chunk of its own.
     let mut stray = scenes::sphere_of_disks();
     stray.scene.objects[0].splats.positions[7] = DVec3::splat(100.0);
-    assert!(!prepare(&stray).chunks[0].packed);
+    assert!(!prepare(&stray).chunks()[0].packed);
     stray.scene.objects[0].splats.positions[7] = DVec3::splat(1e6);
-    let chunks = prepare(&stray).chunks;
+    let prepared = prepare(&stray);
+    let chunks = prepared.chunks();
     assert_eq!(
         chunks.iter().map(|chunk| (chunk.count > 1, chunk.packed)).collect::<Vec<_>>(),
         [(true, true), (false, true)]
@@ -128,6 +129,6 @@ fn packed_disks_have_half_the_bytes_and_the_rest_stays_exact() {
     one.scene = disk.scene(false);
     one.scene.objects[0].splats.colors = Colors::Uniform([0.123, 0.5, 0.7, 1.0]);
     let prepared = prepare(&one);
-    assert!(prepared.chunks[0].packed && prepared.bytes() == 16 + 8);
+    assert!(prepared.chunks()[0].packed && prepared.bytes() == 16 + 8);
     drop((disks, prepared));
 }

@@ -87,7 +87,7 @@ fn the_published_programs_draw_and_ours_are_nearer_to_the_oracle() {
     let mut seen = 0;
     for hard in of_disks() {
         let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-        if prepared.chunks.iter().any(|chunk| chunk.fine) {
+        if prepared.chunks().iter().any(|chunk| chunk.fine) {
             continue; // for f64
         }
         let [published, filtered, ours] = errors(&mut headless, &hard);

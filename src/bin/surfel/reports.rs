@@ -36,7 +36,7 @@ pub fn scene_report(inputs: Vec<InputReport>, prepared: &PreparedScene, transien
         triangles: prepared.triangle_count(),
         order: prepared.storage.order.name(),
         splat_format: prepared.storage.format.name(),
-        origins: prepared.chunks.iter().map(|chunk| chunk.rebase.origin.to_array()).collect(),
+        origins: prepared.chunks().iter().map(|chunk| chunk.rebase.origin.to_array()).collect(),
         splat_bytes: prepared.bytes(),
         transient_bytes,
     }

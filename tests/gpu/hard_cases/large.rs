@@ -131,12 +131,12 @@ fn a_scene_in_many_chunks_gives_the_same_picture() {
                 |limits| limits.max_storage_buffer_range = 48 * splats + 47,
                 |headless| {
                     let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-                    assert!(prepared.chunks.iter().all(|chunk| u64::from(chunk.count) <= splats));
+                    assert!(prepared.chunks().iter().all(|chunk| u64::from(chunk.count) <= splats));
                     let counted: u64 = prepared.splat_count();
                     assert_eq!(counted, hard.scene.splat_count() as u64);
                     // Not bit by bit as in one chunk: each has an origin of its own, nearer to its splats.
                     assert_agrees(headless, &hard, 1000);
-                    prepared.chunks.len()
+                    prepared.chunks().len()
                 },
             );
             let expected = hard.scene.splat_count().div_ceil(splats as usize);
@@ -161,7 +161,7 @@ fn a_chunk_of_several_batches_with_splats_left_out_agrees() {
     for order in [Order::Input, Order::Morton] {
         hard.scene.storage.order = order;
         let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
-        assert_eq!(prepared.chunks.len(), 1);
+        assert_eq!(prepared.chunks().len(), 1);
         assert_eq!(prepared.splat_count(), (150_000 - 65_536) * 6 / 7);
         assert_agrees(&mut headless, &hard, 1000);
     }

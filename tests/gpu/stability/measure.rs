@@ -103,7 +103,7 @@ fn measure_one(truth: &Truth, asked: &Asked<'_>, answer: &Answer) -> Measured {
     if !answer.is_seen() {
         return Measured { ours: NOTHING, ..measured };
     }
-    let disk = !asked.scene.chunks[0].ellipses;
+    let disk = !asked.scene.chunks()[0].ellipses;
     let errors = |box_px, uv| box_errors(truth, box_px).max(uv_errors(truth, asked, disk, uv));
     measured.regular = answer.is_regular();
     measured.ours = errors(answer.box_px, &answer.quad);

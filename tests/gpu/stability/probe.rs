@@ -153,7 +153,7 @@ fn question(asked: &Asked<'_>) -> Question {
     }
     // As a shader does that is given world coordinates and a matrix: all of it in f32.
     let view = asked.camera.view_from_world();
-    let scale = asked.scene.chunks[0].rebase.view_from_local(asked.camera).view_from_world_scale;
+    let scale = asked.scene.chunks()[0].rebase.view_from_local(asked.camera).view_from_world_scale;
     let rotation = view.rotation.as_mat3();
     let translation = (view.rotation * -view.eye).as_vec3();
     let p = (rotation * asked.position.as_vec3() + translation) * scale as f32;

@@ -112,7 +112,7 @@ impl<'a> FrameWork<'a> {
             let colors = if chunk.uniform_color { 1 } else { u64::from(chunk.count) };
             chunk.bytes().saturating_sub(COLOR_BYTES * colors) / u64::from(chunk.count.max(1))
         };
-        splats.min(self.scene.splat_count()) * self.scene.chunks.iter().map(of_one).min().unwrap_or(0)
+        splats.min(self.scene.splat_count()) * self.scene.chunks().iter().map(of_one).min().unwrap_or(0)
     }
 }
 

@@ -1,0 +1,166 @@
+//! Whatever call of the device fails while a view or a scene is made or a frame recorded: it is named, nothing stays behind, and the next one works.
+
+use glam::{
+    DVec3,
+    dcamera::rh::{proj::directx, view::look_at_mat4},
+};
+use surfel::{
+    Error, Settings,
+    embed::{
+        Device, DynamicSplats, HostCamera, Import, Placed, PreparedScene, Renderer, Rendering, View,
+        ViewFrame,
+    },
+    scene::Rasterizer,
+};
+
+use super::{COLOR_FORMAT, Engine, REVERSED, SIZE_PX};
+use crate::common::faults;
+
+fn splats() -> DynamicSplats {
+    DynamicSplats {
+        capacity: 1000,
+        count: 1000,
+        origin: DVec3::ZERO,
+        bounds: [DVec3::NEG_ONE, DVec3::ONE],
+        largest_radius: 0.1,
+        overlap: 2.0,
+        closed: false,
+        transparent: false,
+    }
+}
+
+/// All that a frame needs beside a renderer that has its pipelines; never submitted.
+fn frame(engine: &Engine, renderer: &Renderer) -> Result<(View, PreparedScene), Error> {
+    let rendering = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
+    let mut view = View::new(renderer, &rendering)?;
+    let scene = renderer.dynamic(&splats())?;
+    let camera = HostCamera {
+        view_from_world: look_at_mat4(DVec3::new(0.4, 0.9, 4.0), DVec3::ZERO, DVec3::Y),
+        clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
+        flips_y: true,
+    };
+    let settings = Settings { size_px: SIZE_PX, rasterizer: Rasterizer::Compute, ..Settings::default() };
+    let scenes = [Placed::at_home(&scene)];
+    let frame = ViewFrame {
+        scenes: &scenes,
+        camera: &camera,
+        settings: &settings,
+        corner_px: [0; 2],
+        hides: None,
+        profile: None,
+    };
+    engine.begin();
+    // SAFETY: recording; never submitted.
+    unsafe { view.prepare(renderer, engine.commands, &frame) }?;
+    Ok((view, scene))
+}
+
+#[test]
+fn whichever_call_fails_is_named_and_the_next_frame_works() {
+    crate::common::arm();
+    let engine = Engine::new(REVERSED);
+    let faulty = faults::device(&engine.device);
+    let host = Import {
+        instance: &engine.instance,
+        debug_utils: true,
+        physical: engine.physical,
+        device: &faulty,
+        queue_family: engine.family,
+        enabled: engine.enabled,
+    };
+    // SAFETY: all is the engine's own, which goes last.
+    let device = unsafe { Device::import(&host) }.unwrap();
+    let renderer = Renderer::new(&device, None).unwrap();
+    let finish = || {
+        // SAFETY: nothing was ever submitted.
+        unsafe { device.epoch_done(device.end_epoch()) };
+        device.memory_in_use()
+    };
+    drop(frame(&engine, &renderer).unwrap());
+    let before = finish();
+    faults::take_called();
+    drop(frame(&engine, &renderer).unwrap());
+    let calls = faults::take_called();
+    finish();
+    let mut failed = Vec::new();
+    for succeed in 0..calls.len() {
+        faults::fail_after(succeed as u32);
+        let result = frame(&engine, &renderer);
+        let Some(function) = faults::stop() else {
+            result.unwrap();
+            break;
+        };
+        let error = result.map(drop).expect_err(function);
+        assert_eq!(error.exit_code(), 2, "{function}: {error}");
+        assert!(!error.to_string().contains("''"), "{function}: no object is named: {error}");
+        assert_eq!(finish(), before, "{succeed}: {function}");
+        assert_eq!(engine.said(), [] as [String; 0], "{succeed}: {function}");
+        failed.push(function);
+        drop(frame(&engine, &renderer).unwrap());
+        assert_eq!(finish(), before);
+    }
+    println!("{} of {} calls failed, one after the other: {failed:?}", failed.len(), calls.len());
+    assert!(
+        failed.len() > 20 && failed.contains(&"create_image") && failed.contains(&"create_buffer"),
+        "{failed:?}"
+    );
+    drop(renderer);
+    finish();
+    assert_eq!(device.memory_in_use(), (0, 0));
+    drop(device);
+    assert_eq!(engine.said(), [] as [String; 0]);
+}
+
+/// What is needed and was not enabled is named; the device is the engine's as before.
+#[test]
+fn an_import_of_less_than_is_needed_is_refused_by_name() {
+    let engine = Engine::new(REVERSED);
+    let mut enabled = engine.enabled;
+    (enabled.synchronization2, enabled.maintenance4) = (false, false);
+    let host = Import {
+        instance: &engine.instance,
+        debug_utils: true,
+        physical: engine.physical,
+        device: &engine.device,
+        queue_family: engine.family,
+        enabled,
+    };
+    // SAFETY: all is the engine's own, which goes last.
+    let refused = unsafe { Device::import(&host) }.err().unwrap().to_string();
+    assert!(refused.contains("synchronization2 is not enabled, maintenance4 is not enabled"), "{refused}");
+    engine.begin();
+    engine.begin_rendering(true);
+    engine.end_rendering();
+    engine.submit();
+    engine.wait();
+    assert_eq!(engine.said(), [] as [String; 0]);
+}
+
+/// A scene that is on one device is drawn on no other, and by no safe call either.
+#[test]
+fn a_scene_of_another_device_is_refused() {
+    let engine = Engine::new(REVERSED);
+    let host = Import {
+        instance: &engine.instance,
+        debug_utils: true,
+        physical: engine.physical,
+        device: &engine.device,
+        queue_family: engine.family,
+        enabled: engine.enabled,
+    };
+    // SAFETY: all is the engine's own, which goes last.
+    let device = unsafe { Device::import(&host) }.unwrap();
+    let renderer = Renderer::new(&device, None).unwrap();
+    let other = renderer.dynamic(&splats()).unwrap();
+    let mut headless = crate::common::shared();
+    let camera = crate::common::builder::camera([0.0, 0.0, 4.0], [0.0; 3]);
+    let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
+    let wanted = surfel::Wanted { picture: true, ..surfel::Wanted::default() };
+    let refused = headless.render(&other, &camera, &settings, wanted).err().unwrap().to_string();
+    assert!(refused.contains("another device"), "{refused}");
+    drop((other, renderer));
+    // SAFETY: nothing was submitted.
+    unsafe { device.epoch_done(device.end_epoch()) };
+    drop(device);
+    assert_eq!(engine.said(), [] as [String; 0]);
+}
