@@ -10,7 +10,7 @@ use std::{
     sync::{PoisonError, RwLock},
 };
 
-use super::{ALL, Shader};
+use super::ALL;
 
 /// What takes the place of what was built, by the shader's name. What it was before stays in memory: pipelines may be made of it now.
 static NEWER: RwLock<Option<HashMap<&'static str, &'static [u32]>>> = RwLock::new(None);

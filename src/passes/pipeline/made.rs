@@ -104,6 +104,6 @@ mod tests {
         let mut left = made.for_each(|key, _| *key);
         left.sort_unstable();
         assert_eq!(left, [5, 8]);
-        assert!(made.get(6, 9, |_| Err(crate::Error::option("6", "is made again"))).is_err());
+        assert!(made.get(6, 9, |_| Err(crate::error::Error::option("6", "is made again"))).is_err());
     }
 }
