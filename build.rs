@@ -55,15 +55,6 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
 /// Compiles `glsl/`.
 #[cfg(all(feature = "compile-shaders", not(feature = "prebuilt-spirv")))]
 fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
-    /// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's
-    /// offset, and the size; a listed struct that no shader has is an error.
-    const HOST_STRUCTS: &[shader_build::HostStruct] = &[
-        ("FrameConstants", "crate::passes::FrameConstants"),
-        ("PaperConstants", "crate::passes::PaperConstants"),
-        ("FinalizeConstants", "crate::passes::FinalizeConstants"),
-        ("HostDepth", "crate::passes::HostDepth"),
-        ("TileConstants", "crate::passes::TileConstants"),
-    ];
     let one = |problem: String| vec![problem];
     let glsl = Path::new("glsl");
     println!("cargo::rerun-if-changed=src/shaders/build");
@@ -71,7 +62,7 @@ fn make_shaders(out: &Path) -> Result<(), Vec<String>> {
         .map_err(|e| one(format!("cannot list {}: {e}", glsl.display())))?;
     watched.iter().for_each(|path| println!("cargo::rerun-if-changed={}", path.display()));
     let macros = if cfg!(feature = "test-formulas") { &["TEST_FORMULAS"][..] } else { &[] };
-    let built = shader_build::build(glsl, HOST_STRUCTS, macros)?;
+    let built = shader_build::build(glsl, shader_build::HOST_STRUCTS, macros)?;
     let write = || -> io::Result<()> {
         for (name, words) in &built.modules {
             let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();

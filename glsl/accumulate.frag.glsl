@@ -24,6 +24,7 @@
 #include "inc/coverage.glsl"
 #include "inc/kernel_texture.glsl"
 #include "inc/kernel.glsl"
+#include "inc/outline.glsl"
 #include "inc/peel.glsl"
 
 layout(constant_id = SPEC_TEXTURED) const bool TEXTURED = false;
@@ -62,6 +63,10 @@ void main()
     }
     if (WEIGHTED) {
         weight = max(weight * normal_weight.w, LEAST_WEIGHT);
+    }
+    if (is_outline(dot(fragment.uv, fragment.uv))) {
+        weight *= OUTLINE_WEIGHT;
+        extra.rgb = vec3(0.0);
     }
     if (SUMMED == SUMMED_REST) {
         color_sum = weight * extra.w * vec4(extra.rgb, 1.0);

@@ -50,6 +50,7 @@
 #define SPEC_ENCODED 65        // Constant: colors are encoded as sRGB.
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
 #define SPEC_PLANES 62         // Constant: how many planes cut what is seen (`inc/planes.glsl`).
+#define SPEC_OUTLINES 64       // Constant: rims of splats are black (`inc/outline.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
 // Values of SPEC_SUMMED.
@@ -241,6 +242,8 @@
 #define MOST_LIGHTS 16              // Lights of a scene.
 #define HALF_FLOAT_MAX 65504.0      // The largest finite 16-bit float.
 #define HALF_FLOAT_FITS 60000.0     // Sums above it are scaled to it, so that their rounding cannot end beyond the largest.
+#define OUTLINE_FROM 0.8            // Where outlines of splats begin, in r^2 of the largest that covers.
+#define OUTLINE_WEIGHT 32.0         // The weight of outlines over what it is without.
 #define LEAST_HALF_FLOAT 5.9604645e-8 // 2^-24, the smallest 16-bit float above 0; kernels end there.
 #define LEAST_SHIFT 1.0e-6            // Of its depth: a splat is shifted by as much at least, where it is shifted at all.
 #define MOST_EDGE_SURFACES 3        // Opaque surfaces behind each other that a pixel shows at their edges, at most.

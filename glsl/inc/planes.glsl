@@ -10,13 +10,15 @@
 // Error: the terms are of up to |x| + |y| + focal + focal |D| / z pixels each, and each is rounded some three times: 2e-7 of their sum, 1e-3 pixels of a picture of
 // 1000 and a plane that is about as far from the eye as what it cuts. That moves the cut by as much over the sine of the angle in which it meets the surface.
 
+#include "inc/perturb.glsl"
+
 layout(constant_id = SPEC_PLANES) const uint PLANES = 0;
 layout(set = PLANES_SET, binding = PLANES_BINDING, std140) uniform Planes { vec4 planes[MOST_PLANES]; };
 
 // By how many pixels a place is inside.
 float inside_px(uint plane, vec2 px, float w)
 {
-    precise float inside = planes[plane].x * px.x + planes[plane].y * px.y + planes[plane].z + planes[plane].w * w;
+    precise float inside = planes[plane].x * px.x + planes[plane].y * px.y + FORMULA(FORMULA_PLANE, planes[plane].z) + planes[plane].w * w;
     return inside;
 }
 

@@ -28,6 +28,7 @@ vec4 colors[ROWS];   // weighted color, weight
 vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
 
 #include "tile/covering.glsl"
+#include "inc/outline.glsl"
 
 // A splat along the column of pixels: over w0, (uw, vw, w) = at_center_row + along_y * dy. Rows are computed from the splat's center,
 // not stepped from the row above: three multiplications more, and no error adds up.
@@ -134,7 +135,13 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
         float part = attributes.own_part.x - attributes.own_part.y * r2;
         cover(inside ? shared_weight : 0.0, inside ? part : 0.0, inside ? kept : 1.0, row);
     }
-    colors[row] += weight * vec4(attributes.color, 1.0);
+    vec3 color = attributes.color;
+    if (OUTLINES) {
+        bool outline = is_outline(r2);
+        weight *= outline ? OUTLINE_WEIGHT : 1.0;
+        color = outline ? vec3(0.0) : color;
+    }
+    colors[row] += weight * vec4(color, 1.0);
     normals[row].xyz += weight * attributes.normal;
     if (OF_LAYERS) {
         normals[row].w += weight * attributes.alpha;

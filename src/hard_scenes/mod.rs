@@ -10,7 +10,9 @@ pub mod transparent;
 mod views;
 
 pub use clipped::clipped;
-pub use shapes::{coincident, degenerate, far_from_the_origin, random_ellipses, sphere, sphere_of_disks};
+pub use shapes::{
+    coincident, cut_by_a_box, degenerate, far_from_the_origin, random_ellipses, sphere, sphere_of_disks,
+};
 pub use sizes::{edge_on, larger_than_the_screen, subpixel_filtered, subpixel_unfiltered};
 pub use views::{centers_off_screen, cut_by_the_near_plane, ground, parallel_rays};
 
@@ -54,5 +56,6 @@ pub fn all() -> Vec<Hard> {
         degenerate(),
         parallel_rays(),
         clipped(),
+        cut_by_a_box(),
     ]
 }

@@ -8,7 +8,7 @@ use super::{
     Hard,
     builder::{Builder, Random},
 };
-use crate::scene::{Filter, Object, Scene};
+use crate::scene::{Backfaces, ClipBox, Filter, Object, Scene};
 
 /// A closed sphere of `count` disks around `center` (golden-angle spiral), colored by position.
 pub fn sphere(count: usize, center: DVec3) -> Object {
@@ -32,6 +32,16 @@ pub fn sphere(count: usize, center: DVec3) -> Object {
 pub fn sphere_of_disks() -> Hard {
     let scene = Scene { objects: vec![sphere(3000, DVec3::ZERO)], ..Scene::default() };
     Hard::seen_from([0.0, 0.0, 3.2], "sphere of disks", scene)
+}
+
+/// The sphere cut by all sides of a box. Without backs, which planes have drawn: where a back and a front are one surface within ε, next to nothing is left of their
+/// normals' sum.
+pub fn cut_by_a_box() -> Hard {
+    let mut hard = sphere_of_disks();
+    hard.name = "sphere cut by a box";
+    hard.settings.clip_box = ClipBox(Some([[-0.7, -0.6, -0.8], [0.65, 0.55, 0.75]]));
+    hard.settings.backfaces = Backfaces::Cull;
+    hard
 }
 
 /// The sphere where a step of f32 is half a unit.

@@ -86,7 +86,7 @@ impl<'a> LayerPredicates<'a> {
             .write(transfer(0), &mut arguments, Access::TransferWrite, Start::Discard)
             .finish(move |pass| {
                 // SAFETY: outside of rendering; the frame that used the queries before has finished.
-                unsafe { queries.reset(pass.commands()) };
+                unsafe { queries.reset(pass.commands(), queries.count()) };
                 pass.update_buffer(transfer(0), bytemuck::cast_slice(&words))
             });
         Self { queries, arguments, fragments: None }

@@ -7,7 +7,7 @@ use crate::{
     error::{Error, Result},
     levels_file::{Arrived, Ladder, PageView, Pager, Rung},
     prepare::PreparedScene,
-    scene::{Scene, Storage},
+    scene::{Light, Scene, Storage},
 };
 
 /// Uploads a scene, such as [`super::Headless::prepare`].
@@ -64,6 +64,12 @@ impl PagedScene {
             defects: Default::default(),
         };
         Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there })
+    }
+
+    /// The same under these lights.
+    pub fn lit_by(mut self, lights: Vec<Light>) -> Self {
+        self.prepared.lights = lights;
+        self
     }
 
     /// What is on the device. Each view of it draws with the size that [`Self::update`] gave it.

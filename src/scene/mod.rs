@@ -55,8 +55,8 @@ pub use lod::Lod;
 pub use lod_steps::LodSteps;
 pub use mesh::Mesh;
 pub use methods::{
-    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
-    Shading, TileInvocations, Transition,
+    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Outlines,
+    Rasterizer, Shading, TileInvocations, Transition,
 };
 pub use opacity::Opacity;
 #[cfg(feature = "files")]

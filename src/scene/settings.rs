@@ -6,8 +6,8 @@ use super::{
     Budget, Camera, ClipBox, ClipPlanes, Layers, Light, Lod, LodSteps, MOST_LIGHTS, MOST_PLANES, Object,
     Opacity, Samples, Scene, Shapes, TileMemory,
     methods::{
-        Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
-        Shading, TileInvocations, Transition,
+        Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Outlines,
+        Rasterizer, Shading, TileInvocations, Transition,
     },
     option::{OptionTable as _, settings},
     values::{Epsilon, Kernel},
@@ -75,6 +75,8 @@ settings! {
         "clip-plane" "A,B,C,D|none" clip_planes: ClipPlanes,
         /// How the surface is colored, with one light at the eye where a scene file has none.
         "shading" "NAME" shading: Shading,
+        /// What is drawn over splats. The reference has none.
+        "outlines" "WHAT" outlines: Outlines,
         /// The color of empty pixels, sRGB from 0 to 1; none leaves them transparent (and black).
         "background" "R,G,B|none" background: Option<[f32; 3]> = Some([1.0; 3]),
     }

@@ -2,8 +2,11 @@
 //! `EXPORT_FRAG` for `glsl/export.frag.glsl`. A file with a line `// Permutations:` gives several, see
 //! `build/permutations.rs`.
 //!
-//! Building the crate also checks that each struct which host and shaders share (`HOST_STRUCTS` in `build.rs`) has the
+//! Building the crate also checks that each struct which host and shaders share (`HOST_STRUCTS` in `build/mod.rs`) has the
 //! same layout on both sides; a member that differs stops the build with its name.
+
+#[cfg(feature = "live-shaders")]
+pub mod live;
 
 /// A compiled shader; its entry point is `main`.
 #[derive(Debug)]
@@ -21,6 +24,15 @@ struct Aligned<T: ?Sized>(T);
 impl Shader {
     /// SPIR-V 1.6 for Vulkan 1.3.
     pub fn spirv(&self) -> &'static [u32] {
+        #[cfg(feature = "live-shaders")]
+        if let Some(spirv) = live::spirv(self.name) {
+            return spirv;
+        }
+        self.built()
+    }
+
+    /// As the crate was built.
+    fn built(&self) -> &'static [u32] {
         bytemuck::cast_slice(&self.bytes.0)
     }
 }

@@ -1,6 +1,12 @@
 //! Descriptor sets: layouts, and pools that are reset as a whole.
 
-use std::sync::Arc;
+use std::{
+    cell::RefCell,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
 
 use ash::vk;
 
@@ -27,6 +33,8 @@ pub struct Binding {
 /// The bindings of a set.
 pub struct SetLayout {
     owned: Owned<vk::DescriptorSetLayout>,
+    /// Of no other layout of the process, as a handle may be.
+    number: u64,
     kinds: Vec<vk::DescriptorType>,
     // Used by the layout, so that it goes after it.
     _sampler: Option<Sampler>,
@@ -60,7 +68,9 @@ impl SetLayout {
             .of_call("vkCreateDescriptorSetLayout", name)?;
         let owned = device.own(raw, name, Retired::SetLayout);
         let kinds = bindings.iter().map(|binding| binding.kind).collect();
-        Ok(Self { owned, kinds, _sampler: sampler, stand_ins: None })
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        Ok(Self { owned, number, kinds, _sampler: sampler, stand_ins: None })
     }
 
     /// This layout with sets that are complete: what they are not given has a stand-in. `integers`: the bindings of texels that are
@@ -138,12 +148,29 @@ impl PoolSizes {
     }
 }
 
-/// A pool of sets that live and die together.
+/// A pool of sets that live and die together. Sets that are taken back are given out again where the same are wanted: a frame like the
+/// one before makes none, and none gets a name anew, each of which lavapipe (Mesa 22.3) keeps until the end.
 pub struct DescriptorPool {
     owned: Owned<vk::DescriptorPool>,
     name: String,
-    // Vulkan wants the pool's calls one at a time.
-    _not_sync: std::marker::PhantomData<std::cell::Cell<()>>,
+    // Not `Sync`: Vulkan wants the pool's calls one at a time.
+    sets: RefCell<Sets>,
+}
+
+/// The sets of a pool, with the numbers of their layouts.
+#[derive(Default)]
+struct Sets {
+    given: Vec<(u64, vk::DescriptorSet)>,
+    free: Vec<(u64, vk::DescriptorSet)>,
+}
+
+impl Sets {
+    fn take(&mut self, layout: u64) -> Option<vk::DescriptorSet> {
+        let place = self.free.iter().position(|(own, _)| *own == layout)?;
+        let (_, set) = self.free.swap_remove(place);
+        self.given.push((layout, set));
+        Some(set)
+    }
 }
 
 /// A pool from which no further set is taken: it only keeps its sets alive, and so may be shared between threads.
@@ -155,6 +182,8 @@ impl DescriptorPool {
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
+        // Beside sets that are taken back, others may be wanted in their place.
+        let sizes = sizes.plus(&sizes);
         let kinds = sizes.kinds().into_iter().filter(|(_, count)| *count > 0);
         let size = |(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
         let of_kinds: Vec<_> = kinds.map(size).collect();
@@ -163,7 +192,7 @@ impl DescriptorPool {
         let raw = unsafe { device.raw().create_descriptor_pool(&info, None) }
             .of_call("vkCreateDescriptorPool", name)?;
         let owned = device.own(raw, name, Retired::DescriptorPool);
-        Ok(Self { owned, name: name.to_owned(), _not_sync: std::marker::PhantomData })
+        Ok(Self { owned, name: name.to_owned(), sets: RefCell::default() })
     }
 
     /// A set with some of its bindings given, by number; the others have the layout's stand-ins, if it has any.
@@ -171,13 +200,9 @@ impl DescriptorPool {
     /// # Errors
     /// Whatever the driver answers, such as an exhausted pool.
     pub fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
-        let Owned { device, raw, .. } = &self.owned;
-        let layouts = [layout.raw()];
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(*raw).set_layouts(&layouts);
-        // SAFETY: pool and layout are alive and of this device. The pool is not `Sync`, so nobody else allocates.
-        let set = unsafe { device.raw().allocate_descriptor_sets(&info) }
-            .of_call("vkAllocateDescriptorSets", &self.name)?[0];
-        device.set_name(set, &self.name);
+        let device = &self.owned.device;
+        let free = self.sets.borrow_mut().take(layout.number);
+        let set = free.map_or_else(|| self.allocate(layout), Ok)?;
         let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
         let all = given.iter().copied().chain(layout.stand_ins(is_given)?);
         let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
@@ -191,8 +216,20 @@ impl DescriptorPool {
                 Info::Image(info) => write.image_info(info),
             }
         });
-        // SAFETY: the set is new, so no command buffer uses it; what is written is alive.
+        // SAFETY: the set is new or was taken back, so no command buffer uses it; what is written is alive.
         unsafe { device.raw().update_descriptor_sets(&writes.collect::<Vec<_>>(), &[]) };
+        Ok(set)
+    }
+
+    fn allocate(&self, layout: &SetLayout) -> Result<vk::DescriptorSet> {
+        let Owned { device, raw, .. } = &self.owned;
+        let layouts = [layout.raw()];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(*raw).set_layouts(&layouts);
+        // SAFETY: pool and layout are alive and of this device. The pool is not `Sync`, so nobody else allocates.
+        let set = unsafe { device.raw().allocate_descriptor_sets(&info) }
+            .of_call("vkAllocateDescriptorSets", &self.name)?[0];
+        device.set_name(set, &self.name);
+        self.sets.borrow_mut().given.push((layout.number, set));
         Ok(set)
     }
 
@@ -204,6 +241,13 @@ impl DescriptorPool {
     /// # Errors
     /// Whatever the driver answers.
     pub unsafe fn reset(&self) -> Result<()> {
+        let sets = &mut *self.sets.borrow_mut();
+        // All that are there were wanted: as many as there was asked for room for, and they may be wanted again.
+        if sets.free.is_empty() {
+            std::mem::swap(&mut sets.free, &mut sets.given);
+            return Ok(());
+        }
+        *sets = Sets::default();
         let Owned { device, raw, .. } = &self.owned;
         // SAFETY: this function's contract.
         unsafe { device.raw().reset_descriptor_pool(*raw, vk::DescriptorPoolResetFlags::empty()) }

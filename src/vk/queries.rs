@@ -172,14 +172,14 @@ impl QueryPool {
         self.count
     }
 
-    /// Records the reset of all; comes before any write of a frame, outside of rendering.
+    /// Records the reset of the first so many; comes before any write of them, outside of rendering.
     ///
     /// # Safety
     /// `commands` must be recording, outside of rendering; no unfinished submission uses the pool.
-    pub unsafe fn reset(&self, commands: vk::CommandBuffer) {
+    pub unsafe fn reset(&self, commands: vk::CommandBuffer, count: u32) {
         let Owned { device, raw, .. } = &self.owned;
         // SAFETY: this function's contract.
-        unsafe { device.raw().cmd_reset_query_pool(commands, *raw, 0, self.count) };
+        unsafe { device.raw().cmd_reset_query_pool(commands, *raw, 0, count.min(self.count)) };
     }
 
     /// Records the begin of a query.

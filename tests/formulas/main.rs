@@ -184,6 +184,17 @@ fn every_formula_of_clip_curves_is_seen() {
 }
 
 #[test]
+fn the_formula_of_planes_is_seen_by_points_quads_triangles_and_tiles() {
+    let scenes = [Rasterizer::Perspective, Rasterizer::Quad, Rasterizer::Triangle, Rasterizer::Compute]
+        .map(|rasterizer| with(&scenes::cut_by_a_box(), |settings| settings.rasterizer = rasterizer));
+    for scene in with_oracles(scenes) {
+        assert_seen(&mut shared(), &[scene], &Formula::OF_PLANES, &|headless, hard, oracle| {
+            surface(&render_as(headless, hard, ALL), hard, oracle)
+        });
+    }
+}
+
+#[test]
 fn the_formula_of_eye_dome_lighting_is_seen_by_points_and_by_tiles() {
     for rasterizer in [Rasterizer::Perspective, Rasterizer::Compute] {
         let ground = with(&scenes::ground(), |s| (s.shading, s.rasterizer) = (Shading::EyeDome, rasterizer));

@@ -1,7 +1,11 @@
 //! The window, in a real X server: what it shows is what `surfel render` writes, whatever happens to it, without a word of the validation
 //! layer. Needs Xvfb and xdotool (`third_party/with-deps` installs them) and a Vulkan device that presents to X11, such as lavapipe.
 
+mod drag;
+mod edits;
+mod paged;
 mod screen;
+mod soak;
 mod window;
 
 use std::time::Duration;
@@ -94,6 +98,29 @@ fn a_file_that_changes_is_read_again_and_one_that_breaks_changes_nothing() {
     view.wait_until("what is wrong is told", |shot| shot.differs_from(&second) > 500);
     screen.key("Escape");
     view.wait_for(&second);
+    view.end();
+}
+
+#[test]
+fn files_that_are_dropped_take_the_place_of_the_scene_and_a_path_that_is_dropped_is_played() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    folder.splats("with a space.ply", 60);
+    let cameras = r#"{"time": 0, "eye": [1, 1, 3], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 45}"#;
+    folder.write("path.json", &format!(r#"{{"version": 1, "cameras": [{cameras}]}}"#));
+    let words = |file| [&[file, "--size", "200x200"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &words("a.ply"));
+    view.wait_for(&render(&folder, &words("a.ply")));
+    assert!(drag::is_aware(screen.name(), view.number()));
+    drag::drop_on(screen.name(), view.number(), &[&folder.path("with%20a%20space.ply")]);
+    let second = render(&folder, &words("with a space.ply"));
+    view.wait_for(&second);
+    drag::drop_on(screen.name(), view.number(), &[&folder.path("path.json")]);
+    view.wait_until("the path is told", |shot| shot.differs_from(&second) > 100);
+    screen.key("slash");
+    screen.key("Escape");
+    let at = ["with a space.ply", "--size", "200x200", "--eye", "1,1,3", "--target", "0,0,0", "--fov", "45"];
+    view.wait_for(&render(&folder, &at));
     view.end();
 }
 

@@ -192,10 +192,22 @@ impl<'a> View<'a> {
         self.screen.drive(&["windowsize", &self.window, &width.to_string(), &height.to_string()]);
     }
 
+    /// Its number in the X server.
+    pub fn number(&self) -> u32 {
+        self.window.parse().unwrap()
+    }
+
+    /// Megabytes of memory that it has, as the system counts.
+    pub fn resident_mb(&self) -> f64 {
+        let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
+        line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() * 1024e-6
+    }
+
     /// Mouse and keys at random, all but those that end it.
     pub fn play_at_random(&mut self, mut random: Random, long: Duration) {
         const KEYS: &str = "h f 1 2 3 4 5 6 7 u p t r R g G k n b v V l L bracketright bracketleft m period comma x z space y o question \
-                            Escape F5 w a s d q e j";
+                            Escape F5 w a s d q e j X B equal minus O 0";
         let keys: Vec<_> = KEYS.split_whitespace().collect();
         let begun = Instant::now();
         while begun.elapsed() < long {

@@ -133,8 +133,8 @@ mod tests {
     use clap::{Command, FromArgMatches as _};
     use surfel::scene::{
         Accumulate, Backfaces, Budget, ClipBox, ClipPlanes, Cull, Edges, Epsilon, Filter, FilterWeight,
-        Kernel, KernelEval, LastLayer, Layers, Lod, LodSteps, Rasterizer, Samples, Shading, TileInvocations,
-        TileMemory, Transition,
+        Kernel, KernelEval, LastLayer, Layers, Lod, LodSteps, Outlines, Rasterizer, Samples, Shading,
+        TileInvocations, TileMemory, Transition,
     };
 
     use super::*;
@@ -176,6 +176,7 @@ mod tests {
             clip_box: ClipBox(None),
             clip_planes: ClipPlanes(vec![[1.0, 0.0, -2.5, 0.25], [0.0, 1.0, 0.0, -3.0]]),
             shading: Shading::Normals,
+            outlines: Outlines::Splats,
             background: None,
         };
         let others = Settings {

@@ -133,14 +133,15 @@ impl Profiler {
     /// `commands` must be recording outside of rendering; the frame measured before has finished.
     pub(super) unsafe fn begin_frame(&mut self, commands: vk::CommandBuffer, passes: &[PlannedPass]) {
         self.passes = passes.iter().map(|pass| (pass.name.clone(), pass.kind)).collect();
+        let count = self.passes.len() as u32 + 1;
         // SAFETY: this function's contract.
         unsafe {
             match &self.queries {
                 Queries::Frame(timestamps) | Queries::Times(timestamps) => {
-                    timestamps.reset(commands);
+                    timestamps.reset(commands, count.max(2));
                     timestamps.write(commands, 0);
                 }
-                Queries::Counts(statistics) => statistics.reset(commands),
+                Queries::Counts(statistics) => statistics.reset(commands, count),
                 Queries::Nothing => {}
             }
         }

@@ -1,9 +1,11 @@
 //! Pipelines, made when a frame first needs them, and the layouts that they share.
 
 use std::{
-    collections::HashMap,
     path::Path,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
 };
 
 use ash::vk;
@@ -13,6 +15,7 @@ use crate::passes::{
     pipeline::{
         constants,
         key::{ComputeKey, GraphicsKey, Layout},
+        made::{Made, first_to_stay},
         variant::Constants,
     },
 };
@@ -39,8 +42,10 @@ pub fn room_of_lists(sets: u32) -> PoolSizes {
 /// The layouts of all passes and the pipelines made so far.
 pub struct Shaders {
     device: Device,
-    graphics: Mutex<HashMap<GraphicsKey, GraphicsPipeline>>,
-    compute: Mutex<HashMap<ComputeKey, ComputePipeline>>,
+    graphics: Made<GraphicsKey, GraphicsPipeline>,
+    compute: Made<ComputeKey, ComputePipeline>,
+    /// How often a pipeline was asked for.
+    asked: AtomicU64,
     cache: PipelineCache,
     stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
@@ -128,8 +133,9 @@ impl Shaders {
             .transpose()?;
         Ok(Self {
             device: device.clone(),
-            graphics: Mutex::default(),
-            compute: Mutex::default(),
+            graphics: Made::default(),
+            compute: Made::default(),
+            asked: AtomicU64::new(0),
             cache: PipelineCache::open(device, cache_folder)?,
             stand_ins,
             splat_set,
@@ -170,12 +176,22 @@ impl Shaders {
 
     /// The pipelines made so far, by name: vertex and fragment shader, or compute shader.
     pub fn pipeline_names(&self) -> Vec<String> {
-        let graphics = lock(&self.graphics);
-        let compute = lock(&self.compute);
-        let mut names: Vec<_> = graphics.keys().map(GraphicsKey::name).collect();
-        names.extend(compute.keys().map(|key| key.shader.name.to_owned()));
+        let mut names = self.graphics.for_each(|key, _| key.name());
+        names.extend(self.compute.for_each(|key, _| key.shader.name.to_owned()));
         names.sort();
         names
+    }
+
+    /// Keeps so many pipelines, those that were asked for last, and tells how many go; a frame that needs another makes it again. For hosts whose frames change
+    /// for hours: each has its pipelines, and a driver may take a megabyte for one.
+    ///
+    /// # Safety
+    /// All that was recorded with pipelines of this is submitted, by the last submission or one before it.
+    pub unsafe fn keep_newest(&self, most: usize) -> usize {
+        let mut times = self.graphics.for_each(|_, used| used);
+        times.extend(self.compute.for_each(|_, used| used));
+        let first = first_to_stay(times, most);
+        self.graphics.drop_before(first) + self.compute.drop_before(first)
     }
 
     /// The layouts of tiles, on a device that has them.
@@ -197,44 +213,44 @@ impl Shaders {
         })
     }
 
-    /// A pipeline, alive as long as this, made where it was not made yet.
+    /// A pipeline, made where there is none yet. It is alive until [`Self::keep_newest`] drops it, and then until what is recorded by then
+    /// is done.
     pub(crate) fn graphics(&self, mut key: GraphicsKey) -> Result<vk::Pipeline> {
         self.perturb(&mut key.constants);
-        let mut made = lock(&self.graphics);
-        if let Some(pipeline) = made.get(&key) {
-            return Ok(pipeline.raw());
-        }
-        let constants = &key.constants;
-        let desc = GraphicsPipelineDesc {
-            name: &key.name(),
-            vertex: key.vertex.stage(constants),
-            fragment: key.fragment.stage(constants),
-            topology: key.topology,
-            cull_clockwise: key.cull_clockwise,
-            color_formats: &key.color_formats,
-            blend: key.blend,
-            depth: key.depth.map(|(compare, write)| DepthState { format: key.depth_format, compare, write }),
-            attachments: key.attachments,
-            layout: self.layout(key.layout)?,
-        };
-        let pipeline = GraphicsPipeline::new(&self.device, &self.cache, &desc)?;
-        Ok(made.entry(key).or_insert(pipeline).raw())
+        self.graphics.get(key, self.now(), |key| {
+            let constants = &key.constants;
+            let desc = GraphicsPipelineDesc {
+                name: &key.name(),
+                vertex: key.vertex.stage(constants),
+                fragment: key.fragment.stage(constants),
+                topology: key.topology,
+                cull_clockwise: key.cull_clockwise,
+                color_formats: &key.color_formats,
+                blend: key.blend,
+                depth: key.depth.map(|(compare, write)| DepthState { format: key.depth_format, compare, write }),
+                attachments: key.attachments,
+                layout: self.layout(key.layout)?,
+            };
+            GraphicsPipeline::new(&self.device, &self.cache, &desc)
+        })
     }
 
     /// As [`Self::graphics`].
     pub(crate) fn compute(&self, mut key: ComputeKey) -> Result<vk::Pipeline> {
         self.perturb(&mut key.constants);
-        let mut made = lock(&self.compute);
-        if let Some(pipeline) = made.get(&key) {
-            return Ok(pipeline.raw());
-        }
-        let desc = ComputePipelineDesc {
-            name: key.shader.name,
-            stage: key.shader.stage(&key.constants),
-            layout: self.layout(key.layout)?,
-        };
-        let pipeline = ComputePipeline::new(&self.device, &self.cache, &desc)?;
-        Ok(made.entry(key).or_insert(pipeline).raw())
+        self.compute.get(key, self.now(), |key| {
+            let desc = ComputePipelineDesc {
+                name: key.shader.name,
+                stage: key.shader.stage(&key.constants),
+                layout: self.layout(key.layout)?,
+            };
+            ComputePipeline::new(&self.device, &self.cache, &desc)
+        })
+    }
+
+    /// The time, in pipelines asked for.
+    fn now(&self) -> u64 {
+        self.asked.fetch_add(1, Ordering::Relaxed)
     }
 
     #[cfg(feature = "test-formulas")]
@@ -253,9 +269,4 @@ impl Shader {
     fn stage<'a>(&'static self, constants: &'a Constants) -> Stage<'a> {
         Stage { name: self.name, spirv: self.spirv(), constants }
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    // A panic while the lock was held leaves a map without the pipeline that was being made.
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

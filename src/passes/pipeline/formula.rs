@@ -63,6 +63,7 @@ pub enum Formula {
     ClipLine,
     ClipCurve,
     ClipRamp,
+    Plane,
 }
 
 impl Formula {
@@ -86,6 +87,9 @@ impl Formula {
 
     /// Those of clip curves; the last of them where these cover pixels in part.
     pub const OF_CLIPS: [Self; 3] = [Self::ClipLine, Self::ClipCurve, Self::ClipRamp];
+
+    /// That of planes that cut what is seen.
+    pub const OF_PLANES: [Self; 1] = [Self::Plane];
 
     /// That of eye-dome lighting.
     pub const OF_EYE_DOME: [Self; 1] = [Self::EyeDome];

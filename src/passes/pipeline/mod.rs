@@ -6,6 +6,7 @@ pub(crate) mod formats;
 #[cfg(feature = "test-formulas")]
 pub(crate) mod formula;
 pub(crate) mod key;
+mod made;
 pub(crate) mod recipe;
 pub(crate) mod splat_shaders;
 pub(crate) mod tile_layouts;

@@ -4,7 +4,7 @@ use std::f64::consts::LOG2_E;
 
 use crate::{
     math::kernel::{gaussian_coverage_r2, gaussian_mean, psi_e_coverage_r2, psi_e_mean},
-    scene::{Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, Transition},
+    scene::{Filter, FilterWeight, Kernel, Outlines, Rasterizer, Settings, Shading, Transition},
     shaders::config::*,
 };
 
@@ -73,6 +73,11 @@ pub(crate) fn sums_under(kernel: Kernel) -> f64 {
         Kernel::PsiE { a, n, .. } => psi_e_mean(a.into(), n.into(), end),
     };
     mean / gaussian_mean(0.5, 1.0)
+}
+
+/// The constant of what sums splats with their outlines, if it does.
+pub(crate) fn outline_constant(settings: &Settings) -> Option<(u32, u32)> {
+    (settings.outlines == Outlines::Splats).then_some((SPEC_OUTLINES, 1))
 }
 
 /// The largest u² + v² that covers.

@@ -51,6 +51,13 @@ fn tiles_of(box_px: f64, invocations: Invocations) -> u64 {
     (along(TILE_WIDTH) * along(invocations.tile_height())) as u64 // of what has no bound, the largest number
 }
 
+/// This number or one that is less by a third at most. A pipeline is told it: were it any, a camera that moves would have pipelines without
+/// end.
+fn one_of_few(number: u64) -> u64 {
+    let below = number.max(1).ilog2().saturating_sub(1);
+    number >> below << below
+}
+
 /// How splats are drawn by tiles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TilePlan {
@@ -169,9 +176,10 @@ impl TilePlan {
         let most_tiles =
             if entries(most_of_all) <= room { tiles_of(largest, invocations) } else { room / records };
         let most_tiles = most_tiles.min(most_of_all);
-        let entry_room = entries(most_tiles);
         let longest = f64::from((most_a_side - 1) * invocations.tile_height().min(TILE_WIDTH));
         let fits = largest <= longest && tiles_of(largest, invocations) <= most_tiles;
+        let most_tiles = if fits { most_tiles } else { one_of_few(most_tiles) };
+        let entry_room = entries(most_tiles);
         let most_tiles = most_tiles as u32;
         let walk_length = TILE_BATCH * MOST_ITERATIONS / 2;
         Some(Self {
@@ -219,6 +227,12 @@ impl TilePlan {
     /// `two_sided`: some splats that face away are drawn. `blended`: levels of detail blend into each other.
     pub(crate) fn with_edges(self, two_sided: bool, blended: bool) -> Self {
         Self { hidden: false, two_sided, blended, ..self }
+    }
+
+    /// Tiles that a splat touches at most, as the pipeline is told that projects splats: one of few numbers.
+    pub(crate) fn told_most_tiles(&self) -> u32 {
+        // Where it is known of all splats, nothing depends on it.
+        if self.may_be_large { self.most_tiles } else { most_tiles_a_side(self.place_bits).pow(2) }
     }
 
     /// The bins of all lists: of tiles, then of chunks.

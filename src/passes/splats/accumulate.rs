@@ -7,7 +7,10 @@ use crate::passes::{
     cull::lists::Lists,
     inputs::Inputs,
     pass::Pass,
-    pipeline::{splat_shaders::Summed, variant::Constants},
+    pipeline::{
+        splat_shaders::Summed,
+        variant::{Constants, outline_constant},
+    },
     place::read,
     splats::{
         draw::{SplatPass, bind_read, draw_splats},
@@ -40,12 +43,14 @@ pub(crate) fn summed_constants(settings: &Settings, summed: Summed, peeled: bool
         Summed::Layer => (SUMMED_LAYER, false),
         Summed::Rest => (SUMMED_REST, false),
     };
-    vec![
+    let mut constants = vec![
         (SPEC_SUMMED, number),
         (SPEC_WITH_DEPTH, with_depth.into()),
         (SPEC_TEXTURED, u32::from(settings.kernel_eval == KernelEval::Texture)),
         (SPEC_PEELED, peeled.into()),
-    ]
+    ];
+    constants.extend(outline_constant(settings));
+    constants
 }
 
 /// What the pass is made of.

@@ -27,7 +27,7 @@ fn key(variant: &Constants, plan: &TilePlan, listed: bool) -> ComputeKey {
     let mut constants = variant.clone();
     constants.extend([
         (SPEC_PLACE_BITS, plan.place_bits),
-        (SPEC_MOST_TILES, plan.most_tiles),
+        (SPEC_MOST_TILES, plan.told_most_tiles()),
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
         (SPEC_LISTED, u32::from(listed)),
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),

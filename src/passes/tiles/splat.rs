@@ -9,7 +9,7 @@ use crate::passes::{
     pass::Pass,
     pipeline::{
         key::ComputeKey,
-        variant::{Constants, splat_constants},
+        variant::{Constants, outline_constant, splat_constants},
     },
     place::tiles as at,
     plan::tiles::TilePlan,
@@ -153,6 +153,7 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
     if plan.clips {
         constants.extend([(SPEC_PARTED, 1), (SPEC_CLIPS, 1)]);
     }
+    constants.extend(outline_constant(settings));
     if settings.edges == Edges::Coverage {
         let filter_px = settings.samples.filter_radius_px() as f32;
         constants.extend([(SPEC_COVERAGE_EDGES, 1), (SPEC_FILTER_PX, filter_px.to_bits())]);

@@ -1,4 +1,4 @@
-//! From `glsl/` to SPIR-V in Rust's hands. Part of `build.rs` and of the test `tests/plain/shaders.rs`; not of the library.
+//! From `glsl/` to SPIR-V in Rust's hands. Part of `build.rs`, of the test `tests/plain/shaders.rs`, and, with the feature `live-shaders`, of the program.
 
 mod compile;
 mod config;
@@ -24,6 +24,17 @@ use layout::{StructLayout, struct_layouts};
 
 /// A struct that host and shaders share: its name in GLSL, and the path of its twin in Rust.
 pub type HostStruct<'a> = (&'a str, &'a str);
+
+/// The structs that host and shaders share: name in GLSL, path of the twin in Rust. The build checks every member's offset, and the size; a
+/// listed struct that no shader has is an error.
+#[allow(dead_code, reason = "the tests of the build have structs of their own")]
+pub const HOST_STRUCTS: &[HostStruct] = &[
+    ("FrameConstants", "crate::passes::FrameConstants"),
+    ("PaperConstants", "crate::passes::PaperConstants"),
+    ("FinalizeConstants", "crate::passes::FinalizeConstants"),
+    ("HostDepth", "crate::passes::HostDepth"),
+    ("TileConstants", "crate::passes::TileConstants"),
+];
 
 /// Compiled shaders.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Instant};
 
 use surfel::{
     Error, ErrorKind, Result,
-    scene::{Settings, Storage},
+    scene::{Budget, Settings, Storage},
     vk::Messages,
 };
 use winit::{
@@ -18,6 +18,7 @@ use winit::{
 use super::{
     ViewArguments,
     loading::{Loader, News},
+    path::Path,
     viewer::Viewer,
 };
 use crate::camera::CameraChoice;
@@ -32,6 +33,8 @@ pub struct App<'a> {
     viewer: Option<Viewer>,
     messages: Option<Arc<Messages>>,
     failure: Option<Error>,
+    #[cfg(feature = "live-shaders")]
+    shaders: Option<notify::RecommendedWatcher>,
 }
 
 /// What is left of it.
@@ -51,7 +54,17 @@ impl<'a> App<'a> {
         proxy: EventLoopProxy<News>,
     ) -> Self {
         let camera = Some(camera);
-        Self { arguments, settings, proxy, camera, viewer: None, messages: None, failure: None }
+        Self {
+            arguments,
+            settings,
+            proxy,
+            camera,
+            viewer: None,
+            messages: None,
+            failure: None,
+            #[cfg(feature = "live-shaders")]
+            shaders: None,
+        }
     }
 
     /// Closes the window and destroys all of Vulkan.
@@ -74,15 +87,21 @@ impl<'a> App<'a> {
         let window = events.create_window(attributes);
         let window = window.map_err(|error| ErrorKind::NoWindow { reason: error.to_string() })?;
         let window = Arc::new(window);
+        let path = self.arguments.path.as_deref().map(Path::read).transpose()?;
+        #[cfg(feature = "live-shaders")]
+        (self.shaders = Some(super::live::watch(self.proxy.clone())?));
         let (gpu, messages) = super::device::open_gpu(&window, &self.arguments.device)?;
         self.messages = Some(messages);
         gpu.headless.renderer.check_settings(&self.settings)?;
         let limits = gpu.headless.device().facts().limits;
         let storage = self.arguments.storage.over(Storage::default());
-        let lights = (self.arguments.lights.clone(), storage);
+        // What is told of all splats together needs all of them.
+        let in_pages = storage == Storage::default() && self.settings.budget == Budget::Unlimited;
+        let lights = (self.arguments.lights.clone(), storage, in_pages);
         let loader = Loader::new(self.proxy.clone(), limits, camera, lights);
         loader.open(self.arguments.input.inputs(), gpu.window_px());
-        Ok(Viewer::new(window, gpu, loader, self.settings.clone(), self.arguments))
+        let path = path.unwrap_or_default();
+        Ok(Viewer::new(window, gpu, loader, self.settings.clone(), path, self.arguments))
     }
 
     /// Ends the program for a reason.

@@ -8,7 +8,7 @@ use surfel::{
     scene::{Camera, Settings},
 };
 
-use super::{keys::CopiedAs, viewer::Viewer};
+use super::{cuts, keys::CopiedAs, on_device::OnDevice, viewer::Viewer};
 use crate::{
     camera,
     outputs::PictureFormat,
@@ -58,7 +58,10 @@ impl Viewer {
     pub fn copy_camera(&mut self, how: CopiedAs) {
         let Some(camera) = self.camera() else { return };
         let text = match how {
-            CopiedAs::Options => camera::words(&camera),
+            CopiedAs::Options => {
+                let cuts = cuts::words(&self.settings);
+                [camera::words(&camera), cuts].join(" ").trim_end().to_owned()
+            }
             CopiedAs::Json => camera_file(&camera),
         };
         self.copy(&text);
@@ -90,15 +93,19 @@ impl Viewer {
     /// Whether there was anything to write.
     fn picture_to(&mut self, path: PathBuf) -> Result<bool> {
         let size_px = self.options.picture_size.unwrap_or(self.window_px());
-        let (Some(camera), Some((scene, _))) = (self.camera(), &self.prepared) else { return Ok(false) };
         let background = self.settings.background;
         let is_plain = self.encoding.is_plain();
         let settings = Settings { size_px, samples: self.options.samples, ..self.settings.clone() };
         let settings = self.at_rest(&settings);
+        let (Some(camera), Some(prepared)) = (self.camera(), &mut self.prepared) else { return Ok(false) };
+        let settings = match prepared {
+            OnDevice::Whole(..) => settings,
+            OnDevice::Paged(paged) => paged.wait_for(&self.gpu.headless, &camera, &settings)?,
+        };
         // A curve is of what is drawn alone; the background is put under it after that.
         let settings = Settings { background: background.filter(|_| is_plain), ..settings };
         let wanted = Wanted { picture: true, linear: !is_plain, ..Wanted::default() };
-        let frame = self.gpu.headless.render(scene, &camera, &settings, wanted)?;
+        let frame = self.gpu.headless.render(prepared.scene(), &camera, &settings, wanted)?;
         let bytes = match is_plain {
             true => frame.srgb,
             false => pictures::encode_shown(&self.encoding, &frame.linear, background),

@@ -1,5 +1,7 @@
 //! What keys and the panel change.
 
+use std::time::Instant;
+
 use glam::DVec3;
 use surfel::{
     Result,
@@ -7,6 +9,7 @@ use surfel::{
 };
 
 use super::{
+    edits::Edits,
     keys::{self, Action, Comparing},
     values,
     viewer::Viewer,
@@ -33,6 +36,7 @@ impl Viewer {
     /// Of the device.
     pub fn act(&mut self, action: Action) -> Result<()> {
         let window_px = self.window_px();
+        let begun = Instant::now();
         match action {
             Action::Quit => self.ends = true,
             Action::Panel => {
@@ -80,10 +84,15 @@ impl Viewer {
             }
             Action::Screenshot => self.write_picture(),
             Action::CopyCamera(how) => self.copy_camera(how),
+            Action::Cut(how) => self.cut(how),
+            Action::Reset => self.reset(),
             Action::Compare(how) => self.compare(how),
             Action::Path(what) => self.on_path(what),
             Action::Pick => self.measure()?,
             Action::Reload => self.reload(),
+        }
+        if self.is_stale {
+            self.input_at = Some(begun);
         }
         self.window.request_redraw();
         Ok(())
@@ -104,13 +113,34 @@ impl Viewer {
     }
 
     /// Refuses settings that the device, the camera or the scene rule out.
-    fn check(&self, settings: &Settings) -> Result<()> {
+    ///
+    /// # Errors
+    /// What rules them out.
+    pub fn check(&self, settings: &Settings) -> Result<()> {
         let settings = Settings { size_px: self.window_px(), ..settings.clone() };
         self.gpu.headless.renderer.check_settings(&settings)?;
         if let Some(camera) = self.camera() {
             self.gpu.headless.renderer.check(&camera, &settings)?;
+            if let Some(paged) = self.prepared.as_ref().filter(|prepared| prepared.pages().is_some()) {
+                self.gpu.headless.renderer.check_levels(paged.scene(), &camera, &settings)?;
+            }
         }
         self.document.as_ref().map_or(Ok(()), |document| settings.check_scene(&document.scene))
+    }
+
+    /// All but the camera as it was at first.
+    fn reset(&mut self) {
+        let (settings, encoding) = self.first.clone();
+        (self.comparing, self.split) = (None, 0.5);
+        self.encoding = encoding;
+        self.set(settings);
+        let edits = self.document.as_ref().map(|document| Edits::none(&document.scene));
+        if let Some(edits) = edits.filter(|edits| *edits != self.edits) {
+            self.edits = edits;
+            self.prepare(false);
+        }
+        self.ui.tell("as at the beginning");
+        self.changed();
     }
 
     fn step_setting(&mut self, name: &str, step: keys::Step) {

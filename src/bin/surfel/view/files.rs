@@ -78,6 +78,12 @@ impl Viewer {
     pub fn look_at_files(&mut self) {
         let now = Instant::now();
         if let Some(files) = self.files.take_dropped(now) {
+            let is_path = |file: &PathBuf| file.extension().is_some_and(|ending| ending == "json");
+            let (paths, files): (Vec<_>, Vec<_>) = files.into_iter().partition(is_path);
+            paths.iter().for_each(|path| self.take_path(path));
+            if files.is_empty() {
+                return;
+            }
             let options = self.document.as_ref().map(|document| document.files.clone()).unwrap_or_default();
             self.keeps_camera = false;
             self.open(Inputs { files, ..options });

@@ -1,5 +1,7 @@
 //! A window's device: what draws a scene to a picture, and pictures to the window, a few frames in flight.
 
+mod between;
+
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -15,13 +17,20 @@ use surfel::{
 use super::{
     frame::{Frame, begin_rendering, end_rendering},
     frame_desc::{Drawn, FrameDesc},
+    memory,
     overlay::OverlayPass,
-    picture::{Begun, Cost, Picture, Use},
+    picture::{Begun, Picture, Use},
     show::Show,
 };
 
 /// How many frames the host records ahead of the device.
 const IN_FLIGHT: usize = 2;
+
+/// Pipelines that are kept for settings that come again: some twenty are of a frame.
+const MOST_PIPELINES: usize = 100;
+
+/// So many that were given up are worth to look for the memory that they leave.
+const MANY_PIPELINES: usize = 25;
 
 /// The device of a window.
 pub struct Gpu {
@@ -40,6 +49,8 @@ pub struct Gpu {
     /// When the frame before began; none where the window rested.
     before: Option<Instant>,
     period: Option<Duration>,
+    /// Pipelines that were given up since memory was given back.
+    dropped: usize,
     /// An image is acquired, and nothing is submitted yet that waits for its semaphore.
     is_acquired: bool,
 }
@@ -73,11 +84,12 @@ impl Gpu {
             fits: false,
             before: None,
             period: None,
+            dropped: 0,
             is_acquired: false,
         })
     }
 
-    /// The size of the window's images, as far as is known.
+    /// The size of its images, as far as is known.
     pub fn window_px(&self) -> [u32; 2] {
         self.window_px
     }
@@ -87,18 +99,6 @@ impl Gpu {
         if self.window_px != window_px {
             (self.window_px, self.fits) = (window_px, false);
         }
-    }
-
-    /// The atlas of letters changes.
-    ///
-    /// # Errors
-    /// As [`Self::draw`].
-    pub fn update_overlay(&mut self, delta: &egui::TexturesDelta) -> Result<()> {
-        self.make_images()?;
-        if let Some(drawing) = &mut self.drawing {
-            drawing.overlay.update(delta);
-        }
-        Ok(())
     }
 
     /// Whether the window has images to draw to, made anew where it has changed.
@@ -227,6 +227,12 @@ impl Gpu {
             self.pictures[which.index()].submitted(epoch, begun);
         }
         self.number = (self.number + 1) % IN_FLIGHT;
+        // SAFETY: this thread alone records, and has submitted what it recorded.
+        self.dropped += unsafe { self.headless.renderer.shaders.keep_newest(MOST_PIPELINES) };
+        if self.dropped >= MANY_PIPELINES {
+            self.dropped = 0;
+            memory::give_back();
+        }
         // SAFETY: acquired and submitted above.
         match unsafe { queue.present(swapchain, index) }? {
             Turn::Done(()) => Ok(Drawn::Shown),
@@ -237,11 +243,6 @@ impl Gpu {
             Turn::OutOfDate => self.again(false),
             Turn::SurfaceLost => self.again(true),
         }
-    }
-
-    /// The time from frame to frame, where the host waited for the device or the window system.
-    pub fn take_period(&mut self) -> Option<Duration> {
-        self.period.take()
     }
 
     /// Shows an empty image in place of a frame that can't be recorded: an image that is acquired has to be presented, and its semaphore
@@ -265,21 +266,6 @@ impl Gpu {
         (self.is_acquired, self.fits) = (false, false);
         // SAFETY: acquired and submitted above; what it comes to shows at the next frame.
         unsafe { queue.present(swapchain, index) }.map(drop)
-    }
-
-    /// What frames for a use have cost since this was asked for last, and whether that is all of them.
-    ///
-    /// # Errors
-    /// Whatever the driver answers.
-    pub fn take_costs(&mut self, which: Use) -> Result<(Vec<Cost>, bool)> {
-        let (queue, picture) = (self.headless.queue(), &mut self.pictures[which.index()]);
-        let all = picture.collect(|epoch| queue.is_done(epoch))?;
-        Ok((picture.take_costs(), all))
-    }
-
-    /// Bytes of device memory in transients of all pictures.
-    pub fn transient_bytes(&self) -> u64 {
-        self.pictures.iter().map(Picture::transient_bytes).sum()
     }
 
     /// The window wants other images; and another surface, where that is lost.

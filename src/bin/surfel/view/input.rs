@@ -79,8 +79,13 @@ impl Viewer {
             WindowEvent::PinchGesture { delta, .. } => self.zoom(-delta),
             WindowEvent::KeyboardInput { event, .. } => {
                 let pressed = event.state == ElementState::Pressed;
-                self.hold(event.physical_key, pressed);
-                if pressed
+                let is_written = self.ui.key(&event, self.input.modifiers);
+                if !is_written || !pressed {
+                    self.hold(event.physical_key, pressed);
+                }
+                if is_written {
+                    self.window.request_redraw();
+                } else if pressed
                     && !event.repeat
                     && let Some(key) = self.name(&event.logical_key)
                 {

@@ -37,6 +37,10 @@ pub enum Action {
     Screenshot,
     /// The camera to the clipboard, as options or as a camera file.
     CopyCamera(CopiedAs),
+    /// What is cut off.
+    Cut(Cutting),
+    /// All settings as they were at first.
+    Reset,
     /// How the picture is compared with another method.
     Compare(Comparing),
     /// What is done with a path of cameras.
@@ -93,6 +97,19 @@ pub enum Comparing {
     Keep,
 }
 
+/// How planes cut the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cutting {
+    /// By a plane that faces the eye, or not.
+    Plane,
+    /// By a box, or not.
+    Box,
+    /// Deeper.
+    More,
+    /// Less deep.
+    Less,
+}
+
 /// A key as it is printed on the keyboard: a character, or a name.
 pub struct Binding {
     /// The key.
@@ -130,6 +147,7 @@ pub const BINDINGS: &[Binding] = &[
     binding("b", Action::Setting("edges", Step::Next), "the next treatment of edges"),
     binding("v", Action::Setting("shading", Step::Next), "the next shading"),
     binding("V", Action::Setting("shading", Step::Before), "the shading before"),
+    binding("O", Action::Setting("outlines", Step::Next), "outlines of splats, or none"),
     binding("l", Action::Layers(1), "one transparent layer more"),
     binding("L", Action::Layers(-1), "one transparent layer less"),
     binding("]", Action::Exposure(0.5), "half a stop brighter"),
@@ -137,6 +155,15 @@ pub const BINDINGS: &[Binding] = &[
     binding("m", Action::Tonemap, "the next tone curve"),
     binding(".", Action::SplatScale(1.25), "larger splats"),
     binding(",", Action::SplatScale(0.8), "smaller splats"),
+    binding(
+        "X",
+        Action::Cut(Cutting::Plane),
+        "cuts off what is nearer than the point turned about, or nothing",
+    ),
+    binding("B", Action::Cut(Cutting::Box), "cuts off what is outside of a box, or nothing"),
+    binding("=", Action::Cut(Cutting::More), "the cut goes deeper"),
+    binding("-", Action::Cut(Cutting::Less), "the cut goes less deep"),
+    binding("0", Action::Reset, "method, light, cuts and things as at the beginning"),
     binding("x", Action::Compare(Comparing::Split), "split: this method and the one kept"),
     binding("z", Action::Compare(Comparing::Difference), "difference of the two, with a color bar"),
     binding("Space", Action::Compare(Comparing::Flicker), "the other one, and back"),

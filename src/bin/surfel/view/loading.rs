@@ -12,15 +12,16 @@ use std::{
 
 use surfel::{
     Error, Result,
-    load::PictureDescription,
     prepare::{PreparedScene, SplatSetLayout, prepare},
-    report::InputReport,
-    scene::{Ball, Camera, Light, Scene, Storage},
+    scene::{Light, Scene, Storage},
     vk::{Device, Limits, Staging},
 };
 use winit::event_loop::EventLoopProxy;
 
-use super::edits::{Edits, part_of};
+use super::{
+    document::Document,
+    edits::{Edits, part_of},
+};
 use crate::{
     camera::CameraChoice, console::Bars, hierarchies::load_scene_with_hierarchies, inputs::Inputs,
     scene::Loaded,
@@ -34,24 +35,11 @@ pub enum News {
     Prepared(Box<Prepared>),
     /// Bytes of a job are to be submitted; the thread waits for the answer, and keeps what they go to until then.
     Upload(Staging, u64, SyncSender<Result<()>>),
+    /// Shaders were compiled anew, so many; or what is wrong with them.
+    #[cfg(feature = "live-shaders")]
+    Shaders(std::result::Result<usize, String>),
     /// Files can't be read, or have no room on the device.
     Failed(Error),
-}
-
-/// What files hold.
-pub struct Document {
-    /// The scene, with the lights that are asked for.
-    pub scene: Arc<Scene>,
-    /// A ball around it.
-    pub ball: Ball,
-    /// The camera for it.
-    pub camera: Camera,
-    /// What scene files say of the picture.
-    pub picture: PictureDescription,
-    /// One an object.
-    pub inputs: Vec<InputReport>,
-    /// What was read.
-    pub files: Inputs,
 }
 
 /// A scene on the device.
@@ -105,6 +93,8 @@ struct Worker {
     camera: CameraChoice,
     lights: Vec<Light>,
     storage: Storage,
+    /// Files of levels of detail may be read in pages.
+    in_pages: bool,
     bars: Bars,
 }
 
@@ -114,7 +104,7 @@ impl Loader {
         proxy: EventLoopProxy<News>,
         limits: Limits,
         camera: CameraChoice,
-        (lights, storage): (Vec<Light>, Storage),
+        (lights, storage, in_pages): (Vec<Light>, Storage, bool),
     ) -> Self {
         let (jobs, received) = channel();
         let newest = Arc::new(AtomicU64::new(0));
@@ -128,6 +118,7 @@ impl Loader {
             camera,
             lights,
             storage,
+            in_pages,
             bars: Bars::new(),
         };
         let thread = std::thread::spawn(move || worker.run(&received));
@@ -209,7 +200,13 @@ impl Worker {
     fn open(&self, files: Inputs, size_px: [u32; 2]) -> Result<Document> {
         let mut loaded = load_scene_with_hierarchies(&files, &self.bars)?;
         let camera = self.camera.camera(&loaded, size_px)?;
-        for mut file in std::mem::take(&mut loaded.hierarchies) {
+        let paged = match &loaded.hierarchies[..] {
+            [file] if loaded.inputs.len() == 1 && self.in_pages && !file.header().transparent => {
+                Some(file.path().to_owned())
+            }
+            _ => None,
+        };
+        for mut file in std::mem::take(&mut loaded.hierarchies).into_iter().filter(|_| paged.is_none()) {
             loaded.scene.leveled.push(file.load(None, u64::MAX, &self.bars)?.object);
         }
         self.bars.clear();
@@ -219,7 +216,7 @@ impl Worker {
         }
         scene.storage = self.storage;
         scene.numbered = true;
-        Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files })
+        Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files, paged })
     }
 
     /// Step by step, until another job comes.

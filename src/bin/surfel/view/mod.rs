@@ -5,8 +5,10 @@
 mod app;
 mod capture;
 mod changes;
+mod cuts;
 mod device;
 mod display;
+mod document;
 mod edits;
 mod files;
 mod frame;
@@ -14,8 +16,13 @@ mod frame_desc;
 mod gpu;
 mod input;
 mod keys;
+#[cfg(feature = "live-shaders")]
+mod live;
 mod loading;
+mod memory;
 mod navigation;
+mod on_device;
+mod options;
 mod overlay;
 mod pace;
 mod panel;
@@ -29,6 +36,8 @@ mod ui;
 mod values;
 mod viewer;
 
+use std::path::PathBuf;
+
 use clap::Args;
 use surfel::{
     ErrorKind, Result,
@@ -40,6 +49,7 @@ use crate::{
     camera::{CameraArguments, CameraChoice},
     device::{DeviceArguments, conclude},
     inputs::{INPUTS, InputArguments},
+    parse,
     settings::Given,
 };
 
@@ -51,7 +61,7 @@ const EXAMPLES: &str = "Examples:
 
 /// Look at a scene in a window
 #[derive(Args)]
-#[command(long_about = format!("Look at a scene in a window.\n\n{INPUTS}\n\nA .surfel file is read whole. Files that change on disk are read again; \
+#[command(long_about = format!("Look at a scene in a window.\n\n{INPUTS}\n\nAn opaque .surfel file by itself is read in the background, coarser pages first, as the camera needs them; beside others it is read whole. Files that change on disk are read again; \
 files that are dropped on the window take the place of the scene."))]
 #[command(after_help = format!("{}\n\n{EXAMPLES}", manual_of_keys()))]
 pub struct ViewArguments {
@@ -61,6 +71,10 @@ pub struct ViewArguments {
     #[command(flatten)]
     camera: CameraArguments,
 
+    /// A path of cameras, as of surfel render --path, for the keys that play it and go on with it; one that is dropped on the window is such a path, too
+    #[arg(long, value_name = "FILE")]
+    path: Option<PathBuf>,
+
     /// A light in place of those of scene files, and of the one at the eye, as of surfel render; once for each light
     #[arg(long = "light", value_name = "LIGHT", value_parser = Light::parse, allow_hyphen_values = true, help_heading = "Method")]
     lights: Vec<Light>,
@@ -68,6 +82,11 @@ pub struct ViewArguments {
     /// The size of pictures that the key i writes, which may be larger than the window [default: the window's]
     #[arg(long, value_name = "WxH", value_parser = <[u32; 2]>::parse)]
     picture_size: Option<[u32; 2]>,
+
+    /// So much device memory for a .surfel file, such as 256MB, of which pages come as the camera needs them: what is drawn is coarser where it does not suffice
+    /// [default: 2GB]
+    #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
+    budget_memory: Option<u64>,
 
     /// Print a line for each frame of the scene: its size, its time on the device, and how long after its input it was done
     #[arg(long, help_heading = "Device")]

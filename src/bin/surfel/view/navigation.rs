@@ -166,8 +166,14 @@ impl Navigation {
         self.camera.target += by;
     }
 
-    fn pivot(&self) -> DVec3 {
+    /// The point about which it turns.
+    pub fn pivot(&self) -> DVec3 {
         self.pivot.unwrap_or(self.camera.target)
+    }
+
+    /// The direction in which the camera looks, unit.
+    pub fn forward(&self) -> DVec3 {
+        self.axes()[2]
     }
 
     fn distance(&self) -> f64 {

@@ -1,11 +1,14 @@
 //! The panel, the keys and the messages over the picture. Everything in the panel can be done by keys, too.
 
 use egui::{Color32, ComboBox, Context, Grid, Id, ScrollArea, Slider, Ui, Vec2};
-use surfel::scene::{Encoding, Layers, MOST_LAYERS, Settings, Tonemap};
+use surfel::{
+    Result,
+    scene::{Encoding, Layers, MOST_LAYERS, Settings, Tonemap},
+};
 
 use super::{
     edits::{Edits, things},
-    keys::Comparing,
+    keys::{Action, Comparing, Cutting},
     loading::Step,
     ui::History,
     values,
@@ -35,6 +38,8 @@ pub enum Change {
     Edits(Edits),
     /// Splats of another size.
     SplatScale(f32),
+    /// What a key does, too.
+    Act(Action),
 }
 
 impl State {
@@ -50,8 +55,9 @@ impl State {
             ("device memory", mib(device.memory_held())),
             ("of pictures", mib(gpu.transient_bytes())),
         ];
-        if let Some((scene, step)) = &viewer.prepared {
-            let how = match step {
+        if let Some(prepared) = &viewer.prepared {
+            let scene = prepared.scene();
+            let how = match prepared.step() {
                 Step::Part => " (a part for now)",
                 Step::Whole => "",
                 Step::Leveled => " (in levels)",
@@ -59,6 +65,7 @@ impl State {
             facts.push(("splats", format!("{}{how}", scene.splat_count())));
             facts.push(("triangles", scene.triangle_count().to_string()));
             facts.push(("of the scene", mib(scene.bytes())));
+            facts.extend(prepared.pages().map(|pages| ("pages", pages.words())));
         }
         Self {
             settings: viewer.settings.clone(),
@@ -73,7 +80,10 @@ impl State {
 
 impl Viewer {
     /// Does what the panel asks for.
-    pub fn change(&mut self, change: Change) {
+    ///
+    /// # Errors
+    /// Of the device.
+    pub fn change(&mut self, change: Change) -> Result<()> {
         match change {
             Change::Settings(settings) => self.set(settings),
             Change::Exposure(stops) => self.set_exposure(stops),
@@ -86,7 +96,9 @@ impl Viewer {
                 self.prepare(false);
             }
             Change::SplatScale(scale) => self.set_splat_scale(scale),
+            Change::Act(action) => self.act(action)?,
         }
+        Ok(())
     }
 }
 
@@ -108,6 +120,8 @@ pub fn show(context: &Context, state: &State, history: &History, changes: &mut V
             ui.separator();
             ui.heading("Method");
             method(ui, state, changes);
+            ui.separator();
+            cuts(ui, changes);
             ui.separator();
             ui.heading("Light");
             light(ui, state, changes);
@@ -190,6 +204,24 @@ fn method(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {
         };
         changes.push(Change::Settings(Settings { layers, ..state.settings.clone() }));
     }
+}
+
+fn cuts(ui: &mut Ui, changes: &mut Vec<Change>) {
+    const ACTIONS: [(&str, Action); 5] = [
+        ("plane", Action::Cut(Cutting::Plane)),
+        ("box", Action::Cut(Cutting::Box)),
+        ("deeper", Action::Cut(Cutting::More)),
+        ("less", Action::Cut(Cutting::Less)),
+        ("reset all", Action::Reset),
+    ];
+    ui.horizontal(|ui| {
+        ui.label("cut by");
+        for (name, action) in ACTIONS {
+            if ui.button(name).clicked() {
+                changes.push(Change::Act(action));
+            }
+        }
+    });
 }
 
 fn light(ui: &mut Ui, state: &State, changes: &mut Vec<Change>) {

@@ -8,7 +8,7 @@ use surfel::{
 };
 
 use super::{capture::free_name, keys::OnPath, viewer::Viewer};
-use crate::camera::path_text;
+use crate::camera::{path_text, read_path};
 
 /// Seconds from one place to the next.
 const STEP_SECS: f64 = 2.0;
@@ -16,7 +16,9 @@ const STEP_SECS: f64 = 2.0;
 /// The places of a path, and how far it is played.
 #[derive(Default)]
 pub struct Path {
-    places: Vec<Camera>,
+    /// With their times, in seconds.
+    places: Vec<(f64, Camera)>,
+    interpolation: Interpolation,
     playing: Option<(Instant, CameraPath)>,
 }
 
@@ -29,9 +31,10 @@ impl Path {
     /// The camera of now, if it is being played; at its end it stops.
     fn play(&mut self, now: Instant) -> Option<Camera> {
         let (begun, path) = self.playing.as_ref()?;
-        let secs = (now - *begun).as_secs_f64();
+        let [first, last] = path.times();
+        let secs = first + (now - *begun).as_secs_f64();
         let camera = path.at(secs);
-        if secs >= path.times()[1] {
+        if secs >= last {
             self.playing = None;
         }
         Some(camera)
@@ -40,13 +43,23 @@ impl Path {
     /// # Errors
     /// As [`CameraPath::new`].
     fn made(&self) -> Result<CameraPath> {
-        let times = (0..self.places.len()).map(|number| STEP_SECS * number as f64);
-        CameraPath::new(Interpolation::Smooth, times.zip(self.places.iter().copied()).collect())
+        CameraPath::new(self.interpolation, self.places.clone())
+    }
+
+    /// That of a file.
+    ///
+    /// # Errors
+    /// As [`read_path`].
+    pub fn read(file: &std::path::Path) -> Result<Self> {
+        let path = read_path(file)?;
+        let (places, interpolation) = (path.keys().to_vec(), path.interpolation());
+        Ok(Self { places, interpolation, playing: None })
     }
 
     /// One place more, if the path goes on with it.
     fn add(&mut self, camera: Camera) -> Result<()> {
-        self.places.push(camera);
+        let time = self.places.last().map_or(0.0, |(time, _)| time + STEP_SECS);
+        self.places.push((time, camera));
         let made = self.made();
         if made.is_err() {
             self.places.pop();
@@ -89,6 +102,17 @@ impl Viewer {
         fs::write(&name, text).map_err(|error| Error::file(&name, "write", error))?;
         let name = name.display();
         Ok(format!("{name} is written: surfel render --path {name} --frames 100 -o out%04d.png"))
+    }
+
+    /// Takes a path that was dropped in the place of the one there is.
+    pub fn take_path(&mut self, file: &std::path::Path) {
+        match Path::read(file) {
+            Ok(path) => {
+                self.path = path;
+                self.ui.tell(&format!("a path of {} places; / plays it", self.path.places.len()));
+            }
+            Err(error) => self.tell(&error.to_string()),
+        }
     }
 
     /// Goes on along the path, if it is being played.

@@ -6,7 +6,7 @@ use surfel::{
     scene::Settings,
 };
 
-use super::{device::is_device_lost, viewer::Viewer};
+use super::{device::is_device_lost, on_device::OnDevice, viewer::Viewer};
 
 impl Viewer {
     /// The point of the surface under the cursor is what the camera turns about from now on.
@@ -36,7 +36,8 @@ impl Viewer {
             self.ui.tell("there is no surface under the cursor");
             return Ok(());
         };
-        let objects = self.prepared.as_ref().map(|(scene, _)| scene.objects.as_slice()).unwrap_or_default();
+        let scene = self.prepared.as_ref().map(OnDevice::scene);
+        let objects = scene.map(|scene| scene.objects.as_slice()).unwrap_or_default();
         let name = objects.get(picked.object).map_or("", String::as_str);
         let mut text = format!("{name}, {}", describe(&picked));
         if let Some(before) = self.measured.replace(picked.position) {
@@ -50,8 +51,12 @@ impl Viewer {
         let (size_px, cursor) = (self.window_px(), self.input.cursor);
         let pixel = [0, 1].map(|i| (cursor[i].max(0.0) as u32).min(size_px[i] - 1));
         let settings = self.at_rest(&Settings { size_px, ..self.settings.clone() });
-        let (Some(camera), Some((scene, _))) = (self.camera(), &self.prepared) else { return Ok(None) };
-        match self.gpu.headless.pick(scene, &camera, &settings, pixel) {
+        let (Some(camera), Some(prepared)) = (self.camera(), &self.prepared) else { return Ok(None) };
+        let Some(settings) = prepared.pages().map_or(Some(settings.clone()), |pages| pages.now(&settings))
+        else {
+            return Ok(None);
+        };
+        match self.gpu.headless.pick(prepared.scene(), &camera, &settings, pixel) {
             Err(error) if !is_device_lost(&error) => {
                 self.tell(&error.to_string());
                 Ok(None)

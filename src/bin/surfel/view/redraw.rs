@@ -10,9 +10,11 @@ use surfel::{
 };
 
 use super::{
+    document::Document,
     frame_desc::{Drawn, FrameDesc, SceneView},
     keys::Comparing,
     loading::Step,
+    on_device::OnDevice,
     overlay::OverlayFrame,
     picture::{Cost, Use},
     show::{ShowDesc, Shown},
@@ -24,12 +26,15 @@ use crate::console;
 const REST: Duration = Duration::from_millis(40);
 /// How soon the cost of a frame is looked for again that is not done.
 const COST: Duration = Duration::from_millis(10);
+/// How soon pages are looked for again.
+const PAGES: Duration = Duration::from_millis(15);
 
 impl Viewer {
     /// When there is something to do without an event.
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
         let rest = self.moved.map(|moved| moved + REST);
-        let all = [rest, self.files.next_look(), self.ui.next_wake(), self.looks_for_costs];
+        let all =
+            [rest, self.files.next_look(), self.ui.next_wake(), self.looks_for_costs, self.looks_for_pages];
         all.into_iter().flatten().min().map(|when| when.max(now))
     }
 
@@ -39,7 +44,8 @@ impl Viewer {
         self.look_at_files();
         let rests = self.moved.is_some_and(|moved| now >= moved + REST);
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
-        if rests || is_due(self.ui.next_wake()) || is_due(self.looks_for_costs) {
+        let is_there = is_due(self.looks_for_costs) || is_due(self.looks_for_pages);
+        if rests || is_due(self.ui.next_wake()) || is_there {
             self.window.request_redraw();
         }
     }
@@ -72,6 +78,8 @@ impl Viewer {
             Drawn::Shown => {
                 if let (Some(which), Some(camera)) = (which, self.camera()) {
                     (self.is_stale, self.shown) = (false, which);
+                    // What comes after the whole picture answers to something else.
+                    self.input_at.take_if(|_| which == Use::Still && !is_moving);
                     self.drawn = Some((self.settings.clone(), camera));
                     self.looks_for_costs = self.shows_costs().then(|| Instant::now() + COST);
                 }
@@ -89,24 +97,32 @@ impl Viewer {
         let whole = self.at_rest(&Settings { size_px: window_px, ..self.settings.clone() });
         let (which, settings) = match is_moving && !self.pace.is_finest() {
             true => (Use::Moving, self.coarse(&whole)),
-            false => (Use::Still, whole),
+            false => (Use::Still, whole.clone()),
         };
+        let settings = self.with_pages(settings, whole)?;
+        // What was kept for another camera, or another scene.
+        if let Some(error) = self.comparing.and_then(|_| self.check(&self.other).err()) {
+            self.comparing = None;
+            self.tell(&format!("no comparison: {error}"));
+        }
         let is_light = !self.encoding.is_plain();
         let drawn_so = |settings: Settings| match is_light {
             true => Settings { background: None, ..settings },
             false => settings,
         };
-        let other = self.comparing.map(|_| {
+        let other = self.comparing.zip(settings.as_ref()).map(|(_, settings)| {
             drawn_so(Settings { size_px: settings.size_px, lod: settings.lod, ..self.other.clone() })
         });
         let background = self.settings.background;
-        let settings = drawn_so(settings);
+        let settings = settings.map(drawn_so);
         let camera = self.camera();
         let wants = self.is_stale || (self.shown == Use::Moving && !is_moving);
         let mut views = Vec::new();
-        if let (true, Some((scene, _)), Some(camera)) = (wants, &self.prepared, &camera) {
-            let view = |settings| SceneView { scene, camera, settings, is_light };
-            views.push((which, view(&settings)));
+        if let (true, Some(prepared), Some(camera), Some(settings)) =
+            (wants, &self.prepared, &camera, &settings)
+        {
+            let view = |settings| SceneView { scene: prepared.scene(), camera, settings, is_light };
+            views.push((which, view(settings)));
             views.extend(other.as_ref().map(|other| (Use::Other, view(other))));
         }
         let drawn = (!views.is_empty()).then_some(which);
@@ -123,6 +139,24 @@ impl Viewer {
         let profile = Some(if self.ui.shows_times() { Profile::Times } else { Profile::Frame });
         let desc = FrameDesc { views: &views, shown, overlay, profile, input: self.input_at };
         Ok((self.gpu.draw(&desc)?, drawn))
+    }
+
+    /// The settings with which what is there can be drawn; `None` where nothing is. `whole`: those of the picture at rest.
+    fn with_pages(&mut self, settings: Settings, whole: Settings) -> Result<Option<Settings>> {
+        self.looks_for_pages = None;
+        let (Some(OnDevice::Paged(paged)), Some(camera)) = (&mut self.prepared, self.navigation.as_ref())
+        else {
+            return Ok(Some(settings));
+        };
+        let before = (paged.now(&whole), paged.pages());
+        let wanted = [&settings, &whole];
+        let wanted = if settings == whole { &wanted[1..] } else { &wanted[..] };
+        let drawn = paged.update(&self.gpu.headless, &camera.camera, wanted)?;
+        if paged.is_coming {
+            self.looks_for_pages = Some(Instant::now() + PAGES);
+        }
+        self.is_stale |= before != (paged.now(&whole), paged.pages());
+        Ok(drawn.into_iter().next().flatten())
     }
 
     /// Learns what frames have cost.
@@ -156,14 +190,15 @@ impl Viewer {
 
     /// As coarse as a moving picture is.
     fn coarse(&self, whole: &Settings) -> Settings {
-        let has_levels = self.prepared.as_ref().is_some_and(|(_, step)| *step == Step::Leveled);
+        let has_levels = self.prepared.as_ref().is_some_and(|prepared| prepared.step() == Step::Leveled);
         let lod = if has_levels { self.pace.lod(whole.lod) } else { whole.lod };
         Settings { size_px: self.pace.size_px(whole.size_px), lod, ..whole.clone() }
     }
 
     /// As all of it is drawn: levels of detail that were made for moving pictures are for those alone.
     pub fn at_rest(&self, settings: &Settings) -> Settings {
-        let own = self.document.as_ref().is_some_and(|document| !document.scene.leveled.is_empty());
+        let has_levels = |document: &Document| document.paged.is_some() || !document.scene.leveled.is_empty();
+        let own = self.document.as_ref().is_some_and(has_levels);
         let lod = match settings.lod {
             Lod::Auto if !own => Lod::Px(0.0),
             lod => lod,

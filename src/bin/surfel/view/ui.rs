@@ -7,7 +7,10 @@ use std::{
 
 use egui::{Event, PointerButton, Pos2, RawInput, Rect, ViewportId};
 use surfel::Result;
-use winit::event::MouseButton;
+use winit::{
+    event::{ElementState, KeyEvent, MouseButton},
+    keyboard::{Key, ModifiersState, NamedKey},
+};
 
 use super::{
     overlay::OverlayFrame,
@@ -174,6 +177,32 @@ impl Ui {
         true
     }
 
+    /// A key; whether it is for what lies over the picture, in which a number is being written.
+    pub fn key(&mut self, event: &KeyEvent, modifiers: ModifiersState) -> bool {
+        let is_command = modifiers.control_key() || modifiers.alt_key() || modifiers.super_key();
+        if !self.has_panel || is_command || !self.context.wants_keyboard_input() {
+            return false;
+        }
+        let pressed = event.state == ElementState::Pressed;
+        let named = match &event.logical_key {
+            Key::Named(NamedKey::Enter) => Some(egui::Key::Enter),
+            Key::Named(NamedKey::Escape) => Some(egui::Key::Escape),
+            Key::Named(NamedKey::Tab) => Some(egui::Key::Tab),
+            Key::Named(NamedKey::Backspace) => Some(egui::Key::Backspace),
+            Key::Named(NamedKey::Delete) => Some(egui::Key::Delete),
+            Key::Named(NamedKey::ArrowLeft) => Some(egui::Key::ArrowLeft),
+            Key::Named(NamedKey::ArrowRight) => Some(egui::Key::ArrowRight),
+            _ => None,
+        };
+        if let Some(key) = named {
+            let modifiers = egui::Modifiers { shift: modifiers.shift_key(), ..Default::default() };
+            self.event(Event::Key { key, physical_key: None, pressed, repeat: event.repeat, modifiers });
+        } else if let (true, Some(text)) = (pressed, &event.text) {
+            self.event(Event::Text(text.to_string()));
+        }
+        true
+    }
+
     fn is_over(&self) -> bool {
         self.is_shown() && self.context.is_pointer_over_area()
     }
@@ -238,7 +267,7 @@ impl Viewer {
         let window_px = self.window_px();
         let (frame, textures, changes) = self.ui.run(window_px, &state);
         self.gpu.update_overlay(&textures)?;
-        changes.into_iter().for_each(|change| self.change(change));
+        changes.into_iter().try_for_each(|change| self.change(change))?;
         Ok(Some(frame))
     }
 }

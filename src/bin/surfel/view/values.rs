@@ -18,6 +18,7 @@ pub const IN_PANEL: &[&str] = &[
     "backfaces",
     "last-layer",
     "shading",
+    "outlines",
     "accumulate",
     "cull",
 ];

@@ -8,7 +8,7 @@ use std::{
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Result,
-    prepare::PreparedScene,
+    levels_file::LevelsFile,
     scene::{Camera, Encoding, Settings},
 };
 use winit::window::Window;
@@ -17,19 +17,22 @@ use super::{
     ViewArguments,
     capture::Clipboard,
     device::{is_device_lost, open_gpu},
+    document::Document,
     edits::Edits,
     files::Files,
     gpu::Gpu,
     input::Input,
     keys::Comparing,
-    loading::{Document, Loader, News, Step},
+    loading::{Loader, News},
     navigation::Navigation,
+    on_device::{OnDevice, Paged},
+    options::Options,
     pace::Pace,
     path::Path,
     picture::Use,
     ui::Ui,
 };
-use crate::{console, device::DeviceArguments, settings::Given};
+use crate::console;
 
 /// A window, and all that is shown in it.
 pub struct Viewer {
@@ -42,11 +45,13 @@ pub struct Viewer {
     pub ui: Ui,
     /// What the files hold, once they are read.
     pub document: Option<Document>,
-    /// The scene on the device, and how much of it that is.
-    pub prepared: Option<(PreparedScene, Step)>,
+    /// The scene on the device.
+    pub prepared: Option<OnDevice>,
     pub navigation: Option<Navigation>,
     pub settings: Settings,
     pub encoding: Encoding,
+    /// Both as they were at first.
+    pub first: (Settings, Encoding),
     pub edits: Edits,
     /// What was drawn last.
     pub drawn: Option<(Settings, Camera)>,
@@ -63,7 +68,7 @@ pub struct Viewer {
     pub moved: Option<Instant>,
     /// The frame before was one of those that move.
     pub was_moving: bool,
-    /// The last input that moved it.
+    /// The last input, until the whole picture answers to it.
     pub input_at: Option<Instant>,
     /// What is shown is not the scene, or not from the camera, of now.
     pub is_stale: bool,
@@ -71,21 +76,14 @@ pub struct Viewer {
     pub shown: Use,
     /// When the costs of frames are looked for.
     pub looks_for_costs: Option<Instant>,
+    /// When pages are looked for that are to come.
+    pub looks_for_pages: Option<Instant>,
     /// The program is to end.
     pub ends: bool,
     /// The camera of files that are read stays what it is.
     pub keeps_camera: bool,
     /// When the device was lost last.
     lost: Option<Instant>,
-}
-
-/// What the command line says, for later.
-pub struct Options {
-    pub device: DeviceArguments,
-    pub said: Box<dyn Fn(Settings) -> Settings>,
-    pub picture_size: Option<[u32; 2]>,
-    pub samples: surfel::scene::Samples,
-    pub prints_frames: bool,
 }
 
 impl Viewer {
@@ -95,14 +93,17 @@ impl Viewer {
         gpu: Gpu,
         loader: Loader,
         settings: Settings,
+        path: Path,
         arguments: &ViewArguments,
     ) -> Self {
         let ui = Ui::new(window.scale_factor() as f32);
         let samples = settings.samples;
         let settings = Settings { samples: surfel::scene::Samples(1), ..settings };
+        let encoding = arguments.encoding.over(Encoding::default());
         Self {
             other: settings.clone(),
-            encoding: arguments.encoding.over(Encoding::default()),
+            first: (settings.clone(), encoding),
+            encoding,
             options: Options::of(arguments, samples),
             window,
             gpu,
@@ -111,7 +112,7 @@ impl Viewer {
             settings,
             input: Input::default(),
             files: Files::default(),
-            path: Path::default(),
+            path,
             drawn: None,
             document: None,
             prepared: None,
@@ -127,6 +128,7 @@ impl Viewer {
             input_at: None,
             is_stale: true,
             looks_for_costs: None,
+            looks_for_pages: None,
             shown: Use::Still,
             ends: false,
             keeps_camera: false,
@@ -167,7 +169,7 @@ impl Viewer {
         match news {
             News::Opened(document) => self.opened(*document),
             News::Prepared(prepared) if self.loader.is_newest(prepared.job) => {
-                self.prepared = Some((prepared.scene, prepared.step));
+                self.prepared = Some(OnDevice::Whole(prepared.scene, prepared.step));
                 self.changed();
                 Ok(())
             }
@@ -187,6 +189,11 @@ impl Viewer {
                 let _ = answer.send(done);
                 Ok(())
             }
+            #[cfg(feature = "live-shaders")]
+            News::Shaders(compiled) => {
+                self.take_shaders(compiled);
+                Ok(())
+            }
             News::Failed(error) if self.document.is_none() => Err(error),
             News::Failed(error) => {
                 self.ui.reading = None;
@@ -201,6 +208,7 @@ impl Viewer {
         if first {
             self.settings = (self.options.said)(document.picture.over(self.settings.clone()));
             self.other = self.settings.clone();
+            self.first.0 = self.settings.clone();
         }
         self.settings.check_scene(&document.scene)?;
         match &mut self.navigation {
@@ -216,6 +224,8 @@ impl Viewer {
         self.files.watch(&document.files.files);
         self.document = Some(document);
         let is_other = !std::mem::take(&mut self.keeps_camera);
+        // Pages of what the file was.
+        self.prepared.take_if(|prepared| prepared.pages().is_some());
         self.prepare(is_other);
         self.changed();
         Ok(())
@@ -224,9 +234,24 @@ impl Viewer {
     /// Brings the scene to the device, with the changes of now. `is_other`: it is not that which is shown, so that a part of it is better
     /// than nothing.
     pub fn prepare(&mut self, is_other: bool) {
-        if let Some(document) = &self.document {
+        let Some(document) = &self.document else { return };
+        let Some(path) = &document.paged else {
             let device = self.gpu.headless.device().clone();
             self.loader.prepare(Arc::clone(&document.scene), self.edits.clone(), device, is_other);
+            return;
+        };
+        if !is_other && self.edits.splat_scale != 1.0 {
+            self.edits.splat_scale = 1.0;
+            self.ui.tell("splats of files that are read in pages keep their size");
+        }
+        if is_other || self.prepared.as_ref().is_none_or(|prepared| prepared.pages().is_none()) {
+            let paged = LevelsFile::open(path).and_then(|file| {
+                Paged::new(file, self.options.most_paged_bytes, document.scene.lights.clone())
+            });
+            match paged {
+                Ok(paged) => self.prepared = Some(OnDevice::Paged(Box::new(paged))),
+                Err(error) => self.tell(&error.to_string()),
+            }
         }
     }
 
@@ -268,18 +293,5 @@ impl Viewer {
         drop(prepared);
         // A lost cache costs the next run some time, that is all.
         let _ = gpu.headless.renderer.shaders.save_cache();
-    }
-}
-
-impl Options {
-    fn of(arguments: &ViewArguments, samples: surfel::scene::Samples) -> Self {
-        let said: Given<Settings> = arguments.settings.clone();
-        Self {
-            device: arguments.device.clone(),
-            said: Box::new(move |settings| said.said_over(settings)),
-            picture_size: arguments.picture_size,
-            samples,
-            prints_frames: arguments.print_frames,
-        }
     }
 }

@@ -1,0 +1,58 @@
+//! What a window's device tells, and is told, between frames.
+
+use std::time::Duration;
+
+#[cfg(feature = "live-shaders")]
+use ash::vk;
+use surfel::Result;
+
+use super::{
+    super::picture::{Cost, Picture, Use},
+    Gpu,
+};
+
+impl Gpu {
+    /// The atlas of letters changes.
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub fn update_overlay(&mut self, delta: &egui::TexturesDelta) -> Result<()> {
+        self.make_images()?;
+        if let Some(drawing) = &mut self.drawing {
+            drawing.overlay.update(delta);
+        }
+        Ok(())
+    }
+
+    /// What frames for a use have cost since this was asked for last, and whether that is all of them.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn take_costs(&mut self, which: Use) -> Result<(Vec<Cost>, bool)> {
+        let (queue, picture) = (self.headless.queue(), &mut self.pictures[which.index()]);
+        let all = picture.collect(|epoch| queue.is_done(epoch))?;
+        Ok((picture.take_costs(), all))
+    }
+
+    /// Bytes of device memory in transients of all pictures.
+    pub fn transient_bytes(&self) -> u64 {
+        self.pictures.iter().map(Picture::transient_bytes).sum()
+    }
+
+    /// The time from frame to frame, where the host waited for the device or the window system.
+    pub fn take_period(&mut self) -> Option<Duration> {
+        self.period.take()
+    }
+
+    /// Has all pipelines made again: their shaders have changed.
+    #[cfg(feature = "live-shaders")]
+    pub fn forget_pipelines(&mut self) {
+        // SAFETY: this thread alone records, and has submitted what it recorded.
+        unsafe { self.headless.renderer.shaders.keep_newest(0) };
+        if let Some(drawing) = &mut self.drawing {
+            // Of no window, so that they are made for this one.
+            drawing.format = vk::Format::UNDEFINED;
+            self.fits = false;
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! What the command line says, for later.
+
+use surfel::scene::{Samples, Settings};
+
+use super::ViewArguments;
+use crate::{device::DeviceArguments, settings::Given};
+
+/// What pages of a file take on the device at most, unless told otherwise.
+const MOST_PAGED_BYTES: u64 = 2_000_000_000;
+
+/// What the command line says, for later.
+pub struct Options {
+    pub device: DeviceArguments,
+    pub said: Box<dyn Fn(Settings) -> Settings>,
+    pub picture_size: Option<[u32; 2]>,
+    pub samples: Samples,
+    pub prints_frames: bool,
+    /// Of device memory, for pages of a file.
+    pub most_paged_bytes: u64,
+}
+
+impl Options {
+    /// Those of a command line; `samples`: those of pictures that go to files.
+    pub fn of(arguments: &ViewArguments, samples: Samples) -> Self {
+        let said: Given<Settings> = arguments.settings.clone();
+        Self {
+            device: arguments.device.clone(),
+            said: Box::new(move |settings| said.said_over(settings)),
+            picture_size: arguments.picture_size,
+            samples,
+            prints_frames: arguments.print_frames,
+            most_paged_bytes: arguments.budget_memory.unwrap_or(MOST_PAGED_BYTES),
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Pipelines that were made, each with when it was asked for last, so that the oldest can go.
+
+use std::{
+    collections::HashMap,
+    hash::Hash,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+use ash::vk;
+
+use crate::{
+    error::Result,
+    vk::{ComputePipeline, GraphicsPipeline},
+};
+
+/// Pipelines by what they are made of.
+pub(super) struct Made<K, P>(Mutex<HashMap<K, (P, u64)>>);
+
+/// Owns a raw pipeline.
+pub(super) trait OwnsPipeline {
+    fn raw(&self) -> vk::Pipeline;
+}
+
+impl OwnsPipeline for GraphicsPipeline {
+    fn raw(&self) -> vk::Pipeline {
+        self.raw()
+    }
+}
+
+impl OwnsPipeline for ComputePipeline {
+    fn raw(&self) -> vk::Pipeline {
+        self.raw()
+    }
+}
+
+impl<K, P> Default for Made<K, P> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<K: Eq + Hash, P: OwnsPipeline> Made<K, P> {
+    /// The pipeline, made where it was not made yet; it is asked for at this time.
+    pub fn get(&self, key: K, now: u64, make: impl FnOnce(&K) -> Result<P>) -> Result<vk::Pipeline> {
+        let mut all = self.all();
+        if let Some((pipeline, used)) = all.get_mut(&key) {
+            *used = now;
+            return Ok(pipeline.raw());
+        }
+        let pipeline = make(&key)?;
+        Ok(all.entry(key).or_insert((pipeline, now)).0.raw())
+    }
+
+    /// What each does with them.
+    pub fn for_each<T>(&self, of: impl Fn(&K, u64) -> T) -> Vec<T> {
+        self.all().iter().map(|(key, (_, used))| of(key, *used)).collect()
+    }
+
+    /// Drops those that were asked for last before a time; how many.
+    pub fn drop_before(&self, time: u64) -> usize {
+        let mut all = self.all();
+        let before = all.len();
+        all.retain(|_, (_, used)| *used >= time);
+        before - all.len()
+    }
+
+    fn all(&self) -> MutexGuard<'_, HashMap<K, (P, u64)>> {
+        // A panic while the lock was held leaves a map without the pipeline that was being made.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// From when on pipelines stay, so that so many do that were asked for last at these times, no two at the same.
+pub(super) fn first_to_stay(mut times: Vec<u64>, most: usize) -> u64 {
+    times.sort_unstable();
+    match times.len().checked_sub(most) {
+        None => 0,
+        Some(first) => times.get(first).copied().unwrap_or(u64::MAX),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Fake(u64);
+
+    impl OwnsPipeline for Fake {
+        fn raw(&self) -> vk::Pipeline {
+            vk::Handle::from_raw(self.0)
+        }
+    }
+
+    #[test]
+    fn those_that_were_asked_for_longest_ago_go() {
+        let made = Made::<u64, Fake>::default();
+        for (now, key) in [5, 6, 7, 5, 8].into_iter().enumerate() {
+            let raw = made.get(key, now as u64, |key| Ok(Fake(*key))).unwrap();
+            assert_eq!(raw, vk::Handle::from_raw(key));
+        }
+        let times = made.for_each(|_, used| used);
+        assert_eq!([0, 4, 5, 9].map(|most| first_to_stay(times.clone(), most)), [u64::MAX, 1, 0, 0]);
+        made.drop_before(first_to_stay(times, 2));
+        let mut left = made.for_each(|key, _| *key);
+        left.sort_unstable();
+        assert_eq!(left, [5, 8]);
+        assert!(made.get(6, 9, |_| Err(crate::error::Error::option("6", "is made again"))).is_err());
+    }
+}

@@ -1,0 +1,45 @@
+//! How many pipelines frames make, and how hosts give them up.
+
+use surfel::{hard_scenes::Hard, renderer::Headless, scene::Rasterizer};
+
+use crate::common::{PICTURE, headless, render_as, scenes, with};
+
+fn count(headless: &Headless) -> usize {
+    headless.renderer.shaders.pipeline_names().len()
+}
+
+/// From within the scene to where it is a few pixels large.
+fn at(hard: &Hard, step: u32) -> Hard {
+    let mut hard = hard.clone();
+    hard.camera.eye *= 0.32 * 1.07_f64.powi(step as i32);
+    hard
+}
+
+#[test]
+fn a_camera_that_moves_makes_few_pipelines_and_those_that_are_given_up_are_made_again() {
+    let mut headless = headless();
+    let hard = with(&scenes::sphere_of_disks(), |settings| settings.rasterizer = Rasterizer::Compute);
+    let mut counts = Vec::new();
+    for step in 0..60 {
+        render_as(&mut headless, &at(&hard, step), PICTURE);
+        counts.push(count(&headless));
+    }
+    println!("{counts:?}");
+    // One frame has about ten; what views differ in are a few numbers of tiles, and what is listed or left to the graphics pipeline.
+    assert!(counts[59] <= 40 && counts[59] - counts[30] <= 10, "{counts:?}");
+    let near = at(&hard, 2);
+    let before = render_as(&mut headless, &near, PICTURE).linear;
+    let keep = |headless: &Headless, most: usize| {
+        // SAFETY: every frame was waited for.
+        unsafe { headless.renderer.shaders.keep_newest(most) };
+    };
+    keep(&headless, 1000);
+    assert_eq!(count(&headless), counts[59]);
+    keep(&headless, 0);
+    assert_eq!(count(&headless), 0);
+    assert_eq!(render_as(&mut headless, &near, PICTURE).linear, before);
+    let of_one = count(&headless);
+    render_as(&mut headless, &at(&hard, 50), PICTURE);
+    keep(&headless, of_one);
+    assert_eq!(count(&headless), of_one);
+}

@@ -1,0 +1,100 @@
+//! Cuts, outlines, paths, and what is written into the panel.
+
+use std::time::Duration;
+
+use super::{
+    CAMERA,
+    screen::Screen,
+    window::{Folder, View, render, surfel},
+};
+
+fn words<'w>(copied: &'w [String], others: &[&'w str]) -> Vec<&'w str> {
+    others.iter().copied().chain(copied.iter().map(String::as_str)).collect()
+}
+
+#[test]
+fn cuts_and_outlines_by_key_are_those_of_render_and_all_of_it_goes_back() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let first = [&["a.ply", "--size", "320x240"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &first);
+    let whole = render(&folder, &first);
+    view.wait_for(&whole);
+    screen.key("X");
+    screen.key("equal");
+    let cut = view.camera();
+    assert!(cut.iter().any(|word| word == "--clip-plane"), "{cut:?}");
+    let of = |cut: &[String]| render(&folder, &words(cut, &["a.ply", "--size", "320x240"]));
+    assert!(of(&cut).differs_from(&whole) > 5000);
+    view.wait_for(&of(&cut));
+    screen.key("B");
+    screen.key("minus");
+    let in_box = view.camera();
+    assert!(in_box.iter().any(|word| word == "--clip-box"), "{in_box:?}");
+    view.wait_for(&of(&in_box));
+    screen.key("B");
+    screen.key("O");
+    screen.key("Escape");
+    let outlined = render(&folder, &[&first[..], &["--outlines", "splats"]].concat());
+    assert!(outlined.differs_from(&whole) > 5000);
+    view.wait_for(&outlined);
+    for key in ["v", "k", "n", "X", "m", "bracketright", "x", "0", "Escape"] {
+        screen.key(key);
+    }
+    view.wait_for(&whole);
+    view.end();
+}
+
+#[test]
+fn a_path_from_a_file_is_played_to_its_end() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    let place = |time: f64, x: f64| {
+        format!(
+            r#"{{"time": {time}, "eye": [{x}, 0.5, 3], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 45}}"#
+        )
+    };
+    let places = [place(10.0, 0.0), place(10.5, 1.5)].join(", ");
+    folder.write("path.json", &format!(r#"{{"version": 1, "cameras": [{places}]}}"#));
+    let first = [&["--size", "200x150", "--path", "path.json"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &first);
+    view.wait_for(&render(&folder, &[&["--size", "200x150"], &CAMERA[..]].concat()));
+    screen.key("slash");
+    screen.key("Escape");
+    let last = ["--size", "200x150", "--eye", "1.5,0.5,3", "--target", "0,0,0", "--fov", "45"];
+    view.wait_for(&render(&folder, &last));
+    view.end();
+    let missing = surfel(
+        &folder,
+        &["view", "--path", "none.json"],
+        &[("DISPLAY", screen.name()), ("WAYLAND_DISPLAY", "")],
+    );
+    assert_eq!((missing.code, missing.stderr.lines().count()), (1, 1), "{}", missing.stderr);
+}
+
+#[test]
+fn a_number_that_is_written_into_the_panel_is_no_key_of_the_window() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 400);
+    let mut view = View::open(&screen, &folder, &["a.ply", "--size", "640x700", "--shading", "normals"]);
+    view.wait_until("something is shown", |shot| shot.colors() > 20);
+    screen.key("o");
+    view.wait_until("the panel is shown", |shot| shot.pixels[640 * 10 + 620] == [20, 20, 24]);
+    std::thread::sleep(Duration::from_millis(500));
+    // The number beside the slider of the things' alpha.
+    screen.drive(&["mousemove", "506", "62"]);
+    std::thread::sleep(Duration::from_millis(300));
+    screen.drive(&["click", "1"]);
+    std::thread::sleep(Duration::from_millis(300));
+    let before = screen.shot([300, 700]);
+    for key in ["0", "period", "3", "Return"] {
+        screen.key(key);
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    view.wait_until("what is seen is transparent", |shot| {
+        shot.size == [640, 700] && screen.shot([300, 700]).differs_from(&before) > 5000
+    });
+    // Neither was all reset, nor are splats larger, nor is there a place of a path.
+    let copied = view.camera();
+    assert!(!copied.is_empty());
+    view.end();
+}

@@ -1,0 +1,45 @@
+//! Files of levels of detail, of which pages come while the window is open.
+
+use super::{
+    CAMERA,
+    screen::Screen,
+    window::{Folder, View, render, surfel},
+};
+
+#[test]
+fn a_file_of_levels_of_detail_comes_in_pages_until_it_is_what_render_writes() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 150_000);
+    let converted = surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]);
+    assert_eq!(converted.code, 0, "{}", converted.stderr);
+    let words = [&["a.surfel", "--size", "320x240", "--edges", "hard"], &CAMERA[..]].concat();
+    let whole = render(&folder, &words);
+    let mut view = View::open(&screen, &folder, &words);
+    // The same splats in other chunks: sums in another order, which turn a pixel at a rim, one in ten thousand.
+    view.wait_until("all pages are there", |shot| shot.differs_from(&whole) <= 8);
+    // Another view needs other pages, and comes back.
+    screen.drag([160, 120], [260, 140], 1);
+    screen.drive(&["mousemove", "160", "120"]);
+    screen.drive(&["click", "--repeat", "8", "4"]);
+    let copied = view.camera();
+    let near: Vec<&str> = words[..5].iter().copied().chain(copied.iter().map(String::as_str)).collect();
+    let near = render(&folder, &near);
+    view.wait_until("the pages of another view are there", |shot| shot.differs_from(&near) <= 8);
+    screen.key("j");
+    screen.key("i");
+    assert!(view.wait_for_file("surfel-001.png").differs_from(&near) <= 8);
+    // A method that draws no levels of detail is refused.
+    screen.key("h");
+    screen.key("Escape");
+    view.wait_until("the first view again", |shot| shot.differs_from(&whole) <= 8);
+    let said = view.end();
+    assert!(said.stdout.contains(" at "), "nothing was picked: {}", said.stdout);
+    // In less memory it is coarser, and whole.
+    let little = [&words[..], &["--budget-memory", "2MB"]].concat();
+    let mut view = View::open(&screen, &folder, &little);
+    view.wait_until("it is coarser", |shot| {
+        let differ = shot.differs_from(&whole);
+        shot.colors() > 200 && differ > 1000 && differ < 30_000
+    });
+    view.end();
+}

@@ -1,0 +1,73 @@
+//! Ten minutes of random input: without a message, without a stop, and without memory that grows. By hand: `cargo test --release --test view -- soak --ignored --nocapture`;
+//! `SURFEL_SOAK_SECS` for another time.
+
+use std::{thread, time::Duration};
+
+use super::{
+    CAMERA,
+    screen::Screen,
+    window::{Folder, Random, View},
+};
+
+/// The first size, all settings and the first camera again.
+fn go_back(screen: &Screen, view: &mut View<'_>) {
+    view.resize([320, 240]);
+    for key in ["Escape", "0", "h", "Escape"] {
+        thread::sleep(Duration::from_millis(300));
+        screen.key(key);
+    }
+    thread::sleep(Duration::from_secs(2));
+}
+
+/// Every setting once, so that the pipelines that are kept are the same whatever was before; then back. Megabytes that are resident.
+fn settled_mb(screen: &Screen, view: &mut View<'_>) -> f64 {
+    go_back(screen, view);
+    let steps =
+        [("r", 10), ("g", 5), ("k", 4), ("n", 5), ("b", 3), ("v", 5), ("m", 3), ("l", 3), ("L", 3), ("O", 2)];
+    let others = "1 7 x y z space space o o question question X X B B p p period comma";
+    let settings = steps.into_iter().flat_map(|(key, times)| vec![key; times]);
+    for key in settings.chain(others.split_whitespace()) {
+        screen.key(key);
+        screen.drag([100, 100], [110, 105], 1);
+        thread::sleep(Duration::from_millis(300));
+    }
+    go_back(screen, view);
+    view.resident_mb()
+}
+
+/// Beside what comes and goes: blocks of device memory, and which of the pages that were freed the system has back by then.
+const MOST_GROWTH_MB: f64 = 20.0;
+
+#[test]
+#[ignore = "ten minutes"]
+fn ten_minutes_of_random_input_leave_no_message_no_stop_and_no_more_memory() {
+    let secs = std::env::var("SURFEL_SOAK_SECS").ok().and_then(|secs| secs.parse().ok()).unwrap_or(600);
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 20_000);
+    let words = [&["a.ply", "--size", "320x240", "--print-frames"], &CAMERA[..]].concat();
+    let mut view = View::open(&screen, &folder, &words);
+    view.wait_until("something is shown", |shot| shot.colors() > 20);
+    let warm: Vec<f64> = (0..3).map(|_| settled_mb(&screen, &mut view)).collect();
+    println!("resident after each setting was seen once, twice, three times, MB: {warm:?}");
+    view.play_at_random(Random(11), Duration::from_secs(secs));
+    let end: Vec<f64> = (0..2).map(|_| settled_mb(&screen, &mut view)).collect();
+    println!("after {secs} s of random input: {end:?}");
+    let said = view.end();
+    let after_input = |line: &str| {
+        let (_, told) = line.split_once("its end seen ")?;
+        told.split_whitespace().next()?.parse::<f64>().ok()
+    };
+    let mut late: Vec<f64> = said.stdout.lines().filter_map(after_input).collect();
+    late.sort_by(f64::total_cmp);
+    let longest = late.last().copied().unwrap_or(f64::NAN);
+    println!(
+        "{} frames of {} after their input, ms: median {:.0}, longest {longest:.0}",
+        late.len(),
+        said.stdout.lines().count(),
+        late[late.len() / 2]
+    );
+    let growth = end[1] - warm[2];
+    println!("growth: {growth:.1} MB");
+    assert!(growth < MOST_GROWTH_MB, "{warm:?} {end:?}");
+    assert!(longest < 1000.0, "{longest}");
+}
