@@ -14,6 +14,7 @@ mod colors;
 mod crop;
 mod encoding;
 mod gather;
+mod hybrid;
 mod layers;
 mod level_settings;
 mod levels;
@@ -45,6 +46,7 @@ pub use clip_planes::{ClipBox, ClipPlanes, MOST_PLANES};
 pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
+pub use hybrid::{HybridLevels, PolygonCell};
 pub use layers::{Layers, MOST_LAYERS};
 pub use levels::{ErrorBall, LeveledObject, NodeBalls};
 pub use light::{Light, LightKind, MOST_LIGHTS};
@@ -121,6 +123,8 @@ pub struct Scene {
     pub numbered: bool,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
+    /// Levels of detail of meshes, at most one of each.
+    pub hybrids: Vec<HybridLevels>,
 }
 
 impl Scene {

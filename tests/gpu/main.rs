@@ -6,6 +6,7 @@ mod common;
 
 mod bands;
 mod by_design;
+mod clipped_levels;
 mod clips;
 mod clips_measured;
 mod cull;
@@ -20,6 +21,7 @@ mod floor;
 mod frame_graph;
 mod hard_cases;
 mod hierarchy_files;
+mod hybrid_levels;
 mod in_parts;
 mod in_use;
 mod levels;
