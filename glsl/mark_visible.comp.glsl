@@ -17,30 +17,13 @@
 #include "inc/setup.glsl"
 #include "inc/list.glsl"
 #include "inc/levels.glsl"
+#include "inc/outside.glsl"
 #define PLANES_SET 1
 #define PLANES_BINDING BIND_LIST_PLANES
 #include "inc/planes.glsl"
 
 layout(local_size_x = LIST_GROUP_SIZE) in;
 layout(set = 1, binding = BIND_LIST_BITS, std430) writeonly buffer Bits { uint visible_bits[]; };
-
-bool is_outside(vec3 p, float radius)
-{
-    float reach = 2.0 * radius;
-    if (p.z + reach < (ORTHOGRAPHIC ? 0.0 : frame.near)) {
-        return true;
-    }
-    if (!ORTHOGRAPHIC && !(reach <= 0.25 * p.z)) {
-        return false;
-    }
-    vec2 c = ORTHOGRAPHIC ? p.xy : p.xy / p.z;
-    vec2 away = (ORTHOGRAPHIC ? vec2(reach) : reach / p.z * (1.0 + abs(c))) + 2.0 * frame.filter_radius;
-    vec2 low_px = vec2(0.0, BAND_ROW * visible_rows.x);
-    vec2 high_px = vec2(SIZE_PX.x, min(SIZE_PX.y, BAND_ROW * visible_rows.y));
-    vec2 low = (low_px - frame.middle_px) / frame.focal_px;
-    vec2 high = (high_px - frame.middle_px) / frame.focal_px;
-    return any(lessThan(c, low - away)) || any(greaterThan(c, high + away));
-}
 
 // Of one in front of the eye, by a ball around it.
 bool is_beyond_planes(vec3 p, float radius)
@@ -69,7 +52,7 @@ bool may_be_seen(uint index)
     if (PLANES > 0 && is_beyond_planes(p, radius)) {
         return false;
     }
-    return !(CULL_BACKFACES && faces_away(normal_of(stored), ray)) && !is_outside(p, radius);
+    return !(CULL_BACKFACES && faces_away(normal_of(stored), ray)) && !is_outside(p, 2.0 * radius, visible_rows);
 }
 
 void main()

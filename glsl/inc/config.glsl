@@ -70,6 +70,7 @@
 #define BIND_SPLATS_LEVELS 2 // Binding: what decides about their levels of detail.
 #define BIND_SPLATS_CLIPS 3  // Binding: their clip curves.
 #define BIND_SPLATS_INDICES 2 // Binding: of triangles, the numbers of their corners.
+#define BIND_SPLATS_CELLS 3   // Binding: of triangles, their cells.
 
 // Bindings of the set of lists.
 #define BIND_LIST_BITS 0      // Binding: a bit a splat.
@@ -108,7 +109,9 @@
 #define LEVELS_NONE 0   // All are drawn.
 #define LEVELS_LEAVES 1 // Splats of the object, below a node each.
 #define LEVELS_NODES 2  // Nodes, which stand for what is below them.
+#define LEVELS_OF_CELLS 3 // Splats that polygons take the place of where their cells are large.
 #define LEVEL_WORDS 8   // Words of what a camera makes of a chunk's levels.
+#define CELL_WORDS 8    // Words of what a device has of a mesh's cell.
 
 // Values of SPEC_FILTER.
 #define FILTER_NONE 0         // No filter.

@@ -12,9 +12,15 @@
 //
 // All in the space of the hierarchy: from its origin, scaled by a power of two.
 
-// Of each word of splats (src/prepare/level_words.rs) where its parents begin, and where the last one's end. Then, of each node, its own ball: center,
-// radius, spread. Then the parents: a ball, and the bits of its children in the word, which it is so looked at once for.
-layout(set = 0, binding = BIND_SPLATS_LEVELS, std430) readonly buffer Levels { float levels[]; };
+// Splats of a mesh's cells (LEVELS_OF_CELLS) are drawn where the ball of a cell of theirs is small; where it is not, its polygons are (choose_polygons.comp.glsl),
+// which are so what is smallest on a path.
+//
+// Of each word of splats (src/prepare/level_words.rs) where its parents begin, and where the last one's end; of cells' splats the same of its cells. Then, of each
+// node, its own ball: center, radius, spread. Then the parents, and the cells: a ball, and the bits of its splats in the word, which it is so looked at once for.
+#if !defined(LEVELS_BINDING)
+#define LEVELS_BINDING BIND_SPLATS_LEVELS
+#endif
+layout(set = 0, binding = LEVELS_BINDING, std430) readonly buffer Levels { float levels[]; };
 
 #define BALL_FLOATS 5
 
@@ -62,9 +68,26 @@ float largeness(LevelView view, uint ball)
     return clamp((levels[ball + 4] / distance_of(view, ball) - view.share) * view.weight_of_share, 0.0, 1.0);
 }
 
+// Where what is behind the starts of a word's parents begins.
+uint behind_starts()
+{
+    return (frame.splat_count + WORD - 1) / WORD + 1;
+}
+
 uint own_ball(uint index)
 {
-    return (frame.splat_count + WORD - 1) / WORD + 1 + BALL_FLOATS * index;
+    return behind_starts() + BALL_FLOATS * index;
+}
+
+// Those of a word of splats of which a cell is small.
+uint bits_of_cells(LevelView view, uint word)
+{
+    uint end = floatBitsToUint(levels[behind_starts() + word + 1]);
+    uint bits = 0;
+    for (uint cell = floatBitsToUint(levels[behind_starts() + word]); cell < end; cell += BALL_FLOATS + 1) {
+        bits |= is_small(view, view.share, cell) ? floatBitsToUint(levels[cell + BALL_FLOATS]) : 0;
+    }
+    return bits;
 }
 
 // The part that a splat has of the weight on its path.
@@ -89,6 +112,9 @@ uint bits_of_level(uint word)
     uint bits = 0;
     for (uint parent = floatBitsToUint(levels[word]); parent < end; parent += BALL_FLOATS + 1) {
         bits |= is_small(view, view.share, parent) ? 0 : floatBitsToUint(levels[parent + BALL_FLOATS]);
+    }
+    if (LEVELS == LEVELS_OF_CELLS && bits != 0) {
+        bits &= bits_of_cells(view, word);
     }
     if (LEVELS == LEVELS_NODES) {
         for (uint rest = bits; rest != 0; rest &= rest - 1) {

@@ -30,6 +30,7 @@ struct TileConstants {
     uint blends_rest;    // 1: and all that is left
     uint step;           // of a layer in parts
     uint ends;           // 1: the last part
+    float polygon_reach; // by how much splats are shifted toward polygons at most, for each pixel of their image's size
 };
 layout(push_constant, std430) uniform Push { TileConstants push; };
 

@@ -27,6 +27,10 @@ float polygon[ROWS]; // WITH_POLYGONS: depth of polygons, or of splats, where th
 vec4 colors[ROWS];   // weighted color, weight
 vec4 normals[ROWS];  // weighted normal; OF_LAYERS: weighted alpha; WITH_DEPTH: weighted depth
 
+#if !defined(POLYGON_REACH)
+#define POLYGON_REACH 0.0
+#endif
+
 #include "tile/covering.glsl"
 #include "inc/outline.glsl"
 
@@ -37,7 +41,31 @@ struct Column {
     vec3 at_center_row;
     vec3 along_y;
     float dy; // of the row from which rows are counted, from the splat's center
+    float toward; // WITH_POLYGONS: its shift toward a polygon
 };
+
+// BY_SIDES: whether a splat faces away, which the sign of its shift tells.
+bool is_away(Splat splat)
+{
+    return BY_SIDES && floatBitsToInt(splat.shift) < 0;
+}
+
+float shift_of(Splat splat)
+{
+    return BY_SIDES ? abs(splat.shift) : splat.shift;
+}
+
+// Toward a polygon, where epsilon of a slanted splat is many radii (inc/mapping.glsl), no more than the splat's image is large: the root of the sum of its axes' squares. A splat
+// behind a polygon would be seen through it, for nothing else is there that tells how deep the surface is.
+float shift_toward_polygon(Splat splat)
+{
+    if (!WITH_POLYGONS || !COVERAGE_EDGES) {
+        return shift_of(splat);
+    }
+    float det = splat.uv.x * splat.uv.w - splat.uv.y * splat.uv.z;
+    float most = POLYGON_REACH * (sqrt(dot(splat.uv, splat.uv)) / abs(det));
+    return ORTHOGRAPHIC ? min(shift_of(splat), most) : max(shift_of(splat), 1.0 / (1.0 + most));
+}
 
 Column column_of(Splat splat)
 {
@@ -49,23 +77,13 @@ Column column_of(Splat splat)
     column.at_center_row.z = 1.0 + splat.w.x * dx;
     column.along_y = vec3(splat.uv.yw, splat.w.y);
     column.dy = top_px.y - splat.x0_px.y;
+    column.toward = shift_toward_polygon(splat);
     return column;
 }
 
 vec3 uvw_of(Column column, int row)
 {
     return column.at_center_row + column.along_y * (column.dy + float(first_row + row));
-}
-
-// BY_SIDES: whether a splat faces away, which the sign of its shift tells.
-bool is_away(Splat splat)
-{
-    return BY_SIDES && floatBitsToInt(splat.shift) < 0;
-}
-
-float shift_of(Splat splat)
-{
-    return BY_SIDES ? abs(splat.shift) : splat.shift;
 }
 
 // Whether the splat covers the pixel, behind the layer before. A regular splat lies wholly beyond the near plane, but an affine map
@@ -120,7 +138,7 @@ void add(Splat splat, SplatAttributes attributes, Column column, float kept, int
     bool inside = covers(uvw, depth, away, kept, row) && (!BY_SIDES || away == visible_away[row]);
     if (WITH_POLYGONS) {
         inside = inside && (SHIFTED_FOR_ALL || depth >= visible[row])
-            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], shift_of(splat)));
+            && depth >= FORMULA(FORMULA_TOWARD_VIEWER, shifted(polygon[row], column.toward));
     } else {
         inside = inside && depth >= visible[row];
     }

@@ -7,6 +7,7 @@
 #define LIGHTS_SET 0
 #define LIGHTS_BINDING BIND_LIGHTS
 #include "inc/shading.glsl"
+#define POLYGON_REACH push.polygon_reach
 #include "tile/pixel.glsl"
 #include "tile/clip.glsl"
 

@@ -4,20 +4,20 @@ use super::{
     hybrid::{self, usual_samples},
     parts::{Parts, StepTimer},
     words::{
-        counted, finish, finish_triangles, mesh_head, normals_computed, radii_computed, split_into,
+        counted, finish, finish_triangles, in_cells, mesh_head, normals_computed, radii_computed, split_into,
         too_coarse, too_uneven,
     },
 };
 use crate::{
-    error::Result,
+    error::{Error, Result},
     geometry::{
-        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Suited, creased_mesh, fitting_splats,
-        splats_from_mesh,
+        self, DEFAULT_OVERLAP, Hybrid, HybridOptions, MeshReport, Multiresolution, Suited, creased_mesh,
+        fitting_splats, splats_from_mesh,
     },
     load::{ObjectDescription, Representation, Samples},
     progress::Progress,
     report::InputReport,
-    scene::{Mesh, MeshObject, Object, Splats},
+    scene::{Mesh, MeshObject, Object, Opacity, Splats},
 };
 
 /// The parts of a mesh that are drawn; it is given in its own coordinates. Errors know no file.
@@ -45,7 +45,16 @@ pub(super) fn parts(
         (Representation::Mesh, _) => {
             Ok(work.time(format!("normals of {name}"), |_| triangles(placed(own), name, "")))
         }
-        (Representation::Hybrid { polygons, sample_edges }, samples) => {
+        (Representation::Hybrid { polygons: None, .. }, samples) => {
+            let none_stays = vec![false; own.triangles.len()];
+            let usual = || Samples { count: usual_samples(&own, &none_stays, &object.source), seed: 0 };
+            let Samples { count, seed } = samples.unwrap_or_else(usual);
+            let options = HybridOptions { samples: count, seed, sample_edges: true };
+            work.time(format!("cells and splats of {name}"), |progress| {
+                in_levels(placed(own), name, &options, progress)
+            })
+        }
+        (Representation::Hybrid { polygons: Some(polygons), sample_edges }, samples) => {
             let stay = hybrid::stay_polygons(&own, polygons);
             work.time(format!("split {name}"), |progress| {
                 let mesh = placed(own);
@@ -59,7 +68,7 @@ pub(super) fn parts(
 }
 
 fn splats((object, report): (Object, InputReport)) -> Parts {
-    Parts { splats: Some(object), triangles: None, report }
+    Parts { splats: Some(object), triangles: None, levels: None, report }
 }
 
 /// What shows it best.
@@ -125,7 +134,7 @@ fn triangles(mesh: Mesh, name: String, why: &str) -> Parts {
     let head = format!("{}; {}", mesh_head(counts, &report), normals_computed(&report, counts[0]));
     let object = MeshObject { name, mesh, closed: report.closed };
     let report = with_notes(finish_triangles(&object, &head, counts, why), counts[0], &report);
-    Parts { splats: None, triangles: Some(object), report }
+    Parts { splats: None, triangles: Some(object), levels: None, report }
 }
 
 fn both(
@@ -147,8 +156,29 @@ fn both(
     Ok(Parts {
         splats: (!object.splats.is_empty()).then_some(object),
         triangles: (!triangles.mesh.triangles.is_empty()).then_some(triangles),
+        levels: None,
         report,
     })
+}
+
+/// Polygons where splats would be large, splats elsewhere.
+fn in_levels(mesh: Mesh, name: String, options: &HybridOptions, progress: &dyn Progress) -> Result<Parts> {
+    if mesh.colors.opacity() != Opacity::Opaque {
+        let problem = "transparent; expected an opaque mesh, for polygons and splats in turn";
+        return Err(Error::input("", "", problem));
+    }
+    let counts = counts(&mesh);
+    let Multiresolution { mesh, closed, levels, report } =
+        geometry::multiresolution(mesh, name.clone(), options, progress)?;
+    let object = MeshObject { name, mesh, closed };
+    let splats = levels.splats.leaves.len();
+    let head =
+        format!("{}; {}", mesh_head(counts, &report.mesh), in_cells(&report, levels.cells.len(), splats));
+    let told =
+        InputReport { splats, ..finish_triangles(&object, &head, counts, " or splats, as the view has it") };
+    let mut report = with_notes(told, counts[0], &report.mesh);
+    report.drawn_as = "splats and triangles";
+    Ok(Parts { splats: None, triangles: Some(object), levels: Some(levels), report })
 }
 
 /// Vertices and triangles.

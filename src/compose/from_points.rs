@@ -30,6 +30,6 @@ pub(super) fn parts(
         let (splats, report) = splats_from_points(points, progress);
         let (object, mut told) = finish(Object { name, splats, closed: false }, report.to_string(), None);
         told.notes = [report.notes(), told.notes].concat();
-        Parts { splats: Some(object), triangles: None, report: told }
+        Parts { splats: Some(object), triangles: None, levels: None, report: told }
     }))
 }

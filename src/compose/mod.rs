@@ -26,7 +26,7 @@ use crate::{
     load::{LoadOptions, ObjectDescription, PictureDescription, load_scene_file},
     progress::Progress,
     report::InputReport,
-    scene::{Ball, CameraParts, Light, Scene},
+    scene::{Ball, CameraParts, HybridLevels, Light, Scene},
 };
 
 /// The scene of a scene file.
@@ -89,6 +89,8 @@ pub fn build(
             scene.epsilons.push(object.epsilon);
         }
         scene.objects.extend(built.splats);
+        let levels = built.levels.map(|levels| HybridLevels { mesh: scene.meshes.len(), ..levels });
+        scene.hybrids.extend(levels);
         scene.meshes.extend(built.triangles);
     }
     Ok((scene, reports))

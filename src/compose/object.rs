@@ -17,7 +17,7 @@ use crate::{
     notes::Note,
     progress::Progress,
     report::{InputReport, ModelReport, Step},
-    scene::{MeshObject, Object},
+    scene::{HybridLevels, MeshObject, Object},
 };
 
 /// The parts that an object became; at least one of the two has something to draw.
@@ -27,6 +27,8 @@ pub struct BuiltObject {
     pub splats: Option<Object>,
     /// Its triangles.
     pub triangles: Option<MeshObject>,
+    /// Levels of detail of these.
+    pub levels: Option<HybridLevels>,
     /// The direction that is up in the world, where its file or the file's format tells one; unit.
     pub up: Option<DVec3>,
     /// All parts in numbers and words.
@@ -54,7 +56,7 @@ pub fn make(
             .and_then(|()| from_points::parts(points, name, object, &mut work)),
         Model::Mesh(mesh) => from_mesh::parts(mesh, name, object, &mut work),
     };
-    let Parts { splats, triangles, mut report } = parts.map_err(|error| of_object(error, object))?;
+    let Parts { splats, triangles, levels, mut report } = parts.map_err(|error| of_object(error, object))?;
     let nothing =
         report.splats == 0 && triangles.as_ref().is_none_or(|object| object.mesh.triangles.is_empty());
     if nothing {
@@ -65,7 +67,7 @@ pub fn make(
     report.notes = [notes, report.notes].concat();
     report.model = file;
     let up = up.and_then(|up| object.world_from_object.transform_vector3(up).try_normalize());
-    Ok(BuiltObject { splats, triangles, up, report, steps: work.steps })
+    Ok(BuiltObject { splats, triangles, levels, up, report, steps: work.steps })
 }
 
 /// A model as it is before it is placed.
@@ -137,7 +139,7 @@ fn place_splats(mut splats: Object, object: &ObjectDescription) -> Result<Parts>
     splats.splats = splats.splats.transformed(&object.world_from_object);
     splats.splats.colors.tint(object.color, object.alpha);
     let (splats, report) = finish_splats(splats, String::new(), None, defects);
-    Ok(Parts { splats: Some(splats), triangles: None, report })
+    Ok(Parts { splats: Some(splats), triangles: None, levels: None, report })
 }
 
 /// An error of an object's model, in the name of its file: what makes splats of it knows none.

@@ -5,13 +5,15 @@ use std::time::Instant;
 use crate::{
     progress::Progress,
     report::{InputReport, Step},
-    scene::{MeshObject, Object},
+    scene::{HybridLevels, MeshObject, Object},
 };
 
 /// Both parts, and what was done.
 pub(super) struct Parts {
     pub splats: Option<Object>,
     pub triangles: Option<MeshObject>,
+    /// Of the triangles.
+    pub levels: Option<HybridLevels>,
     pub report: InputReport,
 }
 

@@ -174,7 +174,7 @@ fn a_hybrid_is_splats_and_triangles_of_one_name() {
     let folder = folder();
     let x_above = |d| Polygons::Plane { normal: DVec3::X, d };
     let of_mesh = |polygons, sample_edges| ObjectDescription {
-        representation: Representation::Hybrid { polygons, sample_edges },
+        representation: Representation::Hybrid { polygons: Some(polygons), sample_edges },
         world_from_object: stretched(),
         alpha: 0.5,
         ..of_file(&folder, "mesh.obj")
@@ -228,7 +228,7 @@ fn what_cannot_be_made_is_refused_in_the_name_of_its_file() {
     let splats = || of_file(&folder, "splats.ply");
     let flat = || of_file(&folder, "flat.obj");
     let mesh = Representation::Mesh;
-    let hybrid = Representation::Hybrid { polygons: Polygons::LongerThan(1.0), sample_edges: true };
+    let hybrid = Representation::Hybrid { polygons: Some(Polygons::LongerThan(1.0)), sample_edges: true };
     let cases = [
         (
             ObjectDescription { samples, ..splats() },

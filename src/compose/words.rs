@@ -144,6 +144,15 @@ pub(super) fn split_into(report: &HybridReport, splats: usize) -> String {
     format!("{splats} and {}{edges}", counted(report.polygons, "triangle", "triangles"))
 }
 
+/// A mesh in cells.
+pub(super) fn in_cells(report: &HybridReport, cells: usize, splats: usize) -> String {
+    let (cells, splats) = (counted(cells, "cell", "cells"), counted(splats, "splat", "splats"));
+    format!(
+        "{cells} and {splats}, {} of them on {} edges between cells",
+        report.edge_splats, report.transition_edges
+    )
+}
+
 /// The opacity in words; nothing is said of what is opaque.
 fn opacity(opacity: Opacity, alphas: [f32; 2]) -> String {
     let [least, most] = alphas;

@@ -11,7 +11,9 @@
 //! they face away at a silhouette what they lie on is still seen: so its triangles are drawn below them.
 
 mod border;
+mod cells;
 mod chains;
+mod multiresolution;
 mod near;
 mod pieces;
 mod sizes;
@@ -21,6 +23,7 @@ mod tests;
 
 use glam::DVec3;
 
+pub use multiresolution::{Multiresolution, multiresolution};
 pub use spacing::EDGE_SPACING;
 
 use super::{
@@ -140,7 +143,8 @@ fn splat_part(
     let normals: Vec<DVec3> = whole.normals.iter().flatten().map(|normal| normal.as_dvec3()).collect();
     let samples = sample(whole, colors, &normals, &areas, count, options.seed, progress);
     let radii_inside = radii(&samples.positions, area_per_sample, progress);
-    let border = Border::of(whole, polygon);
+    let parts: Vec<u32> = polygon.iter().map(|polygon| u32::from(*polygon)).collect();
+    let border = Border::of(whole, &parts);
     let chains = Chains::of(&border);
     let inside = f64::from(median(&radii_inside));
     report.transition_edges = border.edges.len();
@@ -169,7 +173,7 @@ fn splat_part(
     report.removed = near::remove(&mut splats, &sizes);
     report.edge_splats = places.len();
     near::correct_radii(&mut splats, &places, &sizes, area_per_sample, progress);
-    add(&mut splats, &places, &sizes);
+    add(&mut splats, &places, &|place| sizes.at(place));
     Ok(splats)
 }
 
@@ -219,12 +223,12 @@ fn empty(mesh: &Mesh) -> Splats {
     Splats::new(Vec::new(), shapes, one_color(mesh))
 }
 
-/// Splats at places on edges.
-fn add(splats: &mut Splats, places: &[Place], sizes: &Sizes) {
+/// Splats at places on edges, of these radii.
+fn add(splats: &mut Splats, places: &[Place], radius: &dyn Fn(DVec3) -> f64) {
     splats.positions.extend(places.iter().map(|place| place.position));
     if let Shapes::Disks { normals, radii } = &mut splats.shapes {
         normals.extend(places.iter().map(|place| place.normal.as_vec3()));
-        radii.extend(places.iter().map(|place| sizes.at(place.position) as f32));
+        radii.extend(places.iter().map(|place| radius(place.position) as f32));
     }
     if let Colors::Each(colors) = &mut splats.colors {
         colors.extend(places.iter().map(|place| place.color.map(|channel| channel as f32)));

@@ -28,7 +28,9 @@ mod up;
 
 pub use cloud::{CloudReport, splats_from_points};
 pub use fitness::{Fitness, Suited};
-pub use hybrid::{EDGE_SPACING, Hybrid, HybridOptions, HybridReport, hybrid};
+pub use hybrid::{
+    EDGE_SPACING, Hybrid, HybridOptions, HybridReport, Multiresolution, hybrid, multiresolution,
+};
 pub use mesh_splats::{DEFAULT_OVERLAP, fitting_splats, splats_from_mesh};
 pub use overlaps::Overlaps;
 pub use resample::{MOST_SAMPLES, RADIUS_PER_DISTANCE, check_memory_for, resample};

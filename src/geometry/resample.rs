@@ -82,7 +82,7 @@ pub(super) fn vertex_colors(mesh: &Mesh) -> Option<&[[f32; 4]]> {
 
 /// Asks for the memory of `count` samples, with a color each or not, and of the search for their neighbors.
 pub(super) fn check_memory(count: usize, colors: bool, option: &str) -> Result<()> {
-    let each = size_of::<(DVec3, Vec3, f32)>() + if colors { size_of::<[f32; 4]>() } else { 0 };
+    let each = size_of::<(DVec3, Vec3, f32, u32)>() + if colors { size_of::<[f32; 4]>() } else { 0 };
     check_memory_for(count, each + Tree::BYTES_PER_POINT).map_err(|problem| Error::option(option, problem))
 }
 
@@ -142,6 +142,8 @@ pub(super) struct Samples {
     /// Unit.
     pub(super) normals: Vec<Vec3>,
     pub(super) colors: Option<Vec<[f32; 4]>>,
+    /// In which triangle each is, rising.
+    pub(super) triangles: Vec<u32>,
 }
 
 impl Samples {
@@ -169,6 +171,7 @@ pub(super) fn sample(
         positions: Vec::with_capacity(count),
         normals: Vec::with_capacity(count),
         colors: colors.map(|_| Vec::with_capacity(count)),
+        triangles: Vec::with_capacity(count),
     };
     let mut random = SplitMix(seed);
     let mut v = random.bits();
@@ -185,6 +188,7 @@ pub(super) fn sample(
         let t = s * unit_from_bits(v);
         let corner = mesh.triangles[triangle].map(|vertex| vertex as usize);
         let weights = [1.0 - s, s - t, t];
+        samples.triangles.push(triangle as u32);
         samples.positions.push(blend(weights, corner.map(|vertex| mesh.positions[vertex])));
         let normal = blend(weights, corner.map(|vertex| normals[vertex]));
         samples.normals.push(unit_or_face(normal, mesh, corner, normals));

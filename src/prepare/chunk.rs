@@ -106,7 +106,7 @@ impl Chunk {
             if let Some((_, LevelWords { words, .. })) = levels {
                 buffers.push(buffer("levels", words.len(), size_of::<u32>() as u64)?);
             }
-            // In place of levels, which have none.
+            // Behind levels, or in their place.
             if survey.clipped {
                 buffers.push(buffer("clips", survey.count as usize, size_of::<ClipVectors>() as u64)?);
             }
@@ -177,7 +177,7 @@ impl Chunk {
             staging.push(&buffers[1], first * self.bytes_each[1], colors)?;
         }
         if !clips.is_empty() {
-            staging.push(&buffers[2], first * size_of::<ClipVectors>() as u64, clips)?;
+            staging.push(&buffers[buffers.len() - 1], first * size_of::<ClipVectors>() as u64, clips)?;
         }
         (uploader.submit)(staging)
     }
@@ -221,9 +221,9 @@ impl Chunk {
         }
     }
 
-    /// Whether its splats stand for others, and are drawn in their place.
+    /// Whether its splats stand for others, or for polygons, and are drawn in their place.
     pub fn stands_for_others(&self) -> bool {
-        self.levels.is_some_and(|levels| levels.nodes)
+        self.levels.is_some_and(|levels| levels.part.stands_for_others())
     }
 
     /// The descriptor set; null without memory.

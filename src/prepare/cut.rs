@@ -6,9 +6,11 @@ use super::{
     MeshChunk, PreparedScene,
     chunk::{self, Chunk},
     level_words::LevelWords,
-    levels::{ChunkLevels, Leveled},
+    levels::{ChunkLevels, LevelPart, Leveled},
+    made_levels::made_levels,
     memory::Uploader,
     mesh_chunk::PackedMesh,
+    mesh_levels::Cells,
     near_surfaces, pack,
     part::{Numbers, Part},
     pieces,
@@ -18,10 +20,10 @@ use super::{
 };
 use crate::{
     error::Result,
-    geometry::{Overlaps, hierarchy::Hierarchy},
-    progress::Progress,
+    geometry::Overlaps,
     scene::{
-        Clip, DefectCounts, Epsilon, LeveledObject, MeshObject, Object, Opacity, Order, Scene, SplatFormat,
+        Clip, DefectCounts, Epsilon, HybridLevels, LeveledObject, MeshObject, Object, Opacity, Order, Scene,
+        SplatFormat,
     },
     vk::Limits,
 };
@@ -74,18 +76,26 @@ pub(super) fn cut(
         match &leveled {
             None => cut.object((number, object), epsilon, auto)?,
             Some((leveled, leaves)) => {
-                cut.levels((number, leveled), (epsilon, auto), leaves.as_deref())?;
+                cut.levels((number, leveled, None), (epsilon, auto), leaves.as_deref())?;
             }
         }
     }
-    let first_of_meshes = scene.objects.len() + scene.leveled.len();
     for (number, object) in (scene.objects.len()..).zip(&scene.leveled) {
         cut.total += (object.leaves.len() + object.nodes.len()) as u64;
         if object.opacity != Opacity::Invisible {
-            cut.levels((number, object), (None, !scene.without_auto_epsilon), None)?;
+            cut.levels((number, object, None), (None, !scene.without_auto_epsilon), None)?;
         }
     }
-    (first_of_meshes..).zip(&scene.meshes).try_for_each(|object| cut.mesh(object))?;
+    let first_of_meshes = scene.objects.len() + scene.leveled.len();
+    for hybrid in &scene.hybrids {
+        cut.total += (hybrid.splats.leaves.len() + hybrid.splats.nodes.len()) as u64;
+        let number = first_of_meshes + hybrid.mesh;
+        cut.levels((number, &hybrid.splats, Some(hybrid)), (None, !scene.without_auto_epsilon), None)?;
+    }
+    for (number, object) in scene.meshes.iter().enumerate() {
+        let hybrid = scene.hybrids.iter().find(|hybrid| hybrid.mesh == number);
+        cut.mesh((first_of_meshes + number, object), hybrid)?;
+    }
     let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
     prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
     Ok(prepared)
@@ -108,51 +118,33 @@ struct Cut<'u, 'a> {
     prepared: PreparedScene,
 }
 
-/// Progress of building levels of detail is that of one who waits for a chunk.
-struct Quiet;
-
-impl Progress for Quiet {}
-
 impl Cut<'_, '_> {
     fn step(&mut self, count: usize) {
         self.done += count as u64;
         (self.progress)(self.done, self.total);
     }
 
-    /// An object in levels of detail, without its defects, which are counted, and where numbers are kept, those of its leaves; `None` where it
-    /// has no room for any.
+    /// An object in levels of detail, which are made here, and the numbers of its leaves where such are kept; `None` where it has no room for any.
     fn leveled(&mut self, object: &Object) -> Result<Option<(LeveledObject, Option<Vec<u32>>)>> {
-        if object.splats.colors.opacity() == Opacity::Invisible {
-            return Ok(None);
-        }
-        let mut whole = object.clone();
-        let kept = |i: &u32| object.splats.defect(*i as usize).is_none();
-        let kept: Option<Vec<u32>> =
-            self.numbered.then(|| (0..object.splats.len() as u32).filter(kept).collect());
-        let defects = whole.splats.drop_defective();
         self.step(0);
-        let hierarchy = Hierarchy::build(&whole.splats, &Quiet)?;
-        let leaves = kept.map(|kept| hierarchy.order.iter().map(|i| kept[*i as usize]).collect());
-        let leveled = (!hierarchy.tree.is_empty()).then(|| hierarchy.leveled(whole));
-        if leveled.is_some() {
-            self.prepared.defects.merge(&defects);
-            self.total += leveled.as_ref().map_or(0, |leveled| leveled.nodes.len() as u64);
-            self.done += defects.total() as u64;
-        }
-        Ok(leveled.map(|leveled| (leveled, leaves)))
+        let Some(made) = made_levels(object, self.numbered)? else { return Ok(None) };
+        self.prepared.defects.merge(&made.defects);
+        self.total += made.object.nodes.len() as u64;
+        self.done += made.defects.total() as u64;
+        Ok(Some((made.object, made.numbers)))
     }
 
     /// Its own splats, then the nodes, which have ε in radii of their own. `numbers`: of its own splats, where they are known.
     fn levels(
         &mut self,
-        (number, object): (usize, &LeveledObject),
+        (number, object, hybrid): (usize, &LeveledObject, Option<&HybridLevels>),
         (epsilon, auto): (Option<Epsilon>, bool),
         numbers: Option<&[u32]>,
     ) -> Result<()> {
         if self.budget {
             self.prepared.refinements.push(Refinements::of(object));
         }
-        let leveled = &Leveled::of(object, numbers);
+        let leveled = &Leveled::of(object, numbers, hybrid);
         let levels = |nodes: bool| Some((leveled, leveled.chunk(nodes)));
         let numbers = leveled.numbers.as_deref().map_or(Numbers::Unknown, Numbers::Listed);
         let leaves = (number, &leveled.leaves, numbers);
@@ -197,11 +189,14 @@ impl Cut<'_, '_> {
         // So that a bar is there meanwhile.
         self.step(0);
         let one_for_all = |overlap: f64| vec![overlap.recip() as f32; splats.len()];
+        let is_of_cells = levels.is_some_and(|(_, levels)| levels.part == LevelPart::OfCells);
         let known = levels.and_then(|(leveled, _)| leveled.inverse_overlaps.clone());
         let inverse_overlaps = match levels {
-            Some((leveled, levels)) if levels.nodes => one_for_all(leveled.overlap),
-            // Where splats meet polygons of the same surface, their sum is to fall toward their border.
-            _ if exact && !self.beside_polygons => known.unwrap_or_else(|| Overlaps::of(splats).inverse),
+            Some((leveled, levels)) if levels.part == LevelPart::Nodes => one_for_all(leveled.overlap),
+            // Where splats meet polygons of the same surface, their sum is to fall toward their border: of cells what is beyond it was counted.
+            _ if exact && (!self.beside_polygons || is_of_cells) => {
+                known.unwrap_or_else(|| Overlaps::of(splats).inverse)
+            }
             Some((leveled, _)) if known.is_some() => one_for_all(leveled.overlap),
             _ => one_for_all(Overlaps::of(splats).mean),
         };
@@ -246,7 +241,7 @@ impl Cut<'_, '_> {
         let survey = site.survey(splats, which(range.clone()));
         self.prepared.defects.merge(&survey.defects);
         if survey.count > 0 {
-            if part.transparent && !part.levels.is_some_and(|(_, levels)| levels.nodes) {
+            if part.transparent && !part.levels.is_some_and(|(_, levels)| levels.part.stands_for_others()) {
                 self.transparent_splats += survey.count;
                 self.transparent_radii += survey.sum_of_radii;
             }
@@ -281,15 +276,21 @@ impl Cut<'_, '_> {
         Ok(())
     }
 
-    fn mesh(&mut self, (object_number, object): (usize, &MeshObject)) -> Result<()> {
+    fn mesh(
+        &mut self,
+        (object_number, object): (usize, &MeshObject),
+        hybrid: Option<&HybridLevels>,
+    ) -> Result<()> {
         let opacity = object.mesh.colors.opacity();
         if opacity == Opacity::Invisible {
             return Ok(());
         }
+        let traits = (object.closed, opacity == Opacity::Transparent);
+        let cells = hybrid.map(Cells::of);
         for packed in PackedMesh::pieces(&object.mesh, self.capacity).filter(|packed| !packed.is_empty()) {
             let number = self.prepared.meshes.len();
-            let traits = (object.closed, opacity == Opacity::Transparent);
-            let mut chunk = MeshChunk::new(self.uploader.as_mut(), number, traits, &packed)?;
+            let levels = cells.as_ref().map(|cells| cells.words(&packed.numbers, packed.rebase()));
+            let mut chunk = MeshChunk::new(self.uploader.as_mut(), number, traits, (&packed, levels))?;
             chunk.object = object_number;
             chunk.numbers = self.numbered.then_some(packed.numbers);
             self.prepared.meshes.push(chunk);

@@ -1,10 +1,10 @@
 //! What a device has of a chunk's levels of detail, for each word of its bits of splats (`glsl/inc/levels.glsl`): the balls of its splats' parents, each
-//! once with a bit for each of its children; and of nodes their own balls.
+//! once with a bit for each of its children; of nodes their own balls; of splats of cells the balls of these, as parents' are.
 //!
 //! Balls are told from the hierarchy's own origin and scaled by a power of two. They are the same bits wherever they lie, so that of a parent and its
 //! child exactly one is drawn, whatever chunks they are in.
 
-use super::levels::{BlockLevels, ChunkLevels, Leveled};
+use super::levels::{BlockLevels, ChunkLevels, LevelPart, Leveled};
 use crate::{scene::ErrorBall, shaders::config::BLOCK_SPLATS};
 
 /// The levels of a chunk.
@@ -21,54 +21,76 @@ const WORD: usize = u32::BITS as usize;
 /// Words of a ball.
 const BALL_WORDS: usize = 5;
 
+/// A ball with the bits of the splats of a word that it is of.
+type Shared = (ErrorBall, u32);
+
 impl LevelWords {
     /// Of some leaves or nodes of an object, in their order.
     pub fn of(leveled: &Leveled, levels: ChunkLevels, numbers: &[usize]) -> Self {
-        let own: Vec<ErrorBall> = match levels.nodes {
-            true => numbers.iter().map(|number| leveled.own_ball(*number)).collect(),
-            false => Vec::new(),
+        let shared = |of: &dyn Fn(usize) -> Vec<u32>| -> Vec<Vec<Shared>> {
+            numbers.chunks(WORD).map(|word| shared_balls(leveled, word, of)).collect()
         };
-        let parents: Vec<_> = numbers.chunks(WORD).map(|word| parents(leveled, levels, word)).collect();
+        let parents = shared(&|number| vec![leveled.parent(levels, number)]);
+        let own_balls =
+            |number: &usize| leveled.own_balls(levels, *number).iter().map(|ball| leveled.ball(*ball));
         let mut words = Vec::new();
-        let mut next = parents.len() + 1 + BALL_WORDS * own.len();
-        words.push(next as u32);
-        for parents in &parents {
-            next += (BALL_WORDS + 1) * parents.len();
-            words.push(next as u32);
-        }
-        own.iter().for_each(|ball| push_ball(&mut words, ball));
-        for (ball, children) in parents.iter().flatten() {
-            push_ball(&mut words, ball);
-            words.push(*children);
+        match levels.part {
+            LevelPart::Own => push_lists(&mut words, &[&parents], &[]),
+            LevelPart::Nodes => {
+                let own: Vec<ErrorBall> = numbers.iter().flat_map(own_balls).collect();
+                push_lists(&mut words, &[&parents], &own);
+            }
+            LevelPart::OfCells => {
+                let cells = shared(&|number| leveled.own_balls(levels, number).to_vec());
+                push_lists(&mut words, &[&parents, &cells], &[]);
+            }
         }
         let of_block = parents.chunks(BLOCK_SPLATS as usize / WORD);
-        let blocks = of_block.zip(numbers.chunks(BLOCK_SPLATS as usize)).enumerate();
-        let blocks = blocks.map(|(block, (parents, numbers))| {
+        let blocks = of_block.zip(numbers.chunks(BLOCK_SPLATS as usize)).map(|(parents, numbers)| {
             let parents = parents.iter().flatten().map(|(ball, children)| (*ball, children.count_ones()));
             let parents: Vec<(ErrorBall, u32)> = parents.collect();
-            let own = own.iter().skip(block * BLOCK_SPLATS as usize).take(numbers.len());
-            let own: Vec<ErrorBall> = own.copied().collect();
-            let half_axes = numbers.iter().map(|number| leveled.nodes.splats.major_radius(*number));
-            let longest = half_axes
-                .zip(&own)
-                .map(|(half_axis, ball)| half_axis * levels.space.scale / f64::from(ball.spread));
+            let own: Vec<ErrorBall> = numbers.iter().flat_map(own_balls).collect();
+            let longest = numbers.iter().flat_map(|number| {
+                let half_axis = leveled.half_axis(levels, *number);
+                own_balls(number).map(move |ball| half_axis / f64::from(ball.spread))
+            });
             BlockLevels::around(&own, &parents, longest.fold(0.0, f64::max))
         });
-        Self { words, blocks: blocks.collect() }
+        let blocks = blocks.collect();
+        Self { words, blocks }
     }
 }
 
-/// The parents of the splats of a word, each with the bits of its children.
-fn parents(leveled: &Leveled, levels: ChunkLevels, numbers: &[usize]) -> Vec<(ErrorBall, u32)> {
-    let mut parents: Vec<(u32, u32)> = Vec::new();
-    for (bit, number) in numbers.iter().enumerate() {
-        let parent = leveled.parent(levels, *number);
-        match parents.iter_mut().find(|(other, _)| *other == parent) {
-            Some((_, children)) => *children |= 1 << bit,
-            None => parents.push((parent, 1 << bit)),
+/// Of each kind of lists where that of each word begins, and where the last one ends; then single balls; then the lists.
+fn push_lists(words: &mut Vec<u32>, kinds: &[&[Vec<Shared>]], single: &[ErrorBall]) {
+    let starts: usize = kinds.iter().map(|lists| lists.len() + 1).sum();
+    let mut next = starts + BALL_WORDS * single.len();
+    for lists in kinds {
+        words.push(next as u32);
+        for list in *lists {
+            next += (BALL_WORDS + 1) * list.len();
+            words.push(next as u32);
         }
     }
-    parents.into_iter().map(|(parent, children)| (leveled.ball(parent), children)).collect()
+    single.iter().for_each(|ball| push_ball(words, ball));
+    for (ball, splats) in kinds.iter().copied().flatten().flatten() {
+        push_ball(words, ball);
+        words.push(*splats);
+    }
+}
+
+/// The balls of the splats of a word, each once.
+fn shared_balls(leveled: &Leveled, word: &[usize], of: &dyn Fn(usize) -> Vec<u32>) -> Vec<Shared> {
+    let mut shared: Vec<(u32, u32)> = Vec::new();
+    for (bit, number) in word.iter().enumerate() {
+        for ball in of(*number) {
+            match shared.iter_mut().find(|(other, _)| *other == ball) {
+                Some((_, splats)) => *splats |= 1 << bit,
+                None => shared.push((ball, 1 << bit)),
+            }
+        }
+    }
+    shared.into_iter().map(|(ball, splats)| (leveled.ball(ball), splats)).collect()
 }
 
 fn push_ball(words: &mut Vec<u32>, ball: &ErrorBall) {

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::{
     geometry::hierarchy::by_spread,
-    scene::{ErrorBall, LeveledObject, NodeBalls, Object, Opacity, Splats},
+    scene::{ErrorBall, HybridLevels, LeveledObject, NodeBalls, Object, Opacity, Splats},
     shaders::config::BLOCK_SPLATS,
 };
 
@@ -24,8 +24,26 @@ pub struct LevelSpace {
 pub struct ChunkLevels {
     /// Where balls are told.
     pub space: LevelSpace,
-    /// It holds nodes, which stand for others; else the object's own splats.
-    pub nodes: bool,
+    /// What its splats are.
+    pub part: LevelPart,
+}
+
+/// What splats of a chunk are in a hierarchy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LevelPart {
+    /// The object's own, which nothing takes the place of that is smaller.
+    Own,
+    /// Nodes, which stand for others.
+    Nodes,
+    /// Splats that polygons take the place of where their cells are large.
+    OfCells,
+}
+
+impl LevelPart {
+    /// Whether they are drawn in place of what is smaller: they have balls of their own.
+    pub fn stands_for_others(self) -> bool {
+        self != Self::Own
+    }
 }
 
 /// The bounds of what decides about the splats of a block, in the space of levels. Distances are from `center`.
@@ -37,7 +55,7 @@ pub struct BlockLevels {
     pub own: BallBounds,
     /// Of their parents'.
     pub parent: BallBounds,
-    /// No splat's larger half axis is more times its own ball's spread; 0 where they are the object's.
+    /// No splat's larger half axis is more times the spread of a ball of its own; 0 where they are the object's.
     pub longest: f64,
     /// Of the splats' own spreads, from the least on, those at each `RANK`th place behind the first; infinite behind the last.
     pub least_own: [f32; RANKS],
@@ -70,6 +88,8 @@ pub(super) struct Leveled {
     pub leaves: Object,
     /// Their parents' balls.
     leaf_parents: Vec<u32>,
+    /// Of a hybrid the balls of the cells that each leaf is drawn for.
+    leaf_cells: Vec<Vec<u32>>,
     /// One over the overlap of each, where it is known.
     pub inverse_overlaps: Option<Vec<f32>>,
     /// The nodes.
@@ -84,17 +104,25 @@ pub(super) struct Leveled {
     pub overlap: f64,
 }
 
+impl LevelSpace {
+    /// A ball in it.
+    pub(super) fn ball(&self, ball: &ErrorBall) -> ErrorBall {
+        let scale = self.scale as f32;
+        ErrorBall { center: scale * ball.center, radius: scale * ball.radius, spread: scale * ball.spread }
+    }
+}
+
 impl ChunkLevels {
     /// Bytes of a scene that a splat takes in levels of detail, beside its own: what finds its parent, of a node its balls, too.
     pub fn scene_bytes_each(&self) -> u64 {
-        if self.nodes { 56 } else { 8 }
+        if self.part == LevelPart::Nodes { 56 } else { 8 }
     }
 }
 
 impl Leveled {
     /// What there is of an object in levels. `numbers`: of its own splats in the object as it came, where they are known.
-    pub fn of(object: &LeveledObject, numbers: Option<&[u32]>) -> Self {
-        let unit = object.radius.log2().ceil().clamp(-100.0, 100.0).exp2();
+    /// `hybrid`: whose splats these are.
+    pub fn of(object: &LeveledObject, numbers: Option<&[u32]>, hybrid: Option<&HybridLevels>) -> Self {
         let spread = |ball: u32| object.balls[ball as usize].spread;
         let sorted = |count: usize, parent: &dyn Fn(usize) -> u32| -> Vec<usize> {
             let sorted = by_spread(count, |i| spread(parent(i)));
@@ -104,9 +132,15 @@ impl Leveled {
         let nodes = sorted(object.nodes.len(), &|i| object.node_balls[i].parent);
         let of = |splats: Splats| Object { name: object.name.clone(), splats, closed: object.closed };
         Self {
-            space: LevelSpace { origin: object.origin, scale: unit.recip() },
+            space: Self::space(object),
             balls: object.balls.clone(),
             leaf_parents: leaves.iter().map(|i| object.leaf_parents[*i]).collect(),
+            leaf_cells: hybrid.map_or_else(Vec::new, |hybrid| {
+                let balls = |i: &usize| {
+                    hybrid.cells_of_leaf(*i).iter().map(|cell| hybrid.ball_of_cell(*cell)).collect()
+                };
+                leaves.iter().map(balls).collect()
+            }),
             inverse_overlaps: object
                 .inverse_overlaps
                 .as_ref()
@@ -121,44 +155,59 @@ impl Leveled {
         }
     }
 
-    /// What a chunk of it holds.
+    /// The space in which the balls of an object are told.
+    pub fn space(object: &LeveledObject) -> LevelSpace {
+        let unit = object.radius.log2().ceil().clamp(-100.0, 100.0).exp2();
+        LevelSpace { origin: object.origin, scale: unit.recip() }
+    }
+
+    /// What a chunk of its nodes, or of its leaves, holds.
     pub fn chunk(&self, nodes: bool) -> ChunkLevels {
-        ChunkLevels { space: self.space, nodes }
+        let of_leaves = if self.leaf_cells.is_empty() { LevelPart::Own } else { LevelPart::OfCells };
+        ChunkLevels { space: self.space, part: if nodes { LevelPart::Nodes } else { of_leaves } }
     }
 
     /// What splat `i` of the leaves or the nodes weighs.
     pub fn weight(&self, levels: ChunkLevels, i: usize) -> f64 {
-        if levels.nodes { self.weights[i].into() } else { 1.0 }
+        if levels.part == LevelPart::Nodes { self.weights[i].into() } else { 1.0 }
     }
 
     /// The number of the parent of splat `i` of the leaves or the nodes.
     pub fn parent(&self, levels: ChunkLevels, i: usize) -> u32 {
-        if levels.nodes { self.node_balls[i].parent } else { self.leaf_parents[i] }
+        if levels.part == LevelPart::Nodes { self.node_balls[i].parent } else { self.leaf_parents[i] }
     }
 
-    /// The ball of node `i`, in the space of levels.
-    pub fn own_ball(&self, i: usize) -> ErrorBall {
-        self.ball(self.node_balls[i].own)
+    /// The numbers of the balls of splat `i` of the leaves or the nodes that are its own: one of them has to be small.
+    pub fn own_balls(&self, levels: ChunkLevels, i: usize) -> &[u32] {
+        match levels.part {
+            LevelPart::Own => &[],
+            LevelPart::Nodes => std::slice::from_ref(&self.node_balls[i].own),
+            LevelPart::OfCells => &self.leaf_cells[i],
+        }
     }
 
-    /// The ball of a parent, in the space of levels.
+    /// The larger half axis of splat `i` of the leaves or the nodes, in the space of levels.
+    pub fn half_axis(&self, levels: ChunkLevels, i: usize) -> f64 {
+        let of = if levels.part == LevelPart::Nodes { &self.nodes } else { &self.leaves };
+        of.splats.major_radius(i) * self.space.scale
+    }
+
+    /// The ball with this number, in the space of levels.
     pub fn ball(&self, number: u32) -> ErrorBall {
-        let scale = self.space.scale as f32;
-        let ErrorBall { center, radius, spread } = self.balls[number as usize];
-        ErrorBall { center: scale * center, radius: scale * radius, spread: scale * spread }
+        self.space.ball(&self.balls[number as usize])
     }
 }
 
 impl BlockLevels {
-    /// How many splats at most have own spreads up to the one length and parents' spreads above the other. `nodes`: they have own ones.
-    pub fn most_between(&self, nodes: bool, own: f64, parent: f64, count: u32) -> u32 {
+    /// How many splats at most have own spreads up to the one length and parents' spreads above the other. `has_own`: they have own ones.
+    pub fn most_between(&self, has_own: bool, own: f64, parent: f64, count: u32) -> u32 {
         let up_to = |place: Option<usize>| place.map_or(count, |place| ((place + 1) * RANK) as u32);
-        let of_own = self.least_own.iter().position(|spread| nodes && f64::from(*spread) > own);
+        let of_own = self.least_own.iter().position(|spread| has_own && f64::from(*spread) > own);
         let of_parents = self.largest_parents.iter().position(|spread| f64::from(*spread) <= parent);
         up_to(of_own).min(up_to(of_parents)).min(count)
     }
 
-    /// Around the balls of some splats and their parents, each with how many of these splats are its children.
+    /// Around all balls of some splats, and their parents', each with how many of these splats are its children.
     pub(crate) fn around(own: &[ErrorBall], parents: &[(ErrorBall, u32)], longest: f64) -> Self {
         let mut least: Vec<f32> = own.iter().map(|ball| ball.spread).collect();
         least.sort_unstable_by(f32::total_cmp);
@@ -225,8 +274,8 @@ mod tests {
     fn overlaps_are_those_of_the_splats_as_they_lie() {
         let object = |splats| Object { name: String::new(), splats, closed: false };
         let splats = random_ellipses(2000, 1.0, 5);
-        let whole = Hierarchy::build(&splats, &()).unwrap().leveled(object(splats));
-        let leveled = Leveled::of(&whole, None);
+        let whole = Hierarchy::build(&splats, &()).unwrap().leveled(object(splats), None);
+        let leveled = Leveled::of(&whole, None, None);
         let (known, found) =
             (leveled.inverse_overlaps.unwrap(), Overlaps::of(&leveled.leaves.splats).inverse);
         let ratio = f64::from(known[0] / found[0]);

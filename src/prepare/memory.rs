@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// The descriptor set of a chunk: binding 0 shapes, binding 1 colors, binding 2 levels of detail or a mesh's
-/// indices, binding 3 clip curves.
+/// indices, binding 3 clip curves or a mesh's cells.
 pub struct SplatSetLayout(SetLayout);
 
 impl SplatSetLayout {

@@ -10,6 +10,7 @@ use glam::Vec3;
 
 use super::{
     memory::{ChunkMemory, Uploader},
+    mesh_levels::{CellWords, MeshLevels},
     pack::packed_color,
     rebase::Rebase,
     sites::HOME,
@@ -47,7 +48,9 @@ pub struct MeshChunk {
     mean_edge: f64,
     /// The longest edge, world space.
     pub(crate) longest_edge: f64,
-    /// Vertices, colors, indices, but where a frame is only listed.
+    /// Its cells, if it is drawn cell by cell.
+    pub(crate) levels: Option<MeshLevels>,
+    /// Vertices, colors, indices, cells, but where a frame is only listed.
     memory: Option<ChunkMemory>,
 }
 
@@ -137,27 +140,42 @@ impl PackedMesh {
         edges.map(move |[a, b]| corner(a).distance(corner(b)) / self.rebase.scale)
     }
 
+    /// Its local space.
+    pub fn rebase(&self) -> &Rebase {
+        &self.rebase
+    }
+
     /// Nothing of it can be drawn.
     pub fn is_empty(&self) -> bool {
         self.indices.is_empty()
     }
 
     /// Buffers of device memory with all of it.
-    fn upload(&self, uploader: &mut Uploader<'_>, number: usize) -> Result<ChunkMemory> {
+    fn upload(
+        &self,
+        uploader: &mut Uploader<'_>,
+        number: usize,
+        cells: Option<&[u32]>,
+    ) -> Result<ChunkMemory> {
         let buffer = |what: &str, size: usize, usage: vk::BufferUsageFlags| {
             uploader.buffer(&format!("{what} of mesh {number}"), size as u64, usage)
         };
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let contents: [&[u8]; 3] = [
+        let mut contents: Vec<&[u8]> = vec![
             bytemuck::cast_slice(&self.vertices),
             bytemuck::cast_slice(&self.colors),
             bytemuck::cast_slice(&self.indices),
         ];
-        let buffers = vec![
+        let mut buffers = vec![
             buffer("vertices", contents[0].len(), storage)?,
             buffer("colors", contents[1].len(), storage)?,
             buffer("indices", contents[2].len(), vk::BufferUsageFlags::INDEX_BUFFER | storage)?,
         ];
+        if let Some(cells) = cells {
+            contents.push(bytemuck::cast_slice(cells));
+            buffers.push(buffer("cells", contents[3].len(), storage)?);
+        }
+        let named = buffers.len();
         for (buffer, content) in buffers.iter().zip(contents) {
             for (i, batch) in content.chunks(BATCH_BYTES).enumerate() {
                 let mut staging = Staging::new(uploader.device, "upload of a mesh", batch.len() as u64)?;
@@ -165,18 +183,19 @@ impl PackedMesh {
                 (uploader.submit)(staging)?;
             }
         }
-        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers, 3)
+        ChunkMemory::new(uploader, &format!("mesh {number}"), buffers, named)
     }
 }
 
 impl MeshChunk {
-    /// Puts a piece of an object on the device, if there is one; it has one triangle at least.
+    /// Puts a piece of an object on the device, if there is one, with its cells; it has one triangle at least.
     pub(super) fn new(
         uploader: Option<&mut Uploader<'_>>,
         number: usize,
         (closed, transparent): (bool, bool),
-        packed: &PackedMesh,
+        (packed, cells): (&PackedMesh, Option<CellWords>),
     ) -> Result<Self> {
+        let words = cells.as_ref().map(|cells| cells.words.as_slice());
         Ok(Self {
             object: 0,
             numbers: None,
@@ -189,7 +208,8 @@ impl MeshChunk {
             farthest: packed.farthest(),
             mean_edge: packed.edges().sum::<f64>() / (3 * packed.indices.len()) as f64,
             longest_edge: packed.edges().fold(0.0, f64::max),
-            memory: uploader.map(|uploader| packed.upload(uploader, number)).transpose()?,
+            memory: uploader.map(|uploader| packed.upload(uploader, number, words)).transpose()?,
+            levels: cells.map(|cells| cells.levels),
         })
     }
 

@@ -139,7 +139,7 @@ pub(super) fn surfaces(frame: &Frame, ray: DVec3, front: &Front, mut fragments: 
         let of_surface: Vec<_> = layer
             .iter()
             .filter(|fragment| {
-                let behind = (fragment.z * fragment.z / fragment.z_shifted - threshold) / threshold;
+                let behind = (fragment.z / splat_of(fragment).toward_polygon - threshold) / threshold;
                 if polygon_z.is_finite() {
                     seen.margin = seen.margin.min(behind.abs());
                 }

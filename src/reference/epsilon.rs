@@ -10,6 +10,17 @@ pub(super) enum EpsilonRule {
     Radii(f64, Option<Vec<f64>>),
 }
 
+/// Where edges are not hard, ε of what is seen slanted is many radii. Toward a polygon it counts no more than as many radii of the image as it would have
+/// without that: what is behind a polygon is not to be seen through it. An ε that has a length is not made larger.
+pub(super) fn polygon_reach(scene: &Scene, settings: &Settings) -> f64 {
+    let of_object = |object: usize| match scene.epsilon(object, settings) {
+        Epsilon::Length(_) => f64::INFINITY,
+        Epsilon::Radii(radii) => radii.max(1.0),
+        Epsilon::Auto => 1.0,
+    };
+    (0..scene.objects.len()).map(of_object).fold(0.0, f64::max)
+}
+
 impl EpsilonRule {
     pub fn of(scene: &Scene, object: usize, settings: &Settings, opacity: Opacity) -> Self {
         match scene.epsilon(object, settings) {

@@ -1,6 +1,6 @@
 //! From a pixel to a splat: the depth and the splat's own radius there.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::affine::ImageEllipse;
 use super::ewa::Stretched;
@@ -17,6 +17,18 @@ pub(super) enum Map {
     Affine(ImageEllipse),
     /// An affine map with the low-pass filter added, and depths of its own.
     Stretched(Stretched),
+}
+
+impl Map {
+    /// How large the ellipse in the image plane is: the root of the sum of the squares of both axes. `axes`: the images of the tangent vectors.
+    pub fn size(&self, [s, t]: [DVec2; 2]) -> f64 {
+        let [a, b] = match self {
+            Self::Projective => [s.length(), t.length()],
+            Self::Affine(ellipse) => ellipse.lengths,
+            Self::Stretched(stretched) => stretched.ellipse.lengths,
+        };
+        a.hypot(b)
+    }
 }
 
 /// Where a pixel lies on a splat, inside the disk or not.

@@ -23,7 +23,7 @@
 //!
 //! Planes that cut what is seen leave out of all fragments, of polygons too, those that are on their other side (`planes`).
 //!
-//! Which levels of detail a view has is found by walking down from the root (`selection`).
+//! Which levels of detail a view has is found by walking down from the root (`selection`); of a mesh, which of its cells are polygons (`hybrid_selection`).
 //!
 //! **Spaces.** View space: eye at the origin, x right, y down, z forward. Image plane `z = 1`:
 //! `x = (column + ½ − width/2) / focal`, y alike with rows, from the top.
@@ -46,6 +46,7 @@ mod filter;
 mod fragment;
 mod front;
 mod ground_truth;
+mod hybrid_selection;
 mod intersect;
 mod kernel;
 mod layers;
@@ -80,6 +81,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub use clip::removes;
 pub use edges::Edge;
 pub use ground_truth::{MOST_SAMPLES_PER_SIDE, ground_truth};
+pub use hybrid_selection::{HybridChoice, hybrid_choice};
 pub use pick::{Candidate, Picker};
 pub use picture::{Picture, Pixel};
 pub use selection::{Culling, Walk};

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::affine::ImageEllipse;
 use super::covering::{Covering, covers_in_part};
 use super::drawn_clip::DrawnClip;
-use super::epsilon::EpsilonRule;
+use super::epsilon::{EpsilonRule, polygon_reach};
 use super::ewa::Stretched;
 use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
@@ -52,6 +52,8 @@ pub(super) struct DrawnSplat {
     pub transparent: bool,
     /// The depth of the visibility test is this times the fragment's own; at least 1.
     pub shift: f64,
+    /// The same toward a polygon, where edges are not hard.
+    pub toward_polygon: f64,
     /// How the image is mapped onto it.
     pub map: Map,
     /// The factor of the kernel's value, above 0 and at most 1; coverage does not depend on it.
@@ -100,6 +102,7 @@ const EDGE_LENGTHENING: f64 = 16.0;
 pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<DrawnSplat>, DefectCounts) {
     let mut drawn = Vec::new();
     let mut defects = DefectCounts::default();
+    let reach = polygon_reach(scene, settings);
     for (number, object) in scene.objects.iter().enumerate() {
         let opacity = object.splats.colors.opacity();
         let cull = culls(settings, object.closed, opacity);
@@ -114,7 +117,7 @@ pub(super) fn prepare(scene: &Scene, view: &View, settings: &Settings) -> (Vec<D
             defects.add(defect);
             if defect.is_none() && opacity != Opacity::Invisible {
                 let overlap = overlaps.as_ref().map(|overlaps| overlaps[i]);
-                let splat = prepare_one(object, i, (cull, opacity, overlap), &rule, view, settings);
+                let splat = prepare_one(object, i, (cull, opacity, overlap), (&rule, reach), view, settings);
                 let transparent = opacity == Opacity::Transparent;
                 drawn.extend(splat.map(|splat| DrawnSplat { source: [number, i], transparent, ..splat }));
             }
@@ -159,7 +162,7 @@ fn prepare_one(
     object: &Object,
     i: usize,
     (cull, opacity, overlap): (bool, Opacity, Option<f64>),
-    rule: &EpsilonRule,
+    (rule, polygon_reach): (&EpsilonRule, f64),
     view: &View,
     settings: &Settings,
 ) -> Option<DrawnSplat> {
@@ -226,6 +229,7 @@ fn prepare_one(
         Map::Affine(ellipse) => ellipse.lengths[1],
         Map::Stretched(stretched) => stretched.ellipse.lengths[1],
     };
+    let image_size = map.size([projected(center, s), projected(center, t)]);
     let low_pass = (in_front && settings.filter == Filter::Max).then(|| LowPass {
         center: center.truncate() / center.z,
         radius: h,
@@ -254,6 +258,7 @@ fn prepare_one(
         alpha: alpha.clamp(0.0, 1.0),
         transparent: false,
         shift,
+        toward_polygon: shift.min(1.0 + polygon_reach * image_size),
         map,
         share: share / overlap.filter(|_| settings.weighs_splats()).unwrap_or(1.0),
         covering: overlap.map(|overlap| Covering {

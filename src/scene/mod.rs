@@ -15,6 +15,7 @@ mod crop;
 mod encoding;
 mod gather;
 mod host_camera;
+mod hybrid;
 mod layers;
 mod level_settings;
 mod levels;
@@ -48,6 +49,7 @@ pub use colors::{Colors, UNKNOWN_SRGB};
 pub use crop::{Crop, CropView};
 pub use encoding::{Encoding, Stops, Tonemap};
 pub use host_camera::{DepthOfHost, HostCamera};
+pub use hybrid::{HybridLevels, PolygonCell};
 pub use layers::{Layers, MOST_LAYERS};
 pub use levels::{ErrorBall, LeveledObject, NodeBalls};
 pub use light::{Light, LightKind, MOST_LIGHTS};
@@ -125,6 +127,8 @@ pub struct Scene {
     pub numbered: bool,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
+    /// Levels of detail of meshes, at most one of each.
+    pub hybrids: Vec<HybridLevels>,
 }
 
 impl Scene {

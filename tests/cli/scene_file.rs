@@ -85,6 +85,37 @@ fn the_examples_load() {
     assert_eq!(run.stderr.lines().filter(|line| *line == expected).count(), 1, "{}", run.stderr);
 }
 
+/// By the option and by a scene file; polygons near the eye, splats afar; what is transparent is refused by name.
+#[test]
+fn a_mesh_is_polygons_or_splats_as_the_view_has_it() {
+    let folder = folder();
+    let ball = |alpha: f64| {
+        format!(
+            "[[object]]\nbuiltin = \"sphere\"\nrepresentation = \"hybrid\"\ntriangles = 5000\nalpha = {alpha}\n"
+        )
+    };
+    folder.write("ball.toml", &ball(1.0));
+    folder.write("glass.toml", &ball(0.5));
+    let run = drawn(&folder, &["render", "ball.toml", "--explain"]);
+    let said = run.stderr.lines().next().unwrap_or_default();
+    assert!(
+        said.contains(" cells and ") && said.contains("triangles or splats, as the view has it"),
+        "{said}"
+    );
+    let explained = |run: &Run| run.stdout.clone() + &run.stderr;
+    assert!(explained(&run).contains("choose polygons"), "{}", explained(&run));
+    let without = drawn(&folder, &["render", "ball.toml", "--lod", "0", "--explain"]);
+    assert!(!explained(&without).contains("choose polygons"), "{}", explained(&without));
+    let glass = surfel(&folder, &["render", "glass.toml"]);
+    assert!(
+        glass.code == 1 && glass.stderr.contains("transparent; expected an opaque mesh"),
+        "{}",
+        glass.stderr
+    );
+    let disk = surfel(&folder, &["render", "disk.ply", "--representation", "hybrid"]);
+    assert!(disk.stderr.contains("disk.ply: the file holds splats; expected a mesh"), "{}", disk.stderr);
+}
+
 #[test]
 fn faults_are_told_in_one_line_with_their_place() {
     let folder = folder();
@@ -112,7 +143,7 @@ fn faults_are_told_in_one_line_with_their_place() {
         (&["hybrid.toml"], "disk.ply: the file holds splats; expected a mesh, to draw its triangles"),
         (&["same.toml", "--timings", "disk.ply"], "disk.ply: is an input, or written twice"),
         (&["same.toml", "--timings", "./same.toml"], "./same.toml: is an input, or written twice"),
-        (&["--representation", "points"], "[possible values: auto, splats, mesh]"),
+        (&["--representation", "points"], "[possible values: auto, splats, mesh, hybrid]"),
     ];
     for (arguments, expected) in cases {
         let run = surfel(&folder, &[&["render"], arguments].concat());

@@ -6,14 +6,14 @@ use crate::common::{
     scenes::{self, Hard, transparent},
     shared, with,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use surfel::{
     math::srgb::linear_from_srgb,
     reference::ground_truth,
     renderer::{Headless, Wanted},
     scene::{
-        Edges, Epsilon, Filter, FilterWeight, Kernel, Rasterizer, Settings, Shading, TileInvocations,
-        Transition,
+        Colors, Edges, Epsilon, Filter, FilterWeight, Kernel, Mesh, MeshObject, Rasterizer, Settings,
+        Shading, TileInvocations, Transition,
     },
     selftest::{light::compare_light, tolerance::LIGHT},
 };
@@ -122,6 +122,43 @@ fn splats_cover_polygons_behind_them_in_part() {
     for transition in [Transition::Color, Transition::None] {
         agrees(&mut headless, &covering(transparent::hybrid(transition)), 1_000);
     }
+}
+
+/// The long epsilon of slanted splats is of the surface that is seen: a floor seen all but from its edge, far behind a wall of polygons, is not.
+#[test]
+fn what_is_far_behind_polygons_is_not_seen_through_them() {
+    let mut headless = shared();
+    let wall = |with_floor: bool| {
+        let mut builder = builder::Builder::default();
+        for i in 0..(if with_floor { 4000 } else { 1 }) {
+            // One lies beside the wall, so that there are splats in either.
+            let at = match i {
+                0 => DVec3::new(0.0, 0.9, 0.0),
+                _ => DVec3::new(
+                    -0.8 + 0.02 * f64::from(i % 80),
+                    0.02 * f64::from(i % 7 - 3),
+                    -0.4 - 0.01 * f64::from(i / 80),
+                ),
+            };
+            let normal = if i == 0 { DVec3::Z } else { DVec3::new(0.0, 1.0, 0.01) };
+            builder.disk(at, normal, 0.02, [0.9, 0.1, 0.1, 1.0]);
+        }
+        let corners = [[-1.0, -0.6], [1.0, -0.6], [1.0, 0.6], [-1.0, 0.6]];
+        let mesh = Mesh {
+            positions: corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            normals: Some(vec![Vec3::Z; 4]),
+            colors: Colors::Uniform([0.1, 0.2, 0.8, 1.0]),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        };
+        let mut scene = builder.scene(false);
+        scene.meshes.push(MeshObject { name: "wall".to_owned(), mesh, closed: false });
+        covering(Hard::seen_from([0.0, 0.0, 3.0], "a floor behind a wall", scene))
+    };
+    let [without, with_floor] = [false, true].map(|floor| wall(floor));
+    let pictures = [&without, &with_floor].map(|hard| render_as(&mut headless, hard, PICTURE).linear);
+    let red = pictures[1].iter().zip(&pictures[0]).filter(|(a, b)| (a[0] - b[0]).abs() > 1e-3).count();
+    assert_eq!(red, 0, "pixels in which the floor is seen");
+    agrees(&mut headless, &with_floor, 1000);
 }
 
 /// The long epsilon of slanted splats takes both sides of something thin for one surface, unless each is one by itself.

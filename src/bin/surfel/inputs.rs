@@ -57,6 +57,8 @@ enum Primitives {
     Splats,
     /// The triangles of a mesh
     Mesh,
+    /// The triangles of a mesh where its splats would be larger on the screen than --lod, else splats
+    Hybrid,
 }
 
 /// Files, and how they are to be taken.
@@ -90,6 +92,7 @@ impl InputArguments {
                 Primitives::Auto => Representation::Auto,
                 Primitives::Splats => Representation::Splats,
                 Primitives::Mesh => Representation::Mesh,
+                Primitives::Hybrid => Representation::Hybrid { polygons: None, sample_edges: true },
             },
             samples: self.resample.map(|count| Samples { count, seed: self.seed.unwrap_or(0) }),
             options: LoadOptions {

@@ -161,8 +161,9 @@ fn describe(inputs: &Inputs) -> Result<Described> {
     let (representation, samples) = (inputs.representation, inputs.samples);
     let built_in = "the built-in model is made of splats; expected an input";
     match (inputs.files.is_empty(), representation, samples) {
-        (true, Representation::Mesh, _) => {
-            return Err(Error::option("--representation", format!("mesh: {built_in}")));
+        (true, Representation::Mesh | Representation::Hybrid { .. }, _) => {
+            let name = if representation == Representation::Mesh { "mesh" } else { "hybrid" };
+            return Err(Error::option("--representation", format!("{name}: {built_in}")));
         }
         (true, _, Some(_)) => return Err(Error::option("--resample", built_in)),
         (_, Representation::Mesh, Some(_)) => {

@@ -34,7 +34,8 @@ clip_box, clip_planes      as the options: six numbers; arrays of four
                            others
   polygons                 of a hybrid, which triangles stay: { plane = [nx, ny, nz, d] }: those
                            whose middle x has n.x >= d, or { longer_than = LENGTH }: those with a
-                           longer edge; before the object is placed
+                           longer edge; before the object is placed; without, the view decides:
+                           those whose splats would be larger on the screen than --lod
   sample_edges = true      of a hybrid: splats on the edges where both meet, for a smooth seam
   resample                 of a mesh: so many splats, spread evenly, not a disk at each vertex; a
                            hybrid always does, with the number of its splat part's vertices

@@ -88,7 +88,8 @@ fn angle_over(chord_square: f32) -> f64 {
     if half_chord < 0.99 { 2.0 * half_chord.asin() } else { std::f64::consts::PI }
 }
 
-fn rounded_up(value: f64) -> f32 {
+/// The next f32 that is no less.
+pub fn rounded_up(value: f64) -> f32 {
     let nearest = value as f32;
     if f64::from(nearest) < value { nearest.next_up() } else { nearest }
 }

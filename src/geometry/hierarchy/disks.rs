@@ -51,7 +51,7 @@ impl Disk {
 }
 
 /// With `s × t` along the normal. Those of a disk are rounded to f32, half a step of which no bound here is too small for.
-fn tangents(shapes: &Shapes, i: usize) -> (Vec3, Vec3) {
+pub(super) fn tangents(shapes: &Shapes, i: usize) -> (Vec3, Vec3) {
     match shapes {
         Shapes::Disks { normals, radii } => {
             let (s, t) = normals[i].as_dvec3().normalize().any_orthonormal_pair();

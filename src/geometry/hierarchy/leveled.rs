@@ -24,14 +24,14 @@ pub fn by_spread(count: usize, spread: impl Fn(usize) -> f32) -> Vec<(u32, i32)>
 
 impl Hierarchy {
     /// What a frame may draw, of an object from whose splats this was built, without defects. The balls of nodes are as they are numbered; one
-    /// more is that above the root.
-    pub fn leveled(self, object: Object) -> LeveledObject {
+    /// more is that above the root. `left`: what clips leave of its splats, where there are any.
+    pub fn leveled(self, object: Object, left: Option<&Splats>) -> LeveledObject {
         let Object { name, splats, closed } = object;
         let above = self.tree.len() as u32;
         let mut balls: Vec<ErrorBall> = self.bounds.iter().map(|bounds| bounds.error).collect();
         balls.push(ErrorBall::ABOVE_ROOT);
         let overlaps = Overlaps::of(&splats);
-        let weights = self.weights(&splats, (&overlaps, overlaps.mean));
+        let weights = self.weights(left.unwrap_or(&splats), (&overlaps, overlaps.mean));
         let own = (0..).zip(&self.tree);
         LeveledObject {
             name,

@@ -12,6 +12,7 @@
 //! never larger than its parent's, from wherever it is seen.
 
 mod bounds;
+mod clipped;
 mod disks;
 mod ellipse;
 mod farthest;
@@ -31,7 +32,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 pub use crate::scene::ErrorBall;
+pub(crate) use bounds::rounded_up;
 pub use bounds::{Bounds, NormalCone};
+pub use clipped::left_by_clips;
 pub use leveled::by_spread;
 pub use select::{Projection, Selection};
 pub use top::{Child, PartSums, Top, TopNode};
@@ -110,7 +113,7 @@ impl Hierarchy {
     /// Memory while it is built: 64 bytes a splat and 250 a node, of which there are a third as many on surfaces, and fewer always.
     ///
     /// # Errors
-    /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`] or a clip curve, a coordinate or radius above
+    /// [`crate::error::ErrorKind::Input`] for a splat with a [`crate::scene::Defect`] or a clip curve ([`left_by_clips`] has none), a coordinate or radius above
     /// [`LARGEST_COORDINATE`], and more than 2³² − 1 splats.
     pub fn build(splats: &Splats, progress: &dyn Progress) -> Result<Self> {
         Self::build_around(splats, None, progress)
@@ -176,7 +179,7 @@ fn check(splats: &Splats) -> Result<()> {
     if !splats.clips.is_empty() {
         let clipped = splats.clips.count();
         return refused(format!(
-            "{clipped} with clip curves, of which no node takes account; expected none for levels of detail"
+            "{clipped} with clip curves, of which no node takes account; expected what they leave of splats"
         ));
     }
     let unusable = (0..splats.len()).into_par_iter().find_first(|&i| {

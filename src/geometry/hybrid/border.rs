@@ -1,6 +1,6 @@
-//! Where the part of a mesh that stays polygons meets the part that becomes splats.
+//! Where parts of a mesh meet: that which stays polygons and that which becomes splats, or cells of which either may be drawn.
 //!
-//! An edge is a **transition edge** if a triangle of each part has it. Triangles have it in common if they name the same
+//! An edge is a **transition edge** if triangles of two parts have it. Triangles have it in common if they name the same
 //! two vertices. Many files repeat vertices, for instance where normals or colors jump; there every edge is one of one
 //! triangle only. Such edges, and no others, are also compared by the positions of their ends, bit by bit (−0 is 0). So
 //! two sheets that touch along an edge that is inside both stay apart.
@@ -33,12 +33,14 @@ pub(super) struct Joint {
 }
 
 /// A transition edge.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Edge {
     /// Numbers of joints, the lower one first.
     pub ends: [usize; 2],
-    /// The unit normal of a triangle of the splat part, for where the joints' normals cancel.
+    /// The unit normal of a triangle of the first part, for where the joints' normals cancel.
     pub face: DVec3,
+    /// The parts whose triangles have it, rising.
+    pub parts: Vec<u32>,
 }
 
 /// An edge as one triangle has it.
@@ -52,29 +54,29 @@ struct Side {
 }
 
 impl Border {
-    /// The border of a mesh without degenerate triangles that has normals; `polygon[i]`: triangle i stays one.
-    pub(super) fn of(mesh: &Mesh, polygon: &[bool]) -> Self {
+    /// The borders in a mesh without degenerate triangles that has normals; `part[i]`: that of triangle i.
+    pub(super) fn of(mesh: &Mesh, part: &[u32]) -> Self {
         let first = first_at_place(&mesh.positions);
-        let mut sides = sides(mesh, polygon, &first);
+        let mut sides = sides(mesh, part, &first);
         let mut border = Vec::new();
         sides.sort_unstable_by_key(|side| (side.vertices, side.triangle));
         let mut alone = Vec::new();
         for group in sides.chunk_by(|a, b| a.vertices == b.vertices) {
             match group {
                 [side] => alone.push(*side),
-                _ if is_transition(group, polygon) => border.extend_from_slice(group),
+                _ if is_transition(group, part) => border.extend_from_slice(group),
                 _ => {}
             }
         }
         alone.sort_unstable_by_key(|side| (side.places, side.triangle));
         let groups = alone.chunk_by(|a, b| a.places == b.places);
-        border.extend(groups.filter(|group| is_transition(group, polygon)).flatten());
+        border.extend(groups.filter(|group| is_transition(group, part)).flatten());
         border.sort_unstable_by_key(|side| (side.places, side.triangle));
-        Self::from_sides(mesh, polygon, &first, &border)
+        Self::from_sides(mesh, part, &first, &border)
     }
 
     /// `sides` are sorted by places.
-    fn from_sides(mesh: &Mesh, polygon: &[bool], first: &[u32], sides: &[Side]) -> Self {
+    fn from_sides(mesh: &Mesh, part: &[u32], first: &[u32], sides: &[Side]) -> Self {
         let mut vertices: Vec<[u32; 2]> = sides
             .iter()
             .flat_map(|side| side.vertices)
@@ -87,17 +89,24 @@ impl Border {
         let joints = groups.map(|group| joint(mesh, group)).collect();
         let number = |place: u32| places.partition_point(|&p| p < place);
         let edges = sides.chunk_by(|a, b| a.places == b.places).map(|group| {
-            let of_splats = group.iter().find(|side| !polygon[side.triangle]).unwrap_or(&group[0]);
-            let [a, b, c] = mesh.triangles[of_splats.triangle].map(|v| mesh.positions[v as usize]);
-            Edge { ends: group[0].places.map(number), face: (b - a).cross(c - a).normalize_or_zero() }
+            let of_first = group.iter().min_by_key(|side| part[side.triangle]).unwrap_or(&group[0]);
+            let [a, b, c] = mesh.triangles[of_first.triangle].map(|v| mesh.positions[v as usize]);
+            let face = (b - a).cross(c - a).normalize_or_zero();
+            Edge { ends: group[0].places.map(number), face, parts: parts_of(group, part) }
         });
         Self { edges: edges.collect(), joints }
     }
 }
 
-fn is_transition(group: &[Side], polygon: &[bool]) -> bool {
-    let polygons = group.iter().filter(|side| polygon[side.triangle]).count();
-    (1..group.len()).contains(&polygons)
+fn is_transition(group: &[Side], part: &[u32]) -> bool {
+    group.iter().any(|side| part[side.triangle] != part[group[0].triangle])
+}
+
+fn parts_of(group: &[Side], part: &[u32]) -> Vec<u32> {
+    let mut parts: Vec<u32> = group.iter().map(|side| part[side.triangle]).collect();
+    parts.sort_unstable();
+    parts.dedup();
+    parts
 }
 
 fn joint(mesh: &Mesh, vertices: &[[u32; 2]]) -> Joint {
@@ -116,17 +125,20 @@ fn joint(mesh: &Mesh, vertices: &[[u32; 2]]) -> Joint {
     joint
 }
 
-/// The sides of all edges that may be in transition: both ends are in both parts. The others are most of a mesh.
-fn sides(mesh: &Mesh, polygon: &[bool], first: &[u32]) -> Vec<Side> {
-    let mut parts = vec![0_u8; first.len()];
-    for (triangle, &polygon) in mesh.triangles.iter().zip(polygon) {
-        triangle.iter().for_each(|&vertex| parts[first[vertex as usize] as usize] |= 1 << u8::from(polygon));
+/// The sides of all edges that may be in transition: both ends are in several parts. The others are most of a mesh.
+fn sides(mesh: &Mesh, part: &[u32], first: &[u32]) -> Vec<Side> {
+    let mut of_place: Vec<Option<u32>> = vec![None; first.len()];
+    let mut in_several = vec![false; first.len()];
+    for (triangle, &part) in mesh.triangles.iter().zip(part) {
+        for place in triangle.map(|vertex| first[vertex as usize] as usize) {
+            in_several[place] |= *of_place[place].get_or_insert(part) != part;
+        }
     }
     let mut sides = Vec::new();
     for (triangle, &[a, b, c]) in mesh.triangles.iter().enumerate() {
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let places = sorted(first[from as usize], first[to as usize]);
-            if places.iter().all(|&place| parts[place as usize] == 0b11) {
+            if places.iter().all(|&place| in_several[place as usize]) {
                 sides.push(Side { vertices: sorted(from, to), places, triangle });
             }
         }

@@ -15,11 +15,22 @@ pub(super) struct Place {
     /// Unit; zero only if the face that should stand in for it has none.
     pub normal: DVec3,
     pub color: [f64; 4],
+    /// Where it is.
+    pub on: On,
+}
+
+/// What of a border a place is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum On {
+    /// The edge with this number.
+    Edge(usize),
+    /// The joint with this number.
+    Joint(usize),
 }
 
 /// Edges end to end. It ends where other than two transition edges meet, or where it began.
 struct Chain {
-    /// In the order of walking, with how far it is to each and with the normal of the edge's face before it.
+    /// In the order of walking, with how far it is to each and with the edge before it.
     stops: Vec<Stop>,
 }
 
@@ -27,8 +38,8 @@ struct Stop {
     joint: usize,
     /// Along the chain.
     at: f64,
-    /// The normal of the face of the edge that ends here.
-    face: DVec3,
+    /// The edge that ends here.
+    edge: usize,
 }
 
 /// All transition edges as chains.
@@ -130,9 +141,9 @@ impl<'a> Chains<'a> {
 
     /// The places where chains end.
     fn ends(&self) -> Vec<Place> {
-        let end = |&(joint, face): &(usize, DVec3)| {
-            let joint = &self.border.joints[joint];
-            between(joint, joint, 0.0, face)
+        let end = |&(number, face): &(usize, DVec3)| {
+            let joint = &self.border.joints[number];
+            between((joint, joint), 0.0, face, On::Joint(number))
         };
         self.ends.iter().map(end).collect()
     }
@@ -146,7 +157,7 @@ impl Chain {
         incident: &Incident,
         walked: &mut [bool],
     ) -> Self {
-        let mut stops = vec![Stop { joint, at: 0.0, face: border.edges[edge].face }];
+        let mut stops = vec![Stop { joint, at: 0.0, edge }];
         let mut at = 0.0;
         let mut next = Some(edge);
         while let Some(edge) = next {
@@ -156,7 +167,7 @@ impl Chain {
             let [from, to] = [joint, other].map(|joint| border.joints[joint].position);
             at += from.distance(to);
             joint = other;
-            stops.push(Stop { joint, at, face: border.edges[edge].face });
+            stops.push(Stop { joint, at, edge });
             let onward = incident.edges_of(joint);
             next = onward.iter().copied().find(|&edge| onward.len() == 2 && !walked[edge]);
         }
@@ -184,16 +195,16 @@ impl Chain {
         let (from, to) = (&self.stops[after - 1], &self.stops[after]);
         let [a, b] = [from, to].map(|stop| &border.joints[stop.joint]);
         let t = ((at - from.at) / (to.at - from.at)).clamp(0.0, 1.0);
-        between(a, b, t, to.face)
+        between((a, b), t, border.edges[to.edge].face, On::Edge(to.edge))
     }
 }
 
 /// At the fraction `t` of the way from one joint to another.
-fn between(a: &Joint, b: &Joint, t: f64, face: DVec3) -> Place {
+fn between((a, b): (&Joint, &Joint), t: f64, face: DVec3, on: On) -> Place {
     let normal = a.normal.lerp(b.normal, t);
     let normal = if normal.length() > SHORTEST_NORMAL { normal.normalize() } else { face };
     let color = std::array::from_fn(|channel| a.color[channel] + t * (b.color[channel] - a.color[channel]));
-    Place { position: a.position.lerp(b.position, t), normal, color }
+    Place { position: a.position.lerp(b.position, t), normal, color, on }
 }
 
 /// The edges of each joint.

@@ -70,7 +70,7 @@ fn all_forms_are_read_as_they_were_written() {
         assert_eq!((header.splats, header.up), (object.splats.len() as u64, Some(DVec3::Z)));
         assert_eq!(file.bounds(), object.splats.bounds().unwrap());
         assert_eq!(chosen.pages, header.pages as usize);
-        let truth = Hierarchy::build(&object.splats, &()).unwrap().leveled(object);
+        let truth = Hierarchy::build(&object.splats, &()).unwrap().leveled(object, None);
         assert_same(&chosen.object, &truth);
     }
 }

@@ -134,10 +134,10 @@ pub enum Representation {
     Splats,
     /// The triangles of a mesh.
     Mesh,
-    /// Some triangles of a mesh as they are, splats in place of the others, with a smooth transition.
+    /// Triangles of a mesh, splats in place of the others, with a smooth transition.
     Hybrid {
-        /// Which stay.
-        polygons: Polygons,
+        /// Which stay triangles; else the view decides: where splats would be larger than levels of detail may be.
+        polygons: Option<Polygons>,
         /// Splats are centered on the edges where both meet, as a smooth transition needs it.
         sample_edges: bool,
     },

@@ -73,7 +73,12 @@ fn check_together(table: &Table<'_>, source: &Source, representation: Representa
             table.refuse("resample", why)?;
             table.refuse("epsilon", why)
         }
-        Representation::Hybrid { .. } => Ok(()),
+        Representation::Hybrid { polygons: None, .. } => {
+            let why = "for a hybrid without polygons, of which the view decides";
+            table.refuse("sample_edges", why)?;
+            table.refuse("epsilon", why)
+        }
+        Representation::Hybrid { polygons: Some(_), .. } => Ok(()),
     }
 }
 
@@ -117,10 +122,10 @@ fn representation(table: &Table<'_>) -> Result<Representation> {
     })
 }
 
-/// Which triangles stay polygons.
-fn polygons(table: &Table<'_>) -> Result<Polygons> {
+/// Which triangles stay polygons, where the file says it.
+fn polygons(table: &Table<'_>) -> Result<Option<Polygons>> {
     let Some(polygons) = table.table("polygons", &["plane", "longer_than"])? else {
-        return Err(table.fault("hybrid without polygons; expected which triangles stay polygons"));
+        return Ok(None);
     };
     match (polygons.get("plane"), polygons.get("longer_than")) {
         (Some(plane), None) => {
@@ -128,12 +133,13 @@ fn polygons(table: &Table<'_>) -> Result<Polygons> {
             let [x, y, z, d] = plane.numbers(what, |_| true)?;
             let normal = DVec3::new(x, y, z);
             match normal.try_normalize() {
-                Some(_) => Ok(Polygons::Plane { normal, d }),
+                Some(_) => Ok(Some(Polygons::Plane { normal, d })),
                 None => Err(plane.expected(what)),
             }
         }
         (None, Some(length)) => {
-            length.number("a length, at least 0", |length| length >= 0.0).map(Polygons::LongerThan)
+            let length = length.number("a length, at least 0", |length| length >= 0.0)?;
+            Ok(Some(Polygons::LongerThan(length)))
         }
         _ => Err(polygons.fault("expected plane or longer_than, and not both")),
     }

@@ -100,7 +100,7 @@ fn everything_that_can_be_said() {
     let samples = |count, seed| Some(Samples { count, seed });
     let b = ObjectDescription::of_file(place.path("scene/models/b.obj"));
     let plane = Polygons::Plane { normal: 2.0 * DVec3::Z, d: -1.0 };
-    let hybrid = |polygons, sample_edges| Representation::Hybrid { polygons, sample_edges };
+    let hybrid = |polygons, sample_edges| Representation::Hybrid { polygons: Some(polygons), sample_edges };
     let sphere = ObjectDescription::of_built_in(BuiltIn::Sphere);
     let built_in = |model, splats, triangles| Source::BuiltIn { model, splats, triangles };
     let expected = [

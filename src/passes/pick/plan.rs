@@ -88,6 +88,10 @@ impl<'a> PickPlan<'a> {
         let (transparent, opaque) = all.partition(|draw| draw.chunk.transparent);
         let mut draws = as_drawn(opaque, &frame.opaque);
         draws.extend(as_drawn(transparent, &frame.transparent));
+        // Of hybrids what is picked are polygons, whatever is drawn.
+        let in_cells =
+            |object: usize| scene.meshes.iter().any(|mesh| mesh.levels.is_some() && mesh.object == object);
+        draws.retain(|draw| !in_cells(draw.chunk.object));
         let seen: Vec<_> = draws.iter().map(Draw::potentially_visible_blocks).collect();
         let listed = ListedBlocks::of(&mut draws, &seen, 0..1);
         let mut meshes = mesh_draws(Placed::at_home(scene), (&camera, range), &settings);

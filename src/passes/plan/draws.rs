@@ -143,7 +143,8 @@ pub fn draws<'a>(
             let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
             drawn.map(|block| view.largest_box_px(block, bound.filter_px)).fold(0.0, f64::max)
         };
-        let of_level = levels.as_ref().filter(|view| view.nodes).map_or(f64::INFINITY, of_level);
+        let of_level =
+            levels.as_ref().filter(|view| view.part.stands_for_others()).map_or(f64::INFINITY, of_level);
         let largest_box_px = largest_box_px(&bound).min(of_level);
         let box_of = |step: &RadiusStep| {
             let radius = step.radius * view.view_from_local_scale;
@@ -198,7 +199,7 @@ pub fn draws<'a>(
                     constants.push((SPEC_CLIPS, 1));
                 }
                 if let Some(levels) = levels {
-                    constants.push((SPEC_LEVELS, if levels.nodes { LEVELS_NODES } else { LEVELS_LEAVES }));
+                    constants.push((SPEC_LEVELS, levels.constant()));
                     constants.extend(levels.blends().then_some((SPEC_BLENDED, 1)));
                 }
                 constants

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use crate::{
-    prepare::{BallBounds, BlockLevels, ChunkLevels},
+    prepare::{BallBounds, BlockLevels, ChunkLevels, LevelPart},
     scene::{Camera, Settings},
-    shaders::config::LEVEL_WORDS,
+    shaders::config::{LEVEL_WORDS, LEVELS_LEAVES, LEVELS_NODES, LEVELS_OF_CELLS},
 };
 
 /// What a device finds in f32 of a size may differ from this file's f64 by so much of it.
@@ -23,8 +23,8 @@ pub struct LevelView {
     /// No size is larger than at this distance.
     near: f64,
     is_orthographic: bool,
-    /// The chunk holds nodes.
-    pub nodes: bool,
+    /// What the chunk holds.
+    pub part: LevelPart,
     /// What the image of a length does not exceed, in pixels, that would be 1 of τ in the middle of the picture.
     stretched_px: f64,
 }
@@ -62,9 +62,18 @@ impl LevelView {
             blended_size,
             near: (camera.near() * space.scale).max(1e-30),
             is_orthographic,
-            nodes: levels.nodes,
+            part: levels.part,
             stretched_px: tau_px * stretch,
         })
+    }
+
+    /// What a shader knows its splats as.
+    pub fn constant(&self) -> u32 {
+        match self.part {
+            LevelPart::Own => LEVELS_LEAVES,
+            LevelPart::Nodes => LEVELS_NODES,
+            LevelPart::OfCells => LEVELS_OF_CELLS,
+        }
     }
 
     /// Whether nodes blend with those below them.
@@ -89,11 +98,11 @@ impl LevelView {
         [x, y, z, share, self.near as f32, of_blended, weight_of_share, 0.0].map(f32::to_bits)
     }
 
-    /// What no box of a node of a block exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
+    /// What no box of a node of a block, or a cell's splat, exceeds that is drawn, in pixels, with this filter; infinite of the object's own splats.
     pub fn largest_box_px(&self, block: &BlockLevels, filter_px: f64) -> f64 {
         // Three pixels for rounding, as in `math/size.rs`.
         let px = 2.0 * block.longest * self.stretched_px * self.blended_size;
-        if self.nodes { 1.01 * px.hypot(4.0 * filter_px) + 3.0 } else { f64::INFINITY }
+        if self.part.stands_for_others() { 1.01 * px.hypot(4.0 * filter_px) + 3.0 } else { f64::INFINITY }
     }
 
     /// Between which the largest spreads lie that are small, of balls within bounds, for this share of the focal length.
@@ -113,7 +122,12 @@ impl LevelView {
     pub fn most_drawn(&self, block: &BlockLevels, count: u32) -> u32 {
         let distance = self.eye.distance(block.center);
         let own = self.most(distance, &block.own, self.share_of_blended());
-        block.most_between(self.nodes, own, self.least(distance, &block.parent, self.share), count)
+        block.most_between(
+            self.part.stands_for_others(),
+            own,
+            self.least(distance, &block.parent, self.share),
+            count,
+        )
     }
 
     /// What of a block is drawn.
@@ -126,11 +140,11 @@ impl LevelView {
             self.least(distance, own, self.share_of_blended()),
             self.most(distance, own, self.share_of_blended()),
         ];
-        if parent.spreads[1] <= small_parent || self.nodes && own.spreads[0] > large_own {
+        if parent.spreads[1] <= small_parent || self.part.stands_for_others() && own.spreads[0] > large_own {
             return OfBlock::None;
         }
         let all_parents_are_large = parent.spreads[0] > large_parent;
-        let all_own_are_small = !self.nodes || own.spreads[1] <= small_own;
+        let all_own_are_small = !self.part.stands_for_others() || own.spreads[1] <= small_own;
         if all_parents_are_large && all_own_are_small { OfBlock::All } else { OfBlock::Some }
     }
 }
@@ -168,7 +182,8 @@ mod tests {
             let orthographic_height = (round % 5 == 4).then_some(1.0);
             let camera = Camera { eye, orthographic_height, ..Camera::default() };
             let settings = Settings { lod: Lod::Px(0.5 + 3.0 * random.unit()), ..Settings::default() };
-            let view = LevelView::new(ChunkLevels { space, nodes }, false, &camera, &settings).unwrap();
+            let part = if nodes { LevelPart::Nodes } else { LevelPart::Own };
+            let view = LevelView::new(ChunkLevels { space, part }, false, &camera, &settings).unwrap();
             let size = |ball: &ErrorBall| {
                 let distance = eye.distance(ball.center.as_dvec3()) - f64::from(ball.radius);
                 f64::from(ball.spread) / view.at(distance)

@@ -2,10 +2,10 @@
 
 use crate::passes::{
     pipeline::constants::FrameConstants,
-    plan::{frame_constants::frame_constants, range::DepthRange},
+    plan::{frame_constants::frame_constants, levels::LevelView, range::DepthRange},
 };
 use crate::{
-    prepare::{MeshChunk, Placed},
+    prepare::{ChunkLevels, LevelPart, MeshChunk, MeshLevels, Placed},
     scene::{Camera, Epsilon, Settings},
 };
 
@@ -17,9 +17,11 @@ pub struct MeshDraw<'a> {
     pub constants: FrameConstants,
     /// Triangles that face away are not drawn.
     pub cull: bool,
+    /// How the camera sees its cells, where each is drawn or not.
+    pub(crate) levels: Option<LevelView>,
 }
 
-/// All pieces of meshes of a scene as seen from a camera.
+/// All pieces of meshes of a scene as seen from a camera; those in cells as a whole where no levels of detail are drawn.
 pub fn mesh_draws<'a>(
     Placed { scene, at }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
@@ -40,6 +42,10 @@ pub fn mesh_draws<'a>(
                 ..frame_constants(&view, (camera, range), settings, (0.0, epsilon))
             },
             cull: settings.culls(chunk.closed && !chunk.transparent),
+            levels: chunk.levels.and_then(|MeshLevels { space, .. }| {
+                let levels = ChunkLevels { space, part: LevelPart::OfCells };
+                LevelView::new(levels, false, camera, settings)
+            }),
         }
     };
     scene.meshes.iter().map(draw).collect()

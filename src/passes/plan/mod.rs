@@ -119,13 +119,14 @@ impl<'a> FramePlan<'a> {
 impl<'a> SurfacePlan<'a> {
     fn new(
         mut splats: Vec<Draw<'a>>,
-        meshes: Vec<MeshDraw<'a>>,
+        mut meshes: Vec<MeshDraw<'a>>,
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
         let (accumulate, mut sums) = sums::sums(settings, limits);
         let mut settings = Settings { accumulate, ..settings.clone() };
         if splats.is_empty() {
+            meshes.iter_mut().for_each(|draw| draw.levels = None);
             return Self { meshes, settings, sums, ..Self::default() };
         }
         let polygons = !meshes.is_empty();
@@ -141,6 +142,9 @@ impl<'a> SurfacePlan<'a> {
             Err(reason) => (method::primitives(&mut splats, polygons, &settings, limits), reason),
         };
         let mut plan = Self { splats, meshes, method, reason, settings, sums };
+        if !plan.chooses_levels() {
+            plan.meshes.iter_mut().for_each(|draw| draw.levels = None);
+        }
         plan.choose_edges(transparent);
         plan
     }
@@ -168,6 +172,12 @@ impl<'a> SurfacePlan<'a> {
                 band.plan = band.plan.clone().with_edges(two_sided, blended);
             }
         }
+    }
+
+    /// Whether levels of detail are chosen; else things are drawn as they are, and hybrids as polygons.
+    fn chooses_levels(&self) -> bool {
+        let splats = self.bands().first().map_or(&self.splats, |band| &band.splats);
+        splats.iter().any(|draw| draw.levels.is_some())
     }
 
     /// Bands of tiles; none where the graphics pipeline draws the splats.

@@ -31,6 +31,9 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     let listed = |part: &SurfacePlan<'_>| part.bands().len() + usize::from(part.visible().is_some());
     let lists = lists + 8 * (listed(&plan.opaque) + listed(&plan.transparent)) as u32;
     let bands = plan.opaque.bands().len() as u32;
+    // Of hybrids the choice of polygons.
+    let in_cells = plan.opaque.meshes.iter().any(|draw| draw.levels.is_some());
+    let lists = lists + u32::from(in_cells);
     // What fragments read: in visibility and accumulation, of each band, too; of polygons; in each layer's visibility, accumulation
     // and polygons.
     let reads = 3 + 2 * bands + 3 * layers;

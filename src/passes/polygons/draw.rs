@@ -11,6 +11,7 @@ use crate::passes::{
     pipeline::variant::shading_constants,
     place::read,
     polygons::{
+        cells::{self, CELLS},
         copy_depth::depth_from,
         mesh_pass::{MeshPass, draw_meshes},
     },
@@ -54,6 +55,7 @@ pub(crate) fn shaded<'a>(
     (shown, precision): (&mut Handle<Image>, Accumulate),
     lights: Option<&Handle<Buffer>>,
 ) -> Result<Handle<Image>> {
+    let cells = cells::choose(graph, inputs)?;
     let mut depth = graph.create_image("depth of polygons", inputs.image(DEPTH_FORMAT));
     let pass = Pass::new(
         graph,
@@ -63,7 +65,8 @@ pub(crate) fn shaded<'a>(
     )
     .attach(shown, Access::ColorAttachment, Start::Clear(ClearValue::Color([0.0; 4])))
     .attach(&mut depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
-    .read_if(read(BIND_READ_LIGHTS), lights, Access::UniformReadFragment);
+    .read_if(read(BIND_READ_LIGHTS), lights, Access::UniformReadFragment)
+    .read_if(CELLS, cells.as_ref(), Access::IndirectRead);
     let pipelines = shaded_mesh_pass(inputs.settings, precision, inputs.lights).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
@@ -79,6 +82,7 @@ pub(crate) fn polygons<'a>(
     inputs: Inputs<'a>,
     splats: Option<&Handle<Image>>,
 ) -> Result<(Sums, Handle<Image>)> {
+    let cells = cells::choose(graph, inputs)?;
     let format = sum_format(inputs.settings.accumulate);
     let mut seen = Sums {
         color: graph.create_image("polygon colors", inputs.image(format)),
@@ -95,7 +99,8 @@ pub(crate) fn polygons<'a>(
     )
     .attach(&mut seen.color, Access::ColorAttachment, zero)
     .attach(&mut seen.normal, Access::ColorAttachment, zero)
-    .attach(&mut depth, Access::DepthAttachment, start);
+    .attach(&mut depth, Access::DepthAttachment, start)
+    .read_if(CELLS, cells.as_ref(), Access::IndirectRead);
     let pipelines = mesh_pass(inputs.settings).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;

@@ -10,6 +10,7 @@ use crate::passes::{
         variant::Constants,
     },
     plan::mesh_draws::MeshDraw,
+    polygons::cells::draw_cells,
     predicate::{self, is_predicated},
     recording::{Pipeline, Recording},
 };
@@ -65,6 +66,7 @@ pub(crate) fn draw_meshes(
         unsafe { device.cmd_bind_index_buffer(commands, draw.chunk.indices(), 0, vk::IndexType::UINT32) };
         match is_predicated(pass) {
             true => predicate::draw_mesh(pass, inputs, number)?,
+            false if draw.levels.is_some() => draw_cells(pass, inputs.meshes, number)?,
             // SAFETY: inside of rendering with all bound, and three indices a triangle, each below the number of vertices.
             false => unsafe { device.cmd_draw_indexed(commands, 3 * draw.chunk.triangles, 1, 0, 0, 0) },
         }

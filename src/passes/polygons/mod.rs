@@ -1,5 +1,6 @@
 //! Polygons.
 
+pub(crate) mod cells;
 pub(crate) mod copy_depth;
 pub(crate) mod draw;
 pub(crate) mod mesh_pass;

@@ -16,6 +16,7 @@ use crate::passes::{
 };
 use crate::{
     error::Result,
+    scene::Epsilon,
     shaders::{Shader, config::*},
 };
 
@@ -157,5 +158,20 @@ fn constants(inputs: Inputs<'_>, plan: &TilePlan) -> TileConstants {
         blends_rest: 0,
         step: 0,
         ends: 0,
+        polygon_reach: polygon_reach(inputs),
     }
+}
+
+/// ε of a slanted splat is as if its surface bent away within the filter's reach, hundreds of radii where it is seen edge-on: toward a polygon
+/// it is no more than the splat's own image is large, or what was behind would be seen through. What has a length is not lengthened.
+fn polygon_reach(inputs: Inputs<'_>) -> f32 {
+    let epsilons = inputs.draws.iter().map(|draw| draw.chunk.epsilon.unwrap_or(inputs.settings.epsilon));
+    let radii = epsilons.map(|epsilon| match epsilon {
+        Epsilon::Auto => 1.0,
+        Epsilon::Radii(radii) => radii.max(1.0),
+        Epsilon::Length(_) => f64::INFINITY,
+    });
+    let depth = if inputs.camera.is_orthographic() { inputs.range.end } else { 1.0 };
+    let px = radii.fold(0.0, f64::max) / (inputs.camera.focal_px(inputs.settings.size_px[1]) * depth);
+    px.min(f64::from(f32::MAX)) as f32
 }

@@ -18,6 +18,7 @@ mod facing;
 mod ground_truth;
 mod hostile;
 mod hybrid;
+mod hybrid_levels;
 mod last_layer;
 mod layers;
 mod level_holes;

@@ -6,6 +6,7 @@ mod floor;
 pub mod gate;
 mod growth;
 mod hierarchy;
+mod hybrid;
 mod instructions;
 mod judgement;
 mod layers;
@@ -29,6 +30,7 @@ pub use empty_layers::{EmptyLayers, LayerPass};
 pub use floor::{FloorReport, FloorRound, FloorRow};
 pub use growth::{GrowthPoint, GrowthRate, GrowthReport, growth_powers};
 pub use hierarchy::{HierarchyReport, HierarchyRow, PAPER_HIERARCHIES};
+pub use hybrid::{HybridReport, HybridView, HybridWay};
 pub use instructions::{InstructionReport, InstructionRow, IsaRow, PipelineNames};
 pub use judgement::{Judged, Judgement};
 pub use layers::{LayersDrawn, LayersReport, OpaqueClaim, Places};
@@ -92,6 +94,9 @@ pub struct BenchReport {
     /// `p2`: frames by levels of detail.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub p2: Option<TolerancesReport>,
+    /// `hybrid`: polygons near, splats far.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hybrid: Option<HybridReport>,
     /// `i1`: what clip curves cost over numbers of splats.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub i1: Option<ClipsReport>,
@@ -111,7 +116,7 @@ pub struct BenchReport {
 }
 
 /// The tables that are written as CSV, by the names of their files.
-pub const TABLES: [&str; 20] = [
+pub const TABLES: [&str; 21] = [
     "floor",
     "floor-limits",
     "floor-bounds",
@@ -129,6 +134,7 @@ pub const TABLES: [&str; 20] = [
     "p1",
     "p2",
     "p2-paper",
+    "hybrid",
     "i1",
     "i2",
     "counts",
@@ -159,6 +165,7 @@ impl BenchReport {
         tables.extend(self.growth.iter().flat_map(GrowthReport::grids));
         tables.extend(self.p1.as_ref().map(|p1| ("p1", p1.grid())));
         tables.extend(self.p2.iter().flat_map(TolerancesReport::grids));
+        tables.extend(self.hybrid.as_ref().map(|hybrid| ("hybrid", hybrid.grid())));
         tables.extend(self.i1.as_ref().map(|i1| ("i1", i1.grid())));
         tables.extend(self.i2.as_ref().map(|i2| ("i2", i2.grid())));
         if let Some(counts) = &self.counts {
@@ -196,6 +203,7 @@ impl BenchReport {
         figures.extend(self.i1.iter().chain(&self.i2).flat_map(ClipsReport::gate));
         figures.extend(self.p1.iter().flat_map(HierarchyReport::gate));
         figures.extend(self.p2.iter().flat_map(TolerancesReport::gate));
+        figures.extend(self.hybrid.iter().flat_map(HybridReport::gate));
         figures.extend(self.counts.iter().flat_map(InstructionReport::gate));
         figures
     }

@@ -40,6 +40,7 @@ const EXAMPLES: &str = "Examples:
   surfel bench growth --model igea.ply --rasterizer perspective,raycast --plot growth.svg
   surfel bench p1 --splats 100k,1M,10M --markdown p1.md
   surfel bench p2 --model igea.ply --splats 1M
+  surfel bench hybrid --model igea.ply --markdown hybrid.md
   surfel bench counts --isa NAVI21,VEGA10 --csv tables   instructions of every pipeline
   surfel bench all --csv tables --json all.json";
 
@@ -51,14 +52,14 @@ pub struct BenchArguments {
     #[arg(value_name = "NAME")]
     pub table: Bench,
 
-    /// A PLY or OBJ file; for table1, slides, growth, p1 and p2 a mesh, which is resampled evenly over its area and for growth must be
-    /// closed; for i1 and i2 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition the built-in sphere]
+    /// A PLY or OBJ file; for table1, slides, growth, p1, p2 and hybrid a mesh, which is resampled evenly over its area and for growth must be
+    /// closed; for i1 and i2 a mesh with sharp edges; for transition a mesh, half of which is; layers has its own [default: the built-in model, for transition and hybrid the built-in sphere]
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
 
     /// Numbers of splats of table1, with commas between, such as 154k,1.4M; slides, p2 and i2 take the first; by itself layers takes it
-    /// for each of its 27 balls, and transition for the whole model; growth, p1 and i1 take all, growth the middle one over sizes
-    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for p2 1M, for i1 2500, 5000 and one a triangle, for i2 2500]
+    /// for each of its 27 balls, and transition for the whole model; by itself hybrid takes the first; growth, p1 and i1 take all, growth the middle one over sizes
+    /// [default: the paper's; 2000 a ball; 40k; for growth 10k to 5M, for p1 137k to 5M, for p2 1M, for hybrid one a vertex, for i1 2500, 5000 and one a triangle, for i2 2500]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = parse::splats)]
     pub splats: Vec<u64>,
 
@@ -145,20 +146,22 @@ pub enum Bench {
     P1,
     /// Levels of detail drawn: splats and times over tolerances, beside the table 2 of Pajarola et al. 2003
     P2,
+    /// A mesh from afar to near: polygons, polygons and splats as the view has it, splats in levels of detail
+    Hybrid,
     /// What clip curves cost over numbers of splats: nothing cut, lines, curves, beside the table 1 of Ivo et al. 2012
     I1,
     /// The same over how much of the image splats cover, beside their table 2
     I2,
     /// Instructions of every pipeline: as in programs of 2006, scalar, and as drivers' compilers have them
     Counts,
-    /// All of them but growth, p1, p2, i1 and i2
+    /// All of them but growth, p1, p2, hybrid, i1 and i2
     All,
 }
 
 impl Bench {
     /// Whether this name stands for `table`.
     pub fn has(self, table: Self) -> bool {
-        let alone = matches!(table, Self::Growth | Self::P1 | Self::P2 | Self::I1 | Self::I2);
+        let alone = matches!(table, Self::Growth | Self::P1 | Self::P2 | Self::Hybrid | Self::I1 | Self::I2);
         self == table || self == Self::All && !alone
     }
 

@@ -8,6 +8,7 @@ mod counts;
 mod floor;
 mod gate;
 mod growth;
+mod hybrid;
 mod layers;
 mod limits;
 mod model;
@@ -126,6 +127,7 @@ fn measure(headless: &mut Headless, context: &mut BenchContext<'_>, report: &mut
     report.i2 = table.has(Bench::I2).then(|| clips::over_occupancy(headless, context)).transpose()?;
     report.growth = table.has(Bench::Growth).then(|| growth::measure(headless, context)).transpose()?;
     report.p2 = table.has(Bench::P2).then(|| p2::measure(headless, context)).transpose()?;
+    report.hybrid = table.has(Bench::Hybrid).then(|| hybrid::measure(headless, context)).transpose()?;
     let machine = watch.end(&context.clocks_mhz);
     report.flags = machine.flags(&context.limits);
     report.flags.append(&mut context.flags);

@@ -6,6 +6,7 @@
 mod arguments;
 mod boards;
 mod clips;
+mod coarse;
 mod context;
 mod curves;
 mod footprint;

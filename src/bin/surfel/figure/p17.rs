@@ -1,43 +1,24 @@
 //! Pajarola et al. 2003, figure 17: sums of weights and weighted colors, and what their quotient shows.
 
 use surfel::{
-    Error, Result,
-    load::{builtin::relief, file_name},
-    scene::{Accumulate, Camera, Edges, Scene, Settings},
+    Result,
+    scene::{Accumulate, Edges, Settings},
 };
 
 use super::{
+    coarse::CoarseModel,
     context::FigureContext,
     raster::Raster,
     sheet::{Panel, Sheet},
 };
-use crate::{inputs::Inputs, pictures::encode, scene::load_scene};
-
-/// Splats of the built-in model: so few that single ones are seen.
-const FEW_SPLATS: usize = 12_000;
-
-/// The field of view over that in which all of the model is seen.
-const NEARER: f64 = 0.5;
+use crate::pictures::encode;
 
 /// Draws the figure.
 ///
 /// # Errors
 /// As those of [`FigureContext`]; a model that can't be loaded.
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
-    let (scene, what) = match context.model {
-        Some(path) => {
-            let loaded = load_scene(&Inputs::splats_of(vec![path.to_owned()]), context.bars)?;
-            let what = format!("{}, {} splats", file_name(path), loaded.scene.splat_count());
-            (loaded.scene, what)
-        }
-        None => {
-            let scene = Scene { objects: vec![relief(FEW_SPLATS)], ..Scene::default() };
-            (scene, format!("the built-in relief with {FEW_SPLATS} splats"))
-        }
-    };
-    let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
-    let fit = Camera::fit(&ball, context.size_px, Camera::DEFAULT_FOV_Y_RAD);
-    let camera = Camera { fov_y_rad: NEARER * fit.fov_y_rad, ..fit };
+    let CoarseModel { scene, what, camera } = CoarseModel::of(context)?;
     let settings = Settings {
         size_px: context.size_px,
         accumulate: Accumulate::F32,

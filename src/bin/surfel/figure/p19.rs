@@ -1,44 +1,23 @@
 //! Pajarola et al. 2003, figure 19: a narrow kernel and one with a plateau on a model.
 
 use surfel::{
-    Error, Result,
-    load::{builtin::relief, file_name},
-    scene::{Accumulate, Camera, Filter, KernelEval, Rasterizer, Scene, Settings},
+    Result,
+    scene::{Accumulate, Filter, KernelEval, Rasterizer, Settings},
 };
 
 use super::{
+    coarse::CoarseModel,
     context::FigureContext,
     kernels::PsiE,
     sheet::{Panel, Sheet},
 };
-use crate::{inputs::Inputs, scene::load_scene};
-
-/// Splats of the built-in model: so few that single ones are seen.
-const FEW_SPLATS: usize = 12_000;
-
-/// The field of view over that in which all of the model is seen.
-const NEARER: f64 = 0.5;
 
 /// Draws the figure.
 ///
 /// # Errors
 /// As those of [`FigureContext`]; a model that can't be loaded.
 pub fn draw(context: &mut FigureContext<'_>) -> Result<Sheet> {
-    let (scene, what) = match context.model {
-        Some(path) => {
-            let inputs = Inputs::splats_of(vec![path.to_owned()]);
-            let loaded = load_scene(&inputs, context.bars)?;
-            let what = format!("{}, {} splats", file_name(path), loaded.scene.splat_count());
-            (loaded.scene, what)
-        }
-        None => {
-            let scene = Scene { objects: vec![relief(FEW_SPLATS)], ..Scene::default() };
-            (scene, format!("the built-in relief with {FEW_SPLATS} splats"))
-        }
-    };
-    let ball = scene.ball().ok_or_else(|| Error::input("scene", "", "has no splat"))?;
-    let fit = Camera::fit(&ball, context.size_px, Camera::DEFAULT_FOV_Y_RAD);
-    let camera = Camera { fov_y_rad: NEARER * fit.fov_y_rad, ..fit };
+    let CoarseModel { scene, what, camera } = CoarseModel::of(context)?;
     let prepared = context.prepare(&scene)?;
     let mut panel = |name: &str, kernel: PsiE| -> Result<Panel> {
         let settings = Settings {

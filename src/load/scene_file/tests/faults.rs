@@ -163,7 +163,8 @@ polygons.longer_than = 1 => line 3, object 1, polygons: has no meaning without r
 sample_edges = true => line 3, object 1, sample_edges: has no meaning without representation = "hybrid"
 representation = "hybrid"↵polygons.longer_than = 1↵sample_edges = 1 => line 5, object 1, sample_edges: 1: expected true or false
 representation = "mesh"↵splats = 9 => line 4, object 1, splats: has no meaning for a model drawn as triangles
-representation = "hybrid" => line 1, object 1: hybrid without polygons; expected which triangles stay polygons
+representation = "hybrid"↵sample_edges = true => line 4, object 1, sample_edges: has no meaning for a hybrid without polygons, of which the view decides
+representation = "hybrid"↵epsilon = 1 => line 4, object 1, epsilon: has no meaning for a hybrid without polygons, of which the view decides
 representation = "hybrid"↵polygons = {} => line 4, object 1, polygons: expected plane or longer_than, and not both
 representation = "hybrid"↵polygons = { plane = [0, 0, 0, 1] } => line 4, object 1, polygons, plane: [0, 0, 0, 1]: expected nx, ny, nz and d, the normal not zero
 representation = "hybrid"↵polygons = { longer_than = -1 } => line 4, object 1, polygons, longer_than: -1: expected a length, at least 0
