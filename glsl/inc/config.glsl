@@ -46,8 +46,8 @@
 #define SPEC_ORTHOGRAPHIC 57  // Constant: rays are parallel (`inc/projection.glsl`).
 #define SPEC_CLIPS 61         // Constant: clip curves cut parts off some splats (`inc/clip.glsl`).
 #define SPEC_PARTED 63        // Constant: each tile has two lists: of splats, and of those that clip curves cut (`tile/constants.glsl`).
-#define SPEC_COVERS_LESS 64    // Constant: what covers less than half of a pixel, and only that (`host_over.frag.glsl`).
-#define SPEC_ENCODED 65        // Constant: colors are encoded as sRGB.
+#define SPEC_COVERS_LESS 70    // Constant: what covers less than half of a pixel, and only that (`host_over.frag.glsl`).
+#define SPEC_ENCODED 71        // Constant: colors are encoded as sRGB.
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
 #define SPEC_PLANES 62         // Constant: how many planes cut what is seen (`inc/planes.glsl`).
 #define SPEC_OUTLINES 64       // Constant: rims of splats are black (`inc/outline.glsl`).
