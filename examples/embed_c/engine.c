@@ -78,10 +78,7 @@ static VkDeviceMemory memory(Engine *engine, VkMemoryRequirements needed, VkMemo
                                             (types.memoryTypes[type].propertyFlags & wanted) != wanted))
         type++;
     const VkMemoryAllocateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-        .allocationSize = needed.size,
-        .memoryTypeIndex = type,
-    };
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needed.size, .memoryTypeIndex = type};
     VkDeviceMemory allocated;
     MUST(vkAllocateMemory(engine->device, &info, NULL, &allocated));
     return allocated;
@@ -119,11 +116,8 @@ void engine_open(Engine *engine, uint32_t family) {
     engine->family = family;
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {
-        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-        .queueFamilyIndex = family,
-        .queueCount = 1,
-        .pQueuePriorities = &priority,
-    };
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = family,
+        .queueCount = 1, .pQueuePriorities = &priority};
     engine->vulkan12.pNext = &engine->vulkan13;
     const VkDeviceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -135,29 +129,21 @@ void engine_open(Engine *engine, uint32_t family) {
     MUST(vkCreateDevice(engine->physical, &info, NULL, &engine->device));
     vkGetDeviceQueue(engine->device, family, 0, &engine->queue);
     const VkCommandPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-        .queueFamilyIndex = family,
-    };
+        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
     MUST(vkCreateCommandPool(engine->device, &pool, NULL, &engine->pool));
     const VkCommandBufferAllocateInfo commands = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = engine->pool,
-        .commandBufferCount = 1,
-    };
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = engine->pool, .commandBufferCount = 1};
     MUST(vkAllocateCommandBuffers(engine->device, &commands, &engine->commands));
-    const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    MUST(vkCreateFence(engine->device, &fence, NULL, &engine->fence));
+    MUST(vkCreateFence(engine->device, &(VkFenceCreateInfo){.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, NULL,
+                       &engine->fence));
     engine->color = attachment(engine, VK_FORMAT_R32G32B32A32_SFLOAT,
                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                VK_IMAGE_ASPECT_COLOR_BIT);
     engine->depth = attachment(engine, VK_FORMAT_D32_SFLOAT,
                                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                                VK_IMAGE_ASPECT_DEPTH_BIT);
-    const VkBufferCreateInfo buffer = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-        .size = WIDTH * HEIGHT * 4 * sizeof(float),
-        .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-    };
+    const VkBufferCreateInfo buffer = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+        .size = WIDTH * HEIGHT * 4 * sizeof(float), .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     MUST(vkCreateBuffer(engine->device, &buffer, NULL, &engine->readback));
     VkMemoryRequirements needed;
     vkGetBufferMemoryRequirements(engine->device, engine->readback, &needed);
@@ -253,17 +239,11 @@ void engine_submit(Engine *engine) {
         .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT,
     };
     const VkDependencyInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-        .memoryBarrierCount = 1,
-        .pMemoryBarriers = &to_host,
-    };
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &to_host};
     vkCmdPipelineBarrier2(engine->commands, &info);
     MUST(vkEndCommandBuffer(engine->commands));
     const VkSubmitInfo submit = {
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-        .commandBufferCount = 1,
-        .pCommandBuffers = &engine->commands,
-    };
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &engine->commands};
     MUST(vkQueueSubmit(engine->queue, 1, &submit, engine->fence));
     MUST(vkWaitForFences(engine->device, 1, &engine->fence, VK_TRUE, UINT64_MAX));
     MUST(vkResetFences(engine->device, 1, &engine->fence));
