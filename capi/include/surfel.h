@@ -180,6 +180,10 @@ enum SurfelStructureType
    * `SurfelFrame`.
    */
   SURFEL_STRUCTURE_TYPE_FRAME = 9,
+  /**
+   * `SurfelDynamicSplats`.
+   */
+  SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS = 10,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -195,7 +199,7 @@ typedef uint32_t SurfelStructureType;
 typedef struct SurfelDevice SurfelDevice;
 
 /**
- * A scene on the device. Frames of several threads may show it at once.
+ * A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
  */
 typedef struct SurfelPreparedScene SurfelPreparedScene;
 
@@ -420,6 +424,65 @@ typedef struct SurfelSplats {
    */
   uint32_t reserved;
 } SurfelSplats;
+
+/**
+ * What is known of disks that a host writes on the device, by a compute shader or by copies. All of it may be wrong by being too large, at
+ * the cost of speed, but not by being too small: what lies outside of the bounds may not be drawn.
+ *
+ * Disk i has 32 bytes in the buffer of shapes: x y z radius, then nx ny nz 2.0, all float: its center from `origin` in the scene's unit, a
+ * unit normal. It has 8 bytes in the buffer of colors: linear red, green, blue and alpha as 16-bit fractions of 65535.
+ */
+typedef struct SurfelDynamicSplats {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelDynamicSplats)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * How many there are room for, at most 4 million and what a storage buffer of the device holds at 32 bytes each.
+   */
+  uint32_t capacity;
+  /**
+   * How many are drawn, the first ones.
+   */
+  uint32_t count;
+  /**
+   * Where positions are counted from.
+   */
+  double origin[3];
+  /**
+   * The smallest coordinates of centers, from the origin.
+   */
+  double least[3];
+  /**
+   * The largest ones.
+   */
+  double most[3];
+  /**
+   * The largest radius.
+   */
+  double largestRadius;
+  /**
+   * How many disks lie over a place of the surface, where they are fewest: it tells how much of a pixel a silhouette covers. 0 is 1. Where
+   * fewer lie than that, a surface inside of its silhouette shows what is behind it.
+   */
+  double overlap;
+  /**
+   * They belong to a closed surface and their normals point outward: those that face away are not drawn.
+   */
+  VkBool32 closed;
+  /**
+   * Some may be transparent: they are drawn in layers.
+   */
+  VkBool32 transparent;
+} SurfelDynamicSplats;
 
 /**
  * How a renderer is made.
@@ -779,6 +842,27 @@ SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, 
  * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
  */
 void surfel_scene_destroy(struct SurfelScene *scene);
+
+/**
+ * Makes a scene of splats that the host writes on the device: each time before a frame reads them, with a barrier to
+ * `VK_ACCESS_2_SHADER_STORAGE_READ_BIT` of the compute and vertex stages. Nothing is in its buffers yet.
+ */
+SurfelResult surfel_dynamic_create(const struct SurfelRenderer *renderer,
+                                   const struct SurfelDynamicSplats *splats,
+                                   struct SurfelPreparedScene **scene);
+
+/**
+ * Says anew what is known of such splats, for frames that are recorded from now on: as many as there is room for, anywhere. Only `count`,
+ * bounds, radius and overlap may change. No other thread may use the scene meanwhile.
+ */
+SurfelResult surfel_dynamic_set(struct SurfelPreparedScene *scene, const struct SurfelDynamicSplats *splats);
+
+/**
+ * Tells the buffers of such splats: usage `VK_BUFFER_USAGE_STORAGE_BUFFER_BIT` and `VK_BUFFER_USAGE_TRANSFER_DST_BIT`. They are the scene's.
+ */
+SurfelResult surfel_dynamic_buffers(const struct SurfelPreparedScene *scene,
+                                    VkBuffer *shapes,
+                                    VkBuffer *colors);
 
 /**
  * Makes a renderer. `info` may be NULL.

@@ -16,6 +16,7 @@ mod device;
 mod scene;
 mod splats;
 
+mod dynamic;
 mod renderer;
 
 mod settings;

@@ -22,7 +22,7 @@ use crate::{
 /// Pipelines, for all views and scenes of a device. May be used by several threads at once.
 pub struct SurfelRenderer(pub Arc<Renderer>);
 
-/// A scene on the device. Frames of several threads may show it at once.
+/// A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
 pub struct SurfelPreparedScene(pub PreparedScene);
 
 /// How a renderer is made.

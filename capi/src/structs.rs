@@ -30,6 +30,8 @@ pub enum SurfelStructureType {
     DepthImage = 8,
     /// `SurfelFrame`.
     Frame = 9,
+    /// `SurfelDynamicSplats`.
+    DynamicSplats = 10,
 }
 
 /// How each begins.
