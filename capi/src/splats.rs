@@ -108,9 +108,9 @@ unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> 
     let most = isize::MAX as u64 / size_of::<T>() as u64;
     let mut all = Vec::new();
     match usize::try_from(count) {
-        Ok(0) => return Ok(all),
-        _ if from.is_null() => return Err(null(name)),
-        _ if !from.is_aligned() => return Err(Failure::invalid(format!("{name} is not aligned"))),
+        Ok(0) => Ok(all),
+        _ if from.is_null() => Err(null(name)),
+        _ if !from.is_aligned() => Err(Failure::invalid(format!("{name} is not aligned"))),
         Ok(length) if count <= most => {
             let no_memory = |_| Failure {
                 code: SurfelResult::OutOfMemory,
