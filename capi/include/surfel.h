@@ -1,0 +1,953 @@
+/* surfel: splats within an engine's own frame. docs/c.md tells how it is used.
+ *
+ * Structs begin with `sType`, `size` (their sizeof) and `pNext` (NULL); zero is the default of every other member. Later versions append
+ * members: what a header does not have yet is zero, and what a library does not know yet must be zero. Objects are opaque; destroying them
+ * in any order is sound, each once. Pointers that are not said to be NULL at times must not be. Functions that may be called by several
+ * threads at once say so at the object's type; other objects belong to one thread at a time.
+ *
+ * Written by cbindgen: not to be edited. */
+
+#ifndef SURFEL_H
+#define SURFEL_H
+
+#include <stdint.h>
+#include <vulkan/vulkan.h>
+
+/**
+ * The version of this header: as `VK_MAKE_API_VERSION(0, major, minor, patch)`.
+ */
+#define SURFEL_VERSION (1 << 12)
+
+/**
+ * `synchronization2`: needed.
+ */
+#define SURFEL_FEATURE_SYNCHRONIZATION2 1
+
+/**
+ * `dynamicRendering`: needed.
+ */
+#define SURFEL_FEATURE_DYNAMIC_RENDERING 2
+
+/**
+ * `maintenance4`: needed.
+ */
+#define SURFEL_FEATURE_MAINTENANCE4 4
+
+/**
+ * `shaderTerminateInvocation`: needed.
+ */
+#define SURFEL_FEATURE_SHADER_TERMINATE_INVOCATION 8
+
+/**
+ * `largePoints`; without it every splat above one pixel is a quad.
+ */
+#define SURFEL_FEATURE_LARGE_POINTS 16
+
+/**
+ * `drawIndirectFirstInstance`; without it splats are not drawn by tiles.
+ */
+#define SURFEL_FEATURE_DRAW_INDIRECT_FIRST_INSTANCE 32
+
+/**
+ * `drawIndirectCount`; without it all layers of `layers` `auto` are drawn, the empty ones too.
+ */
+#define SURFEL_FEATURE_DRAW_INDIRECT_COUNT 64
+
+/**
+ * `pipelineStatisticsQuery`; no function of this header needs it.
+ */
+#define SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY 128
+
+/**
+ * The most formats that are listed.
+ */
+#define SURFEL_MAX_FORMATS 16
+
+/**
+ * What a call answers. `surfel_last_error` has the sentence.
+ */
+enum SurfelResult
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * It is done.
+   */
+  SURFEL_RESULT_SUCCESS = 0,
+  /**
+   * A pointer is NULL or not aligned, a count is too large, text is not UTF-8.
+   */
+  SURFEL_RESULT_INVALID_ARGUMENT = -1,
+  /**
+   * A struct's `sType` is not the one expected there, or its `pNext` leads to a struct that does not extend it.
+   */
+  SURFEL_RESULT_UNKNOWN_STRUCT = -2,
+  /**
+   * A struct is larger than this library knows it, and what it doesn't know is not zero: the header is newer than the library.
+   */
+  SURFEL_RESULT_NEWER_STRUCT = -3,
+  /**
+   * A mistake in the library. The objects of the call may only be destroyed from now on.
+   */
+  SURFEL_RESULT_PANIC = -4,
+  /**
+   * The library was built without it.
+   */
+  SURFEL_RESULT_UNSUPPORTED = -5,
+  /**
+   * A value is out of its range, or rules another one out.
+   */
+  SURFEL_RESULT_OPTION = -6,
+  /**
+   * The content of a file is not what its format demands.
+   */
+  SURFEL_RESULT_INPUT = -7,
+  /**
+   * A file can't be read.
+   */
+  SURFEL_RESULT_FILE = -8,
+  /**
+   * The device lacks something, by name.
+   */
+  SURFEL_RESULT_NO_DEVICE = -9,
+  /**
+   * There is no memory, of the host or the device.
+   */
+  SURFEL_RESULT_OUT_OF_MEMORY = -10,
+  /**
+   * The device is lost.
+   */
+  SURFEL_RESULT_DEVICE_LOST = -11,
+  /**
+   * Another Vulkan call failed.
+   */
+  SURFEL_RESULT_VULKAN = -12,
+  /**
+   * Another error of the library.
+   */
+  SURFEL_RESULT_INTERNAL = -13,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum SurfelResult SurfelResult;
+#else
+typedef int32_t SurfelResult;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a struct says it is: its `sType`.
+ */
+enum SurfelStructureType
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * `SurfelRequirements`.
+   */
+  SURFEL_STRUCTURE_TYPE_REQUIREMENTS = 1,
+  /**
+   * `SurfelImport`.
+   */
+  SURFEL_STRUCTURE_TYPE_IMPORT = 2,
+  /**
+   * `SurfelRendererInfo`.
+   */
+  SURFEL_STRUCTURE_TYPE_RENDERER_INFO = 3,
+  /**
+   * `SurfelSceneInfo`.
+   */
+  SURFEL_STRUCTURE_TYPE_SCENE_INFO = 4,
+  /**
+   * `SurfelSplats`.
+   */
+  SURFEL_STRUCTURE_TYPE_SPLATS = 5,
+  /**
+   * `SurfelPreparedSceneInfo`.
+   */
+  SURFEL_STRUCTURE_TYPE_PREPARED_SCENE_INFO = 6,
+  /**
+   * `SurfelRendering`.
+   */
+  SURFEL_STRUCTURE_TYPE_RENDERING = 7,
+  /**
+   * `SurfelDepthImage`.
+   */
+  SURFEL_STRUCTURE_TYPE_DEPTH_IMAGE = 8,
+  /**
+   * `SurfelFrame`.
+   */
+  SURFEL_STRUCTURE_TYPE_FRAME = 9,
+  /**
+   * `SurfelDynamicSplats`.
+   */
+  SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS = 10,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum SurfelStructureType SurfelStructureType;
+#else
+typedef uint32_t SurfelStructureType;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * A host's device. May be used by several threads at once.
+ */
+typedef struct SurfelDevice SurfelDevice;
+
+/**
+ * A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
+ */
+typedef struct SurfelPreparedScene SurfelPreparedScene;
+
+/**
+ * Pipelines, for all views and scenes of a device. May be used by several threads at once.
+ */
+typedef struct SurfelRenderer SurfelRenderer;
+
+/**
+ * Splats and lights in the host's memory, of which `surfel_upload` makes a scene on a device. Needs none itself, so that another thread can
+ * make it.
+ */
+typedef struct SurfelScene SurfelScene;
+
+/**
+ * How frames are drawn.
+ */
+typedef struct SurfelSettings SurfelSettings;
+
+/**
+ * One view, of one frame at a time: with several frames in flight a host has one for each. One thread at a time may use it.
+ */
+typedef struct SurfelView SurfelView;
+
+/**
+ * What a device must be created with, and what it has. `surfel_requirements` fills it. No extension of the device is needed.
+ */
+typedef struct SurfelRequirements {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_REQUIREMENTS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelRequirements)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * The features to enable, of `SURFEL_FEATURE_…`: those that are needed, and of the others those that the device offers.
+   * `surfel_enable_features` puts them into Vulkan's structs.
+   */
+  uint64_t features;
+  /**
+   * The least version of instance and device, as `VK_API_VERSION_1_3`.
+   */
+  uint32_t apiVersion;
+  /**
+   * What the queue must do to which our commands are submitted.
+   */
+  VkQueueFlags queueFlags;
+  /**
+   * The first family that does; `UINT32_MAX`: none.
+   */
+  uint32_t queueFamily;
+  /**
+   * The largest side of a view, in pixels.
+   */
+  uint32_t maxImageSide;
+  /**
+   * Bytes of a buffer that a shader can reach; scenes are cut into pieces of that size.
+   */
+  uint64_t maxStorageBufferRange;
+  /**
+   * The largest buffer, in bytes.
+   */
+  uint64_t maxBufferSize;
+  /**
+   * How many of `colorFormats` there are.
+   */
+  uint32_t colorFormatCount;
+  /**
+   * How many of `depthFormats` there are.
+   */
+  uint32_t depthFormatCount;
+  /**
+   * Formats of color images that can be drawn to, of those that were looked for.
+   */
+  VkFormat colorFormats[SURFEL_MAX_FORMATS];
+  /**
+   * Formats of depth images that can be tested, written, and read where transparent things are hidden by what the host has drawn.
+   */
+  VkFormat depthFormats[SURFEL_MAX_FORMATS];
+} SurfelRequirements;
+
+/**
+ * A device that a host lends.
+ */
+typedef struct SurfelImport {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_IMPORT`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelImport)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * Of Vulkan 1.3.
+   */
+  VkInstance instance;
+  /**
+   * The physical device.
+   */
+  VkPhysicalDevice physicalDevice;
+  /**
+   * The device, created with at least what `surfel_requirements` says.
+   */
+  VkDevice device;
+  /**
+   * All entry points come from it.
+   */
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr;
+  /**
+   * What the host really enabled, of `SURFEL_FEATURE_…`.
+   */
+  uint64_t features;
+  /**
+   * The family of the queue to which the host submits what we record; graphics and compute.
+   */
+  uint32_t queueFamily;
+  /**
+   * Whether `VK_EXT_debug_utils` is enabled: then all of our objects have names, and our passes labels.
+   */
+  VkBool32 debugUtils;
+} SurfelImport;
+
+/**
+ * What a scene is made for.
+ */
+typedef struct SurfelSceneInfo {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_SCENE_INFO`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelSceneInfo)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * It gets levels of detail at the upload, for the setting `lod`.
+   */
+  VkBool32 levels;
+  /**
+   * Its levels of detail may have a `budget`, for which the host keeps 40 bytes for each node of them.
+   */
+  VkBool32 budget;
+} SurfelSceneInfo;
+
+/**
+ * An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
+ */
+typedef struct SurfelSplats {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_SPLATS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelSplats)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * Shown in messages, as UTF-8; NULL: `splats`.
+   */
+  const char *name;
+  /**
+   * How many splats there are.
+   */
+  uint64_t count;
+  /**
+   * Centers in the scene's own space: x, y, z of each.
+   */
+  const double *centers;
+  /**
+   * Normals of any length, x, y, z of each; the surface is seen from the side to which they point.
+   */
+  const float *normals;
+  /**
+   * Radii.
+   */
+  const float *radii;
+  /**
+   * First tangent vectors, scaled by the radius along them: x, y, z of each. A point of the splat is center + u s + v t with u² + v² ≤ 1.
+   */
+  const float *tangentsS;
+  /**
+   * Second tangent vectors alike; the normal is s × t.
+   */
+  const float *tangentsT;
+  /**
+   * Red, green, blue and alpha of each, linear, straight, 0 to 1; NULL: all are the opaque gray of surfaces without colors.
+   */
+  const float *colors;
+  /**
+   * How many colors there are: `count`, or 1 for all splats.
+   */
+  uint64_t colorCount;
+  /**
+   * How far behind the nearest splat others of it belong to the same surface, in the scene's unit; 0: as the settings say.
+   */
+  double epsilon;
+  /**
+   * The splats sample a closed surface, and their normals point outward: those that face away can't be seen.
+   */
+  VkBool32 closed;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
+} SurfelSplats;
+
+/**
+ * What is known of disks that a host writes on the device, by a compute shader or by copies. All of it may be wrong by being too large, at
+ * the cost of speed, but not by being too small: what lies outside of the bounds may not be drawn.
+ *
+ * Disk i has 32 bytes in the buffer of shapes: x y z radius, then nx ny nz 2.0, all float: its center from `origin` in the scene's unit, a
+ * unit normal. It has 8 bytes in the buffer of colors: linear red, green, blue and alpha as 16-bit fractions of 65535.
+ */
+typedef struct SurfelDynamicSplats {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_DYNAMIC_SPLATS`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelDynamicSplats)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * How many there are room for, at most 4 million and what a storage buffer of the device holds at 32 bytes each.
+   */
+  uint32_t capacity;
+  /**
+   * How many are drawn, the first ones.
+   */
+  uint32_t count;
+  /**
+   * Where positions are counted from.
+   */
+  double origin[3];
+  /**
+   * The smallest coordinates of centers, from the origin.
+   */
+  double least[3];
+  /**
+   * The largest ones.
+   */
+  double most[3];
+  /**
+   * The largest radius.
+   */
+  double largestRadius;
+  /**
+   * How many disks lie over a place of the surface, where they are fewest: it tells how much of a pixel a silhouette covers. 0 is 1. Where
+   * fewer lie than that, a surface inside of its silhouette shows what is behind it.
+   */
+  double overlap;
+  /**
+   * They belong to a closed surface and their normals point outward: those that face away are not drawn.
+   */
+  VkBool32 closed;
+  /**
+   * Some may be transparent: they are drawn in layers.
+   */
+  VkBool32 transparent;
+} SurfelDynamicSplats;
+
+/**
+ * How a renderer is made.
+ */
+typedef struct SurfelRendererInfo {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_RENDERER_INFO`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelRendererInfo)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The folder in which pipelines are kept from run to run, as UTF-8; NULL: they are not.
+   */
+  const char *cacheFolder;
+} SurfelRendererInfo;
+
+/**
+ * What a scene on the device is. `surfel_prepared_scene_info` fills it.
+ */
+typedef struct SurfelPreparedSceneInfo {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_PREPARED_SCENE_INFO`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelPreparedSceneInfo)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  void *pNext;
+  /**
+   * How many splats it has.
+   */
+  uint64_t splats;
+  /**
+   * How many triangles it has.
+   */
+  uint64_t triangles;
+  /**
+   * Bytes of device memory.
+   */
+  uint64_t bytes;
+  /**
+   * Splats that could not be drawn and are not in it.
+   */
+  uint64_t leftOut;
+} SurfelPreparedSceneInfo;
+
+/**
+ * What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
+ */
+typedef struct SurfelRendering {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_RENDERING`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelRendering)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * The formats of its color attachments.
+   */
+  const VkFormat *colorFormats;
+  /**
+   * How many there are.
+   */
+  uint32_t colorFormatCount;
+  /**
+   * Which of them is drawn to; the others are left as they are.
+   */
+  uint32_t color;
+  /**
+   * The format of its depth attachment; 0 (`VK_FORMAT_UNDEFINED`): there is none, and all of the view is drawn.
+   */
+  VkFormat depthFormat;
+  /**
+   * The format of its stencil attachment, which is left as it is; 0: there is none.
+   */
+  VkFormat stencilFormat;
+  /**
+   * Samples of a pixel; 0 is `VK_SAMPLE_COUNT_1_BIT`. All samples of one get the same.
+   */
+  uint32_t samples;
+  /**
+   * How depths are compared: `VK_COMPARE_OP_LESS` or, where depth is reversed, `VK_COMPARE_OP_GREATER`, which 0 is, too.
+   */
+  VkCompareOp compare;
+  /**
+   * Colors are encoded as sRGB before they are blended: for hosts that keep encoded colors in `UNORM` formats. sRGB formats encode by
+   * themselves, and float formats keep linear light.
+   */
+  VkBool32 encodes;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
+} SurfelRendering;
+
+/**
+ * The depth of what a host has drawn so far.
+ */
+typedef struct SurfelDepthImage {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_DEPTH_IMAGE`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelDepthImage)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * One sample a pixel, one layer, one mip level; usage `VK_IMAGE_USAGE_SAMPLED_BIT`.
+   */
+  VkImage image;
+  /**
+   * A view of its depth alone.
+   */
+  VkImageView view;
+  /**
+   * What was done with it just before; its writes are waited for.
+   */
+  VkPipelineStageFlags2 beforeStages;
+  /**
+   * As `beforeStages`.
+   */
+  VkAccessFlags2 beforeAccess;
+  /**
+   * What will be done with it just after.
+   */
+  VkPipelineStageFlags2 afterStages;
+  /**
+   * As `afterStages`.
+   */
+  VkAccessFlags2 afterAccess;
+  /**
+   * The layout in which it is.
+   */
+  VkImageLayout beforeLayout;
+  /**
+   * The layout in which it is left.
+   */
+  VkImageLayout afterLayout;
+  /**
+   * Its format.
+   */
+  VkFormat format;
+  /**
+   * Its width in pixels.
+   */
+  uint32_t width;
+  /**
+   * Its height in pixels.
+   */
+  uint32_t height;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
+} SurfelDepthImage;
+
+/**
+ * What a view shows in a frame, and from where. Matrices are columns of four numbers, 16 in all.
+ */
+typedef struct SurfelFrame {
+  /**
+   * `SURFEL_STRUCTURE_TYPE_FRAME`.
+   */
+  uint32_t sType;
+  /**
+   * `sizeof(SurfelFrame)`.
+   */
+  uint32_t size;
+  /**
+   * NULL.
+   */
+  const void *pNext;
+  /**
+   * What is shown; it may differ from frame to frame, nothing is uploaded by that. One scene may be in it several times.
+   */
+  const struct SurfelPreparedScene *const *scenes;
+  /**
+   * A matrix for each scene, one behind the other, from its own space to the world: rotation, scale alike in all directions,
+   * translation. NULL: all stand where their own coordinates say.
+   */
+  const double *worldFromScene;
+  /**
+   * How; NULL: by the defaults.
+   */
+  const struct SurfelSettings *settings;
+  /**
+   * What the host has drawn hides transparent things pixel by pixel between each other: its depth. Needed where anything is transparent
+   * and the rendering has a depth. What is opaque is tested by the host's own test when it is drawn.
+   */
+  const struct SurfelDepthImage *hides;
+  /**
+   * From world to the host's view space, whatever its axes: a motion, without scale.
+   */
+  double viewFromWorld[16];
+  /**
+   * From view to clip space as Vulkan has it; perspective or orthographic, off-center, jittered, depth reversed or not, finite or
+   * infinite. Pixels are square.
+   */
+  double clipFromView[16];
+  /**
+   * How many scenes there are.
+   */
+  uint32_t sceneCount;
+  /**
+   * The viewport has a negative height, so that clip space's y points up in the picture.
+   */
+  VkBool32 flipsY;
+  /**
+   * The view's size in pixels.
+   */
+  uint32_t width;
+  /**
+   * The view's size in pixels.
+   */
+  uint32_t height;
+  /**
+   * Where its left side lies in the host's images, in pixels.
+   */
+  int32_t x;
+  /**
+   * Where its top lies.
+   */
+  int32_t y;
+  /**
+   * Each pass is timed, for `surfel_view_times`.
+   */
+  VkBool32 timed;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
+} SurfelFrame;
+
+/**
+ * Is told of a pass: its name, valid during the call, and its seconds, below 0 where they were not measured. Must return.
+ */
+typedef void (*SurfelPassTime)(void *user, const char *name, double secs);
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The version of the library that runs, as `SURFEL_VERSION` is that of the header that was compiled with. Before 1.0 both must have the
+ * same minor number, then the same major number.
+ */
+uint32_t surfel_version(void);
+
+/**
+ * Why the last call of this thread that failed did, in a sentence that begins with the function's name; empty where none has. Valid until
+ * the next call of this thread that fails.
+ */
+const char *surfel_last_error(void);
+
+/**
+ * Tells what a device of `physicalDevice` must be created with. `instance` must be of Vulkan 1.3. Where the device lacks something,
+ * `requirements` is filled all the same, the answer is `SURFEL_RESULT_NO_DEVICE`, and `surfel_last_error` names what is missing.
+ */
+SurfelResult surfel_requirements(VkInstance instance,
+                                 VkPhysicalDevice physicalDevice,
+                                 PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                                 struct SurfelRequirements *requirements);
+
+/**
+ * Enables features (`SURFEL_FEATURE_…`) in the structs that a device is created with: sets those, leaves all others as they are.
+ */
+SurfelResult surfel_enable_features(uint64_t features,
+                                    VkPhysicalDeviceFeatures *core,
+                                    VkPhysicalDeviceVulkan12Features *vulkan12,
+                                    VkPhysicalDeviceVulkan13Features *vulkan13);
+
+/**
+ * Takes a host's device; what it lacks is named, and the answer then is `SURFEL_RESULT_NO_DEVICE`. All handles must belong together and
+ * stay alive until every object made from this device is destroyed; before the last one is, all submissions of commands that were
+ * recorded by them must have finished. Then the host's device is as it was.
+ */
+SurfelResult surfel_device_import(const struct SurfelImport *host, struct SurfelDevice **device);
+
+/**
+ * Ends the epoch in which commands were recorded: to be called at each submission that contains our commands. `epoch` gets its number;
+ * what is destroyed from now on waits for the next one.
+ */
+SurfelResult surfel_device_end_epoch(const struct SurfelDevice *device, uint64_t *epoch);
+
+/**
+ * Frees all that was destroyed up to the end of an epoch. The device must have finished every submission up to the one at which
+ * `surfel_device_end_epoch` gave `epoch`.
+ */
+SurfelResult surfel_device_epoch_done(const struct SurfelDevice *device, uint64_t epoch);
+
+/**
+ * Tells how much device memory our objects have: bytes in use, and bytes that are taken from the device for it.
+ */
+SurfelResult surfel_device_memory(const struct SurfelDevice *device, uint64_t *used, uint64_t *held);
+
+/**
+ * Lets go of a device; NULL is nothing. What was made from it may be destroyed later, and all must be before the host's own device is.
+ */
+void surfel_device_destroy(struct SurfelDevice *device);
+
+/**
+ * Makes a scene of nothing. `info` may be NULL.
+ */
+SurfelResult surfel_scene_create(const struct SurfelSceneInfo *info, struct SurfelScene **scene);
+
+/**
+ * Says how splats are kept on a device, by words: `order` is `morton` or `input`, `splat-format` is `exact` or `packed`.
+ */
+SurfelResult surfel_scene_set(struct SurfelScene *scene, const char *name, const char *value);
+
+/**
+ * Adds a light, by words: `eye`, or `direction=x,y,z` in which it travels; and `color=r,g,b` (sRGB, 0 to 1) and `intensity=i` where they
+ * are not 1; with commas between. A scene without lights has a white one at the eye.
+ */
+SurfelResult surfel_scene_add_light(struct SurfelScene *scene, const char *light);
+
+/**
+ * Adds an object of splats; its arrays are copied.
+ */
+SurfelResult surfel_scene_add_splats(struct SurfelScene *scene, const struct SurfelSplats *splats);
+
+/**
+ * Adds what a file holds, as `surfel render` shows it: splats, a mesh or points of any format that the library was built with, or all
+ * objects and lights of a scene file (`.toml`). `path` is UTF-8; on Unix any bytes that are a path. Files that a file names are opened in
+ * its folder or below.
+ */
+SurfelResult surfel_scene_add_file(struct SurfelScene *scene, const char *path);
+
+/**
+ * Tells a ball around all that is in a scene, for a camera: `center` gets three coordinates.
+ */
+SurfelResult surfel_scene_ball(const struct SurfelScene *scene, double *center, double *radius);
+
+/**
+ * Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
+ */
+void surfel_scene_destroy(struct SurfelScene *scene);
+
+/**
+ * Makes a scene of splats that the host writes on the device: each time before a frame reads them, with a barrier to
+ * `VK_ACCESS_2_SHADER_STORAGE_READ_BIT` of the compute and vertex stages. Nothing is in its buffers yet.
+ */
+SurfelResult surfel_dynamic_create(const struct SurfelRenderer *renderer,
+                                   const struct SurfelDynamicSplats *splats,
+                                   struct SurfelPreparedScene **scene);
+
+/**
+ * Says anew what is known of such splats, for frames that are recorded from now on: as many as there is room for, anywhere. Only `count`,
+ * bounds, radius and overlap may change. No other thread may use the scene meanwhile.
+ */
+SurfelResult surfel_dynamic_set(struct SurfelPreparedScene *scene, const struct SurfelDynamicSplats *splats);
+
+/**
+ * Tells the buffers of such splats: usage `VK_BUFFER_USAGE_STORAGE_BUFFER_BIT` and `VK_BUFFER_USAGE_TRANSFER_DST_BIT`. They are the scene's.
+ */
+SurfelResult surfel_dynamic_buffers(const struct SurfelPreparedScene *scene,
+                                    VkBuffer *shapes,
+                                    VkBuffer *colors);
+
+/**
+ * Makes a renderer. `info` may be NULL.
+ */
+SurfelResult surfel_renderer_create(const struct SurfelDevice *device,
+                                    const struct SurfelRendererInfo *info,
+                                    struct SurfelRenderer **renderer);
+
+/**
+ * Destroys a renderer; NULL is nothing. Its views go on.
+ */
+void surfel_renderer_destroy(struct SurfelRenderer *renderer);
+
+/**
+ * Records the upload of a scene, which frames recorded later may show; `scene` may be destroyed at once. `commands` must be recording,
+ * outside of rendering, and be submitted to the device's queue before `surfel_device_end_epoch` is called. Where this fails, they hold
+ * copies to what is gone, and must not be submitted. Splats that can't be drawn are left out and counted.
+ */
+SurfelResult surfel_upload(const struct SurfelRenderer *renderer,
+                           VkCommandBuffer commands,
+                           const struct SurfelScene *scene,
+                           struct SurfelPreparedScene **prepared);
+
+/**
+ * Tells what a scene on the device is.
+ */
+SurfelResult surfel_prepared_scene_info(const struct SurfelPreparedScene *scene, struct SurfelPreparedSceneInfo *info);
+
+/**
+ * Destroys a scene on the device; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
+ */
+void surfel_prepared_scene_destroy(struct SurfelPreparedScene *scene);
+
+/**
+ * Makes settings: each has its default.
+ */
+SurfelResult surfel_settings_create(struct SurfelSettings **settings);
+
+/**
+ * Sets one to a value, both by the words of `surfel render --help` without the dashes, such as `shading` and `lambert`. `size` and
+ * `background` have no effect: the frame's size and the host's picture take their place.
+ */
+SurfelResult surfel_settings_set(struct SurfelSettings *settings, const char *name, const char *value);
+
+/**
+ * Destroys settings; NULL is nothing.
+ */
+void surfel_settings_destroy(struct SurfelSettings *settings);
+
+/**
+ * Makes a view to be drawn within such a rendering. Its pipelines are made here.
+ */
+SurfelResult surfel_view_create(const struct SurfelRenderer *renderer, const struct SurfelRendering *rendering, struct SurfelView **view);
+
+/**
+ * Records the passes of a frame: all but its draws. `commands` must be recording, outside of rendering, without an active query, and be
+ * submitted to the device's queue. The frame prepared before in this view must have finished. View and scenes must not be destroyed before
+ * the submission, and the images of `hides` not before it has finished.
+ */
+SurfelResult surfel_view_prepare(struct SurfelView *view, VkCommandBuffer commands, const struct SurfelFrame *frame);
+
+/**
+ * Records the draws of the frame that was prepared: one to three triangles. `commands` are those of `surfel_view_prepare`, or others that
+ * are submitted after them to the same queue; they are inside of a rendering as the view was made for, which covers the view's area.
+ * Clobbers the pipeline, viewport and scissor, and of the graphics bind point set 0 and push constants.
+ */
+SurfelResult surfel_view_draw(const struct SurfelView *view, VkCommandBuffer commands);
+
+/**
+ * Tells how long each pass took of the frame that was prepared last, in their order, once it has finished; nothing if it was not `timed`.
+ */
+SurfelResult surfel_view_times(const struct SurfelView *view, SurfelPassTime each, void *user);
+
+/**
+ * Tells how many bytes of device memory a view holds.
+ */
+SurfelResult surfel_view_bytes(const struct SurfelView *view, uint64_t *bytes);
+
+/**
+ * Destroys a view; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
+ */
+void surfel_view_destroy(struct SurfelView *view);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* SURFEL_H */

@@ -1,0 +1,129 @@
+//! The host's device.
+
+use std::ffi::c_void;
+
+use surfel::{
+    ash::vk,
+    embed::{Device, Import},
+};
+
+use crate::{
+    handle::{Out, destroy, get, get_mut, null},
+    requirements::{PFN_vkGetInstanceProcAddr, features_of, load_device, load_instance},
+    result::{SurfelResult, guard},
+    structs::{Struct, SurfelStructureType, read},
+};
+
+/// A host's device. May be used by several threads at once.
+pub struct SurfelDevice(pub Device);
+
+/// A device that a host lends.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelImport {
+    /// `SURFEL_STRUCTURE_TYPE_IMPORT`.
+    pub s_type: u32,
+    /// `sizeof(SurfelImport)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *const c_void,
+    /// Of Vulkan 1.3.
+    pub instance: vk::Instance,
+    /// The physical device.
+    pub physical_device: vk::PhysicalDevice,
+    /// The device, created with at least what `surfel_requirements` says.
+    pub device: vk::Device,
+    /// All entry points come from it.
+    pub get_instance_proc_addr: PFN_vkGetInstanceProcAddr,
+    /// What the host really enabled, of `SURFEL_FEATURE_…`.
+    pub features: u64,
+    /// The family of the queue to which the host submits what we record; graphics and compute.
+    pub queue_family: u32,
+    /// Whether `VK_EXT_debug_utils` is enabled: then all of our objects have names, and our passes labels.
+    pub debug_utils: vk::Bool32,
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelImport {
+    const TYPE: SurfelStructureType = SurfelStructureType::Import;
+}
+
+/// Takes a host's device; what it lacks is named, and the answer then is `SURFEL_RESULT_NO_DEVICE`. All handles must belong together and
+/// stay alive until every object made from this device is destroyed; before the last one is, all submissions of commands that were
+/// recorded by them must have finished. Then the host's device is as it was.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_import(
+    host: *const SurfelImport,
+    device: *mut *mut SurfelDevice,
+) -> SurfelResult {
+    guard("surfel_device_import", || {
+        // SAFETY: the contract of the header, here and below.
+        let (out, host) = unsafe { (Out::new(device, "device")?, read(host, "host")?) };
+        if host.physical_device == vk::PhysicalDevice::null() {
+            return Err(null("physicalDevice"));
+        }
+        // SAFETY: as above.
+        let instance = unsafe { load_instance(host.get_instance_proc_addr, host.instance) }?;
+        // SAFETY: as above.
+        let device = unsafe { load_device(&instance, host.device) }?;
+        let import = Import {
+            instance: &instance,
+            debug_utils: host.debug_utils != vk::FALSE,
+            physical: host.physical_device,
+            device: &device,
+            queue_family: host.queue_family,
+            enabled: features_of(host.features),
+        };
+        // SAFETY: as above.
+        out.give(SurfelDevice(unsafe { Device::import(&import) }?))
+    })
+}
+
+/// Ends the epoch in which commands were recorded: to be called at each submission that contains our commands. `epoch` gets its number;
+/// what is destroyed from now on waits for the next one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_end_epoch(
+    device: *const SurfelDevice,
+    epoch: *mut u64,
+) -> SurfelResult {
+    guard("surfel_device_end_epoch", || {
+        // SAFETY: the contract of the header.
+        let (device, epoch) = unsafe { (get(device, "device")?, get_mut(epoch, "epoch")?) };
+        *epoch = device.0.end_epoch();
+        Ok(())
+    })
+}
+
+/// Frees all that was destroyed up to the end of an epoch. The device must have finished every submission up to the one at which
+/// `surfel_device_end_epoch` gave `epoch`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_epoch_done(device: *const SurfelDevice, epoch: u64) -> SurfelResult {
+    guard("surfel_device_epoch_done", || {
+        // SAFETY: the contract of the header.
+        unsafe { get(device, "device")?.0.epoch_done(epoch) };
+        Ok(())
+    })
+}
+
+/// Tells how much device memory our objects have: bytes in use, and bytes that are taken from the device for it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_memory(
+    device: *const SurfelDevice,
+    used: *mut u64,
+    held: *mut u64,
+) -> SurfelResult {
+    guard("surfel_device_memory", || {
+        // SAFETY: the contract of the header.
+        let (device, used, held) =
+            unsafe { (get(device, "device")?, get_mut(used, "used")?, get_mut(held, "held")?) };
+        (*used, *held) = (device.0.memory_in_use().0, device.0.memory_held());
+        Ok(())
+    })
+}
+
+/// Lets go of a device; NULL is nothing. What was made from it may be destroyed later, and all must be before the host's own device is.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_device_destroy(device: *mut SurfelDevice) {
+    // SAFETY: the contract of the header.
+    unsafe { destroy("surfel_device_destroy", device) };
+}

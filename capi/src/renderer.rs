@@ -1,0 +1,167 @@
+//! The renderer, and uploads.
+
+use std::{
+    ffi::{c_char, c_void},
+    path::Path,
+    sync::Arc,
+};
+
+use surfel::{
+    ash::vk,
+    embed::{PreparedScene, Renderer},
+};
+
+use crate::{
+    device::SurfelDevice,
+    handle::{Out, destroy, get, text},
+    result::{SurfelResult, guard},
+    scene::SurfelScene,
+    structs::{Struct, SurfelStructureType, read, write},
+};
+
+/// Pipelines, for all views and scenes of a device. May be used by several threads at once.
+pub struct SurfelRenderer(pub Arc<Renderer>);
+
+/// A scene on the device: uploaded, or written there by the host. Frames of several threads may show it at once.
+pub struct SurfelPreparedScene(pub PreparedScene);
+
+/// How a renderer is made.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelRendererInfo {
+    /// `SURFEL_STRUCTURE_TYPE_RENDERER_INFO`.
+    pub s_type: u32,
+    /// `sizeof(SurfelRendererInfo)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *const c_void,
+    /// The folder in which pipelines are kept from run to run, as UTF-8; NULL: they are not.
+    pub cache_folder: *const c_char,
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelRendererInfo {
+    const TYPE: SurfelStructureType = SurfelStructureType::RendererInfo;
+}
+
+/// Makes a renderer. `info` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_renderer_create(
+    device: *const SurfelDevice,
+    info: *const SurfelRendererInfo,
+    renderer: *mut *mut SurfelRenderer,
+) -> SurfelResult {
+    guard("surfel_renderer_create", || {
+        // SAFETY: the contract of the header, here and below.
+        let (out, device) = unsafe { (Out::new(renderer, "renderer")?, get(device, "device")?) };
+        let mut folder = None;
+        if !info.is_null() {
+            // SAFETY: as above.
+            let SurfelRendererInfo { cache_folder, .. } = unsafe { read(info, "info") }?;
+            if !cache_folder.is_null() {
+                // SAFETY: as above.
+                folder = Some(Path::new(unsafe { text(cache_folder, "cacheFolder") }?));
+            }
+        }
+        out.give(SurfelRenderer(Arc::new(Renderer::new(&device.0, folder)?)))
+    })
+}
+
+/// Destroys a renderer; NULL is nothing. Its views go on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_renderer_destroy(renderer: *mut SurfelRenderer) {
+    // SAFETY: the contract of the header.
+    unsafe { destroy("surfel_renderer_destroy", renderer) };
+}
+
+/// Records the upload of a scene, which frames recorded later may show; `scene` may be destroyed at once. `commands` must be recording,
+/// outside of rendering, and be submitted to the device's queue before `surfel_device_end_epoch` is called. Where this fails, they hold
+/// copies to what is gone, and must not be submitted. Splats that can't be drawn are left out and counted.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_upload(
+    renderer: *const SurfelRenderer,
+    commands: vk::CommandBuffer,
+    scene: *const SurfelScene,
+    prepared: *mut *mut SurfelPreparedScene,
+) -> SurfelResult {
+    guard("surfel_upload", || {
+        // SAFETY: the contract of the header, here and below.
+        let (out, renderer, scene) =
+            unsafe { (Out::new(prepared, "prepared")?, get(renderer, "renderer")?, get(scene, "scene")?) };
+        if commands == vk::CommandBuffer::null() {
+            return Err(crate::handle::null("commands"));
+        }
+        // SAFETY: as above.
+        out.give(SurfelPreparedScene(unsafe { renderer.0.upload(commands, &scene.0) }?))
+    })
+}
+
+/// What a scene on the device is. `surfel_prepared_scene_info` fills it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelPreparedSceneInfo {
+    /// `SURFEL_STRUCTURE_TYPE_PREPARED_SCENE_INFO`.
+    pub s_type: u32,
+    /// `sizeof(SurfelPreparedSceneInfo)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *mut c_void,
+    /// How many splats it has.
+    pub splats: u64,
+    /// How many triangles it has.
+    pub triangles: u64,
+    /// Bytes of device memory.
+    pub bytes: u64,
+    /// Splats that could not be drawn and are not in it.
+    pub left_out: u64,
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelPreparedSceneInfo {
+    const TYPE: SurfelStructureType = SurfelStructureType::PreparedSceneInfo;
+}
+
+/// Tells what a scene on the device is.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_prepared_scene_info(
+    scene: *const SurfelPreparedScene,
+    info: *mut SurfelPreparedSceneInfo,
+) -> SurfelResult {
+    guard("surfel_prepared_scene_info", || {
+        // SAFETY: the contract of the header, here and below.
+        let SurfelPreparedScene(scene) = unsafe { get(scene, "scene") }?;
+        let filled = SurfelPreparedSceneInfo {
+            s_type: 0,
+            size: 0,
+            p_next: std::ptr::null_mut(),
+            splats: scene.splat_count(),
+            triangles: scene.triangle_count(),
+            bytes: scene.bytes(),
+            left_out: scene.defects.total() as u64,
+        };
+        // SAFETY: as above.
+        unsafe { write(info, "info", &filled) }
+    })
+}
+
+/// Destroys a scene on the device; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_prepared_scene_destroy(scene: *mut SurfelPreparedScene) {
+    // SAFETY: the contract of the header.
+    unsafe { destroy("surfel_prepared_scene_destroy", scene) };
+}
+
+#[cfg(test)]
+mod tests {
+    /// As the header says. Fails to compile where that is not so.
+    #[test]
+    fn what_threads_share_may_be_shared() {
+        fn shared<T: Send + Sync>() {}
+        shared::<crate::device::SurfelDevice>();
+        shared::<super::SurfelRenderer>();
+        shared::<super::SurfelPreparedScene>();
+        fn sent<T: Send>() {}
+        sent::<crate::view::SurfelView>();
+        sent::<crate::scene::SurfelScene>();
+    }
+}

@@ -1,0 +1,194 @@
+//! A scene in the host's memory.
+
+use std::ffi::{c_char, c_void};
+
+use surfel::{
+    Error, Scene,
+    ash::vk,
+    scene::{Light, Object},
+};
+
+use crate::{
+    handle::{Out, destroy, get, get_mut, text},
+    result::{Failure, Result, SurfelResult, guard},
+    settings::set,
+    splats::{SurfelSplats, object},
+    structs::{Struct, SurfelStructureType, read},
+};
+
+/// Splats and lights in the host's memory, of which `surfel_upload` makes a scene on a device. Needs none itself, so that another thread can
+/// make it.
+pub struct SurfelScene(pub Scene);
+
+/// What a scene is made for.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelSceneInfo {
+    /// `SURFEL_STRUCTURE_TYPE_SCENE_INFO`.
+    pub s_type: u32,
+    /// `sizeof(SurfelSceneInfo)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *const c_void,
+    /// It gets levels of detail at the upload, for the setting `lod`.
+    pub levels: vk::Bool32,
+    /// Its levels of detail may have a `budget`, for which the host keeps 40 bytes for each node of them.
+    pub budget: vk::Bool32,
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelSceneInfo {
+    const TYPE: SurfelStructureType = SurfelStructureType::SceneInfo;
+}
+
+/// Makes a scene of nothing. `info` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_create(
+    info: *const SurfelSceneInfo,
+    scene: *mut *mut SurfelScene,
+) -> SurfelResult {
+    guard("surfel_scene_create", || {
+        // SAFETY: the contract of the header, here and below.
+        let out = unsafe { Out::new(scene, "scene") }?;
+        let mut scene = Scene::default();
+        if !info.is_null() {
+            // SAFETY: as above.
+            let SurfelSceneInfo { levels, budget, .. } = unsafe { read(info, "info") }?;
+            (scene.levels, scene.budget) = (levels != vk::FALSE, budget != vk::FALSE);
+        }
+        out.give(SurfelScene(scene))
+    })
+}
+
+/// Says how splats are kept on a device, by words: `order` is `morton` or `input`, `splat-format` is `exact` or `packed`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_set(
+    scene: *mut SurfelScene,
+    name: *const c_char,
+    value: *const c_char,
+) -> SurfelResult {
+    guard("surfel_scene_set", || {
+        // SAFETY: the contract of the header.
+        let (scene, name, value) =
+            unsafe { (get_mut(scene, "scene")?, text(name, "name")?, text(value, "value")?) };
+        set(&mut scene.0.storage, name, value)
+    })
+}
+
+/// Adds a light, by words: `eye`, or `direction=x,y,z` in which it travels; and `color=r,g,b` (sRGB, 0 to 1) and `intensity=i` where they
+/// are not 1; with commas between. A scene without lights has a white one at the eye.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_add_light(
+    scene: *mut SurfelScene,
+    light: *const c_char,
+) -> SurfelResult {
+    guard("surfel_scene_add_light", || {
+        // SAFETY: the contract of the header.
+        let (scene, light) = unsafe { (get_mut(scene, "scene")?, text(light, "light")?) };
+        let light = Light::parse(light).map_err(|problem| Error::option("light", problem))?;
+        scene.0.lights.push(light);
+        Ok(())
+    })
+}
+
+/// Adds an object of splats; its arrays are copied.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_add_splats(
+    scene: *mut SurfelScene,
+    splats: *const SurfelSplats,
+) -> SurfelResult {
+    guard("surfel_scene_add_splats", || {
+        // SAFETY: the contract of the header.
+        let (scene, splats) = unsafe { (get_mut(scene, "scene")?, read(splats, "splats")?) };
+        // SAFETY: the contract of the header.
+        let object = unsafe { object(&splats) }?;
+        add(&mut scene.0, object, splats.epsilon)
+    })
+}
+
+fn add(scene: &mut Scene, object: Object, epsilon: f64) -> Result<()> {
+    let epsilon = match epsilon {
+        0.0 => None,
+        length if length > 0.0 && length.is_finite() => Some(surfel::scene::Epsilon::Length(length)),
+        other => {
+            let problem = format!("{other}: expected a finite length above 0, or 0 for that of the settings");
+            return Err(Error::option("epsilon", problem).into());
+        }
+    };
+    scene.epsilons.resize(scene.objects.len(), None);
+    scene.epsilons.push(epsilon);
+    scene.objects.push(object);
+    Ok(())
+}
+
+/// Adds what a file holds, as `surfel render` shows it: splats, a mesh or points of any format that the library was built with, or all
+/// objects and lights of a scene file (`.toml`). `path` is UTF-8; on Unix any bytes that are a path. Files that a file names are opened in
+/// its folder or below.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_add_file(scene: *mut SurfelScene, path: *const c_char) -> SurfelResult {
+    guard("surfel_scene_add_file", || {
+        // SAFETY: the contract of the header, here and below.
+        let scene = unsafe { get_mut(scene, "scene") }?;
+        if path.is_null() {
+            return Err(crate::handle::null("path"));
+        }
+        // SAFETY: as above.
+        add_file(&mut scene.0, unsafe { std::ffi::CStr::from_ptr(path) })
+    })
+}
+
+#[cfg(feature = "files")]
+fn add_file(scene: &mut Scene, path: &std::ffi::CStr) -> Result<()> {
+    use surfel::{
+        compose::{build, compose},
+        load::{LoadOptions, ObjectDescription, is_scene_file},
+    };
+
+    #[cfg(unix)]
+    let path =
+        std::path::Path::new(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(path.to_bytes()));
+    #[cfg(not(unix))]
+    let path = std::path::Path::new(path.to_str().map_err(|_| Failure::invalid("path is not UTF-8"))?);
+    let options = LoadOptions::default();
+    let file = match is_scene_file(path) {
+        true => compose(path, &options, &())?.scene,
+        false => build(&[ObjectDescription::of_file(path)], Vec::new(), &options, &(), &mut |_| {})?.0,
+    };
+    scene.epsilons.resize(scene.objects.len(), None);
+    scene.epsilons.extend(file.epsilons);
+    scene.objects.extend(file.objects);
+    scene.meshes.extend(file.meshes);
+    scene.lights.extend(file.lights);
+    Ok(())
+}
+
+#[cfg(not(feature = "files"))]
+fn add_file(_scene: &mut Scene, _path: &std::ffi::CStr) -> Result<()> {
+    let text = "the library was built without the feature 'files'".to_owned();
+    Err(Failure { code: SurfelResult::Unsupported, text })
+}
+
+/// Tells a ball around all that is in a scene, for a camera: `center` gets three coordinates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_ball(
+    scene: *const SurfelScene,
+    center: *mut f64,
+    radius: *mut f64,
+) -> SurfelResult {
+    guard("surfel_scene_ball", || {
+        // SAFETY: the contract of the header.
+        let (scene, center, radius) = unsafe {
+            (get(scene, "scene")?, get_mut(center.cast::<[f64; 3]>(), "center")?, get_mut(radius, "radius")?)
+        };
+        let ball = scene.0.ball().ok_or_else(|| Failure::invalid("there is nothing in the scene"))?;
+        (*center, *radius) = (ball.center.to_array(), ball.radius);
+        Ok(())
+    })
+}
+
+/// Destroys a scene in the host's memory; NULL is nothing. What was made of it on a device stays.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_scene_destroy(scene: *mut SurfelScene) {
+    // SAFETY: the contract of the header.
+    unsafe { destroy("surfel_scene_destroy", scene) };
+}

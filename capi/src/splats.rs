@@ -1,0 +1,126 @@
+//! Splats of arrays.
+
+use std::ffi::{c_char, c_void};
+
+use surfel::{
+    ash::vk,
+    glam::{DVec3, Vec3},
+    scene::{Colors, Object, Shapes, Splats},
+};
+
+use crate::{
+    handle::{null, text},
+    result::{Failure, Result, SurfelResult},
+    structs::{Struct, SurfelStructureType},
+};
+
+/// An object of splats, by arrays. Disks have `normals` and `radii`, ellipses have `tangentsS` and `tangentsT`; the other two are NULL.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelSplats {
+    /// `SURFEL_STRUCTURE_TYPE_SPLATS`.
+    pub s_type: u32,
+    /// `sizeof(SurfelSplats)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *const c_void,
+    /// Shown in messages, as UTF-8; NULL: `splats`.
+    pub name: *const c_char,
+    /// How many splats there are.
+    pub count: u64,
+    /// Centers in the scene's own space: x, y, z of each.
+    pub centers: *const f64,
+    /// Normals of any length, x, y, z of each; the surface is seen from the side to which they point.
+    pub normals: *const f32,
+    /// Radii.
+    pub radii: *const f32,
+    /// First tangent vectors, scaled by the radius along them: x, y, z of each. A point of the splat is center + u s + v t with u² + v² ≤ 1.
+    pub tangents_s: *const f32,
+    /// Second tangent vectors alike; the normal is s × t.
+    pub tangents_t: *const f32,
+    /// Red, green, blue and alpha of each, linear, straight, 0 to 1; NULL: all are the opaque gray of surfaces without colors.
+    pub colors: *const f32,
+    /// How many colors there are: `count`, or 1 for all splats.
+    pub color_count: u64,
+    /// How far behind the nearest splat others of it belong to the same surface, in the scene's unit; 0: as the settings say.
+    pub epsilon: f64,
+    /// The splats sample a closed surface, and their normals point outward: those that face away can't be seen.
+    pub closed: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelSplats {
+    const TYPE: SurfelStructureType = SurfelStructureType::Splats;
+}
+
+/// # Safety
+/// Pointers are NULL or lead to as much as the struct says.
+pub unsafe fn object(given: &SurfelSplats) -> Result<Object> {
+    let count = given.count;
+    // SAFETY: this function's contract, here and below.
+    let centers = unsafe { copy(given.centers.cast(), count, "centers", DVec3::from_array) }?;
+    // SAFETY: as above.
+    let vectors = |from: *const f32, name| unsafe { copy(from.cast(), count, name, Vec3::from_array) };
+    let is_given = |all: [*const f32; 2]| all.iter().any(|array| !array.is_null());
+    let disks = is_given([given.normals, given.radii]);
+    if disks == is_given([given.tangents_s, given.tangents_t]) && count > 0 {
+        return Err(Failure::invalid("expected normals and radii, or tangentsS and tangentsT"));
+    }
+    let shapes = match disks {
+        true => Shapes::Disks {
+            normals: vectors(given.normals, "normals")?,
+            // SAFETY: as above.
+            radii: unsafe { copy(given.radii, count, "radii", |radius| radius) }?,
+        },
+        false => Shapes::Ellipses {
+            s: vectors(given.tangents_s, "tangentsS")?,
+            t: vectors(given.tangents_t, "tangentsT")?,
+        },
+    };
+    let color_count = if given.colors.is_null() { 0 } else { given.color_count };
+    if ![0, 1, count].contains(&color_count) || (color_count == 0 && !given.colors.is_null() && count > 0) {
+        let text = format!("colorCount is {}: expected 1 or {count}", given.color_count);
+        return Err(Failure::invalid(text));
+    }
+    // SAFETY: as above.
+    let colors = unsafe { copy(given.colors.cast(), color_count, "colors", |color: [f32; 4]| color) }?;
+    let colors = match colors[..] {
+        [] => Colors::unknown(),
+        [color] => Colors::Uniform(color),
+        _ => Colors::Each(colors),
+    };
+    let name = match given.name.is_null() {
+        true => "splats",
+        // SAFETY: as above.
+        false => unsafe { text(given.name, "name") }?,
+    };
+    let splats = Splats::new(centers, shapes, colors);
+    Ok(Object { name: name.to_owned(), splats, closed: given.closed != vk::FALSE })
+}
+
+/// An array of C's as one of ours.
+///
+/// # Safety
+/// `from` is NULL or leads to `count` of them.
+unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+    let most = isize::MAX as u64 / size_of::<T>() as u64;
+    let mut all = Vec::new();
+    match usize::try_from(count) {
+        Ok(0) => Ok(all),
+        _ if from.is_null() => Err(null(name)),
+        _ if !from.is_aligned() => Err(Failure::invalid(format!("{name} is not aligned"))),
+        Ok(length) if count <= most => {
+            let no_memory = |_| Failure {
+                code: SurfelResult::OutOfMemory,
+                text: format!("{name}: no memory for {count} of them"),
+            };
+            all.try_reserve_exact(length).map_err(no_memory)?;
+            // SAFETY: this function's contract; not null, aligned, of a size that memory can have.
+            all.extend(unsafe { std::slice::from_raw_parts(from, length) }.iter().map(|value| of(*value)));
+            Ok(all)
+        }
+        _ => Err(Failure::invalid(format!("{name}: {count} of them don't fit into memory"))),
+    }
+}

@@ -1,0 +1,119 @@
+//! Structs that C fills. Each begins alike, with its kind and the size that its header gave it. A later version appends members, in whole
+//! words of 8 bytes, so that no padding becomes a member; zero is what was before.
+
+use std::{ffi::c_void, mem::MaybeUninit};
+
+use crate::{
+    handle::null,
+    result::{Failure, Result, SurfelResult},
+};
+
+/// What a struct says it is: its `sType`.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfelStructureType {
+    /// `SurfelRequirements`.
+    Requirements = 1,
+    /// `SurfelImport`.
+    Import = 2,
+    /// `SurfelRendererInfo`.
+    RendererInfo = 3,
+    /// `SurfelSceneInfo`.
+    SceneInfo = 4,
+    /// `SurfelSplats`.
+    Splats = 5,
+    /// `SurfelPreparedSceneInfo`.
+    PreparedSceneInfo = 6,
+    /// `SurfelRendering`.
+    Rendering = 7,
+    /// `SurfelDepthImage`.
+    DepthImage = 8,
+    /// `SurfelFrame`.
+    Frame = 9,
+    /// `SurfelDynamicSplats`.
+    DynamicSplats = 10,
+}
+
+/// How each begins.
+#[repr(C)]
+#[derive(Clone, Copy)]
+struct Head {
+    s_type: u32,
+    size: u32,
+    p_next: *const c_void,
+}
+
+/// A struct that C fills.
+///
+/// # Safety
+/// It begins as [`Head`] does, is `repr(C)`, has no padding, and may be all zeros.
+pub unsafe trait Struct: Copy {
+    const TYPE: SurfelStructureType;
+}
+
+/// How many bytes of a struct are both given and known.
+///
+/// # Safety
+/// `given` is NULL or begins as [`Head`] does, and has the size that it says.
+unsafe fn check<T: Struct>(given: *const T, name: &str) -> Result<usize> {
+    if given.is_null() {
+        return Err(null(name));
+    }
+    if !given.is_aligned() {
+        return Err(Failure::invalid(format!("{name} is not aligned")));
+    }
+    // SAFETY: this function's contract.
+    let Head { s_type, size, p_next } = unsafe { given.cast::<Head>().read() };
+    let unknown = |text| Failure { code: SurfelResult::UnknownStruct, text };
+    if s_type != T::TYPE as u32 {
+        let expected = T::TYPE as u32;
+        return Err(unknown(format!("{name}: sType {s_type}: expected {expected} ({:?})", T::TYPE)));
+    }
+    if !p_next.is_null() {
+        // SAFETY: what `pNext` leads to begins alike.
+        let next = unsafe { p_next.cast::<u32>().read_unaligned() };
+        return Err(unknown(format!("{name}: pNext leads to sType {next}, which does not extend it")));
+    }
+    let (size, known) = (size as usize, size_of::<T>());
+    if size < size_of::<Head>() {
+        return Err(Failure::invalid(format!("{name}: size {size}: expected its sizeof")));
+    }
+    // SAFETY: this function's contract, and bytes that are not ours to name are still bytes.
+    let beyond = (known..size).any(|at| unsafe { given.cast::<u8>().add(at).read() } != 0);
+    if beyond {
+        let text = format!(
+            "{name}: size {size}: this library knows {known} bytes of it, and what is beyond is not zero"
+        );
+        return Err(Failure { code: SurfelResult::NewerStruct, text });
+    }
+    Ok(size.min(known))
+}
+
+/// A struct as it was given; what its header did not have is zero.
+///
+/// # Safety
+/// As [`check`].
+pub unsafe fn read<T: Struct>(given: *const T, name: &str) -> Result<T> {
+    // SAFETY: this function's contract, and the trait's.
+    unsafe {
+        let bytes = check(given, name)?;
+        let mut whole = MaybeUninit::<T>::zeroed();
+        given.cast::<u8>().copy_to_nonoverlapping(whole.as_mut_ptr().cast(), bytes);
+        Ok(whole.assume_init())
+    }
+}
+
+/// Fills a struct as far as its header has it. Of `value` all but its head counts.
+///
+/// # Safety
+/// As [`check`], and it may be written.
+pub unsafe fn write<T: Struct>(given: *mut T, name: &str, value: &T) -> Result<()> {
+    let head = size_of::<Head>();
+    // SAFETY: this function's contract.
+    unsafe {
+        let bytes = check(given, name)? - head;
+        let from = std::ptr::from_ref(value).cast::<u8>().add(head);
+        from.copy_to_nonoverlapping(given.cast::<u8>().add(head), bytes);
+    }
+    Ok(())
+}

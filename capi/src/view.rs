@@ -1,0 +1,189 @@
+//! Views: passes outside of the host's rendering, draws within it.
+
+use std::{
+    ffi::{CString, c_char, c_void},
+    sync::Arc,
+};
+
+use surfel::{
+    ash::vk,
+    embed::{Renderer, Rendering, View},
+};
+
+use crate::{
+    frame::{SurfelFrame, with_frame},
+    handle::{Out, destroy, get, get_mut, null},
+    renderer::SurfelRenderer,
+    result::{Failure, Result, SurfelResult, guard},
+    structs::{Struct, SurfelStructureType, read},
+};
+
+/// One view, of one frame at a time: with several frames in flight a host has one for each. One thread at a time may use it.
+pub struct SurfelView {
+    view: View,
+    renderer: Arc<Renderer>,
+}
+
+/// What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SurfelRendering {
+    /// `SURFEL_STRUCTURE_TYPE_RENDERING`.
+    pub s_type: u32,
+    /// `sizeof(SurfelRendering)`.
+    pub size: u32,
+    /// NULL.
+    pub p_next: *const c_void,
+    /// The formats of its color attachments.
+    pub color_formats: *const vk::Format,
+    /// How many there are.
+    pub color_format_count: u32,
+    /// Which of them is drawn to; the others are left as they are.
+    pub color: u32,
+    /// The format of its depth attachment; 0 (`VK_FORMAT_UNDEFINED`): there is none, and all of the view is drawn.
+    pub depth_format: vk::Format,
+    /// The format of its stencil attachment, which is left as it is; 0: there is none.
+    pub stencil_format: vk::Format,
+    /// Samples of a pixel; 0 is `VK_SAMPLE_COUNT_1_BIT`. All samples of one get the same.
+    pub samples: u32,
+    /// How depths are compared: `VK_COMPARE_OP_LESS` or, where depth is reversed, `VK_COMPARE_OP_GREATER`, which 0 is, too.
+    pub compare: vk::CompareOp,
+    /// Colors are encoded as sRGB before they are blended: for hosts that keep encoded colors in `UNORM` formats. sRGB formats encode by
+    /// themselves, and float formats keep linear light.
+    pub encodes: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
+}
+
+// SAFETY: it begins so, and a test looks for padding.
+unsafe impl Struct for SurfelRendering {
+    const TYPE: SurfelStructureType = SurfelStructureType::Rendering;
+}
+
+/// The most color attachments that a rendering has.
+const MOST_ATTACHMENTS: u32 = 64;
+
+/// # Safety
+/// Pointers are NULL or lead to as much as the struct says.
+unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
+    let count = given.color_format_count;
+    if count > MOST_ATTACHMENTS {
+        let text = format!("colorFormatCount is {count}: expected at most {MOST_ATTACHMENTS}");
+        return Err(Failure::invalid(text));
+    }
+    let color_formats = match given.color_formats {
+        _ if count == 0 => Vec::new(),
+        formats if formats.is_null() => return Err(null("colorFormats")),
+        // SAFETY: this function's contract; not null, and few.
+        formats => unsafe { std::slice::from_raw_parts(formats, count as usize) }.to_vec(),
+    };
+    let samples = vk::SampleCountFlags::from_raw(given.samples.max(1));
+    let reversed = given.compare == vk::CompareOp::NEVER;
+    Ok(Rendering {
+        color_formats,
+        color: given.color as usize,
+        depth_format: given.depth_format,
+        stencil_format: given.stencil_format,
+        samples,
+        compare: if reversed { vk::CompareOp::GREATER } else { given.compare },
+        encodes: given.encodes != vk::FALSE,
+    })
+}
+
+/// Makes a view to be drawn within such a rendering. Its pipelines are made here.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_create(
+    renderer: *const SurfelRenderer,
+    rendering: *const SurfelRendering,
+    view: *mut *mut SurfelView,
+) -> SurfelResult {
+    guard("surfel_view_create", || {
+        // SAFETY: the contract of the header, here and below.
+        let (out, renderer) = unsafe { (Out::new(view, "view")?, get(renderer, "renderer")?) };
+        // SAFETY: as above.
+        let rendering = unsafe { rendering_of(&read(rendering, "rendering")?) }?;
+        let renderer = Arc::clone(&renderer.0);
+        out.give(SurfelView { view: View::new(&renderer, &rendering)?, renderer })
+    })
+}
+
+/// Records the passes of a frame: all but its draws. `commands` must be recording, outside of rendering, without an active query, and be
+/// submitted to the device's queue. The frame prepared before in this view must have finished. View and scenes must not be destroyed before
+/// the submission, and the images of `hides` not before it has finished.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_prepare(
+    view: *mut SurfelView,
+    commands: vk::CommandBuffer,
+    frame: *const SurfelFrame,
+) -> SurfelResult {
+    guard("surfel_view_prepare", || {
+        // SAFETY: the contract of the header, here and below.
+        let (SurfelView { view, renderer }, frame) =
+            unsafe { (get_mut(view, "view")?, read(frame, "frame")?) };
+        if commands == vk::CommandBuffer::null() {
+            return Err(null("commands"));
+        }
+        // SAFETY: as above.
+        unsafe { with_frame(&frame, |frame| Ok(view.prepare(renderer, commands, frame)?)) }
+    })
+}
+
+/// Records the draws of the frame that was prepared: one to three triangles. `commands` are those of `surfel_view_prepare`, or others that
+/// are submitted after them to the same queue; they are inside of a rendering as the view was made for, which covers the view's area.
+/// Clobbers the pipeline, viewport and scissor, and of the graphics bind point set 0 and push constants.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_draw(
+    view: *const SurfelView,
+    commands: vk::CommandBuffer,
+) -> SurfelResult {
+    guard("surfel_view_draw", || {
+        // SAFETY: the contract of the header, here and below.
+        let SurfelView { view, renderer } = unsafe { get(view, "view") }?;
+        if commands == vk::CommandBuffer::null() {
+            return Err(null("commands"));
+        }
+        // SAFETY: as above.
+        Ok(unsafe { view.draw(renderer, commands) }?)
+    })
+}
+
+/// Is told of a pass: its name, valid during the call, and its seconds, below 0 where they were not measured. Must return.
+pub type SurfelPassTime = Option<unsafe extern "C" fn(user: *mut c_void, name: *const c_char, secs: f64)>;
+
+/// Tells how long each pass took of the frame that was prepared last, in their order, once it has finished; nothing if it was not `timed`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_times(
+    view: *const SurfelView,
+    each: SurfelPassTime,
+    user: *mut c_void,
+) -> SurfelResult {
+    guard("surfel_view_times", || {
+        // SAFETY: the contract of the header, here and below.
+        let view = unsafe { get(view, "view") }?;
+        let each = each.ok_or_else(|| null("each"))?;
+        for pass in view.view.profile()?.iter().flat_map(|profile| &profile.passes) {
+            let name = CString::new(pass.name.as_str()).unwrap_or_default();
+            // SAFETY: as above.
+            unsafe { each(user, name.as_ptr(), pass.secs.unwrap_or(-1.0)) };
+        }
+        Ok(())
+    })
+}
+
+/// Tells how many bytes of device memory a view holds.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_bytes(view: *const SurfelView, bytes: *mut u64) -> SurfelResult {
+    guard("surfel_view_bytes", || {
+        // SAFETY: the contract of the header.
+        let (view, bytes) = unsafe { (get(view, "view")?, get_mut(bytes, "bytes")?) };
+        *bytes = view.view.bytes();
+        Ok(())
+    })
+}
+
+/// Destroys a view; NULL is nothing. Its memory is freed when the epoch that is recorded now is done.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_view_destroy(view: *mut SurfelView) {
+    // SAFETY: the contract of the header.
+    unsafe { destroy("surfel_view_destroy", view) };
+}

@@ -1,0 +1,37 @@
+/* What a call must answer, and what must be. */
+#ifndef CHECK_H
+#define CHECK_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <surfel.h>
+
+#include "engine.h"
+
+#define IS(expected, call, words)                                                                        \
+    do {                                                                                                 \
+        SurfelResult is = (call);                                                                        \
+        const char *said = is == SURFEL_RESULT_SUCCESS ? "" : surfel_last_error();                       \
+        if (is != SURFEL_RESULT_##expected || !strstr(said, words)) {                                    \
+            printf("line %d: %s\nanswers %d, '%s'; expected %s, '%s'\n", __LINE__, #call, (int)is, said, \
+                   #expected, words);                                                                    \
+            exit(1);                                                                                     \
+        }                                                                                                \
+    } while (0)
+#define OK(call) IS(SUCCESS, call, "")
+#define TRUE(what)                                       \
+    do {                                                 \
+        if (!(what)) {                                   \
+            printf("line %d: not %s\n", __LINE__, #what); \
+            exit(1);                                     \
+        }                                                \
+    } while (0)
+
+/* Frames of what is transparent, refused and drawn; then all is destroyed but the engine. */
+void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Splats that are copied to the device: a ball of which the second frame shows one half. */
+void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+
+#endif
