@@ -18,7 +18,7 @@ use targets::Targets;
 
 use super::{Readbacks, Renderer};
 use crate::{
-    error::Result,
+    error::{Error, Result},
     frame::FrameSlot,
     graph::{
         Plan,
@@ -135,11 +135,20 @@ impl Headless {
         self.slot.transient_bytes()
     }
 
+    /// Refuses a renderer of another device, which nobody is kept from putting in the place of this one's.
+    pub(super) fn check_renderer(&self) -> Result<()> {
+        match self.renderer.device().is(&self.device) {
+            true => Ok(()),
+            false => Err(Error::option("renderer", "is of another device")),
+        }
+    }
+
     /// Uploads a scene and waits for it.
     ///
     /// # Errors
     /// Whatever the allocator or the driver answers.
     pub fn prepare(&self, scene: &Scene, progress: &dyn Fn(u64, u64)) -> Result<PreparedScene> {
+        self.check_renderer()?;
         let mut submit = |staging: crate::vk::Staging| {
             self.queue.run_once("upload", |commands| {
                 // SAFETY: recording; `run_once` waits, and the chunk that owns the targets is alive till then.
@@ -177,6 +186,7 @@ impl Headless {
         wanted: Wanted,
         sample: Option<(bool, bool)>,
     ) -> Result<Frame> {
+        self.check_renderer()?;
         // Before any image of that size is made.
         self.renderer.check(camera, settings)?;
         // What is measured changes no image: frames that are measured in different ways find the same memory, touched.

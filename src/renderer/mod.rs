@@ -34,8 +34,7 @@ use crate::{
 pub struct Renderer {
     device: Device,
     pub(crate) limits: Limits,
-    /// Pipelines and their layouts.
-    pub shaders: Shaders,
+    pub(crate) shaders: Shaders,
 }
 
 /// Buffers that the frame is copied to, for the host to read: rows without padding, top row first. `Some` asks for
@@ -73,6 +72,17 @@ impl Renderer {
     pub fn new(device: &Device, cache_folder: Option<&std::path::Path>) -> Result<Self> {
         let limits = device.facts().limits;
         Ok(Self { device: device.clone(), limits, shaders: Shaders::new(device, cache_folder)? })
+    }
+
+    /// Pipelines and their layouts.
+    pub fn shaders(&self) -> &Shaders {
+        &self.shaders
+    }
+
+    /// Makes a formula of its shaders wrong, from the next frame on; for tests of the tests.
+    #[cfg(feature = "test-formulas")]
+    pub fn perturb(&mut self, formula: Option<passes::Formula>) {
+        self.shaders.perturbed = formula;
     }
 
     /// The device that it records for.

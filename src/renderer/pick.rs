@@ -88,6 +88,7 @@ impl Headless {
         settings: &Settings,
         pixel: [u32; 2],
     ) -> Result<Option<Picked>> {
+        self.check_renderer()?;
         let plan = self.renderer.plan_pick(scene, camera, settings, pixel)?;
         let desc = BufferDesc {
             name: "read-back of picked",

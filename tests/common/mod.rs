@@ -66,7 +66,7 @@ pub fn shared() -> Shared {
     let own = headless.device().facts().limits;
     headless.renderer.lower_limits(&own);
     #[cfg(feature = "test-formulas")]
-    (headless.renderer.shaders.perturbed = None);
+    headless.renderer.perturb(None);
     Shared(headless)
 }
 

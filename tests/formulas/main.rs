@@ -32,7 +32,7 @@ fn assert_seen(
     wrong: &dyn Fn(&mut Headless, &Hard, &Picture) -> Option<String>,
 ) {
     let mut is_wrong = |formula| {
-        headless.renderer.shaders.perturbed = formula;
+        headless.renderer.perturb(formula);
         scenes
             .iter()
             .find_map(|(hard, oracle)| Some(format!("{}: {}", hard.name, wrong(headless, hard, oracle)?)))
@@ -46,7 +46,7 @@ fn assert_seen(
             unseen.push(formula);
         }
     }
-    headless.renderer.shaders.perturbed = None;
+    headless.renderer.perturb(None);
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 

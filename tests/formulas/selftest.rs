@@ -13,7 +13,7 @@ use crate::common::{
 
 fn perturbed(formula: Formula) -> Headless {
     let mut headless = headless();
-    headless.renderer.shaders.perturbed = Some(formula);
+    headless.renderer.perturb(Some(formula));
     headless
 }
 

@@ -107,7 +107,7 @@ fn tiles_without_what_is_hidden_are_the_same_bits_on_every_hard_scene() {
         Cull::Hidden,
         ALL,
     );
-    let pipelines = own.renderer.shaders.pipeline_names();
+    let pipelines = own.renderer.shaders().pipeline_names();
     assert!(pipelines.iter().any(|name| name.ends_with("column_hidden.comp")), "{pipelines:?}");
 }
 

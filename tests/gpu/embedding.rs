@@ -203,7 +203,7 @@ fn without_large_points_every_splat_is_a_quad() {
     frame.copy_target(&host, settings.size_px);
     frame.submit(&host, &ours);
     frame.wait(&host, &ours);
-    let names = renderer.shaders.pipeline_names();
+    let names = renderer.shaders().pipeline_names();
     assert!(names.iter().any(|name| name.starts_with("accumulate_quads")), "{names:?}");
 
     let picture = frame.pixels.bytes();

@@ -5,7 +5,7 @@ use surfel::{hard_scenes::Hard, renderer::Headless, scene::Rasterizer};
 use crate::common::{PICTURE, headless, render_as, scenes, with};
 
 fn count(headless: &Headless) -> usize {
-    headless.renderer.shaders.pipeline_names().len()
+    headless.renderer.shaders().pipeline_names().len()
 }
 
 /// From within the scene to where it is a few pixels large.
@@ -31,7 +31,7 @@ fn a_camera_that_moves_makes_few_pipelines_and_those_that_are_given_up_are_made_
     let before = render_as(&mut headless, &near, PICTURE).linear;
     let keep = |headless: &Headless, most: usize| {
         // SAFETY: every frame was waited for.
-        unsafe { headless.renderer.shaders.keep_newest(most) };
+        unsafe { headless.renderer.shaders().keep_newest(most) };
     };
     keep(&headless, 1000);
     assert_eq!(count(&headless), counts[59]);

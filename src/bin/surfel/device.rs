@@ -45,7 +45,7 @@ impl DeviceArguments {
         let messages = headless.device().instance().messages();
         let done = work(&mut headless);
         // A lost cache costs the next run some time, that is all.
-        let _ = headless.renderer.shaders.save_cache();
+        let _ = headless.renderer.shaders().save_cache();
         drop(headless);
         // Everything of Vulkan is destroyed by now, so that what the layer says about that is heard too.
         let said = if self.validate { conclude(&messages) } else { Ok(()) };

@@ -70,7 +70,7 @@ pub struct Shaders {
     tiles: Option<TileLayouts>,
     /// The formula that is made wrong; for tests of the tests.
     #[cfg(feature = "test-formulas")]
-    pub perturbed: Option<crate::passes::pipeline::formula::Formula>,
+    pub(crate) perturbed: Option<crate::passes::pipeline::formula::Formula>,
 }
 
 impl Shaders {
@@ -232,7 +232,11 @@ impl Shaders {
                 cull_clockwise: key.cull_clockwise,
                 color_formats: &key.color_formats,
                 blend: key.blend,
-                depth: key.depth.map(|(compare, write)| DepthState { format: key.depth_format, compare, write }),
+                depth: key.depth.map(|(compare, write)| DepthState {
+                    format: key.depth_format,
+                    compare,
+                    write,
+                }),
                 attachments: key.attachments,
                 layout: self.layout(key.layout)?,
             };

@@ -142,6 +142,7 @@ impl Headless {
         settings: &Settings,
         stage: Stage<'_>,
     ) -> Result<Arc<Plan>> {
+        self.check_renderer()?;
         self.queue.wait_submitted()?;
         // SAFETY: every submission was waited for.
         let commands = unsafe { self.commands.begin() }?;

@@ -5,7 +5,7 @@ use glam::{
     dcamera::rh::{proj::directx, view::look_at_mat4},
 };
 use surfel::{
-    Error, Settings,
+    Error, Scene, Settings,
     embed::{
         Device, DynamicSplats, HostCamera, Import, Placed, PreparedScene, Renderer, Rendering, View,
         ViewFrame,
@@ -127,7 +127,7 @@ fn an_import_of_less_than_is_needed_is_refused_by_name() {
     };
     // SAFETY: all is the engine's own, which goes last.
     let refused = unsafe { Device::import(&host) }.err().unwrap().to_string();
-    assert!(refused.contains("synchronization2 is not enabled, maintenance4 is not enabled"), "{refused}");
+    assert!(refused.contains("synchronization2 is not enabled; maintenance4 is not enabled"), "{refused}");
     engine.begin();
     engine.begin_rendering(true);
     engine.end_rendering();
@@ -158,7 +158,11 @@ fn a_scene_of_another_device_is_refused() {
     let wanted = surfel::Wanted { picture: true, ..surfel::Wanted::default() };
     let refused = headless.render(&other, &camera, &settings, wanted).err().unwrap().to_string();
     assert!(refused.contains("another device"), "{refused}");
-    drop((other, renderer));
+    // Nor is a renderer of one device a headless host's of another.
+    let own = std::mem::replace(&mut headless.renderer, renderer);
+    let refused = headless.prepare(&Scene::default(), &|_, _| {}).err().unwrap().to_string();
+    assert!(refused.contains("another device"), "{refused}");
+    drop((other, std::mem::replace(&mut headless.renderer, own)));
     // SAFETY: nothing was submitted.
     unsafe { device.epoch_done(device.end_epoch()) };
     drop(device);

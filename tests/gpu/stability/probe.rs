@@ -76,7 +76,7 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
     let compute = vk::ShaderStageFlags::COMPUTE;
     let binding = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: compute };
     let set_layout = SetLayout::new(device, "probe", &[binding; 2]).unwrap();
-    let sets = [headless.renderer.shaders.splat_set.set(), &set_layout];
+    let sets = [headless.renderer.shaders().splat_set.set(), &set_layout];
     let push_bytes = size_of::<FrameConstants>() as u32;
     let layout = PipelineLayout::new(device, "probe", &sets, push_bytes, compute).unwrap();
     let cache = PipelineCache::open(device, None).unwrap();

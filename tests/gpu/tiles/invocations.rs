@@ -65,7 +65,7 @@ fn an_invocation_a_pixel_draws_the_same_bits_in_every_pass() {
             assert_same_bits(&columns, &pixels, name);
         }
     }
-    let pipelines = headless.renderer.shaders.pipeline_names();
+    let pipelines = headless.renderer.shaders().pipeline_names();
     assert!(pipelines.iter().any(|name| name.ends_with("pixel_hidden.comp")), "{pipelines:?}");
 }
 
@@ -77,7 +77,7 @@ fn what_draws_columns_has_no_pipeline_of_pixels() {
     let hard = hard(vec![sphere(500, DVec3::ZERO)], camera, [64, 64]);
     for (invocations, has_pixels) in [(TileInvocations::Column, false), (TileInvocations::Pixel, true)] {
         by_tiles(&mut headless, &by(&hard, invocations), PICTURE);
-        let names = headless.renderer.shaders.pipeline_names();
+        let names = headless.renderer.shaders().pipeline_names();
         assert_eq!(names.iter().any(|name| name.contains("_pixel")), has_pixels, "{names:?}");
     }
 }

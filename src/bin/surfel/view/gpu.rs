@@ -228,7 +228,7 @@ impl Gpu {
         }
         self.number = (self.number + 1) % IN_FLIGHT;
         // SAFETY: this thread alone records, and has submitted what it recorded.
-        self.dropped += unsafe { self.headless.renderer.shaders.keep_newest(MOST_PIPELINES) };
+        self.dropped += unsafe { self.headless.renderer.shaders().keep_newest(MOST_PIPELINES) };
         if self.dropped >= MANY_PIPELINES {
             self.dropped = 0;
             memory::give_back();

@@ -292,6 +292,6 @@ impl Viewer {
         drop(loader);
         drop(prepared);
         // A lost cache costs the next run some time, that is all.
-        let _ = gpu.headless.renderer.shaders.save_cache();
+        let _ = gpu.headless.renderer.shaders().save_cache();
     }
 }

@@ -48,7 +48,7 @@ impl Gpu {
     #[cfg(feature = "live-shaders")]
     pub fn forget_pipelines(&mut self) {
         // SAFETY: this thread alone records, and has submitted what it recorded.
-        unsafe { self.headless.renderer.shaders.keep_newest(0) };
+        unsafe { self.headless.renderer.shaders().keep_newest(0) };
         if let Some(drawing) = &mut self.drawing {
             // Of no window, so that they are made for this one.
             drawing.format = vk::Format::UNDEFINED;
