@@ -29,8 +29,8 @@
         }                                                \
     } while (0)
 
-/* Frames of what is transparent, refused and drawn; then all is destroyed but the engine. */
-void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
+/* Frames of what is transparent, refused and drawn; then all is destroyed but the engine, in order, or else in an order of no sense. */
+void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, int in_order);
 /* Splats that are copied to the device: a ball of which the second frame shows one half. */
 void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 

@@ -149,7 +149,7 @@ int main(int argc, char **argv) {
         IS(INVALID_ARGUMENT, surfel_renderer_create(NULL, NULL, &renderer), "device is NULL");
         OK(surfel_renderer_create(device, NULL, &renderer));
         dynamic(engine, device, renderer);
-        frames(engine, device, renderer);
+        frames(engine, device, renderer, i == 0);
     }
     const uint32_t messages = engine->messages;
     engine_free(engine);
