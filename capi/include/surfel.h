@@ -784,8 +784,8 @@ SurfelResult surfel_enable_features(uint64_t features,
 SurfelResult surfel_device_import(const struct SurfelImport *host, struct SurfelDevice **device);
 
 /**
- * Ends the epoch in which commands were recorded: to be called at each submission that contains our commands. `epoch` gets its number;
- * what is destroyed from now on waits for the next one.
+ * Ends the epoch in which commands were recorded: to be called at each submission that contains our commands; where several threads submit,
+ * both are one step. `epoch` gets its number; what is destroyed from now on waits for the next one.
  */
 SurfelResult surfel_device_end_epoch(const struct SurfelDevice *device, uint64_t *epoch);
 

@@ -79,8 +79,8 @@ pub unsafe extern "C" fn surfel_device_import(
     })
 }
 
-/// Ends the epoch in which commands were recorded: to be called at each submission that contains our commands. `epoch` gets its number;
-/// what is destroyed from now on waits for the next one.
+/// Ends the epoch in which commands were recorded: to be called at each submission that contains our commands; where several threads submit,
+/// both are one step. `epoch` gets its number; what is destroyed from now on waits for the next one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn surfel_device_end_epoch(
     device: *const SurfelDevice,

@@ -29,8 +29,12 @@
         }                                                \
     } while (0)
 
-/* Frames of what is transparent, refused and drawn; then all is destroyed but the engine, in order, or else in an order of no sense. */
-void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, int in_order);
+/* A ball of 2000 splats, one of which can't be drawn. */
+SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, float alpha);
+/* Frames of what is transparent, refused and drawn; then what is given is destroyed, in order, or else in an order of no sense. `foreign` is
+ * of another device. */
+void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, const SurfelPreparedScene *foreign,
+            int in_order);
 /* Splats that are copied to the device: a ball of which the second frame shows one half. */
 void dynamic(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer);
 

@@ -5,7 +5,7 @@ static void on_time(void *count, const char *name, double secs) {
     ++*(int *)count;
 }
 
-static SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, float alpha) {
+SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, float alpha) {
     enum { COUNT = 2000 };
     static double centers[3 * COUNT];
     static float normals[3 * COUNT], radii[COUNT];
@@ -35,7 +35,8 @@ static SurfelPreparedScene *upload(Engine *engine, SurfelDevice *device, SurfelR
     return prepared;
 }
 
-void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, int in_order) {
+void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, const SurfelPreparedScene *foreign,
+            int in_order) {
     SurfelPreparedScene *ball = upload(engine, device, renderer, 0.4f);
     const VkFormat color = VK_FORMAT_R32G32B32A32_SFLOAT;
     SurfelRendering rendering = {.sType = SURFEL_STRUCTURE_TYPE_RENDERING, .size = sizeof rendering,
@@ -67,6 +68,9 @@ void frames(Engine *engine, SurfelDevice *device, SurfelRenderer *renderer, int 
     IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "--size: 0x0");
     frame.width = WIDTH;
     frame.height = HEIGHT;
+    scenes[0] = foreign;
+    IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "scene: was prepared for another device");
+    scenes[0] = ball;
     IS(OPTION, surfel_view_prepare(view, engine->commands, &frame), "hides: something is transparent");
     SurfelDepthImage hides = {
         .sType = SURFEL_STRUCTURE_TYPE_DEPTH_IMAGE, .size = sizeof hides, .image = engine->depth.image,

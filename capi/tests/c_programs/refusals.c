@@ -142,6 +142,10 @@ int main(int argc, char **argv) {
     OK(surfel_enable_features(needs.features, &engine->core, &engine->vulkan12, &engine->vulkan13));
     TRUE(engine->vulkan13.maintenance4 == VK_TRUE && engine->vulkan13.dynamicRendering == VK_TRUE);
     engine_open(engine, needs.queueFamily);
+    SurfelDevice *other = import(engine, needs.features);
+    SurfelRenderer *others;
+    OK(surfel_renderer_create(other, NULL, &others));
+    SurfelPreparedScene *foreign = upload(engine, other, others, 1);
     /* Twice: the engine's device is as it was. */
     for (int i = 0; i < 2; i++) {
         SurfelDevice *device = import(engine, needs.features);
@@ -149,8 +153,11 @@ int main(int argc, char **argv) {
         IS(INVALID_ARGUMENT, surfel_renderer_create(NULL, NULL, &renderer), "device is NULL");
         OK(surfel_renderer_create(device, NULL, &renderer));
         dynamic(engine, device, renderer);
-        frames(engine, device, renderer, i == 0);
+        frames(engine, device, renderer, foreign, i == 0);
     }
+    surfel_device_destroy(other);
+    surfel_renderer_destroy(others);
+    surfel_prepared_scene_destroy(foreign);
     const uint32_t messages = engine->messages;
     engine_free(engine);
     TRUE(messages == 0);
