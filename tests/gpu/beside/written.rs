@@ -8,7 +8,7 @@ use glam::{
 use surfel::{
     Settings,
     embed::{DynamicSplats, HostCamera, Placed, dynamic},
-    scene::{Rasterizer, Scene, Shapes},
+    scene::{Cull, Rasterizer, Scene, Shapes},
 };
 
 use super::{Beside, REVERSED, SIZE_PX};
@@ -87,15 +87,21 @@ fn what_an_engine_writes_is_seen_as_what_is_uploaded() {
         assert!(far <= 40, "{far}");
     }
 
-    // Fewer, and then none: nothing is written again.
-    written.set_dynamic(&DynamicSplats { count: 100, ..splats }).unwrap();
+    // Fewer, and then none: nothing is written again. Whatever looks through them, block by block or one by one.
     let count_red = |pixels: &[[f32; 4]]| pixels.iter().filter(|pixel| **pixel == super::RED).count();
-    beside.draw(&[Placed::at_home(&written)], &camera, &hard(Rasterizer::Auto), &BEHIND, false);
-    let some = count_red(&beside.engine.pixels());
-    written.set_dynamic(&DynamicSplats { count: 0, ..splats }).unwrap();
-    beside.draw(&[Placed::at_home(&written)], &camera, &hard(Rasterizer::Auto), &BEHIND, false);
-    let all = count_red(&beside.engine.pixels());
-    assert!(some < all && all == (SIZE_PX[0] * SIZE_PX[1]) as usize, "{some} {all}");
+    for cull in [Cull::Auto, Cull::Setup] {
+        let settings = Settings { cull, ..hard(Rasterizer::Perspective) };
+        let mut red_of = |count| {
+            written.set_dynamic(&DynamicSplats { count, ..splats }).unwrap();
+            beside.draw(&[Placed::at_home(&written)], &camera, &settings, &BEHIND, false);
+            count_red(&beside.engine.pixels())
+        };
+        let [all, some, none] = [COUNT as u32, 100, 0].map(&mut red_of);
+        assert!(
+            all < some && some < none && none == (SIZE_PX[0] * SIZE_PX[1]) as usize,
+            "{all} {some} {none}"
+        );
+    }
     drop((written, uploaded));
     beside.end();
 }
