@@ -38,20 +38,19 @@ fn settled_mb(screen: &Screen, view: &mut View<'_>) -> f64 {
 /// Beside what comes and goes: blocks of device memory, and which of the pages that were freed the system has back by then.
 const MOST_GROWTH_MB: f64 = 20.0;
 
-#[test]
-#[ignore = "ten minutes"]
-fn ten_minutes_of_random_input_leave_no_message_no_stop_and_no_more_memory() {
+/// Plays; by how many megabytes the process grew meanwhile, and the most milliseconds from an input until the frame was done that answers to it.
+fn played(is_validated: bool) -> (f64, f64) {
     let secs = std::env::var("SURFEL_SOAK_SECS").ok().and_then(|secs| secs.parse().ok()).unwrap_or(600);
     let (screen, folder) = (Screen::new(), Folder::new());
     folder.splats("a.ply", 20_000);
     let words = [&["a.ply", "--size", "320x240", "--print-frames"], &CAMERA[..]].concat();
-    let mut view = View::open(&screen, &folder, &words);
+    let mut view = View::open_as(&screen, &folder, &words, is_validated);
     view.wait_until("something is shown", |shot| shot.colors() > 20);
     let warm: Vec<f64> = (0..3).map(|_| settled_mb(&screen, &mut view)).collect();
-    println!("resident after each setting was seen once, twice, three times, MB: {warm:?}");
+    println!("resident after each setting was seen once, twice, three times, MB: {warm:.1?}");
     view.play_at_random(Random(11), Duration::from_secs(secs));
     let end: Vec<f64> = (0..2).map(|_| settled_mb(&screen, &mut view)).collect();
-    println!("after {secs} s of random input: {end:?}");
+    println!("after {secs} s of random input: {end:.1?}");
     let said = view.end();
     let after_input = |line: &str| {
         let (_, told) = line.split_once("its end seen ")?;
@@ -59,15 +58,29 @@ fn ten_minutes_of_random_input_leave_no_message_no_stop_and_no_more_memory() {
     };
     let mut late: Vec<f64> = said.stdout.lines().filter_map(after_input).collect();
     late.sort_by(f64::total_cmp);
-    let longest = late.last().copied().unwrap_or(f64::NAN);
+    let at = |part: usize| late[late.len() * part / 1000];
+    let longest = late[late.len() - 1];
     println!(
-        "{} frames of {} after their input, ms: median {:.0}, longest {longest:.0}",
+        "of {} frames, ms after their input: median {:.0}, of a thousand all but one {:.0}, longest {longest:.0}",
         late.len(),
-        said.stdout.lines().count(),
-        late[late.len() / 2]
+        at(500),
+        at(999)
     );
-    let growth = end[1] - warm[2];
-    println!("growth: {growth:.1} MB");
-    assert!(growth < MOST_GROWTH_MB, "{warm:?} {end:?}");
-    assert!(longest < 1000.0, "{longest}");
+    println!("growth: {:.1} MB", end[1] - warm[2]);
+    (end[1] - warm[2], longest)
+}
+
+/// Layers of 1.3.239 take memory for each presentation and each query that is reset, which they keep: so without them.
+#[test]
+#[ignore = "ten minutes"]
+fn ten_minutes_of_random_input_leave_no_more_memory() {
+    let (growth_mb, _) = played(false);
+    assert!(growth_mb < MOST_GROWTH_MB, "{growth_mb}");
+}
+
+#[test]
+#[ignore = "ten minutes"]
+fn ten_minutes_of_random_input_are_answered_within_a_second_without_a_message() {
+    let (_, longest_ms) = played(true);
+    assert!(longest_ms < 1000.0, "{longest_ms}");
 }

@@ -28,14 +28,16 @@ const REST: Duration = Duration::from_millis(40);
 const COST: Duration = Duration::from_millis(10);
 /// How soon pages are looked for again.
 const PAGES: Duration = Duration::from_millis(15);
+/// Memory is given back once nothing was drawn for so long.
+const TIDY: Duration = Duration::from_millis(500);
 
 impl Viewer {
     /// When there is something to do without an event.
     pub fn next_wake(&mut self, now: Instant) -> Option<Instant> {
         let rest = self.moved.map(|moved| moved + REST);
-        let all =
-            [rest, self.files.next_look(), self.ui.next_wake(), self.looks_for_costs, self.looks_for_pages];
-        all.into_iter().flatten().min().map(|when| when.max(now))
+        let looks = [self.looks_for_costs, self.looks_for_pages, self.tidies];
+        let all = [rest, self.files.next_look(), self.ui.next_wake()].into_iter().chain(looks);
+        all.flatten().min().map(|when| when.max(now))
     }
 
     /// That time has come.
@@ -44,6 +46,13 @@ impl Viewer {
         self.look_at_files();
         let rests = self.moved.is_some_and(|moved| now >= moved + REST);
         let is_due = |when: Option<Instant>| when.is_some_and(|when| now >= when);
+        if is_due(self.tidies) && self.moved.is_some() {
+            self.tidies = Some(now + TIDY);
+        } else if is_due(self.tidies) {
+            self.tidies = None;
+            // A device that is lost tells the next frame, too.
+            let _ = self.gpu.tidy();
+        }
         let is_there = is_due(self.looks_for_costs) || is_due(self.looks_for_pages);
         if rests || is_due(self.ui.next_wake()) || is_there {
             self.window.request_redraw();
@@ -69,6 +78,9 @@ impl Viewer {
         self.learn(is_moving)?;
         let overlay = self.run_ui()?;
         let (drawn, which) = self.draw(is_moving, overlay.as_ref())?;
+        if self.gpu.has_dropped() {
+            self.tidies = Some(now + TIDY);
+        }
         match drawn {
             Drawn::Hidden => {}
             Drawn::Again => {

@@ -76,6 +76,8 @@ pub struct Viewer {
     pub shown: Use,
     /// When the costs of frames are looked for.
     pub looks_for_costs: Option<Instant>,
+    /// When memory is given back, if nothing is to be drawn by then.
+    pub tidies: Option<Instant>,
     /// When pages are looked for that are to come.
     pub looks_for_pages: Option<Instant>,
     /// The program is to end.
@@ -129,6 +131,7 @@ impl Viewer {
             is_stale: true,
             looks_for_costs: None,
             looks_for_pages: None,
+            tidies: None,
             shown: Use::Still,
             ends: false,
             keeps_camera: false,

@@ -7,7 +7,10 @@ use ash::vk;
 use surfel::Result;
 
 use super::{
-    super::picture::{Cost, Picture, Use},
+    super::{
+        memory,
+        picture::{Cost, Picture, Use},
+    },
     Gpu,
 };
 
@@ -42,6 +45,23 @@ impl Gpu {
     /// The time from frame to frame, where the host waited for the device or the window system.
     pub fn take_period(&mut self) -> Option<Duration> {
         self.period.take()
+    }
+
+    /// Whether pipelines were given up whose memory is not given back.
+    pub fn has_dropped(&self) -> bool {
+        self.dropped > 0
+    }
+
+    /// Destroys what was dropped, and gives its memory back, while nothing else is to be done.
+    ///
+    /// # Errors
+    /// Whatever the driver answers, such as a lost device.
+    pub fn tidy(&mut self) -> Result<()> {
+        self.dropped = 0;
+        // SAFETY: nothing is being recorded now.
+        unsafe { self.headless.queue().wait_idle() }?;
+        memory::give_back();
+        Ok(())
     }
 
     /// Has all pipelines made again: their shaders have changed.
