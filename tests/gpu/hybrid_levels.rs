@@ -114,7 +114,9 @@ fn what_is_drawn_is_what_the_oracle_chooses() {
     for round in 0..12 {
         let mut hard = with(&hard(&made, 1.0), |settings| settings.backfaces = Backfaces::Flip);
         hard.camera = camera(&mut random, round);
-        let tau_px = tau_px(&made, &hard.camera, hard.settings.size_px);
+        // Twice without any polygon.
+        let unit = tau_px(&made, &hard.camera, hard.settings.size_px);
+        let tau_px = if round % 6 == 0 { 6.0 * unit } else { unit };
         hard.settings.lod = Lod::Px(tau_px);
         let chosen = |room: f64| {
             hybrid_choice(&made.levels, (&hard.camera, hard.settings.size_px), tau_px * (1.0 + room))

@@ -194,11 +194,6 @@ impl Shaders {
         self.graphics.drop_before(first) + self.compute.drop_before(first)
     }
 
-    /// Whether the device takes the number of draws from a buffer.
-    pub(crate) fn counts_draws(&self) -> bool {
-        self.device.facts().draw_indirect_count
-    }
-
     /// The layouts of tiles, on a device that has them.
     pub(crate) fn tiles(&self) -> Result<&TileLayouts> {
         let reason = "compute: the device has too few storage buffers for a stage";

@@ -22,8 +22,8 @@ const WHY: &str = "hybrids: cells of a mesh are drawn as polygons where their sp
 /// Bytes of a `VkDrawIndexedIndirectCommand`.
 const DRAW_BYTES: u64 = 20;
 
-/// Declares the pass, where the frame has meshes in cells; before it, that which tells it how the camera sees them. Gives the arguments of the draws: of each mesh how many there
-/// are, then a draw a cell.
+/// Declares the pass, where the frame has meshes in cells; before it, that which tells it how the camera sees them. Gives the arguments of the draws, one a
+/// cell.
 pub(crate) fn choose<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Result<Option<Handle<Buffer>>> {
     if inputs.meshes.iter().all(|draw| draw.levels.is_none()) {
         return Ok(None);
@@ -60,23 +60,21 @@ pub(crate) fn choose<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Res
     Ok(Some(draws))
 }
 
-/// Records the draws of the cells of a mesh, inside of rendering with all bound.
+/// Records the draws of the cells of a mesh, inside of rendering with all bound: one each. A draw that takes their number from a buffer would be one for all, but lavapipe of Mesa 22.3
+/// takes that number for later draws, too, that have none.
 pub(crate) fn draw_cells(pass: &Recording<'_, '_>, meshes: &[MeshDraw<'_>], number: usize) -> Result<()> {
     let (device, commands, buffer) = (pass.device(), pass.commands(), pass.buffer(CELLS)?);
     let (cells, first) = (cells_of(&meshes[number]), offset_of(meshes, number));
-    let stride = DRAW_BYTES as u32;
-    if pass.shaders.counts_draws() {
-        let count = 4 * number as u64;
-        // SAFETY: as the caller has it, with the index buffer; the buffer holds a count, which is `cells`, and as many draws within the mesh.
-        unsafe {
-            device.cmd_draw_indexed_indirect_count(commands, buffer, first, buffer, count, cells, stride);
-        }
-        return Ok(());
-    }
     for cell in 0..u64::from(cells) {
-        // SAFETY: as above, of one draw.
+        // SAFETY: as the caller has it, with the index buffer; the buffer holds a draw a cell, each within the mesh.
         unsafe {
-            device.cmd_draw_indexed_indirect(commands, buffer, first + DRAW_BYTES * cell, 1, stride);
+            device.cmd_draw_indexed_indirect(
+                commands,
+                buffer,
+                first + DRAW_BYTES * cell,
+                1,
+                DRAW_BYTES as u32,
+            );
         }
     }
     Ok(())
@@ -89,14 +87,14 @@ fn cells_of(draw: &MeshDraw<'_>) -> u32 {
 /// Where the draws of a mesh begin, in bytes; behind all where there is no such mesh.
 fn offset_of(meshes: &[MeshDraw<'_>], number: usize) -> u64 {
     let before: u64 = meshes[..number].iter().map(|draw| u64::from(cells_of(draw))).sum();
-    4 * meshes.len() as u64 + DRAW_BYTES * before
+    DRAW_BYTES * before
 }
 
-/// How many meshes there are, a word that is not read, and how the camera sees each, the last one first (`glsl/inc/levels.glsl`).
+/// Two words that are not read, and how the camera sees each, the last one first (`glsl/inc/list.glsl`, `glsl/inc/levels.glsl`).
 fn words(meshes: &[MeshDraw<'_>]) -> Vec<u32> {
     let views = meshes
         .iter()
         .rev()
         .map(|draw| draw.levels.map_or([0; LEVEL_WORDS as usize], |levels| levels.words()));
-    [meshes.len() as u32, 0].into_iter().chain(views.flatten()).collect()
+    [0; 2].into_iter().chain(views.flatten()).collect()
 }
