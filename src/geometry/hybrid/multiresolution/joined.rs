@@ -100,7 +100,8 @@ impl Joined<'_> {
         for (node, below) in self.top.iter().zip(below) {
             let [along_s, along_t] = node.axes;
             positions.push(node.center);
-            (s.push(along_s), t.push(along_t));
+            s.push(along_s);
+            t.push(along_t);
             colors.push(node.color);
             weights.push((below / along_s.as_dvec3().cross(along_t.as_dvec3()).length()) as f32);
         }
