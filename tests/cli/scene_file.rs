@@ -94,8 +94,8 @@ fn a_mesh_is_polygons_or_splats_as_the_view_has_it() {
             "[[object]]\nbuiltin = \"sphere\"\nrepresentation = \"hybrid\"\ntriangles = 5000\nalpha = {alpha}\n"
         )
     };
-    folder.write("ball.toml", &ball(1.0));
-    folder.write("glass.toml", &ball(0.5));
+    folder.write("ball.toml", ball(1.0));
+    folder.write("glass.toml", ball(0.5));
     let run = drawn(&folder, &["render", "ball.toml", "--lod", "0.1px", "--explain"]);
     let said = run.stderr.lines().next().unwrap_or_default();
     assert!(

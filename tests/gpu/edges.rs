@@ -154,7 +154,7 @@ fn what_is_far_behind_polygons_is_not_seen_through_them() {
         scene.meshes.push(MeshObject { name: "wall".to_owned(), mesh, closed: false });
         covering(Hard::seen_from([0.0, 0.0, 3.0], "a floor behind a wall", scene))
     };
-    let [without, with_floor] = [false, true].map(|floor| wall(floor));
+    let [without, with_floor] = [false, true].map(wall);
     let pictures = [&without, &with_floor].map(|hard| render_as(&mut headless, hard, PICTURE).linear);
     let red = pictures[1].iter().zip(&pictures[0]).filter(|(a, b)| (a[0] - b[0]).abs() > 1e-3).count();
     assert_eq!(red, 0, "pixels in which the floor is seen");
