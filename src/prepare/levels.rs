@@ -237,7 +237,8 @@ impl BlockLevels {
 }
 
 impl BallBounds {
-    fn of<'a>(center: DVec3, balls: impl Iterator<Item = &'a ErrorBall>) -> Self {
+    /// Those of some balls, around a place.
+    pub(super) fn of<'a>(center: DVec3, balls: impl Iterator<Item = &'a ErrorBall>) -> Self {
         let none = Self { reach: 0.0, far: f64::NEG_INFINITY, spreads: [f64::INFINITY, 0.0] };
         let bounds = balls.fold(none, |bounds, ball| {
             let distance = center.distance(ball.center.as_dvec3());

@@ -2,8 +2,10 @@
 //! and how many there are; a ball around it in the piece's local space, by which it is known to be outside of the view; and where the balls begin, and end, that it
 //! is drawn for: its own, and its neighbors'. These, behind all cells, are the same bits as splats have (`level_words.rs`).
 
+use glam::DVec3;
+
 use super::{
-    levels::{LevelSpace, Leveled},
+    levels::{BallBounds, LevelSpace, Leveled},
     rebase::Rebase,
 };
 use crate::{
@@ -21,6 +23,8 @@ pub struct MeshLevels {
     pub space: LevelSpace,
     /// How many cells have triangles in it.
     pub cells: u32,
+    /// Of the balls that these are drawn for, around a place in that space.
+    pub balls: (DVec3, BallBounds),
 }
 
 /// The cells of a piece.
@@ -39,6 +43,15 @@ pub(super) struct Cells<'a> {
 impl<'a> Cells<'a> {
     pub fn of(hybrid: &'a HybridLevels) -> Self {
         Self { hybrid, space: Leveled::space(&hybrid.splats) }
+    }
+
+    /// Of the balls of all cells of the mesh.
+    fn bounds(&self) -> (DVec3, BallBounds) {
+        let balls = || self.hybrid.cells.iter().map(|cell| self.hybrid.splats.balls[cell.ball as usize]);
+        let balls: Vec<ErrorBall> = balls().map(|ball| self.space.ball(&ball)).collect();
+        let sum: DVec3 = balls.iter().map(|ball| ball.center.as_dvec3()).sum();
+        let center = sum / balls.len().max(1) as f64;
+        (center, BallBounds::of(center, balls.iter()))
     }
 
     /// Those of a piece that has these triangles of the mesh, rising, and this local space.
@@ -72,6 +85,6 @@ impl<'a> Cells<'a> {
             cell[7] += CELL_WORDS * cells;
         }
         words.append(&mut balls);
-        CellWords { levels: MeshLevels { space: self.space, cells }, words }
+        CellWords { levels: MeshLevels { space: self.space, cells, balls: self.bounds() }, words }
     }
 }

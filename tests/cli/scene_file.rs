@@ -96,7 +96,7 @@ fn a_mesh_is_polygons_or_splats_as_the_view_has_it() {
     };
     folder.write("ball.toml", ball(1.0));
     folder.write("glass.toml", ball(0.5));
-    let run = drawn(&folder, &["render", "ball.toml", "--explain"]);
+    let run = drawn(&folder, &["render", "ball.toml", "--lod", "0.1px", "--explain"]);
     let said = run.stderr.lines().next().unwrap_or_default();
     assert!(
         said.contains(" cells and ") && said.contains("triangles or splats, as the view has it"),
@@ -104,8 +104,14 @@ fn a_mesh_is_polygons_or_splats_as_the_view_has_it() {
     );
     let explained = |run: &Run| run.stdout.clone() + &run.stderr;
     assert!(explained(&run).contains("choose polygons"), "{}", explained(&run));
-    let without = drawn(&folder, &["render", "ball.toml", "--lod", "0", "--explain"]);
-    assert!(!explained(&without).contains("choose polygons"), "{}", explained(&without));
+    // The mesh itself, and splats alone.
+    for options in [["--lod", "0"], ["--eye", "0,0,400"]] {
+        let run = drawn(
+            &folder,
+            &[&["render", "ball.toml", "--target", "0,0,0", "--explain"], &options[..]].concat(),
+        );
+        assert!(!explained(&run).contains("choose polygons"), "{options:?}: {}", explained(&run));
+    }
     let glass = surfel(&folder, &["render", "glass.toml"]);
     assert!(
         glass.code == 1 && glass.stderr.contains("transparent; expected an opaque mesh"),

@@ -116,7 +116,7 @@ fn what_is_drawn_is_what_the_oracle_chooses() {
         hard.camera = camera(&mut random, round);
         // Twice without any polygon.
         let unit = tau_px(&made, &hard.camera, hard.settings.size_px);
-        let tau_px = if round % 6 == 0 { 6.0 * unit } else { unit };
+        let tau_px = if round % 6 == 0 { 12.0 * unit } else { unit };
         hard.settings.lod = Lod::Px(tau_px);
         let chosen = |room: f64| {
             hybrid_choice(&made.levels, (&hard.camera, hard.settings.size_px), tau_px * (1.0 + room))
@@ -140,7 +140,7 @@ fn what_is_drawn_is_what_the_oracle_chooses() {
             choice.cells.len(),
             passes(&found)
         );
-        assert!(passes(&found).contains(&"choose polygons"));
+        assert!(passes(&found).contains(&"choose polygons") || choice.cells.is_empty());
         // Sums of the same splats in another order, of chunks with other origins: in single pixels that turns what is within ε.
         let is_apart = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 1e-4);
         let apart = truth.linear.iter().zip(&found.linear).filter(is_apart).count();

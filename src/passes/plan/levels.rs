@@ -130,6 +130,11 @@ impl LevelView {
         )
     }
 
+    /// Whether none of some balls, around a place, is larger than τ.
+    pub fn all_are_small(&self, (center, balls): &(DVec3, BallBounds)) -> bool {
+        balls.spreads[1] <= self.least(self.eye.distance(*center), balls, self.share)
+    }
+
     /// What of a block is drawn.
     pub fn of(&self, block: &BlockLevels) -> OfBlock {
         let distance = self.eye.distance(block.center);

@@ -10,6 +10,7 @@ use crate::{
 };
 
 /// A piece of a mesh in this frame.
+#[derive(Clone)]
 pub struct MeshDraw<'a> {
     /// The triangles.
     pub chunk: &'a MeshChunk,
@@ -19,6 +20,16 @@ pub struct MeshDraw<'a> {
     pub cull: bool,
     /// How the camera sees its cells, where each is drawn or not.
     pub(crate) levels: Option<LevelView>,
+}
+
+impl MeshDraw<'_> {
+    /// Whether splats are drawn for all of it, where levels of detail are chosen.
+    pub(crate) fn is_all_splats(&self) -> bool {
+        match (&self.levels, &self.chunk.levels) {
+            (Some(view), Some(levels)) => view.all_are_small(&levels.balls),
+            _ => false,
+        }
+    }
 }
 
 /// All pieces of meshes of a scene as seen from a camera; those in cells as a whole where no levels of detail are drawn.

@@ -117,7 +117,19 @@ impl<'a> FramePlan<'a> {
 }
 
 impl<'a> SurfacePlan<'a> {
-    fn new(
+    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen.
+    fn new(splats: Vec<Draw<'a>>, meshes: Vec<MeshDraw<'a>>, settings: &Settings, limits: &Limits) -> Self {
+        if meshes.iter().any(MeshDraw::is_all_splats) {
+            let others = meshes.iter().filter(|draw| !draw.is_all_splats()).cloned().collect();
+            let plan = Self::of(splats.clone(), others, settings, limits);
+            if plan.chooses_levels() {
+                return plan;
+            }
+        }
+        Self::of(splats, meshes, settings, limits)
+    }
+
+    fn of(
         mut splats: Vec<Draw<'a>>,
         mut meshes: Vec<MeshDraw<'a>>,
         settings: &Settings,
