@@ -60,8 +60,8 @@ pub(crate) fn choose<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Res
     Ok(Some(draws))
 }
 
-/// Records the draws of the cells of a mesh, inside of rendering with all bound: one each. A draw that takes their number from a buffer would be one for all, but lavapipe of Mesa 22.3
-/// takes that number for later draws, too, that have none.
+/// Records the draws of the cells of a mesh, inside of rendering with all bound: one each. A draw that takes their number from a buffer would be one for all, but with it lavapipe of Mesa
+/// 22.3 left pictures empty where no cell was drawn.
 pub(crate) fn draw_cells(pass: &Recording<'_, '_>, meshes: &[MeshDraw<'_>], number: usize) -> Result<()> {
     let (device, commands, buffer) = (pass.device(), pass.commands(), pass.buffer(CELLS)?);
     let (cells, first) = (cells_of(&meshes[number]), offset_of(meshes, number));
