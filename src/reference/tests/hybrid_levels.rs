@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::{
     geometry::{HybridOptions, Multiresolution, multiresolution},
+    hard_scenes::builder::Random,
     load::builtin::sphere_mesh,
-    math::random::SplitMix,
     reference::{HybridChoice, hybrid_choice},
     scene::{Camera, HybridLevels, Mesh, PolygonCell},
 };
@@ -29,7 +29,7 @@ fn nodes_of_balls(levels: &HybridLevels) -> Vec<Option<usize>> {
 fn one_representation_is_drawn_on_every_path() {
     let Multiresolution { levels, report, .. } = ball(8000, 4000);
     let nodes = nodes_of_balls(&levels);
-    let mut random = SplitMix(4);
+    let mut random = Random(4);
     let mut seen = [0_usize; 4];
     for _ in 0..40 {
         let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
