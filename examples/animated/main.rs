@@ -5,7 +5,6 @@
 #[path = "../engine/mod.rs"]
 mod engine;
 
-use ash::vk;
 use engine::{COLOR_FORMAT, Compute, Engine, Style};
 use glam::{
     DVec3,
@@ -13,7 +12,7 @@ use glam::{
 };
 use surfel::{
     Settings,
-    embed::{Device, DynamicSplats, HostCamera, Import, Placed, Renderer, Rendering, View, ViewFrame},
+    embed::{Device, DynamicSplats, HostCamera, Placed, Renderer, Rendering, View, ViewFrame},
 };
 
 const SIZE_PX: [u32; 2] = [480, 360];
@@ -48,24 +47,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let count: u32 = arguments.next().map_or(Ok(8), |count| count.parse())?;
     let pattern = arguments.next().unwrap_or_else(|| "wave%04d.png".to_owned());
-    let engine = Engine::new(Style {
-        size_px: SIZE_PX,
-        depth_format: vk::Format::D32_SFLOAT,
-        compare: vk::CompareOp::GREATER,
-        clear_depth: 0.0,
-        samples: vk::SampleCountFlags::TYPE_1,
-        validates: true,
-    });
-    let host = Import {
-        instance: &engine.instance,
-        debug_utils: true,
-        physical: engine.physical,
-        device: &engine.device,
-        queue_family: engine.family,
-        enabled: engine.enabled,
-    };
+    let engine = Engine::new(Style::reversed(SIZE_PX));
     // SAFETY: all is the engine's own, and outlives what is made from it.
-    let device = unsafe { Device::import(&host) }?;
+    let device = unsafe { Device::import(&engine.lent()) }?;
     let renderer = Renderer::new(&device, None)?;
     let rendering = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
     let mut view = View::new(&renderer, &rendering)?;
@@ -89,19 +73,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         clip_from_view: vulkan::perspective_infinite_reverse(0.7, 480.0 / 360.0, 0.1),
         flips_y: false,
     };
+    let scenes = [Placed::at_home(&sheet)];
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
     for number in 0..count {
         engine.begin();
         let time = std::f32::consts::TAU * number as f32 / count as f32;
         wave.dispatch(&engine, (SIDE * SIDE).div_ceil(64), [SIDE, time.to_bits()]);
-        let frame = ViewFrame {
-            scenes: &[Placed::at_home(&sheet)],
-            camera: &camera,
-            settings: &settings,
-            corner_px: [0; 2],
-            hides: None,
-            profile: None,
-        };
+        let frame = ViewFrame::new(&scenes, &camera, &settings);
         // SAFETY: recording, outside of rendering; all is alive until the wait.
         unsafe { view.prepare(&renderer, engine.commands, &frame) }?;
         engine.begin_rendering(true);

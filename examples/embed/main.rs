@@ -5,7 +5,6 @@
 #[path = "../engine/mod.rs"]
 mod engine;
 
-use ash::vk;
 use engine::{COLOR_FORMAT, Engine, Style};
 use glam::{
     DVec3,
@@ -19,14 +18,7 @@ use surfel::{
 const SIZE_PX: [u32; 2] = [640, 480];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let engine = Engine::new(Style {
-        size_px: SIZE_PX,
-        depth_format: vk::Format::D32_SFLOAT,
-        compare: vk::CompareOp::GREATER,
-        clear_depth: 0.0,
-        samples: vk::SampleCountFlags::TYPE_1,
-        validates: true,
-    });
+    let engine = Engine::new(Style::reversed(SIZE_PX));
     // Once: the engine's device becomes ours too, and a scene goes there.
     let host = Import {
         instance: &engine.instance,
@@ -56,14 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let at = |x, scale| Placement { translation: DVec3::new(x, 0.0, 0.0), scale, ..Placement::default() };
     let scenes = [Placed { scene: &ball, at: at(-0.6, 1.0) }, Placed { scene: &ball, at: at(1.1, 0.6) }];
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
-    let frame = ViewFrame {
-        scenes: &scenes,
-        camera: &camera,
-        settings: &settings,
-        corner_px: [0; 2],
-        hides: None,
-        profile: None,
-    };
+    let frame = ViewFrame::new(&scenes, &camera, &settings);
     // SAFETY: recording, outside of rendering; all is alive until the wait.
     unsafe { view.prepare(&renderer, engine.commands, &frame) }?;
 

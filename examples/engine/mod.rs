@@ -14,6 +14,7 @@ use std::sync::Mutex;
 
 use ash::{ext, vk};
 use make::{Make, aspect_of, on_message};
+use surfel::embed::Import;
 
 /// How the engine draws: what a renderer of splats has to go along with.
 #[derive(Clone, Copy)]
@@ -26,6 +27,20 @@ pub struct Style {
     pub samples: vk::SampleCountFlags,
     /// The validation layer watches.
     pub validates: bool,
+}
+
+impl Style {
+    /// Depth reversed, in 32 bits; one sample a pixel; watched.
+    pub const fn reversed(size_px: [u32; 2]) -> Self {
+        Self {
+            size_px,
+            depth_format: vk::Format::D32_SFLOAT,
+            compare: vk::CompareOp::GREATER,
+            clear_depth: 0.0,
+            samples: vk::SampleCountFlags::TYPE_1,
+            validates: true,
+        }
+    }
 }
 
 /// The format of its picture: linear light.
@@ -150,6 +165,18 @@ impl Engine {
                 instance,
                 _entry: entry,
             }
+        }
+    }
+
+    /// This device, as it is lent to whoever draws splats on it.
+    pub fn lent(&self) -> Import<'_> {
+        Import {
+            instance: &self.instance,
+            debug_utils: true,
+            physical: self.physical,
+            device: &self.device,
+            queue_family: self.family,
+            enabled: self.enabled,
         }
     }
 

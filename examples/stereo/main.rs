@@ -13,7 +13,7 @@ use glam::{
 };
 use surfel::{
     Scene, Settings,
-    embed::{Device, HostCamera, Import, Placed, Renderer, Rendering, View, ViewFrame},
+    embed::{Device, HostCamera, Placed, Renderer, Rendering, View, ViewFrame},
 };
 
 /// Of one eye.
@@ -25,23 +25,12 @@ const MEETS_AT: f64 = 3.6;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let engine = Engine::new(Style {
-        size_px: [2 * SIZE_PX[0], SIZE_PX[1]],
-        depth_format: vk::Format::D32_SFLOAT,
         compare: vk::CompareOp::LESS,
         clear_depth: 1.0,
-        samples: vk::SampleCountFlags::TYPE_1,
-        validates: true,
+        ..Style::reversed([2 * SIZE_PX[0], SIZE_PX[1]])
     });
-    let host = Import {
-        instance: &engine.instance,
-        debug_utils: true,
-        physical: engine.physical,
-        device: &engine.device,
-        queue_family: engine.family,
-        enabled: engine.enabled,
-    };
     // SAFETY: all is the engine's own, and outlives what is made from it.
-    let device = unsafe { Device::import(&host) }?;
+    let device = unsafe { Device::import(&engine.lent()) }?;
     let renderer = Renderer::new(&device, None)?;
     let rendering =
         Rendering { color_formats: vec![COLOR_FORMAT], compare: vk::CompareOp::LESS, ..Rendering::default() };
@@ -51,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     engine.begin();
     // SAFETY: recording; submitted below.
     let prepared = unsafe { renderer.upload(engine.commands, &scene) }?;
+    let scenes = [Placed::at_home(&prepared)];
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
     for (number, view) in (0..).zip(&mut views) {
         let side = 0.5 * APART * if number == 0 { 1.0 } else { -1.0 };
@@ -63,12 +53,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             flips_y: false,
         };
         let frame = ViewFrame {
-            scenes: &[Placed::at_home(&prepared)],
-            camera: &camera,
-            settings: &settings,
             corner_px: [number * SIZE_PX[0] as i32, 0],
-            hides: None,
-            profile: None,
+            ..ViewFrame::new(&scenes, &camera, &settings)
         };
         // SAFETY: recording, outside of rendering; all is alive until the wait.
         unsafe { view.prepare(&renderer, engine.commands, &frame) }?;

@@ -26,6 +26,13 @@ pub struct ViewFrame<'a> {
     pub profile: Option<Profile>,
 }
 
+impl<'a> ViewFrame<'a> {
+    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides and nothing timed.
+    pub fn new(scenes: &'a [Placed<'a>], camera: &'a HostCamera, settings: &'a Settings) -> Self {
+        Self { scenes, camera, settings, corner_px: [0; 2], hides: None, profile: None }
+    }
+}
+
 /// The depth of what a host has drawn so far.
 #[derive(Clone, Copy, Debug)]
 pub struct DepthImage {

@@ -9,7 +9,7 @@ use super::covering::{Covering, covers_in_part};
 use super::drawn_clip::DrawnClip;
 use super::epsilon::{EpsilonRule, polygon_reach};
 use super::ewa::Stretched;
-use super::filter::{adjust, area_share, minor_axis, orthogonalized, projected};
+use super::filter::{adjust, area_share, lengthened, minor_axis, orthogonalized, projected};
 use super::intersect::Map;
 use super::low_pass::{LowPass, Square};
 use super::overlap::{evened, overlaps};
@@ -291,18 +291,4 @@ fn map(center: DVec3, s: DVec3, t: DVec3, h: f64, settings: &Settings) -> Map {
         }
         _ => Map::Projective,
     }
-}
-
-/// How much thicker a surface of transparent splats is in a pixel, in radii, where a filter of radius `h` (image plane) lengthens
-/// the minor axis of their images from l to L = √(l² + h²), at most to 16 l. A splat whose center is L away, where the surface
-/// is r L / l deeper, makes up r of that by its slant: fragments are up to r (L / l − 1) off, to either side.
-///
-/// This is L / l.
-fn lengthened(center: DVec3, s: DVec3, t: DVec3, h: f64) -> f64 {
-    // The singular values of the projection's Jacobian at the center, applied to s and t.
-    let image = |v: DVec3| (v.truncate() - center.truncate() / center.z * v.z) / center.z;
-    let (a, b) = (image(s), image(t));
-    let (sum, area) = (a.length_squared() + b.length_squared(), a.perp_dot(b).abs());
-    let minor = ((sum + 2.0 * area).sqrt() - (sum - 2.0 * area).max(0.0).sqrt()) / 2.0;
-    if minor > 0.0 { (1.0 + (h / minor).powi(2)).sqrt().min(16.0) } else { 16.0 }
 }

@@ -152,16 +152,6 @@ named! {
 }
 
 named! {
-    /// What is drawn over splats, to see how they lie.
-    Outlines {
-        /// Nothing.
-        None = "none",
-        /// Their rims, in black: the outer tenth of each splat's radius, of the surfaces that are seen.
-        Splats = "splats",
-    }
-}
-
-named! {
     /// How splats and polygons of one surface meet (Guennebaud et al. 2006, section 5.1).
     Transition {
         /// Their shaded colors are blended by the splats' sum of weights, where a polygon covers the pixel.

@@ -26,9 +26,11 @@ mod mesh;
 mod methods;
 mod opacity;
 mod option;
+mod outlines;
 mod path;
 mod placement;
 mod points;
+mod refusals;
 mod samples;
 mod settings;
 mod splats;
@@ -57,13 +59,14 @@ pub use lod::Lod;
 pub use lod_steps::LodSteps;
 pub use mesh::Mesh;
 pub use methods::{
-    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Outlines,
-    Rasterizer, Shading, TileInvocations, Transition,
+    Accumulate, Backfaces, Cull, Edges, Filter, FilterWeight, Floors, KernelEval, LastLayer, Rasterizer,
+    Shading, TileInvocations, Transition,
 };
 pub use opacity::Opacity;
 #[cfg(feature = "files")]
 pub(crate) use option::named;
 pub use option::{Choice, OptionTable, OptionValue, Setting};
+pub use outlines::Outlines;
 pub use path::{CameraPath, Interpolation};
 pub use placement::Placement;
 pub use points::{Points, Viewpoint};

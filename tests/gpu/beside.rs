@@ -15,9 +15,7 @@ use engine::{COLOR_FORMAT, Engine, Style};
 use glam::{DVec3, DVec4};
 use surfel::{
     Scene, Settings,
-    embed::{
-        DepthImage, Device, HostCamera, ImageState, Import, Placed, Renderer, Rendering, View, ViewFrame,
-    },
+    embed::{DepthImage, Device, HostCamera, ImageState, Placed, Renderer, Rendering, View, ViewFrame},
     prepare::PreparedScene,
 };
 
@@ -26,14 +24,7 @@ const SIZE_PX: [u32; 2] = [160, 120];
 /// The color of the engine's triangle.
 const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
 
-const REVERSED: Style = Style {
-    size_px: SIZE_PX,
-    depth_format: vk::Format::D32_SFLOAT,
-    compare: vk::CompareOp::GREATER,
-    clear_depth: 0.0,
-    samples: vk::SampleCountFlags::TYPE_1,
-    validates: true,
-};
+const REVERSED: Style = Style::reversed(SIZE_PX);
 
 /// Depth from 0 at the near plane to 1.
 const FORWARD: Style = Style { compare: vk::CompareOp::LESS, clear_depth: 1.0, ..REVERSED };
@@ -50,16 +41,8 @@ impl Beside {
     fn new(style: Style) -> Self {
         crate::common::arm();
         let engine = Engine::new(style);
-        let host = Import {
-            instance: &engine.instance,
-            debug_utils: true,
-            physical: engine.physical,
-            device: &engine.device,
-            queue_family: engine.family,
-            enabled: engine.enabled,
-        };
         // SAFETY: all is the engine's own, which goes last.
-        let device = unsafe { Device::import(&host) }.unwrap();
+        let device = unsafe { Device::import(&engine.lent()) }.unwrap();
         let renderer = Renderer::new(&device, None).unwrap();
         let Style { depth_format, compare, samples, .. } = style;
         let rendering = Rendering {
@@ -108,7 +91,7 @@ impl Beside {
             after: written,
         };
         let hides = gives_depth.then_some(hides);
-        let frame = ViewFrame { scenes, camera, settings, corner_px: [0; 2], hides, profile: None };
+        let frame = ViewFrame { hides, ..ViewFrame::new(scenes, camera, settings) };
         let in_clip =
             |at: &DVec3| (camera.clip_from_view * camera.view_from_world * at.extend(1.0)).as_vec4();
         let corners = [0, 1, 2].map(|i| in_clip(&corners[i]).to_array());

@@ -10,6 +10,7 @@ pub(crate) mod digits;
 pub(crate) mod draws;
 pub(crate) mod few;
 pub(crate) mod frame_constants;
+pub(crate) mod in_view;
 pub(crate) mod invocations;
 pub(crate) mod levels;
 pub(crate) mod lights;

@@ -41,14 +41,7 @@ fn frame(engine: &Engine, renderer: &Renderer) -> Result<(View, PreparedScene), 
     };
     let settings = Settings { size_px: SIZE_PX, rasterizer: Rasterizer::Compute, ..Settings::default() };
     let scenes = [Placed::at_home(&scene)];
-    let frame = ViewFrame {
-        scenes: &scenes,
-        camera: &camera,
-        settings: &settings,
-        corner_px: [0; 2],
-        hides: None,
-        profile: None,
-    };
+    let frame = ViewFrame::new(&scenes, &camera, &settings);
     engine.begin();
     // SAFETY: recording; never submitted.
     unsafe { view.prepare(renderer, engine.commands, &frame) }?;
@@ -60,14 +53,7 @@ fn whichever_call_fails_is_named_and_the_next_frame_works() {
     crate::common::arm();
     let engine = Engine::new(REVERSED);
     let faulty = faults::device(&engine.device);
-    let host = Import {
-        instance: &engine.instance,
-        debug_utils: true,
-        physical: engine.physical,
-        device: &faulty,
-        queue_family: engine.family,
-        enabled: engine.enabled,
-    };
+    let host = Import { device: &faulty, ..engine.lent() };
     // SAFETY: all is the engine's own, which goes last.
     let device = unsafe { Device::import(&host) }.unwrap();
     let renderer = Renderer::new(&device, None).unwrap();
@@ -117,14 +103,7 @@ fn an_import_of_less_than_is_needed_is_refused_by_name() {
     let engine = Engine::new(REVERSED);
     let mut enabled = engine.enabled;
     (enabled.synchronization2, enabled.maintenance4) = (false, false);
-    let host = Import {
-        instance: &engine.instance,
-        debug_utils: true,
-        physical: engine.physical,
-        device: &engine.device,
-        queue_family: engine.family,
-        enabled,
-    };
+    let host = Import { enabled, ..engine.lent() };
     // SAFETY: all is the engine's own, which goes last.
     let refused = unsafe { Device::import(&host) }.err().unwrap().to_string();
     assert!(refused.contains("synchronization2 is not enabled; maintenance4 is not enabled"), "{refused}");
@@ -140,16 +119,8 @@ fn an_import_of_less_than_is_needed_is_refused_by_name() {
 #[test]
 fn a_scene_of_another_device_is_refused() {
     let engine = Engine::new(REVERSED);
-    let host = Import {
-        instance: &engine.instance,
-        debug_utils: true,
-        physical: engine.physical,
-        device: &engine.device,
-        queue_family: engine.family,
-        enabled: engine.enabled,
-    };
     // SAFETY: all is the engine's own, which goes last.
-    let device = unsafe { Device::import(&host) }.unwrap();
+    let device = unsafe { Device::import(&engine.lent()) }.unwrap();
     let renderer = Renderer::new(&device, None).unwrap();
     let other = renderer.dynamic(&splats()).unwrap();
     let mut headless = crate::common::shared();

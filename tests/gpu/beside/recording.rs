@@ -28,8 +28,7 @@ fn cost(beside: &mut Beside, scenes: &[Placed<'_>], settings: &Settings, moves: 
             clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
             flips_y: true,
         };
-        let frame =
-            ViewFrame { scenes, camera: &camera, settings, corner_px: [0; 2], hides: None, profile: None };
+        let frame = ViewFrame::new(scenes, &camera, settings);
         let Beside { engine, view, renderer, .. } = &mut *beside;
         engine.begin();
         let (begin, before) = (Instant::now(), ALLOCATIONS.get());

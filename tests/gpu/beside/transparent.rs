@@ -38,14 +38,7 @@ fn an_engines_triangle_lies_between_layers_as_our_own_would() {
         let mut beside = Beside::new(REVERSED);
         let prepared = beside.upload(&scene);
         let scenes = [Placed::at_home(&prepared)];
-        let without = ViewFrame {
-            scenes: &scenes,
-            camera: &camera,
-            settings: &settings,
-            corner_px: [0; 2],
-            hides: None,
-            profile: None,
-        };
+        let without = ViewFrame::new(&scenes, &camera, &settings);
         // SAFETY: refused before anything is recorded.
         let refused = unsafe { beside.view.prepare(&beside.renderer, beside.engine.commands, &without) };
         assert!(refused.unwrap_err().to_string().contains("transparent"));
