@@ -125,7 +125,10 @@ void shade_edges(Range range)
             imageStore(visible_depth, pixel_of(row), vec4(hiding[row]));
         }
         if (WITH_DEPTH) {
-            imageStore(own_depth, pixel_of(row), vec4(max(own[row], nearest_polygon[row])));
+            // Of a pixel that splats cover by less than half, a polygon behind them has the rest.
+            bool of_polygon = WITH_POLYGONS && light[row].a < 0.5 && nearest_polygon[row] > 0.0;
+            float nearest = max(own[row], nearest_polygon[row]);
+            imageStore(own_depth, pixel_of(row), vec4(of_polygon ? nearest_polygon[row] : nearest));
         }
     }
 }

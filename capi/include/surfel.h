@@ -59,6 +59,11 @@
 #define SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY 128
 
 /**
+ * `independentBlend`; without it a view is drawn within renderings of one color attachment only.
+ */
+#define SURFEL_FEATURE_INDEPENDENT_BLEND 256
+
+/**
  * The most formats that are listed.
  */
 #define SURFEL_MAX_FORMATS 16
@@ -557,17 +562,14 @@ typedef struct SurfelRendering {
    */
   const void *pNext;
   /**
-   * The formats of its color attachments.
+   * The formats of its color attachments. The first is drawn to; the others, for which the device needs
+   * `SURFEL_FEATURE_INDEPENDENT_BLEND`, are left as they are.
    */
   const VkFormat *colorFormats;
   /**
    * How many there are.
    */
   uint32_t colorFormatCount;
-  /**
-   * Which of them is drawn to; the others are left as they are.
-   */
-  uint32_t color;
   /**
    * The format of its depth attachment; 0 (`VK_FORMAT_UNDEFINED`): there is none, and all of the view is drawn.
    */
@@ -589,10 +591,6 @@ typedef struct SurfelRendering {
    * themselves, and float formats keep linear light.
    */
   VkBool32 encodes;
-  /**
-   * 0.
-   */
-  uint32_t reserved;
 } SurfelRendering;
 
 /**

@@ -15,6 +15,7 @@ use crate::{
     renderer::SurfelPreparedScene,
     result::{Failure, Result},
     settings::SurfelSettings,
+    splats::copy,
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -112,22 +113,24 @@ unsafe impl Struct for SurfelFrame {
 /// # Safety
 /// Pointers are NULL or lead to as much as the struct says.
 pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) -> Result<()>) -> Result<()> {
-    let count = given.scene_count as usize;
-    if count > 0 && given.scenes.is_null() {
-        return Err(null("scenes"));
-    }
+    let count = u64::from(given.scene_count);
+    // SAFETY: this function's contract, here and below; so many are given.
+    let of_scenes = unsafe { copy(given.scenes, count, "scenes", |scene| scene) }?;
+    let matrices = match given.world_from_scene.is_null() {
+        true => Vec::new(),
+        // SAFETY: as above.
+        false => unsafe {
+            copy(given.world_from_scene.cast::<[f64; 16]>(), count, "worldFromScene", |matrix| matrix)
+        }?,
+    };
     let mut scenes = Vec::new();
-    for i in 0..count {
-        // SAFETY: this function's contract, here and below; so many are given.
-        let scene = unsafe { get(*given.scenes.add(i), "a scene") }?;
-        let at = match given.world_from_scene.is_null() {
-            true => Placement::default(),
-            // SAFETY: as above.
-            false => Placement::of_matrix(&DMat4::from_cols_array(unsafe {
-                &*given.world_from_scene.add(16 * i).cast()
-            }))
-            .map_err(|error| Failure { text: format!("scene {i}: {error}"), ..Failure::from(error) })?,
-        };
+    for (i, scene) in of_scenes.into_iter().enumerate() {
+        // SAFETY: as above.
+        let scene = unsafe { get(scene, "a scene") }?;
+        let placed = |matrix| Placement::of_matrix(&DMat4::from_cols_array(matrix));
+        let at = matrices.get(i).map_or(Ok(Placement::default()), placed);
+        let at =
+            at.map_err(|error| Failure { text: format!("scene {i}: {error}"), ..Failure::from(error) })?;
         scenes.push(Placed { scene: &scene.0, at });
     }
     let size_px = [given.width, given.height];

@@ -36,6 +36,8 @@ pub const SURFEL_FEATURE_DRAW_INDIRECT_FIRST_INSTANCE: u64 = 32;
 pub const SURFEL_FEATURE_DRAW_INDIRECT_COUNT: u64 = 64;
 /// `pipelineStatisticsQuery`; no function of this header needs it.
 pub const SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY: u64 = 128;
+/// `independentBlend`; without it a view is drawn within renderings of one color attachment only.
+pub const SURFEL_FEATURE_INDEPENDENT_BLEND: u64 = 256;
 
 /// The most formats that are listed.
 pub const SURFEL_MAX_FORMATS: usize = 16;
@@ -90,6 +92,7 @@ pub fn flags_of(features: &Features) -> u64 {
         draw_indirect_first_instance,
         draw_indirect_count,
         pipeline_statistics_query,
+        independent_blend,
     } = *features;
     let all = [
         (synchronization2, SURFEL_FEATURE_SYNCHRONIZATION2),
@@ -100,6 +103,7 @@ pub fn flags_of(features: &Features) -> u64 {
         (draw_indirect_first_instance, SURFEL_FEATURE_DRAW_INDIRECT_FIRST_INSTANCE),
         (draw_indirect_count, SURFEL_FEATURE_DRAW_INDIRECT_COUNT),
         (pipeline_statistics_query, SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY),
+        (independent_blend, SURFEL_FEATURE_INDEPENDENT_BLEND),
     ];
     all.iter().map(|(has, flag)| if *has { *flag } else { 0 }).sum()
 }
@@ -116,6 +120,7 @@ pub fn features_of(flags: u64) -> Features {
         draw_indirect_first_instance: has(SURFEL_FEATURE_DRAW_INDIRECT_FIRST_INSTANCE),
         draw_indirect_count: has(SURFEL_FEATURE_DRAW_INDIRECT_COUNT),
         pipeline_statistics_query: has(SURFEL_FEATURE_PIPELINE_STATISTICS_QUERY),
+        independent_blend: has(SURFEL_FEATURE_INDEPENDENT_BLEND),
     }
 }
 

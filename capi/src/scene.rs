@@ -157,6 +157,12 @@ fn add_file(scene: &mut Scene, path: &std::ffi::CStr) -> Result<()> {
     scene.epsilons.resize(scene.objects.len(), None);
     scene.epsilons.extend(file.epsilons);
     scene.objects.extend(file.objects);
+    scene.leveled.extend(file.leveled);
+    let before = scene.meshes.len();
+    scene.hybrids.extend(file.hybrids.into_iter().map(|mut hybrid| {
+        hybrid.mesh += before;
+        hybrid
+    }));
     scene.meshes.extend(file.meshes);
     scene.lights.extend(file.lights);
     Ok(())

@@ -104,7 +104,7 @@ pub unsafe fn object(given: &SurfelSplats) -> Result<Object> {
 ///
 /// # Safety
 /// `from` is NULL or leads to `count` of them.
-unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
+pub unsafe fn copy<T: Copy, U>(from: *const T, count: u64, name: &str, of: fn(T) -> U) -> Result<Vec<U>> {
     let most = isize::MAX as u64 / size_of::<T>() as u64;
     let mut all = Vec::new();
     match usize::try_from(count) {

@@ -15,6 +15,7 @@ use crate::{
     handle::{Out, destroy, get, get_mut, null},
     renderer::SurfelRenderer,
     result::{Failure, Result, SurfelResult, guard},
+    splats::copy,
     structs::{Struct, SurfelStructureType, read},
 };
 
@@ -34,12 +35,11 @@ pub struct SurfelRendering {
     pub size: u32,
     /// NULL.
     pub p_next: *const c_void,
-    /// The formats of its color attachments.
+    /// The formats of its color attachments. The first is drawn to; the others, for which the device needs
+    /// `SURFEL_FEATURE_INDEPENDENT_BLEND`, are left as they are.
     pub color_formats: *const vk::Format,
     /// How many there are.
     pub color_format_count: u32,
-    /// Which of them is drawn to; the others are left as they are.
-    pub color: u32,
     /// The format of its depth attachment; 0 (`VK_FORMAT_UNDEFINED`): there is none, and all of the view is drawn.
     pub depth_format: vk::Format,
     /// The format of its stencil attachment, which is left as it is; 0: there is none.
@@ -51,8 +51,6 @@ pub struct SurfelRendering {
     /// Colors are encoded as sRGB before they are blended: for hosts that keep encoded colors in `UNORM` formats. sRGB formats encode by
     /// themselves, and float formats keep linear light.
     pub encodes: vk::Bool32,
-    /// 0.
-    pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -71,17 +69,12 @@ unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
         let text = format!("colorFormatCount is {count}: expected at most {MOST_ATTACHMENTS}");
         return Err(Failure::invalid(text));
     }
-    let color_formats = match given.color_formats {
-        _ if count == 0 => Vec::new(),
-        formats if formats.is_null() => return Err(null("colorFormats")),
-        // SAFETY: this function's contract; not null, and few.
-        formats => unsafe { std::slice::from_raw_parts(formats, count as usize) }.to_vec(),
-    };
+    // SAFETY: this function's contract.
+    let color_formats = unsafe { copy(given.color_formats, count.into(), "colorFormats", |format| format) }?;
     let samples = vk::SampleCountFlags::from_raw(given.samples.max(1));
     let reversed = given.compare == vk::CompareOp::NEVER;
     Ok(Rendering {
         color_formats,
-        color: given.color as usize,
         depth_format: given.depth_format,
         stencil_format: given.stencil_format,
         samples,

@@ -3,18 +3,18 @@
 use ash::vk;
 
 use crate::{
+    error::{Error, Result},
+    graph::aspect_of,
     passes::pipeline::key::{GraphicsKey, Layout},
     shaders::{self, config::*},
-    vk::{Attachments, Blend},
+    vk::{Attachments, Blend, Device},
 };
 
 /// What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendering {
-    /// The formats of its color attachments.
+    /// The formats of its color attachments. The first is drawn to; the others, for which the device needs `independentBlend`, are left as they are.
     pub color_formats: Vec<vk::Format>,
-    /// Which of them is drawn to; the others are left as they are.
-    pub color: usize,
     /// The format of its depth attachment; `UNDEFINED`: there is none, and all of the view is drawn.
     pub depth_format: vk::Format,
     /// The format of its stencil attachment, which is left as it is.
@@ -33,7 +33,6 @@ impl Default for Rendering {
     fn default() -> Self {
         Self {
             color_formats: vec![vk::Format::R16G16B16A16_SFLOAT],
-            color: 0,
             depth_format: vk::Format::D32_SFLOAT,
             stencil_format: vk::Format::UNDEFINED,
             samples: vk::SampleCountFlags::TYPE_1,
@@ -57,7 +56,7 @@ pub(super) enum Part {
 impl Rendering {
     /// The format in which light is brought to the host's: as exact as that.
     pub(super) fn surface_format(&self) -> vk::Format {
-        match self.color_formats.get(self.color) {
+        match self.color_formats.first() {
             Some(&vk::Format::R32G32B32A32_SFLOAT) => vk::Format::R32G32B32A32_SFLOAT,
             _ => vk::Format::R16G16B16A16_SFLOAT,
         }
@@ -65,6 +64,79 @@ impl Rendering {
 
     pub(super) fn has_depth(&self) -> bool {
         self.depth_format != vk::Format::UNDEFINED
+    }
+
+    /// Refuses what no pipeline of this device can be drawn within.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Option`].
+    pub(super) fn check(&self, device: &Device) -> Result<()> {
+        let refused = |what: &str, problem: String| Err(Error::option(what, problem));
+        let (instance, physical) = (device.instance().raw(), device.physical());
+        // SAFETY: the device's own, which are alive, here and below.
+        let limits = unsafe { instance.get_physical_device_properties(physical) }.limits;
+        let can = |format: vk::Format, use_: vk::FormatFeatureFlags| {
+            // SAFETY: as above.
+            let properties = unsafe { instance.get_physical_device_format_properties(physical, format) };
+            properties.optimal_tiling_features.contains(use_)
+        };
+        let first = self.color_formats.first().copied().unwrap_or_default();
+        if first == vk::Format::UNDEFINED || !can(first, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND) {
+            return refused(
+                "color_formats",
+                format!("the first is {first:?}: expected one that can be blended in"),
+            );
+        }
+        let others = &self.color_formats[1..];
+        if let Some(format) = others.iter().find(|format| {
+            **format != vk::Format::UNDEFINED && !can(**format, vk::FormatFeatureFlags::COLOR_ATTACHMENT)
+        }) {
+            return refused("color_formats", format!("{format:?}: expected formats of color attachments"));
+        }
+        let most = if device.facts().independent_blend { limits.max_color_attachments } else { 1 };
+        if self.color_formats.len() > most as usize {
+            let problem = format!(
+                "{}: expected at most {most} on this device, as it was created",
+                self.color_formats.len()
+            );
+            return refused("color_formats", problem);
+        }
+        let (depth, stencil) = (aspect_of(self.depth_format), aspect_of(self.stencil_format));
+        let attached = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
+        let is_depth = depth.contains(vk::ImageAspectFlags::DEPTH) && can(self.depth_format, attached);
+        if self.has_depth() && !is_depth {
+            return refused(
+                "depth_format",
+                format!("{:?}: expected one of depth attachments", self.depth_format),
+            );
+        }
+        let has_stencil = self.stencil_format != vk::Format::UNDEFINED;
+        let is_stencil =
+            stencil.contains(vk::ImageAspectFlags::STENCIL) && can(self.stencil_format, attached);
+        if has_stencil && !(is_stencil && (!self.has_depth() || self.stencil_format == self.depth_format)) {
+            let problem = format!("{:?}: expected a stencil, and the format of depth", self.stencil_format);
+            return refused("stencil_format", problem);
+        }
+        let mut counts = limits.framebuffer_color_sample_counts;
+        if self.has_depth() {
+            counts &= limits.framebuffer_depth_sample_counts;
+        }
+        if self.samples.as_raw().count_ones() != 1 || !counts.contains(self.samples) {
+            return refused("samples", format!("{:?}: expected one of {counts:?}", self.samples));
+        }
+        match self.has_depth() && self.nearer_is_greater().is_none() {
+            true => refused("compare", format!("{:?}: expected LESS or GREATER, or equal", self.compare)),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether what is nearer has the greater depth; `None` of a comparison that tells no order.
+    pub(super) fn nearer_is_greater(&self) -> Option<bool> {
+        match self.compare {
+            vk::CompareOp::GREATER | vk::CompareOp::GREATER_OR_EQUAL => Some(true),
+            vk::CompareOp::LESS | vk::CompareOp::LESS_OR_EQUAL => Some(false),
+            _ => None,
+        }
     }
 
     /// The pipeline of a part.
@@ -84,7 +156,7 @@ impl Rendering {
             attachments: Attachments {
                 samples: self.samples,
                 stencil_format: self.stencil_format,
-                written: Some(self.color),
+                first_alone: true,
             },
             ..GraphicsKey::fullscreen(&shaders::HOST_OVER_FRAG, Layout::Host, constants)
         }

@@ -55,13 +55,9 @@ impl View {
     /// A view to be drawn within such a rendering. Its pipelines are made here.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for a rendering without the color attachment that is to be drawn to; whatever the driver answers.
+    /// [`crate::ErrorKind::Option`] for a rendering that the device does not have, or that compares depths in no order; whatever the driver answers.
     pub fn new(renderer: &Renderer, rendering: &Rendering) -> Result<Self> {
-        if rendering.color_formats.get(rendering.color).is_none_or(|format| *format == vk::Format::UNDEFINED)
-        {
-            let problem = format!("{}: the rendering has no such attachment", rendering.color);
-            return Err(Error::option("color", problem));
-        }
+        rendering.check(renderer.device())?;
         for part in [Part::Covering, Part::CoveringLess, Part::Layers] {
             renderer.shaders.graphics(rendering.key(part))?;
         }
@@ -95,6 +91,7 @@ impl View {
             ));
         }
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
+        self.check_order(depth)?;
         let plan = renderer.frame_plan(frame.scenes, &camera, settings)?;
         let layered = !plan.transparent.is_empty();
         self.check(frame, layered)?;
@@ -172,6 +169,26 @@ impl View {
         Ok(())
     }
 
+    /// Refuses a camera whose depth grows where the rendering's test has it fall: all would be hidden, or nothing; of parallel rays a picture that is
+    /// turned over, too.
+    fn check_order(&self, depth: DepthOfHost) -> Result<()> {
+        let nearer_is_greater = match depth {
+            DepthOfHost::Perspective { b, .. } => b > 0.0,
+            DepthOfHost::Orthographic { b, .. } => b < 0.0,
+        };
+        match self.rendering.nearer_is_greater() {
+            Some(greater) if self.rendering.has_depth() && greater != nearer_is_greater => {
+                let (compare, is) =
+                    (self.rendering.compare, if nearer_is_greater { "greater" } else { "less" });
+                let problem = format!(
+                    "{compare:?}, but by the camera's matrices what is nearer has the {is} depth: is depth reversed, or the viewport flipped?"
+                );
+                Err(Error::option("compare", problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn check(&self, frame: &ViewFrame<'_>, layered: bool) -> Result<()> {
         if frame.corner_px.iter().any(|at| *at < 0) {
             let [x, y] = frame.corner_px;
@@ -206,8 +223,8 @@ impl View {
         }
     }
 
-    /// Records the draws of the frame that was prepared: one to three triangles. Clobbers the pipeline, viewport and scissor, and of the graphics
-    /// bind point set 0 and push constants.
+    /// Records the draws of the frame that was prepared: up to three triangles. Clobbers viewport and scissor, and of the graphics bind point the
+    /// pipeline, all descriptor sets and push constants.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Option`] if no frame is prepared.

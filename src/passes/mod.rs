@@ -36,6 +36,7 @@ pub use crate::passes::plan::budget::count_drawn;
 pub(crate) use crate::passes::plan::budget::within_budget;
 pub(crate) use crate::passes::plan::digits::{beyond_f32, check as check_digits, floors, unused_levels};
 pub use crate::passes::plan::draws::{Draw, draws};
+pub(crate) use crate::passes::plan::lights::check as check_lights;
 pub use crate::passes::plan::mesh_draws::{MeshDraw, mesh_draws};
 pub use crate::passes::plan::needs::{Needs, needs};
 pub(crate) use crate::passes::plan::planes::ShaderPlane;

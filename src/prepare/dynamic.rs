@@ -143,9 +143,10 @@ impl PreparedScene {
     }
 
     /// Says anew what is known of splats that a host writes, for frames that are recorded from now on: as many as there is room for, anywhere.
+    /// Capacity, and whether they are closed or transparent, stay.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Option`] for what is no bound, and a scene that is not one of [`crate::embed`]'s dynamic ones.
+    /// [`crate::ErrorKind::Option`] for what is no bound, or another of those three, and a scene that is not one of [`crate::embed`]'s dynamic ones.
     pub fn set_dynamic(&mut self, splats: &DynamicSplats) -> Result<()> {
         let Some(chunk) = self.chunks.first_mut().filter(|chunk| chunk.dynamic) else {
             return Err(Error::option(
@@ -154,6 +155,16 @@ impl PreparedScene {
             ));
         };
         splats.check(chunk.room() as usize)?;
+        if (splats.capacity, splats.closed, splats.transparent)
+            != (chunk.room(), chunk.closed, chunk.transparent)
+        {
+            let problem =
+                "another capacity, closed or transparent: expected those that the scene was made with";
+            return Err(Error::option("dynamic splats", problem));
+        }
+        if chunk.transparent {
+            self.mean_transparent_radius = splats.largest_radius;
+        }
         chunk.count = splats.count;
         chunk.bounds = splats.bounds;
         chunk.rebase.origin = splats.origin;

@@ -165,8 +165,12 @@ impl Renderer {
         settings: &Settings,
     ) -> Result<FramePlan<'a>> {
         self.check(camera, settings)?;
-        for Placed { scene, at } in scenes {
-            at.validate()?;
+        passes::check_lights(scenes)?;
+        for (number, Placed { scene, at }) in scenes.iter().enumerate() {
+            at.validate().map_err(|error| match scenes.len() {
+                1 => error,
+                _ => Error::option("placement", format!("of scene {number}: {error}")),
+            })?;
             if !scene.is_on(&self.device) {
                 return Err(Error::option("scene", "was prepared for another device"));
             }

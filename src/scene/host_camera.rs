@@ -151,16 +151,21 @@ struct Lens {
 impl Lens {
     fn of(clip_from_view: &DMat4) -> Result<Self> {
         let [x, y, depth, w] = [0, 1, 2, 3].map(|i| clip_from_view.row(i));
-        let is_perspective = w.truncate() == DVec3::new(0.0, 0.0, w.z) && w.z != 0.0 && w.w == 0.0;
-        let is_orthographic = w.truncate() == DVec3::ZERO && w.w != 0.0;
+        // What f32 leaves of a product of matrices is nothing beside what the row says.
+        let is_nothing = |part: f64, beside: f64| part.abs() <= ROUNDING * beside.abs();
+        let is_perspective = w.z != 0.0 && [w.x, w.y, w.w].iter().all(|part| is_nothing(*part, w.z));
+        let is_orthographic = w.w != 0.0 && [w.x, w.y, w.z].iter().all(|part| is_nothing(*part, w.w));
         if !is_perspective && !is_orthographic {
             return refused("clip_from_view is neither a perspective along z nor orthographic");
         }
         let scale = if is_perspective { w.z.abs() } else { w.w };
         let rows = [x, y, depth].map(|row| row / scale);
         let [x, y, depth] = rows;
+        // Offsets that the other kind of projection has.
         let beside = if is_perspective { [x.w, y.w] } else { [x.z, y.z] };
-        if x.y != 0.0 || y.x != 0.0 || beside != [0.0; 2] || depth.x != 0.0 || depth.y != 0.0 {
+        let turns =
+            [(x.y, x.x), (y.x, y.y), (beside[0], x.x), (beside[1], y.y), (depth.x, x.x), (depth.y, y.y)];
+        if turns.iter().any(|(part, own)| !is_nothing(*part, *own)) {
             return refused("clip_from_view turns or shears: expected a projection along z");
         }
         let has_depth = if is_perspective { depth.w } else { depth.z };

@@ -40,7 +40,7 @@ impl Placement {
         if !world_from_scene.is_finite() {
             return Err(refuse("is not finite"));
         }
-        if world_from_scene.row(3) != DVec4::W {
+        if (world_from_scene.row(3) - DVec4::W).abs().max_element() > ROUNDING {
             return Err(refuse("is not affine"));
         }
         let linear = DMat3::from_mat4(*world_from_scene);
@@ -79,7 +79,7 @@ impl Placement {
         if *self == Self::default() {
             return *camera;
         }
-        let back = self.rotation.conjugate();
+        let back = self.rotation.normalize().conjugate();
         let point = |world: DVec3| back * (world - self.translation) / self.scale;
         Camera {
             eye: point(camera.eye),
@@ -97,7 +97,8 @@ impl Placement {
             return plane;
         }
         let normal = plane.truncate();
-        (self.rotation.conjugate() * normal).extend((normal.dot(self.translation) + plane.w) / self.scale)
+        (self.rotation.normalize().conjugate() * normal)
+            .extend((normal.dot(self.translation) + plane.w) / self.scale)
     }
 }
 

@@ -41,6 +41,8 @@ pub struct DeviceFacts {
     pub large_points: bool,
     /// Counts of fragments (`pipelineStatisticsQuery`).
     pub pipeline_statistics: bool,
+    /// Color attachments can be written differently (`independentBlend`).
+    pub independent_blend: bool,
     /// The number of indirect draws can be read from a buffer.
     pub draw_indirect_count: bool,
     /// Limits that the renderer respects.
@@ -190,6 +192,7 @@ mod tests {
             missing: Vec::new(),
             large_points: true,
             pipeline_statistics: true,
+            independent_blend: true,
             draw_indirect_count: true,
             limits: Limits { blend_f32: true, ..Limits::plain() },
         }

@@ -131,6 +131,7 @@ pub(super) unsafe fn facts(
         missing: needed.iter().filter(|(there, _)| !there).map(|(_, name)| (*name).to_owned()).collect(),
         large_points: core.large_points == vk::TRUE,
         pipeline_statistics: core.pipeline_statistics_query == vk::TRUE,
+        independent_blend: core.independent_blend == vk::TRUE,
         // Numbers of pixels are given as counts, which must not exceed the limit.
         draw_indirect_count: features12.draw_indirect_count == vk::TRUE
             && limits.max_draw_indirect_count >= 1 << 30,

@@ -22,6 +22,8 @@ pub struct Features {
     pub draw_indirect_count: bool,
     /// `pipelineStatisticsQuery`; without it vertices and fragments are not counted.
     pub pipeline_statistics_query: bool,
+    /// `independentBlend`; without it a view is drawn within renderings of one color attachment only.
+    pub independent_blend: bool,
 }
 
 impl Features {
@@ -35,6 +37,7 @@ impl Features {
         draw_indirect_first_instance: false,
         draw_indirect_count: false,
         pipeline_statistics_query: false,
+        independent_blend: false,
     };
 
     /// The names of needed ones that are not among these.
@@ -54,6 +57,7 @@ impl Features {
             .large_points(self.large_points)
             .draw_indirect_first_instance(self.draw_indirect_first_instance)
             .pipeline_statistics_query(self.pipeline_statistics_query)
+            .independent_blend(self.independent_blend)
     }
 
     /// Those of Vulkan 1.2, for the chain that a device is created with.

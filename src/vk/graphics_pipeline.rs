@@ -41,13 +41,17 @@ pub struct Attachments {
     pub samples: vk::SampleCountFlags,
     /// The format of the stencil attachment, which is left as it is.
     pub stencil_format: vk::Format,
-    /// The one color attachment that is written; `None`: all.
-    pub written: Option<usize>,
+    /// Only the first color attachment is written; with several that needs `independentBlend`.
+    pub first_alone: bool,
 }
 
 impl Default for Attachments {
     fn default() -> Self {
-        Self { samples: vk::SampleCountFlags::TYPE_1, stencil_format: vk::Format::UNDEFINED, written: None }
+        Self {
+            samples: vk::SampleCountFlags::TYPE_1,
+            stencil_format: vk::Format::UNDEFINED,
+            first_alone: false,
+        }
     }
 }
 
@@ -129,7 +133,7 @@ impl GraphicsPipeline {
             .alpha_blend_op(vk::BlendOp::ADD)
             .color_write_mask(vk::ColorComponentFlags::RGBA);
         let untouched = vk::PipelineColorBlendAttachmentState::default();
-        let written = |i| desc.attachments.written.is_none_or(|written| written == i);
+        let written = |i| i == 0 || !desc.attachments.first_alone;
         let attachments: Vec<_> =
             (0..desc.color_formats.len()).map(|i| if written(i) { add } else { untouched }).collect();
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);

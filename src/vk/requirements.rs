@@ -90,6 +90,7 @@ pub(super) fn offered(facts: &DeviceFacts) -> Features {
         draw_indirect_first_instance: facts.limits.first_instance,
         draw_indirect_count: facts.draw_indirect_count,
         pipeline_statistics_query: facts.pipeline_statistics,
+        independent_blend: facts.independent_blend,
         ..Features::NEEDED
     }
 }

@@ -186,8 +186,12 @@ impl Shaders {
     /// for hours: each has its pipelines, and a driver may take a megabyte for one.
     ///
     /// # Safety
-    /// All that was recorded with pipelines of this is submitted, by the last submission or one before it.
+    /// All that was recorded with pipelines of this is submitted, by the last submission or one before it, and no [`crate::embed::View`] is prepared that is
+    /// still to be drawn.
     pub unsafe fn keep_newest(&self, most: usize) -> usize {
+        if self.graphics.len() + self.compute.len() <= most {
+            return 0;
+        }
         let mut times = self.graphics.for_each(|_, used| used);
         times.extend(self.compute.for_each(|_, used| used));
         let first = first_to_stay(times, most);

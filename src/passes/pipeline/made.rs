@@ -51,6 +51,11 @@ impl<K: Eq + Hash, P: OwnsPipeline> Made<K, P> {
         Ok(all.entry(key).or_insert((pipeline, now)).0.raw())
     }
 
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.all().len()
+    }
+
     /// What each does with them.
     pub fn for_each<T>(&self, of: impl Fn(&K, u64) -> T) -> Vec<T> {
         self.all().iter().map(|(key, (_, used))| of(key, *used)).collect()

@@ -113,6 +113,8 @@ pub fn draws<'a>(
         let epsilon = match wanted {
             Epsilon::Auto => (Epsilon::auto_radii(chunk.transparent), 0.0),
             Epsilon::Radii(radii) => (radii, 0.0),
+            // An object's own is in the scene's unit, that of the settings in the world's.
+            Epsilon::Length(length) if chunk.epsilon.is_some() => (0.0, length),
             Epsilon::Length(length) => (0.0, length / at.scale),
         };
         let bound = SizeBound {

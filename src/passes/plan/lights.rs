@@ -1,6 +1,7 @@
 //! Lights as a camera sees them.
 
 use crate::{
+    error::{Error, Result},
     prepare::Placed,
     scene::{Camera, Light, LightKind, MOST_LIGHTS},
 };
@@ -11,10 +12,30 @@ pub type ShaderLight = [[f32; 4]; 2];
 
 const _: () = assert!((MOST_LIGHTS * size_of::<ShaderLight>()) as u64 <= crate::vk::STAND_IN_BYTES);
 
-/// The lights of all scenes as a camera sees them.
+/// A scene that stands at several places shines once, from the first.
+fn each_once<'s, 'a>(scenes: &'s [Placed<'a>]) -> impl Iterator<Item = &'s Placed<'a>> {
+    let is_first = |i: usize| !scenes[..i].iter().any(|other| std::ptr::eq(other.scene, scenes[i].scene));
+    (0..scenes.len()).filter(move |i| !scenes[*i].scene.lights.is_empty() && is_first(*i)).map(|i| &scenes[i])
+}
+
+/// Refuses more lights in all than shaders take.
+///
+/// # Errors
+/// [`crate::ErrorKind::Option`].
+pub(crate) fn check(scenes: &[Placed<'_>]) -> Result<()> {
+    let count: usize = each_once(scenes).map(|placed| placed.scene.lights.len()).sum();
+    match count <= MOST_LIGHTS {
+        true => Ok(()),
+        false => {
+            Err(Error::option("lights", format!("{count} in all scenes: expected at most {MOST_LIGHTS}")))
+        }
+    }
+}
+
+/// The lights of all scenes, which shine on all of them, as a camera sees them.
 pub(crate) fn shader_lights(scenes: &[Placed<'_>], camera: &Camera) -> Vec<ShaderLight> {
     let of_scene = |Placed { scene, at }: &Placed<'_>| of_scene(&scene.lights, &at.camera(camera));
-    scenes.iter().flat_map(of_scene).take(MOST_LIGHTS).collect()
+    each_once(scenes).flat_map(of_scene).take(MOST_LIGHTS).collect()
 }
 
 /// Those of one, from a camera in its own space.

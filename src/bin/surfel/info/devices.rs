@@ -175,6 +175,7 @@ mod tests {
             missing: Vec::new(),
             large_points: true,
             pipeline_statistics: false,
+            independent_blend: true,
             draw_indirect_count: false,
             limits: Limits {
                 blend_f32: true,
