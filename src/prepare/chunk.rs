@@ -7,7 +7,7 @@ use super::{
     blocks::{Block, BlockMaker},
     clip_vectors::ClipVectors,
     level_words::LevelWords,
-    levels::ChunkLevels,
+    levels::{ChunkLevels, LevelPart},
     memory::{ChunkMemory, Uploader},
     pack::{Packed, Survey, shape_bytes},
     radii::RadiusStep,
@@ -219,6 +219,11 @@ impl Chunk {
             [shapes, colors] if self.dynamic => Some([shapes.raw(), colors.raw()]),
             _ => None,
         }
+    }
+
+    /// Whether its splats are nodes, which stand for the object's own.
+    pub fn is_of_nodes(&self) -> bool {
+        self.levels.is_some_and(|levels| levels.part == LevelPart::Nodes)
     }
 
     /// Whether its splats stand for others, or for polygons, and are drawn in their place.

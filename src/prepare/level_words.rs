@@ -26,11 +26,11 @@ type Shared = (ErrorBall, u32);
 
 impl LevelWords {
     /// Of some leaves or nodes of an object, in their order.
-    pub fn of(leveled: &Leveled, levels: ChunkLevels, numbers: &[usize]) -> Self {
-        let shared = |of: &dyn Fn(usize) -> Vec<u32>| -> Vec<Vec<Shared>> {
+    pub fn of<'a>(leveled: &'a Leveled, levels: ChunkLevels, numbers: &[usize]) -> Self {
+        let shared = |of: &dyn Fn(usize) -> &'a [u32]| -> Vec<Vec<Shared>> {
             numbers.chunks(WORD).map(|word| shared_balls(leveled, word, of)).collect()
         };
-        let parents = shared(&|number| vec![leveled.parent(levels, number)]);
+        let parents = shared(&|number| std::slice::from_ref(leveled.parent(levels, number)));
         let own_balls =
             |number: &usize| leveled.own_balls(levels, *number).iter().map(|ball| leveled.ball(*ball));
         let mut words = Vec::new();
@@ -41,7 +41,7 @@ impl LevelWords {
                 push_lists(&mut words, &[&parents], &own);
             }
             LevelPart::OfCells => {
-                let cells = shared(&|number| leveled.own_balls(levels, number).to_vec());
+                let cells = shared(&|number| leveled.own_balls(levels, number));
                 push_lists(&mut words, &[&parents, &cells], &[]);
             }
         }
@@ -80,10 +80,10 @@ fn push_lists(words: &mut Vec<u32>, kinds: &[&[Vec<Shared>]], single: &[ErrorBal
 }
 
 /// The balls of the splats of a word, each once.
-fn shared_balls(leveled: &Leveled, word: &[usize], of: &dyn Fn(usize) -> Vec<u32>) -> Vec<Shared> {
+fn shared_balls<'a>(leveled: &'a Leveled, word: &[usize], of: &dyn Fn(usize) -> &'a [u32]) -> Vec<Shared> {
     let mut shared: Vec<(u32, u32)> = Vec::new();
     for (bit, number) in word.iter().enumerate() {
-        for ball in of(*number) {
+        for &ball in of(*number) {
             match shared.iter_mut().find(|(other, _)| *other == ball) {
                 Some((_, splats)) => *splats |= 1 << bit,
                 None => shared.push((ball, 1 << bit)),

@@ -173,8 +173,8 @@ impl Leveled {
     }
 
     /// The number of the parent of splat `i` of the leaves or the nodes.
-    pub fn parent(&self, levels: ChunkLevels, i: usize) -> u32 {
-        if levels.part == LevelPart::Nodes { self.node_balls[i].parent } else { self.leaf_parents[i] }
+    pub fn parent(&self, levels: ChunkLevels, i: usize) -> &u32 {
+        if levels.part == LevelPart::Nodes { &self.node_balls[i].parent } else { &self.leaf_parents[i] }
     }
 
     /// The numbers of the balls of splat `i` of the leaves or the nodes that are its own: one of them has to be small.

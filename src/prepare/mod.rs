@@ -95,7 +95,7 @@ impl PreparedScene {
 
     /// How many splats there are, without those that stand for others.
     pub fn splat_count(&self) -> u64 {
-        let own = self.chunks.iter().filter(|chunk| !chunk.stands_for_others());
+        let own = self.chunks.iter().filter(|chunk| !chunk.is_of_nodes());
         own.map(|chunk| u64::from(chunk.count)).sum()
     }
 

@@ -135,6 +135,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether something in it came with its levels of detail.
+    pub fn has_levels(&self) -> bool {
+        !self.leveled.is_empty() || !self.hybrids.is_empty()
+    }
+
     /// How many splats all objects have together, those without levels of detail.
     pub fn splat_count(&self) -> usize {
         self.objects.iter().map(|object| object.splats.len()).sum()

@@ -67,7 +67,7 @@ fn words(chunk: &ExplainedChunk, cap_px: f32) -> String {
     let fine = if chunk.fine { " with coordinates of two parts" } else { "" };
     let color = if chunk.uniform_color { "one color for all" } else { "a color each" };
     let closed = if chunk.closed { "closed surface" } else { "open surface" };
-    let nodes = if chunk.stands_for_others { " that stand for others (--lod)" } else { "" };
+    let nodes = if chunk.stands_for_others { " that stand for others, or for polygons (--lod)" } else { "" };
     let size = match (chunk.may_be_large, chunk.largest_box_px) {
         (_, px) if chunk.by_tiles && px.is_finite() => format!("none above {px:.0} px"),
         (_, _) if chunk.by_tiles => "some may reach the near plane".to_owned(),

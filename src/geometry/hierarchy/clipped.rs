@@ -50,7 +50,9 @@ fn ellipse_of(clip: &Clip) -> [DVec2; 3] {
         return [DVec2::ZERO, DVec2::X, DVec2::Y];
     }
     let mean = left.iter().map(|(ring, place)| f64::from(*ring) * *place).sum::<DVec2>() / area;
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    // Each place stands for as much of the disk as lies around it; without that a sliver in which one place is would have no extent.
+    let of_place = (0.5 / f64::from(RINGS)).powi(2);
+    let (mut xx, mut xy, mut yy) = (of_place, 0.0, of_place);
     for (ring, place) in &left {
         let from = *place - mean;
         let weight = f64::from(*ring) / area;
@@ -65,6 +67,8 @@ fn ellipse_of(clip: &Clip) -> [DVec2; 3] {
     let [a, b] = [lengths[0] * first, lengths[1] * first.perp()];
     let into = DMat2::from_cols(a, b).inverse();
     let largest = left.iter().map(|(_, place)| (into * (*place - mean)).length()).fold(0.0, f64::max);
+    // And reaches so far.
+    let largest = largest.max(1.0);
     [mean, largest * a, largest * b]
 }
 
@@ -97,6 +101,14 @@ mod tests {
         }
         assert!(s.perp_dot(t) > 0.0 && s.perp_dot(t) < 0.9, "{}", s.perp_dot(t));
         assert!(left.clips.is_empty());
+        // Whatever sliver is left has an extent: here a cap of a few degrees, in which one of the places is, or none.
+        for (middle, half_angle) in [(0.0, 0.05_f32), (1.0, 0.06), (2.0, 0.02), (0.3, 0.1)] {
+            let cap = half(Clip::One(ClipCurve::line(middle + half_angle, middle - half_angle)));
+            let rest = half(Clip::One(ClipCurve::line(middle - half_angle, middle + half_angle)));
+            for left in [cap, rest] {
+                assert_eq!(left.defect(0), None, "{middle} {half_angle}");
+            }
+        }
         let whole = half(Clip::None);
         assert_eq!(whole.positions, [DVec3::ZERO]);
     }

@@ -60,7 +60,7 @@ struct Part {
 }
 
 /// Makes cells and splats of a mesh: `options.samples` of these, spread evenly over its area, but for those near the edges between cells, on which
-/// others are. It is cut apart at creases as [`creased_mesh`] does.
+/// others are, whatever `options.sample_edges` says. It is cut apart at creases as [`creased_mesh`] does.
 ///
 /// # Errors
 /// [`crate::error::ErrorKind::Option`] for a number of samples out of range or of more than there is memory for;

@@ -138,7 +138,7 @@ impl<'a> PickPlan<'a> {
             None => {
                 let chunk = of_splats()?.chunk;
                 let splat = PickedPart::Splat(chunk.number_of(index));
-                (chunk.object, if chunk.stands_for_others() { PickedPart::Node } else { splat })
+                (chunk.object, if chunk.is_of_nodes() { PickedPart::Node } else { splat })
             }
         };
         let (position, depth) = self.place(record.depth.into());

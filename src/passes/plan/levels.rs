@@ -118,10 +118,15 @@ impl LevelView {
         if self.is_orthographic { 1.0 } else { distance.max(self.near) }
     }
 
+    /// The share up to which a splat's own balls are small: nodes blend with those below them, cells don't with polygons.
+    fn share_of_own(&self) -> f64 {
+        if self.part == LevelPart::Nodes { self.share_of_blended() } else { self.share }
+    }
+
     /// How many of a block's splats, of which there are `count`, are drawn at most.
     pub fn most_drawn(&self, block: &BlockLevels, count: u32) -> u32 {
         let distance = self.eye.distance(block.center);
-        let own = self.most(distance, &block.own, self.share_of_blended());
+        let own = self.most(distance, &block.own, self.share_of_own());
         block.most_between(
             self.part.stands_for_others(),
             own,
@@ -141,10 +146,8 @@ impl LevelView {
         let (own, parent) = (&block.own, &block.parent);
         let [small_parent, large_parent] =
             [self.least(distance, parent, self.share), self.most(distance, parent, self.share)];
-        let [small_own, large_own] = [
-            self.least(distance, own, self.share_of_blended()),
-            self.most(distance, own, self.share_of_blended()),
-        ];
+        let share = self.share_of_own();
+        let [small_own, large_own] = [self.least(distance, own, share), self.most(distance, own, share)];
         if parent.spreads[1] <= small_parent || self.part.stands_for_others() && own.spreads[0] > large_own {
             return OfBlock::None;
         }

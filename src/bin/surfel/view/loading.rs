@@ -236,7 +236,7 @@ impl Worker {
             }
         };
         let splats = scene.splat_count();
-        let has_levels = !scene.leveled.is_empty();
+        let has_levels = scene.has_levels();
         let mut steps = Vec::new();
         if in_parts && splats > PART_FROM {
             steps.push(Step::Part);
