@@ -165,7 +165,7 @@ mod tests {
     use crate::{
         math::random::SplitMix,
         prepare::LevelSpace,
-        scene::{ErrorBall, Lod},
+        scene::{ErrorBall, Lod, LodSteps},
     };
 
     /// Random blocks seen from anywhere: never more are drawn than the bound says, and where spreads differ it says less than all.
@@ -210,5 +210,32 @@ mod tests {
         }
         println!("{drawn} drawn, {bound} at most, {all} in all");
         assert!(drawn > 10_000 && bound < all * 7 / 10, "{drawn} {bound} {all}");
+    }
+
+    /// Nodes blend with those below them, cells do not with polygons: a block is told to be drawn whole only where each cell's ball is below τ itself.
+    #[test]
+    fn a_block_of_cells_is_whole_only_where_no_cell_is_drawn_as_polygons() {
+        let mut random = SplitMix(12);
+        let (mut whole, mut between) = (0, 0);
+        for round in 0..2000 {
+            let eye = DVec3::new(2.0, random.unit(), random.unit());
+            let camera = Camera { eye, ..Camera::default() };
+            let settings = Settings { lod: Lod::Px(2.0), lod_steps: LodSteps::Blend, ..Settings::default() };
+            let space = LevelSpace { origin: DVec3::ZERO, scale: 1.0 };
+            let levels = ChunkLevels { space, part: LevelPart::OfCells };
+            let view = LevelView::new(levels, false, &camera, &settings).unwrap();
+            assert!(view.blends());
+            let small = view.share * view.at(eye.length());
+            let ball = |spread: f64| ErrorBall { center: Vec3::ZERO, radius: 0.0, spread: spread as f32 };
+            let own: Vec<_> = (0..8).map(|_| ball(small * (0.5 + random.unit()))).collect();
+            let parents = [(ball(1e3 * small), 8)];
+            let block = BlockLevels::around(&own, &parents, 1.0);
+            let all_small = own.iter().all(|own| f64::from(own.spread) <= small);
+            let told = view.of(&block);
+            assert!(all_small || told != OfBlock::All, "round {round}");
+            whole += u32::from(told == OfBlock::All);
+            between += u32::from(!all_small);
+        }
+        assert!(whole > 0 && between > 500, "{whole} {between}");
     }
 }

@@ -53,3 +53,36 @@ fn of_scene(lights: &[Light], camera: &Camera) -> Vec<ShaderLight> {
     };
     lights.iter().map(of).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        prepare::{PreparedScene, prepare_without_device},
+        scene::{Placement, Scene},
+        vk::Limits,
+    };
+
+    fn lit(count: usize) -> PreparedScene {
+        let light = Light { kind: LightKind::Eye, color: [1.0; 3] };
+        let scene = Scene { lights: vec![light; count], ..Scene::default() };
+        prepare_without_device(&Limits::plain(), &scene).unwrap()
+    }
+
+    #[test]
+    fn a_scene_shines_once_wherever_it_stands_and_too_many_lights_are_refused() {
+        let (one, two) = (lit(1), lit(2));
+        let at = Placement { scale: 2.0, ..Placement::default() };
+        let all = [
+            Placed::at_home(&one),
+            Placed { scene: &one, at },
+            Placed::at_home(&two),
+            Placed { scene: &two, at },
+        ];
+        assert_eq!(shader_lights(&all, &Camera::default()).len(), 3);
+        check(&all).unwrap();
+        let many = lit(MOST_LIGHTS);
+        check(&[Placed::at_home(&many), Placed { scene: &many, at }]).unwrap();
+        assert!(check(&[Placed::at_home(&many), Placed::at_home(&one)]).is_err());
+    }
+}

@@ -1,14 +1,14 @@
 //! Scenes that come, go and move from frame to frame.
 
 use glam::{
-    DQuat, DVec3,
+    DMat4, DQuat, DVec3, DVec4,
     dcamera::rh::{proj::directx, view::look_at_mat4},
 };
 use surfel::{
     Settings,
     embed::{HostCamera, Placed, Placement},
     math::random::SplitMix,
-    scene::{Edges, Scene, Shading},
+    scene::{ClipPlanes, Edges, Epsilon, Light, LightKind, Scene, Shading},
 };
 
 use super::{Beside, REVERSED, SIZE_PX};
@@ -28,7 +28,15 @@ fn camera() -> HostCamera {
     }
 }
 
-/// A placed scene is the scene whose splats were moved.
+/// The same by parallel rays.
+fn parallel() -> HostCamera {
+    let reversed =
+        DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, -1.0, 0.0), DVec4::new(0.0, 0.0, 1.0, 1.0));
+    let clip_from_view = reversed * directx::orthographic(-2.4, 2.4, -1.8, 1.8, 0.5, 90.0);
+    HostCamera { clip_from_view, ..camera() }
+}
+
+/// A placed scene is the scene whose splats, lengths of epsilon and lights were moved; planes are the world's.
 #[test]
 fn placed_scenes_are_seen_as_if_they_had_been_uploaded_there() {
     let at = Placement {
@@ -36,29 +44,62 @@ fn placed_scenes_are_seen_as_if_they_had_been_uploaded_there() {
         scale: 1.4,
         translation: DVec3::new(0.5, -0.3, 0.2),
     };
-    let own = scenes::sphere(1500, DVec3::new(0.3, 0.2, 0.0));
     let matrix =
         glam::DAffine3::from_scale_rotation_translation(DVec3::splat(at.scale), at.rotation, at.translation);
+    let own = scenes::sphere(1500, DVec3::new(0.3, 0.2, 0.0));
     let mut moved = own.clone();
     moved.splats = own.splats.clone().transformed(&matrix);
-    // How much of a pixel an edge covers follows from overlaps, which are measured on a grid of the world's axes.
-    let settings = Settings { size_px: SIZE_PX, edges: Edges::Hard, ..Settings::default() };
-    let mut beside = Beside::new(REVERSED);
-    let of = |object| Scene { objects: vec![object], ..Scene::default() };
-    let [own, moved] = [own, moved].map(|object| beside.upload(&of(object)));
-    let mut picture = |placed: Placed<'_>| {
-        beside.draw(&[placed], &camera(), &settings, &BEHIND, false);
-        (beside.engine.pixels(), beside.engine.depths())
+    let sun = DVec3::new(0.3, -1.0, -0.4);
+    let lit = |direction| Light { kind: LightKind::Directional(direction), color: [0.9, 0.8, 0.5] };
+    let scene = |object, direction, epsilon| Scene {
+        objects: vec![object],
+        epsilons: vec![Some(Epsilon::Length(epsilon))],
+        lights: vec![lit(direction)],
+        ..Scene::default()
     };
-    let (placed, depths) = picture(Placed { scene: &own, at });
-    let (uploaded, expected_depths) = picture(Placed::at_home(&moved));
-    let off = placed.iter().flatten().zip(uploaded.iter().flatten()).map(|(a, b)| (a - b).abs());
-    let far = off.clone().filter(|off| *off > 1e-3).count();
-    println!("{far} values differ by more than 1e-3, the largest by {}", off.fold(0.0, f32::max));
-    assert!(far < 40, "{far}");
-    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-5 * b.abs();
-    let same = depths.iter().zip(&expected_depths).filter(|pair| near(*pair)).count();
-    assert!(same + 20 > depths.len(), "{same}");
+    // A third of a radius, so that it matters which splats are of the nearest surface.
+    let epsilon = 0.02;
+    let [own, moved] = [scene(own, sun, epsilon), scene(moved, at.rotation * sun, at.scale * epsilon)];
+    let mut beside = Beside::new(REVERSED);
+    let [own, moved] = [own, moved].map(|scene| beside.upload(&scene));
+    // How much of a pixel an edge covers follows from overlaps, which are measured on a grid of the world's axes.
+    let hard = Settings { size_px: SIZE_PX, edges: Edges::Hard, ..Settings::default() };
+    let plane = ClipPlanes(vec![[0.4, 0.9, 0.1, 0.1]]);
+    let cut = Settings { clip_planes: plane, ..hard.clone() };
+    let mut seen = Vec::new();
+    for (name, camera, settings) in [
+        ("perspective", camera(), &hard),
+        ("perspective, cut", camera(), &cut),
+        ("parallel", parallel(), &hard),
+        ("parallel, cut", parallel(), &cut),
+    ] {
+        let mut picture = |placed: &[Placed<'_>]| {
+            beside.draw(placed, &camera, settings, &BEHIND, false);
+            (beside.engine.pixels(), beside.engine.depths())
+        };
+        let (placed, depths) = picture(&[Placed { scene: &own, at }]);
+        let (uploaded, expected_depths) = picture(&[Placed::at_home(&moved)]);
+        let difference = |one: &[[f32; 4]], other: &[[f32; 4]]| {
+            one.iter().flatten().zip(other.iter().flatten()).filter(|(a, b)| (*a - *b).abs() > 1e-3).count()
+        };
+        let far = difference(&placed, &uploaded);
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-5 * b.abs();
+        let same = depths.iter().zip(&expected_depths).filter(|pair| near(*pair)).count();
+        println!(
+            "{name}: {far} values differ by more than 1e-3, {} depths by more than 1e-5",
+            depths.len() - same
+        );
+        assert!(far < 40 && same + 30 > depths.len(), "{name}: {far} {same}");
+        // Once more, far off and out of sight: it does not shine twice.
+        let away = Placement { translation: DVec3::new(0.0, 0.0, 1e3), ..at };
+        let (twice, _) = picture(&[Placed { scene: &own, at }, Placed { scene: &own, at: away }]);
+        assert!(difference(&placed, &twice) < 40, "{name}");
+        seen.push(placed);
+    }
+    // What is told of has an effect.
+    for i in 1..seen.len() {
+        assert!(seen[..i].iter().all(|other| *other != seen[i]), "{i}");
+    }
     drop((own, moved));
     beside.end();
 }

@@ -1,5 +1,6 @@
 //! Whatever call of the device fails while a view or a scene is made or a frame recorded: it is named, nothing stays behind, and the next one works.
 
+use ash::vk;
 use glam::{
     DVec3,
     dcamera::rh::{proj::directx, view::look_at_mat4},
@@ -138,4 +139,41 @@ fn a_scene_of_another_device_is_refused() {
     unsafe { device.epoch_done(device.end_epoch()) };
     drop(device);
     assert_eq!(engine.said(), [] as [String; 0]);
+}
+
+/// What would be no pipeline of this device, or hide by the wrong side, is refused by name; a second attachment is left as it is.
+#[test]
+fn renderings_that_a_device_does_not_have_are_refused() {
+    let mut beside = super::Beside::new(REVERSED);
+    let plain = Rendering { color_formats: vec![COLOR_FORMAT], ..Rendering::default() };
+    let refused = |rendering: Rendering| View::new(&beside.renderer, &rendering).err().unwrap().to_string();
+    let of = |color_formats| Rendering { color_formats, ..plain.clone() };
+    assert!(refused(of(Vec::new())).starts_with("color_formats: the first"));
+    assert!(refused(of(vec![vk::Format::D32_SFLOAT])).starts_with("color_formats: the first"));
+    assert!(refused(of(vec![COLOR_FORMAT, vk::Format::D32_SFLOAT])).contains("expected formats of color"));
+    assert!(refused(of(vec![COLOR_FORMAT; 65])).contains("expected at most"));
+    assert!(refused(Rendering { depth_format: COLOR_FORMAT, ..plain.clone() }).starts_with("depth_format"));
+    let stencil_format = vk::Format::D32_SFLOAT_S8_UINT;
+    assert!(refused(Rendering { stencil_format, ..plain.clone() }).starts_with("stencil_format"));
+    let samples = vk::SampleCountFlags::from_raw(3);
+    assert!(refused(Rendering { samples, ..plain.clone() }).starts_with("samples"));
+    assert!(refused(Rendering { compare: vk::CompareOp::EQUAL, ..plain.clone() }).starts_with("compare"));
+    View::new(&beside.renderer, &Rendering { depth_format: stencil_format, stencil_format, ..plain.clone() })
+        .unwrap();
+    View::new(&beside.renderer, &of(vec![COLOR_FORMAT, vk::Format::R8G8B8A8_UNORM])).unwrap();
+
+    // The matrices are of a reversed depth.
+    let compare = vk::CompareOp::LESS;
+    beside.view = View::new(&beside.renderer, &Rendering { compare, ..plain }).unwrap();
+    let camera = HostCamera {
+        view_from_world: look_at_mat4(DVec3::new(0.4, 0.9, 4.0), DVec3::ZERO, DVec3::Y),
+        clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
+        flips_y: true,
+    };
+    let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
+    let frame = ViewFrame::new(&[], &camera, &settings);
+    // SAFETY: refused before anything is recorded.
+    let refused = unsafe { beside.view.prepare(&beside.renderer, beside.engine.commands, &frame) };
+    assert!(refused.unwrap_err().to_string().contains("what is nearer has the greater depth"));
+    beside.end();
 }

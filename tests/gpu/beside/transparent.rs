@@ -11,7 +11,7 @@ use surfel::{
     scene::{Edges, Mesh, MeshObject, Rasterizer, Scene, Shading},
 };
 
-use super::{Beside, RED, REVERSED, SIZE_PX};
+use super::{Beside, FORWARD, RED, REVERSED, SIZE_PX};
 use crate::common::scenes;
 
 #[test]
@@ -21,12 +21,16 @@ fn an_engines_triangle_lies_between_layers_as_our_own_would() {
     let mut scene =
         Scene { objects: vec![ball, scenes::sphere(1500, DVec3::new(0.9, 0.0, 0.8))], ..Scene::default() };
     let corners = [DVec3::new(-3.0, -2.0, 0.8), DVec3::new(3.0, -2.0, -0.3), DVec3::new(0.0, 2.5, 0.2)];
-    let camera = HostCamera {
-        view_from_world: look_at_mat4(DVec3::new(0.4, 0.9, 4.0), DVec3::ZERO, DVec3::Y),
-        clip_from_view: directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5),
-        flips_y: true,
-    };
-    for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+    let view_from_world = look_at_mat4(DVec3::new(0.4, 0.9, 4.0), DVec3::ZERO, DVec3::Y);
+    let meeting = directx::perspective_infinite_reverse(0.7, 160.0 / 120.0, 0.5);
+    let parallel = directx::orthographic(-2.0, 2.0, -1.5, 1.5, 0.5, 20.0);
+    let by = |clip_from_view| HostCamera { view_from_world, clip_from_view, flips_y: true };
+    for (style, camera, rasterizer) in [
+        (REVERSED, by(meeting), Rasterizer::Compute),
+        (REVERSED, by(meeting), Rasterizer::Perspective),
+        (FORWARD, by(parallel), Rasterizer::Compute),
+        (FORWARD, by(parallel), Rasterizer::Perspective),
+    ] {
         let settings = Settings {
             size_px: SIZE_PX,
             edges: Edges::Hard,
@@ -35,7 +39,7 @@ fn an_engines_triangle_lies_between_layers_as_our_own_would() {
             background: None,
             ..Settings::default()
         };
-        let mut beside = Beside::new(REVERSED);
+        let mut beside = Beside::new(style);
         let prepared = beside.upload(&scene);
         let scenes = [Placed::at_home(&prepared)];
         let without = ViewFrame::new(&scenes, &camera, &settings);

@@ -102,6 +102,8 @@ fn what_an_engine_writes_is_seen_as_what_is_uploaded() {
             "{all} {some} {none}"
         );
     }
+    let refused = written.set_dynamic(&DynamicSplats { closed: false, ..splats }).unwrap_err().to_string();
+    assert!(refused.contains("expected those that the scene was made with"), "{refused}");
     drop((written, uploaded));
     beside.end();
 }
