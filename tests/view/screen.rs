@@ -34,7 +34,18 @@ impl Screen {
         let display = 1000 + (8 * std::process::id() + COUNT.fetch_add(1, Ordering::Relaxed)) % 50_000;
         let mut server = Command::new("Xvfb")
             .arg(format!(":{display}"))
-            .args(["-displayfd", "1", "-screen", "0", "1280x1000x24", "-nolisten", "tcp", "-fbdir"])
+            // Without `-noreset` it begins anew when its last client goes, and refuses who comes meanwhile.
+            .args([
+                "-displayfd",
+                "1",
+                "-noreset",
+                "-screen",
+                "0",
+                "1280x1000x24",
+                "-nolisten",
+                "tcp",
+                "-fbdir",
+            ])
             .arg(folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
