@@ -1,5 +1,7 @@
 //! Points at the same place become one, and those that are nowhere are left out.
 
+use std::cmp::Ordering;
+
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -19,9 +21,14 @@ pub(super) struct Merged {
 pub(super) fn merge(points: Points) -> Merged {
     let position = |i: &u32| points.positions[*i as usize];
     let count = u32::try_from(points.positions.len()).unwrap_or(u32::MAX);
-    let mut order: Vec<u32> = (0..count).filter(|i| position(i).is_finite()).collect();
-    let not_finite = points.positions.len() - order.len();
-    order.par_sort_unstable_by(|a, b| compare(position(a), position(b)).then(a.cmp(b)));
+    let finite = (0..count).filter(|i| position(i).is_finite());
+    // Beside its x, which decides nearly all comparisons without a look at the places.
+    let mut sorted: Vec<(f64, u32)> = finite.map(|i| (position(&i).x, i)).collect();
+    let not_finite = points.positions.len() - sorted.len();
+    sorted.par_sort_unstable_by(|(x, a), (y, b)| {
+        along(*x, *y).then_with(|| compare(position(a), position(b))).then(a.cmp(b))
+    });
+    let order: Vec<u32> = sorted.into_iter().map(|(_, i)| i).collect();
     let same = |a: &u32, b: &u32| position(a) == position(b);
     let groups = order.chunk_by(same).count();
     let duplicates = order.len() - groups;
@@ -56,8 +63,11 @@ pub(super) fn merge(points: Points) -> Merged {
     Merged { points: merged, duplicates, not_finite }
 }
 
-fn compare(a: DVec3, b: DVec3) -> std::cmp::Ordering {
-    let along = |a: f64, b: f64| a.partial_cmp(&b).unwrap_or(std::cmp::Ordering::Equal);
+fn along(a: f64, b: f64) -> Ordering {
+    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+}
+
+fn compare(a: DVec3, b: DVec3) -> Ordering {
     along(a.x, b.x).then_with(|| along(a.y, b.y)).then_with(|| along(a.z, b.z))
 }
 

@@ -31,6 +31,7 @@ use crate::{
 };
 use merge::{Merged, merge};
 use plane::{MOST_NEIGHBORS, NEIGHBORS};
+use reach::Cells;
 
 pub use report::CloudReport;
 
@@ -116,17 +117,26 @@ impl Cloud {
         self.tree.points()[place].position
     }
 
-    /// The offsets of up to `K` neighbors.
-    fn offsets<const K: usize>(&self, place: usize) -> ([u32; K], Vec<DVec3>) {
+    /// Up to `K` neighbors.
+    fn near<const K: usize>(&self, place: usize) -> [u32; K] {
         let mut found = [(0.0, 0); K];
         self.tree.nearest_places(place, &mut found);
-        let near = found.map(|(_, place)| place);
-        (near, self.offsets_of(place, &near))
+        found.map(|(_, place)| place)
     }
 
-    fn offsets_of(&self, place: usize, near: &[u32]) -> Vec<DVec3> {
+    /// The offsets of those neighbors that `part` takes, in the same memory for one point after another.
+    fn offsets<'a>(
+        &self,
+        place: usize,
+        near: &[u32],
+        part: impl Fn(usize) -> bool,
+        into: &'a mut Vec<DVec3>,
+    ) -> &'a [DVec3] {
         let here = self.place(place);
-        near.iter().filter(|j| **j != u32::MAX).map(|&j| self.place(j as usize) - here).collect()
+        let near = near.iter().filter(|j| **j != u32::MAX).map(|j| *j as usize);
+        into.clear();
+        into.extend(near.filter(|j| part(*j)).map(|j| self.place(j) - here));
+        into
     }
 
     /// Neighbors, spreads and normals.
@@ -141,8 +151,9 @@ impl Cloud {
             true => None,
             false => noise::coarse_tree(&self.tree),
         };
-        let one = |place: usize| {
-            let (mut near, offsets) = self.offsets::<NEIGHBORS>(place);
+        let one = |[first, more]: &mut [Vec<DVec3>; 2], place: usize| {
+            let mut near = self.near::<NEIGHBORS>(place);
+            let offsets = self.offsets(place, &near, |_| true, first);
             let six = &offsets[..offsets.len().min(6)];
             let spread = six.iter().map(|o| o.length()).sum::<f64>() / six.len().max(1) as f64;
             let normal = of_file(place).unwrap_or_else(|| {
@@ -150,10 +161,9 @@ impl Cloud {
                     return noise::fit(coarse, self.place(place), MOST_NEIGHBORS).normal;
                 }
                 let mut wider = [u32::MAX; MOST_NEIGHBORS];
-                let plane = plane::plane(&offsets, || {
-                    let (near, offsets) = self.offsets(place);
-                    wider = near;
-                    offsets
+                let plane = plane::plane(offsets, || {
+                    wider = self.near(place);
+                    self.offsets(place, &wider, |_| true, more)
                 });
                 if plane.along_line {
                     // Joins scan lines.
@@ -167,18 +177,18 @@ impl Cloud {
             });
             (near, spread, normal)
         };
-        let (mut neighbors, mut spreads, mut normals) = (Vec::new(), Vec::new(), Vec::new());
-        neighbors.reserve_exact(count);
-        spreads.reserve_exact(count);
-        normals.reserve_exact(count);
+        let mut neighbors = vec![[u32::MAX; NEIGHBORS]; count];
+        let (mut spreads, mut normals) = (vec![0.0; count], vec![DVec3::ZERO; count]);
         for first in (0..count).step_by(BATCH) {
             steps.done(0, first, count);
-            let batch: Vec<_> = (first..count.min(first + BATCH)).into_par_iter().map(one).collect();
-            for (near, spread, normal) in batch {
-                neighbors.push(near);
-                spreads.push(spread);
-                normals.push(normal);
-            }
+            let batch = first..count.min(first + BATCH);
+            let into = neighbors[batch.clone()].par_iter_mut().zip(&mut spreads[batch.clone()]);
+            into.zip(&mut normals[batch]).enumerate().for_each_init(
+                Default::default,
+                |offsets, (i, ((near, spread), normal))| {
+                    (*near, *spread, *normal) = one(offsets, first + i);
+                },
+            );
         }
         let given: Vec<bool> = (0..count).map(|place| of_file(place).is_some()).collect();
         report.noisy = coarse.is_some();
@@ -229,13 +239,15 @@ impl Cloud {
             let number = self.tree.points()[place].number as usize;
             points.radii.as_ref().map(|radii| radii[number]).filter(|r| *r > 0.0 && r.is_finite())
         };
-        let one =
-            |place: usize| of_file(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place)) as f32);
+        let one = |scratch: &mut (Vec<DVec3>, Cells), place: usize| {
+            of_file(place).unwrap_or_else(|| (DEFAULT_OVERLAP * self.reach(place, scratch)) as f32)
+        };
         let mut radii = Vec::new();
         radii.reserve_exact(count);
         for first in (0..count).step_by(BATCH) {
             steps.done(1, first, count);
-            radii.par_extend((first..count.min(first + BATCH)).into_par_iter().map(one));
+            let batch = (first..count.min(first + BATCH)).into_par_iter();
+            radii.par_extend(batch.map_init(Default::default, one));
         }
         steps.done(1, count, count);
         report.radii_from_file = (0..count).filter(|&place| of_file(place).is_some()).count();
@@ -250,17 +262,14 @@ impl Cloud {
     }
 
     /// The least radius of the disk at a place.
-    fn reach(&self, place: usize) -> f64 {
+    fn reach(&self, place: usize, (offsets, cells): &mut (Vec<DVec3>, Cells)) -> f64 {
         let normal = self.normals[place];
-        let of = |near: &[u32]| {
-            let same_way = |j: &u32| *j != u32::MAX && normal.dot(self.normals[*j as usize]) > OTHER_WAY;
-            let near: Vec<u32> = near.iter().copied().filter(same_way).collect();
-            reach::reach(normal, &self.offsets_of(place, &near))
-        };
+        let same_way = |j: usize| normal.dot(self.normals[j]) > OTHER_WAY;
+        let mut of = |near: &[u32]| cells.reach(normal, self.offsets(place, near, same_way, offsets));
         let first = of(&self.neighbors[place]);
         let found = match first.open {
             false => first,
-            true => of(&self.offsets::<MOST_NEIGHBORS>(place).0),
+            true => of(&self.near::<MOST_NEIGHBORS>(place)),
         };
         if found.distance > 0.0 { found.distance } else { ALONE }
     }

@@ -114,34 +114,30 @@ pub(super) fn orient(
 
 /// Of each place the root of its tree, and its side against it in bit 31.
 fn spanning_tree(positions: &[DVec3], neighbors: &[[u32; NEIGHBORS]], normals: &[DVec3]) -> Vec<u32> {
-    let of_place = |i: usize| -> [(u8, bool); NEIGHBORS] {
-        neighbors[i].map(|j| match j {
-            u32::MAX => (u8::MAX, false),
-            j => edge(positions[j as usize] - positions[i], normals[i], normals[j as usize]),
-        })
-    };
     // An edge that both ends know counts once.
     let counts =
         |i: usize, j: u32| j != u32::MAX && (i < j as usize || !neighbors[j as usize].contains(&(i as u32)));
-    let costs: Vec<[(u8, bool); NEIGHBORS]> = (0..positions.len()).into_par_iter().map(of_place).collect();
+    let of_place = |i: usize| -> [Option<(u8, bool)>; NEIGHBORS] {
+        neighbors[i].map(|j| {
+            counts(i, j).then(|| edge(positions[j as usize] - positions[i], normals[i], normals[j as usize]))
+        })
+    };
+    let costs: Vec<_> = (0..positions.len()).into_par_iter().map(of_place).collect();
     // Sorted by counting: where each cost's edges begin.
     let mut begins = [0_usize; 257];
-    for (i, costs) in costs.iter().enumerate() {
-        for (&j, (cost, _)) in neighbors[i].iter().zip(costs) {
-            begins[usize::from(*cost) + 1] += usize::from(counts(i, j));
-        }
+    for (cost, _) in costs.iter().flatten().flatten() {
+        begins[usize::from(*cost) + 1] += 1;
     }
     for cost in 0..256 {
         begins[cost + 1] += begins[cost];
     }
     let mut edges = vec![(0_u32, 0_u32); begins[256]];
     for (i, costs) in costs.iter().enumerate() {
-        for (&j, (cost, turned)) in neighbors[i].iter().zip(costs) {
-            if counts(i, j) {
-                let next = &mut begins[usize::from(*cost)];
-                edges[*next] = (i as u32, j | if *turned { TURNED } else { 0 });
-                *next += 1;
-            }
+        for (&j, edge) in neighbors[i].iter().zip(costs) {
+            let Some((cost, turned)) = *edge else { continue };
+            let next = &mut begins[usize::from(cost)];
+            edges[*next] = (i as u32, j | if turned { TURNED } else { 0 });
+            *next += 1;
         }
     }
     drop(costs);

@@ -90,13 +90,13 @@ fn across(along: DVec3, is_line: bool) -> DVec3 {
 
 /// The plane at a point whose neighbors lie at `offsets` from it, nearest first. `more` gives up to [`MOST_NEIGHBORS`] of them,
 /// and is asked only where those are not flat.
-pub(super) fn plane(offsets: &[DVec3], more: impl FnOnce() -> Vec<DVec3>) -> Plane {
+pub(super) fn plane<'a>(offsets: &[DVec3], more: impl FnOnce() -> &'a [DVec3]) -> Plane {
     let first = Plane::fit(offsets, |_| true);
     if first.thickness <= FLAT && first.width >= LINE || offsets.len() < NEIGHBORS {
         return first;
     }
     let wider = more();
-    let grown = Plane::fit(&wider, |_| true);
+    let grown = Plane::fit(wider, |_| true);
     if first.width < LINE {
         let wider = if grown.width > first.width { grown } else { first };
         return Plane { along_line: true, ..wider };

@@ -11,13 +11,12 @@
 //!
 //! Neighbors that face the other way are no neighbors: they are the other side of a plate.
 
+use std::mem;
+
 use glam::{DVec2, DVec3};
 
 /// How far corners of a cell may be, in distances of the 6th neighbor.
 const WIDEST_GAP: f64 = 1.5;
-
-/// The most corners: those of the octagon and one more for each neighbor.
-const MOST_CORNERS: usize = 8 + super::plane::MOST_NEIGHBORS;
 
 /// A disk's least radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,79 +29,68 @@ pub(super) struct Reach {
 /// A corner, and whether the edge to the next one is a neighbor's.
 type Corner = (DVec2, bool);
 
-/// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first. Zero without any.
-pub(super) fn reach(normal: DVec3, offsets: &[DVec3]) -> Reach {
-    let Some(sixth) = offsets.get(5).or(offsets.last()) else { return Reach { distance: 0.0, open: true } };
-    let (u, v) = normal.any_orthonormal_pair();
-    // One is cut into the other, and back.
-    let (mut cell, mut rest) = (&mut octagon(WIDEST_GAP * sixth.length()), &mut Cell { ..Cell::EMPTY });
-    let mut farthest_squared = farthest(cell.corners(), |_| true);
-    for offset in offsets {
-        let squared = offset.length_squared();
-        // From here on no neighbor is near enough.
-        if squared > 4.0 * farthest_squared {
-            break;
+/// Convex polygons around 0: a cell, and what is cut of it. One point after another uses their memory.
+#[derive(Default)]
+pub(super) struct Cells {
+    cell: Vec<Corner>,
+    rest: Vec<Corner>,
+}
+
+impl Cells {
+    /// The reach of a point's cell in its tangent plane, from its neighbors' offsets, nearest first. Zero without any.
+    pub(super) fn reach(&mut self, normal: DVec3, offsets: &[DVec3]) -> Reach {
+        let Some(sixth) = offsets.get(5).or(offsets.last()) else {
+            return Reach { distance: 0.0, open: true };
+        };
+        let (u, v) = normal.any_orthonormal_pair();
+        self.begin(WIDEST_GAP * sixth.length());
+        let mut farthest_squared = farthest(&self.cell, |_| true);
+        for offset in offsets {
+            let squared = offset.length_squared();
+            // From here on no neighbor is near enough.
+            if squared > 4.0 * farthest_squared {
+                break;
+            }
+            let along = DVec2::new(offset.dot(u), offset.dot(v));
+            if along.length_squared() * farthest_squared > 0.25 * squared * squared {
+                self.cut(along, 0.5 * squared);
+                farthest_squared = farthest(&self.cell, |_| true);
+            }
         }
-        let along = DVec2::new(offset.dot(u), offset.dot(v));
-        if along.length_squared() * farthest_squared > 0.25 * squared * squared {
-            cell.cut(along, 0.5 * squared, rest);
-            std::mem::swap(&mut cell, &mut rest);
-            farthest_squared = farthest(cell.corners(), |_| true);
-        }
-    }
-    let corners = cell.corners();
-    let closed = |i: usize| corners[i].1 && corners[(i + corners.len() - 1) % corners.len()].1;
-    let open = !(0..corners.len()).all(closed);
-    let distance = match open {
-        false => farthest_squared.sqrt(),
-        true => {
-            let third = offsets.get(2).or(offsets.last()).map_or(0.0, |offset| offset.length());
-            farthest(corners, closed).sqrt().max(third.min(farthest_squared.sqrt()))
-        }
-    };
-    Reach { distance, open }
-}
-
-fn farthest(corners: &[Corner], part: impl Fn(usize) -> bool) -> f64 {
-    let squared = |(i, corner): (usize, &Corner)| part(i).then_some(corner.0.length_squared());
-    corners.iter().enumerate().filter_map(squared).fold(0.0, f64::max)
-}
-
-/// A convex polygon around 0.
-struct Cell {
-    corners: [Corner; MOST_CORNERS],
-    len: usize,
-}
-
-/// Regular, around a circle of that radius.
-fn octagon(radius: f64) -> Cell {
-    let mut cell = Cell { len: 8, ..Cell::EMPTY };
-    // tan(π/8): the half of an edge.
-    let half = radius * (2.0_f64.sqrt() - 1.0);
-    let ways = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-    for (i, (x, y)) in ways.into_iter().enumerate() {
-        let pair = [DVec2::new(x * radius, y * half), DVec2::new(x * half, y * radius)];
-        let [first, second] = if i % 2 == 0 { pair } else { [pair[1], pair[0]] };
-        cell.corners[2 * i].0 = first;
-        cell.corners[2 * i + 1].0 = second;
-    }
-    cell
-}
-
-impl Cell {
-    const EMPTY: Self = Self { corners: [(DVec2::ZERO, false); MOST_CORNERS], len: 0 };
-
-    fn corners(&self) -> &[Corner] {
-        &self.corners[..self.len]
+        let corners = &self.cell;
+        let closed = |i: usize| corners[i].1 && corners[(i + corners.len() - 1) % corners.len()].1;
+        let open = !(0..corners.len()).all(closed);
+        let distance = match open {
+            false => farthest_squared.sqrt(),
+            true => {
+                let third = offsets.get(2).or(offsets.last()).map_or(0.0, |offset| offset.length());
+                farthest(corners, closed).sqrt().max(third.min(farthest_squared.sqrt()))
+            }
+        };
+        Reach { distance, open }
     }
 
-    /// The x with x·along ≤ limit become `rest`.
-    fn cut(&self, along: DVec2, limit: f64, rest: &mut Self) {
+    /// With a regular octagon around a circle of that radius.
+    fn begin(&mut self, radius: f64) {
+        self.cell.clear();
+        // tan(π/8): the half of an edge.
+        let half = radius * (2.0_f64.sqrt() - 1.0);
+        let ways = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        for (i, (x, y)) in ways.into_iter().enumerate() {
+            let pair = [DVec2::new(x * radius, y * half), DVec2::new(x * half, y * radius)];
+            let [first, second] = if i % 2 == 0 { pair } else { [pair[1], pair[0]] };
+            self.cell.extend([(first, false), (second, false)]);
+        }
+    }
+
+    /// Of the cell only the x with x·along ≤ limit stay.
+    fn cut(&mut self, along: DVec2, limit: f64) {
         let beyond = |corner: &Corner| corner.0.dot(along) - limit;
-        rest.len = 0;
-        let Some(mut from) = self.corners().last() else { return };
+        let Self { cell, rest } = self;
+        rest.clear();
+        let Some(mut from) = cell.last() else { return };
         let mut before = beyond(from);
-        for corner in self.corners() {
+        for corner in cell.iter() {
             let here = beyond(corner);
             if (before <= 0.0) != (here <= 0.0) {
                 let crossing = from.0.lerp(corner.0, before / (before - here));
@@ -114,19 +102,22 @@ impl Cell {
             }
             (from, before) = (corner, here);
         }
+        mem::swap(cell, rest);
     }
+}
 
-    fn push(&mut self, corner: Corner) {
-        if let Some(slot) = self.corners.get_mut(self.len) {
-            *slot = corner;
-            self.len += 1;
-        }
-    }
+fn farthest(corners: &[Corner], part: impl Fn(usize) -> bool) -> f64 {
+    let squared = |(i, corner): (usize, &Corner)| part(i).then_some(corner.0.length_squared());
+    corners.iter().enumerate().filter_map(squared).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn reach(normal: DVec3, offsets: &[DVec3]) -> Reach {
+        Cells::default().reach(normal, offsets)
+    }
 
     fn grid(spacing: DVec2, part: impl Fn(DVec3) -> bool) -> Vec<DVec3> {
         let one = |i: i32| spacing * DVec2::new(f64::from(i % 7 - 3), f64::from(i / 7 - 3));
