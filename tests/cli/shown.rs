@@ -137,3 +137,28 @@ fn eye_dome_lighting_is_for_opaque_splats_and_says_so_of_others() {
         }
     }
 }
+
+#[test]
+fn outlines_of_polygons_are_no_stairs_unless_that_is_asked_for() {
+    let folder = folder();
+    folder.write("slanted.obj", "v -1 -1 0\nv 1 -0.6 0\nv 0.1 1 0\nf 1 2 3\n");
+    let drawn = |model: &str, words: &[&str]| {
+        let first = ["render", model, "--size", "64x64", "--shading", "albedo", "-o", "a.png"];
+        done(&folder, &[&first[..], words].concat());
+        png(&folder.path("a.png")).pixels
+    };
+    // What is neither the triangle's gray nor the white behind it.
+    let between = |pixels: &[u8]| {
+        let inside = *pixels.iter().min().unwrap();
+        pixels.iter().filter(|byte| **byte != inside && **byte != 255).count() / 3
+    };
+    let plain = drawn("slanted.obj", &[]);
+    assert_eq!(plain, drawn("slanted.obj", &["--samples", "8"]));
+    // Its sides are some 170 pixels long; a sample is a Gaussian's, and most are less than a pixel off.
+    assert!((150..350).contains(&between(&plain)), "{}", between(&plain));
+    for hard in [["--samples", "1"], ["--edges", "hard"]] {
+        assert_eq!(between(&drawn("slanted.obj", &hard)), 0, "{hard:?}");
+    }
+    // Splats cover pixels in part in one.
+    assert_eq!(drawn("disk.ply", &[]), drawn("disk.ply", &["--samples", "1"]));
+}

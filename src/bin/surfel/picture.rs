@@ -6,12 +6,14 @@ use clap::{Arg, Args};
 use surfel::{
     Result,
     load::PictureDescription,
-    scene::{Camera, Crop, CropView, Encoding, Light, OptionValue as _, Scene, Settings},
+    renderer::Renderer,
+    scene::{Camera, Crop, CropView, Edges, Encoding, Light, OptionValue as _, Samples, Scene, Settings},
 };
 
 use crate::{
     camera::CameraArguments,
     inputs::InputArguments,
+    scene::Loaded,
     settings::{Given, Taken},
 };
 
@@ -54,6 +56,9 @@ pub struct PictureArguments {
     encoding: Given<Encoding>,
 }
 
+/// An eighth of a pixel is what the eye still sees of a stair.
+const SAMPLES_OF_POLYGONS: Samples = Samples(8);
+
 impl Taken for Settings {
     type Table = Self;
 
@@ -91,6 +96,18 @@ impl PictureArguments {
     /// The settings where a scene file says something of the picture, not yet checked.
     pub fn settings_in(&self, scene_file: &PictureDescription) -> Settings {
         self.settings.said_over(scene_file.over(self.settings()))
+    }
+
+    /// The settings for a scene that was loaded. Where nobody says how many samples pixels have, those of a scene with polygons have several:
+    /// triangles cover a pixel or do not, and their outlines are stairs in one. Not where they can't be taken, nor where a dump shows one.
+    pub fn settings_of(&self, loaded: &Loaded, renderer: &Renderer) -> Settings {
+        let settings = self.settings_in(&loaded.picture);
+        let is_stairs = !loaded.scene.meshes.is_empty() && settings.edges == Edges::Coverage;
+        if !is_stairs || self.settings.says("samples") || self.dump.is_some() {
+            return settings;
+        }
+        let several = Settings { samples: SAMPLES_OF_POLYGONS, ..settings.clone() };
+        if renderer.check_settings(&several).is_ok() { several } else { settings }
     }
 
     /// What is drawn, of a picture with those settings: the whole of it, or a part.

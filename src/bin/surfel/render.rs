@@ -153,7 +153,7 @@ fn draw(
 ) -> Result<()> {
     let picture = &arguments.picture;
     let bars = Bars::new();
-    let (mut loaded, settings) = load(arguments, part, &bars)?;
+    let (mut loaded, settings) = load(headless, arguments, part, &bars)?;
     let camera = camera.camera(&loaded, part.whole_px)?;
     if picture.print_camera {
         console::print(&camera::words(&camera))?;
@@ -195,12 +195,18 @@ fn draw(
 }
 
 /// All inputs, and the settings that they are drawn with.
-fn load(arguments: &RenderArguments, part: &Drawn, bars: &Bars) -> Result<(Loaded, Settings)> {
+fn load(
+    headless: &Headless,
+    arguments: &RenderArguments,
+    part: &Drawn,
+    bars: &Bars,
+) -> Result<(Loaded, Settings)> {
     let picture = &arguments.picture;
     let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), bars)?;
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
-    let settings = Settings { size_px: part.settings.size_px, ..picture.settings_in(&loaded.picture) };
+    let settings =
+        Settings { size_px: part.settings.size_px, ..picture.settings_of(&loaded, &headless.renderer) };
     let scene = &mut loaded.scene;
     scene.numbered = !arguments.pick.pixels.is_empty();
     scene.storage = arguments.storage.over(Storage::default());
@@ -219,7 +225,7 @@ fn draw_film(
     output: &film::Output,
 ) -> Result<()> {
     let bars = Bars::new();
-    let (loaded, settings) = load(arguments, part, &bars)?;
+    let (loaded, settings) = load(headless, arguments, part, &bars)?;
     let shots = film::shots(&arguments.film, arguments.frames, || camera.camera(&loaded, part.whole_px))?;
     if arguments.picture.print_camera {
         shots.iter().try_for_each(|camera| console::print(&camera::words(camera)))?;

@@ -46,6 +46,11 @@ impl<T: Taken> Given<T> {
         base
     }
 
+    /// Whether the setting of that name is given by no default.
+    pub fn says(&self, name: &str) -> bool {
+        self.said.iter().any(|setting| setting.name == name)
+    }
+
     /// `base` but for what is given by no default.
     pub fn said_over(&self, mut base: T::Table) -> T::Table {
         for setting in &self.said {
