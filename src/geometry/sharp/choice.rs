@@ -2,14 +2,16 @@
 
 use std::cmp::Ordering;
 
+use rayon::slice::ParallelSliceMut as _;
+
 use super::fit::Fitted;
 
 /// A vertex that may go.
 pub(super) struct Candidate {
     pub from: u32,
     pub best: Target,
-    /// Of one within a ridge.
-    pub piece: Option<NewPiece>,
+    /// Of one within a ridge; apart, so that all the others are small where they are sorted.
+    pub piece: Option<Box<NewPiece>>,
 }
 
 /// What a ridge becomes without a vertex.
@@ -37,6 +39,17 @@ impl Target {
     pub fn comes_before(&self, other: &Self) -> bool {
         self.rank.total_cmp(&other.rank).then(self.to.cmp(&other.to)).is_lt()
     }
+}
+
+/// Brings the cheapest, so many of them, to the front in their order; how many these are.
+pub(super) fn sort_cheapest(candidates: &mut [Candidate], most: usize) -> usize {
+    let order = |a: &Candidate, b: &Candidate| a.best.rank.total_cmp(&b.best.rank).then(a.from.cmp(&b.from));
+    let count = most.min(candidates.len());
+    if count < candidates.len() {
+        candidates.select_nth_unstable_by(count, order);
+    }
+    candidates[..count].par_sort_unstable_by(order);
+    count
 }
 
 /// A choice that was not the first.

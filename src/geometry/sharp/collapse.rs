@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::{
     around::{Around, Marks},
-    choice::{Candidate, Later, NewPiece, Target},
+    choice::{Candidate, Later, NewPiece, Target, sort_cheapest},
     fit::{Fitted, fit},
     quadric::Quadric,
     ridges::{Kind, Ridges},
@@ -129,7 +129,6 @@ impl<'a> State<'a> {
             .filter(|vertex| !around.of_vertex(*vertex).is_empty())
             .filter_map(|vertex| self.cheapest(vertex, &around, most))
             .collect();
-        candidates.par_sort_unstable_by(|a, b| a.best.rank.total_cmp(&b.best.rank).then(a.from.cmp(&b.from)));
         let most_done = 1 + (candidates.len() as f64 * PART_A_PASS) as usize;
         let mut locked = vec![false; self.positions.len()];
         let mut became: Vec<u32> = (0..self.positions.len() as u32).collect();
@@ -137,8 +136,12 @@ impl<'a> State<'a> {
         let (mut done, mut left) = (0, self.triangles.len());
         // Second choices of those before, by their own rank.
         let mut later: BinaryHeap<Later> = BinaryHeap::new();
-        let mut next = 0;
+        let (mut next, mut sorted) = (0, 0);
         while left > goal.triangles && done < most_done {
+            // Few of all are looked at: no more than that are sorted.
+            if next == sorted {
+                sorted += sort_cheapest(&mut candidates[sorted..], 2 * most_done);
+            }
             let fresh = candidates.get(next).map_or(f64::INFINITY, |candidate| candidate.best.rank);
             let again = later.peek().map_or(f64::INFINITY, |later| later.rank);
             if fresh.min(again) == f64::INFINITY {
@@ -161,7 +164,7 @@ impl<'a> State<'a> {
                 _ => self.targets(candidate, &around, most).get(choice).copied(),
             };
             let Some(Target { price, to, .. }) = target else { continue };
-            let piece = candidate.piece.as_ref();
+            let piece = candidate.piece.as_deref();
             let curve = piece.map(|piece| (piece.other_end(to), &piece.fitted.conic));
             if locked[to as usize] || !self.is_feasible(from, to, &around, &mut marks, curve) {
                 let choice = choice + 1;
@@ -209,11 +212,11 @@ impl<'a> State<'a> {
                 }
                 let points: Vec<DVec3> =
                     vertices[last as usize..=next as usize].iter().map(|i| self.place(*i)).collect();
-                Some(NewPiece { ends, fitted: fit(&points)? })
+                Some(Box::new(NewPiece { ends, fitted: fit(&points)? }))
             }
         };
         let mut best: Option<Target> = None;
-        self.each_target(from, piece.as_ref(), around, &mut |target| {
+        self.each_target(from, piece.as_deref(), around, &mut |target| {
             if target.price <= most && best.as_ref().is_none_or(|best| target.comes_before(best)) {
                 best = Some(target);
             }
@@ -224,9 +227,8 @@ impl<'a> State<'a> {
     /// Where a vertex may go, the best first.
     fn targets(&self, candidate: &Candidate, around: &Around, most: f64) -> Vec<Target> {
         let mut targets = Vec::new();
-        self.each_target(candidate.from, candidate.piece.as_ref(), around, &mut |target| {
-            let affordable = target.price <= most;
-            if affordable && !targets.iter().any(|other: &Target| other.to == target.to) {
+        self.each_target(candidate.from, candidate.piece.as_deref(), around, &mut |target| {
+            if target.price <= most {
                 targets.push(target);
             }
         });
@@ -234,7 +236,7 @@ impl<'a> State<'a> {
         targets
     }
 
-    /// All neighbors to which a vertex may go; some come twice.
+    /// All neighbors to which a vertex may go.
     fn each_target(
         &self,
         from: u32,
@@ -252,9 +254,16 @@ impl<'a> State<'a> {
         match piece {
             Some(piece) => piece.ends.into_iter().for_each(give),
             None => {
+                // On no ridge, so at no border: each neighbor comes next after it in one of its triangles.
                 for triangle in around.of_vertex(from) {
-                    let corners = self.triangles[*triangle as usize];
-                    corners.into_iter().filter(|to| *to != from).for_each(&mut give);
+                    let [a, b, c] = self.triangles[*triangle as usize];
+                    give(if a == from {
+                        b
+                    } else if b == from {
+                        c
+                    } else {
+                        a
+                    });
                 }
             }
         }
