@@ -131,7 +131,7 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
         let at = matrices.get(i).map_or(Ok(Placement::default()), placed);
         let at =
             at.map_err(|error| Failure { text: format!("scene {i}: {error}"), ..Failure::from(error) })?;
-        scenes.push(Placed { scene: &scene.0, at });
+        scenes.push(Placed::new(&scene.0, at));
     }
     let size_px = [given.width, given.height];
     // SAFETY: as above.
@@ -152,6 +152,7 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
     then(&ViewFrame {
         scenes: &scenes,
         camera: &camera,
+        camera_before: None,
         settings: &settings,
         corner_px: [given.x, given.y],
         hides,

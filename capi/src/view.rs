@@ -80,6 +80,7 @@ unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
         samples,
         compare: if reversed { vk::CompareOp::GREATER } else { given.compare },
         encodes: given.encodes != vk::FALSE,
+        ..Rendering::default()
     })
 }
 

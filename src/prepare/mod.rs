@@ -38,7 +38,7 @@ pub use mesh_chunk::MeshChunk;
 pub use mesh_levels::MeshLevels;
 pub use pack::inverse_overlap_in_upper_half;
 pub use packed::LARGEST_TURN_RAD;
-pub use placed::Placed;
+pub use placed::{NO_TINT, Placed};
 pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
 pub use refinements::{Group, Refinement, Refinements};
