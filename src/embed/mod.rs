@@ -16,6 +16,7 @@ mod motion;
 mod over;
 mod scenes;
 mod table;
+mod update;
 mod view;
 
 pub use crate::{

@@ -10,6 +10,7 @@ mod objects;
 mod recording;
 mod tints;
 mod transparent;
+mod updates;
 mod written;
 
 use ash::vk;
