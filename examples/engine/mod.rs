@@ -6,9 +6,12 @@
 mod compute;
 mod make;
 mod picture;
+mod screen;
 
 #[allow(unused_imports, reason = "as above")]
 pub use compute::Compute;
+#[allow(unused_imports, reason = "as above")]
+pub use screen::Screen;
 
 use std::sync::Mutex;
 
@@ -318,6 +321,13 @@ impl Engine {
             self.device.wait_for_fences(&[self.fence], true, u64::MAX).unwrap();
             self.device.reset_fences(&[self.fence]).unwrap();
         }
+    }
+
+    /// Depth and numbers of objects, which a pass reads, are brought into another layout; all that was done is waited for.
+    fn barrier_of_read(&self, old: vk::ImageLayout, new: vk::ImageLayout) {
+        let numbers = self.told.map(|[numbers, _]| (numbers.image, vk::ImageAspectFlags::COLOR));
+        let depth = (self.depth.image, aspect_of(self.style.depth_format));
+        self.barriers([depth].into_iter().chain(numbers), [old, new]);
     }
 
     fn barrier(&self, old: vk::ImageLayout, new: vk::ImageLayout) {
