@@ -6,7 +6,8 @@ use glam::{
 };
 use surfel::{
     Settings,
-    embed::{HostCamera, NO_ID, Placed, Placement, PreparedScene},
+    embed::{HostCamera, NO_ID, Placed, Placement, PreparedScene, ViewFrame},
+    graph::execute::Profile,
     reference::{self, Candidate, Picker},
     scene::{DepthOfHost, Edges, Mesh, MeshObject, Object, Rasterizer, Scene, Shading},
 };
@@ -261,14 +262,10 @@ fn at_edges_ids_are_where_depth_is_and_transparent_things_leave_them() {
         }
         println!("{rasterizer:?}: {count:?} pixels, {strange} of which two have a part");
         assert!(count[1] > 1000 && count[2] > 1000 && strange < 150, "{count:?} {strange}");
-        let (with_veil, veil_depths, veiled) = told(&all);
+        let (with_veil, depths_behind, veiled) = told(&all);
         let others = ids.iter().zip(&with_veil).filter(|(one, other)| one != other).count();
-        let mut pairs = std::collections::BTreeMap::new();
-        for (i, (one, other)) in ids.iter().zip(&with_veil).enumerate() {
-            *pairs.entry((*one, *other, seen[i] != veiled[i], depths[i] == veil_depths[i])).or_insert(0) += 1;
-        }
-        println!("{pairs:?}");
         let lighter = seen.iter().zip(&veiled).filter(|(one, other)| one != other).count();
+        assert!(depths == depths_behind);
         assert!(
             others == 0 && lighter > 1000,
             "{rasterizer:?}: transparent layers are nobody's: {others} {lighter}"
@@ -276,4 +273,39 @@ fn at_edges_ids_are_where_depth_is_and_transparent_things_leave_them() {
     }
     drop((ball, triangle, veil));
     beside.end();
+}
+
+/// Numbers and motion take one pass more where they are asked for, and where they are not none, whatever objects have.
+#[test]
+fn what_is_not_asked_for_takes_no_pass() {
+    let own = Scene { objects: vec![scenes::sphere(2500, DVec3::ZERO)], ..Scene::default() };
+    let (_, tells, [camera, before]) = conventions().swap_remove(0);
+    for rasterizer in [Rasterizer::Compute, Rasterizer::Perspective] {
+        let settings = settings(rasterizer, Edges::Hard);
+        let [plain, told] = [REVERSED, tells].map(|style| {
+            let mut beside = Beside::new(style);
+            let ball = beside.upload(&own);
+            let scenes = placed(&ball, &places());
+            let frame = ViewFrame {
+                camera_before: Some(&before),
+                profile: Some(Profile::Times),
+                ..ViewFrame::new(&scenes, &camera, &settings)
+            };
+            beside.engine.begin();
+            let Beside { view, renderer, engine, .. } = &mut beside;
+            // SAFETY: recording; all is alive until the wait.
+            unsafe { view.prepare(renderer, engine.commands, &frame) }.unwrap();
+            engine.begin_rendering(true);
+            engine.end_rendering();
+            beside.submit();
+            let passes = beside.view.profile().unwrap().unwrap().passes;
+            let names: Vec<_> = passes.into_iter().map(|pass| pass.name).collect();
+            drop(ball);
+            beside.end();
+            names
+        });
+        let more: Vec<_> = told.iter().filter(|name| !plain.contains(name)).collect();
+        println!("{rasterizer:?}: {} passes, and {more:?}", plain.len());
+        assert!(more == ["objects"] && told.len() == plain.len() + 1, "{plain:?} {told:?}");
+    }
 }

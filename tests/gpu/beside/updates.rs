@@ -161,6 +161,9 @@ fn updates_in_the_commands_of_a_frame_are_seen_in_it_and_take_nothing() {
         // SAFETY: inside of the rendering that the view was made for.
         unsafe { view.draw(renderer, engine.commands) }.unwrap();
         engine.end_rendering();
+        // Behind what reads them, too: the layer would tell if that were not waited for.
+        // SAFETY: as above.
+        unsafe { renderer.update(engine.commands, &mut updated, 0, first as u32, &part) }.unwrap();
         beside.submit();
         let seen = beside.engine.pixels();
         let others = last.iter().zip(&seen).filter(|(one, other)| one != other).count();
