@@ -13,6 +13,9 @@
 #define LIGHTS_SET 2
 #define LIGHTS_BINDING BIND_READ_LIGHTS
 #include "inc/shading.glsl"
+#define TINTS_SET 2
+#define TINTS_BINDING BIND_READ_TINTS
+#include "inc/tints.glsl"
 #include "inc/summed.glsl"
 
 layout(location = 5) flat out vec4 normal_weight; // view space, unit, toward the eye or outward; the splat's own weight
@@ -22,14 +25,14 @@ void main()
     uint index = splat_index();
     Mapping m;
     if (!is_drawn_elsewhere(index) && map_splat(index, m)) {
-        vec4 extra = vec4(load_color(index), 0.0);
+        vec4 extra = vec4(tinted(vec4(load_color(index), 0.0)).rgb, 0.0);
         if (SUMMED == SUMMED_REST) {
             extra.rgb = shaded(extra.rgb, m.normal, ORTHOGRAPHIC ? vec3(0.0, 0.0, -1.0) : -safe_normalize(m.p));
         }
         if (SUMMED == SUMMED_BESIDE) {
             extra.w = m.shift;
         } else if (SUMMED != SUMMED_OPAQUE) {
-            extra.w = load_alpha(index);
+            extra.w = tinted(vec4(load_alpha(index))).a;
         }
         emit(m, extra, false);
         hand_clip_over(index, m);

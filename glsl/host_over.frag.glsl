@@ -4,6 +4,8 @@
 // DEPTH: of the opaque surface, with its depth. What covers half of a pixel or more is drawn by one pipeline, which writes depth; COVERS_LESS,
 // what covers less, by another one, which does not: else what a host draws later would be cut off by what shows it.
 // ENCODED: the host's image holds sRGB and does not say so by its format.
+// IDS, MOTION, of what writes depth: also the host's number of the object that is seen, and how it has moved in the picture.
+// Permutations: ids _ | motion _
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #include "inc/config.glsl"
@@ -17,6 +19,18 @@ layout(set = 0, binding = BIND_SUMS_COLORS) uniform texture2D surface; // linear
 layout(set = 0, binding = BIND_SUMS_DEPTH) uniform texture2D surface_depth; // w
 
 layout(location = 0) out vec4 color; // alpha multiplied in
+
+#if defined(IDS) || defined(MOTION)
+#include "inc/host_objects.glsl"
+#if defined(IDS)
+layout(location = 1) out uint id;
+#if defined(MOTION)
+layout(location = 2) out vec2 motion; // pixels, x to the right and y down: where it is now less where it was
+#endif
+#else
+layout(location = 1) out vec2 motion;
+#endif
+#endif
 
 vec3 encoded(vec3 linear)
 {
@@ -37,6 +51,17 @@ void main()
             discard;
         }
         gl_FragDepth = d;
+#if defined(IDS) || defined(MOTION)
+        uint number = texelFetch(object_numbers, pixel, 0).r;
+        bool known = number > 0;
+        HostObject object = objects[known ? number - 1 : 0];
+#if defined(IDS)
+        id = known ? object.id : NO_OBJECT;
+#endif
+#if defined(MOTION)
+        motion = known ? motion_of(object, vec4(vec2(pixel) + 0.5, 1.0, w)) : vec2(0.0);
+#endif
+#endif
     } else if (light.a == 0.0) {
         discard;
     }

@@ -6,6 +6,9 @@
 #include "inc/frame.glsl"
 #include "inc/view.glsl"
 #include "inc/projection.glsl"
+#define TINTS_SET 2
+#define TINTS_BINDING BIND_READ_TINTS
+#include "inc/tints.glsl"
 
 layout(set = 0, binding = BIND_SPLATS_SHAPES, std430) readonly buffer Vertices { vec4 vertices[]; }; // position 0, normal 0; local space
 layout(set = 0, binding = BIND_SPLATS_COLORS, std430) readonly buffer Colors { uvec2 colors[]; };
@@ -24,6 +27,6 @@ void main()
         gl_Position = vec4(xy + clip_from_axis() * p.z, FORMULA(FORMULA_POLYGON_DEPTH, frame.near), p.z);
     }
     uvec2 packed = colors[UNIFORM_COLOR ? 0 : gl_VertexIndex];
-    color_alpha = vec4(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y));
+    color_alpha = tinted(vec4(unpackUnorm2x16(packed.x), unpackUnorm2x16(packed.y)));
     normal = rotated(vertices[2 * gl_VertexIndex + 1].xyz);
 }

@@ -11,6 +11,9 @@
 #define PLANES_SET 1
 #define PLANES_BINDING BIND_PLANES
 #include "inc/planes.glsl"
+#define TINTS_SET 1
+#define TINTS_BINDING BIND_TINTS
+#include "inc/tints.glsl"
 
 layout(constant_id = SPEC_MOST_TILES) const uint MOST_TILES = 64;
 layout(constant_id = SPEC_TILE_HEIGHT) const uint TILE_HEIGHT = MOST_TILE_HEIGHT;
@@ -124,6 +127,10 @@ void main()
         color = uvec2(packUnorm2x16(rgba.rg), packUnorm2x16(rgba.ba));
     } else {
         color = colors[UNIFORM_COLOR ? 0 : index];
+    }
+    if (TINTED) {
+        vec4 rgba = tinted(vec4(unpackUnorm2x16(color.x), unpackUnorm2x16(color.y)));
+        color = uvec2(packUnorm2x16(rgba.rg), packUnorm2x16(rgba.ba));
     }
     if (BLENDED) {
         color.y = packUnorm2x16(vec2(unpackUnorm2x16(color.y).x, 2.0 * blended));

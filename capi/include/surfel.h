@@ -69,6 +69,11 @@
 #define SURFEL_MAX_FORMATS 16
 
 /**
+ * The number of no object.
+ */
+#define SURFEL_NO_ID 4294967295
+
+/**
  * What a call answers. `surfel_last_error` has the sentence.
  */
 enum SurfelResult
@@ -362,6 +367,15 @@ typedef struct SurfelSceneInfo {
    * Its levels of detail may have a `budget`, for which the host keeps 40 bytes for each node of them.
    */
   VkBool32 budget;
+  /**
+   * `surfel_update` may change its splats on the device, for which the host keeps what the device has of each; not with `levels`, nor with
+   * `splat-format` `packed`.
+   */
+  VkBool32 updatable;
+  /**
+   * 0.
+   */
+  uint32_t reserved;
 } SurfelSceneInfo;
 
 /**
@@ -562,8 +576,8 @@ typedef struct SurfelRendering {
    */
   const void *pNext;
   /**
-   * The formats of its color attachments. The first is drawn to; the others, for which the device needs
-   * `SURFEL_FEATURE_INDEPENDENT_BLEND`, are left as they are.
+   * The formats of its color attachments. The first is drawn to, then come those of `ids` and `motion`; the others are left as they are. For
+   * more than one the device needs `SURFEL_FEATURE_INDEPENDENT_BLEND`.
    */
   const VkFormat *colorFormats;
   /**
@@ -591,6 +605,17 @@ typedef struct SurfelRendering {
    * themselves, and float formats keep linear light.
    */
   VkBool32 encodes;
+  /**
+   * The second color attachment, `VK_FORMAT_R32_UINT` or `VK_FORMAT_R16_UINT`, gets the number (`SurfelFrame.ids`) of what is seen, wherever
+   * depth is written; `SURFEL_NO_ID` where a cut leaves it open. Transparent layers leave it as it is.
+   */
+  VkBool32 ids;
+  /**
+   * The second color attachment, or the third with `ids`, `VK_FORMAT_R16G16_SFLOAT` or `VK_FORMAT_R32G32_SFLOAT`, gets motion alike: where the
+   * point that is seen is in the picture less where it was in the frame before, in pixels, x to the right and y down; 0 of what was behind
+   * the eye. By the cameras as they are given: what they are jittered by is in it.
+   */
+  VkBool32 motion;
 } SurfelRendering;
 
 /**
@@ -734,6 +759,27 @@ typedef struct SurfelFrame {
    * 0.
    */
   uint32_t reserved;
+  /**
+   * A matrix for each scene, as in `worldFromScene`, of where it stood in the frame before, for motion. NULL: all stood where they stand.
+   */
+  const double *worldFromSceneBefore;
+  /**
+   * A number for each scene, for whoever wants to know what is seen in a pixel. NULL: 0.
+   */
+  const uint32_t *ids;
+  /**
+   * Four numbers for each scene, 0 to 1, which its linear red, green and blue and its alpha are multiplied by. An alpha below 1 is for scenes
+   * of which all is transparent already. NULL: 1.
+   */
+  const float *tints;
+  /**
+   * `viewFromWorld` of the frame before, for motion; all 0: both matrices are what they are now, as `flipsY` and the size are in any case.
+   */
+  double viewFromWorldBefore[16];
+  /**
+   * `clipFromView` of the frame before.
+   */
+  double clipFromViewBefore[16];
 } SurfelFrame;
 
 /**
@@ -883,6 +929,20 @@ SurfelResult surfel_upload(const struct SurfelRenderer *renderer,
                            VkCommandBuffer commands,
                            const struct SurfelScene *scene,
                            struct SurfelPreparedScene **prepared);
+
+/**
+ * Records a change of splats of a scene that was made `updatable`: of its object with this number, those from number `first` on become `splats`, of
+ * which name, `closed` and `epsilon` mean nothing: of the object's own kind (disks or ellipses; opaque where the object is). How much the
+ * surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` as for
+ * `surfel_upload`; arrays are copied at once, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
+ * meanwhile.
+ */
+SurfelResult surfel_update(const struct SurfelRenderer *renderer,
+                           VkCommandBuffer commands,
+                           struct SurfelPreparedScene *scene,
+                           uint64_t object,
+                           uint32_t first,
+                           const struct SurfelSplats *splats);
 
 /**
  * Tells what a scene on the device is.

@@ -101,6 +101,17 @@ pub struct SurfelFrame {
     pub timed: vk::Bool32,
     /// 0.
     pub reserved: u32,
+    /// A matrix for each scene, as in `worldFromScene`, of where it stood in the frame before, for motion. NULL: all stood where they stand.
+    pub world_from_scene_before: *const f64,
+    /// A number for each scene, for whoever wants to know what is seen in a pixel. NULL: 0.
+    pub ids: *const u32,
+    /// Four numbers for each scene, 0 to 1, which its linear red, green and blue and its alpha are multiplied by. An alpha below 1 is for scenes
+    /// of which all is transparent already. NULL: 1.
+    pub tints: *const f32,
+    /// `viewFromWorld` of the frame before, for motion; all 0: both matrices are what they are now, as `flipsY` and the size are in any case.
+    pub view_from_world_before: [f64; 16],
+    /// `clipFromView` of the frame before.
+    pub clip_from_view_before: [f64; 16],
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -116,22 +127,32 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
     let count = u64::from(given.scene_count);
     // SAFETY: this function's contract, here and below; so many are given.
     let of_scenes = unsafe { copy(given.scenes, count, "scenes", |scene| scene) }?;
-    let matrices = match given.world_from_scene.is_null() {
-        true => Vec::new(),
-        // SAFETY: as above.
-        false => unsafe {
-            copy(given.world_from_scene.cast::<[f64; 16]>(), count, "worldFromScene", |matrix| matrix)
-        }?,
+    // SAFETY: as above.
+    let [matrices, before] = unsafe {
+        [
+            each(given.world_from_scene.cast::<[f64; 16]>(), count, "worldFromScene")?,
+            each(given.world_from_scene_before.cast(), count, "worldFromSceneBefore")?,
+        ]
     };
+    // SAFETY: as above.
+    let (ids, tints) =
+        unsafe { (each(given.ids, count, "ids")?, each(given.tints.cast::<[f32; 4]>(), count, "tints")?) };
     let mut scenes = Vec::new();
     for (i, scene) in of_scenes.into_iter().enumerate() {
         // SAFETY: as above.
         let scene = unsafe { get(scene, "a scene") }?;
-        let placed = |matrix| Placement::of_matrix(&DMat4::from_cols_array(matrix));
-        let at = matrices.get(i).map_or(Ok(Placement::default()), placed);
-        let at =
-            at.map_err(|error| Failure { text: format!("scene {i}: {error}"), ..Failure::from(error) })?;
-        scenes.push(Placed { scene: &scene.0, at });
+        let placement = |matrices: &[[f64; 16]], when: &str| {
+            let placed = |matrix| Placement::of_matrix(&DMat4::from_cols_array(matrix));
+            let at = matrices.get(i).map(placed).transpose();
+            at.map_err(|error| Failure { text: format!("scene {i}{when}: {error}"), ..Failure::from(error) })
+        };
+        let plain = Placed::new(&scene.0, placement(&matrices, "")?.unwrap_or_default());
+        scenes.push(Placed {
+            before: placement(&before, ", before")?,
+            id: ids.get(i).copied().unwrap_or_default(),
+            tint: tints.get(i).copied().unwrap_or(plain.tint),
+            ..plain
+        });
     }
     let size_px = [given.width, given.height];
     // SAFETY: as above.
@@ -149,14 +170,31 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
         clip_from_view: DMat4::from_cols_array(&given.clip_from_view),
         flips_y: given.flips_y != vk::FALSE,
     };
+    let matrices_before = [given.view_from_world_before, given.clip_from_view_before];
+    let [view_from_world, clip_from_view] = matrices_before.map(|matrix| DMat4::from_cols_array(&matrix));
+    let was = HostCamera { view_from_world, clip_from_view, ..camera };
+    let moved = matrices_before.as_flattened().iter().any(|number| *number != 0.0);
     then(&ViewFrame {
         scenes: &scenes,
         camera: &camera,
+        camera_before: moved.then_some(&was),
         settings: &settings,
         corner_px: [given.x, given.y],
         hides,
         profile: (given.timed != vk::FALSE).then_some(Profile::Times),
     })
+}
+
+/// What there is one of for each scene; nothing where it is not given.
+///
+/// # Safety
+/// `from` is NULL or leads to `count` of them.
+unsafe fn each<T: Copy>(from: *const T, count: u64, name: &str) -> Result<Vec<T>> {
+    match from.is_null() {
+        true => Ok(Vec::new()),
+        // SAFETY: this function's contract.
+        false => unsafe { copy(from, count, name, |it| it) },
+    }
 }
 
 fn depth_image(given: &SurfelDepthImage) -> Result<DepthImage> {

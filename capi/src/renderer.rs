@@ -13,9 +13,10 @@ use surfel::{
 
 use crate::{
     device::SurfelDevice,
-    handle::{Out, destroy, get, text},
+    handle::{Out, destroy, get, get_mut, text},
     result::{SurfelResult, guard},
     scene::SurfelScene,
+    splats::SurfelSplats,
     structs::{Struct, SurfelStructureType, read, write},
 };
 
@@ -93,6 +94,35 @@ pub unsafe extern "C" fn surfel_upload(
         }
         // SAFETY: as above.
         out.give(SurfelPreparedScene(unsafe { renderer.0.upload(commands, &scene.0) }?))
+    })
+}
+
+/// Records a change of splats of a scene that was made `updatable`: of its object with this number, those from number `first` on become `splats`, of
+/// which name, `closed` and `epsilon` mean nothing: of the object's own kind (disks or ellipses; opaque where the object is). How much the
+/// surface overlaps itself, and how near another one is, is not measured again. Frames recorded from now on show it. `commands` as for
+/// `surfel_upload`; arrays are copied at once, and nothing waits. Where this fails, nothing is recorded. No other thread may use the scene
+/// meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn surfel_update(
+    renderer: *const SurfelRenderer,
+    commands: vk::CommandBuffer,
+    scene: *mut SurfelPreparedScene,
+    object: u64,
+    first: u32,
+    splats: *const SurfelSplats,
+) -> SurfelResult {
+    guard("surfel_update", || {
+        // SAFETY: the contract of the header, here and below.
+        let (renderer, scene, given) =
+            unsafe { (get(renderer, "renderer")?, get_mut(scene, "scene")?, read(splats, "splats")?) };
+        if commands == vk::CommandBuffer::null() {
+            return Err(crate::handle::null("commands"));
+        }
+        let number = usize::try_from(object).unwrap_or(usize::MAX);
+        // SAFETY: as above.
+        let splats = unsafe { crate::splats::object(&given) }?.splats;
+        // SAFETY: as above.
+        Ok(unsafe { renderer.0.update(commands, &mut scene.0, number, first, &splats) }?)
     })
 }
 

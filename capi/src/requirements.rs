@@ -220,6 +220,7 @@ pub unsafe extern "C" fn surfel_enable_features(
         };
         let ours = features_of(features);
         let (core_of, of12, of13) = (ours.core(), ours.vulkan12(), ours.vulkan13());
+        core.independent_blend |= core_of.independent_blend;
         core.large_points |= core_of.large_points;
         core.draw_indirect_first_instance |= core_of.draw_indirect_first_instance;
         core.pipeline_statistics_query |= core_of.pipeline_statistics_query;

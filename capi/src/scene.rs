@@ -34,6 +34,11 @@ pub struct SurfelSceneInfo {
     pub levels: vk::Bool32,
     /// Its levels of detail may have a `budget`, for which the host keeps 40 bytes for each node of them.
     pub budget: vk::Bool32,
+    /// `surfel_update` may change its splats on the device, for which the host keeps what the device has of each; not with `levels`, nor with
+    /// `splat-format` `packed`.
+    pub updatable: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: it begins so, and a test looks for padding.
@@ -53,8 +58,9 @@ pub unsafe extern "C" fn surfel_scene_create(
         let mut scene = Scene::default();
         if !info.is_null() {
             // SAFETY: as above.
-            let SurfelSceneInfo { levels, budget, .. } = unsafe { read(info, "info") }?;
+            let SurfelSceneInfo { levels, budget, updatable, .. } = unsafe { read(info, "info") }?;
             (scene.levels, scene.budget) = (levels != vk::FALSE, budget != vk::FALSE);
+            scene.updatable = updatable != vk::FALSE;
         }
         out.give(SurfelScene(scene))
     })

@@ -35,8 +35,8 @@ pub struct SurfelRendering {
     pub size: u32,
     /// NULL.
     pub p_next: *const c_void,
-    /// The formats of its color attachments. The first is drawn to; the others, for which the device needs
-    /// `SURFEL_FEATURE_INDEPENDENT_BLEND`, are left as they are.
+    /// The formats of its color attachments. The first is drawn to, then come those of `ids` and `motion`; the others are left as they are. For
+    /// more than one the device needs `SURFEL_FEATURE_INDEPENDENT_BLEND`.
     pub color_formats: *const vk::Format,
     /// How many there are.
     pub color_format_count: u32,
@@ -51,7 +51,19 @@ pub struct SurfelRendering {
     /// Colors are encoded as sRGB before they are blended: for hosts that keep encoded colors in `UNORM` formats. sRGB formats encode by
     /// themselves, and float formats keep linear light.
     pub encodes: vk::Bool32,
+    /// The second color attachment, `VK_FORMAT_R32_UINT` or `VK_FORMAT_R16_UINT`, gets the number (`SurfelFrame.ids`) of what is seen, wherever
+    /// depth is written; `SURFEL_NO_ID` where a cut leaves it open. Transparent layers leave it as it is.
+    pub ids: vk::Bool32,
+    /// The second color attachment, or the third with `ids`, `VK_FORMAT_R16G16_SFLOAT` or `VK_FORMAT_R32G32_SFLOAT`, gets motion alike: where the
+    /// point that is seen is in the picture less where it was in the frame before, in pixels, x to the right and y down; 0 of what was behind
+    /// the eye. By the cameras as they are given: what they are jittered by is in it.
+    pub motion: vk::Bool32,
 }
+
+/// The number of no object.
+pub const SURFEL_NO_ID: u32 = 0xffff_ffff;
+
+const _: () = assert!(SURFEL_NO_ID == surfel::embed::NO_ID);
 
 // SAFETY: it begins so, and a test looks for padding.
 unsafe impl Struct for SurfelRendering {
@@ -80,6 +92,8 @@ unsafe fn rendering_of(given: &SurfelRendering) -> Result<Rendering> {
         samples,
         compare: if reversed { vk::CompareOp::GREATER } else { given.compare },
         encodes: given.encodes != vk::FALSE,
+        ids: given.ids != vk::FALSE,
+        motion: given.motion != vk::FALSE,
     })
 }
 

@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         flips_y: false,
     };
     let at = |x, scale| Placement { translation: DVec3::new(x, 0.0, 0.0), scale, ..Placement::default() };
-    let scenes = [Placed { scene: &ball, at: at(-0.6, 1.0) }, Placed { scene: &ball, at: at(1.1, 0.6) }];
+    let scenes = [Placed::new(&ball, at(-0.6, 1.0)), Placed::new(&ball, at(1.1, 0.6))];
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
     let frame = ViewFrame::new(&scenes, &camera, &settings);
     // SAFETY: recording, outside of rendering; all is alive until the wait.

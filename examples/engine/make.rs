@@ -7,7 +7,7 @@ use std::{
 
 use ash::vk;
 
-use super::{Attachment, COLOR_FORMAT, Style};
+use super::{Attachment, COLOR_FORMAT, OBJECT_FORMATS, Style};
 
 /// What the engine's objects are made with.
 pub(super) struct Make<'a> {
@@ -72,7 +72,7 @@ impl Make<'_> {
     pub unsafe fn readback(&self) -> (vk::Buffer, vk::DeviceMemory, *const u8) {
         let [width, height] = self.style.size_px.map(u64::from);
         let info = vk::BufferCreateInfo::default()
-            .size(20 * width * height)
+            .size(32 * width * height)
             .usage(vk::BufferUsageFlags::TRANSFER_DST);
         // SAFETY: all handles are the engine's own.
         unsafe {
@@ -124,12 +124,15 @@ impl Make<'_> {
                 .depth_test_enable(true)
                 .depth_write_enable(true)
                 .depth_compare_op(self.style.compare);
-            let all = [vk::PipelineColorBlendAttachmentState::default()
-                .color_write_mask(vk::ColorComponentFlags::RGBA)];
+            let written = vk::PipelineColorBlendAttachmentState::default()
+                .color_write_mask(vk::ColorComponentFlags::RGBA);
+            let told = OBJECT_FORMATS.into_iter().filter(|_| self.style.tells_objects);
+            let formats: Vec<_> = [COLOR_FORMAT].into_iter().chain(told).collect();
+            let mut all = vec![vk::PipelineColorBlendAttachmentState::default(); formats.len()];
+            all[0] = written;
             let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&all);
             let states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
             let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
-            let formats = [COLOR_FORMAT];
             let mut rendering = vk::PipelineRenderingCreateInfo::default()
                 .color_attachment_formats(&formats)
                 .depth_attachment_format(self.style.depth_format);

@@ -6,9 +6,12 @@
 mod compute;
 mod make;
 mod picture;
+mod screen;
 
 #[allow(unused_imports, reason = "as above")]
 pub use compute::Compute;
+#[allow(unused_imports, reason = "as above")]
+pub use screen::Screen;
 
 use std::sync::Mutex;
 
@@ -25,6 +28,8 @@ pub struct Style {
     /// What its depth is cleared to.
     pub clear_depth: f32,
     pub samples: vk::SampleCountFlags,
+    /// Beside its picture it has images of the numbers of objects, and of motion.
+    pub tells_objects: bool,
     /// The validation layer watches.
     pub validates: bool,
 }
@@ -38,6 +43,7 @@ impl Style {
             compare: vk::CompareOp::GREATER,
             clear_depth: 0.0,
             samples: vk::SampleCountFlags::TYPE_1,
+            tells_objects: false,
             validates: true,
         }
     }
@@ -45,6 +51,9 @@ impl Style {
 
 /// The format of its picture: linear light.
 pub const COLOR_FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+/// The formats of numbers of objects, and of motion.
+pub const OBJECT_FORMATS: [vk::Format; 2] = [vk::Format::R32_UINT, vk::Format::R32G32_SFLOAT];
 
 /// An image, its memory and its view.
 #[derive(Clone, Copy)]
@@ -66,6 +75,8 @@ pub struct Engine {
     color: Attachment,
     /// Where samples are resolved to; the color itself where each pixel has one.
     resolved: Attachment,
+    /// Numbers of objects and motion, where the style has them.
+    pub told: Option<[Attachment; 2]>,
     queue: vk::Queue,
     pool: vk::CommandPool,
     pub commands: vk::CommandBuffer,
@@ -142,6 +153,10 @@ impl Engine {
             let color = make.attachment(COLOR_FORMAT, copied, style.samples);
             let resolved =
                 if style.samples == one { color } else { make.attachment(COLOR_FORMAT, copied, one) };
+            let told = copied | sampled;
+            let told = style
+                .tells_objects
+                .then(|| OBJECT_FORMATS.map(|format| make.attachment(format, told, style.samples)));
             let (layout, pipeline) = make.pipeline();
             let readback = make.readback();
             Self {
@@ -152,6 +167,7 @@ impl Engine {
                 depth,
                 color,
                 resolved,
+                told,
                 queue,
                 pool,
                 commands,
@@ -212,7 +228,8 @@ impl Engine {
                 .resolve_image_view(self.resolved.view)
                 .resolve_image_layout(vk::ImageLayout::ATTACHMENT_OPTIMAL);
         }
-        let colors = [color];
+        let told = self.told.iter().flatten().map(|told| attached(told.view, vk::ClearValue::default()));
+        let colors: Vec<_> = [color].into_iter().chain(told).collect();
         let depth = attached(self.depth.view, vk::ClearValue { depth_stencil: clear_depth });
         let area = vk::Rect2D { extent: vk::Extent2D { width, height }, ..vk::Rect2D::default() };
         let info = vk::RenderingInfo::default()
@@ -279,6 +296,10 @@ impl Engine {
             if self.style.samples == vk::SampleCountFlags::TYPE_1 {
                 let depth = copy(vk::ImageAspectFlags::DEPTH, 16 * pixels);
                 device.cmd_copy_image_to_buffer(self.commands, self.depth.image, source, to, &depth);
+                for (told, at) in self.told.iter().flatten().zip([20, 24]) {
+                    let told_copy = copy(vk::ImageAspectFlags::COLOR, at * pixels);
+                    device.cmd_copy_image_to_buffer(self.commands, told.image, source, to, &told_copy);
+                }
             }
             let barriers = [vk::MemoryBarrier2::default()
                 .src_stage_mask(vk::PipelineStageFlags2::COPY)
@@ -302,12 +323,32 @@ impl Engine {
         }
     }
 
+    /// Depth and numbers of objects, which a pass reads, are brought into another layout; all that was done is waited for.
+    fn barrier_of_read(&self, old: vk::ImageLayout, new: vk::ImageLayout) {
+        let numbers = self.told.map(|[numbers, _]| (numbers.image, vk::ImageAspectFlags::COLOR));
+        let depth = (self.depth.image, aspect_of(self.style.depth_format));
+        self.barriers([depth].into_iter().chain(numbers), [old, new]);
+    }
+
     fn barrier(&self, old: vk::ImageLayout, new: vk::ImageLayout) {
+        let color = vk::ImageAspectFlags::COLOR;
+        let several = self.style.samples != vk::SampleCountFlags::TYPE_1;
+        let told = self.told.into_iter().flatten().chain(several.then_some(self.resolved));
+        let depth = (self.depth.image, aspect_of(self.style.depth_format));
+        let colors = [self.color].into_iter().chain(told).map(|image| (image.image, color));
+        self.barriers(colors.chain([depth]), [old, new]);
+    }
+
+    fn barriers(
+        &self,
+        images: impl Iterator<Item = (vk::Image, vk::ImageAspectFlags)>,
+        [old, new]: [vk::ImageLayout; 2],
+    ) {
         let all = (
             vk::PipelineStageFlags2::ALL_COMMANDS,
             vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE,
         );
-        let barrier = |image, aspect| {
+        let barrier = |(image, aspect)| {
             let range =
                 vk::ImageSubresourceRange::default().aspect_mask(aspect).level_count(1).layer_count(1);
             vk::ImageMemoryBarrier2::default()
@@ -320,14 +361,7 @@ impl Engine {
                 .image(image)
                 .subresource_range(range)
         };
-        let depth_aspect = aspect_of(self.style.depth_format);
-        let mut barriers = vec![
-            barrier(self.color.image, vk::ImageAspectFlags::COLOR),
-            barrier(self.depth.image, depth_aspect),
-        ];
-        if self.style.samples != vk::SampleCountFlags::TYPE_1 {
-            barriers.push(barrier(self.resolved.image, vk::ImageAspectFlags::COLOR));
-        }
+        let barriers: Vec<_> = images.map(barrier).collect();
         // SAFETY: recording, outside of rendering.
         unsafe {
             let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
@@ -347,9 +381,8 @@ impl Drop for Engine {
             device.destroy_pipeline(self.pipeline, None);
             device.destroy_pipeline_layout(self.layout, None);
             let several = self.style.samples != vk::SampleCountFlags::TYPE_1;
-            for attachment in
-                [Some(self.color), Some(self.depth), several.then_some(self.resolved)].into_iter().flatten()
-            {
+            let own = [Some(self.color), Some(self.depth), several.then_some(self.resolved)];
+            for attachment in own.into_iter().flatten().chain(self.told.into_iter().flatten()) {
                 device.destroy_image_view(attachment.view, None);
                 device.destroy_image(attachment.image, None);
                 device.free_memory(attachment.memory, None);

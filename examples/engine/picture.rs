@@ -36,6 +36,18 @@ impl Engine {
         }
     }
 
+    /// The numbers of objects, and how each pixel has moved, where the style has images of them.
+    pub fn told(&self) -> (Vec<u32>, Vec<[f32; 2]>) {
+        let [width, height] = self.style.size_px;
+        let pixels = (width * height) as usize;
+        // SAFETY: as above; behind the depths.
+        unsafe {
+            let [numbers, motion] = [20, 24].map(|at| self.readback.2.add(at * pixels));
+            let numbers = std::slice::from_raw_parts(numbers.cast(), pixels).to_vec();
+            (numbers, std::slice::from_raw_parts(motion.cast(), pixels).to_vec())
+        }
+    }
+
     /// Writes the picture over gray.
     pub fn save(&self, file: &str) -> Result<(), Box<dyn std::error::Error>> {
         let encode = |x: f32| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };

@@ -50,6 +50,7 @@
 #define SPEC_ENCODED 71        // Constant: colors are encoded as sRGB.
 #define SPEC_TWO_SIDED 59     // Constant: splats that face away are drawn, and belong to surfaces of their own (`tile/pixel.glsl`).
 #define SPEC_PLANES 62         // Constant: how many planes cut what is seen (`inc/planes.glsl`).
+#define SPEC_TINTED 65         // Constant: colors of chunks are multiplied by something (`inc/tints.glsl`).
 #define SPEC_OUTLINES 64       // Constant: rims of splats are black (`inc/outline.glsl`).
 #define SPEC_COVERAGE_EDGES 55 // Constant: a pixel is covered in part where a surface ends (`inc/edges.glsl`).
 
@@ -93,6 +94,7 @@
 #define BIND_READ_POLYGON_DEPTH 2 // Binding: the depth of polygons, or of splats where those are nearer.
 #define BIND_READ_LIGHTS 3        // Binding: the scene's own lights.
 #define BIND_READ_PLANES 4        // Binding: the planes that cut what is seen.
+#define BIND_READ_TINTS 5         // Binding: what colors of chunks are multiplied by.
 
 // Bindings of the set of sums.
 #define BIND_SUMS_COLORS 0          // Binding: colors of splats.
@@ -190,6 +192,7 @@
 #define BIND_ENTRY_TEXELS 27   // Binding: the lists, as texels.
 #define BIND_RECT_TEXELS 28    // Binding: tile rects, as texels.
 #define BIND_LAYER_STATE 29    // Binding: what is known of overflow tiles' layers between dispatches.
+#define BIND_TINTS 29          // Binding: where records are made, what colors of chunks are multiplied by.
 #define BIND_VISIBLE_BEFORE 30 // Binding: `BIND_VISIBLE_DEPTH` as it was before.
 #define BIND_CLIPS 31          // Binding: the clip curves of projected splats.
 #define BIND_CLIP_TEXELS 32    // Binding: the same, as texels.

@@ -15,6 +15,8 @@ pub struct ViewFrame<'a> {
     pub scenes: &'a [Placed<'a>],
     /// From where.
     pub camera: &'a HostCamera,
+    /// From where the frame before was seen, of which motion follows; `None`: from there, too. Its picture had the same size.
+    pub camera_before: Option<&'a HostCamera>,
     /// How. The size is the view's, in pixels; the background is the host's picture, whatever is said here.
     pub settings: &'a Settings,
     /// Where the view's top left corner lies in the host's images, in pixels.
@@ -27,9 +29,9 @@ pub struct ViewFrame<'a> {
 }
 
 impl<'a> ViewFrame<'a> {
-    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides and nothing timed.
+    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides, nothing timed, and nothing moved.
     pub fn new(scenes: &'a [Placed<'a>], camera: &'a HostCamera, settings: &'a Settings) -> Self {
-        Self { scenes, camera, settings, corner_px: [0; 2], hides: None, profile: None }
+        Self { scenes, camera, camera_before: None, settings, corner_px: [0; 2], hides: None, profile: None }
     }
 }
 

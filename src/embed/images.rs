@@ -5,7 +5,7 @@ use ash::vk;
 use crate::{
     error::Result,
     graph::ImageState,
-    passes::host::SURFACE_DEPTH_FORMAT,
+    passes::host::{OBJECTS_FORMAT, SURFACE_DEPTH_FORMAT},
     vk::{Device, Image, ImageDesc},
 };
 
@@ -17,6 +17,8 @@ pub(super) struct Images {
     pub depth: Image,
     /// Transparent layers alike, where there are any.
     pub layers: Option<Image>,
+    /// Whose the opaque surface is, where the host asks for it.
+    pub objects: Option<Image>,
 }
 
 /// The draws of the frame before read them; they write nothing that has to be seen.
@@ -30,12 +32,18 @@ pub(super) const BEFORE: ImageState = ImageState {
 pub(super) const AFTER: ImageState = ImageState { layout: vk::ImageLayout::READ_ONLY_OPTIMAL, ..BEFORE };
 
 impl Images {
+    /// Bytes of device memory.
+    pub fn bytes(&self) -> u64 {
+        let all = [Some(&self.surface), Some(&self.depth), self.layers.as_ref(), self.objects.as_ref()];
+        all.into_iter().flatten().map(Image::bytes).sum()
+    }
+
     /// Those of a view, the ones there are where they will do.
     pub fn fit(
         kept: Option<Self>,
         device: &Device,
         (format, size_px): (vk::Format, [u32; 2]),
-        layers: bool,
+        (layers, objects): (bool, bool),
     ) -> Result<Self> {
         let [width, height] = size_px;
         let extent = vk::Extent2D { width, height };
@@ -48,10 +56,14 @@ impl Images {
                 surface: image("surface for a host", format)?,
                 depth: image("its depth", SURFACE_DEPTH_FORMAT)?,
                 layers: None,
+                objects: None,
             },
         };
         if layers && images.layers.is_none() {
             images.layers = Some(image("layers for a host", format)?);
+        }
+        if objects && images.objects.is_none() {
+            images.objects = Some(image("objects for a host", OBJECTS_FORMAT)?);
         }
         Ok(images)
     }

@@ -8,19 +8,24 @@
 //!
 //! `docs/embedding.md` tells all of it: state, threads, lifetimes.
 
+mod checks;
+mod depth;
 mod frame;
 mod images;
+mod motion;
 mod over;
 mod scenes;
+mod table;
+mod update;
 mod view;
 
 pub use crate::{
     graph::ImageState,
-    prepare::{DynamicBuffers, DynamicSplats, Placed, PreparedScene, dynamic},
+    prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},
     renderer::Renderer,
     scene::{HostCamera, Placement},
     vk::{Device, Features, Import, Requirements, requirements},
 };
 pub use frame::{DepthImage, ViewFrame};
-pub use over::Rendering;
+pub use over::{NO_ID, Rendering};
 pub use view::View;

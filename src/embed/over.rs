@@ -6,14 +6,15 @@ use crate::{
     error::{Error, Result},
     graph::aspect_of,
     passes::pipeline::key::{GraphicsKey, Layout},
-    shaders::{self, config::*},
+    shaders::{self, Shader, config::*},
     vk::{Attachments, Blend, Device},
 };
 
 /// What the host's rendering is, within which a view is drawn: as in `VkPipelineRenderingCreateInfo`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendering {
-    /// The formats of its color attachments. The first is drawn to; the others, for which the device needs `independentBlend`, are left as they are.
+    /// The formats of its color attachments. The first is drawn to, then come those of [`Self::ids`] and [`Self::motion`]; the others are left as they are. For more than
+    /// one the device needs `independentBlend`.
     pub color_formats: Vec<vk::Format>,
     /// The format of its depth attachment; `UNDEFINED`: there is none, and all of the view is drawn.
     pub depth_format: vk::Format,
@@ -26,7 +27,17 @@ pub struct Rendering {
     /// Colors are encoded as sRGB before they are blended: for hosts that keep encoded colors in `UNORM` formats. Linear light is for all
     /// others: sRGB formats encode by themselves, and float formats keep it.
     pub encodes: bool,
+    /// The second color attachment, `R32_UINT` or `R16_UINT`, gets [`crate::prepare::Placed::id`] of what is seen, wherever depth is written: of all that covers a pixel
+    /// the number of what is nearest to that depth. [`NO_ID`] where a cut leaves it open. Transparent layers leave it as it is.
+    pub ids: bool,
+    /// The second color attachment, or the third with `ids`, `R16G16_SFLOAT` or `R32G32_SFLOAT`, gets motion alike: where in the picture the point that is seen is now
+    /// less where it was in the frame before, in pixels, x to the right and y down; 0 of what was behind the eye. By the cameras as they are given: what they are
+    /// jittered by is in it.
+    pub motion: bool,
 }
+
+/// The number of no object.
+pub const NO_ID: u32 = u32::MAX;
 
 impl Default for Rendering {
     /// One color attachment of linear halves, a reversed depth of 32 bits, one sample.
@@ -38,6 +49,8 @@ impl Default for Rendering {
             samples: vk::SampleCountFlags::TYPE_1,
             compare: vk::CompareOp::GREATER,
             encodes: false,
+            ids: false,
+            motion: false,
         }
     }
 }
@@ -45,7 +58,7 @@ impl Default for Rendering {
 /// What a draw lays over the host's picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// What covers half of a pixel or more: tested, and its depth written.
+    /// What covers half of a pixel or more: tested, and its depth written, with numbers and motion.
     Covering,
     /// What covers less, at edges: tested.
     CoveringLess,
@@ -87,7 +100,8 @@ impl Rendering {
                 format!("the first is {first:?}: expected one that can be blended in"),
             );
         }
-        let others = &self.color_formats[1..];
+        let others = self.color_formats.get(1 + self.written_beside()..).unwrap_or_default();
+        self.check_written_beside(&can)?;
         if let Some(format) = others.iter().find(|format| {
             **format != vk::Format::UNDEFINED && !can(**format, vk::FormatFeatureFlags::COLOR_ATTACHMENT)
         }) {
@@ -130,6 +144,32 @@ impl Rendering {
         }
     }
 
+    /// Whether it is found whose the surface is.
+    pub(super) fn wants_objects(&self) -> bool {
+        self.ids || self.motion
+    }
+
+    /// How many attachments are written beside the first.
+    fn written_beside(&self) -> usize {
+        usize::from(self.ids) + usize::from(self.motion)
+    }
+
+    fn check_written_beside(&self, can: &dyn Fn(vk::Format, vk::FormatFeatureFlags) -> bool) -> Result<()> {
+        use vk::Format as F;
+        let wanted = [
+            (self.ids, 1, "ids", [F::R32_UINT, F::R16_UINT]),
+            (self.motion, self.written_beside(), "motion", [F::R16G16_SFLOAT, F::R32G32_SFLOAT]),
+        ];
+        for (_, place, name, formats) in wanted.into_iter().filter(|(asked, ..)| *asked) {
+            let given = self.color_formats.get(place).copied().unwrap_or_default();
+            if !formats.contains(&given) || !can(given, vk::FormatFeatureFlags::COLOR_ATTACHMENT) {
+                let problem = format!("color attachment {place} is {given:?}: expected one of {formats:?}");
+                return Err(Error::option(name, problem));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether what is nearer has the greater depth; `None` of a comparison that tells no order.
     pub(super) fn nearer_is_greater(&self) -> Option<bool> {
         match self.compare {
@@ -148,6 +188,12 @@ impl Rendering {
             (SPEC_ENCODED, u32::from(self.encodes)),
         ];
         let compare = if of_surface { self.compare } else { vk::CompareOp::ALWAYS };
+        let shader: &'static Shader = match (part, self.ids, self.motion) {
+            (Part::Covering, true, true) => &shaders::HOST_OVER_IDS_MOTION_FRAG,
+            (Part::Covering, true, false) => &shaders::HOST_OVER_IDS_FRAG,
+            (Part::Covering, false, true) => &shaders::HOST_OVER_MOTION_FRAG,
+            _ => &shaders::HOST_OVER_FRAG,
+        };
         GraphicsKey {
             color_formats: self.color_formats.clone(),
             blend: Blend::Over,
@@ -156,9 +202,9 @@ impl Rendering {
             attachments: Attachments {
                 samples: self.samples,
                 stencil_format: self.stencil_format,
-                first_alone: true,
+                beside_first: Some(if part == Part::Covering { self.written_beside() as u32 } else { 0 }),
             },
-            ..GraphicsKey::fullscreen(&shaders::HOST_OVER_FRAG, Layout::Host, constants)
+            ..GraphicsKey::fullscreen(shader, Layout::Host, constants)
         }
     }
 }

@@ -3,9 +3,12 @@
 use ash::vk;
 
 use super::{
+    depth::host_depth,
     frame::{DepthImage, ViewFrame},
     images::{AFTER, BEFORE, Images},
+    motion::Motion,
     over::{Part, Rendering},
+    table::Table,
 };
 use crate::{
     error::{Error, Result},
@@ -14,11 +17,10 @@ use crate::{
         Graph, ImageDesc,
         execute::{FrameProfile, Physical},
     },
-    passes::{
-        self, HostDepth, Inputs, Place, host::BesideHost, pipeline::key::Layout, plan::range::DepthRange,
-    },
+    passes::{self, HostDepth, Inputs, Place, Tints, host::BesideHost, pipeline::key::Layout},
+    prepare::NO_TINT,
     renderer::{Imports, Renderer},
-    scene::{Camera, DepthOfHost, Edges, Settings},
+    scene::{Edges, Settings},
     shaders::config::{BIND_SUMS_COLORS, BIND_SUMS_DEPTH},
     vk::{Descriptor, Device, PoolSizes},
 };
@@ -26,9 +28,12 @@ use crate::{
 /// One view of a host, of one frame at a time: with several frames in flight a host has one for each. It keeps what passes leave for draws.
 pub struct View {
     device: Device,
-    rendering: Rendering,
+    pub(super) rendering: Rendering,
     slot: FrameSlot,
     images: Option<Images>,
+    /// Objects as the host numbers them; tints of what is opaque, and of what is transparent.
+    objects: Table,
+    tints: [Table; 2],
     /// What the frame that was prepared last has to draw.
     prepared: Option<Prepared>,
 }
@@ -38,15 +43,17 @@ struct Prepared {
     area: vk::Rect2D,
     depth: HostDepth,
     draws: Vec<(vk::Pipeline, vk::DescriptorSet)>,
+    /// What is known of objects, where it is wanted.
+    objects: Option<vk::DescriptorSet>,
 }
 
-/// Draws take two sets, each of the surface or of layers.
+/// Draws take two sets, each of the surface or of layers, and one of objects.
 const SETS_OF_DRAWS: PoolSizes = PoolSizes {
-    sets: 2,
-    buffers: 0,
+    sets: 3,
+    buffers: 1,
     uniform_buffers: 2,
     texel_buffers: 0,
-    images: 10,
+    images: 11,
     filtered_images: 0,
     storage_images: 0,
 };
@@ -63,7 +70,15 @@ impl View {
         }
         let device = renderer.device().clone();
         let slot = FrameSlot::new(&device);
-        Ok(Self { device, rendering: rendering.clone(), slot, images: None, prepared: None })
+        Ok(Self {
+            device,
+            rendering: rendering.clone(),
+            slot,
+            images: None,
+            objects: Table::default(),
+            tints: Default::default(),
+            prepared: None,
+        })
     }
 
     /// Records the passes of a frame: all but its draws.
@@ -94,10 +109,18 @@ impl View {
         self.check_order(depth)?;
         let plan = renderer.frame_plan(frame.scenes, &camera, settings)?;
         let layered = !plan.transparent.is_empty();
-        self.check(frame, layered)?;
+        self.check_frame(frame, layered)?;
+        let camera_before = Self::camera_before(frame)?.unwrap_or(camera);
+        let plan = if self.rendering.wants_objects() { plan.with_objects(&renderer.limits) } else { plan };
+        let finds_objects = plan.objects.is_some();
         let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
         let format = self.rendering.surface_format();
-        let images = Images::fit(self.images.take(), &self.device, (format, settings.size_px), layered)?;
+        let images = Images::fit(
+            self.images.take(),
+            &self.device,
+            (format, settings.size_px),
+            (layered, finds_objects),
+        )?;
         let images = self.images.insert(images);
 
         let counts_draws = self.device.facts().draw_indirect_count;
@@ -107,10 +130,22 @@ impl View {
         unsafe { self.slot.begin(needs, frame.profile) }?;
         // SAFETY: as above.
         let planes = unsafe { self.slot.planes(&plan.planes) }?;
+        let mut tints = [None; 2];
+        if frame.scenes.iter().any(|placed| placed.tint != NO_TINT) {
+            let parts = [&plan.opaque, &plan.transparent];
+            for ((tints, table), part) in tints.iter_mut().zip(&mut self.tints).zip(parts) {
+                let all: Vec<_> = part.placed().map(|placed| frame.scenes[placed as usize].tint).collect();
+                if !all.is_empty() {
+                    // SAFETY: as above.
+                    let (buffer, bytes) = unsafe { table.write(&self.device, "tints", &all) }?;
+                    *tints = Some(Tints { buffer, bytes });
+                }
+            }
+        }
         let SlotParts { descriptors, occlusion, execution } = self.slot.parts()?;
         let inputs = Inputs::new(&camera, settings, Place::Device(&renderer.shaders, descriptors));
         let source = inputs.source.cut_by(planes);
-        let inputs = Inputs { occlusion, range: plan.range, source, ..inputs };
+        let inputs = Inputs { occlusion, range: plan.range, source, tints, ..inputs };
 
         let (mut graph, mut imports) = (Graph::new(), Imports::new());
         let [width, height] = settings.size_px;
@@ -125,6 +160,11 @@ impl View {
         let mut surface_depth = import("its depth", &images.depth);
         let mut layers =
             images.layers.as_ref().filter(|_| layered).map(|image| import("layers for a host", image));
+        let mut objects = images
+            .objects
+            .as_ref()
+            .filter(|_| finds_objects)
+            .map(|image| import("objects for a host", image));
         let hides = frame.hides.filter(|_| layered).map(|hides| {
             let DepthImage { image, view, format, extent, before, after } = hides;
             let handle =
@@ -135,6 +175,7 @@ impl View {
         let beside = BesideHost {
             hides: hides.as_ref().map(|hides| (hides, depth)),
             depth: &mut surface_depth,
+            objects: objects.as_mut(),
             layers: layers.as_mut(),
         };
         passes::frame(&mut graph, inputs, &plan, &mut surface, format, (false, Some(beside)))?;
@@ -163,64 +204,22 @@ impl View {
         if let (true, Some(layers)) = (layered, &images.layers) {
             draw(Part::Layers, set(&[sampled(BIND_SUMS_COLORS, layers)])?)?;
         }
+        let objects = match (&plan.objects, &images.objects) {
+            (Some(drawn), Some(image)) => {
+                let motion = Motion::new([&camera, &camera_before], plan.range, settings.size_px);
+                let of: Vec<_> = frame.scenes.iter().map(|placed| motion.of(placed)).collect();
+                let all: Vec<_> = drawn.placed().map(|placed| of[placed as usize]).collect();
+                // SAFETY: this function's contract.
+                let (buffer, bytes) = unsafe { self.objects.write(&self.device, "objects of a host", &all) }?;
+                let given = [sampled(0, image), (1, Descriptor::Buffer(buffer, bytes))];
+                Some(descriptors.set(&renderer.shaders.objects_set, &given)?)
+            }
+            _ => None,
+        };
         let [x, y] = frame.corner_px;
         let area = vk::Rect2D { offset: vk::Offset2D { x, y }, extent };
-        self.prepared = Some(Prepared { area, depth, draws });
+        self.prepared = Some(Prepared { area, depth, draws, objects });
         Ok(())
-    }
-
-    /// Refuses a camera whose depth grows where the rendering's test has it fall: all would be hidden, or nothing; of parallel rays a picture that is
-    /// turned over, too.
-    fn check_order(&self, depth: DepthOfHost) -> Result<()> {
-        let nearer_is_greater = match depth {
-            DepthOfHost::Perspective { b, .. } => b > 0.0,
-            DepthOfHost::Orthographic { b, .. } => b < 0.0,
-        };
-        match self.rendering.nearer_is_greater() {
-            Some(greater) if self.rendering.has_depth() && greater != nearer_is_greater => {
-                let (compare, is) =
-                    (self.rendering.compare, if nearer_is_greater { "greater" } else { "less" });
-                let problem = format!(
-                    "{compare:?}, but by the camera's matrices what is nearer has the {is} depth: is depth reversed, or the viewport flipped?"
-                );
-                Err(Error::option("compare", problem))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn check(&self, frame: &ViewFrame<'_>, layered: bool) -> Result<()> {
-        if frame.corner_px.iter().any(|at| *at < 0) {
-            let [x, y] = frame.corner_px;
-            return Err(Error::option(
-                "corner_px",
-                format!("{x},{y}: expected a corner within the host's image"),
-            ));
-        }
-        if !layered {
-            return Ok(());
-        }
-        let Some(hides) = &frame.hides else {
-            return match self.rendering.has_depth() {
-                false => Ok(()),
-                true => Err(Error::option(
-                    "hides",
-                    "something is transparent: expected the depth of what the host has drawn, which hides it pixel by pixel",
-                )),
-            };
-        };
-        let holds = |at: i32, side: u32, whole: u32| {
-            u64::from(at.unsigned_abs()) + u64::from(side) <= u64::from(whole)
-        };
-        let ([x, y], [width, height]) = (frame.corner_px, frame.settings.size_px);
-        match holds(x, width, hides.extent.width) && holds(y, height, hides.extent.height) {
-            true => Ok(()),
-            false => {
-                let vk::Extent2D { width: w, height: h } = hides.extent;
-                let problem = format!("{w}x{h} pixels: expected {width}x{height} from {x},{y} on");
-                Err(Error::option("hides", problem))
-            }
-        }
     }
 
     /// Records the draws of the frame that was prepared: up to three triangles. Clobbers viewport and scissor, and of the graphics bind point the
@@ -233,7 +232,7 @@ impl View {
     /// `commands` are those of [`View::prepare`], or others that are submitted after them to the same queue; they are inside of a rendering as the
     /// view was made for, which covers the view's area. The view stays alive, and is not prepared again, until they have run.
     pub unsafe fn draw(&self, renderer: &Renderer, commands: vk::CommandBuffer) -> Result<()> {
-        let Some(Prepared { area, depth, draws }) = &self.prepared else {
+        let Some(Prepared { area, depth, draws, objects }) = &self.prepared else {
             return Err(Error::option("draw", "no frame is prepared: expected prepare before"));
         };
         let layout = renderer.shaders.layout(Layout::Host)?;
@@ -257,6 +256,9 @@ impl View {
                 0,
                 bytemuck::bytes_of(depth),
             );
+            if let Some(set) = objects {
+                raw.cmd_bind_descriptor_sets(commands, graphics, layout.raw(), 1, &[*set], &[]);
+            }
             for (pipeline, set) in draws {
                 raw.cmd_bind_pipeline(commands, graphics, *pipeline);
                 raw.cmd_bind_descriptor_sets(commands, graphics, layout.raw(), 0, &[*set], &[]);
@@ -276,21 +278,11 @@ impl View {
 
     /// Bytes of device memory that the view holds: images for its draws, and what its passes share.
     pub fn bytes(&self) -> u64 {
-        let images = self.images.as_ref().map_or(0, |images| {
-            let all = [Some(&images.surface), Some(&images.depth), images.layers.as_ref()];
-            all.into_iter().flatten().map(crate::vk::Image::bytes).sum()
-        });
-        images + self.slot.transient_bytes()
+        let tables = [&self.objects, &self.tints[0], &self.tints[1]].map(Table::bytes);
+        self.images.as_ref().map_or(0, Images::bytes)
+            + tables.iter().sum::<u64>()
+            + self.slot.transient_bytes()
     }
-}
-
-/// How the host's depth follows from w, of which z is near / w, or from where depth begins on linear in it.
-fn host_depth(depth: DepthOfHost, camera: &Camera, range: DepthRange) -> HostDepth {
-    let [scale, offset] = match depth {
-        DepthOfHost::Perspective { a, b } => [b / camera.near(), a],
-        DepthOfHost::Orthographic { a, b } => [-b * range.end, a + b * (range.from_eye + range.end)],
-    };
-    HostDepth { scale: scale as f32, offset: offset as f32, ..HostDepth::default() }
 }
 
 #[cfg(test)]

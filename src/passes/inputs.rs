@@ -5,6 +5,7 @@ use ash::vk;
 use crate::passes::{
     pass::{Place, Source},
     pipeline::constants::FinalizeConstants,
+    place::Tints,
     plan::{
         SplatMethod, SurfacePlan, bands::Band, block_list::ListedBlocks, draws::Draw, mesh_draws::MeshDraw,
         range::DepthRange, tiles::TilePlan,
@@ -40,6 +41,8 @@ pub struct Inputs<'a> {
     pub settings: &'a Settings,
     /// Where pipelines and sets come from; the pool of sets lives as long as the frame and has room for [`crate::passes::needs`].
     pub source: Source<'a>,
+    /// The tints of what is opaque and of what is transparent, where there are any.
+    pub tints: [Option<Tints>; 2],
     /// The queries of [`crate::passes::needs`], where it has any.
     pub occlusion: Option<&'a Occlusion>,
 }
@@ -59,6 +62,7 @@ impl<'a> Inputs<'a> {
             range: DepthRange::default(),
             settings,
             source: Source::new(place, camera),
+            tints: [None; 2],
             occlusion: None,
         }
     }
@@ -73,6 +77,7 @@ impl<'a> Inputs<'a> {
             bands: plan.bands(),
             listed: plan.visible(),
             culls_hidden,
+            source: Source { tints: self.tints[usize::from(plan.is_transparent())], ..self.source },
             ..self
         }
     }

@@ -25,13 +25,13 @@ pub use crate::passes::pick::{PickPlan, Picked, PickedPart};
 pub(crate) use crate::passes::pick::{needs as needs_of_pick, pick};
 pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
-    FinalizeConstants, FrameConstants, HostDepth, PaperConstants, TileConstants,
+    FinalizeConstants, FrameConstants, HostDepth, HostObject, PaperConstants, TileConstants,
 };
 #[cfg(feature = "test-formulas")]
 pub use crate::passes::pipeline::formula::Formula;
 pub use crate::passes::pipeline::recipe::{PipelineRecipe, PipelineStages};
 pub(crate) use crate::passes::place::PLANES_BYTES;
-pub use crate::passes::place::Planes;
+pub use crate::passes::place::{Planes, Tints};
 pub use crate::passes::plan::budget::count_drawn;
 pub(crate) use crate::passes::plan::budget::within_budget;
 pub(crate) use crate::passes::plan::digits::{beyond_f32, check as check_digits, floors, unused_levels};
@@ -113,9 +113,12 @@ pub(crate) fn frame<'a>(
             }
         }
     };
-    if let Some(BesideHost { depth, layers: target, .. }) = beside {
+    if let Some(BesideHost { depth, objects, layers: target, .. }) = beside {
         let polygons = !plan.opaque.meshes.is_empty();
         host::depth_out::surface_depth(graph, inputs, (&opaque, own_depth.as_ref()), polygons, depth)?;
+        if let (Some(plan), Some(objects)) = (&plan.objects, objects) {
+            host::objects_out::objects(graph, inputs.of(plan), depth, objects)?;
+        }
         if let (Some(layers), Some(target)) = (layers.take(), target) {
             host::layers_out::layers_alone(graph, inputs, &layers, (target, target_format))?;
         }
@@ -182,7 +185,7 @@ fn shaded_by_tiles<'a>(
     let mut start = if outputs.layers { TileStart::Cleared } else { TileStart::Empty };
     if !inputs.meshes.is_empty() {
         let depth = polygons::draw::shaded(graph, inputs, (&mut shown.image, shown.precision), lights)?;
-        (opaque.polygon_depth, start) = (Some(depth), TileStart::Polygons);
+        (opaque.polygon_depth, opaque.shows_polygons, start) = (Some(depth), true, TileStart::Polygons);
     }
     for (band, inputs, plan) in inputs.of_bands() {
         let mut tiles = tiles::list(graph, inputs, &band, plan)?;

@@ -10,14 +10,14 @@ use crate::passes::pipeline::{
     variant::Constants,
 };
 use crate::passes::{
-    place::{At, Planes},
+    place::{At, Planes, Tints},
     recording::{Pipeline, Recording},
 };
 use crate::{
     error::Result,
     graph::{Access, Graph, Handle, PassBuilder, ResourceId, Role, Start, execute::Body},
     scene::Camera,
-    shaders::config::{SPEC_ORTHOGRAPHIC, SPEC_PLANES},
+    shaders::config::{SPEC_ORTHOGRAPHIC, SPEC_PLANES, SPEC_TINTED},
     vk::DescriptorPool,
 };
 
@@ -30,6 +30,8 @@ pub struct Source<'a> {
     pub is_orthographic: bool,
     /// The planes that cut what is seen.
     pub planes: Planes,
+    /// The tints of all chunks, where some has one.
+    pub tints: Option<Tints>,
 }
 
 /// Where pipelines and descriptor sets come from.
@@ -44,7 +46,7 @@ pub enum Place<'a> {
 impl<'a> Source<'a> {
     /// Pipelines for the camera that a pass is seen by.
     pub fn new(place: Place<'a>, camera: &Camera) -> Self {
-        Self { place, is_orthographic: camera.is_orthographic(), planes: Planes::default() }
+        Self { place, is_orthographic: camera.is_orthographic(), planes: Planes::default(), tints: None }
     }
 
     /// The same for a frame that planes cut.
@@ -60,6 +62,9 @@ impl<'a> Source<'a> {
         }
         if self.planes.count > 0 && layout.has_planes() {
             constants.push((SPEC_PLANES, self.planes.count));
+        }
+        if self.tints.is_some() && layout.has_tints() {
+            constants.push((SPEC_TINTED, 1));
         }
     }
 }
@@ -158,8 +163,8 @@ impl<'g, 'a> Pass<'g, 'a> {
         bound.sort_unstable();
         declared.finish(Box::new(move |context| match source.place {
             Place::Device(shaders, descriptors) => {
-                let (pipeline, planes) = (Cell::default(), source.planes);
-                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline, planes })
+                let (pipeline, planes, tints) = (Cell::default(), source.planes, source.tints);
+                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline, planes, tints })
             }
             Place::List(_) => Ok(()),
         }));

@@ -84,5 +84,14 @@ pub struct Planes {
     pub buffer: ash::vk::Buffer,
 }
 
+/// What colors of chunks are multiplied by, in the order of the chunks' numbers in their part of the frame: a buffer of four floats each, and its bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct Tints {
+    /// A storage buffer.
+    pub buffer: ash::vk::Buffer,
+    /// How long it is.
+    pub bytes: u64,
+}
+
 /// Bytes of as many planes as there may be.
 pub(crate) const PLANES_BYTES: u64 = crate::shaders::config::MOST_PLANES as u64 * 16;

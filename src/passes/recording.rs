@@ -6,12 +6,14 @@ use ash::vk;
 
 use crate::passes::{
     pipeline::{cache::Shaders, key::Layout},
-    place::{At, PLANES_BYTES, Place, Planes},
+    place::{At, PLANES_BYTES, Place, Planes, Tints},
 };
 use crate::{
     error::{ErrorKind, Result},
     graph::{ResourceId, execute::PassContext},
-    shaders::config::{BIND_LIST_PLANES, BIND_PLANES, BIND_READ_PLANES, MOST_GROUPS_IN_ROW},
+    shaders::config::{
+        BIND_LIST_PLANES, BIND_PLANES, BIND_READ_PLANES, BIND_READ_TINTS, BIND_TINTS, MOST_GROUPS_IN_ROW,
+    },
     vk::{Descriptor, DescriptorPool},
 };
 
@@ -34,6 +36,8 @@ pub(crate) struct Recording<'c, 'a> {
     pub bound: &'c [(At, ResourceId)],
     /// The planes that cut what is seen.
     pub planes: Planes,
+    /// The tints of chunks.
+    pub tints: Option<Tints>,
     /// The pipeline that was bound last: chunks in a row often share one.
     pub pipeline: Cell<vk::Pipeline>,
 }
@@ -68,6 +72,15 @@ impl Recording<'_, '_> {
             };
             let buffer = Descriptor::Buffer(self.planes.buffer, PLANES_BYTES);
             given.extend(binding.map(|binding| (binding, buffer)));
+        }
+        if let Some(Tints { buffer, bytes }) = self.tints {
+            let binding = match place {
+                Place::Read => Some(BIND_READ_TINTS),
+                // Where layers have what they go on from, records are made by no pass.
+                Place::Tiles(_) if !own.clone().any(|(at, _)| at.binding == BIND_TINTS) => Some(BIND_TINTS),
+                _ => None,
+            };
+            given.extend(binding.map(|binding| (binding, Descriptor::Buffer(buffer, bytes))));
         }
         for (at, id) in own {
             given.push((at.binding, self.context.descriptor(*id)?));

@@ -59,6 +59,18 @@ impl Block {
     }
 }
 
+impl Block {
+    /// The block of these splats, as they are packed, and the box of their centers.
+    pub(super) fn of(words: &[[u32; 4]], survey: &Survey) -> (Self, [DVec3; 2]) {
+        let each = survey.shape_bytes() / 16;
+        let splats: Vec<_> = words.chunks_exact(each).map(|words| sample(words, survey)).collect();
+        let nowhere = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let bounds =
+            splats.iter().fold(nowhere, |[lo, hi], splat| [lo.min(splat.center), hi.max(splat.center)]);
+        (Self::around(&splats), bounds)
+    }
+}
+
 /// A splat as the device has it.
 struct Sample {
     center: DVec3,

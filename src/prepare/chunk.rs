@@ -12,6 +12,7 @@ use super::{
     pack::{Packed, Survey, shape_bytes},
     radii::RadiusStep,
     rebase::Rebase,
+    updatable::Shadow,
 };
 use crate::{error::Result, scene::Epsilon, vk::Staging};
 
@@ -76,10 +77,12 @@ pub struct Chunk {
     pub(super) dynamic: bool,
     /// Its splats in runs of [`BLOCK_SPLATS`](crate::shaders::config::BLOCK_SPLATS).
     pub blocks: Vec<Block>,
+    /// What the host keeps of it, where its splats may change.
+    pub(super) shadow: Option<Shadow>,
     /// Bytes of a shape and of a color.
-    bytes_each: [u64; 2],
+    pub(super) bytes_each: [u64; 2],
     /// Shapes and colors, but where a frame is only listed.
-    memory: Option<ChunkMemory>,
+    pub(super) memory: Option<ChunkMemory>,
 }
 
 impl Chunk {
@@ -135,6 +138,7 @@ impl Chunk {
             scene_bytes: 0,
             dynamic: false,
             blocks: Vec::new(),
+            shadow: None,
             bytes_each,
             memory: uploader.map(memory).transpose()?,
         })

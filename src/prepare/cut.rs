@@ -11,15 +11,17 @@ use super::{
     memory::Uploader,
     mesh_chunk::PackedMesh,
     mesh_levels::Cells,
-    near_surfaces, pack,
+    near_surfaces,
+    pack::{self, Packed},
     part::{Numbers, Part},
     pieces,
     refinements::Refinements,
     sequence::Sequence,
     sites::{Site, sites},
+    updatable::Shadow,
 };
 use crate::{
-    error::Result,
+    error::{Error, Result},
     geometry::Overlaps,
     scene::{
         Clip, DefectCounts, Epsilon, HybridLevels, LeveledObject, MeshObject, Object, Opacity, Order, Scene,
@@ -42,6 +44,7 @@ pub(super) fn cut(
     scene: &Scene,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
+    check_updatable(scene)?;
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());
     let names = of_splats.chain(leveled).chain(scene.meshes.iter().map(|object| object.name.as_str()));
@@ -54,6 +57,7 @@ pub(super) fn cut(
         progress,
         budget: scene.budget,
         numbered: scene.numbered,
+        updatable: scene.updatable,
         transparent_splats: 0,
         transparent_radii: 0.0,
         beside_polygons: !scene.meshes.is_empty(),
@@ -101,6 +105,18 @@ pub(super) fn cut(
     Ok(prepared)
 }
 
+/// Refuses a scene whose splats are to change, where what stands for others, or the bytes they are kept in, would not go along.
+fn check_updatable(scene: &Scene) -> Result<()> {
+    let problem = match scene.updatable {
+        true if scene.levels || scene.has_levels() => "levels of detail stand for splats as they are",
+        true if scene.storage.format == SplatFormat::Packed => {
+            "packed splats have no room to move: expected the splat format exact"
+        }
+        _ => return Ok(()),
+    };
+    Err(Error::option("updatable", problem))
+}
+
 /// What is done so far.
 struct Cut<'u, 'a> {
     uploader: Option<Uploader<'u>>,
@@ -111,6 +127,7 @@ struct Cut<'u, 'a> {
     progress: &'a dyn Fn(u64, u64),
     budget: bool,
     numbered: bool,
+    updatable: bool,
     transparent_splats: u32,
     transparent_radii: f64,
     /// The scene has polygons, too.
@@ -167,7 +184,7 @@ impl Cut<'_, '_> {
             return Ok(());
         }
         let order = self.prepared.storage.order;
-        let numbers = if self.numbered { Numbers::Own } else { Numbers::Unknown };
+        let numbers = if self.numbered || self.updatable { Numbers::Own } else { Numbers::Unknown };
         self.part_of((number, object, numbers), (epsilon, auto), order, None)
     }
 
@@ -238,7 +255,9 @@ impl Cut<'_, '_> {
     ) -> Result<()> {
         let splats = &part.object.splats;
         let which = |places: Range<usize>| site.at(sequence, piece, places);
-        let survey = site.survey(splats, which(range.clone()));
+        let mut survey = site.survey(splats, which(range.clone()));
+        // Each may get a color of its own.
+        survey.uniform_color &= !self.updatable;
         self.prepared.defects.merge(&survey.defects);
         if survey.count > 0 {
             if part.transparent && !part.levels.is_some_and(|(_, levels)| levels.part.stands_for_others()) {
@@ -255,13 +274,20 @@ impl Cut<'_, '_> {
             let mut chunk = Chunk::new(self.uploader.as_ref(), number, traits, (&survey, of_levels))?;
             let numbers = || part.numbered(pack::packable(splats, which(range.clone()), survey.rebase));
             chunk.numbers = if self.numbered { numbers() } else { None };
+            let mut shadow = (self.updatable && !survey.clipped).then(Packed::default);
             chunk.object = part.number;
             chunk.epsilon = part.epsilon;
             chunk.own_epsilon = part.shares.is_some();
             let batches = pieces(range.clone(), BATCH_SPLATS).map(which);
-            let packed = batches.map(|which| pack::pack(splats, which, &survey, part.beside()));
+            let packed = batches.map(|which| {
+                let packed = pack::pack(splats, which, &survey, part.beside());
+                shadow.iter_mut().for_each(|shadow| shadow.extend(&packed));
+                packed
+            });
             let mut uploaded = |count| (self.progress)(self.done + count, self.total);
             chunk.fill(self.uploader.as_mut(), packed, &survey, &mut uploaded)?;
+            chunk.shadow =
+                shadow.zip(numbers()).map(|(packed, numbers)| Shadow::new(packed, &numbers, &survey));
             if let Some((levels, words)) = &levels {
                 chunk.fill_levels(self.uploader.as_mut(), words)?;
                 chunk.scene_bytes += levels.scene_bytes_each() * u64::from(survey.count);

@@ -27,6 +27,7 @@ mod rebase;
 mod refinements;
 mod sequence;
 mod sites;
+mod updatable;
 
 pub use as_packed::as_packed;
 pub use blocks::Block;
@@ -38,7 +39,7 @@ pub use mesh_chunk::MeshChunk;
 pub use mesh_levels::MeshLevels;
 pub use pack::inverse_overlap_in_upper_half;
 pub use packed::LARGEST_TURN_RAD;
-pub use placed::Placed;
+pub use placed::{NO_TINT, Placed};
 pub use radii::RadiusStep;
 pub use rebase::{Rebase, ViewFromLocal};
 pub use refinements::{Group, Refinement, Refinements};
@@ -116,7 +117,7 @@ impl PreparedScene {
 /// first frame and the batch lives until then. `progress` is called with splats done and splats in all.
 ///
 /// # Errors
-/// Whatever the allocator, the driver or `submit` answers.
+/// [`crate::ErrorKind::Option`] for a scene that is to be updatable and can't be; whatever the allocator, the driver or `submit` answers.
 pub fn prepare(
     device: &Device,
     limits: &Limits,
@@ -131,7 +132,7 @@ pub fn prepare(
 /// A scene as it would be prepared on a device with these limits, without its memory: for a frame that is listed, never drawn.
 ///
 /// # Errors
-/// None today.
+/// As [`prepare`], but for those of a device.
 pub(crate) fn prepare_without_device(limits: &Limits, scene: &Scene) -> Result<PreparedScene> {
     cut(None, limits, scene, &|_, _| {})
 }

@@ -23,7 +23,12 @@ impl RadiusCounts {
 
     /// One more, of a finite radius.
     pub fn add(&mut self, radius: f64) {
-        self.0[(radius.abs().to_bits() >> SHIFT) as usize] += 1;
+        self.add_several(radius, 1);
+    }
+
+    /// So many more of that.
+    pub fn add_several(&mut self, radius: f64, count: u32) {
+        self.0[(radius.abs().to_bits() >> SHIFT) as usize] += count;
     }
 
     /// The steps that there are, the smallest first.

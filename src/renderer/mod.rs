@@ -166,11 +166,17 @@ impl Renderer {
     ) -> Result<FramePlan<'a>> {
         self.check(camera, settings)?;
         passes::check_lights(scenes)?;
-        for (number, Placed { scene, at }) in scenes.iter().enumerate() {
-            at.validate().map_err(|error| match scenes.len() {
+        for (number, placed) in scenes.iter().enumerate() {
+            let Placed { scene, at, .. } = placed;
+            let of_scene = |what: &str, error: Error| match scenes.len() {
                 1 => error,
-                _ => Error::option("placement", format!("of scene {number}: {error}")),
-            })?;
+                _ => Error::option(what, format!("of scene {number}: {error}")),
+            };
+            at.validate().map_err(|error| of_scene("placement", error))?;
+            if let Some(before) = placed.before {
+                before.validate().map_err(|error| of_scene("placement before", error))?;
+            }
+            placed.check_tint().map_err(|error| of_scene("tint", error))?;
             if !scene.is_on(&self.device) {
                 return Err(Error::option("scene", "was prepared for another device"));
             }

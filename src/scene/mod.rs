@@ -128,6 +128,9 @@ pub struct Scene {
     /// For [`crate::renderer::Renderer::plan_pick`]: for each splat and triangle the host keeps 4 bytes, its number in its object, when the scene is
     /// prepared.
     pub numbered: bool,
+    /// For [`crate::renderer::Renderer::update`]: for each splat the host keeps what the device has of it, 40 bytes of a disk and 56 of an ellipse, and 8 of where that is.
+    /// Each has a color of its own on the device. Not for levels of detail, nor for [`SplatFormat::Packed`].
+    pub updatable: bool,
     /// Splats that have their levels of detail already, drawn behind [`Self::objects`].
     pub leveled: Vec<LeveledObject>,
     /// Levels of detail of meshes, at most one of each.

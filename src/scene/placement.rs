@@ -58,6 +58,12 @@ impl Placement {
         Ok(Self { rotation, scale, translation: world_from_scene.w_axis.truncate() })
     }
 
+    /// The matrix, of columns, that takes points of the scene to the world.
+    pub fn world_from_scene(&self) -> DMat4 {
+        let scale = DVec3::splat(self.scale);
+        DMat4::from_scale_rotation_translation(scale, self.rotation.normalize(), self.translation)
+    }
+
     /// Refuses a placement that is none.
     ///
     /// # Errors

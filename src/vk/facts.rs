@@ -13,7 +13,7 @@ use super::{
 use crate::error::{ErrorKind, Result};
 
 /// Storage buffers that a stage must be able to see: two of a chunk of splats, and those of lists.
-pub(crate) const LEAST_STORAGE_BUFFERS: u32 = 7;
+pub(crate) const LEAST_STORAGE_BUFFERS: u32 = 8;
 
 /// Every physical device with its facts, in Vulkan's order.
 ///

@@ -41,8 +41,9 @@ pub struct Attachments {
     pub samples: vk::SampleCountFlags,
     /// The format of the stencil attachment, which is left as it is.
     pub stencil_format: vk::Format,
-    /// Only the first color attachment is written; with several that needs `independentBlend`.
-    pub first_alone: bool,
+    /// The first color attachment is written as `blend` says, and so many behind it are replaced; the others are left. `None`: all are written alike. With
+    /// several attachments it needs `independentBlend`.
+    pub beside_first: Option<u32>,
 }
 
 impl Default for Attachments {
@@ -50,7 +51,7 @@ impl Default for Attachments {
         Self {
             samples: vk::SampleCountFlags::TYPE_1,
             stencil_format: vk::Format::UNDEFINED,
-            first_alone: false,
+            beside_first: None,
         }
     }
 }
@@ -133,9 +134,13 @@ impl GraphicsPipeline {
             .alpha_blend_op(vk::BlendOp::ADD)
             .color_write_mask(vk::ColorComponentFlags::RGBA);
         let untouched = vk::PipelineColorBlendAttachmentState::default();
-        let written = |i| i == 0 || !desc.attachments.first_alone;
-        let attachments: Vec<_> =
-            (0..desc.color_formats.len()).map(|i| if written(i) { add } else { untouched }).collect();
+        let replaced = untouched.color_write_mask(vk::ColorComponentFlags::RGBA);
+        let attachment = |i: usize| match desc.attachments.beside_first {
+            Some(replace) if i > replace as usize => untouched,
+            Some(_) if i > 0 => replaced,
+            _ => add,
+        };
+        let attachments: Vec<_> = (0..desc.color_formats.len()).map(attachment).collect();
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);

@@ -16,10 +16,11 @@ fn example(name: &str) -> PathBuf {
 fn every_example_leaves_its_pictures_and_the_layer_is_silent() {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.child(name);
-    let runs: [(&str, Vec<String>, Vec<&str>); 5] = [
+    let runs: [(&str, Vec<String>, Vec<&str>); 6] = [
         ("minimal", vec!["minimal.png".to_owned()], vec!["minimal.png"]),
         ("turntable", vec!["2".to_owned(), "turn%04d.png".to_owned()], vec!["turn0000.png", "turn0001.png"]),
         ("embed", vec!["embed.png".to_owned()], vec!["embed.png"]),
+        ("custom_pass", vec!["custom_pass.png".to_owned()], vec!["custom_pass.png"]),
         ("stereo", vec!["stereo.png".to_owned()], vec!["stereo.png"]),
         ("animated", vec!["2".to_owned(), "wave%04d.png".to_owned()], vec!["wave0000.png", "wave0001.png"]),
     ];
@@ -39,5 +40,5 @@ fn every_example_leaves_its_pictures_and_the_layer_is_silent() {
         }
         tried += 1;
     }
-    assert_eq!(tried, 5);
+    assert_eq!(tried, 6);
 }

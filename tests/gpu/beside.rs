@@ -6,12 +6,15 @@ mod engine;
 mod changing;
 mod conventions;
 mod faults;
+mod objects;
 mod recording;
+mod tints;
 mod transparent;
+mod updates;
 mod written;
 
 use ash::vk;
-use engine::{COLOR_FORMAT, Engine, Style};
+use engine::{COLOR_FORMAT, Engine, OBJECT_FORMATS, Style};
 use glam::{DVec3, DVec4};
 use surfel::{
     Scene, Settings,
@@ -44,9 +47,13 @@ impl Beside {
         // SAFETY: all is the engine's own, which goes last.
         let device = unsafe { Device::import(&engine.lent()) }.unwrap();
         let renderer = Renderer::new(&device, None).unwrap();
-        let Style { depth_format, compare, samples, .. } = style;
+        let Style { depth_format, compare, samples, tells_objects, .. } = style;
+        let mut color_formats = vec![COLOR_FORMAT];
+        color_formats.extend(OBJECT_FORMATS.into_iter().filter(|_| tells_objects));
         let rendering = Rendering {
-            color_formats: vec![COLOR_FORMAT],
+            color_formats,
+            ids: tells_objects,
+            motion: tells_objects,
             depth_format,
             compare,
             samples,
@@ -75,6 +82,18 @@ impl Beside {
         corners: &[DVec3; 3],
         gives_depth: bool,
     ) {
+        self.draw_after(scenes, [camera, camera], settings, corners, gives_depth);
+    }
+
+    /// The same, of a camera that was another one in the frame before, the second.
+    fn draw_after(
+        &mut self,
+        scenes: &[Placed<'_>],
+        [camera, before]: [&HostCamera; 2],
+        settings: &Settings,
+        corners: &[DVec3; 3],
+        gives_depth: bool,
+    ) {
         let depth = self.engine.depth;
         let written = ImageState {
             stages: vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
@@ -91,7 +110,8 @@ impl Beside {
             after: written,
         };
         let hides = gives_depth.then_some(hides);
-        let frame = ViewFrame { hides, ..ViewFrame::new(scenes, camera, settings) };
+        let frame =
+            ViewFrame { hides, camera_before: Some(before), ..ViewFrame::new(scenes, camera, settings) };
         let in_clip =
             |at: &DVec3| (camera.clip_from_view * camera.view_from_world * at.extend(1.0)).as_vec4();
         let corners = [0, 1, 2].map(|i| in_clip(&corners[i]).to_array());

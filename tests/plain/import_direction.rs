@@ -2,7 +2,7 @@
 //!
 //! Works on the text, not on a build, so that also code behind features and in tests is held to it.
 
-mod paths;
+pub mod paths;
 
 use std::{fs, path::Path};
 

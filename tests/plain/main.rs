@@ -5,6 +5,7 @@ mod shader_build;
 
 mod import_direction;
 mod instructions;
+mod public_items;
 mod report;
 mod shaders;
 mod splat_file;

@@ -29,7 +29,7 @@ static void structs(void) {
     OK(surfel_scene_create(&newer.known, &scene));
     surfel_scene_destroy(scene);
     newer.later = 1;
-    IS(NEWER_STRUCT, surfel_scene_create(&newer.known, &scene), "size 32: this library knows 24 bytes");
+    IS(NEWER_STRUCT, surfel_scene_create(&newer.known, &scene), "size 40: this library knows 32 bytes");
     TRUE(scene == NULL);
     /* And one of yesterday. */
     info.size = offsetof(SurfelSceneInfo, levels);
@@ -153,6 +153,7 @@ int main(int argc, char **argv) {
         IS(INVALID_ARGUMENT, surfel_renderer_create(NULL, NULL, &renderer), "device is NULL");
         OK(surfel_renderer_create(device, NULL, &renderer));
         dynamic(engine, device, renderer);
+        objects(engine, device, renderer);
         frames(engine, device, renderer, foreign, i == 0);
     }
     surfel_device_destroy(other);

@@ -85,7 +85,7 @@ pub fn picture(engine: &Path) -> Vec<[f32; 3]> {
             let at = DVec3::new(x - scale * cx, -scale * cy, -scale * cz);
             let matrix = DMat4::from_diagonal(DVec3::splat(scale).extend(1.0));
             let matrix = DMat4 { w_axis: at.extend(1.0), ..matrix };
-            Placed { scene: &prepared, at: Placement::of_matrix(&matrix).unwrap() }
+            Placed::new(&prepared, Placement::of_matrix(&matrix).unwrap())
         });
         let focal = 0.4_f64.tan().recip();
         let mut clip_from_view = DMat4::ZERO;
@@ -98,6 +98,7 @@ pub fn picture(engine: &Path) -> Vec<[f32; 3]> {
             scenes: &scenes,
             camera: &HostCamera { view_from_world, clip_from_view, flips_y: false },
             settings: &Settings { size_px: [640, 480], ..Settings::default() },
+            camera_before: None,
             corner_px: [0; 2],
             hides: None,
             profile: None,

@@ -4,6 +4,7 @@
 pub(crate) mod depth_in;
 pub(crate) mod depth_out;
 pub(crate) mod layers_out;
+pub(crate) mod objects_out;
 
 use ash::vk;
 
@@ -12,12 +13,18 @@ use crate::graph::{Handle, Image};
 /// The format in which the depth of the opaque surface is left: w as `glsl/inc/projection.glsl` has it, 0 where there is nothing.
 pub(crate) const SURFACE_DEPTH_FORMAT: vk::Format = vk::Format::R32_SFLOAT;
 
+/// The format in which it is left whose the surface is: one more than the number of what is seen among the splats and meshes of the frame, 0 where there is
+/// nothing.
+pub(crate) const OBJECTS_FORMAT: vk::Format = vk::Format::R32_UINT;
+
 /// What a host gives to a frame, and gets of it beside the opaque surface, which is the frame's target.
 pub(crate) struct BesideHost<'h> {
     /// The depth of what the host has drawn, and how it follows from w; it hides transparent layers.
     pub hides: Option<(&'h Handle<Image>, HostDepth)>,
     /// Where the opaque surface's own depth is left.
     pub depth: &'h mut Handle<Image>,
+    /// Where it is left whose the surface is, in frames that find it ([`crate::passes::FramePlan::with_objects`]).
+    pub objects: Option<&'h mut Handle<Image>>,
     /// Where transparent layers are left, where there are any.
     pub layers: Option<&'h mut Handle<Image>>,
 }

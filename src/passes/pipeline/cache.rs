@@ -32,7 +32,7 @@ use crate::{
 /// Bindings of set 1 of the splat passes.
 const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
 
-const _: () = assert!(2 + LIST_BINDINGS <= crate::vk::LEAST_STORAGE_BUFFERS);
+const _: () = assert!(3 + LIST_BINDINGS <= crate::vk::LEAST_STORAGE_BUFFERS);
 
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
 pub fn room_of_lists(sets: u32) -> PoolSizes {
@@ -58,6 +58,8 @@ pub struct Shaders {
     pub(crate) sums_set: SetLayout,
     /// Set 0 of the hierarchy of depth: the depth, the hierarchy.
     pub(crate) cells_set: SetLayout,
+    /// Set 1 of what is laid over a host's picture: whose the surface is, and what is known of that.
+    pub(crate) objects_set: SetLayout,
     pub(crate) splat_layout: PipelineLayout,
     /// The sets and constants of the splat passes for compute alone. lavapipe of Mesa 22.3 crashes where a query of
     /// counts begins after constants were pushed for the stages of a graphics pipeline and before one was bound.
@@ -94,7 +96,8 @@ impl Shaders {
         of_lists.push(planes(compute));
         let list_set = set("lists", &of_lists)?;
         let filtered = Binding { kind: vk::DescriptorType::COMBINED_IMAGE_SAMPLER, stages: fragment };
-        let read_set = set("read by fragments", &[image, filtered, image, lights, planes(fragment)])?;
+        let tints = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: vertex };
+        let read_set = set("read by fragments", &[image, filtered, image, lights, planes(fragment), tints])?;
         let sums_set = set("sums", &[image, image, image, image, image, lights])?;
         let splat_layout = PipelineLayout::new(
             device,
@@ -117,10 +120,12 @@ impl Shaders {
             size_of::<constants::FinalizeConstants>() as u32,
             fragment,
         )?;
+        let of_fragments = Binding { kind: vk::DescriptorType::STORAGE_BUFFER, stages: fragment };
+        let objects_set = set("objects of a host", &[image, of_fragments])?;
         let host_layout = PipelineLayout::new(
             device,
             "beside a host",
-            &[&sums_set],
+            &[&sums_set, &objects_set],
             size_of::<constants::HostDepth>() as u32,
             fragment,
         )?;
@@ -147,6 +152,7 @@ impl Shaders {
             finalize_layout,
             host_layout,
             cells_set,
+            objects_set,
             cells_layout,
             tiles,
             #[cfg(feature = "test-formulas")]

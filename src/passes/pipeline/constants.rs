@@ -122,6 +122,22 @@ pub struct HostDepth {
     pub offset: f32,
 }
 
+/// An object of a host's, and how it has moved since a frame before; see `glsl/inc/host_objects.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct HostObject {
+    /// Rows of a matrix less that of what stands still, times a pixel's place from the view's corner, 1 and w: of where it was, in pixels.
+    pub x: [f32; 4],
+    /// As above.
+    pub y: [f32; 4],
+    /// As above; of what divides both.
+    pub over: [f32; 4],
+    /// The host's own number.
+    pub id: u32,
+    /// 0.
+    pub unused: [u32; 3],
+}
+
 /// What the passes over tiles are told; see `glsl/tile/constants.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

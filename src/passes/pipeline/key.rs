@@ -26,6 +26,11 @@ impl Layout {
     pub fn has_planes(self) -> bool {
         matches!(self, Self::Splat | Self::List | Self::Record | Self::Tile)
     }
+
+    /// Whether they have one for the tints of chunks.
+    pub fn has_tints(self) -> bool {
+        matches!(self, Self::Splat | Self::Record)
+    }
 }
 
 /// All that a graphics pipeline is made of.

@@ -104,6 +104,18 @@ impl Drawn {
         }
     }
 
+    /// The shaders that find whose the visible surface is.
+    pub fn objects(self) -> Stages {
+        let fragment: &'static Shader = match self {
+            Self::PlainPoints => &shaders::OBJECTS_PLAIN_FRAG,
+            Self::FullQuads => &shaders::OBJECTS_FULL_FRAG,
+            Self::CenterPoints | Self::CenterQuads => &shaders::OBJECTS_CENTER_FRAG,
+            Self::RayPoints | Self::RayQuads => &shaders::OBJECTS_RAYS_FRAG,
+            Self::Triangles => &shaders::OBJECTS_TRIANGLES_FRAG,
+        };
+        (self.visibility(false).0, fragment)
+    }
+
     /// The shaders of accumulation.
     pub fn accumulate(self, summed: Summed) -> Stages {
         let alone = matches!(summed, Summed::Opaque { beside_polygons: false, .. });

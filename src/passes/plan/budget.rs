@@ -38,7 +38,7 @@ pub(crate) fn within_budget<'s>(
     let others: u64 = others.map(|chunk| u64::from(chunk.count)).sum();
     let most = (SHARE * f64::from(most)) as i64 - others as i64;
     let asked_px = settings.tau_px();
-    let counted = |Placed { scene, at }: &Placed<'_>| {
+    let counted = |Placed { scene, at, .. }: &Placed<'_>| {
         Counted::new(&scene.refinements, &at.camera(camera), settings).nodes
     };
     let nodes = scenes.iter().map(counted).collect::<Vec<_>>().concat();

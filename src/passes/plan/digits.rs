@@ -25,7 +25,7 @@ pub fn check(scenes: &[Placed<'_>], camera: &Camera) -> Result<()> {
     if camera.is_orthographic() {
         return check_range(scenes, camera);
     }
-    scenes.iter().try_for_each(|Placed { scene, at }| check_near(scene, &at.camera(camera)))
+    scenes.iter().try_for_each(|Placed { scene, at, .. }| check_near(scene, &at.camera(camera)))
 }
 
 /// The same of one scene, from a camera in its own space.

@@ -31,6 +31,8 @@ use crate::{
 pub struct Draw<'a> {
     /// The splats.
     pub chunk: &'a Chunk,
+    /// The number of their scene among those that the frame shows.
+    pub placed: u32,
     /// What its shaders are told.
     pub constants: FrameConstants,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
@@ -95,7 +97,7 @@ pub(crate) fn by_variant<T: Copy>(
 
 /// All chunks of splats of a scene as seen from a camera.
 pub fn draws<'a>(
-    Placed { scene, at }: Placed<'a>,
+    Placed { scene, at, .. }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
     settings: &Settings,
     limits: &Limits,
@@ -159,6 +161,7 @@ pub fn draws<'a>(
         }
         Draw {
             chunk,
+            placed: 0,
             constants,
             largest_box_px,
             boxes: chunk.radii.iter().map(box_of).collect(),

@@ -34,7 +34,7 @@ pub(crate) fn check(scenes: &[Placed<'_>]) -> Result<()> {
 
 /// The lights of all scenes, which shine on all of them, as a camera sees them.
 pub(crate) fn shader_lights(scenes: &[Placed<'_>], camera: &Camera) -> Vec<ShaderLight> {
-    let of_scene = |Placed { scene, at }: &Placed<'_>| of_scene(&scene.lights, &at.camera(camera));
+    let of_scene = |Placed { scene, at, .. }: &Placed<'_>| of_scene(&scene.lights, &at.camera(camera));
     each_once(scenes).flat_map(of_scene).take(MOST_LIGHTS).collect()
 }
 
@@ -73,16 +73,12 @@ mod tests {
     fn a_scene_shines_once_wherever_it_stands_and_too_many_lights_are_refused() {
         let (one, two) = (lit(1), lit(2));
         let at = Placement { scale: 2.0, ..Placement::default() };
-        let all = [
-            Placed::at_home(&one),
-            Placed { scene: &one, at },
-            Placed::at_home(&two),
-            Placed { scene: &two, at },
-        ];
+        let all =
+            [Placed::at_home(&one), Placed::new(&one, at), Placed::at_home(&two), Placed::new(&two, at)];
         assert_eq!(shader_lights(&all, &Camera::default()).len(), 3);
         check(&all).unwrap();
         let many = lit(MOST_LIGHTS);
-        check(&[Placed::at_home(&many), Placed { scene: &many, at }]).unwrap();
+        check(&[Placed::at_home(&many), Placed::new(&many, at)]).unwrap();
         assert!(check(&[Placed::at_home(&many), Placed::at_home(&one)]).is_err());
     }
 }

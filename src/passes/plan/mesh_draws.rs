@@ -14,6 +14,8 @@ use crate::{
 pub struct MeshDraw<'a> {
     /// The triangles.
     pub chunk: &'a MeshChunk,
+    /// The number of their scene among those that the frame shows.
+    pub placed: u32,
     /// What its shaders are told.
     pub constants: FrameConstants,
     /// Triangles that face away are not drawn.
@@ -34,7 +36,7 @@ impl MeshDraw<'_> {
 
 /// All pieces of meshes of a scene as seen from a camera; those in cells as a whole where no levels of detail are drawn.
 pub fn mesh_draws<'a>(
-    Placed { scene, at }: Placed<'a>,
+    Placed { scene, at, .. }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
     settings: &Settings,
 ) -> Vec<MeshDraw<'a>> {
@@ -48,6 +50,7 @@ pub fn mesh_draws<'a>(
         let view = chunk.rebase.view_from_local(camera);
         MeshDraw {
             chunk,
+            placed: 0,
             constants: FrameConstants {
                 chunk_color: u32::from(chunk.uniform_color),
                 ..frame_constants(&view, (camera, range), settings, (0.0, epsilon))

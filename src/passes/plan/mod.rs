@@ -17,6 +17,7 @@ pub(crate) mod lights;
 pub(crate) mod mesh_draws;
 pub(crate) mod method;
 pub(crate) mod needs;
+pub(crate) mod objects;
 pub(crate) mod planes;
 pub(crate) mod range;
 pub(crate) mod seen;
@@ -53,6 +54,8 @@ pub struct FramePlan<'a> {
     pub planes: Vec<planes::ShaderPlane>,
     /// How deep it reaches.
     pub range: DepthRange,
+    /// What is opaque once more, for the pass that finds whose the visible surface is, where that is asked for.
+    pub objects: Option<SurfacePlan<'a>>,
 }
 
 /// How things are drawn that are drawn alike: all that is opaque, or all that is transparent.
@@ -98,9 +101,18 @@ impl<'a> FramePlan<'a> {
         let settings = &*budget::within_budget(scenes, camera, settings);
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
-        let splats = scenes.iter().flat_map(|placed| draws(*placed, (camera, range), settings, limits));
+        let splats = (0..).zip(scenes).flat_map(|(number, placed)| {
+            let of_number = move |mut draw: Draw<'a>| {
+                draw.placed = number;
+                draw
+            };
+            draws(*placed, (camera, range), settings, limits).into_iter().map(of_number)
+        });
         let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
-        let meshes = scenes.iter().flat_map(|placed| mesh_draws(*placed, (camera, range), settings));
+        let meshes = (0..).zip(scenes).flat_map(|(number, placed)| {
+            let of_number = move |draw| MeshDraw { placed: number, ..draw };
+            mesh_draws(*placed, (camera, range), settings).into_iter().map(of_number)
+        });
         let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
         let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
         let lights = lights::shader_lights(scenes, camera);
@@ -113,6 +125,7 @@ impl<'a> FramePlan<'a> {
             lights,
             planes: planes::shader_planes((camera, range), settings),
             range,
+            objects: None,
         }
     }
 }
@@ -137,9 +150,16 @@ impl<'a> SurfacePlan<'a> {
         limits: &Limits,
     ) -> Self {
         let (accumulate, mut sums) = sums::sums(settings, limits);
+        // Behind the splats; what chooses cells counts them by itself.
+        let number_meshes = |meshes: &mut [MeshDraw<'a>], first: usize| {
+            for (draw, number) in meshes.iter_mut().zip(first as u32..) {
+                draw.constants.number_chunk(number);
+            }
+        };
         let mut settings = Settings { accumulate, ..settings.clone() };
         if splats.is_empty() {
             meshes.iter_mut().for_each(|draw| draw.levels = None);
+            number_meshes(&mut meshes, 0);
             return Self { meshes, settings, sums, ..Self::default() };
         }
         let polygons = !meshes.is_empty();
@@ -158,6 +178,7 @@ impl<'a> SurfacePlan<'a> {
         if !plan.chooses_levels() {
             plan.meshes.iter_mut().for_each(|draw| draw.levels = None);
         }
+        number_meshes(&mut plan.meshes, plan.splats.len());
         plan.choose_edges(transparent);
         plan
     }
@@ -223,6 +244,12 @@ impl<'a> SurfacePlan<'a> {
         let by_sums = |plan: &TilePlan| plan.may_be_large || polygons && plan.may_overflow();
         let as_colors = !polygons || settings.transition != Transition::Attributes;
         as_colors && !self.bands().iter().any(|band| by_sums(&band.plan))
+    }
+
+    /// Whether it is what is drawn in layers.
+    pub(crate) fn is_transparent(&self) -> bool {
+        let splats = self.splats.first().map(|draw| draw.chunk.transparent);
+        splats.or(self.meshes.first().map(|draw| draw.chunk.transparent)).unwrap_or_default()
     }
 
     /// Nothing at all.

@@ -40,6 +40,14 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
     // Sums: for finalization, of tiles and of polygons, and for the export; the depth of tiles of each band; and each layer.
     // Those of samples, two more.
     let sums = 3 + bands + layers + if settings.samples.0 > 1 { 2 } else { 0 };
+    // To find whose the surface is: three passes that list large ones, one that draws them and all others; those that list visible ones.
+    let (lists, reads) = match &plan.objects {
+        None => (lists, reads),
+        Some(objects) => {
+            let large = objects.splats.iter().filter(|draw| draw.may_be_large).count() as u32;
+            (lists + 4 * large + 1 + 8 * u32::from(objects.visible().is_some()), reads + 1)
+        }
+    };
     let bands_of_all = plan.opaque.bands().iter().chain(plan.transparent.bands());
     let tiles = bands_of_all.fold(PoolSizes::default(), |sum, _| sum.plus(&room_of_tiles()));
     let counted = counts_draws && matches!(settings.layers, Layers::Auto(_)) && layers > 0;
@@ -48,7 +56,7 @@ pub fn needs(plan: &FramePlan<'_>, settings: &Settings, counts_draws: bool) -> N
             sets: reads + sums + 1,
             uniform_buffers: 2 * reads + sums,
             // The cells of depth have a buffer and an image.
-            buffers: 1,
+            buffers: 1 + reads,
             images: 2 * reads + 5 * sums + 1,
             filtered_images: reads,
             ..PoolSizes::default()

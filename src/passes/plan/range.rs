@@ -20,7 +20,7 @@ impl DepthRange {
         if !camera.is_orthographic() {
             return Self::default();
         }
-        let ends = scenes.iter().flat_map(|Placed { scene, at }| {
+        let ends = scenes.iter().flat_map(|Placed { scene, at, .. }| {
             let (camera, scale) = (at.camera(camera), at.scale);
             let splats = scene.chunks.iter().map(move |chunk| {
                 let view = chunk.rebase.view_from_local(&camera);

@@ -40,7 +40,7 @@ pub(crate) struct Opaque<'a> {
     pub splats: Option<Sums>,
     /// The polygons that are seen.
     pub polygons: Option<Sums>,
-    /// The depth of splats, moved away from the eye by ε.
+    /// The depth of splats, moved away from the eye by ε; where all is shown already and layers read it, that of polygons with it.
     pub splat_depth: Option<Handle<Image>>,
     /// The depth of polygons, or of the splats where those are nearer; where all is shown already, of polygons alone.
     pub polygon_depth: Option<Handle<Image>>,
@@ -48,6 +48,8 @@ pub(crate) struct Opaque<'a> {
     pub tiles: Vec<Tiles<'a>>,
     /// What these and polygons show, in place of sums.
     pub shown: Option<Handle<Image>>,
+    /// Polygons are among what is shown.
+    pub shows_polygons: bool,
 }
 
 impl Opaque<'_> {
@@ -156,7 +158,8 @@ fn finalize_shown<'a>(
     constants: FinalizeConstants,
 ) -> Result<()> {
     let (mut pass, runs) = read_runs(pass, &opaque.tiles);
-    let of_polygons = match &opaque.polygon_depth {
+    // Where layers are hidden by it, both have one depth.
+    let of_polygons = match opaque.depth().filter(|_| opaque.shows_polygons) {
         None => None,
         Some(depth) => {
             pass = pass.uses(depth, Access::DepthTest);

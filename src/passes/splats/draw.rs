@@ -25,6 +25,7 @@ pub(crate) struct SplatPass {
     pub stages: Stages,
     pub stages_of_quads: Stages,
     pub color_formats: Vec<vk::Format>,
+    pub blend: Blend,
     /// The depth test and whether it writes, where there is one.
     pub depth: Option<(vk::CompareOp, bool)>,
     /// Specialization constants beside those of the splats.
@@ -58,6 +59,7 @@ impl SplatPass {
             stages: stages(Drawn::of(primitive, settings)),
             stages_of_quads: stages(Drawn::of(Primitive::Quad, settings)),
             color_formats: Vec::new(),
+            blend: Blend::Add,
             depth: None,
             constants: Vec::new(),
         }
@@ -75,7 +77,7 @@ impl SplatPass {
         let constants = [draw.variant.as_slice(), &self.constants, &[some_large, half_sums]].concat();
         GraphicsKey {
             color_formats: self.color_formats.clone(),
-            blend: Blend::Add,
+            blend: self.blend,
             depth: self.depth,
             ..GraphicsKey::new(stages, Layout::Splat, primitive.topology(), constants)
         }

@@ -33,6 +33,7 @@ pub const HOST_STRUCTS: &[HostStruct] = &[
     ("PaperConstants", "crate::passes::PaperConstants"),
     ("FinalizeConstants", "crate::passes::FinalizeConstants"),
     ("HostDepth", "crate::passes::HostDepth"),
+    ("HostObject", "crate::passes::HostObject"),
     ("TileConstants", "crate::passes::TileConstants"),
 ];
 

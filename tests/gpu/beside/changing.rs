@@ -77,7 +77,7 @@ fn placed_scenes_are_seen_as_if_they_had_been_uploaded_there() {
             beside.draw(placed, &camera, settings, &BEHIND, false);
             (beside.engine.pixels(), beside.engine.depths())
         };
-        let (placed, depths) = picture(&[Placed { scene: &own, at }]);
+        let (placed, depths) = picture(&[Placed::new(&own, at)]);
         let (uploaded, expected_depths) = picture(&[Placed::at_home(&moved)]);
         let difference = |one: &[[f32; 4]], other: &[[f32; 4]]| {
             one.iter().flatten().zip(other.iter().flatten()).filter(|(a, b)| (*a - *b).abs() > 1e-3).count()
@@ -92,7 +92,7 @@ fn placed_scenes_are_seen_as_if_they_had_been_uploaded_there() {
         assert!(far < 40 && same + 30 > depths.len(), "{name}: {far} {same}");
         // Once more, far off and out of sight: it does not shine twice.
         let away = Placement { translation: DVec3::new(0.0, 0.0, 1e3), ..at };
-        let (twice, _) = picture(&[Placed { scene: &own, at }, Placed { scene: &own, at: away }]);
+        let (twice, _) = picture(&[Placed::new(&own, at), Placed::new(&own, away)]);
         assert!(difference(&placed, &twice) < 40, "{name}");
         seen.push(placed);
     }
@@ -119,7 +119,7 @@ fn memory_after(frames: usize) {
                 let mut unit = || 2.0 * random.unit() - 1.0;
                 let translation = 1.5 * DVec3::new(unit(), unit(), unit());
                 let at = Placement { translation, scale: 0.6 + 0.4 * unit(), ..Placement::default() };
-                Placed { scene: &balls[(3.0 * random.unit()) as usize], at }
+                Placed::new(&balls[(3.0 * random.unit()) as usize], at)
             })
             .collect();
         beside.draw(&placed, &camera(), &settings, &BEHIND, false);

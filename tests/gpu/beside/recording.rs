@@ -63,7 +63,7 @@ fn recording_costs_so_much() {
             let placed: Vec<_> = (0..scene_count)
                 .map(|i| {
                     let translation = 0.02 * f64::from(i) * DVec3::new(1.0, 0.3, -0.2);
-                    Placed { scene: &ball, at: Placement { translation, ..Placement::default() } }
+                    Placed::new(&ball, Placement { translation, ..Placement::default() })
                 })
                 .collect();
             for moves in [false, true] {

@@ -123,13 +123,13 @@ fn tree(tokens: &[Token], mut at: usize, mut start: Start, found: &mut Vec<UsedP
 }
 
 /// A word, `::`, or one other character.
-struct Token {
-    text: String,
+pub struct Token {
+    pub text: String,
     line: usize,
 }
 
 /// The text without comments, strings, characters and lifetimes.
-fn tokens(text: &str) -> Vec<Token> {
+pub fn tokens(text: &str) -> Vec<Token> {
     let chars: Vec<char> = text.chars().collect();
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let starts_with = |at: usize, what: &str| what.chars().zip(at..).all(|(c, i)| chars.get(i) == Some(&c));

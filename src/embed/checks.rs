@@ -1,0 +1,74 @@
+//! What a view refuses of a frame before anything is recorded.
+
+use ash::vk;
+
+use super::{View, frame::ViewFrame};
+use crate::{
+    error::{Error, Result},
+    scene::{Camera, DepthOfHost, HostCamera},
+};
+
+impl View {
+    /// Refuses a camera whose depth grows where the rendering's test has it fall: all would be hidden, or nothing; of parallel rays a picture that is
+    /// turned over, too.
+    pub(super) fn check_order(&self, depth: DepthOfHost) -> Result<()> {
+        let nearer_is_greater = match depth {
+            DepthOfHost::Perspective { b, .. } => b > 0.0,
+            DepthOfHost::Orthographic { b, .. } => b < 0.0,
+        };
+        match self.rendering.nearer_is_greater() {
+            Some(greater) if self.rendering.has_depth() && greater != nearer_is_greater => {
+                let (compare, is) =
+                    (self.rendering.compare, if nearer_is_greater { "greater" } else { "less" });
+                let problem = format!(
+                    "{compare:?}, but by the camera's matrices what is nearer has the {is} depth: is depth reversed, or the viewport flipped?"
+                );
+                Err(Error::option("compare", problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn check_frame(&self, frame: &ViewFrame<'_>, layered: bool) -> Result<()> {
+        if frame.corner_px.iter().any(|at| *at < 0) {
+            let [x, y] = frame.corner_px;
+            return Err(Error::option(
+                "corner_px",
+                format!("{x},{y}: expected a corner within the host's image"),
+            ));
+        }
+        if !layered {
+            return Ok(());
+        }
+        let Some(hides) = &frame.hides else {
+            return match self.rendering.has_depth() {
+                false => Ok(()),
+                true => Err(Error::option(
+                    "hides",
+                    "something is transparent: expected the depth of what the host has drawn, which hides it pixel by pixel",
+                )),
+            };
+        };
+        let holds = |at: i32, side: u32, whole: u32| {
+            u64::from(at.unsigned_abs()) + u64::from(side) <= u64::from(whole)
+        };
+        let ([x, y], [width, height]) = (frame.corner_px, frame.settings.size_px);
+        match holds(x, width, hides.extent.width) && holds(y, height, hides.extent.height) {
+            true => Ok(()),
+            false => {
+                let vk::Extent2D { width: w, height: h } = hides.extent;
+                let problem = format!("{w}x{h} pixels: expected {width}x{height} from {x},{y} on");
+                Err(Error::option("hides", problem))
+            }
+        }
+    }
+
+    /// The camera of the frame before, where it is another one.
+    pub(super) fn camera_before(frame: &ViewFrame<'_>) -> Result<Option<Camera>> {
+        let of = |camera: &HostCamera| {
+            let refused = |error| Error::option("camera_before", format!("{error}"));
+            Ok(camera.camera(frame.settings.size_px).map_err(refused)?.0)
+        };
+        frame.camera_before.map(of).transpose()
+    }
+}

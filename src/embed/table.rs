@@ -1,0 +1,46 @@
+//! Tables that a view writes for the device, each frame where they are needed, in memory that both see.
+
+use ash::vk;
+
+use crate::{
+    error::Result,
+    vk::{Buffer, BufferDesc, Device, MemoryUse},
+};
+
+/// A table that is kept from frame to frame, in a storage buffer.
+#[derive(Default)]
+pub(super) struct Table(Option<Buffer>);
+
+impl Table {
+    /// Writes it, where there is room or in a new buffer, which it gives, with how many bytes it has.
+    ///
+    /// # Safety
+    /// The frame has finished that read it last.
+    ///
+    /// # Errors
+    /// Whatever the allocator answers.
+    pub unsafe fn write<T: bytemuck::Pod>(
+        &mut self,
+        device: &Device,
+        name: &str,
+        all: &[T],
+    ) -> Result<(vk::Buffer, u64)> {
+        let bytes: &[u8] = bytemuck::cast_slice(all);
+        let used = bytes.len() as u64;
+        let buffer = match self.0.take().filter(|kept| kept.size() >= used) {
+            Some(kept) => kept,
+            None => {
+                let (size, usage) = (used.max(1).next_power_of_two(), vk::BufferUsageFlags::STORAGE_BUFFER);
+                Buffer::new(device, BufferDesc { name, size, usage }, MemoryUse::Upload)?
+            }
+        };
+        let buffer = self.0.insert(buffer);
+        buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
+        Ok((buffer.raw(), used))
+    }
+
+    /// Bytes of device memory.
+    pub fn bytes(&self) -> u64 {
+        self.0.as_ref().map_or(0, Buffer::size)
+    }
+}
