@@ -100,15 +100,19 @@ impl<'a> FramePlan<'a> {
         let camera = &range.begin(camera);
         let splats = scenes.iter().flat_map(|placed| draws(*placed, (camera, range), settings, limits));
         let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
+        let again = |transparent: bool| {
+            let all = scenes.iter().flat_map(|placed| draws(*placed, (camera, range), settings, limits));
+            all.filter(|draw| draw.chunk.transparent == transparent).collect()
+        };
         let meshes = scenes.iter().flat_map(|placed| mesh_draws(*placed, (camera, range), settings));
         let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
-        let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
+        let mut transparent = SurfacePlan::new(clear_splats, || again(true), clear_meshes, settings, limits);
         let lights = lights::shader_lights(scenes, camera);
         for band in transparent.bands_mut() {
             band.plan = band.plan.clone().with_layers(settings.layers.most(), lights.len() as u32);
         }
         Self {
-            opaque: SurfacePlan::new(splats, meshes, settings, limits),
+            opaque: SurfacePlan::new(splats, || again(false), meshes, settings, limits),
             transparent,
             lights,
             planes: planes::shader_planes((camera, range), settings),
@@ -118,16 +122,20 @@ impl<'a> FramePlan<'a> {
 }
 
 impl<'a> SurfacePlan<'a> {
-    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen.
-    fn new(splats: Vec<Draw<'a>>, meshes: Vec<MeshDraw<'a>>, settings: &Settings, limits: &Limits) -> Self {
-        if meshes.iter().any(MeshDraw::is_all_splats) {
-            let others = meshes.iter().filter(|draw| !draw.is_all_splats()).cloned().collect();
-            let plan = Self::of(splats.clone(), others, settings, limits);
-            if plan.chooses_levels() {
-                return plan;
-            }
+    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen: then all of it is planned `again`.
+    fn new(
+        splats: Vec<Draw<'a>>,
+        again: impl FnOnce() -> Vec<Draw<'a>>,
+        meshes: Vec<MeshDraw<'a>>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        if !meshes.iter().any(MeshDraw::is_all_splats) {
+            return Self::of(splats, meshes, settings, limits);
         }
-        Self::of(splats, meshes, settings, limits)
+        let others = meshes.iter().filter(|draw| !draw.is_all_splats()).cloned().collect();
+        let plan = Self::of(splats, others, settings, limits);
+        if plan.chooses_levels() { plan } else { Self::of(again(), meshes, settings, limits) }
     }
 
     fn of(
