@@ -10,7 +10,7 @@ use super::{
 use crate::{
     error::{Error, ErrorKind, Result},
     load::{
-        BuiltIn, LoadOptions, Model, ObjectDescription, Representation, Source,
+        BuiltIn, LoadOptions, Loaded, Model, ObjectDescription, Representation, Source,
         builtin::{checkerboard, relief, sphere, sphere_mesh},
         file_name, load,
     },
@@ -48,7 +48,25 @@ pub fn make(
     progress: &dyn Progress,
 ) -> Result<BuiltObject> {
     let mut work = StepTimer { progress, steps: Vec::new() };
-    let Opened { model, name, notes, file } = open(object, options, &mut work)?;
+    let opened = open(object, options, &mut work)?;
+    make_opened(opened, object, work)
+}
+
+/// As [`make`], of an object of whose file this was read.
+///
+/// # Errors
+/// As [`make`], but for those of the file.
+pub fn make_loaded(
+    loaded: Loaded,
+    object: &ObjectDescription,
+    progress: &dyn Progress,
+) -> Result<BuiltObject> {
+    let opened = Opened::of(loaded, name_of(object));
+    make_opened(opened, object, StepTimer { progress, steps: Vec::new() })
+}
+
+fn make_opened(opened: Opened, object: &ObjectDescription, mut work: StepTimer<'_>) -> Result<BuiltObject> {
+    let Opened { model, name, notes, file } = opened;
     let up = file.as_ref().and_then(|file| file.up).map(DVec3::from_array);
     let parts = match model {
         Model::Splats { splats, closed } => place_splats(Object { name, splats, closed }, object),
@@ -80,20 +98,28 @@ struct Opened {
     file: Option<ModelReport>,
 }
 
-fn open(object: &ObjectDescription, options: &LoadOptions, work: &mut StepTimer<'_>) -> Result<Opened> {
-    let own = match &object.source {
+impl Opened {
+    fn of(loaded: Loaded, name: String) -> Self {
+        let file = Some(facts::of(&loaded));
+        Self { model: loaded.model, name, notes: loaded.notes, file }
+    }
+}
+
+fn name_of(object: &ObjectDescription) -> String {
+    let own = || match &object.source {
         Source::File(path) => file_name(path),
         Source::BuiltIn { model, .. } => format!("built-in {}", model.name()),
     };
-    let name = object.name.clone().unwrap_or(own);
-    let (mut notes, mut file) = (Vec::new(), None);
+    object.name.clone().unwrap_or_else(own)
+}
+
+fn open(object: &ObjectDescription, options: &LoadOptions, work: &mut StepTimer<'_>) -> Result<Opened> {
+    let name = name_of(object);
     let model = match &object.source {
         Source::File(path) => {
             let loaded = work.time(format!("read {name}"), |progress| load(path, options, progress))?;
-            file = Some(facts::of(&loaded));
             loaded.notes.iter().for_each(|note| work.progress.note(&format!("{}: {note}", path.display())));
-            notes = loaded.notes;
-            loaded.model
+            return Ok(Opened::of(loaded, name));
         }
         Source::BuiltIn { model, splats, triangles } => {
             work.time(format!("make the {name}"), |_| match object.representation {
@@ -103,7 +129,7 @@ fn open(object: &ObjectDescription, options: &LoadOptions, work: &mut StepTimer<
             })
         }
     };
-    Ok(Opened { model, name, notes, file })
+    Ok(Opened { model, name, notes: Vec::new(), file: None })
 }
 
 fn splats_of(model: BuiltIn, splats: u64) -> Model {

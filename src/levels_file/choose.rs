@@ -143,19 +143,57 @@ impl PageView {
         (own, bytes.into_iter().max().unwrap_or(0))
     }
 
+    /// The same view for another τ.
+    #[must_use]
+    pub fn with_tau(self, tau_px: f64) -> Self {
+        Self { tau_px, ..self }
+    }
+
+    /// Whether something that is so long may be longer on the screen than τ, wherever it is in this ball.
+    pub fn may_be_long(&self, length: f64, center: DVec3, radius: f64) -> bool {
+        let distance = self.view.eye.distance(center) - radius;
+        let distance = if self.is_orthographic { 1.0 } else { distance.max(self.near) };
+        length * self.focal_px > self.tau_px * distance * (1.0 - RESERVE)
+    }
+
     /// Whether something of a page may be in the picture.
     fn sees(&self, page: &PageEntry) -> bool {
-        let DVec3 { x, y, z } = self.view.point(page.center);
-        let radius = page.radius;
-        [(x, 0), (y, 1)].into_iter().all(|(at, axis)| {
-            // Distances of the picture's edges from its axis, on either side.
-            let before_px = self.middle_px[axis] + MARGIN_PX;
-            let behind_px = self.size_px[axis] - self.middle_px[axis] + MARGIN_PX;
-            [(at, before_px), (-at, behind_px)].into_iter().all(|(at, edge_px)| match self.is_orthographic {
-                true => (at + radius) * self.focal_px >= -edge_px,
-                false => at * self.focal_px + z * edge_px >= -radius * self.focal_px.hypot(edge_px),
-            })
-        }) && z >= -radius
+        self.sees_all_of(page.center, |across, along| page.radius * across.hypot(along))
+    }
+
+    /// Whether something in a box may be in the picture, or within `reach` of the box.
+    pub fn sees_box(&self, center: DVec3, half: DVec3, reach: f64) -> bool {
+        let middle = self.view.point(center);
+        let ends = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| self.view.point(center + half * axis) - middle);
+        let of_axis = |axis: usize, across: f64, along: f64| {
+            let of_ends = ends.map(|end| (across * end[axis] + along * end.z).abs());
+            of_ends.iter().sum::<f64>() + reach * across.hypot(along)
+        };
+        [0, 1]
+            .into_iter()
+            .all(|axis| self.is_between(middle, axis, |across, along| of_axis(axis, across, along)))
+            && middle.z >= -of_axis(0, 0.0, 1.0)
+    }
+
+    fn sees_all_of(&self, center: DVec3, reach: impl Fn(f64, f64) -> f64) -> bool {
+        let middle = self.view.point(center);
+        [0, 1].into_iter().all(|axis| self.is_between(middle, axis, &reach)) && middle.z >= -reach(0.0, 1.0)
+    }
+
+    /// Whether something is between the picture's two edges along an axis, 0 for x and 1 for y, or may be. `reach`: how far it reaches from its middle along a
+    /// direction that is so long across the view's axis, and so long along it; times that length.
+    fn is_between(&self, middle: DVec3, axis: usize, reach: impl Fn(f64, f64) -> f64) -> bool {
+        // Distances of the picture's edges from its axis, on either side.
+        let before_px = self.middle_px[axis] + MARGIN_PX;
+        let behind_px = self.size_px[axis] - self.middle_px[axis] + MARGIN_PX;
+        [(1.0, before_px), (-1.0, behind_px)].into_iter().all(|(side, edge_px)| {
+            let (across, along) = match self.is_orthographic {
+                true => (side * self.focal_px, 0.0),
+                false => (side * self.focal_px, edge_px),
+            };
+            let behind_edge = if self.is_orthographic { edge_px } else { 0.0 };
+            across * middle[axis] + along * middle.z + behind_edge >= -reach(across, along)
+        })
     }
 
     /// Whether something of a page may be drawn for a τ: as the plan of a frame tells it of blocks.

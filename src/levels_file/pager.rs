@@ -57,6 +57,10 @@ struct List {
     next: VecDeque<usize>,
     /// Begun, and not taken yet.
     begun: BTreeSet<usize>,
+    /// Read, and not taken yet.
+    arrived: usize,
+    /// They are not what the file's format demands, or can't be read.
+    broken: BTreeSet<usize>,
     is_closed: bool,
 }
 
@@ -114,29 +118,43 @@ impl Pager {
         &self.path
     }
 
-    /// What is wanted from now on, in this order, in the place of what was. What is being read, or has arrived, comes only once.
+    /// What is wanted from now on, in this order, in the place of what was. What is being read, or has arrived, comes only once; what [`Self::take`] has
+    /// called broken does not come again.
     pub fn want(&self, pages: &[usize]) {
         let mut list = self.wanted.lock();
-        let begun = std::mem::take(&mut list.begun);
-        list.next = pages.iter().copied().filter(|page| !begun.contains(page)).collect();
-        list.begun = begun;
+        let comes = |page: &usize| !list.begun.contains(page) && !list.broken.contains(page);
+        let next = pages.iter().copied().filter(comes).collect();
+        list.next = next;
         drop(list);
         self.wanted.changed.notify_one();
+    }
+
+    /// Whether something that is wanted has not been taken yet.
+    pub fn is_expected(&self) -> bool {
+        let list = self.wanted.lock();
+        !list.next.is_empty() || !list.begun.is_empty()
+    }
+
+    /// Whether [`Self::take`] would find something, or is about to.
+    pub fn has_arrived(&self) -> bool {
+        self.wanted.lock().arrived > 0
     }
 
     /// What has arrived since, without what nobody needs any more; `None` where that is nothing. With `wait`, waits for something, unless nothing is wanted.
     ///
     /// # Errors
-    /// As [`LevelsFile::check`], for the page at fault; it does not come again unless it is wanted again.
+    /// As [`LevelsFile::check`], for the page at fault, once: it is broken from now on.
     pub fn take(&self, is_needed: impl Fn(usize) -> bool, wait: bool) -> Result<Option<Arrived>> {
         let Some(receiver) = &self.arrived else { return Ok(None) };
         let (mut numbers, mut pages) = (Vec::new(), Vec::new());
-        let is_expected = || {
-            let list = self.wanted.lock();
-            !list.next.is_empty() || !list.begun.is_empty()
-        };
         let mut take = |(number, page): (usize, Result<Page>)| -> Result<()> {
-            self.wanted.lock().begun.remove(&number);
+            let mut list = self.wanted.lock();
+            list.begun.remove(&number);
+            list.arrived = list.arrived.saturating_sub(1);
+            if page.is_err() {
+                list.broken.insert(number);
+            }
+            drop(list);
             let page = page?;
             if is_needed(number) {
                 numbers.push(number);
@@ -144,7 +162,7 @@ impl Pager {
             }
             Ok(())
         };
-        if wait && is_expected() {
+        if wait && self.is_expected() {
             // The thread ends with the pager alone.
             receiver.recv().map_or(Ok(()), &mut take)?;
         }
@@ -184,7 +202,9 @@ fn read_all<R: Read + Seek>(
     arrived: &SyncSender<(usize, Result<Page>)>,
 ) {
     while let Some(number) = wanted.begin() {
-        if arrived.send((number, file.page(number))).is_err() {
+        let page = file.page(number);
+        wanted.lock().arrived += 1;
+        if arrived.send((number, page)).is_err() {
             return;
         }
     }

@@ -20,6 +20,8 @@ mod loaded;
 #[cfg(test)]
 mod mutate;
 mod obj;
+#[cfg(feature = "octrees")]
+mod octree;
 mod off;
 mod options;
 mod packed;
@@ -43,6 +45,8 @@ use input::Input;
 
 pub use foreign::runs_foreign_decoder;
 pub use loaded::{Loaded, Model};
+#[cfg(feature = "octrees")]
+pub use octree::{LevelOfOctree, NodeKey, OctreeNode, PointOctree, is_point_octree};
 pub use options::{Limits, LoadOptions};
 pub use ply::SplatRows;
 pub use scene_file::{
@@ -52,7 +56,7 @@ pub use scene_file::{
 pub use text::{Column, Columns};
 
 /// Reads a file whole, or standard input where the path is `-`: PLY, OBJ, rows of numbers (XYZ, PTS, CSV), PCD, OFF,
-/// STL, and with their Cargo features LAS, LAZ and COPC, E57, glTF and GLB; gzip or zstd around any of them.
+/// STL, and with their Cargo features LAS, LAZ and COPC, E57, glTF and GLB, and Potree 2 by its `metadata.json`; gzip or zstd around any of them.
 ///
 /// Elements that can't be drawn (not finite, zero size) stay in: the scene and geometry modules drop and count them.
 ///
@@ -94,11 +98,12 @@ fn parse(source: source::Source, options: &LoadOptions, progress: &dyn Progress)
         sniff::Format::Las => las::parse(&input),
         #[cfg(feature = "e57")]
         sniff::Format::E57 => e57::parse(&input),
-        #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las")))]
+        #[cfg(feature = "octrees")]
+        sniff::Format::Potree => octree::parse(&input),
+        #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las", feature = "octrees")))]
         other => {
-            let name = other.name();
-            Err(input
-                .fault("", format!("a {name} file, which needs the Cargo feature `{}`", name.to_lowercase())))
+            let (name, feature) = (other.name(), other.feature());
+            Err(input.fault("", format!("a {name} file, which needs the Cargo feature `{feature}`")))
         }
     }?;
     refuse_nothing(&input, &loaded)?;

@@ -22,6 +22,11 @@ pub(super) fn gray(intensities: &[f32]) -> Vec<[f32; 4]> {
     let finite = intensities.par_iter().copied().filter(|value| value.is_finite());
     let (least, largest) =
         finite.map(|v| (v, v)).reduce(|| (0.0, 0.0), |a: (f32, f32), b| (a.0.min(b.0), a.1.max(b.1)));
+    gray_within(intensities, [least, largest])
+}
+
+/// The same of intensities between two.
+pub(super) fn gray_within(intensities: &[f32], [least, largest]: [f32; 2]) -> Vec<[f32; 4]> {
     let range = if largest > least { largest - least } else { 1.0 };
     let gray = |value: &f32| {
         let gray = linear_from_srgb(unit((value - least) / range));

@@ -23,6 +23,8 @@ pub struct PagedScene {
     groups: Vec<Group>,
     /// Of each page.
     is_there: Vec<bool>,
+    /// What came last found no room.
+    is_full: bool,
 }
 
 /// Pages that came together, and share chunks.
@@ -63,7 +65,7 @@ impl PagedScene {
             refinements: Vec::new(),
             defects: Default::default(),
         };
-        Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there })
+        Ok(Self { pager, most_bytes, prepared, groups: Vec::new(), is_there, is_full: false })
     }
 
     /// The same under these lights.
@@ -87,11 +89,21 @@ impl PagedScene {
         self.is_there.iter().filter(|is_there| **is_there).count()
     }
 
+    /// Whether a view may become finer yet: something that it needs is read, and has room.
+    pub fn is_coming(&self) -> bool {
+        !self.is_full && self.pager.is_expected()
+    }
+
+    /// Whether [`Self::update`] would find something new.
+    pub fn has_arrived(&self) -> bool {
+        self.pager.has_arrived()
+    }
+
     /// Takes what has arrived since, has what these views need read in the background, and tells what each of them can draw now: `None` where not even the coarsest
     /// pages are there. Waits for nothing, or, with `wait`, for a page. What was dropped by this is destroyed when frames that use it are done.
     ///
     /// # Errors
-    /// As [`Pager::take`], and of `prepare`; [`crate::ErrorKind::Option`] where the memory does not suffice for the coarsest pages.
+    /// As [`Pager::take`], of each page that is at fault once: after that a view is as fine as it can be without it. Those of `prepare`; [`crate::ErrorKind::Option`] where the memory does not suffice for the coarsest pages.
     pub fn update(
         &mut self,
         views: &[PageView],
@@ -107,6 +119,7 @@ impl PagedScene {
         }
         let mut standing = ladder.standing(&self.is_there);
         self.pager.want(&standing.missing);
+        self.is_full = false;
         let mut is_needed = vec![false; pages.len()];
         standing.needed.iter().for_each(|page| is_needed[*page] = true);
         if let Some(arrived) = self.pager.take(|page| is_needed[page] && !self.is_there[page], wait)? {
@@ -135,6 +148,7 @@ impl PagedScene {
             let shares = self.groups.iter().map(unneeded).enumerate().filter(|(_, share)| *share > 0.0);
             let Some((group, _)) = shares.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
                 // Views at several heights need more than there is: this view stays as coarse as it is, and memory as small.
+                self.is_full = true;
                 return Ok(());
             };
             self.remove(group);

@@ -17,6 +17,9 @@ mod growth;
 mod hard_files;
 mod hierarchies;
 mod inputs;
+#[path = "../common/octree_files.rs"]
+mod octree_files;
+mod octrees;
 mod orthographic;
 mod outputs;
 mod pick;

@@ -8,7 +8,7 @@ use super::{
 };
 
 /// The parts of the page, by their names in links and in the JSON.
-const PARTS: [(&str, &str); 12] = [
+const PARTS: [(&str, &str); 13] = [
     ("pictures", "Pictures"),
     ("methods", "Methods: speed against error"),
     ("distance", "Filters over distance"),
@@ -18,6 +18,7 @@ const PARTS: [(&str, &str); 12] = [
     ("layers", "Transparent layers"),
     ("transition", "From splats to polygons"),
     ("levels", "Levels of detail"),
+    ("hybrid", "Polygons near, splats far"),
     ("clips", "Clip curves"),
     ("counts", "Instructions"),
     ("stability", "Numerical stability"),

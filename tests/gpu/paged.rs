@@ -203,3 +203,28 @@ fn faults_are_told_and_nothing_waits_for_ever() {
     pager.want(&(0..pager.pages().len()).collect::<Vec<_>>());
     drop(pager);
 }
+
+/// What is wrong with a page is told once; then nothing is expected any more, nothing waits, and the view is drawn coarser.
+#[test]
+fn a_page_at_fault_is_told_once_and_nothing_waits_for_it() {
+    let headless = shared();
+    let whole = file_of(100_000);
+    let mut bytes = whole.to_vec();
+    // The finest pages lie behind the nodes.
+    let at = bytes.len() * 3 / 4;
+    bytes[at] ^= 0x55;
+    let (file, _) = opened(&bytes.into());
+    let mut paged = PagedScene::new(Pager::start(file).unwrap(), 1 << 30).unwrap();
+    let view = [PageView::new(&camera(3.0, 0.0), [256, 256], 0.0)];
+    let mut take = || paged.update(&view, &mut |scene| headless.prepare(scene, &|_, _| {}), true);
+    let (mut faults, mut drawn) = (Vec::new(), None);
+    for _ in 0..1000 {
+        match take() {
+            Ok(of_views) => drawn = of_views[0],
+            Err(error) => faults.push(error.to_string()),
+        }
+    }
+    assert!(faults.len() == 1 && faults[0].starts_with("a.surfel: page "), "{faults:?}");
+    assert!(drawn.is_some_and(|drawn| !drawn.is_finest && drawn.tau_px > 0.0), "{drawn:?}");
+    assert!(!paged.is_coming() && !paged.has_arrived());
+}

@@ -63,12 +63,14 @@ fn a_path_from_a_file_is_played_to_its_end() {
     let last = ["--size", "200x150", "--eye", "1.5,0.5,3", "--target", "0,0,0", "--fov", "45"];
     view.wait_for(&render(&folder, &last));
     view.end();
-    let missing = surfel(
-        &folder,
-        &["view", "--path", "none.json"],
-        &[("DISPLAY", screen.name()), ("WAYLAND_DISPLAY", "")],
-    );
-    assert_eq!((missing.code, missing.stderr.lines().count()), (1, 1), "{}", missing.stderr);
+    // Before a window is asked for: there is no display.
+    folder.write("wrong.json", "{}");
+    for path in ["none.json", "wrong.json"] {
+        let missing = surfel(&folder, &["view", "--path", path], &[("DISPLAY", ""), ("WAYLAND_DISPLAY", "")]);
+        let rendered = surfel(&folder, &["render", "--path", path, "--frames", "2", "-o", "o%d.png"], &[]);
+        assert_eq!((missing.code, missing.stderr.lines().count()), (1, 1), "{}", missing.stderr);
+        assert!(rendered.code == 1 && rendered.stderr.ends_with(&missing.stderr), "{}", rendered.stderr);
+    }
 }
 
 #[test]

@@ -43,3 +43,47 @@ fn a_file_of_levels_of_detail_comes_in_pages_until_it_is_what_render_writes() {
     });
     view.end();
 }
+
+/// A page that is damaged ends nothing: the window says so, goes on with what it has, and writes pictures.
+#[test]
+fn a_damaged_page_is_told_and_the_picture_stays_coarser() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 150_000);
+    assert_eq!(surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]).code, 0);
+    let words = [&["a.surfel", "--size", "320x240", "--edges", "hard", "--lod", "0"], &CAMERA[..]].concat();
+    let whole = render(&folder, &words);
+    let mut bytes = std::fs::read(folder.path("a.surfel")).unwrap();
+    // Behind the nodes are the finest pages.
+    for part in 10..14 {
+        let at = part * bytes.len() / 16;
+        bytes[at] ^= 0x55;
+    }
+    std::fs::write(folder.path("a.surfel"), bytes).unwrap();
+    let refused = surfel(&folder, &[&["render"], &words[..]].concat(), &[]);
+    assert!(refused.code == 1 && refused.stderr.contains("a.surfel: page "), "{}", refused.stderr);
+    let mut view = View::open(&screen, &folder, &words);
+    view.wait_until("it is coarser", |shot| shot.colors() > 200 && shot.differs_from(&whole) > 500);
+    screen.drag([160, 120], [200, 130], 1);
+    screen.key("i");
+    assert!(view.wait_for_file("surfel-001.png").colors() > 200);
+    assert!(view.is_running());
+    let said = view.end();
+    assert_eq!(said.stderr.matches("a.surfel: page ").count(), 1, "{}", said.stderr);
+}
+
+/// All splats, or as many of the best as are asked for: as `surfel render` draws them, and coarser than the whole.
+#[test]
+fn a_budget_of_splats_is_kept_by_the_window() {
+    let (screen, folder) = (Screen::new(), Folder::new());
+    folder.splats("a.ply", 20_000);
+    assert_eq!(surfel(&folder, &["convert", "a.ply", "a.surfel"], &[]).code, 0);
+    for file in ["a.ply", "a.surfel"] {
+        let words = [&[file, "--size", "320x240", "--edges", "hard"], &CAMERA[..]].concat();
+        let little = [&words[..], &["--budget", "800"]].concat();
+        let (whole, within) = (render(&folder, &words), render(&folder, &little));
+        assert!(within.differs_from(&whole) > 5000);
+        let mut view = View::open(&screen, &folder, &little);
+        view.wait_until("what the budget allows is shown", |shot| shot.differs_from(&within) <= 8);
+        view.end();
+    }
+}

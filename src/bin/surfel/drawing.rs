@@ -37,7 +37,17 @@ pub fn ready(
     arguments: &HierarchyArguments,
     (steps, bars): (&mut Steps, &Bars),
 ) -> Result<Ready> {
-    let (scene, files) = (&mut loaded.scene, &mut loaded.hierarchies);
+    let Loaded { scene, hierarchies: files, octrees, inputs, .. } = loaded;
+    let mut arguments = *arguments;
+    if !octrees.files.is_empty() {
+        // By the number of what they hold.
+        let splats: u64 = files.iter().map(|file| file.header().splats).sum();
+        let share = octrees.points() as f64 / (octrees.points() + splats) as f64;
+        let most = arguments.budget_memory.map(|most| (most as f64 * share) as u64);
+        arguments.budget_memory = arguments.budget_memory.zip(most).map(|(all, own)| all - own);
+        steps.time("read nodes", || octrees.read(scene, inputs, (camera, settings), most, bars))?;
+    }
+    let arguments = &arguments;
     let mut asked = settings.clone();
     loop {
         let settings = steps.time("read pages", || {

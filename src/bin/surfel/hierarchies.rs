@@ -13,14 +13,15 @@ use surfel::{
 use crate::{
     console::{self, Bars},
     inputs::Inputs,
+    octrees::Octrees,
     parse,
     scene::{Loaded, load_scene},
 };
 
 /// The memory for them.
-#[derive(Args)]
+#[derive(Clone, Copy, Args)]
 pub struct HierarchyArguments {
-    /// So much memory for the splats of .surfel files on their way to the device, such as 256MB: what is drawn is coarser where that does not
+    /// So much memory for what is read of .surfel files, COPC and Potree on its way to the device, such as 256MB: what is drawn is coarser where that does not
     /// suffice, and a line says so [default: what --lod asks for]
     #[arg(long, value_name = "BYTES", value_parser = parse::bytes(1 << 20), allow_hyphen_values = true)]
     pub budget_memory: Option<u64>,
@@ -38,6 +39,27 @@ pub struct Readers {
 impl Readers {
     /// This process alone.
     pub const ONE: Self = Self { number: 0, count: 1 };
+}
+
+/// As [`load_scene_with_hierarchies`], of inputs of which some may be octrees of points, too.
+///
+/// # Errors
+/// As [`load_scene_with_hierarchies`] and [`Octrees::open`].
+pub fn load_scene_by_view(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
+    let (octrees, others) = Octrees::open(inputs)?;
+    let mut loaded = match (others.files.is_empty(), &octrees.files[..]) {
+        (true, [first, ..]) => Loaded::of_nothing(first.ball()),
+        _ => load_scene_with_hierarchies(&others, bars)?,
+    };
+    for (octree, report) in octrees.files.iter().zip(octrees.reports()) {
+        console::say(&report.summary);
+        let because = format!("{} says so", report.name);
+        loaded.ball = loaded.ball.union(octree.ball());
+        loaded.up = loaded.up.take().or(Some(FoundUp { direction: glam::DVec3::Z, because }));
+        loaded.inputs.push(report);
+    }
+    loaded.octrees = octrees;
+    Ok(loaded)
 }
 
 /// As [`load_scene`], of inputs of which some may be hierarchies: these are opened, and said what they hold.
@@ -216,6 +238,7 @@ impl Loaded {
             inputs: Vec::new(),
             steps: Vec::new(),
             hierarchies: Vec::new(),
+            octrees: Octrees::default(),
         }
     }
 }

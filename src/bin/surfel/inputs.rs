@@ -8,7 +8,8 @@ use surfel::load::{Columns, LoadOptions, Representation, Samples};
 use crate::parse;
 
 /// The manual of inputs.
-pub const INPUTS: &str = "Inputs are models (PLY, OBJ, glTF and GLB, STL, OFF), scans (PLY, LAS, LAZ, COPC, E57, PCD; XYZ, PTS, CSV and other rows of numbers), all of them also compressed by gzip or zstd, `-` for standard input, and scene files (.toml: objects, each \
+pub const INPUTS: &str = "Inputs are models (PLY, OBJ, glTF and GLB, STL, OFF), scans (PLY, LAS, LAZ, COPC, E57, PCD; XYZ, PTS, CSV and other rows of numbers), all of them also compressed by gzip or zstd, octrees of points (COPC, and Potree 2 by its metadata.json; \
+`surfel render` reads the nodes that the view needs for --lod, all of them for --lod 0; others read all), `-` for standard input, and scene files (.toml: objects, each \
 with its place and looks, lights and a camera; `surfel render --help` has their keys). A mesh is drawn as what shows it best: as \
 disks at its vertices where it is dense or smooth, as disks spread evenly over it where its vertices are too uneven for that, and as its triangles \
 where it is coarse, as furniture and machine parts are; --representation decides it otherwise. Points become disks that close their \

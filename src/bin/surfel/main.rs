@@ -22,6 +22,7 @@ mod interrupts;
 mod json;
 mod machine;
 mod measure;
+mod octrees;
 mod outputs;
 mod parse;
 mod part;

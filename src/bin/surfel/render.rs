@@ -16,7 +16,7 @@ use crate::{
     device::DeviceArguments,
     drawing, emptiness, explain,
     film::{self, FilmArguments},
-    hierarchies::{HierarchyArguments, load_scene_with_hierarchies},
+    hierarchies::{HierarchyArguments, load_scene_by_view},
     inputs::INPUTS,
     json::{to_json, write_json},
     measure::{self, View},
@@ -202,7 +202,7 @@ fn load(
     bars: &Bars,
 ) -> Result<(Loaded, Settings)> {
     let picture = &arguments.picture;
-    let mut loaded = load_scene_with_hierarchies(&picture.input.inputs(), bars)?;
+    let mut loaded = load_scene_by_view(&picture.input.inputs(), bars)?;
     picture.light(&mut loaded.scene);
     // What belongs to no scene was checked before it was loaded.
     let settings =

@@ -21,6 +21,7 @@ use surfel::{
 use crate::{
     console::{Bars, Repeated},
     inputs::Inputs,
+    octrees::Octrees,
     up,
 };
 
@@ -42,6 +43,15 @@ pub struct Loaded {
     pub steps: Vec<Step>,
     /// Files of which a view reads what it needs; they are in none of the above but ball, up and inputs.
     pub hierarchies: Vec<LevelsFile>,
+    /// The same of points.
+    pub octrees: Octrees,
+}
+
+impl Loaded {
+    /// Whether each view reads something of its own.
+    pub fn is_read_by_view(&self) -> bool {
+        !self.hierarchies.is_empty() || !self.octrees.files.is_empty()
+    }
 }
 
 /// Loads all inputs, or the built-in model where there is none, and tells in a line each what was done with it. Meshes are
@@ -71,7 +81,17 @@ pub fn load_scene(inputs: &Inputs, bars: &Bars) -> Result<Loaded> {
     let is_of_files = objects.iter().any(|object| matches!(object.source, Source::File(_)));
     let up = up::of(ups).or_else(|| is_of_files.then(|| up_of_shape(&scene)).flatten());
     let camera = camera.map(|camera| camera.of(&scene)).transpose()?;
-    Ok(Loaded { scene, ball, camera, picture, up, inputs: reports, steps, hierarchies: Vec::new() })
+    Ok(Loaded {
+        scene,
+        ball,
+        camera,
+        picture,
+        up,
+        inputs: reports,
+        steps,
+        hierarchies: Vec::new(),
+        octrees: Octrees::default(),
+    })
 }
 
 /// Refuses what is not drawn as its file says it.

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Records that are read at once.
-pub(super) struct Chunk<'a> {
+pub(in crate::load) struct Chunk<'a> {
     /// As they are in the file.
     pub bytes: &'a [u8],
     /// How many points there are before it.

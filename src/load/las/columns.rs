@@ -7,7 +7,7 @@ use super::header::{Header, one_line};
 
 /// One entry a point that counts.
 #[derive(Default)]
-pub(super) struct Columns {
+pub(in crate::load) struct Columns {
     pub positions: Vec<DVec3>,
     /// Empty where the format has none.
     pub colors: Vec<[u16; 3]>,
@@ -19,7 +19,7 @@ pub(super) struct Columns {
 }
 
 /// Classes of points that are no surface: low and high noise.
-const NOISE: [u8; 2] = [7, 18];
+pub(in crate::load) const NOISE: [u8; 2] = [7, 18];
 
 impl Columns {
     /// The points of whole records.

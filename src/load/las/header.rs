@@ -6,7 +6,7 @@ use laz::{LazItemRecordBuilder, LazVlr};
 use crate::{error::Result, load::Input};
 
 /// What is needed of a header.
-pub(super) struct Header {
+pub(in crate::load) struct Header {
     /// The version and format in words.
     pub words: String,
     /// How many points it says there are.
@@ -24,7 +24,7 @@ pub(super) struct Header {
 /// The part of a variable length record before its data.
 const VLR_HEADER_BYTES: usize = 54;
 
-pub(super) fn read(input: &Input<'_>) -> Result<Header> {
+pub(in crate::load) fn read(input: &Input<'_>) -> Result<Header> {
     let raw = raw::Header::read_from(input.bytes).map_err(|e| input.fault("header", one_line(e)))?;
     let number = raw.point_data_record_format & 0x3f;
     let mut format =

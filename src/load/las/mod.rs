@@ -6,22 +6,20 @@
 mod chunks;
 mod columns;
 mod header;
+mod palette;
 #[cfg(test)]
 mod tests;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Input, Loaded, Model, shade};
-use crate::{
-    error::Result,
-    math::srgb::linear_from_srgb,
-    notes::Deed,
-    scene::{Colors, Points},
-};
-use chunks::Chunk;
-use columns::Columns;
-use header::Header;
+use super::{Input, Loaded, Model};
+use crate::{error::Result, notes::Deed, scene::Points};
+
+pub(in crate::load) use chunks::Chunk;
+pub(in crate::load) use columns::{Columns, NOISE};
+pub(in crate::load) use header::{Header, read as read_header};
+pub(in crate::load) use palette::Palette;
 
 /// How many points of an uncompressed file one thread reads at once.
 const CHUNK_POINTS: usize = 1 << 16;
@@ -48,7 +46,7 @@ pub(super) fn parse(input: &Input<'_>) -> Result<Loaded> {
             input.step(last.end.min(input.bytes.len()));
         }
     }
-    Ok(loaded(columns, &header))
+    Ok(loaded(columns, None, &header.words))
 }
 
 /// The records of a file that is not compressed.
@@ -74,43 +72,15 @@ fn uncompressed<'a>(input: &Input<'a>, header: &Header) -> Result<Vec<Chunk<'a>>
     Ok(pieces.map(chunk).collect())
 }
 
-fn loaded(columns: Columns, header: &Header) -> Loaded {
-    let (colors, words) = colors(&columns);
+/// What was read of a file whose format is called so; without a palette, it is that of all points.
+pub(in crate::load) fn loaded(columns: Columns, palette: Option<Palette>, words: &str) -> Loaded {
+    let palette = palette.unwrap_or_else(|| Palette::of(&columns));
+    let (colors, of_colors) = palette.colors(&columns);
     let points =
         Points { positions: columns.positions, normals: None, radii: None, colors, viewpoints: Vec::new() };
-    let mut loaded = Loaded::new(Model::Points(points), format!("{}{words}", header.words));
+    let mut loaded = Loaded::new(Model::Points(points), format!("{words}{of_colors}"));
     loaded.up = Some(DVec3::Z);
     loaded.note(Deed::Dropped, columns.noise, "points of the classes for noise (7 and 18)");
     loaded.note(Deed::Dropped, columns.withheld, "points that are marked as withheld");
     loaded
-}
-
-/// Colors where there are any, or else intensities as grays.
-fn colors(columns: &Columns) -> (Colors, &'static str) {
-    // Writers that have no colors leave them 0, or the intensities.
-    let largest = columns.colors.par_iter().map(|color| color.iter().copied().max().unwrap_or(0)).max();
-    let intensities = || columns.intensities.par_iter().copied().max().unwrap_or(0);
-    match (largest.unwrap_or(0), intensities) {
-        (0, intensities) if intensities() == 0 => (Colors::unknown(), ""),
-        (0, _) => {
-            let intensities: Vec<f32> =
-                columns.intensities.par_iter().map(|value| f32::from(*value)).collect();
-            (Colors::Each(shade::gray(&intensities)), ", intensity as gray")
-        }
-        // The format wants 16 bits; many writers copy 8 into them.
-        (1..=255, _) => {
-            let table = shade::Table::new();
-            let linear = |value: u16| table.of(value as u8);
-            (each(&columns.colors, linear), ", 8-bit colors")
-        }
-        _ => {
-            let table: Vec<f32> = (0..=u16::MAX).map(|v| linear_from_srgb(f32::from(v) / 65535.0)).collect();
-            let linear = |value: u16| table.get(usize::from(value)).copied().unwrap_or(1.0);
-            (each(&columns.colors, linear), ", 16-bit colors")
-        }
-    }
-}
-
-fn each(colors: &[[u16; 3]], linear: impl Fn(u16) -> f32 + Sync) -> Colors {
-    Colors::Each(colors.par_iter().map(|&[r, g, b]| [linear(r), linear(g), linear(b), 1.0]).collect())
 }

@@ -3,7 +3,10 @@ use std::io::Cursor;
 use las::{Builder, Color, Point, Writer, point::Classification};
 
 use super::*;
-use crate::load::{LoadOptions, hostile::attack, input::of_bytes};
+use crate::{
+    load::{LoadOptions, hostile::attack, input::of_bytes},
+    math::srgb::linear_from_srgb,
+};
 
 /// A file of format `format` with points on a line far from the origin.
 fn file(format: u8, compressed: bool, points: usize, change: impl Fn(usize, &mut Point)) -> Vec<u8> {

@@ -32,17 +32,31 @@ pub(super) enum Format {
     Las,
     /// Starts with `ASTM-E57`.
     E57,
+    /// JSON that has what the metadata of Potree 2 has.
+    Potree,
 }
 
 impl Format {
-    /// What people call it; in lower case, the Cargo feature of those that need one.
-    #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las")))]
+    /// What people call it.
+    #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las", feature = "octrees")))]
     pub fn name(self) -> &'static str {
         match self {
             Self::Las => "LAS",
             Self::E57 => "E57",
             Self::Gltf => "glTF",
+            Self::Potree => "Potree 2",
             _ => "other",
+        }
+    }
+
+    /// The Cargo feature of those that need one.
+    #[cfg(not(all(feature = "e57", feature = "gltf", feature = "las", feature = "octrees")))]
+    pub fn feature(self) -> &'static str {
+        match self {
+            Self::Las => "las",
+            Self::E57 => "e57",
+            Self::Gltf => "gltf",
+            _ => "octrees",
         }
     }
 }
@@ -78,6 +92,9 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         return refuse(&format!("this is {what}"));
     }
     let probe = bytes.get(..PROBE_BYTES).unwrap_or(bytes);
+    if is_json(probe) && is_potree(bytes) {
+        return Ok(Format::Potree);
+    }
     let words = words::by_words(probe);
     if probe.contains(&0) {
         // Their header is text, whatever follows it.
@@ -98,10 +115,20 @@ pub(super) fn format(path: &Path, name: &Path, bytes: &[u8]) -> Result<Format> {
         (None, "obj") => Ok(Format::Obj),
         (None, "gltf") if is_json(probe) => Ok(Format::Gltf),
         (None, "xyz" | "pts" | "csv" | "txt" | "asc") => Ok(Format::Rows),
-        (None, _) if is_json(probe) => refuse("this is JSON, but not glTF"),
+        (None, _) if is_json(probe) => refuse("this is JSON, but neither glTF nor the metadata of Potree 2"),
         (None, "ply") => refuse("named .ply, but its first line is not 'ply'"),
         (None, _) => refuse("text of an unknown format"),
     }
+}
+
+/// How much of a file of JSON is looked at.
+const JSON_PROBE_BYTES: usize = 1 << 16;
+
+/// Whether JSON is the metadata of a Potree 2 octree, by two of its names.
+pub(super) fn is_potree(bytes: &[u8]) -> bool {
+    let head = bytes.get(..JSON_PROBE_BYTES).unwrap_or(bytes);
+    let has = |name: &[u8]| head.windows(name.len()).any(|at| at == name);
+    has(b"\"firstChunkSize\"") && has(b"\"boundingBox\"")
 }
 
 fn by_magic(bytes: &[u8]) -> Option<Format> {

@@ -70,7 +70,7 @@ fn what_is_no_model_is_named() {
             "this is an HTML page, perhaps of a download that failed",
         ),
         ("a.obj", b"<Html>", "this is an HTML page, perhaps of a download that failed"),
-        ("a.json", b"{\"camera\": 1}", "this is JSON, but not glTF"),
+        ("a.json", b"{\"camera\": 1}", "this is JSON, but neither glTF nor the metadata of Potree 2"),
         ("a.json", b" [1, 2]", "this is JSON, but not glTF"),
         ("a.obj", b"v 0 0 0\0", "named .obj, but its content is binary of another format"),
         ("a", b"\x01\0\0\0", "binary, of an unknown format"),

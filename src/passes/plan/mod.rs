@@ -101,26 +101,27 @@ impl<'a> FramePlan<'a> {
         let settings = &*budget::within_budget(scenes, camera, settings);
         let range = DepthRange::of(scenes, camera);
         let camera = &range.begin(camera);
-        let splats = (0..).zip(scenes).flat_map(|(number, placed)| {
-            let of_number = move |mut draw: Draw<'a>| {
-                draw.placed = number;
-                draw
-            };
-            draws(*placed, (camera, range), settings, limits).into_iter().map(of_number)
-        });
-        let (clear_splats, splats) = splats.partition(|draw| draw.chunk.transparent);
+        let all = || {
+            (0..).zip(scenes).flat_map(|(number, placed)| {
+                let of_number = move |draw| Draw { placed: number, ..draw };
+                draws(*placed, (camera, range), settings, limits).into_iter().map(of_number)
+            })
+        };
+        let (clear_splats, splats) = all().partition(|draw| draw.chunk.transparent);
+        let again =
+            |transparent: bool| all().filter(|draw| draw.chunk.transparent == transparent).collect();
         let meshes = (0..).zip(scenes).flat_map(|(number, placed)| {
             let of_number = move |draw| MeshDraw { placed: number, ..draw };
             mesh_draws(*placed, (camera, range), settings).into_iter().map(of_number)
         });
         let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
-        let mut transparent = SurfacePlan::new(clear_splats, clear_meshes, settings, limits);
+        let mut transparent = SurfacePlan::new(clear_splats, || again(true), clear_meshes, settings, limits);
         let lights = lights::shader_lights(scenes, camera);
         for band in transparent.bands_mut() {
             band.plan = band.plan.clone().with_layers(settings.layers.most(), lights.len() as u32);
         }
         Self {
-            opaque: SurfacePlan::new(splats, meshes, settings, limits),
+            opaque: SurfacePlan::new(splats, || again(false), meshes, settings, limits),
             transparent,
             lights,
             planes: planes::shader_planes((camera, range), settings),
@@ -131,16 +132,20 @@ impl<'a> FramePlan<'a> {
 }
 
 impl<'a> SurfacePlan<'a> {
-    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen.
-    fn new(splats: Vec<Draw<'a>>, meshes: Vec<MeshDraw<'a>>, settings: &Settings, limits: &Limits) -> Self {
-        if meshes.iter().any(MeshDraw::is_all_splats) {
-            let others = meshes.iter().filter(|draw| !draw.is_all_splats()).cloned().collect();
-            let plan = Self::of(splats.clone(), others, settings, limits);
-            if plan.chooses_levels() {
-                return plan;
-            }
+    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen: then all of it is planned `again`.
+    fn new(
+        splats: Vec<Draw<'a>>,
+        again: impl FnOnce() -> Vec<Draw<'a>>,
+        meshes: Vec<MeshDraw<'a>>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        if !meshes.iter().any(MeshDraw::is_all_splats) {
+            return Self::of(splats, meshes, settings, limits);
         }
-        Self::of(splats, meshes, settings, limits)
+        let others = meshes.iter().filter(|draw| !draw.is_all_splats()).cloned().collect();
+        let plan = Self::of(splats, others, settings, limits);
+        if plan.chooses_levels() { plan } else { Self::of(again(), meshes, settings, limits) }
     }
 
     fn of(

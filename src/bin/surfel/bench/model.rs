@@ -63,6 +63,7 @@ impl Source {
             inputs: vec![report],
             steps: Vec::new(),
             hierarchies: Vec::new(),
+            octrees: Default::default(),
         })
     }
 }

@@ -102,7 +102,9 @@ impl CameraChoice {
 
 /// A ball around the objects of this name.
 fn ball_named(name: &str, loaded: &Loaded) -> Result<Ball> {
-    let files = || loaded.hierarchies.iter().map(|file| (file_name(file.path()), file.ball()));
+    let octrees = || loaded.octrees.files.iter().map(|file| (file_name(file.path()), file.ball()));
+    let files =
+        || loaded.hierarchies.iter().map(|file| (file_name(file.path()), file.ball())).chain(octrees());
     let of_files = files().filter(|(own, _)| own == name).map(|(_, ball)| ball);
     let found = of_files.chain(loaded.scene.ball_named(name)).reduce(Ball::union);
     found.ok_or_else(|| {
@@ -161,6 +163,7 @@ mod tests {
             inputs: Vec::new(),
             steps: Vec::new(),
             hierarchies: Vec::new(),
+            octrees: Default::default(),
         };
         let eye = |x: f64| Some(DVec3::new(x, 1.0, 1.0));
         let parts = CameraParts { eye: eye(7.0), fov_y_rad: Some(0.5), ..CameraParts::default() };

@@ -13,6 +13,7 @@ use std::{
 
 use surfel::{
     Error, Progress as _, Result,
+    load::PointOctree,
     renderer::Headless,
     scene::{Camera, OptionTable as _, OptionValue as _, Settings},
 };
@@ -150,7 +151,7 @@ pub fn make(
         if !journal.has(number, made_of, &place) {
             let (camera, crop) = part.view(*shot)?;
             // What a view reads of files is its own.
-            let current = match ready.take().filter(|_| loaded.hierarchies.is_empty()) {
+            let current = match ready.take().filter(|_| !loaded.is_read_by_view()) {
                 Some(ready) => ready,
                 None => {
                     let steps = &mut Steps::default();
@@ -161,7 +162,7 @@ pub fn make(
                         hierarchies,
                         (steps, bars),
                     )?;
-                    if loaded.hierarchies.is_empty() {
+                    if !loaded.is_read_by_view() {
                         // The device has it all.
                         loaded.scene = Default::default();
                     }
@@ -218,6 +219,9 @@ fn job(
     job.add_scene(&loaded.scene);
     for file in &loaded.hierarchies {
         job.add_file(file.path()).map_err(|e| Error::file(file.path(), "read", e))?;
+    }
+    for file in loaded.octrees.files.iter().flat_map(PointOctree::files) {
+        job.add_file(file).map_err(|e| Error::file(file, "read", e))?;
     }
     Ok(job)
 }

@@ -7,15 +7,16 @@ use surfel::{
     Error, Result,
     geometry::{mean_edge, mean_spacing},
     levels_file::LevelsFile,
-    load::file_name,
+    load::{PointOctree, file_name},
     report::{CameraReport, InputReport, ModelReport},
     scene::{Bounds, MeshObject, Object, Settings, Splats},
 };
 
+use super::{numbers::number, octree::Octree};
 use crate::{
     camera::{CameraArguments, CameraChoice},
     console::Bars,
-    hierarchies::load_scene_with_hierarchies,
+    hierarchies::load_scene_by_view,
     inputs::Inputs,
     scene::Loaded,
 };
@@ -57,6 +58,9 @@ struct Part {
     /// Of a file that has levels of detail; their splats are in no memory yet.
     #[serde(skip_serializing_if = "Option::is_none")]
     levels: Option<Levels>,
+    /// Of an octree of points, which are in no memory yet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    octree: Option<Octree>,
 }
 
 /// What a file has of levels of detail.
@@ -90,13 +94,18 @@ struct Whole {
 pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
     let choice = CameraChoice::of(camera)?;
     let bars = Bars::new();
-    let mut loaded = load_scene_with_hierarchies(inputs, &bars)?;
+    let mut loaded = load_scene_by_view(inputs, &bars)?;
     for file in &mut loaded.hierarchies {
         file.check(&bars)?;
     }
     let camera = choice.camera(&loaded, Settings::default().size_px)?;
-    let Loaded { scene, up, inputs, hierarchies, .. } = loaded;
-    let bounds = hierarchies.iter().map(LevelsFile::bounds).chain(scene.bounds()).reduce(Bounds::union);
+    for octree in &mut loaded.octrees.files {
+        octree.choose(&|_| true)?;
+    }
+    let Loaded { scene, up, inputs, hierarchies, octrees, .. } = loaded;
+    let of_octrees = octrees.files.iter().map(PointOctree::bounds);
+    let of_files = hierarchies.iter().map(LevelsFile::bounds).chain(of_octrees);
+    let bounds = of_files.chain(scene.bounds()).reduce(Bounds::union);
     let bounds = bounds.ok_or_else(|| Error::input("scene", "", "has nothing to draw"))?;
     let splats = scene.splat_count();
     let host_bytes = scene.objects.iter().map(|object| object.splats.bytes()).sum();
@@ -105,7 +114,8 @@ pub fn gather(inputs: &Inputs, camera: &CameraArguments) -> Result<FileInfo> {
         .iter()
         .map(splat_part)
         .chain(scene.meshes.iter().map(mesh_part))
-        .chain(hierarchies.iter().map(hierarchy_part));
+        .chain(hierarchies.iter().map(hierarchy_part))
+        .chain(octrees.files.iter().map(octree_part));
     Ok(FileInfo {
         surfel: env!("CARGO_PKG_VERSION"),
         inputs,
@@ -134,6 +144,7 @@ fn splat_part(object: &Object) -> Part {
         spacing: mean_spacing(&splats.positions),
         radii: radii(splats),
         levels: None,
+        octree: None,
     }
 }
 
@@ -147,6 +158,21 @@ fn hierarchy_part(file: &LevelsFile) -> Part {
         spacing: None,
         radii: None,
         levels: Some(Levels { nodes: header.nodes, pages: header.pages, bytes: header.file_bytes() }),
+        octree: None,
+    }
+}
+
+fn octree_part(octree: &PointOctree) -> Part {
+    let octree_info = Octree::of(octree);
+    Part {
+        name: file_name(octree.path()),
+        kind: "points",
+        count: octree_info.points(),
+        closed: false,
+        spacing: None,
+        radii: None,
+        levels: None,
+        octree: Some(octree_info),
     }
 }
 
@@ -160,6 +186,7 @@ fn mesh_part(object: &MeshObject) -> Part {
         spacing: mean_edge(mesh),
         radii: None,
         levels: None,
+        octree: None,
     }
 }
 
@@ -240,6 +267,7 @@ fn part_rows(part: &Part) -> Vec<(&'static str, String)> {
         let Levels { nodes, pages, bytes } = levels;
         ("levels", format!("{nodes} nodes; {pages} pages, all of them sound; {bytes} bytes"))
     }));
+    rows.extend(part.octree.iter().flat_map(Octree::rows));
     rows.extend(part.spacing.map(|spacing| ("spacing", format!("{} {of}", number(spacing)))));
     rows.extend(part.radii.map(|[least, median, most]| {
         let [least, median, most] = [least, median, most].map(number);
@@ -251,39 +279,4 @@ fn part_rows(part: &Part) -> Vec<(&'static str, String)> {
 /// A point as options take it.
 fn point(at: &[f64; 3]) -> String {
     at.map(number).join(",")
-}
-
-/// Six digits, which tell places on a map to the metre; without the sign of what rounds to 0.
-fn number(value: f64) -> String {
-    match value == 0.0 || !value.is_finite() {
-        true => "0".to_owned(),
-        false => {
-            let digits = (6 - value.abs().log10().floor() as i32).clamp(0, 12);
-            let scale = 10_f64.powi(digits);
-            let rounded = (value * scale).round() / scale + 0.0;
-            let huge = value.abs() >= 1e12 || value.abs() < 1e-9;
-            if huge { format!("{value:e}") } else { format!("{rounded}") }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_keep_seven_digits() {
-        let cases = [
-            (0.0, "0"),
-            (-1e-30, "-1e-30"),
-            (1.0 / 3.0, "0.3333333"),
-            (5_400_123.456, "5400123"),
-            (-0.001_234_567_89, "-0.001234568"),
-            (1e15, "1e15"),
-            (f64::INFINITY, "0"),
-        ];
-        for (value, expected) in cases {
-            assert_eq!(number(value), expected);
-        }
-    }
 }

@@ -2,6 +2,8 @@
 
 mod devices;
 mod files;
+mod numbers;
+mod octree;
 
 use clap::Args;
 use surfel::{Error, Result};

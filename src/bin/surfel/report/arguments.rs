@@ -121,7 +121,7 @@ impl ReportArguments {
             "slides" => (Some("154k"), None),
             "p1" => (Some("100k,300k"), None),
             "layers" => (Some("300"), Some("512x512")),
-            "transition" => (Some("20k"), Some("512x512")),
+            "transition" | "hybrid" => (Some("20k"), Some("512x512")),
             _ => (None, None),
         };
         let line = line.given("--model", self.model.as_ref().filter(|_| name != "layers"));
@@ -173,7 +173,8 @@ mod tests {
             let arguments = report(words);
             arguments.render("normals").arguments::<RenderArguments>().unwrap_or_else(|e| panic!("{e}"));
             arguments.figure("g1").arguments::<FigureArguments>().unwrap_or_else(|e| panic!("{e}"));
-            for table in ["floor", "table1", "slides", "layers", "transition", "p1", "p2", "counts"] {
+            for table in ["floor", "table1", "slides", "layers", "transition", "p1", "p2", "hybrid", "counts"]
+            {
                 arguments.bench(table).arguments::<BenchArguments>().unwrap_or_else(|e| panic!("{e}"));
             }
             for line in [arguments.compare(), arguments.zoom()] {

@@ -5,7 +5,7 @@ use surfel::{
     Result,
     report::{
         PLOT_SIZE_PX,
-        bench::{BenchReport, LayersDrawn, Measurement, throughput_plot},
+        bench::{BenchReport, HybridView, LayersDrawn, Measurement, throughput_plot},
     },
 };
 
@@ -149,6 +149,23 @@ pub fn levels(session: &mut Session<'_>) -> Result<Part> {
     let (made, _) = of_bench(session, "p1", |_| None)?;
     let made = part.go_on_with(made);
     part.data = vec![to_value(&drawn.p2)?, made].into();
+    Ok(part)
+}
+
+/// A mesh from afar to near: as polygons, as polygons and splats in levels of detail, and as splats. The paper's claim: as fast as splats from afar, as good as polygons near.
+///
+/// # Errors
+/// Whatever goes wrong; a model that is no mesh.
+pub fn hybrid(session: &mut Session<'_>) -> Result<Part> {
+    let (part, _) = of_bench(session, "hybrid", |report| {
+        let views = &report.hybrid.as_ref()?.views;
+        let of = |own: &HybridView| Some((own.zoom, own.ways.get(1)?.beside_first?.median));
+        let (far, near) = (of(views.first()?)?, of(views.last()?)?);
+        Some(format!(
+            "A hybrid takes {:.2} times as long as polygons where the model is {} times as large as the view, and {:.2} times where it is {} times.",
+            far.1, far.0, near.1, near.0
+        ))
+    })?;
     Ok(part)
 }
 

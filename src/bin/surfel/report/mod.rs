@@ -53,6 +53,7 @@ const CHAPTERS: &[Chapter] = &[
     ("layers", "Transparent layers", benches::layers),
     ("transition", "From splats to polygons", benches::transition),
     ("levels", "Levels of detail", benches::levels),
+    ("hybrid", "Polygons near, splats far", benches::hybrid),
     ("clips", "Clip curves", benches::clips),
     ("counts", "Instructions", benches::counts),
     ("stability", "Numerical stability", stability::gather),

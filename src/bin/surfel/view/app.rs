@@ -17,7 +17,7 @@ use winit::{
 
 use super::{
     ViewArguments,
-    loading::{Loader, News},
+    loading::{Loader, News, Wants},
     path::Path,
     viewer::Viewer,
 };
@@ -30,6 +30,7 @@ pub struct App<'a> {
     proxy: EventLoopProxy<News>,
     /// Until the window is open.
     camera: Option<CameraChoice>,
+    path: Path,
     viewer: Option<Viewer>,
     messages: Option<Arc<Messages>>,
     failure: Option<Error>,
@@ -50,7 +51,7 @@ impl<'a> App<'a> {
     pub fn new(
         arguments: &'a ViewArguments,
         settings: Settings,
-        camera: CameraChoice,
+        (camera, path): (CameraChoice, Path),
         proxy: EventLoopProxy<News>,
     ) -> Self {
         let camera = Some(camera);
@@ -59,6 +60,7 @@ impl<'a> App<'a> {
             settings,
             proxy,
             camera,
+            path,
             viewer: None,
             messages: None,
             failure: None,
@@ -87,20 +89,21 @@ impl<'a> App<'a> {
         let window = events.create_window(attributes);
         let window = window.map_err(|error| ErrorKind::NoWindow { reason: error.to_string() })?;
         let window = Arc::new(window);
-        let path = self.arguments.path.as_deref().map(Path::read).transpose()?;
         #[cfg(feature = "live-shaders")]
         (self.shaders = Some(super::live::watch(self.proxy.clone())?));
         let (gpu, messages) = super::device::open_gpu(&window, &self.arguments.device)?;
         self.messages = Some(messages);
         gpu.headless.renderer.check_settings(&self.settings)?;
         let limits = gpu.headless.device().facts().limits;
-        let storage = self.arguments.storage.over(Storage::default());
-        // What is told of all splats together needs all of them.
-        let in_pages = storage == Storage::default() && self.settings.budget == Budget::Unlimited;
-        let lights = (self.arguments.lights.clone(), storage, in_pages);
-        let loader = Loader::new(self.proxy.clone(), limits, camera, lights);
+        let wants = Wants {
+            camera,
+            lights: self.arguments.lights.clone(),
+            storage: self.arguments.storage.over(Storage::default()),
+            budget: self.settings.budget != Budget::Unlimited,
+        };
+        let loader = Loader::new(self.proxy.clone(), limits, wants);
         loader.open(self.arguments.input.inputs(), gpu.window_px());
-        let path = path.unwrap_or_default();
+        let path = std::mem::take(&mut self.path);
         Ok(Viewer::new(window, gpu, loader, self.settings.clone(), path, self.arguments))
     }
 

@@ -1,6 +1,6 @@
 //! What the viewer changes of a scene before it goes to the device: what is seen, how transparent, how large splats are.
 
-use surfel::scene::{Object, Opacity, Scene, Shapes, Splats};
+use surfel::scene::{HybridLevels, Object, Opacity, Scene, Shapes, Splats};
 
 /// Changes of a scene. Things are objects, then meshes, then those in levels of detail.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +23,8 @@ impl Edits {
         self.splat_scale == 1.0 && self.things.iter().all(|thing| *thing == (true, 1.0))
     }
 
-    /// The scene with these changes. An object in levels of detail that is changed is drawn as its own splats.
+    /// The scene with these changes. An object in levels of detail that is changed is drawn as its own splats, and a mesh that gets another alpha as its
+    /// polygons; larger splats leave meshes their levels.
     pub fn of(&self, scene: &Scene) -> Scene {
         let thing = |number: usize| self.things.get(number).copied().unwrap_or((true, 1.0));
         let mut edited = Scene {
@@ -31,6 +32,7 @@ impl Edits {
             storage: scene.storage,
             without_auto_epsilon: scene.without_auto_epsilon,
             levels: scene.levels,
+            budget: scene.budget,
             numbered: scene.numbered,
             ..Scene::default()
         };
@@ -47,6 +49,8 @@ impl Edits {
             if let (true, alpha) = thing(before + number) {
                 let mut object = object.clone();
                 object.mesh.colors.tint(None, alpha);
+                let levels = scene.hybrids.iter().filter(|levels| levels.mesh == number && alpha == 1.0);
+                edited.hybrids.extend(levels.map(|levels| self.hybrid(levels, edited.meshes.len())));
                 edited.meshes.push(object);
             }
         }
@@ -64,6 +68,16 @@ impl Edits {
             }
         }
         edited
+    }
+
+    /// The levels of a mesh, which is this one of the scene now.
+    fn hybrid(&self, levels: &HybridLevels, mesh: usize) -> HybridLevels {
+        let mut levels = HybridLevels { mesh, ..levels.clone() };
+        scale(&mut levels.splats.leaves, self.splat_scale);
+        scale(&mut levels.splats.nodes, self.splat_scale);
+        // Areas grow, and so does what they sum to.
+        levels.splats.overlap *= f64::from(self.splat_scale).powi(2);
+        levels
     }
 
     fn splats(&self, splats: &Splats, alpha: f32) -> Splats {
@@ -127,7 +141,11 @@ pub fn things(scene: &Scene) -> Vec<(String, String)> {
 #[cfg(test)]
 mod tests {
     use glam::{DVec3, Vec3};
-    use surfel::scene::{Colors, Epsilon};
+    use surfel::{
+        geometry::{HybridOptions, multiresolution},
+        load::builtin::sphere_mesh,
+        scene::{Colors, Epsilon, MeshObject},
+    };
 
     use super::*;
 
@@ -135,6 +153,30 @@ mod tests {
         let shapes = Shapes::Disks { normals: vec![Vec3::Z; 2], radii: vec![radius; 2] };
         let splats = Splats::new(vec![DVec3::ZERO, DVec3::X], shapes, Colors::Uniform([1.0; 4]));
         Object { name: name.to_owned(), splats, closed: false }
+    }
+
+    #[test]
+    fn meshes_keep_their_levels_unless_they_turn_transparent() {
+        let mut scene = Scene::default();
+        let options = HybridOptions { samples: 2000, seed: 0, sample_edges: true };
+        for name in ["a", "b"] {
+            let made = multiresolution(sphere_mesh(500), name.to_owned(), &options, &()).unwrap();
+            scene.hybrids.push(HybridLevels { mesh: scene.meshes.len(), ..made.levels });
+            scene.meshes.push(MeshObject { name: name.to_owned(), mesh: made.mesh, closed: made.closed });
+        }
+        let mut edits = Edits::none(&scene);
+        assert_eq!(edits.things.len(), 2);
+        edits.things[0].0 = false;
+        edits.splat_scale = 2.0;
+        let edited = edits.of(&scene);
+        assert_eq!((edited.meshes.len(), edited.hybrids.len(), edited.meshes[0].name.as_str()), (1, 1, "b"));
+        let (new, old) = (&edited.hybrids[0], &scene.hybrids[1]);
+        assert_eq!((new.mesh, &new.cells), (0, &old.cells));
+        assert_eq!(new.splats.leaves.major_radius(5), 2.0 * old.splats.leaves.major_radius(5));
+        assert_eq!(new.splats.nodes.major_radius(0), 2.0 * old.splats.nodes.major_radius(0));
+        assert_eq!(new.splats.overlap, 4.0 * old.splats.overlap);
+        let edited = Edits { things: vec![(true, 0.5), (true, 1.0)], splat_scale: 1.0 }.of(&scene);
+        assert_eq!(edited.hybrids.iter().map(|levels| levels.mesh).collect::<Vec<_>>(), [1]);
     }
 
     #[test]

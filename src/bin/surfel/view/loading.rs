@@ -90,22 +90,23 @@ struct Worker {
     /// Nothing that the window is asked for is done any more.
     is_closing: Arc<AtomicBool>,
     limits: Limits,
-    camera: CameraChoice,
-    lights: Vec<Light>,
-    storage: Storage,
-    /// Files of levels of detail may be read in pages.
-    in_pages: bool,
+    wants: Wants,
     bars: Bars,
+}
+
+/// What the command line wants of any scene.
+pub struct Wants {
+    pub camera: CameraChoice,
+    /// In the place of a scene's own, if there are any.
+    pub lights: Vec<Light>,
+    pub storage: Storage,
+    /// Frames have a budget of splats, of which all have to be known.
+    pub budget: bool,
 }
 
 impl Loader {
     /// Starts the thread.
-    pub fn new(
-        proxy: EventLoopProxy<News>,
-        limits: Limits,
-        camera: CameraChoice,
-        (lights, storage, in_pages): (Vec<Light>, Storage, bool),
-    ) -> Self {
+    pub fn new(proxy: EventLoopProxy<News>, limits: Limits, wants: Wants) -> Self {
         let (jobs, received) = channel();
         let newest = Arc::new(AtomicU64::new(0));
         let (is_reading, is_closing) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
@@ -115,10 +116,7 @@ impl Loader {
             is_reading: Arc::clone(&is_reading),
             is_closing: Arc::clone(&is_closing),
             limits,
-            camera,
-            lights,
-            storage,
-            in_pages,
+            wants,
             bars: Bars::new(),
         };
         let thread = std::thread::spawn(move || worker.run(&received));
@@ -199,9 +197,11 @@ impl Worker {
 
     fn open(&self, files: Inputs, size_px: [u32; 2]) -> Result<Document> {
         let mut loaded = load_scene_with_hierarchies(&files, &self.bars)?;
-        let camera = self.camera.camera(&loaded, size_px)?;
+        let Wants { camera, lights, storage, budget } = &self.wants;
+        let camera = camera.camera(&loaded, size_px)?;
+        let in_pages = *storage == Storage::default() && !budget;
         let paged = match &loaded.hierarchies[..] {
-            [file] if loaded.inputs.len() == 1 && self.in_pages && !file.header().transparent => {
+            [file] if loaded.inputs.len() == 1 && in_pages && !file.header().transparent => {
                 Some(file.path().to_owned())
             }
             _ => None,
@@ -211,10 +211,11 @@ impl Worker {
         }
         self.bars.clear();
         let Loaded { mut scene, ball, picture, inputs, .. } = loaded;
-        if !self.lights.is_empty() {
-            scene.lights.clone_from(&self.lights);
+        if !lights.is_empty() {
+            scene.lights.clone_from(lights);
         }
-        scene.storage = self.storage;
+        scene.storage = *storage;
+        (scene.budget, scene.levels) = (*budget, *budget);
         scene.numbered = true;
         Ok(Document { scene: Arc::new(scene), ball, camera, picture, inputs, files, paged })
     }
@@ -236,7 +237,7 @@ impl Worker {
             }
         };
         let splats = scene.splat_count();
-        let has_levels = scene.has_levels();
+        let has_levels = scene.has_levels() || scene.levels;
         let mut steps = Vec::new();
         if in_parts && splats > PART_FROM {
             steps.push(Step::Part);

@@ -122,11 +122,12 @@ pub fn run(arguments: &ViewArguments) -> Result<()> {
     let settings = arguments.settings.over(Settings::default());
     settings.validate()?;
     let camera = CameraChoice::of(&arguments.camera)?;
+    let path = arguments.path.as_deref().map(path::Path::read).transpose()?.unwrap_or_default();
     display::check()?;
     let events = EventLoop::<loading::News>::with_user_event()
         .build()
         .map_err(|error| ErrorKind::NoWindow { reason: display::explain(&error.to_string()) })?;
-    let mut app = app::App::new(arguments, settings, camera, events.create_proxy());
+    let mut app = app::App::new(arguments, settings, (camera, path), events.create_proxy());
     let ran = events.run_app(&mut app);
     let done = app.end();
     let said = match (&done.messages, arguments.device.validate) {

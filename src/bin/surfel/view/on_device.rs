@@ -1,7 +1,7 @@
 //! What of a scene is on the device: all of it, or pages of a file that come and go as the camera moves.
 
 use surfel::{
-    Headless, Result,
+    Error, ErrorKind, Headless, Result,
     levels_file::{LevelsFile, PageView, Pager},
     prepare::PreparedScene,
     renderer::{Drawn, PagedScene},
@@ -25,6 +25,10 @@ pub struct Paged {
     still_px: Option<f64>,
     /// More is to come.
     pub is_coming: bool,
+    /// What is wrong with the first page that can't be read, until it is told.
+    fault: Option<Error>,
+    /// How many can't be read.
+    faults: usize,
 }
 
 impl OnDevice {
@@ -60,14 +64,14 @@ impl Paged {
     /// As [`Pager::start`] and [`PagedScene::new`].
     pub fn new(file: LevelsFile, most_bytes: u64, lights: Vec<Light>) -> Result<Self> {
         let scene = PagedScene::new(Pager::start(file)?, most_bytes)?.lit_by(lights);
-        Ok(Self { scene, still_px: None, is_coming: true })
+        Ok(Self { scene, still_px: None, is_coming: true, fault: None, faults: 0 })
     }
 
     /// Takes what has arrived; the settings with which each of these pictures can be drawn now, `None` where not even the coarsest pages are
     /// there. The last one is the picture at rest.
     ///
     /// # Errors
-    /// As [`PagedScene::update`].
+    /// As [`PagedScene::update`], but for pages that can't be read ([`Self::take_fault`]).
     pub fn update(
         &mut self,
         headless: &Headless,
@@ -75,24 +79,33 @@ impl Paged {
         wanted: &[&Settings],
     ) -> Result<Vec<Option<Settings>>> {
         let drawn = self.take(headless, camera, wanted, false)?;
-        self.is_coming = drawn.iter().any(|drawn| drawn.is_none_or(|drawn| !drawn.is_finest));
+        self.is_coming = self.scene.is_coming();
         self.still_px = drawn.last().copied().flatten().map(|drawn| drawn.tau_px);
         let of = |(drawn, wanted): (Option<Drawn>, &&Settings)| Some(at(wanted, drawn?.tau_px));
         Ok(drawn.into_iter().zip(wanted).map(of).collect())
     }
 
-    /// The settings for a picture with all that it wants, once that has come.
+    /// The settings for a picture with all that it wants, once that has come, or all that can: of what is at fault it is coarser; `None` where that is nothing.
     ///
     /// # Errors
     /// As [`PagedScene::update`].
-    pub fn wait_for(&mut self, headless: &Headless, camera: &Camera, wanted: &Settings) -> Result<Settings> {
+    pub fn wait_for(
+        &mut self,
+        headless: &Headless,
+        camera: &Camera,
+        wanted: &Settings,
+    ) -> Result<Option<Settings>> {
         loop {
-            if let [Some(drawn)] = self.take(headless, camera, &[wanted], true)?[..]
-                && drawn.is_finest
-            {
-                return Ok(at(wanted, drawn.tau_px));
+            let drawn = self.take(headless, camera, &[wanted], true)?.into_iter().next().flatten();
+            if drawn.is_some_and(|drawn| drawn.is_finest) || !self.scene.is_coming() {
+                return Ok(drawn.map(|drawn| at(wanted, drawn.tau_px)));
             }
         }
+    }
+
+    /// Whether [`Self::update`] would find something new.
+    pub fn has_arrived(&self) -> bool {
+        self.scene.has_arrived()
     }
 
     /// The settings for a picture at rest with what is there now.
@@ -105,11 +118,17 @@ impl Paged {
         self.scene.pages()
     }
 
+    /// What is wrong with the first page that can't be read, once.
+    pub fn take_fault(&mut self) -> Option<Error> {
+        self.fault.take()
+    }
+
     /// The same in words, with what they take.
     pub fn words(&self) -> String {
         let mib = self.scene.bytes() as f64 / f64::from(1 << 20);
         let more = if self.is_coming { ", more to come" } else { "" };
-        format!("{}, {mib:.1} MiB{more}", self.pages())
+        let faults = if self.faults > 0 { format!(", {} unreadable", self.faults) } else { String::new() };
+        format!("{}, {mib:.1} MiB{more}{faults}", self.pages())
     }
 
     fn take(
@@ -124,7 +143,19 @@ impl Paged {
             view.with_blended(settings.blended_size())
         };
         let views: Vec<PageView> = wanted.iter().map(view).collect();
-        self.scene.update(&views, &mut |scene| headless.prepare(scene, &|_, _| {}), waits)
+        loop {
+            let updated = self.scene.update(&views, &mut |scene| headless.prepare(scene, &|_, _| {}), waits);
+            match updated {
+                // A page that can't be read does not come again: the picture goes on without it.
+                Err(error) if matches!(error.kind(), ErrorKind::Input { .. } | ErrorKind::File { .. }) => {
+                    self.faults += 1;
+                    if self.faults == 1 {
+                        self.fault = Some(error);
+                    }
+                }
+                updated => return updated,
+            }
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use super::{
     frame_desc::{Drawn, FrameDesc, SceneView},
     keys::Comparing,
     loading::Step,
-    on_device::OnDevice,
+    on_device::{OnDevice, Paged},
     overlay::OverlayFrame,
     picture::{Cost, Use},
     show::{ShowDesc, Shown},
@@ -53,8 +53,12 @@ impl Viewer {
             // A device that is lost tells the next frame, too.
             let _ = self.gpu.tidy();
         }
-        let is_there = is_due(self.looks_for_costs) || is_due(self.looks_for_pages);
-        if rests || is_due(self.ui.next_wake()) || is_there {
+        let pages = self.prepared.as_ref().and_then(OnDevice::pages);
+        let pages_are_there = is_due(self.looks_for_pages) && pages.is_none_or(Paged::has_arrived);
+        if is_due(self.looks_for_pages) {
+            self.looks_for_pages = Some(now + PAGES);
+        }
+        if rests || is_due(self.ui.next_wake()) || is_due(self.looks_for_costs) || pages_are_there {
             self.window.request_redraw();
         }
     }
@@ -164,10 +168,14 @@ impl Viewer {
         let wanted = [&settings, &whole];
         let wanted = if settings == whole { &wanted[1..] } else { &wanted[..] };
         let drawn = paged.update(&self.gpu.headless, &camera.camera, wanted)?;
+        let fault = paged.take_fault();
         if paged.is_coming {
             self.looks_for_pages = Some(Instant::now() + PAGES);
         }
         self.is_stale |= before != (paged.now(&whole), paged.pages());
+        if let Some(error) = fault {
+            self.tell(&format!("{error}; the picture is as fine as it can be without it"));
+        }
         Ok(drawn.into_iter().next().flatten())
     }
 

@@ -80,7 +80,7 @@ pub(super) fn sampled(
     let at_joints = cells_of_joints(&border);
     let on_edges = places.iter().map(|place| cells_of(place, &border, &at_joints));
     let of_splats = owners.into_iter().map(|owner| vec![owner]).chain(on_edges).collect();
-    let neighbors = neighbors(&at_joints, cells.len());
+    let neighbors = neighbors(&border, &at_joints, cells.len());
     Ok(Sampled { splats, cells: of_splats, neighbors, area_each })
 }
 
@@ -104,10 +104,15 @@ fn cells_of_joints(border: &Border) -> Vec<Vec<u32>> {
     cells
 }
 
-/// Of each cell those that it has a joint in common with.
-fn neighbors(at_joints: &[Vec<u32>], count: usize) -> Vec<Vec<u32>> {
+/// Where more cells meet, such as at the tip of a fan, those are neighbors that have an edge in common: else each would have all others, of which memory is not to
+/// depend on the square. All of them still have the splat at that place.
+const MOST_MEETING: usize = 32;
+
+/// Of each cell those that it has a joint or an edge in common with.
+fn neighbors(border: &Border, at_joints: &[Vec<u32>], count: usize) -> Vec<Vec<u32>> {
     let mut neighbors = vec![Vec::new(); count];
-    for cells in at_joints {
+    let meetings = at_joints.iter().chain(border.edges.iter().map(|edge| &edge.parts));
+    for cells in meetings.filter(|cells| cells.len() <= MOST_MEETING) {
         for cell in cells {
             neighbors[*cell as usize].extend(cells.iter().filter(|other| *other != cell));
         }
@@ -123,5 +128,36 @@ fn cells_of(place: &Place, border: &Border, at_joints: &[Vec<u32>]) -> Vec<u32> 
     match place.on {
         On::Edge(edge) => border.edges[edge].parts.clone(),
         On::Joint(joint) => at_joints[joint].clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The neighbors of cells that are a triangle each, around one place.
+    fn around_a_tip(triangles: u32) -> Vec<Vec<u32>> {
+        let at = |i: u32| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(triangles)).sin_cos();
+            DVec3::new(cos, sin, 0.0)
+        };
+        let positions = std::iter::once(DVec3::Z).chain((0..triangles).map(at)).collect();
+        let triangles: Vec<[u32; 3]> = (0..triangles).map(|i| [0, 1 + i, 1 + (i + 1) % triangles]).collect();
+        let cells: Vec<u32> = (0..triangles.len() as u32).collect();
+        let border = Border::of(&Mesh { positions, triangles, ..Mesh::default() }, &cells);
+        neighbors(&border, &cells_of_joints(&border), cells.len())
+    }
+
+    #[test]
+    fn cells_at_one_place_are_neighbors_unless_they_are_too_many_to_be() {
+        let few = around_a_tip(12);
+        assert!(few.iter().all(|neighbors| neighbors.len() == 11), "{few:?}");
+        // All pairs would be four million.
+        let many = around_a_tip(2000);
+        for (cell, neighbors) in (0..2000).zip(&many) {
+            let mut beside = [(cell + 1999) % 2000, (cell + 1) % 2000];
+            beside.sort_unstable();
+            assert_eq!(neighbors[..], beside, "{cell}");
+        }
     }
 }

@@ -1,0 +1,233 @@
+//! Potree 2: its metadata, and the records of its nodes.
+
+use std::{fs::File, path::Path};
+
+use glam::DVec3;
+use serde::Deserialize;
+
+use super::{Source, Span, Tree};
+use crate::{
+    error::{Error, Result},
+    load::{
+        LoadOptions,
+        beside::{self, Refusal},
+        las::{Columns, NOISE},
+        sniff::{is_potree, without_mark},
+    },
+    scene::Bounds,
+};
+
+/// Bytes of the metadata at most.
+pub(super) const MOST_METADATA_BYTES: u64 = 16 << 20;
+
+/// Bytes of a record at most.
+const MOST_RECORD_BYTES: u64 = 1 << 16;
+
+/// Whether a file that begins so is the metadata of Potree 2.
+pub(super) fn is_metadata(head: &[u8]) -> bool {
+    without_mark(head).trim_ascii_start().starts_with(b"{") && is_potree(head)
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Metadata {
+    version: String,
+    points: u64,
+    hierarchy: Hierarchy,
+    offset: [f64; 3],
+    scale: [f64; 3],
+    spacing: f64,
+    bounding_box: Box3,
+    encoding: String,
+    attributes: Vec<Attribute>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Hierarchy {
+    first_chunk_size: u64,
+}
+
+#[derive(Deserialize)]
+struct Box3 {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct Attribute {
+    name: String,
+    size: u64,
+    #[serde(rename = "type")]
+    kind: String,
+    #[serde(default)]
+    min: Vec<f64>,
+    #[serde(default)]
+    max: Vec<f64>,
+}
+
+/// How its nodes are written.
+pub(super) struct Form {
+    pub record_bytes: usize,
+    scale: DVec3,
+    offset: DVec3,
+    position_at: usize,
+    color_at: Option<usize>,
+    intensity_at: Option<usize>,
+    class_at: Option<usize>,
+}
+
+/// What its metadata says.
+pub(super) struct Opened {
+    pub form: Form,
+    pub words: String,
+    pub points: u64,
+    pub bounds: Bounds,
+    pub tree: Tree,
+}
+
+/// Reads the metadata, and opens the files of the hierarchy and of the points in its folder.
+pub(super) fn open(
+    path: &Path,
+    metadata: &[u8],
+    folder: &Path,
+    options: &LoadOptions,
+) -> Result<(Opened, [Source<File>; 2])> {
+    let beside = |name: &str| {
+        let found = beside::find(folder, name, options.allow_outside).map_err(|refusal| match refusal {
+            Refusal::Missing(path, e) => Error::file(path, "read", e),
+            _ => Error::input(
+                path,
+                "",
+                format!("{name} lies outside of its folder; --allow-outside allows it"),
+            ),
+        })?;
+        Source::open(&found)
+    };
+    let files = [beside("hierarchy.bin")?, beside("octree.bin")?];
+    let opened = read(path, metadata, files[0].bytes)?;
+    Ok((opened, files))
+}
+
+/// Reads the metadata; the hierarchy has so many bytes.
+pub(super) fn read(path: &Path, metadata: &[u8], hierarchy_bytes: u64) -> Result<Opened> {
+    let refuse = |place: &str, problem: String| Error::input(path, place, problem);
+    let metadata: Metadata = serde_json::from_slice(without_mark(metadata)).map_err(|e| {
+        let problem = e.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+        refuse("JSON", problem)
+    })?;
+    let short = |word: &str| word.chars().take(40).collect::<String>().escape_debug().to_string();
+    let version = short(&metadata.version);
+    if !version.starts_with("2.") {
+        return Err(refuse("version", format!("'{version}'; expected 2.0")));
+    }
+    if metadata.encoding != "DEFAULT" && metadata.encoding != "UNCOMPRESSED" {
+        let problem = format!(
+            "'{}'; expected DEFAULT (PotreeConverter without --encoding BROTLI)",
+            short(&metadata.encoding)
+        );
+        return Err(refuse("encoding", problem));
+    }
+    let [scale, offset] = [metadata.scale, metadata.offset].map(DVec3::from);
+    let Box3 { min, max } = metadata.bounding_box;
+    let cube = [min, max].map(DVec3::from);
+    let is_length = |length: &f64| length.is_normal() && *length > 0.0;
+    let lengths = scale.to_array().into_iter().chain([metadata.spacing]);
+    let extent = (cube[1] - cube[0]).to_array();
+    if !lengths.chain(extent).all(|length| is_length(&length)) || !offset.is_finite() || !cube[0].is_finite()
+    {
+        let problem = format!(
+            "scale {scale}, offset {offset}, spacing {} and the box from {} to {}; expected finite numbers, sizes above 0",
+            metadata.spacing, cube[0], cube[1]
+        );
+        return Err(refuse("metadata", problem));
+    }
+    let form = Form::new(&metadata, scale, offset).map_err(|problem| refuse("attributes", problem))?;
+    let bytes = metadata.hierarchy.first_chunk_size;
+    if bytes == 0 || bytes > hierarchy_bytes {
+        let problem = format!("a first chunk of {bytes} bytes; expected some within {hierarchy_bytes}");
+        return Err(refuse("hierarchy", problem));
+    }
+    let tight = metadata.attributes.iter().find(|own| is_position(&own.name)).and_then(tight);
+    Ok(Opened {
+        form,
+        words: format!("Potree {version}"),
+        points: metadata.points,
+        bounds: tight.unwrap_or(Bounds { min: cube[0], max: cube[1] }),
+        tree: Tree::new(cube, metadata.spacing, Span { at: 0, bytes }, metadata.points),
+    })
+}
+
+fn is_position(name: &str) -> bool {
+    matches!(name, "position" | "POSITION_CARTESIAN")
+}
+
+/// The box of the points themselves; that of the octree is a cube.
+fn tight(position: &Attribute) -> Option<Bounds> {
+    let [min, max] = [&position.min, &position.max].map(|corner| {
+        let corner: Option<[f64; 3]> = corner.as_slice().try_into().ok();
+        corner.map(DVec3::from).filter(|corner| corner.is_finite())
+    });
+    min.zip(max).filter(|(min, max)| min.cmple(*max).all()).map(|(min, max)| Bounds { min, max })
+}
+
+impl Form {
+    fn new(metadata: &Metadata, scale: DVec3, offset: DVec3) -> Result<Self, String> {
+        let mut at = 0_u64;
+        let [mut position, mut color, mut intensity, mut class] = [None; 4];
+        for Attribute { name, size, kind, .. } in &metadata.attributes {
+            let place = Some(at as usize);
+            match (name.as_str(), kind.as_str(), size) {
+                (name, "int32", 12) if is_position(name) => position = place,
+                ("rgb" | "RGB", "uint16", 6) => color = place,
+                ("intensity", "uint16", 2) => intensity = place,
+                ("classification", "uint8", 1) => class = place,
+                _ => {}
+            }
+            at = at.saturating_add(*size);
+            if at > MOST_RECORD_BYTES {
+                return Err(format!("records of {at} bytes; expected at most {MOST_RECORD_BYTES}"));
+            }
+        }
+        let Some(position_at) = position else {
+            return Err("no position of three int32".to_owned());
+        };
+        Ok(Self {
+            record_bytes: at as usize,
+            scale,
+            offset,
+            position_at,
+            color_at: color,
+            intensity_at: intensity,
+            class_at: class,
+        })
+    }
+
+    pub fn has_colors(&self) -> bool {
+        self.color_at.is_some()
+    }
+
+    /// The points of a node, one record after the other.
+    pub fn decode(&self, bytes: &[u8], points: usize) -> Result<Columns, String> {
+        let mut columns = Columns::default();
+        for record in bytes.chunks_exact(self.record_bytes).take(points) {
+            let class = self.class_at.and_then(|at| record.get(at));
+            if class.is_some_and(|class| NOISE.contains(class)) {
+                columns.noise += 1;
+                continue;
+            }
+            let int = |axis: usize| {
+                let bytes = record.get(self.position_at + 4 * axis..).and_then(|rest| rest.first_chunk());
+                f64::from(bytes.map_or(0, |bytes| i32::from_le_bytes(*bytes)))
+            };
+            let short = |at: usize| {
+                let bytes = record.get(at..).and_then(|rest| rest.first_chunk());
+                bytes.map_or(0, |bytes| u16::from_le_bytes(*bytes))
+            };
+            columns.positions.push(DVec3::new(int(0), int(1), int(2)) * self.scale + self.offset);
+            columns.colors.extend(self.color_at.map(|at| [short(at), short(at + 2), short(at + 4)]));
+            columns.intensities.push(self.intensity_at.map_or(0, short));
+        }
+        Ok(columns)
+    }
+}

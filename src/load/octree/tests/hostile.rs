@@ -1,0 +1,73 @@
+use super::*;
+
+/// Whatever bytes are there: an error in one line, or points, without taking long.
+#[test]
+fn hostile_bytes_are_refused_or_read() {
+    let octree = octree(600);
+    let (copc, root) = octree.copc(1);
+    let potree = octree.potree(1);
+    let read = |octree: Result<PointOctree<Cursor<Vec<u8>>>>| {
+        let read = octree.and_then(|mut octree| {
+            let all = octree.choose(&|_| true)?;
+            let points = octree.size_of(&all).0;
+            let read = points_of(octree.read(&all, &())?);
+            assert!(read as u64 <= points);
+            Ok(())
+        });
+        if let Err(error) = read {
+            assert!(error.exit_code() == 1 && !error.to_string().contains('\n'), "{error}");
+        }
+    };
+    let mut random = SplitMix(11);
+    let mut below = |most: usize| (random.bits() % most as u64) as usize;
+    for case in 0..6000 {
+        let mut copc = copc.clone();
+        let mut files = potree.clone();
+        for _ in 0..=below(3) {
+            // The hierarchy and the headers, more than the points.
+            let (bytes, at) = match (case % 2, below(4)) {
+                (0, 0) => (&mut copc, below(700)),
+                (0, 1) => (&mut copc, root - 1 - below(root / 2)),
+                (0, _) => {
+                    let behind = copc.len().saturating_sub(root).max(1);
+                    (&mut copc, root + below(behind))
+                }
+                (_, 3) => {
+                    let length = files[2].len().max(1);
+                    (&mut files[2], below(length))
+                }
+                (_, own) => {
+                    let file = &mut files[own.min(1)];
+                    let length = file.len().max(1);
+                    (file, below(length))
+                }
+            };
+            if at >= bytes.len() {
+                break;
+            }
+            match below(4) {
+                0 => bytes[at] ^= 1 << below(8),
+                1 => {
+                    let end = (at + 4).min(bytes.len());
+                    bytes[at..end].fill([0, 0xff, 0x7f, 0x80][below(4)]);
+                }
+                2 => bytes[at] = below(256) as u8,
+                _ => {
+                    let from = below(bytes.len());
+                    bytes[at] = bytes[from];
+                }
+            }
+            if below(40) == 0 {
+                bytes.truncate(at + 1);
+            }
+        }
+        match case % 2 {
+            0 => read(of_copc(copc)),
+            _ => read(of_potree(files)),
+        }
+    }
+}
+
+fn points_of(loaded: Loaded) -> usize {
+    points(loaded).positions.len()
+}
