@@ -53,7 +53,8 @@ pub use crate::passes::{
 };
 
 use crate::passes::{
-    cull::lists::Lists, host::BesideHost, plan::Outputs, resolve::finalize::Opaque, tiles::splat::TileStart,
+    cull::lists::Lists, host::BesideHost, plan::outputs::Outputs, resolve::finalize::Opaque,
+    tiles::splat::TileStart,
 };
 use crate::{
     error::Result,

@@ -18,6 +18,7 @@ pub(crate) mod mesh_draws;
 pub(crate) mod method;
 pub(crate) mod needs;
 pub(crate) mod objects;
+pub(crate) mod outputs;
 pub(crate) mod planes;
 pub(crate) mod range;
 pub(crate) mod seen;
@@ -25,7 +26,7 @@ pub(crate) mod sums;
 pub(crate) mod tiles;
 pub(crate) mod words;
 
-use crate::passes::pipeline::{formats::sum_format, variant::culls};
+use crate::passes::pipeline::variant::culls;
 use crate::passes::plan::{
     bands::Band,
     block_list::ListedBlocks,
@@ -103,13 +104,15 @@ impl<'a> FramePlan<'a> {
         let camera = &range.begin(camera);
         let all = || {
             (0..).zip(scenes).flat_map(|(number, placed)| {
-                let of_number = move |draw| Draw { placed: number, ..draw };
+                let of_number = move |mut draw: Draw<'a>| {
+                    draw.placed = number;
+                    draw
+                };
                 draws(*placed, (camera, range), settings, limits).into_iter().map(of_number)
             })
         };
         let (clear_splats, splats) = all().partition(|draw| draw.chunk.transparent);
-        let again =
-            |transparent: bool| all().filter(|draw| draw.chunk.transparent == transparent).collect();
+        let again = |transparent: bool| all().filter(|draw| draw.chunk.transparent == transparent).collect();
         let meshes = (0..).zip(scenes).flat_map(|(number, placed)| {
             let of_number = move |draw| MeshDraw { placed: number, ..draw };
             mesh_draws(*placed, (camera, range), settings).into_iter().map(of_number)
@@ -260,45 +263,5 @@ impl<'a> SurfacePlan<'a> {
     /// Nothing at all.
     pub fn is_empty(&self) -> bool {
         self.splats.is_empty() && self.meshes.is_empty()
-    }
-}
-
-/// What is wanted of a frame beside its picture, and in which format that is.
-#[derive(Clone, Copy)]
-pub(crate) struct Outputs {
-    /// The opaque surface as data: sums, of depth too, are read everywhere.
-    pub surface: bool,
-    /// The opaque surface's own depth, for a host that draws beside it.
-    pub depth: bool,
-    /// Transparent layers lie before the opaque surface.
-    pub layers: bool,
-    /// The picture's format.
-    pub target_format: ash::vk::Format,
-}
-
-impl Outputs {
-    /// Sums and depth are read everywhere, not only where finalization shades.
-    pub fn reads_whole_images(self) -> bool {
-        self.surface || self.depth || self.layers
-    }
-
-    /// Depth is summed where sums are.
-    pub fn sums_depth(self) -> bool {
-        self.surface || self.depth
-    }
-
-    /// Whether tiles of these opaque things can be shaded at once. Where they cover pixels in part, they leave layers a depth beside
-    /// what they show.
-    pub fn may_be_shaded(self, opaque: &SurfacePlan<'_>) -> bool {
-        let read = self.surface || self.layers && opaque.settings.edges == Edges::Hard;
-        !read && opaque.tiles_can_shade(&opaque.settings)
-    }
-
-    /// The format of tiles that are shaded at once: a target of 32 bits loses nothing by them.
-    pub fn shaded_precision(self, settings: &Settings) -> Accumulate {
-        match self.target_format == sum_format(Accumulate::F32) {
-            true => Accumulate::F32,
-            false => settings.accumulate,
-        }
     }
 }

@@ -9,7 +9,7 @@ use crate::passes::{
     pipeline::variant::resolve_constants,
     pipeline::{key::ComputeKey, variant::shading_constants},
     place::tiles as at,
-    plan::{Outputs, tiles::TilePlan},
+    plan::{outputs::Outputs, tiles::TilePlan},
     tiles::{
         clear::clear,
         dispatch,
