@@ -18,10 +18,10 @@ use super::{
     refinements::Refinements,
     sequence::Sequence,
     sites::{Site, sites},
-    updatable::Shadow,
+    updatable::{self, Shadow},
 };
 use crate::{
-    error::{Error, Result},
+    error::Result,
     geometry::Overlaps,
     scene::{
         Clip, DefectCounts, Epsilon, HybridLevels, LeveledObject, MeshObject, Object, Opacity, Order, Scene,
@@ -44,7 +44,7 @@ pub(super) fn cut(
     scene: &Scene,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
-    check_updatable(scene)?;
+    updatable::check(scene)?;
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());
     let names = of_splats.chain(leveled).chain(scene.meshes.iter().map(|object| object.name.as_str()));
@@ -103,18 +103,6 @@ pub(super) fn cut(
     let Cut { mut prepared, transparent_splats, transparent_radii, .. } = cut;
     prepared.mean_transparent_radius = transparent_radii / f64::from(transparent_splats.max(1));
     Ok(prepared)
-}
-
-/// Refuses a scene whose splats are to change, where what stands for others, or the bytes they are kept in, would not go along.
-fn check_updatable(scene: &Scene) -> Result<()> {
-    let problem = match scene.updatable {
-        true if scene.levels || scene.has_levels() => "levels of detail stand for splats as they are",
-        true if scene.storage.format == SplatFormat::Packed => {
-            "packed splats have no room to move: expected the splat format exact"
-        }
-        _ => return Ok(()),
-    };
-    Err(Error::option("updatable", problem))
 }
 
 /// What is done so far.
