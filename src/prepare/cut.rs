@@ -18,7 +18,7 @@ use super::{
     refinements::Refinements,
     sequence::Sequence,
     sites::{Site, sites},
-    updatable::Shadow,
+    updatable::{self, Shadow},
 };
 use crate::{
     error::Result,
@@ -44,7 +44,7 @@ pub(super) fn cut(
     scene: &Scene,
     progress: &dyn Fn(u64, u64),
 ) -> Result<PreparedScene> {
-    scene.check_updatable()?;
+    updatable::check(scene)?;
     let of_splats = scene.objects.iter().map(|object| object.name.as_str());
     let leveled = scene.leveled.iter().map(|object| object.name.as_str());
     let names = of_splats.chain(leveled).chain(scene.meshes.iter().map(|object| object.name.as_str()));

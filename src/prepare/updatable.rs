@@ -16,10 +16,22 @@ use super::{
 };
 use crate::{
     error::{Error, Result},
-    scene::{Clip, DefectCounts, Shapes, Splats},
+    scene::{Clip, DefectCounts, Scene, Shapes, SplatFormat, Splats},
     shaders::config::BLOCK_SPLATS,
     vk::{Device, Staging},
 };
+
+/// Refuses a scene whose splats are to change, where what stands for others, or the bytes they are kept in, would not go along.
+pub(super) fn check(scene: &Scene) -> Result<()> {
+    let problem = match scene.updatable {
+        true if scene.levels || scene.has_levels() => "levels of detail stand for splats as they are",
+        true if scene.storage.format == SplatFormat::Packed => {
+            "packed splats have no room to move: expected the splat format exact"
+        }
+        _ => return Ok(()),
+    };
+    Err(Error::option("updatable", problem))
+}
 
 /// Splats that are between two changed ones and are copied with them, rather than begin a copy of its own.
 const MOST_BETWEEN: u32 = 16;

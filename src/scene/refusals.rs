@@ -2,7 +2,6 @@
 
 use super::{
     Camera, Filter, Light, MOST_LIGHTS, Object, Opacity, Rasterizer, Scene, Settings, Shading, Shapes,
-    SplatFormat,
 };
 use crate::error::{Error, Result};
 
@@ -87,19 +86,5 @@ impl Settings {
             return Err(Error::option("--filter", problem));
         }
         Ok(())
-    }
-}
-
-impl Scene {
-    /// Refuses a scene whose splats are to change, where what stands for others, or the bytes they are kept in, would not go along.
-    pub(crate) fn check_updatable(&self) -> Result<()> {
-        let problem = match self.updatable {
-            true if self.levels || self.has_levels() => "levels of detail stand for splats as they are",
-            true if self.storage.format == SplatFormat::Packed => {
-                "packed splats have no room to move: expected the splat format exact"
-            }
-            _ => return Ok(()),
-        };
-        Err(Error::option("updatable", problem))
     }
 }

@@ -261,7 +261,7 @@ fn interface() -> String {
             }
             assert_eq!(declared.len(), 1, "{name}: declared once in {paths:?}: {declared:?}");
             functions.sort();
-            write!(all, "{}\n", declared[0]).unwrap();
+            writeln!(all, "{}", declared[0]).unwrap();
             functions.iter().for_each(|function| writeln!(all, "  {function}").unwrap());
             all.push('\n');
         }

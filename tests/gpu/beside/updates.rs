@@ -74,6 +74,10 @@ fn settings(rasterizer: Rasterizer) -> Settings {
     Settings { size_px: SIZE_PX, edges: Edges::Hard, rasterizer, ..Settings::default() }
 }
 
+fn far(one: &[f32; 4], other: &[f32; 4]) -> bool {
+    (0..4).any(|i| (one[i] - other[i]).abs() > 1.0 / 255.0)
+}
+
 /// Records updates, submits them by themselves, and draws.
 fn update(beside: &Beside, scene: &mut PreparedScene, first: usize, splats: &Splats) {
     beside.engine.begin();
@@ -114,8 +118,6 @@ fn updated_splats_are_seen_as_an_upload_of_them_is() {
         for rasterizer in both {
             let [(seen, _), (expected, _)] =
                 [&updated, &fresh].map(|scene| picture(&mut beside, scene, rasterizer));
-            let far =
-                |one: &[f32; 4], other: &[f32; 4]| (0..4).any(|i| (one[i] - other[i]).abs() > 1.0 / 255.0);
             let others = seen.iter().zip(&expected).filter(|(one, other)| far(one, other)).count();
             let there = expected.iter().filter(|color| **color != super::RED).count();
             println!("{order:?}, {rasterizer:?}: {others} of {there} pixels differ by more than 1/255");
@@ -129,6 +131,17 @@ fn updated_splats_are_seen_as_an_upload_of_them_is() {
                 picture(&mut beside, &updated, rasterizer) == *before,
                 "{order:?}, {rasterizer:?}: as it was"
             );
+        }
+        // From out of sight, by bounds that were there: nobody would look for them.
+        let mut away = ball();
+        range.clone().for_each(|i| away.positions[i].x += 40.0);
+        let mut updated = beside.upload(&scene(away, order));
+        update(&beside, &mut updated, range.start, &part(&splats, range));
+        for (rasterizer, (before, _)) in both.into_iter().zip(&before) {
+            let (seen, _) = picture(&mut beside, &updated, rasterizer);
+            let others = seen.iter().zip(before).filter(|(one, other)| far(one, other)).count();
+            println!("{order:?}, {rasterizer:?}: {others} pixels differ of what came into sight");
+            assert!(others <= 12, "{others}");
         }
     }
     beside.end();
