@@ -200,10 +200,10 @@ impl Octree {
         header.extend(36_u16.to_le_bytes());
         header.extend([0; 24]);
         [SCALE; 3].iter().chain(&OFFSET).for_each(|number| header.extend(number.to_le_bytes()));
-        for axis in 0..3 {
+        for (axis, offset) in OFFSET.iter().enumerate() {
             let places = || self.nodes.values().flatten().map(|point| point.0[axis]);
             for step in [places().max(), places().min()] {
-                header.extend((OFFSET[axis] + f64::from(step.unwrap_or(0)) * SCALE).to_le_bytes());
+                header.extend((offset + f64::from(step.unwrap_or(0)) * SCALE).to_le_bytes());
             }
         }
         header.extend([0; 8].into_iter().chain((extended_at as u64).to_le_bytes()));

@@ -22,7 +22,7 @@ use surfel::{
 };
 
 /// A ball with waves, which hides parts of itself, in colors.
-fn waves(triangles: u64, samples: u64) -> Multiresolution {
+pub fn waves(triangles: u64, samples: u64) -> Multiresolution {
     let mut mesh = sphere_mesh(triangles);
     let mut colors = Vec::new();
     for position in &mut mesh.positions {
@@ -41,7 +41,7 @@ fn object(made: &Multiresolution, mesh: Mesh) -> MeshObject {
 }
 
 /// The mesh with its levels.
-fn hard(made: &Multiresolution, tau_px: f64) -> Hard {
+pub fn hard(made: &Multiresolution, tau_px: f64) -> Hard {
     let mut hard = ball(1, tau_px);
     hard.scene = Scene {
         meshes: vec![object(made, made.mesh.clone())],
@@ -52,9 +52,13 @@ fn hard(made: &Multiresolution, tau_px: f64) -> Hard {
     hard
 }
 
+pub fn direction(random: &mut SplitMix) -> DVec3 {
+    DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize()
+}
+
 /// From anywhere, near enough for polygons and far enough for splats at once.
 fn camera(random: &mut SplitMix, round: usize) -> Camera {
-    let direction = DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5).normalize();
+    let direction = direction(random);
     let eye = (1.5 + 2.5 * random.unit()) * direction;
     Camera {
         eye,
@@ -141,7 +145,7 @@ fn what_is_drawn_is_what_the_oracle_chooses() {
             passes(&found)
         );
         assert!(passes(&found).contains(&"choose polygons") || choice.cells.is_empty());
-        // Sums of the same splats in another order, of chunks with other origins: in single pixels that turns what is within ε.
+        // Sums in another order, of chunks with other origins: in single pixels that turns what is within ε.
         let is_apart = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 1e-4);
         let apart = truth.linear.iter().zip(&found.linear).filter(is_apart).count();
         assert!(apart <= 4 && error < 1e-3, "round {round}: {apart} pixels, {error}");

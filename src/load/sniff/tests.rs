@@ -71,7 +71,7 @@ fn what_is_no_model_is_named() {
         ),
         ("a.obj", b"<Html>", "this is an HTML page, perhaps of a download that failed"),
         ("a.json", b"{\"camera\": 1}", "this is JSON, but neither glTF nor the metadata of Potree 2"),
-        ("a.json", b" [1, 2]", "this is JSON, but not glTF"),
+        ("a.json", b" [1, 2]", "this is JSON, but neither glTF nor the metadata of Potree 2"),
         ("a.obj", b"v 0 0 0\0", "named .obj, but its content is binary of another format"),
         ("a", b"\x01\0\0\0", "binary, of an unknown format"),
         ("a", b"Once upon a time", "text of an unknown format"),
