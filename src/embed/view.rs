@@ -8,12 +8,14 @@ use super::{
     over::{Part, Rendering},
 };
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, SlotParts},
     graph::{
         Graph, ImageDesc,
         execute::{FrameProfile, Physical},
     },
+    inline_vec::InlineVec,
     passes::{
         self, HostDepth, Inputs, Place, host::BesideHost, pipeline::key::Layout, plan::range::DepthRange,
     },
@@ -37,8 +39,11 @@ pub struct View {
 struct Prepared {
     area: vk::Rect2D,
     depth: HostDepth,
-    draws: Vec<(vk::Pipeline, vk::DescriptorSet)>,
+    draws: Draws,
 }
+
+/// At most one of each part.
+type Draws = InlineVec<(vk::Pipeline, vk::DescriptorSet), 3>;
 
 /// Draws take two sets, each of the surface or of layers.
 const SETS_OF_DRAWS: PoolSizes = PoolSizes {
@@ -82,6 +87,24 @@ impl View {
         commands: vk::CommandBuffer,
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
+        let arena = self.slot.take_arena();
+        // SAFETY: this function's contract.
+        let recorded = unsafe { self.record(&arena, renderer, commands, frame) };
+        self.slot.give_back(arena);
+        recorded
+    }
+
+    /// The same, in a frame's memory.
+    ///
+    /// # Safety
+    /// As [`Self::prepare`].
+    unsafe fn record(
+        &mut self,
+        arena: &Arena,
+        renderer: &Renderer,
+        commands: vk::CommandBuffer,
+        frame: &ViewFrame<'_>,
+    ) -> Result<()> {
         self.prepared = None;
         let settings = &Settings { background: None, ..frame.settings.clone() };
         if settings.samples.0 > 1 {
@@ -92,7 +115,7 @@ impl View {
         }
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
         self.check_order(depth)?;
-        let plan = renderer.frame_plan(frame.scenes, &camera, settings)?;
+        let plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;
         let layered = !plan.transparent.is_empty();
         self.check(frame, layered)?;
         let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
@@ -112,7 +135,7 @@ impl View {
         let source = inputs.source.cut_by(planes);
         let inputs = Inputs { occlusion, range: plan.range, source, ..inputs };
 
-        let (mut graph, mut imports) = (Graph::new(), Imports::new());
+        let (mut graph, mut imports): (_, Imports<'_>) = (Graph::new(arena), arena.growing());
         let [width, height] = settings.size_px;
         let extent = vk::Extent2D { width, height };
         let mut import = |name: &str, image: &crate::vk::Image| {
@@ -141,13 +164,13 @@ impl View {
         // SAFETY: as above.
         unsafe {
             renderer.shaders.begin_frame(commands)?;
-            execution.record(commands, graph, &imports)?;
+            execution.record(commands, &graph, &imports)?;
         }
 
         let sampled =
             |binding, image: &crate::vk::Image| (binding, Descriptor::Sampled(image.view(), AFTER.layout));
         let set = |given: &[(u32, Descriptor)]| descriptors.set(&renderer.shaders.sums_set, given);
-        let mut draws = Vec::with_capacity(3);
+        let mut draws = Draws::new();
         let mut draw = |part, set| -> Result<()> {
             draws.push((renderer.shaders.graphics(self.rendering.key(part))?, set));
             Ok(())

@@ -1,7 +1,10 @@
 //! A pass in the making: each resource is named once, with its access and where the pass finds it; so are its pipelines, and why the
 //! frame has it.
 
-use std::cell::{Cell, RefCell};
+use std::{
+    cell::{Cell, RefCell},
+    fmt::Display,
+};
 
 use crate::passes::pipeline::{
     cache::Shaders,
@@ -14,8 +17,12 @@ use crate::passes::{
     recording::{Pipeline, Recording},
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     error::Result,
-    graph::{Access, Graph, Handle, PassBuilder, ResourceId, Role, Start, execute::Body},
+    graph::{
+        Access, Graph, Handle, PassBuilder, ResourceId, Role, Start,
+        execute::{Body, PassContext},
+    },
     scene::Camera,
     shaders::config::{SPEC_ORTHOGRAPHIC, SPEC_PLANES},
     vk::DescriptorPool,
@@ -67,15 +74,25 @@ impl<'a> Source<'a> {
 /// A pass in the making.
 #[must_use = "a pass is declared by `finish`"]
 pub(crate) struct Pass<'g, 'a> {
-    declared: PassBuilder<'g, Body<'a>>,
+    declared: PassBuilder<'g, 'a, Body<'a>>,
     source: Source<'a>,
-    bound: Vec<(At, ResourceId)>,
+    bound: ArenaVec<'a, (At, ResourceId)>,
 }
 
 impl<'g, 'a> Pass<'g, 'a> {
     /// A pass of this name, unique in its frame; `why` the frame has it.
-    pub fn new(graph: &'g mut Graph<Body<'a>>, source: Source<'a>, name: &str, why: &'static str) -> Self {
-        Self { declared: graph.pass(name).why(why), source, bound: Vec::new() }
+    pub fn new(
+        graph: &'g mut Graph<'a, Body<'a>>,
+        source: Source<'a>,
+        name: impl Display,
+        why: &'static str,
+    ) -> Self {
+        Self { bound: graph.arena().growing(), declared: graph.pass(name).why(why), source }
+    }
+
+    /// The memory of the frame.
+    pub fn arena(&self) -> &'a Arena {
+        self.declared.arena()
     }
 
     /// A pipeline of compute, made where it was not made yet.
@@ -153,15 +170,17 @@ impl<'g, 'a> Pass<'g, 'a> {
     }
 
     /// Declares the pass; `body` records it.
-    pub fn finish(self, body: impl FnOnce(&Recording<'_, 'a>) -> Result<()> + 'a) {
+    pub fn finish(self, body: impl Fn(&Recording<'_, 'a>) -> Result<()> + 'a) {
         let Self { declared, source, mut bound } = self;
         bound.sort_unstable();
-        declared.finish(Box::new(move |context| match source.place {
+        let bound = bound.into_bump_slice();
+        let body = declared.arena().keep(move |context: &PassContext<'_>| match source.place {
             Place::Device(shaders, descriptors) => {
                 let (pipeline, planes) = (Cell::default(), source.planes);
-                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline, planes })
+                body(&Recording { context, shaders, descriptors, bound, pipeline, planes })
             }
             Place::List(_) => Ok(()),
-        }));
+        });
+        declared.finish(body);
     }
 }

@@ -11,7 +11,7 @@ use std::{
 use ash::vk;
 
 use super::{
-    descriptor::{Descriptor, Info},
+    descriptor::{Descriptor, Given, Info, MOST_BINDINGS},
     device::Device,
     garbage::Retired,
     owned::Owned,
@@ -19,7 +19,7 @@ use super::{
     sampler::Sampler,
     stand_ins::StandIns,
 };
-use crate::error::Result;
+use crate::{error::Result, inline_vec::InlineVec};
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
@@ -80,14 +80,16 @@ impl SetLayout {
         self
     }
 
-    /// The stand-ins of the bindings that are not given, by their numbers.
-    fn stand_ins(&self, is_given: impl Fn(u32) -> bool) -> Result<Vec<(u32, Descriptor)>> {
-        let Some((stand_ins, integers)) = &self.stand_ins else { return Ok(Vec::new()) };
-        let left_out = (0..).zip(&self.kinds).filter(|(number, _)| !is_given(*number));
-        let of = |(number, kind): (u32, &vk::DescriptorType)| {
-            Ok((number, stand_ins.of(*kind, integers.contains(&number))?))
-        };
-        left_out.map(of).collect()
+    /// What is given, and stand-ins for the bindings that are not.
+    fn complete(&self, given: &[(u32, Descriptor)]) -> Result<Given> {
+        let mut all = Given::from_iter(given.iter().copied());
+        let Some((stand_ins, integers)) = &self.stand_ins else { return Ok(all) };
+        for (number, kind) in (0..).zip(&self.kinds) {
+            if !given.iter().any(|(other, _)| *other == number) {
+                all.push((number, stand_ins.of(*kind, integers.contains(&number))?));
+            }
+        }
+        Ok(all)
     }
 
     /// The raw layout.
@@ -203,9 +205,9 @@ impl DescriptorPool {
         let device = &self.owned.device;
         let free = self.sets.borrow_mut().take(layout.number);
         let set = free.map_or_else(|| self.allocate(layout), Ok)?;
-        let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
-        let all = given.iter().copied().chain(layout.stand_ins(is_given)?);
-        let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
+        let all = layout.complete(given)?;
+        let infos: InlineVec<_, MOST_BINDINGS> =
+            all.into_iter().map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
         let writes = infos.iter().map(|(number, info)| {
             let kind = layout.kinds[*number as usize];
             let write =
@@ -216,8 +218,9 @@ impl DescriptorPool {
                 Info::Image(info) => write.image_info(info),
             }
         });
+        let writes: InlineVec<_, MOST_BINDINGS> = writes.collect();
         // SAFETY: the set is new or was taken back, so no command buffer uses it; what is written is alive.
-        unsafe { device.raw().update_descriptor_sets(&writes.collect::<Vec<_>>(), &[]) };
+        unsafe { device.raw().update_descriptor_sets(&writes, &[]) };
         Ok(set)
     }
 

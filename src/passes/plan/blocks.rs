@@ -9,6 +9,7 @@ use crate::passes::plan::{
     seen::PotentiallyVisibleBlock,
 };
 use crate::{
+    arena::Arena,
     math::size::{SizeBound, box_within_px},
     prepare::{Block, Chunk, ViewFromLocal},
     shaders::config::BAND_ROW,
@@ -50,8 +51,17 @@ const FILTER_RESERVE_PX: f64 = 6.0;
 /// image c at most (there). The image of a ball of 2 R about that center reaches 2 R √(1 + c²) / (p_z + 2 R) at least, which is
 /// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth. Under parallel rays all of that is as
 /// large as it is.
-pub fn potentially_visible_blocks(chunk: &Chunk, look: &BlockCullView<'_>) -> Vec<PotentiallyVisibleBlock> {
-    (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)).collect()
+pub fn potentially_visible_blocks<'m>(
+    arena: &'m Arena,
+    chunk: &Chunk,
+    look: &BlockCullView<'_>,
+) -> &'m [PotentiallyVisibleBlock] {
+    let mut seen = arena.growing();
+    seen.reserve(chunk.blocks.len());
+    seen.extend(
+        (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)),
+    );
+    seen.into_bump_slice()
 }
 
 fn potentially_visible(

@@ -19,7 +19,7 @@ const BYTES: u64 = 4 * EXTENT.width as u64 * EXTENT.height as u64;
 
 /// `pattern` to `first` to `second` to `third` to `result`: the third image can have the first one's memory.
 pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<Body<'static>>, Imports) {
-    let mut graph: Graph<Body<'static>> = Graph::new();
+    let mut graph: Graph<'static, Body<'static>> = Graph::new();
     let desc = ImageDesc { format: vk::Format::R8G8B8A8_UNORM, extent: EXTENT };
     let bytes = GraphBufferDesc::of_bytes(BYTES);
     let written = BufferState { stages: TRANSFER_WRITE.0, access: TRANSFER_WRITE.1 };
