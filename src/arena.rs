@@ -76,7 +76,10 @@ mod tests {
                 let numbers = arena.list(0..1000 + frame);
                 let (text, kept) = (arena.text(format_args!("frame {frame}")), arena.keep(frame));
                 let inner = arena.list((0..3).map(|i| arena.list([i, frame])));
-                assert_eq!((numbers.len() as u64, text, *kept), (1000 + frame, &*format!("frame {frame}"), frame));
+                assert_eq!(
+                    (numbers.len() as u64, text, *kept),
+                    (1000 + frame, &*format!("frame {frame}"), frame)
+                );
                 assert_eq!(inner, [[0, frame], [1, frame], [2, frame]]);
                 assert_eq!(arena.try_list([Ok(1), Err("no"), Ok(2)]), Err("no"));
             }

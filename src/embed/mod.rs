@@ -8,6 +8,7 @@
 //!
 //! `docs/embedding.md` tells all of it: state, threads, lifetimes.
 
+mod ahead;
 mod frame;
 mod images;
 mod over;
@@ -16,10 +17,14 @@ mod view;
 
 pub use crate::{
     graph::ImageState,
+    passes::MissingPipelines,
     prepare::{DynamicBuffers, DynamicSplats, Placed, PreparedScene, dynamic},
     renderer::Renderer,
     scene::{HostCamera, Placement},
-    vk::{Device, Features, Import, Requirements, requirements},
+    vk::{
+        Device, Features, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse, Requirements,
+        requirements,
+    },
 };
 pub use frame::{DepthImage, ViewFrame};
 pub use over::Rendering;

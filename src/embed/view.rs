@@ -17,7 +17,8 @@ use crate::{
     },
     inline_vec::InlineVec,
     passes::{
-        self, HostDepth, Inputs, Place, host::BesideHost, pipeline::key::Layout, plan::range::DepthRange,
+        self, HostDepth, Inputs, Place, Source, host::BesideHost, pipeline::key::Layout,
+        plan::range::DepthRange,
     },
     renderer::{Imports, Renderer},
     scene::{Camera, DepthOfHost, Edges, Settings},
@@ -89,20 +90,20 @@ impl View {
     ) -> Result<()> {
         let arena = self.slot.take_arena();
         // SAFETY: this function's contract.
-        let recorded = unsafe { self.record(&arena, renderer, commands, frame) };
+        let recorded = unsafe { self.record(&arena, renderer, Some(commands), frame) };
         self.slot.give_back(arena);
         recorded
     }
 
-    /// The same, in a frame's memory.
+    /// The same, in a frame's memory; without commands, all up to where it would be recorded: pipelines are there then.
     ///
     /// # Safety
     /// As [`Self::prepare`].
-    unsafe fn record(
+    pub(super) unsafe fn record(
         &mut self,
         arena: &Arena,
         renderer: &Renderer,
-        commands: vk::CommandBuffer,
+        commands: Option<vk::CommandBuffer>,
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
         self.prepared = None;
@@ -120,7 +121,8 @@ impl View {
         self.check(frame, layered)?;
         let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
         let format = self.rendering.surface_format();
-        let images = Images::fit(self.images.take(), &self.device, (format, settings.size_px), layered)?;
+        let size_px = if commands.is_some() { settings.size_px } else { [1; 2] };
+        let images = Images::fit(self.images.take(), &self.device, (format, size_px), layered)?;
         let images = self.images.insert(images);
 
         let counts_draws = self.device.facts().draw_indirect_count;
@@ -132,7 +134,7 @@ impl View {
         let planes = unsafe { self.slot.planes(&plan.planes) }?;
         let SlotParts { descriptors, occlusion, execution } = self.slot.parts()?;
         let inputs = Inputs::new(&camera, settings, Place::Device(&renderer.shaders, descriptors));
-        let source = inputs.source.cut_by(planes);
+        let source = Source { missing: frame.missing, ..inputs.source.cut_by(planes) };
         let inputs = Inputs { occlusion, range: plan.range, source, ..inputs };
 
         let (mut graph, mut imports): (_, Imports<'_>) = (Graph::new(arena), arena.growing());
@@ -161,6 +163,7 @@ impl View {
             layers: layers.as_mut(),
         };
         passes::frame(&mut graph, inputs, &plan, &mut surface, format, (false, Some(beside)))?;
+        let Some(commands) = commands else { return Ok(()) };
         // SAFETY: as above.
         unsafe {
             renderer.shaders.begin_frame(commands)?;
@@ -169,7 +172,10 @@ impl View {
 
         let sampled =
             |binding, image: &crate::vk::Image| (binding, Descriptor::Sampled(image.view(), AFTER.layout));
-        let set = |given: &[(u32, Descriptor)]| descriptors.set(&renderer.shaders.sums_set, given);
+        let set = |given: &[(u32, Descriptor)]| {
+            // SAFETY: images of the view, which live as long as what it has prepared.
+            unsafe { descriptors.set(&renderer.shaders.sums_set, given) }
+        };
         let mut draws = Draws::new();
         let mut draw = |part, set| -> Result<()> {
             draws.push((renderer.shaders.graphics(self.rendering.key(part))?, set));
@@ -289,12 +295,16 @@ impl View {
         Ok(())
     }
 
-    /// How long each pass of the frame took that was prepared last, once it has finished; `None` if it was not to be timed.
+    /// How long each pass of the frame took that was prepared last; `None` if it was not to be timed.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn profile(&self) -> Result<Option<FrameProfile>> {
-        self.slot.profiler().map(|profiler| profiler.read()).transpose()
+    ///
+    /// # Safety
+    /// That frame has finished.
+    pub unsafe fn profile(&self) -> Result<Option<FrameProfile>> {
+        // SAFETY: this function's contract.
+        self.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()
     }
 
     /// Bytes of device memory that the view holds: images for its draws, and what its passes share.

@@ -95,7 +95,7 @@ impl FrameSlot {
             // SAFETY: this function's contract.
             Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
             _ => {
-                let pool = DescriptorPool::new(&self.device, "frame sets", wanted)?;
+                let pool = DescriptorPool::for_frames(&self.device, "frame sets", wanted)?;
                 self.descriptors = Some((pool, wanted));
             }
         }

@@ -136,7 +136,11 @@ fn needs(graph: &Declared<'_>, order: &[usize]) -> Vec<Vec<(ResourceId, Need)>> 
 }
 
 /// What may be under way on each resource before the first pass.
-fn starts(graph: &Declared<'_>, needs: &[Vec<(ResourceId, Need)>], tenants: &[Vec<ResourceId>]) -> Vec<Track> {
+fn starts(
+    graph: &Declared<'_>,
+    needs: &[Vec<(ResourceId, Need)>],
+    tenants: &[Vec<ResourceId>],
+) -> Vec<Track> {
     // How each transient is left doesn't depend on what its first access waits for, so it can be known beforehand:
     // what follows a plan is the plan again.
     let mut left = vec![Track::from_tenants(Scope::default()); graph.resources.len()];

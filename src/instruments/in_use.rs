@@ -56,7 +56,8 @@ impl Headless {
         let inputs = Inputs { occlusion, range: frame.range, ..Inputs::new(camera, settings, place) };
         let source = inputs.source.cut_by(planes);
         let inputs = Inputs { source, ..inputs };
-        let (mut graph, mut imports) = declare(&arena, inputs, &frame, &target.target(), Readbacks::default())?;
+        let (mut graph, mut imports) =
+            declare(&arena, inputs, &frame, &target.target(), Readbacks::default())?;
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut buffers = Vec::new();

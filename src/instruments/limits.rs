@@ -14,7 +14,7 @@ use crate::{
     frame::{FrameSlot, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
-        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
+        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile, Profiler},
     },
     passes::{self, Needs, Place, Source},
     report::ThroughputProbe,
@@ -234,7 +234,9 @@ impl Probe {
             unsafe { execution.record(commands, &graph, &imports) }.map(drop)
         })?;
         drop(graph);
-        self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), |profiler| profiler.read())
+        // SAFETY: waited for.
+        let read = |profiler: &Profiler| unsafe { profiler.read() };
+        self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), read)
     }
 }
 

@@ -74,10 +74,9 @@ fn lists<'a>(
         let name = move |band: &str| format!("{surface}{band}");
         match inputs.bands.is_empty() {
             true => vec![(name(""), inputs, None)],
-            false => inputs
-                .of_bands(arena)
-                .map(|(band, inputs, plan)| (name(band), inputs, Some(plan)))
-                .collect(),
+            false => {
+                inputs.of_bands(arena).map(|(band, inputs, plan)| (name(band), inputs, Some(plan))).collect()
+            }
         }
     })
 }

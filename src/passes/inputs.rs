@@ -80,13 +80,9 @@ impl<'a> Inputs<'a> {
 
     /// Inputs for each band of tiles, with what goes in front of its tiles in the names of passes (nothing where there
     /// is one) and how it is drawn.
-    pub(crate) fn of_bands(
-        self,
-        arena: &'a Arena,
-    ) -> impl Iterator<Item = (&'a str, Self, &'a TilePlan)> {
+    pub(crate) fn of_bands(self, arena: &'a Arena) -> impl Iterator<Item = (&'a str, Self, &'a TilePlan)> {
         let of = move |(number, band): (usize, &'a Band<'a>)| {
-            let name =
-                if self.bands.len() > 1 { arena.text(format_args!("band-{number} ")) } else { "" };
+            let name = if self.bands.len() > 1 { arena.text(format_args!("band-{number} ")) } else { "" };
             (name, Self { draws: band.splats, listed: band.visible, ..self }, &band.plan)
         };
         (1..).zip(self.bands).map(of)

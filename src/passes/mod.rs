@@ -23,7 +23,7 @@ pub use crate::passes::inputs::Inputs;
 pub use crate::passes::pass::{Place, Source};
 pub use crate::passes::pick::{PickPlan, Picked, PickedPart};
 pub(crate) use crate::passes::pick::{needs as needs_of_pick, pick};
-pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
+pub use crate::passes::pipeline::cache::{MissingPipelines, Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
     FinalizeConstants, FrameConstants, HostDepth, PaperConstants, TileConstants,
 };
@@ -53,7 +53,8 @@ pub use crate::passes::{
 };
 
 use crate::passes::{
-    cull::lists::Lists, host::BesideHost, plan::outputs::Outputs, resolve::finalize::Opaque, tiles::splat::TileStart,
+    cull::lists::Lists, host::BesideHost, plan::outputs::Outputs, resolve::finalize::Opaque,
+    tiles::splat::TileStart,
 };
 use crate::{
     error::Result,

@@ -7,7 +7,7 @@ use std::{
 };
 
 use crate::passes::pipeline::{
-    cache::Shaders,
+    cache::{MissingPipelines, Shaders},
     key::{ComputeKey, GraphicsKey, Layout},
     recipe::{Key, PipelineRecipe},
     variant::Constants,
@@ -37,6 +37,8 @@ pub struct Source<'a> {
     pub is_orthographic: bool,
     /// The planes that cut what is seen.
     pub planes: Planes,
+    /// What is done where a pipeline is not there yet.
+    pub missing: MissingPipelines,
 }
 
 /// Where pipelines and descriptor sets come from.
@@ -51,7 +53,12 @@ pub enum Place<'a> {
 impl<'a> Source<'a> {
     /// Pipelines for the camera that a pass is seen by.
     pub fn new(place: Place<'a>, camera: &Camera) -> Self {
-        Self { place, is_orthographic: camera.is_orthographic(), planes: Planes::default() }
+        Self {
+            place,
+            is_orthographic: camera.is_orthographic(),
+            planes: Planes::default(),
+            missing: MissingPipelines::Make,
+        }
     }
 
     /// The same for a frame that planes cut.
@@ -100,7 +107,7 @@ impl<'g, 'a> Pass<'g, 'a> {
         let layout = key.layout;
         self.source.complete(layout, &mut key.constants);
         let raw = match self.source.place {
-            Place::Device(shaders, _) => shaders.compute(key)?,
+            Place::Device(shaders, _) => shaders.compute_if(key, self.source.missing)?,
             Place::List(list) => self.list(list, Key::Compute(key)),
         };
         Ok(Pipeline { raw, layout })
@@ -111,7 +118,7 @@ impl<'g, 'a> Pass<'g, 'a> {
         let layout = key.layout;
         self.source.complete(layout, &mut key.constants);
         let raw = match self.source.place {
-            Place::Device(shaders, _) => shaders.graphics(key)?,
+            Place::Device(shaders, _) => shaders.graphics_if(key, self.source.missing)?,
             Place::List(list) => self.list(list, Key::Graphics(key)),
         };
         Ok(Pipeline { raw, layout })

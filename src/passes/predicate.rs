@@ -106,8 +106,8 @@ impl<'a> LayerPredicates<'a> {
 
     /// Declares the pass that takes over the count of a layer, from 0 on, that was declared.
     pub fn count(&mut self, graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>, layer: u32) {
-        let mut fragments = graph
-            .create_buffer(format_args!("fragments of layer {}", layer + 1), BufferDesc::of_bytes(4));
+        let mut fragments =
+            graph.create_buffer(format_args!("fragments of layer {}", layer + 1), BufferDesc::of_bytes(4));
         let queries = self.queries;
         let why = "--layers auto: whether the layer is empty";
         Pass::new(graph, inputs.source, format_args!("count layer {}", layer + 1), why)

@@ -83,7 +83,8 @@ impl Recording<'_, '_> {
                 return Err(ErrorKind::Graph { pass, resource: format!("{place:?}"), reason }.into());
             }
         };
-        self.descriptors.set(layout, &given)
+        // SAFETY: what the graph gives to the pass, as the pass has declared it; all of it lives as long as the frame.
+        unsafe { self.descriptors.set(layout, &given) }
     }
 
     /// Whether the pass found anything there.

@@ -129,7 +129,12 @@ pub(crate) fn import_readback(
         access: vk::AccessFlags2::TRANSFER_WRITE,
     };
     let last = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
-    graph.import_buffer(format_args!("read-back of {what}"), BufferDesc::of_bytes(size_bytes), initial, Some(last))
+    graph.import_buffer(
+        format_args!("read-back of {what}"),
+        BufferDesc::of_bytes(size_bytes),
+        initial,
+        Some(last),
+    )
 }
 
 /// Bytes of a pixel, for the formats that are read back.

@@ -179,13 +179,19 @@ impl Sets {
 pub struct SealedPool(#[expect(dead_code, reason = "kept for its drop")] Owned<vk::DescriptorPool>);
 
 impl DescriptorPool {
+    /// A pool to be reset and used again, with room for this much at a time: beside sets that are taken back, others may be wanted in their place.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn for_frames(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
+        Self::new(device, name, sizes.plus(&sizes))
+    }
+
     /// A pool with this much room.
     ///
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
-        // Beside sets that are taken back, others may be wanted in their place.
-        let sizes = sizes.plus(&sizes);
         let kinds = sizes.kinds().into_iter().filter(|(_, count)| *count > 0);
         let size = |(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
         let of_kinds: Vec<_> = kinds.map(size).collect();
@@ -201,7 +207,10 @@ impl DescriptorPool {
     ///
     /// # Errors
     /// Whatever the driver answers, such as an exhausted pool.
-    pub fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
+    ///
+    /// # Safety
+    /// What is given is of the pool's device, is what its binding takes, and stays alive until commands that use the set have run.
+    pub unsafe fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
         let device = &self.owned.device;
         let free = self.sets.borrow_mut().take(layout.number);
         let set = free.map_or_else(|| self.allocate(layout), Ok)?;
@@ -219,7 +228,7 @@ impl DescriptorPool {
             }
         });
         let writes: InlineVec<_, MOST_BINDINGS> = writes.collect();
-        // SAFETY: the set is new or was taken back, so no command buffer uses it; what is written is alive.
+        // SAFETY: the set is new or was taken back, so no command buffer uses it; the rest is this function's contract.
         unsafe { device.raw().update_descriptor_sets(&writes, &[]) };
         Ok(set)
     }

@@ -84,7 +84,12 @@ pub unsafe fn execute(
             counting.inspect(|profiler| profiler.begin_counts(commands, index));
         }
         Binding::declare(&mut bindings, index, pass);
-        let done = (graph.bodies[pass.declared])(&PassContext { recorder: &recorder, bindings: &bindings, index, pass });
+        let done = (graph.bodies[pass.declared])(&PassContext {
+            recorder: &recorder,
+            bindings: &bindings,
+            index,
+            pass,
+        });
         // Also after a body that failed, so that the command buffer stays well-formed.
         // SAFETY: as above.
         unsafe {

@@ -99,7 +99,12 @@ pub struct LimitInputs<'a> {
 }
 
 impl LimitInputs<'_> {
-    fn image(&self, graph: &mut Graph<'_, Body<'_>>, name: impl Display, format: vk::Format) -> Handle<Image> {
+    fn image(
+        &self,
+        graph: &mut Graph<'_, Body<'_>>,
+        name: impl Display,
+        format: vk::Format,
+    ) -> Handle<Image> {
         let [width, height] = self.settings.size_px;
         graph.create_image(name, ImageDesc { format, extent: vk::Extent2D { width, height } })
     }

@@ -29,7 +29,8 @@ pub(crate) fn surface_depth<'a>(
         .attach(depth, Access::ColorAttachment, nothing)
         .read_if(sums(BIND_SUMS_POLYGON_COLORS), of_polygons, Access::SampledFragment);
     let key = |source: Option<u32>| {
-        let variant = source.map(|source| (source, 1)).into_iter().chain(of_polygons.map(|_| (SPEC_POLYGONS, 1)));
+        let variant =
+            source.map(|source| (source, 1)).into_iter().chain(of_polygons.map(|_| (SPEC_POLYGONS, 1)));
         GraphicsKey {
             color_formats: [super::SURFACE_DEPTH_FORMAT].into(),
             ..GraphicsKey::fullscreen(&shaders::SURFACE_DEPTH_FRAG, Layout::Finalize, variant.collect())

@@ -39,7 +39,12 @@ impl<'a> Layer<'a, '_> {
     }
 
     /// A pass of it, which draws where the layer before is not empty.
-    pub fn pass<'g>(&self, graph: &'g mut Graph<'a, Body<'a>>, what: &str, why: &'static str) -> Pass<'g, 'a> {
+    pub fn pass<'g>(
+        &self,
+        graph: &'g mut Graph<'a, Body<'a>>,
+        what: &str,
+        why: &'static str,
+    ) -> Pass<'g, 'a> {
         let pass = Pass::new(graph, self.inputs.source, self.name(what), why);
         match self.predicates {
             Some(predicates) => predicates.predicate(pass),

@@ -102,8 +102,7 @@ impl<'a> PickPlan<'a> {
         let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_blocks(arena)));
         let listed = ListedBlocks::of(arena, &mut all, seen, 0..1).words().to_vec();
         let draws = all.to_vec();
-        let mut meshes: Vec<_> =
-            mesh_draws(Placed::at_home(scene), (&camera, range), &settings).collect();
+        let mut meshes: Vec<_> = mesh_draws(Placed::at_home(scene), (&camera, range), &settings).collect();
         let mut first = words_of(&draws);
         for draw in &mut meshes {
             draw.constants.splat_count = draw.chunk.triangles;

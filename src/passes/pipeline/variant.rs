@@ -95,12 +95,8 @@ pub fn kernel_constants(kernel: Kernel) -> Constants {
         Kernel::Gaussian { sigma } => (KERNEL_GAUSSIAN, LOG2_E * 0.5 / f64::from(sigma).powi(2), 1.0),
         Kernel::PsiE { a, n, .. } => (KERNEL_PSI_E, LOG2_E * f64::from(a), n),
     };
-    [
-        (SPEC_KERNEL, kernel),
-        (SPEC_KERNEL_A, (a.min(STEEPEST) as f32).to_bits()),
-        (SPEC_KERNEL_N, n.to_bits()),
-    ]
-    .into()
+    [(SPEC_KERNEL, kernel), (SPEC_KERNEL_A, (a.min(STEEPEST) as f32).to_bits()), (SPEC_KERNEL_N, n.to_bits())]
+        .into()
 }
 
 /// The constant of where splats and polygons meet.

@@ -66,13 +66,15 @@ impl Draw<'_> {
 
     /// The blocks in which there may be something to see.
     pub(crate) fn potentially_visible_blocks<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleBlock] {
+        potentially_visible_blocks(arena, self.chunk, &self.look())
+    }
+
+    /// How its blocks are looked at.
+    pub(super) fn look(&self) -> BlockCullView<'_> {
         let Self { view, bound, levels, planes, .. } = self;
-        let culls = culls(&self.variant);
-        potentially_visible_blocks(
-            arena,
-            self.chunk,
-            &BlockCullView { view, bound, culls, levels: levels.as_ref(), planes },
-        )
+        let (culls, levels, origin_distance) =
+            (culls(&self.variant), levels.as_ref(), view.origin_from_eye.length());
+        BlockCullView { view, bound, culls, levels, planes, origin_distance }
     }
 }
 

@@ -129,7 +129,8 @@ mod tests {
         assert!(!are_small([(1000, 14.0)].into_iter()) && !are_small([(1000, 5.0), (1, 33.0)].into_iter()));
         // Such as no box bounds, and none at all.
         assert!(
-            !are_small([(1000, 5.0), (1, f64::INFINITY)].into_iter()) && !are_small([(1000, f64::NAN)].into_iter())
+            !are_small([(1000, 5.0), (1, f64::INFINITY)].into_iter())
+                && !are_small([(1000, f64::NAN)].into_iter())
         );
         assert!(!are_small([].into_iter()));
     }

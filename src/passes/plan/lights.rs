@@ -40,7 +40,11 @@ pub(crate) fn shader_lights<'m>(
     camera: &Camera,
 ) -> &'m [ShaderLight] {
     let mut lights = arena.growing();
-    lights.extend(each_once(scenes).flat_map(|Placed { scene, at }| of_scene(&scene.lights, &at.camera(camera))).take(MOST_LIGHTS));
+    lights.extend(
+        each_once(scenes)
+            .flat_map(|Placed { scene, at }| of_scene(&scene.lights, &at.camera(camera)))
+            .take(MOST_LIGHTS),
+    );
     lights.into_bump_slice()
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::arena::Arena;
+use crate::{arena::Arena, prepare::Block};
 
 /// A block some of whose splats may be seen.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,11 @@ impl PotentiallyVisibleBlock {
     /// Whether none of its splats is left out for where it is, where splats are looked for in these rows.
     pub fn is_within(&self, rows: &Range<u32>) -> bool {
         self.all_seen && rows.start <= self.rows.start && self.rows.end <= rows.end
+    }
+
+    /// What is known of one of some blocks, the first of which has this number, where it holds for all of them.
+    pub(super) fn of_all(self, first: u32, blocks: &[Block]) -> impl Iterator<Item = Self> {
+        (first..).zip(blocks).map(move |(number, block)| Self { number, count: block.count, ..self.clone() })
     }
 
     /// Whether it may touch any of these rows.
@@ -52,7 +57,8 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
     pub fn new(arena: &'a Arena, chunks: &'a [&'a [PotentiallyVisibleBlock]], rows: u32) -> Self {
         let size_of = |block: &PotentiallyVisibleBlock| (block.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;
         let mut sizes_px = arena.growing::<f64>();
-        let place_of = |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
+        let place_of =
+            |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
         for block in chunks.iter().copied().flatten() {
             let size = size_of(block);
             if let Err(place) = place_of(&sizes_px, size) {

@@ -24,7 +24,10 @@ const DRAW_BYTES: u64 = 20;
 
 /// Declares the pass, where the frame has meshes in cells; before it, that which tells it how the camera sees them. Gives the arguments of the draws, one a
 /// cell.
-pub(crate) fn choose<'a>(graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>) -> Result<Option<Handle<Buffer>>> {
+pub(crate) fn choose<'a>(
+    graph: &mut Graph<'a, Body<'a>>,
+    inputs: Inputs<'a>,
+) -> Result<Option<Handle<Buffer>>> {
     if inputs.meshes.iter().all(|draw| draw.levels.is_none()) {
         return Ok(None);
     }

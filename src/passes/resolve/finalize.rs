@@ -187,10 +187,7 @@ fn finalize_shown<'a>(
 
 /// The pipeline that finalizes tiles, from that of the whole target.
 fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
-    GraphicsKey {
-        color_formats: whole.color_formats,
-        ..runs_key(whole.fragment, whole.constants)
-    }
+    GraphicsKey { color_formats: whole.color_formats, ..runs_key(whole.fragment, whole.constants) }
 }
 
 /// What the pipeline is that brings to the target what tiles show; `beside`: in a pass that has the depth of polygons.

@@ -113,9 +113,14 @@ mod tests {
                     (64, LastLayer::Blend),
                     (256, LastLayer::Drop),
                 ] {
-                    let plan =
-                        TilePlan::of_boxes(1, std::iter::once((records, 10.0)), [512, 512], &limits, Invocations::Columns)
-                            .unwrap();
+                    let plan = TilePlan::of_boxes(
+                        1,
+                        std::iter::once((records, 10.0)),
+                        [512, 512],
+                        &limits,
+                        Invocations::Columns,
+                    )
+                    .unwrap();
                     let plan = plan.with_layers(most, lights);
                     let settings =
                         Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };

@@ -108,8 +108,9 @@ fn declare<'a>(
         }
         Work::Parts => ("overflow ", overflow::WHY),
     };
-    let mut peeled = (work == Work::Several)
-        .then(|| graph.create_image(format_args!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT)));
+    let mut peeled = (work == Work::Several).then(|| {
+        graph.create_image(format_args!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT))
+    });
     let state_bytes = BufferDesc::of_bytes(plan.most_overflow() * STATE_BYTES);
     let mut state = (work == Work::Parts)
         .then(|| graph.create_buffer(format_args!("state of {band}overflow tiles"), state_bytes));
@@ -143,8 +144,6 @@ fn declare<'a>(
             }
             Ok(())
         }
-        Work::Parts => {
-            pass.indirect_in_turn(of_parts(settings, plan, pass.constants), ARGUMENTS_OVERFLOW)
-        }
+        Work::Parts => pass.indirect_in_turn(of_parts(settings, plan, pass.constants), ARGUMENTS_OVERFLOW),
     })
 }

@@ -104,8 +104,8 @@ pub(crate) fn shaded<'a>(
     let beside = Beside { polygons: polygons.is_some(), layers, host, lights: inputs.lights };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
-    let pass =
-        Pass::new(graph, inputs.source, format_args!("see, sum and shade {kind}tiles"), why).role(Role::DrawsAll);
+    let pass = Pass::new(graph, inputs.source, format_args!("see, sum and shade {kind}tiles"), why)
+        .role(Role::DrawsAll);
     let mut pass = match plan.hidden {
         true => tiles.shorten_lists(pass),
         false => tiles.read_lists(pass),

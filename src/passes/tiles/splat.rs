@@ -188,9 +188,8 @@ fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
     dispatch::key(shader, constants)
 }
 
-/// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
-/// drawn; `kind`, in front of the tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the
-/// images hold.
+/// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has drawn; `kind`, in front of the
+/// tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the images hold.
 pub(crate) fn fused<'a>(
     graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
@@ -205,7 +204,8 @@ pub(crate) fn fused<'a>(
     let mut key = key(inputs.settings, plan, step);
     key.constants.push((SPEC_KEEPS_DEPTH, u32::from(start == TileStart::Cleared)));
     let why = "opaque splats: visibility and sums of one tile after the other";
-    let pass = Pass::new(graph, inputs.source, format_args!("see and sum {kind}tiles"), why).role(Role::DrawsAll);
+    let pass =
+        Pass::new(graph, inputs.source, format_args!("see and sum {kind}tiles"), why).role(Role::DrawsAll);
     let pass = if plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     let (access, content) = start.access();
     let pass = pass

@@ -71,7 +71,8 @@ impl TilePlan {
         // By all that is drawn, so that all bands have the same.
         let all = || draws.iter().flat_map(Draw::boxes);
         let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
-        let of = |invocations| Self::of_boxes(draws.len(), boxes.clone(), settings.size_px, limits, invocations);
+        let of =
+            |invocations| Self::of_boxes(draws.len(), boxes.clone(), settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
         let plan = match draws.iter().any(|draw| draw.chunk.clipped) {
