@@ -75,6 +75,11 @@ pub enum ErrorKind {
         /// What the allocator said.
         reason: String,
     },
+    /// A pipeline is not there yet, and was not to be made.
+    NotReady {
+        /// Its shaders.
+        pipeline: String,
+    },
     /// A render graph that can't be run: a mistake in the code that declared it.
     Graph {
         /// The pass that declares the illegal access; empty where the graph as a whole is meant.
@@ -133,6 +138,7 @@ impl Error {
             | ErrorKind::NoWindow { .. }
             | ErrorKind::Vulkan { .. }
             | ErrorKind::Memory { .. }
+            | ErrorKind::NotReady { .. }
             | ErrorKind::Graph { .. }
             | ErrorKind::Doubtful { .. } => 2,
             ErrorKind::Validation { .. } | ErrorKind::Regression { .. } | ErrorKind::Selftest { .. } => 3,
@@ -193,6 +199,7 @@ impl fmt::Display for Error {
             ErrorKind::Memory { object, bytes, reason } => {
                 write!(f, "no device memory for '{object}' ({bytes} bytes): {reason}")
             }
+            ErrorKind::NotReady { pipeline } => write!(f, "the pipeline '{pipeline}' was not made ahead"),
             ErrorKind::Graph { pass, resource, reason } => {
                 f.write_str("illegal render graph: ")?;
                 match (pass.is_empty(), resource.is_empty()) {

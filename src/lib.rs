@@ -33,6 +33,7 @@
 //! plane is z = 1. Depth is reversed and infinite, near / z. Colors are linear inside, sRGB in files. Pixel centers lie at
 //! half integers.
 
+pub mod arena;
 #[cfg(feature = "files")]
 pub mod compose;
 #[cfg(feature = "counts")]
@@ -44,6 +45,7 @@ pub mod geometry;
 pub mod graph;
 #[cfg(feature = "selftest")]
 pub mod hard_scenes;
+pub mod inline_vec;
 pub mod instruments;
 #[cfg(feature = "files")]
 pub mod levels_file;

@@ -73,6 +73,7 @@ pub unsafe extern "C" fn surfel_device_import(
             device: &device,
             queue_family: host.queue_family,
             enabled: features_of(host.features),
+            memory: None,
         };
         // SAFETY: as above.
         out.give(SurfelDevice(unsafe { Device::import(&import) }?))

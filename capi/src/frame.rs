@@ -181,6 +181,7 @@ pub unsafe fn with_frame(given: &SurfelFrame, then: impl FnOnce(&ViewFrame<'_>) 
         settings: &settings,
         corner_px: [given.x, given.y],
         hides,
+        missing: surfel::embed::MissingPipelines::Make,
         profile: (given.timed != vk::FALSE).then_some(Profile::Times),
     })
 }

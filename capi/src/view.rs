@@ -168,7 +168,8 @@ pub unsafe extern "C" fn surfel_view_times(
         // SAFETY: the contract of the header, here and below.
         let view = unsafe { get(view, "view") }?;
         let each = each.ok_or_else(|| null("each"))?;
-        for pass in view.view.profile()?.iter().flat_map(|profile| &profile.passes) {
+        // SAFETY: as above: the frame has finished.
+        for pass in unsafe { view.view.profile() }?.iter().flat_map(|profile| &profile.passes) {
             let name = CString::new(pass.name.as_str()).unwrap_or_default();
             // SAFETY: as above.
             unsafe { each(user, name.as_ptr(), pass.secs.unwrap_or(-1.0)) };

@@ -27,6 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         device: &engine.device,
         queue_family: engine.family,
         enabled: engine.enabled,
+        memory: None,
     };
     // SAFETY: all is the engine's own, and outlives what is made from it.
     let device = unsafe { Device::import(&host) }?;

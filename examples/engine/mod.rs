@@ -193,6 +193,7 @@ impl Engine {
             device: &self.device,
             queue_family: self.family,
             enabled: self.enabled,
+            memory: None,
         }
     }
 

@@ -4,6 +4,7 @@ use ash::vk;
 
 use crate::{
     graph::{ImageState, execute::Profile},
+    passes::MissingPipelines,
     prepare::Placed,
     scene::{HostCamera, Settings},
 };
@@ -24,14 +25,27 @@ pub struct ViewFrame<'a> {
     /// What the host has drawn hides transparent things pixel by pixel between each other: its depth. Needed where anything is transparent
     /// and the host's rendering has a depth; what is opaque is tested by the host's own test in [`super::View::draw`].
     pub hides: Option<DepthImage>,
+    /// What is done where the frame needs a pipeline that is not there yet.
+    pub missing: MissingPipelines,
     /// Each pass is timed, for [`super::View::profile`].
     pub profile: Option<Profile>,
 }
 
 impl<'a> ViewFrame<'a> {
-    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides, nothing timed, and nothing moved.
+    /// Scenes, seen by a camera, in the top left corner of the host's images, with nothing of the host's that hides, nothing timed, and nothing moved; pipelines are
+    /// made.
     pub fn new(scenes: &'a [Placed<'a>], camera: &'a HostCamera, settings: &'a Settings) -> Self {
-        Self { scenes, camera, camera_before: None, settings, corner_px: [0; 2], hides: None, profile: None }
+        let missing = MissingPipelines::Make;
+        Self {
+            scenes,
+            camera,
+            camera_before: None,
+            settings,
+            corner_px: [0; 2],
+            hides: None,
+            missing,
+            profile: None,
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 //!
 //! `docs/embedding.md` tells all of it: state, threads, lifetimes.
 
+mod ahead;
 mod checks;
 mod depth;
 mod frame;
@@ -21,10 +22,14 @@ mod view;
 
 pub use crate::{
     graph::ImageState,
+    passes::MissingPipelines,
     prepare::{DynamicBuffers, DynamicSplats, NO_TINT, Placed, PreparedScene, dynamic},
     renderer::Renderer,
     scene::{HostCamera, Placement},
-    vk::{Device, Features, Import, Requirements, requirements},
+    vk::{
+        Device, Features, HostAllocation, HostMemory, Import, MemoryRequest, MemoryUse, Requirements,
+        requirements,
+    },
 };
 pub use frame::{DepthImage, ViewFrame};
 pub use over::{NO_ID, Rendering};

@@ -107,7 +107,7 @@ impl Rendering {
         }) {
             return refused("color_formats", format!("{format:?}: expected formats of color attachments"));
         }
-        let most = if device.facts().independent_blend { limits.max_color_attachments } else { 1 };
+        let most = if device.facts().independent_blend { limits.max_color_attachments.min(8) } else { 1 };
         if self.color_formats.len() > most as usize {
             let problem = format!(
                 "{}: expected at most {most} on this device, as it was created",
@@ -182,11 +182,12 @@ impl Rendering {
     /// The pipeline of a part.
     pub(super) fn key(&self, part: Part) -> GraphicsKey {
         let of_surface = part != Part::Layers;
-        let constants = vec![
+        let constants = [
             (SPEC_WITH_DEPTH, u32::from(of_surface)),
             (SPEC_COVERS_LESS, u32::from(part == Part::CoveringLess)),
             (SPEC_ENCODED, u32::from(self.encodes)),
-        ];
+        ]
+        .into();
         let compare = if of_surface { self.compare } else { vk::CompareOp::ALWAYS };
         let shader: &'static Shader = match (part, self.ids, self.motion) {
             (Part::Covering, true, true) => &shaders::HOST_OVER_IDS_MOTION_FRAG,
@@ -195,7 +196,7 @@ impl Rendering {
             _ => &shaders::HOST_OVER_FRAG,
         };
         GraphicsKey {
-            color_formats: self.color_formats.clone(),
+            color_formats: self.color_formats.iter().copied().collect(),
             blend: Blend::Over,
             depth: self.has_depth().then_some((compare, part == Part::Covering)),
             depth_format: self.depth_format,

@@ -11,13 +11,15 @@ use super::{
     table::Table,
 };
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, SlotParts},
     graph::{
         Graph, ImageDesc,
         execute::{FrameProfile, Physical},
     },
-    passes::{self, HostDepth, Inputs, Place, Tints, host::BesideHost, pipeline::key::Layout},
+    inline_vec::InlineVec,
+    passes::{self, HostDepth, Inputs, Place, Source, Tints, host::BesideHost, pipeline::key::Layout},
     prepare::NO_TINT,
     renderer::{Imports, Renderer},
     scene::{Edges, Settings},
@@ -42,10 +44,13 @@ pub struct View {
 struct Prepared {
     area: vk::Rect2D,
     depth: HostDepth,
-    draws: Vec<(vk::Pipeline, vk::DescriptorSet)>,
+    draws: Draws,
     /// What is known of objects, where it is wanted.
     objects: Option<vk::DescriptorSet>,
 }
+
+/// At most one of each part.
+type Draws = InlineVec<(vk::Pipeline, vk::DescriptorSet), 3>;
 
 /// Draws take two sets, each of the surface or of layers, and one of objects.
 const SETS_OF_DRAWS: PoolSizes = PoolSizes {
@@ -97,6 +102,24 @@ impl View {
         commands: vk::CommandBuffer,
         frame: &ViewFrame<'_>,
     ) -> Result<()> {
+        let arena = self.slot.take_arena();
+        // SAFETY: this function's contract.
+        let recorded = unsafe { self.record(&arena, renderer, Some(commands), frame) };
+        self.slot.give_back(arena);
+        recorded
+    }
+
+    /// The same, in a frame's memory; without commands, all up to where it would be recorded: pipelines are there then.
+    ///
+    /// # Safety
+    /// As [`Self::prepare`].
+    pub(super) unsafe fn record(
+        &mut self,
+        arena: &Arena,
+        renderer: &Renderer,
+        commands: Option<vk::CommandBuffer>,
+        frame: &ViewFrame<'_>,
+    ) -> Result<()> {
         self.prepared = None;
         let settings = &Settings { background: None, ..frame.settings.clone() };
         if settings.samples.0 > 1 {
@@ -107,20 +130,18 @@ impl View {
         }
         let (camera, depth) = frame.camera.camera(settings.size_px)?;
         self.check_order(depth)?;
-        let plan = renderer.frame_plan(frame.scenes, &camera, settings)?;
+        let plan = renderer.frame_plan(arena, frame.scenes, &camera, settings)?;
         let layered = !plan.transparent.is_empty();
         self.check_frame(frame, layered)?;
         let camera_before = Self::camera_before(frame)?.unwrap_or(camera);
-        let plan = if self.rendering.wants_objects() { plan.with_objects(&renderer.limits) } else { plan };
+        let plan =
+            if self.rendering.wants_objects() { plan.with_objects(arena, &renderer.limits) } else { plan };
         let finds_objects = plan.objects.is_some();
         let depth = HostDepth { corner_px: frame.corner_px, ..host_depth(depth, &camera, plan.range) };
         let format = self.rendering.surface_format();
-        let images = Images::fit(
-            self.images.take(),
-            &self.device,
-            (format, settings.size_px),
-            (layered, finds_objects),
-        )?;
+        let size_px = if commands.is_some() { settings.size_px } else { [1; 2] };
+        let images =
+            Images::fit(self.images.take(), &self.device, (format, size_px), (layered, finds_objects))?;
         let images = self.images.insert(images);
 
         let counts_draws = self.device.facts().draw_indirect_count;
@@ -134,20 +155,20 @@ impl View {
         if frame.scenes.iter().any(|placed| placed.tint != NO_TINT) {
             let parts = [&plan.opaque, &plan.transparent];
             for ((tints, table), part) in tints.iter_mut().zip(&mut self.tints).zip(parts) {
-                let all: Vec<_> = part.placed().map(|placed| frame.scenes[placed as usize].tint).collect();
+                let all = arena.list(part.placed().map(|placed| frame.scenes[placed as usize].tint));
                 if !all.is_empty() {
                     // SAFETY: as above.
-                    let (buffer, bytes) = unsafe { table.write(&self.device, "tints", &all) }?;
+                    let (buffer, bytes) = unsafe { table.write(&self.device, "tints", all) }?;
                     *tints = Some(Tints { buffer, bytes });
                 }
             }
         }
         let SlotParts { descriptors, occlusion, execution } = self.slot.parts()?;
         let inputs = Inputs::new(&camera, settings, Place::Device(&renderer.shaders, descriptors));
-        let source = inputs.source.cut_by(planes);
+        let source = Source { missing: frame.missing, ..inputs.source.cut_by(planes) };
         let inputs = Inputs { occlusion, range: plan.range, source, tints, ..inputs };
 
-        let (mut graph, mut imports) = (Graph::new(), Imports::new());
+        let (mut graph, mut imports): (_, Imports<'_>) = (Graph::new(arena), arena.growing());
         let [width, height] = settings.size_px;
         let extent = vk::Extent2D { width, height };
         let mut import = |name: &str, image: &crate::vk::Image| {
@@ -179,16 +200,20 @@ impl View {
             layers: layers.as_mut(),
         };
         passes::frame(&mut graph, inputs, &plan, &mut surface, format, (false, Some(beside)))?;
+        let Some(commands) = commands else { return Ok(()) };
         // SAFETY: as above.
         unsafe {
             renderer.shaders.begin_frame(commands)?;
-            execution.record(commands, graph, &imports)?;
+            execution.record(commands, &graph, &imports)?;
         }
 
         let sampled =
             |binding, image: &crate::vk::Image| (binding, Descriptor::Sampled(image.view(), AFTER.layout));
-        let set = |given: &[(u32, Descriptor)]| descriptors.set(&renderer.shaders.sums_set, given);
-        let mut draws = Vec::with_capacity(3);
+        let set = |given: &[(u32, Descriptor)]| {
+            // SAFETY: images of the view, which live as long as what it has prepared.
+            unsafe { descriptors.set(&renderer.shaders.sums_set, given) }
+        };
+        let mut draws = Draws::new();
         let mut draw = |part, set| -> Result<()> {
             draws.push((renderer.shaders.graphics(self.rendering.key(part))?, set));
             Ok(())
@@ -207,12 +232,13 @@ impl View {
         let objects = match (&plan.objects, &images.objects) {
             (Some(drawn), Some(image)) => {
                 let motion = Motion::new([&camera, &camera_before], plan.range, settings.size_px);
-                let of: Vec<_> = frame.scenes.iter().map(|placed| motion.of(placed)).collect();
-                let all: Vec<_> = drawn.placed().map(|placed| of[placed as usize]).collect();
+                let of = arena.list(frame.scenes.iter().map(|placed| motion.of(placed)));
+                let all = arena.list(drawn.placed().map(|placed| of[placed as usize]));
                 // SAFETY: this function's contract.
-                let (buffer, bytes) = unsafe { self.objects.write(&self.device, "objects of a host", &all) }?;
+                let (buffer, bytes) = unsafe { self.objects.write(&self.device, "objects of a host", all) }?;
                 let given = [sampled(0, image), (1, Descriptor::Buffer(buffer, bytes))];
-                Some(descriptors.set(&renderer.shaders.objects_set, &given)?)
+                // SAFETY: as above; view and images live as long as its commands run.
+                Some(unsafe { descriptors.set(&renderer.shaders.objects_set, &given) }?)
             }
             _ => None,
         };
@@ -268,12 +294,16 @@ impl View {
         Ok(())
     }
 
-    /// How long each pass of the frame took that was prepared last, once it has finished; `None` if it was not to be timed.
+    /// How long each pass of the frame took that was prepared last; `None` if it was not to be timed.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn profile(&self) -> Result<Option<FrameProfile>> {
-        self.slot.profiler().map(|profiler| profiler.read()).transpose()
+    ///
+    /// # Safety
+    /// That frame has finished.
+    pub unsafe fn profile(&self) -> Result<Option<FrameProfile>> {
+        // SAFETY: this function's contract.
+        self.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()
     }
 
     /// Bytes of device memory that the view holds: images for its draws, and what its passes share.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::{
+    arena::Arena,
     error::{ErrorKind, Result},
     graph::{
         Graph, Plan, ResourceId,
@@ -23,6 +24,7 @@ pub struct FrameSlot {
     /// What cuts the frame, where something does: written by the host, so that it takes no pass.
     planes: Option<Buffer>,
     kept: Kept,
+    arena: Arena,
 }
 
 /// The parts of a slot, each to be borrowed by itself: bodies of passes borrow the first two.
@@ -50,7 +52,19 @@ impl FrameSlot {
             occlusion: None,
             planes: None,
             kept: Kept::default(),
+            arena: Arena::new(),
         }
+    }
+
+    /// Memory for a frame in the making, to be given back by [`Self::give_back`].
+    pub(crate) fn take_arena(&mut self) -> Arena {
+        std::mem::take(&mut self.arena)
+    }
+
+    /// Keeps a frame's memory for the next frame.
+    pub(crate) fn give_back(&mut self, mut arena: Arena) {
+        arena.reset();
+        self.arena = arena;
     }
 
     /// The profiler of the frame recorded last, if it was measured.
@@ -81,7 +95,7 @@ impl FrameSlot {
             // SAFETY: this function's contract.
             Some((pool, room)) if room.holds(&wanted) => unsafe { pool.reset() }?,
             _ => {
-                let pool = DescriptorPool::new(&self.device, "frame sets", wanted)?;
+                let pool = DescriptorPool::for_frames(&self.device, "frame sets", wanted)?;
                 self.descriptors = Some((pool, wanted));
             }
         }
@@ -141,7 +155,7 @@ impl Execution<'_> {
     pub unsafe fn record(
         self,
         commands: vk::CommandBuffer,
-        graph: Graph<Body<'_>>,
+        graph: &Graph<'_, Body<'_>>,
         imports: &[(ResourceId, Physical)],
     ) -> Result<Arc<Plan>> {
         // SAFETY: this function's contract.

@@ -95,7 +95,7 @@ type Taken = Vec<(Slot, Lifetime)>;
 /// Gives memory to every transient that is used: the largest first, each at the lowest offset that is free during
 /// its life, in the first block whose memory types it shares.
 pub(super) fn alias(
-    graph: &Declared,
+    graph: &Declared<'_>,
     lifetimes: &[(Usage, Option<Lifetime>)],
     needs: impl FnMut(ResourceId, &ResourceDesc, Usage) -> Result<MemoryNeed>,
 ) -> Result<(Vec<Block>, Vec<Option<Slot>>)> {
@@ -136,7 +136,7 @@ pub(super) fn alias(
 
 /// The transients that are used, and what the device says of each.
 fn tenants(
-    graph: &Declared,
+    graph: &Declared<'_>,
     lifetimes: &[(Usage, Option<Lifetime>)],
     mut needs: impl FnMut(ResourceId, &ResourceDesc, Usage) -> Result<MemoryNeed>,
 ) -> Result<Vec<Tenant>> {

@@ -61,7 +61,7 @@ impl std::ops::BitOrAssign for Scope {
 
 /// Walks through the passes, and keeps of each resource what may still be under way.
 pub(super) fn barriers(
-    graph: &Declared,
+    graph: &Declared<'_>,
     order: &[usize],
     lifetimes: &[(Usage, Option<Lifetime>)],
     slots: &[Option<Slot>],
@@ -108,7 +108,7 @@ pub(super) fn barriers(
 }
 
 /// The accesses of each pass, taken together by resource.
-fn needs(graph: &Declared, order: &[usize]) -> Vec<Vec<(ResourceId, Need)>> {
+fn needs(graph: &Declared<'_>, order: &[usize]) -> Vec<Vec<(ResourceId, Need)>> {
     // Where a pass's need of a resource is, if it has one: some earlier pass may have left the place.
     let mut places = vec![0; graph.resources.len()];
     let mut needs_of = |uses: &[Use]| {
@@ -136,14 +136,18 @@ fn needs(graph: &Declared, order: &[usize]) -> Vec<Vec<(ResourceId, Need)>> {
 }
 
 /// What may be under way on each resource before the first pass.
-fn starts(graph: &Declared, needs: &[Vec<(ResourceId, Need)>], tenants: &[Vec<ResourceId>]) -> Vec<Track> {
+fn starts(
+    graph: &Declared<'_>,
+    needs: &[Vec<(ResourceId, Need)>],
+    tenants: &[Vec<ResourceId>],
+) -> Vec<Track> {
     // How each transient is left doesn't depend on what its first access waits for, so it can be known beforehand:
     // what follows a plan is the plan again.
     let mut left = vec![Track::from_tenants(Scope::default()); graph.resources.len()];
     for (resource, need) in needs.iter().flatten() {
         left[resource.index()].step(need);
     }
-    let start = |(resource, tenants): (&Resource, &Vec<ResourceId>)| match resource.origin {
+    let start = |(resource, tenants): (&Resource<'_>, &Vec<ResourceId>)| match resource.origin {
         Origin::Imported { initial, .. } => Track::from_state(initial),
         Origin::Transient => {
             let mut last = Scope::default();
@@ -211,7 +215,7 @@ impl Owners {
     }
 }
 
-fn barrier_of(graph: &Declared, resource: ResourceId, need: &Need, wait: Wait) -> Barrier {
+fn barrier_of(graph: &Declared<'_>, resource: ResourceId, need: &Need, wait: Wait) -> Barrier {
     let transition = match graph.resource(resource).desc {
         ResourceDesc::Image(_) => Some(wait.transition),
         ResourceDesc::Buffer(_) => None,

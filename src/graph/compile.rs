@@ -13,49 +13,41 @@ use super::{
 };
 use crate::error::Result;
 
-/// A plan and what its passes record.
-#[derive(Debug)]
-pub struct Compiled<Body> {
-    /// The plan.
-    pub plan: Plan,
-    /// The bodies of [`Plan::passes`], in the same order.
-    pub bodies: Vec<Body>,
-}
-
-impl<Body> Graph<Body> {
+impl<Body> Graph<'_, Body> {
     /// Compiles the graph. `needs` says of each transient that is used, in the order of declaration, what memory it
     /// needs: only a device knows.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Graph`] for an illegal graph, with the first mistake; and whatever `needs` fails with.
     pub fn compile(
-        self,
+        &self,
         needs: impl FnMut(ResourceId, &ResourceDesc, Usage) -> Result<MemoryNeed>,
-    ) -> Result<Compiled<Body>> {
-        let Self { declared: graph, bodies } = self;
+    ) -> Result<Plan> {
+        let graph = &self.declared;
         // First of all, so that no later stage meets what it can't handle.
-        let kinds = validate(&graph)?;
+        let kinds = validate(graph)?;
         // Before lifetimes, so that what isn't executed holds no memory; they are counted in places in its order.
-        let live = cull(&graph);
+        let live = cull(graph);
         // Transients are created for these usages, before a device can say what memory they need.
-        let lifetimes = lifetimes(&graph, &live.order);
+        let lifetimes = lifetimes(graph, &live.order);
         // Before barriers: a new tenant waits on the former ones.
-        let (blocks, slots) = alias(&graph, &lifetimes, needs)?;
+        let (blocks, slots) = alias(graph, &lifetimes, needs)?;
         // The only synchronization there is.
-        let barriers = barriers(&graph, &live.order, &lifetimes, &slots);
+        let barriers = barriers(graph, &live.order, &lifetimes, &slots);
         // Load and store operations need to know whose results are read.
         let rendering: Vec<_> =
-            live.order.iter().map(|&pass| rendering(&graph, &live, &graph.passes[pass])).collect();
+            live.order.iter().map(|&pass| rendering(graph, &live, &graph.passes[pass])).collect();
 
-        let resources = graph.resources.into_iter().zip(lifetimes).zip(slots).zip(barriers.end);
+        let resources = graph.resources.iter().zip(lifetimes).zip(slots).zip(barriers.end);
         let resources = resources.map(|(((resource, (usage, lifetime)), slot), end)| {
-            let Resource { name, desc, origin, .. } = resource;
+            let Resource { name, desc, origin, .. } = *resource;
             PlannedResource { name: name.to_string(), desc, origin, usage, lifetime, slot, end }
         });
         let mut executed = live.order.iter().zip(barriers.passes).zip(rendering).peekable();
         let (mut passes, mut culled) = (Vec::with_capacity(live.order.len()), Vec::new());
-        for ((declared, pass), kind) in graph.passes.into_iter().enumerate().zip(kinds) {
-            let Pass { name, why, role, uses, side_effect, .. } = pass;
+        for ((declared, pass), kind) in graph.passes.iter().enumerate().zip(kinds) {
+            let Pass { name, why, role, uses, side_effect, .. } = *pass;
+            let (name, uses) = (name.to_owned(), uses.to_vec());
             match executed.next_if(|((next, _), _)| **next == declared) {
                 Some(((_, barriers), rendering)) => {
                     passes.push(PlannedPass {
@@ -74,15 +66,6 @@ impl<Body> Graph<Body> {
             }
         }
         let resources = resources.collect();
-        let plan = Plan { resources, passes, final_barriers: barriers.final_, blocks, culled };
-        let bodies = executed_bodies(&plan, bodies);
-        Ok(Compiled { plan, bodies })
+        Ok(Plan { resources, passes, final_barriers: barriers.final_, blocks, culled })
     }
-}
-
-/// The bodies of the passes that are left.
-pub(super) fn executed_bodies<Body>(plan: &Plan, bodies: Vec<Body>) -> Vec<Body> {
-    let mut left = plan.passes.iter().map(|pass| pass.declared).peekable();
-    let executed = bodies.into_iter().enumerate().filter(|(place, _)| left.next_if_eq(place).is_some());
-    executed.map(|(_, body)| body).collect()
 }

@@ -29,7 +29,7 @@ impl Live {
 /// The caller reads the last content of every import. A pass is live if it has a side effect or writes a content
 /// that is read; what a live pass needs is read in turn. One walk backwards suffices: contents are read only after
 /// they are written.
-pub(super) fn cull(graph: &Declared) -> Live {
+pub(super) fn cull(graph: &Declared<'_>) -> Live {
     let resources = (0..).map(ResourceId).zip(&graph.resources);
     let imports = resources.filter(|(_, resource)| resource.origin != Origin::Transient);
     let read = imports.map(|(id, resource)| (id, resource.version)).collect();

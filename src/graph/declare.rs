@@ -1,11 +1,9 @@
 //! The graph as its passes declare it: plain data and one opaque body a pass.
 
 use std::{
+    fmt::Display,
     marker::PhantomData,
-    sync::{
-        Arc,
-        atomic::{AtomicU64, Ordering},
-    },
+    sync::atomic::{AtomicU64, Ordering},
 };
 
 use super::{
@@ -15,26 +13,28 @@ use super::{
         ResourceDesc, ResourceId,
     },
 };
+use crate::arena::{Arena, ArenaVec};
 
-/// A frame in the making. `Body` is what a pass records; the graph carries it and never looks inside.
+/// A frame in the making, which lies in a frame's memory. `Body` is what a pass records; the graph carries it and never looks inside.
 #[derive(Debug)]
-pub struct Graph<Body> {
-    pub(super) declared: Declared,
+pub struct Graph<'a, Body> {
+    pub(super) declared: Declared<'a>,
     /// One a pass.
-    pub(super) bodies: Vec<Body>,
+    pub(super) bodies: ArenaVec<'a, Body>,
+    arena: &'a Arena,
 }
 
 /// All of a graph but the bodies: what the compile stages work on.
 #[derive(Debug)]
-pub(super) struct Declared {
+pub(super) struct Declared<'a> {
     id: u64,
-    pub(super) resources: Vec<Resource>,
-    pub(super) passes: Vec<Pass>,
+    pub(super) resources: ArenaVec<'a, Resource<'a>>,
+    pub(super) passes: ArenaVec<'a, Pass<'a>>,
 }
 
 #[derive(Debug)]
-pub(super) struct Resource {
-    pub(super) name: Arc<str>,
+pub(super) struct Resource<'a> {
+    pub(super) name: &'a str,
     pub(super) desc: ResourceDesc,
     pub(super) origin: Origin,
     /// The writes that finished passes have declared.
@@ -42,14 +42,14 @@ pub(super) struct Resource {
 }
 
 #[derive(Debug)]
-pub(super) struct Pass {
-    pub(super) name: String,
+pub(super) struct Pass<'a> {
+    pub(super) name: &'a str,
     pub(super) why: &'static str,
     pub(super) role: Role,
-    pub(super) uses: Vec<Use>,
+    pub(super) uses: &'a [Use],
     pub(super) side_effect: bool,
-    /// The name of the first handle that is another graph's.
-    pub(super) foreign: Option<Arc<str>>,
+    /// The first handle that is another graph's.
+    pub(super) foreign: Option<ResourceId>,
 }
 
 /// What a pass does, as far as measurements have to know it and no [`Access`] tells it.
@@ -95,88 +95,87 @@ impl Use {
     }
 }
 
-impl<Body> Default for Graph<Body> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<Body> Graph<Body> {
+impl<'a, Body> Graph<'a, Body> {
     /// A graph without resources and passes.
-    pub fn new() -> Self {
+    pub fn new(arena: &'a Arena) -> Self {
         // Tells the handles of one graph from those of another.
         static NEXT_ID: AtomicU64 = AtomicU64::new(0);
         let id = NEXT_ID.fetch_add(1, Ordering::Relaxed);
-        Self { declared: Declared { id, resources: Vec::new(), passes: Vec::new() }, bodies: Vec::new() }
+        let declared = Declared { id, resources: arena.growing(), passes: arena.growing() };
+        Self { declared, bodies: arena.growing(), arena }
+    }
+
+    /// Where it lies.
+    pub fn arena(&self) -> &'a Arena {
+        self.arena
     }
 
     /// An image that lives inside one execution. Names are unique in a graph, here and below.
-    pub fn create_image(&mut self, name: &str, desc: ImageDesc) -> Handle<Image> {
-        self.declared.add(name, ResourceDesc::Image(desc), Origin::Transient)
+    pub fn create_image(&mut self, name: impl Display, desc: ImageDesc) -> Handle<Image> {
+        self.declared.add(self.arena.text(name), ResourceDesc::Image(desc), Origin::Transient)
     }
 
     /// A buffer that lives inside one execution.
-    pub fn create_buffer(&mut self, name: &str, desc: BufferDesc) -> Handle<Buffer> {
-        self.declared.add(name, ResourceDesc::Buffer(desc), Origin::Transient)
+    pub fn create_buffer(&mut self, name: impl Display, desc: BufferDesc) -> Handle<Buffer> {
+        self.declared.add(self.arena.text(name), ResourceDesc::Buffer(desc), Origin::Transient)
     }
 
     /// An image of the caller's. No two imports may be the same image.
     pub fn import_image(
         &mut self,
-        name: &str,
+        name: impl Display,
         desc: ImageDesc,
         initial: ImageState,
         final_: Option<ImageState>,
     ) -> Handle<Image> {
         let origin = Origin::Imported { initial: initial.into(), final_: final_.map(Into::into) };
-        self.declared.add(name, ResourceDesc::Image(desc), origin)
+        self.declared.add(self.arena.text(name), ResourceDesc::Image(desc), origin)
     }
 
     /// A buffer of the caller's. No two imports may share memory. A read by the host is a `final_` state.
     pub fn import_buffer(
         &mut self,
-        name: &str,
+        name: impl Display,
         desc: BufferDesc,
         initial: BufferState,
         final_: Option<BufferState>,
     ) -> Handle<Buffer> {
         let origin = Origin::Imported { initial: initial.into(), final_: final_.map(Into::into) };
-        self.declared.add(name, ResourceDesc::Buffer(desc), origin)
+        self.declared.add(self.arena.text(name), ResourceDesc::Buffer(desc), origin)
     }
 
     /// What is in a buffer after all passes declared so far, by its name, for tools that look into frames which others declared.
     pub fn content_of(&self, name: &str) -> Option<(Handle<Buffer>, BufferDesc)> {
-        let place = self.declared.resources.iter().position(|resource| &*resource.name == name)?;
+        let place = self.declared.resources.iter().position(|resource| resource.name == name)?;
         let resource = &self.declared.resources[place];
         let ResourceDesc::Buffer(desc) = resource.desc else { return None };
-        let (graph, id, name) = (self.declared.id, ResourceId(place as u32), resource.name.clone());
-        Some((Handle { graph, id, version: resource.version, name, kind: PhantomData }, desc))
+        let (graph, id) = (self.declared.id, ResourceId(place as u32));
+        Some((Handle { graph, id, version: resource.version, kind: PhantomData }, desc))
     }
 
     /// Begins a pass, which [`PassBuilder::finish`] ends. Its name is also its debug label and the key of its time.
-    pub fn pass(&mut self, name: &str) -> PassBuilder<'_, Body> {
+    pub fn pass(&mut self, name: impl Display) -> PassBuilder<'_, 'a, Body> {
         let pass = Pass {
-            name: name.to_owned(),
+            name: self.arena.text(name),
             why: "",
             role: Role::Other,
-            uses: Vec::new(),
+            uses: &[],
             side_effect: false,
             foreign: None,
         };
-        PassBuilder { graph: self, pass }
+        PassBuilder { uses: self.arena.growing(), graph: self, pass }
     }
 }
 
-impl Declared {
-    fn add<Kind>(&mut self, name: &str, desc: ResourceDesc, origin: Origin) -> Handle<Kind> {
+impl<'a> Declared<'a> {
+    fn add<Kind>(&mut self, name: &'a str, desc: ResourceDesc, origin: Origin) -> Handle<Kind> {
         // More than 2^32 resources don't fit into memory.
         let id = ResourceId(self.resources.len() as u32);
-        let name: Arc<str> = name.into();
-        self.resources.push(Resource { name: name.clone(), desc, origin, version: 0 });
-        Handle { graph: self.id, id, version: 0, name, kind: PhantomData }
+        self.resources.push(Resource { name, desc, origin, version: 0 });
+        Handle { graph: self.id, id, version: 0, kind: PhantomData }
     }
 
-    pub(super) fn resource(&self, id: ResourceId) -> &Resource {
+    pub(super) fn resource(&self, id: ResourceId) -> &Resource<'a> {
         &self.resources[id.index()]
     }
 }
@@ -185,12 +184,13 @@ impl Declared {
 /// [`Graph::compile`].
 #[derive(Debug)]
 #[must_use = "a pass is declared by `finish`"]
-pub struct PassBuilder<'a, Body> {
-    graph: &'a mut Graph<Body>,
-    pass: Pass,
+pub struct PassBuilder<'g, 'a, Body> {
+    graph: &'g mut Graph<'a, Body>,
+    pass: Pass<'a>,
+    uses: ArenaVec<'a, Use>,
 }
 
-impl<Body> PassBuilder<'_, Body> {
+impl<'a, Body> PassBuilder<'_, 'a, Body> {
     /// Reads a resource. Several reads of one image must agree on its layout.
     pub fn read<Kind>(mut self, handle: &Handle<Kind>, access: Access) -> Self {
         self.declare(handle, access, None);
@@ -218,7 +218,12 @@ impl<Body> PassBuilder<'_, Body> {
 
     /// Its name.
     pub fn name(&self) -> &str {
-        &self.pass.name
+        self.pass.name
+    }
+
+    /// Where the graph lies.
+    pub fn arena(&self) -> &'a Arena {
+        self.graph.arena
     }
 
     /// Keeps the pass even if nobody reads what it writes.
@@ -229,20 +234,21 @@ impl<Body> PassBuilder<'_, Body> {
 
     /// Puts the pass into the graph.
     pub fn finish(self, body: Body) {
-        for usage in &self.pass.uses {
+        let Self { graph, pass, uses } = self;
+        for usage in &uses {
             if usage.start.is_some() {
-                self.graph.declared.resources[usage.resource.index()].version += 1;
+                graph.declared.resources[usage.resource.index()].version += 1;
             }
         }
-        self.graph.declared.passes.push(self.pass);
-        self.graph.bodies.push(body);
+        graph.declared.passes.push(Pass { uses: uses.into_bump_slice(), ..pass });
+        graph.bodies.push(body);
     }
 
     fn declare<Kind>(&mut self, handle: &Handle<Kind>, access: Access, start: Option<Start>) {
         if handle.graph == self.graph.declared.id {
-            self.pass.uses.push(Use { resource: handle.id, version: handle.version, access, start });
+            self.uses.push(Use { resource: handle.id, version: handle.version, access, start });
         } else {
-            self.pass.foreign.get_or_insert(handle.name.clone());
+            self.pass.foreign.get_or_insert(handle.id);
         }
     }
 }

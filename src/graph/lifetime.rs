@@ -33,14 +33,14 @@ pub enum Usage {
 }
 
 /// The usage of every resource, and its lifetime where a pass that is left accesses it.
-pub(super) fn lifetimes(graph: &Declared, order: &[usize]) -> Vec<(Usage, Option<Lifetime>)> {
+pub(super) fn lifetimes(graph: &Declared<'_>, order: &[usize]) -> Vec<(Usage, Option<Lifetime>)> {
     let unused = |desc| match desc {
         ResourceDesc::Image(_) => (Usage::Image(vk::ImageUsageFlags::empty()), None),
         ResourceDesc::Buffer(_) => (Usage::Buffer(vk::BufferUsageFlags::empty()), None),
     };
     let mut found: Vec<_> = graph.resources.iter().map(|resource| unused(resource.desc)).collect();
     for (position, &pass) in order.iter().enumerate() {
-        for Use { resource, access, .. } in &graph.passes[pass].uses {
+        for Use { resource, access, .. } in graph.passes[pass].uses {
             let (usage, lifetime) = &mut found[resource.index()];
             let info = access.info();
             match usage {

@@ -35,7 +35,7 @@ pub struct Attachment {
 }
 
 /// The attachments of a pass; `None` where it has none.
-pub(super) fn rendering(graph: &Declared, live: &Live, pass: &Pass) -> Option<Rendering> {
+pub(super) fn rendering(graph: &Declared<'_>, live: &Live, pass: &Pass<'_>) -> Option<Rendering> {
     let mut rendering: Option<Rendering> = None;
     for usage in pass.uses.iter().filter(|usage| usage.access.is_attachment()) {
         let (ResourceDesc::Image(desc), Some((layout, _))) =

@@ -34,7 +34,6 @@ mod validate;
 pub use access::{Access, AccessInfo, PassKind};
 pub use alias::{Block, MemoryClass, MemoryNeed, Slot};
 pub use barrier::{Barrier, Batch};
-pub use compile::Compiled;
 pub use declare::{Graph, PassBuilder, Role, Start, Use};
 pub use lifetime::{Lifetime, Usage};
 pub use load_store::{Attachment, Rendering};

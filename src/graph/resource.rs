@@ -1,6 +1,6 @@
 //! What passes work on: images and buffers, transient or imported, and the handles that name them.
 
-use std::{marker::PhantomData, sync::Arc};
+use std::marker::PhantomData;
 
 use ash::vk;
 
@@ -31,7 +31,6 @@ pub struct Handle<Kind> {
     pub(super) id: ResourceId,
     /// How many writes were declared with it.
     pub(super) version: u32,
-    pub(super) name: Arc<str>,
     pub(super) kind: PhantomData<Kind>,
 }
 
@@ -39,11 +38,6 @@ impl<Kind> Handle<Kind> {
     /// Where the resource is found when the plan is executed.
     pub fn id(&self) -> ResourceId {
         self.id
-    }
-
-    /// The resource's name, as in messages and dumps.
-    pub fn name(&self) -> &str {
-        &self.name
     }
 }
 

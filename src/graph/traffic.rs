@@ -90,16 +90,15 @@ fn bytes_per_pixel(format: vk::Format) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{
-        BufferDesc, BufferState, ClearValue, Graph, ImageDesc, ImageState, MemoryNeed, Start,
-    };
+    use super::super::{BufferDesc, BufferState, ClearValue, ImageDesc, ImageState, MemoryNeed, Start};
     use super::*;
+    use crate::graph::tests::graph;
 
     #[test]
     fn what_is_loaded_stored_and_read_is_counted_once_each() {
         let extent = vk::Extent2D { width: 10, height: 4 };
         let image = |format| ImageDesc { format, extent };
-        let mut graph = Graph::new();
+        let mut graph = graph();
         let mut depth = graph.create_image("depth", image(vk::Format::D32_SFLOAT));
         let mut sums = graph.create_image("sums", image(vk::Format::R16G16B16A16_SFLOAT));
         let mut target =
@@ -122,7 +121,7 @@ mod tests {
             .finish(());
         let need =
             |_, _: &ResourceDesc, _| Ok(MemoryNeed { size_bytes: 1, alignment_bytes: 1, type_bits: 1 });
-        let plan = graph.compile(need).unwrap().plan;
+        let plan = graph.compile(need).unwrap();
         let in_use = BTreeMap::new();
         let bytes = |i: usize, fragments| {
             plan.least_bytes(&plan.passes[i], Executed { fragments, pixels: 0, in_use: &in_use })
@@ -137,7 +136,7 @@ mod tests {
     fn of_dispatches_only_what_they_are_known_to_move_is_counted() {
         let extent = vk::Extent2D { width: 10, height: 4 };
         let format = vk::Format::R16G16B16A16_SFLOAT;
-        let mut graph = Graph::new();
+        let mut graph = graph();
         let mut shown = graph.create_image("shown", ImageDesc { format, extent });
         let mut counts = graph.create_buffer("counts", BufferDesc::of_bytes(100));
         let mut list = graph.create_buffer("list", BufferDesc::of_bytes(1000));
@@ -157,7 +156,7 @@ mod tests {
             .finish(());
         let need =
             |_, _: &ResourceDesc, _| Ok(MemoryNeed { size_bytes: 1, alignment_bytes: 1, type_bits: 1 });
-        let plan = graph.compile(need).unwrap().plan;
+        let plan = graph.compile(need).unwrap();
         let bytes = |in_use: &BTreeMap<String, u64>, pixels| {
             let executed = Executed { fragments: None, pixels, in_use };
             [1, 2, 3].map(|i: usize| plan.least_bytes(&plan.passes[i], executed).unwrap())

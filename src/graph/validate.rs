@@ -16,11 +16,11 @@ use crate::error::{ErrorKind, Result};
 
 /// Refuses the first resource at fault, else the first pass, in the order in which they were declared. The kinds of
 /// all passes.
-pub(super) fn validate(graph: &Declared) -> Result<Vec<PassKind>> {
+pub(super) fn validate(graph: &Declared<'_>) -> Result<Vec<PassKind>> {
     let mut names = HashSet::new();
     for resource in &graph.resources {
-        if !names.insert(&*resource.name) {
-            return refuse("", &resource.name, "another resource has this name");
+        if !names.insert(resource.name) {
+            return refuse("", resource.name, "another resource has this name");
         }
         check_resource(resource)?;
     }
@@ -28,7 +28,7 @@ pub(super) fn validate(graph: &Declared) -> Result<Vec<PassKind>> {
     let mut written = vec![0; graph.resources.len()];
     let check = |pass| {
         check_name(pass, &mut names)?;
-        for usage in &pass.uses {
+        for usage in pass.uses {
             let written = &mut written[usage.resource.index()];
             if usage.version != *written {
                 let reason = format!(
@@ -36,7 +36,7 @@ pub(super) fn validate(graph: &Declared) -> Result<Vec<PassKind>> {
                      pass of the other was not finished",
                     usage.version
                 );
-                return refuse(&pass.name, &graph.resource(usage.resource).name, reason);
+                return refuse(pass.name, graph.resource(usage.resource).name, reason);
             }
             *written += u32::from(usage.start.is_some());
             check_use(graph, pass, usage)?;
@@ -48,37 +48,37 @@ pub(super) fn validate(graph: &Declared) -> Result<Vec<PassKind>> {
     graph.passes.iter().map(check).collect()
 }
 
-fn check_name<'a>(pass: &'a Pass, names: &mut HashSet<&'a str>) -> Result<()> {
+fn check_name<'a>(pass: &Pass<'a>, names: &mut HashSet<&'a str>) -> Result<()> {
     if pass.name.is_empty() {
         return refuse("", "", "a pass has no name");
     }
-    if !names.insert(&pass.name) {
-        return refuse(&pass.name, "", "another pass has this name");
+    if !names.insert(pass.name) {
+        return refuse(pass.name, "", "another pass has this name");
     }
-    match &pass.foreign {
-        Some(resource) => refuse(&pass.name, resource, "the handle belongs to another graph"),
+    match pass.foreign {
+        Some(id) => refuse(pass.name, &format!("#{}", id.index()), "the handle belongs to another graph"),
         None => Ok(()),
     }
 }
 
 /// The kind of a pass, from its accesses.
-fn kind_of(pass: &Pass) -> Result<PassKind> {
+fn kind_of(pass: &Pass<'_>) -> Result<PassKind> {
     let mut found = pass.uses.iter().filter_map(|usage| Some((usage.access, usage.access.info().kind?)));
     let Some((access, kind)) = found.next() else {
-        return refuse(&pass.name, "", "no access says whether it draws, dispatches or copies");
+        return refuse(pass.name, "", "no access says whether it draws, dispatches or copies");
     };
     if let Some((other, _)) = found.find(|(_, other)| *other != kind) {
         let reason = format!("{access:?} and {other:?} are of different kinds of passes; make it two");
-        return refuse(&pass.name, "", reason);
+        return refuse(pass.name, "", reason);
     }
     if kind == PassKind::Graphics && !pass.uses.iter().any(|usage| usage.access.is_attachment()) {
-        return refuse(&pass.name, "", "it draws but has no attachment");
+        return refuse(pass.name, "", "it draws but has no attachment");
     }
     Ok(kind)
 }
 
-fn check_resource(resource: &Resource) -> Result<()> {
-    let refuse = |reason: &str| refuse("", &resource.name, reason);
+fn check_resource(resource: &Resource<'_>) -> Result<()> {
+    let refuse = |reason: &str| refuse("", resource.name, reason);
     if resource.name.is_empty() {
         return refuse("a resource has no name");
     }
@@ -104,10 +104,10 @@ fn check_resource(resource: &Resource) -> Result<()> {
     Ok(())
 }
 
-fn check_use(graph: &Declared, pass: &Pass, usage: &Use) -> Result<()> {
+fn check_use(graph: &Declared<'_>, pass: &Pass<'_>, usage: &Use) -> Result<()> {
     let resource = graph.resource(usage.resource);
     let access = usage.access;
-    let refuse = |reason: String| refuse(&pass.name, &resource.name, reason);
+    let refuse = |reason: String| refuse(pass.name, resource.name, reason);
     match resource.desc {
         ResourceDesc::Image(desc) => {
             if access.info().image.is_none() {
@@ -172,7 +172,7 @@ fn check_use(graph: &Declared, pass: &Pass, usage: &Use) -> Result<()> {
 }
 
 /// Several accesses of one pass to the same resource, each legal alone.
-fn check_same(graph: &Declared, pass: &Pass) -> Result<()> {
+fn check_same(graph: &Declared<'_>, pass: &Pass<'_>) -> Result<()> {
     let mut uses: Vec<&Use> = pass.uses.iter().collect();
     uses.sort_by_key(|usage| usage.resource);
     for same in uses.chunk_by(|a, b| a.resource == b.resource) {
@@ -183,7 +183,7 @@ fn check_same(graph: &Declared, pass: &Pass) -> Result<()> {
     Ok(())
 }
 
-fn check_pair(graph: &Declared, pass: &Pass, a: &Use, b: &Use) -> Result<()> {
+fn check_pair(graph: &Declared<'_>, pass: &Pass<'_>, a: &Use, b: &Use) -> Result<()> {
     let Resource { name, desc, .. } = graph.resource(b.resource);
     let layout = |usage: &Use| usage.access.info().image.map(|(layout, _)| layout);
     let reason = if a.start.is_some() || b.start.is_some() {
@@ -195,11 +195,11 @@ fn check_pair(graph: &Declared, pass: &Pass, a: &Use, b: &Use) -> Result<()> {
     } else {
         return Ok(());
     };
-    refuse(&pass.name, name, reason)
+    refuse(pass.name, name, reason)
 }
 
 /// The attachments of one pass, each legal alone.
-fn check_attachments(graph: &Declared, pass: &Pass) -> Result<()> {
+fn check_attachments(graph: &Declared<'_>, pass: &Pass<'_>) -> Result<()> {
     let mut first = None;
     let mut has_depth = false;
     for usage in pass.uses.iter().filter(|usage| usage.access.is_attachment()) {
@@ -207,14 +207,14 @@ fn check_attachments(graph: &Declared, pass: &Pass) -> Result<()> {
             continue;
         };
         if usage.access.is_depth_attachment() && std::mem::replace(&mut has_depth, true) {
-            return refuse(&pass.name, name, "it is the second depth attachment of the pass");
+            return refuse(pass.name, name, "it is the second depth attachment of the pass");
         }
         let (first_name, of_first) = *first.get_or_insert((name, desc.extent));
         if desc.extent != of_first {
             let size = |extent: vk::Extent2D| format!("{}x{}", extent.width, extent.height);
             let (own, other) = (size(desc.extent), size(of_first));
             let reason = format!("its size {own} differs from that of attachment '{first_name}', {other}");
-            return refuse(&pass.name, name, reason);
+            return refuse(pass.name, name, reason);
         }
     }
     Ok(())

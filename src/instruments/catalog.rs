@@ -11,6 +11,7 @@ use crate::instruments::{
 };
 use crate::passes::{self, FramePlan, Inputs, PipelineRecipe, Place, pipeline::recipe::Key};
 use crate::{
+    arena::Arena,
     error::Result,
     graph::{BufferDesc, Graph, Handle, Image, execute::Body},
     prepare::{Placed, prepare_without_device},
@@ -93,7 +94,7 @@ pub fn frame_pipelines(settings: &Settings, traits: Traits) -> Result<Vec<Pipeli
     if traits.floor {
         all.extend(listed(settings, traits, |graph, inputs, plan, target| {
             let mut points = graph.create_buffer("floor points", BufferDesc::of_bytes(FLOOR_POINT_BYTES));
-            for draw in &plan.opaque.splats {
+            for draw in plan.opaque.splats {
                 floor_points(graph, inputs, draw, 0, &mut points)?;
             }
             let points = [FloorPoints { buffer: &points, count: 1 }];
@@ -109,7 +110,7 @@ fn listed(
     settings: &Settings,
     traits: Traits,
     declare: impl for<'a> FnOnce(
-        &mut Graph<Body<'a>>,
+        &mut Graph<'a, Body<'a>>,
         Inputs<'a>,
         &'a FramePlan<'a>,
         &mut Handle<Image>,
@@ -127,10 +128,11 @@ fn listed(
         ..Camera::default()
     };
     let prepared = prepare_without_device(&limits, &scene)?;
-    let plan = FramePlan::new(&[Placed::at_home(&prepared)], &camera, settings, &limits);
+    let arena = Arena::new();
+    let plan = FramePlan::new(&arena, &[Placed::at_home(&prepared)], &camera, settings, &limits);
     let list = RefCell::default();
     {
-        let mut graph = Graph::new();
+        let mut graph = Graph::new(&arena);
         let inputs = Inputs::new(&camera, settings, Place::List(&list));
         let mut target = graph.create_image("target", inputs.image(TARGET));
         declare(&mut graph, inputs, &plan, &mut target)?;

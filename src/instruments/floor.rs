@@ -5,11 +5,12 @@ use ash::vk;
 use super::floor_passes::{FLOOR_POINT_BYTES, FloorPoints};
 use crate::renderer::{Headless, headless::submit_and_wait};
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc,
-        execute::{FrameProfile, Physical, Profile},
+        execute::{FrameProfile, Physical, Profile, Profiler},
     },
     passes::{self, DepthRange, Inputs, Needs, Place},
     prepare::{Placed, PreparedScene},
@@ -74,6 +75,7 @@ impl<'a> Floor<'a> {
             settings,
             &headless.renderer.limits,
         );
+        let draws: Vec<_> = draws.collect();
         if draws.iter().any(|draw| draw.may_be_large) {
             let problem = "a splat may exceed the device's largest point: expected more and smaller splats, or a smaller --size";
             return Err(Error::option("bench", problem));
@@ -116,8 +118,9 @@ impl<'a> Floor<'a> {
     /// Whatever the driver answers.
     pub fn frame(&mut self, headless: &Headless, profile: Profile) -> Result<FrameProfile> {
         self.record(headless, Some(profile), false)?;
-        let mut measured =
-            self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), |profiler| profiler.read())?;
+        // SAFETY: waited for.
+        let read = |profiler: &Profiler| unsafe { profiler.read() };
+        let mut measured = self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), read)?;
         if let Some(depth) = measured.passes.first_mut() {
             depth.counts = depth.counts.filter(|counts| counts.fragments > 0);
         }
@@ -131,6 +134,7 @@ impl<'a> Floor<'a> {
             &self.settings,
             &headless.renderer.limits,
         );
+        let draws: Vec<_> = draws.collect();
         // Each chunk's points are a set in both passes that draw them.
         let room = passes::room_of_lists(2 * self.chunks.len() as u32);
         // Once more, in case that the wait for the frame before failed.
@@ -140,7 +144,8 @@ impl<'a> Floor<'a> {
         let SlotParts { descriptors, execution, .. } = self.slot.parts()?;
         let place = Place::Device(&headless.renderer.shaders, descriptors);
         let inputs = Inputs { draws: &draws, ..Inputs::new(&self.camera, &self.settings, place) };
-        let mut graph = Graph::new();
+        let arena = Arena::new();
+        let mut graph = Graph::new(&arena);
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut imports = Vec::new();
         let mut handles = Vec::new();
@@ -170,7 +175,7 @@ impl<'a> Floor<'a> {
         }
         submit_and_wait(headless, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
-            unsafe { execution.record(commands, graph, &imports) }.map(drop)
+            unsafe { execution.record(commands, &graph, &imports) }.map(drop)
         })
     }
 }

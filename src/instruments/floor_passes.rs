@@ -43,20 +43,20 @@ fn points_key(variant: &Constants) -> ComputeKey {
 fn keys(settings: &Settings, target_format: vk::Format) -> [GraphicsKey; 3] {
     let key = |fragment| {
         let stages = (&shaders::FLOOR_POINTS_VERT, fragment);
-        GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, Vec::new())
+        GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, [].into())
     };
     let depth = (vk::CompareOp::GREATER, true);
     [
         GraphicsKey { depth: Some(depth), ..key(&shaders::FLOOR_DEPTH_FRAG) },
         GraphicsKey {
-            color_formats: vec![sum_format(settings.accumulate); 2],
+            color_formats: [sum_format(settings.accumulate); 2].into(),
             blend: Blend::Add,
             depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
             ..key(&shaders::FLOOR_ADD_FRAG)
         },
         GraphicsKey {
-            color_formats: vec![target_format],
-            ..GraphicsKey::fullscreen(&shaders::FLOOR_FILL_FRAG, Layout::Finalize, Vec::new())
+            color_formats: [target_format].into(),
+            ..GraphicsKey::fullscreen(&shaders::FLOOR_FILL_FRAG, Layout::Finalize, [].into())
         },
     ]
 }
@@ -74,13 +74,13 @@ pub struct FloorPoints<'a> {
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
 pub fn floor_points<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     draw: &'a Draw<'a>,
     number: usize,
     points: &mut Handle<Buffer>,
 ) -> Result<()> {
-    let pass = Pass::new(graph, inputs.source, &format!("floor points {number}"), WHY).write(
+    let pass = Pass::new(graph, inputs.source, format_args!("floor points {number}"), WHY).write(
         lists(BIND_LIST_POINTS),
         points,
         Access::StorageWriteCompute,
@@ -99,7 +99,7 @@ pub fn floor_points<'a>(
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
 pub fn floor_frame<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     points: &[FloorPoints<'_>],
     target: &mut Handle<Image>,
@@ -143,10 +143,10 @@ fn draw_points(mut pass: Pass<'_, '_>, key: GraphicsKey, points: &[FloorPoints<'
         pass = pass.read(at, points.buffer, Access::StorageReadVertex);
     }
     let pipeline = pass.graphics(key)?;
-    let counts: Vec<_> = points.iter().map(|chunk| chunk.count).collect();
+    let counts = pass.arena().list(points.iter().map(|chunk| chunk.count));
     pass.finish(move |pass| {
         pass.bind(pipeline);
-        for (chunk, count) in (0..).zip(counts) {
+        for (chunk, count) in (0..).zip(counts.iter().copied()) {
             pass.bind_sets(pipeline.layout, 1, &[pass.set(Place::Lists(chunk))?])?;
             pass.draw([count, 1]);
         }

@@ -7,6 +7,7 @@ use ash::vk;
 use super::list_occupancy::{self, ListOccupancy};
 use crate::renderer::{Headless, Readbacks, declare, headless::submit_and_wait};
 use crate::{
+    arena::Arena,
     error::Result,
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{BufferDesc as GraphBufferDesc, BufferState, execute::Physical},
@@ -41,7 +42,8 @@ impl Headless {
         settings: &Settings,
     ) -> Result<ListOccupancy> {
         let (device, renderer) = (self.device(), &self.renderer);
-        let frame = renderer.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
+        let arena = Arena::new();
+        let frame = renderer.frame_plan(&arena, &[Placed::at_home(scene)], camera, settings)?;
         let target = HeadlessTarget::new(device, vk::Format::R8G8B8A8_SRGB, settings.size_px)?;
         let mut slot = FrameSlot::new(device);
         let counts_draws = device.facts().draw_indirect_count;
@@ -54,11 +56,12 @@ impl Headless {
         let inputs = Inputs { occlusion, range: frame.range, ..Inputs::new(camera, settings, place) };
         let source = inputs.source.cut_by(planes);
         let inputs = Inputs { source, ..inputs };
-        let (mut graph, mut imports) = declare(inputs, &frame, &target.target(), Readbacks::default())?;
+        let (mut graph, mut imports) =
+            declare(&arena, inputs, &frame, &target.target(), Readbacks::default())?;
 
         let host = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
         let mut buffers = Vec::new();
-        for name in list_occupancy::counter_buffers(inputs, &frame) {
+        for name in list_occupancy::counter_buffers(&arena, inputs, &frame) {
             let Some((content, GraphBufferDesc { size_bytes: size, .. })) = graph.content_of(&name) else {
                 continue;
             };
@@ -71,7 +74,7 @@ impl Headless {
             passes::readback_buffer(
                 &mut graph,
                 source,
-                &format!("read back {name}"),
+                format_args!("read back {name}"),
                 &content,
                 &mut to,
                 size,
@@ -83,7 +86,7 @@ impl Headless {
             // SAFETY: recording; all that is used is alive until the wait.
             let plan = unsafe {
                 renderer.shaders.begin_frame(commands)?;
-                execution.record(commands, graph, &imports)
+                execution.record(commands, &graph, &imports)
             }?;
             names.extend(plan.resources.iter().map(|resource| resource.name.clone()));
             Ok(())

@@ -9,11 +9,12 @@ use super::{
 };
 use crate::renderer::{Headless, headless::submit_and_wait};
 use crate::{
+    arena::Arena,
     error::Result,
     frame::{FrameSlot, SlotParts},
     graph::{
         BufferDesc as GraphBufferDesc, BufferState, Graph, Handle,
-        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile},
+        execute::{Body, FrameProfile, Kept, PassProfile, Physical, Profile, Profiler},
     },
     passes::{self, Needs, Place, Source},
     report::ThroughputProbe,
@@ -202,7 +203,8 @@ impl Probe {
         let place = Place::Device(&headless.renderer.shaders, descriptors);
         let source = Source::new(place, &Camera::default());
         let inputs = LimitInputs { settings, source, repeats: self.repeats };
-        let mut graph = Graph::new();
+        let arena = Arena::new();
+        let mut graph = Graph::new(&arena);
         let (mut handles, mut imports) = (Vec::new(), Vec::new());
         for (number, buffer) in self.buffers.iter().enumerate() {
             let handle = import(&mut graph, number, buffer);
@@ -229,9 +231,12 @@ impl Probe {
         }
         submit_and_wait(headless, |commands| {
             // SAFETY: recording; all that is used is alive until the wait.
-            unsafe { execution.record(commands, graph, &imports) }.map(drop)
+            unsafe { execution.record(commands, &graph, &imports) }.map(drop)
         })?;
-        self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), |profiler| profiler.read())
+        drop(graph);
+        // SAFETY: waited for.
+        let read = |profiler: &Profiler| unsafe { profiler.read() };
+        self.slot.profiler().map_or_else(|| Ok(FrameProfile::default()), read)
     }
 }
 
@@ -242,23 +247,24 @@ fn copy_buffers(headless: &Headless) -> Result<[Buffer; 2]> {
     let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
     let buffer = |name| Buffer::new(device, BufferDesc { name, size, usage }, MemoryUse::Device);
     let buffers = [buffer("what is copied")?, buffer("what it is copied to")?];
-    let mut graph: Graph<Body<'_>> = Graph::new();
+    let arena = Arena::new();
+    let mut graph: Graph<'_, Body<'_>> = Graph::new(&arena);
     let mut from = import(&mut graph, 0, &buffers[0]);
     let imports = [(from.id(), Physical::Buffer(buffers[0].raw()))];
     limit_passes::limit_fill(&mut graph, &mut from);
     submit_and_wait(headless, |commands| {
         // SAFETY: recording; all that is used is alive until the wait.
-        unsafe { Kept::default().execute(device, commands, graph, &imports, None) }.map(drop)
+        unsafe { Kept::default().execute(device, commands, &graph, &imports, None) }.map(drop)
     })?;
     Ok(buffers)
 }
 
 /// A buffer of a limit: the measurement before may have written it.
-fn import(graph: &mut Graph<Body<'_>>, number: usize, buffer: &Buffer) -> Handle<crate::graph::Buffer> {
+fn import(graph: &mut Graph<'_, Body<'_>>, number: usize, buffer: &Buffer) -> Handle<crate::graph::Buffer> {
     let initial = BufferState {
         stages: vk::PipelineStageFlags2::ALL_TRANSFER | vk::PipelineStageFlags2::COMPUTE_SHADER,
         access: vk::AccessFlags2::TRANSFER_WRITE | vk::AccessFlags2::SHADER_STORAGE_WRITE,
     };
     let desc = GraphBufferDesc::of_bytes(buffer.size());
-    graph.import_buffer(&format!("buffer {number} of a limit"), desc, initial, None)
+    graph.import_buffer(format_args!("buffer {number} of a limit"), desc, initial, None)
 }

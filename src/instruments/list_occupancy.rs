@@ -10,7 +10,7 @@ use crate::passes::{
     },
     tiles::lists::RECORD_QUARTERS,
 };
-use crate::shaders::config::*;
+use crate::{arena::Arena, shaders::config::*};
 
 /// What the lists of one frame held.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -64,6 +64,7 @@ impl Names {
 
 /// All lists of a frame, each with what is in front of its names.
 fn lists<'a>(
+    arena: &'a Arena,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
 ) -> impl Iterator<Item = (String, Inputs<'a>, Option<&'a TilePlan>)> {
@@ -73,29 +74,27 @@ fn lists<'a>(
         let name = move |band: &str| format!("{surface}{band}");
         match inputs.bands.is_empty() {
             true => vec![(name(""), inputs, None)],
-            false => inputs
-                .of_bands()
-                .into_iter()
-                .map(|(band, inputs, plan)| (name(&band), inputs, Some(plan)))
-                .collect(),
+            false => {
+                inputs.of_bands(arena).map(|(band, inputs, plan)| (name(band), inputs, Some(plan))).collect()
+            }
         }
     })
 }
 
 /// The buffers that tell it, of those that a frame has.
-pub fn counter_buffers<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>) -> Vec<String> {
+pub fn counter_buffers<'a>(arena: &'a Arena, inputs: Inputs<'a>, plan: &'a FramePlan<'a>) -> Vec<String> {
     let names = |(kind, ..): (String, Inputs<'_>, Option<&TilePlan>)| {
         let Names { visible_starts, rects, starts, arguments } = Names::of(&kind);
         [visible_starts, rects, starts, arguments]
     };
-    lists(inputs, plan).flat_map(names).collect()
+    lists(arena, inputs, plan).flat_map(names).collect()
 }
 
 impl ListOccupancy {
     /// What the words of these buffers tell.
     pub fn of<'a>(inputs: Inputs<'a>, plan: &'a FramePlan<'a>, told: &BTreeMap<String, Vec<u32>>) -> Self {
         let mut all = Self::default();
-        for (kind, inputs, plan) in lists(inputs, plan) {
+        for (kind, inputs, plan) in lists(&Arena::new(), inputs, plan) {
             let names = Names::of(&kind);
             let words = |name: &String| told.get(name).map_or(&[][..], Vec::as_slice);
             let visible = words(&names.visible_starts).last().map(|count| u64::from(*count));

@@ -5,6 +5,7 @@ use ash::vk;
 use super::paper_passes::paper_frame;
 use crate::renderer::{Headless, headless::submit_and_wait, import_readback};
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, HeadlessTarget, SlotParts},
     graph::{Graph, ImageDesc, execute::Physical},
@@ -53,6 +54,7 @@ pub fn draw_as_published(
         settings,
         &headless.renderer.limits,
     );
+    let draws: Vec<_> = draws.collect();
     // Two sets that fragments read, with the kernel, and one of sums: with stand-ins where nothing is read.
     let room = PoolSizes {
         sets: 3,
@@ -67,7 +69,8 @@ pub fn draw_as_published(
     let shaders = &headless.renderer.shaders;
     let inputs =
         Inputs { draws: &draws, ..Inputs::new(camera, settings, Place::Device(shaders, descriptors)) };
-    let mut graph = Graph::new();
+    let arena = Arena::new();
+    let mut graph = Graph::new(&arena);
     let target = drawn.target();
     let desc = ImageDesc { format, extent: target.extent };
     let mut image = graph.import_image("target", desc, target.initial, None);
@@ -89,7 +92,7 @@ pub fn draw_as_published(
         // SAFETY: recording; all that is used is alive until the wait.
         unsafe {
             shaders.begin_frame(commands)?;
-            execution.record(commands, graph, &imports).map(drop)
+            execution.record(commands, &graph, &imports).map(drop)
         }
     })?;
     Ok(pixels.bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())

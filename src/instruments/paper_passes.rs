@@ -35,13 +35,13 @@ fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
     [
         GraphicsKey {
             depth: Some((vk::CompareOp::GREATER, true)),
-            ..GraphicsKey::new(visibility, Layout::Splat, points, vec![(SPEC_FILTERED, filtered.into())])
+            ..GraphicsKey::new(visibility, Layout::Splat, points, [(SPEC_FILTERED, filtered.into())].into())
         },
         GraphicsKey {
-            color_formats: vec![sum_format(settings.accumulate); 2],
+            color_formats: [sum_format(settings.accumulate); 2].into(),
             blend: Blend::AddWeighted,
             depth: Some((vk::CompareOp::GREATER_OR_EQUAL, false)),
-            ..GraphicsKey::new(accumulate, Layout::Splat, points, Vec::new())
+            ..GraphicsKey::new(accumulate, Layout::Splat, points, [].into())
         },
     ]
 }
@@ -52,7 +52,7 @@ fn keys(settings: &Settings, filtered: bool) -> [GraphicsKey; 2] {
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
 pub fn paper_frame<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     target: &mut Handle<Image>,
     target_format: vk::Format,
@@ -79,7 +79,7 @@ pub fn paper_frame<'a>(
         .uses(&depth, Access::DepthTest)
         .read(read(BIND_READ_KERNEL), &kernel, Access::SampledFragment);
     draw_points(pass, inputs, accumulate_key)?;
-    let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::default() };
+    let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::nothing(graph.arena()) };
     finalize(graph, inputs, &opaque, None, None, target, target_format)
 }
 

@@ -58,14 +58,19 @@ pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
         return f64::INFINITY;
     }
     if bound.is_orthographic {
-        return 1.01 * (2.0 * radius * bound.focal_px).hypot(2.0 * bound.filter_px) + 3.0;
+        return 1.01 * length(2.0 * radius * bound.focal_px, 2.0 * bound.filter_px) + 3.0;
     }
     // From the axis to the farthest side.
     let most_px = (0..2).map(|i| bound.middle_px[i].abs().max((bound.size_px[i] - bound.middle_px[i]).abs()));
     let half_image = most_px.fold(0.0, f64::max) / bound.focal_px;
     let splat_px = 2.0 * radius * (1.0 + half_image.min(most_x)) / bound.nearest_z * bound.focal_px;
     let filter_px = 2.0 * bound.filter_px * (1.0 + radius / bound.nearest_z);
-    1.01 * splat_px.hypot(filter_px) + 3.0
+    1.01 * length(splat_px, filter_px) + 3.0
+}
+
+/// √(x² + y²), in a tenth of the time of `hypot`: what is too small for squares does not matter beside whole pixels, and what is too large is infinite.
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// Pixels along a side whose centers such a box holds: half of the rounding is for `BOX_MARGIN_PX` of `glsl/inc/box.glsl`, and one

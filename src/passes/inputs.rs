@@ -12,6 +12,7 @@ use crate::passes::{
     },
 };
 use crate::{
+    arena::Arena,
     graph::ImageDesc,
     math::srgb::linear_from_srgb,
     scene::{Camera, Settings},
@@ -28,7 +29,7 @@ pub struct Inputs<'a> {
     /// Bands of tiles, where splats are drawn so.
     pub bands: &'a [Band<'a>],
     /// Where the splats are looked for that are listed, where only those are set up.
-    pub listed: Option<&'a ListedBlocks>,
+    pub listed: Option<ListedBlocks<'a>>,
     /// What is hidden is left out before sums.
     pub culls_hidden: bool,
     /// The scene's own lights.
@@ -71,8 +72,8 @@ impl<'a> Inputs<'a> {
     pub(crate) fn of(self, plan: &'a SurfacePlan<'a>) -> Self {
         let culls_hidden = matches!(plan.method, SplatMethod::Primitives { culls_hidden: true, .. });
         Self {
-            draws: &plan.splats,
-            meshes: &plan.meshes,
+            draws: plan.splats,
+            meshes: plan.meshes,
             settings: &plan.settings,
             bands: plan.bands(),
             listed: plan.visible(),
@@ -84,13 +85,12 @@ impl<'a> Inputs<'a> {
 
     /// Inputs for each band of tiles, with what goes in front of its tiles in the names of passes (nothing where there
     /// is one) and how it is drawn.
-    pub(crate) fn of_bands(self) -> Vec<(String, Self, &'a TilePlan)> {
-        let of = |(number, band): (usize, &'a Band<'a>)| {
-            let name = if self.bands.len() > 1 { format!("band-{number} ") } else { String::new() };
-            let (draws, listed) = (band.splats.as_slice(), band.visible.as_ref());
-            (name, Self { draws, listed, ..self }, &band.plan)
+    pub(crate) fn of_bands(self, arena: &'a Arena) -> impl Iterator<Item = (&'a str, Self, &'a TilePlan)> {
+        let of = move |(number, band): (usize, &'a Band<'a>)| {
+            let name = if self.bands.len() > 1 { arena.text(format_args!("band-{number} ")) } else { "" };
+            (name, Self { draws: band.splats, listed: band.visible, ..self }, &band.plan)
         };
-        (1..).zip(self.bands).map(of).collect()
+        (1..).zip(self.bands).map(of)
     }
 
     pub(crate) fn extent(&self) -> vk::Extent2D {

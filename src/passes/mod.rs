@@ -23,7 +23,7 @@ pub use crate::passes::inputs::Inputs;
 pub use crate::passes::pass::{Place, Source};
 pub use crate::passes::pick::{PickPlan, Picked, PickedPart};
 pub(crate) use crate::passes::pick::{needs as needs_of_pick, pick};
-pub use crate::passes::pipeline::cache::{Shaders, room_of_lists};
+pub use crate::passes::pipeline::cache::{MissingPipelines, Shaders, room_of_lists};
 pub use crate::passes::pipeline::constants::{
     FinalizeConstants, FrameConstants, HostDepth, HostObject, PaperConstants, TileConstants,
 };
@@ -69,7 +69,7 @@ use crate::{
 /// # Errors
 /// Whatever the driver answers when a pipeline is made.
 pub(crate) fn frame<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     target: &mut Handle<Image>,
@@ -142,12 +142,12 @@ pub(crate) fn frame<'a>(
 
 /// Opaque things by the graphics pipeline: visibility of splats; polygons upon it; accumulation of the splats that neither hides.
 fn by_primitives<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kernel: Option<&Handle<Image>>,
     outputs: Outputs,
 ) -> Result<Opaque<'a>> {
-    let mut opaque = Opaque::default();
+    let mut opaque = Opaque::nothing(graph.arena());
     let lists = Lists::make(graph, inputs, "")?;
     if !inputs.draws.is_empty() {
         opaque.splat_depth = Some(splats::visibility::visibility(graph, inputs, &lists)?);
@@ -176,26 +176,26 @@ fn by_primitives<'a>(
 /// the tiles. Transparent layers want the depth, too, and all of both images. What a host draws beside wants the surface's own depth, which is
 /// the second answer.
 fn shaded_by_tiles<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     lights: Option<&Handle<Buffer>>,
     outputs: Outputs,
 ) -> Result<(Opaque<'a>, Option<Handle<Image>>)> {
     let mut shown = tiles::ShadedTiles::create(graph, inputs, outputs);
-    let mut opaque = Opaque::default();
+    let mut opaque = Opaque::nothing(graph.arena());
     let mut start = if outputs.layers { TileStart::Cleared } else { TileStart::Empty };
     if !inputs.meshes.is_empty() {
         let depth = polygons::draw::shaded(graph, inputs, (&mut shown.image, shown.precision), lights)?;
         (opaque.polygon_depth, opaque.shows_polygons, start) = (Some(depth), true, TileStart::Polygons);
     }
-    for (band, inputs, plan) in inputs.of_bands() {
-        let mut tiles = tiles::list(graph, inputs, &band, plan)?;
+    for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
+        let mut tiles = tiles::list(graph, inputs, band, plan)?;
         let polygons = opaque.polygon_depth.as_ref();
-        tiles::shaded(graph, inputs, &band, &mut tiles, &mut shown, (polygons, lights), start)?;
+        tiles::shaded(graph, inputs, band, &mut tiles, &mut shown, (polygons, lights), start)?;
         start = start.after_a_band();
         if let Some(depth) = &shown.depth {
             let before = opaque.polygon_depth.take().or(opaque.splat_depth.take());
-            opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, &band, &tiles, depth, before)?);
+            opaque.splat_depth = Some(tiles::depth_buffer(graph, inputs, band, &tiles, depth, before)?);
         }
         opaque.tiles.push(tiles);
     }
@@ -207,42 +207,42 @@ fn shaded_by_tiles<'a>(
 /// they do where the graphics pipeline draws into them: large splats before and after, polygons (of an image in one band) in
 /// between.
 fn summed_by_tiles<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     outputs: Outputs,
 ) -> Result<Opaque<'a>> {
     let (polygons, with_depth) = (!inputs.meshes.is_empty(), outputs.sums_depth());
-    let mut opaque = Opaque::default();
+    let mut opaque = Opaque::nothing(graph.arena());
     let Some(common) = inputs.bands.first().map(|band| &band.plan) else { return Ok(opaque) };
     let complete = outputs.reads_whole_images() || common.may_be_large || polygons;
     let mut images = tiles::TileImages::create(graph, inputs, common, complete);
     let mut start = if complete { TileStart::Cleared } else { TileStart::Empty };
-    for (band, inputs, plan) in inputs.of_bands() {
-        let mut tiles = tiles::list(graph, inputs, &band, plan)?;
+    for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
+        let mut tiles = tiles::list(graph, inputs, band, plan)?;
         let may_be_large = tiles.plan.may_be_large;
         let mut depth = opaque.splat_depth.take();
         if may_be_large {
-            depth = Some(tiles::see_large(graph, inputs, &band, &tiles, depth)?);
+            depth = Some(tiles::see_large(graph, inputs, band, &tiles, depth)?);
         }
         let large = depth.as_ref().filter(|_| may_be_large);
         if polygons {
-            tiles::see(graph, inputs, &band, &tiles, &mut images, large, true)?;
+            tiles::see(graph, inputs, band, &tiles, &mut images, large, true)?;
         } else {
-            tiles::fused(graph, inputs, &band, &mut tiles, &mut images, large, (with_depth, start))?;
+            tiles::fused(graph, inputs, band, &mut tiles, &mut images, large, (with_depth, start))?;
         }
         start = start.after_a_band();
         if complete {
-            depth = Some(tiles::depth_buffer(graph, inputs, &band, &tiles, &images.depth, depth)?);
+            depth = Some(tiles::depth_buffer(graph, inputs, band, &tiles, &images.depth, depth)?);
         }
         if polygons {
             let (seen, depth) = polygons::draw::polygons(graph, inputs, depth.as_ref())?;
-            tiles::sum(graph, inputs, &band, &tiles, &mut images, (Some(&depth), with_depth), true)?;
+            tiles::sum(graph, inputs, band, &tiles, &mut images, (Some(&depth), with_depth), true)?;
             (opaque.polygons, opaque.polygon_depth) = (Some(seen), Some(depth));
         }
         // At once, for the lists of the next band lie where those of this one are.
         if let (true, Some(depth)) = (may_be_large, &depth) {
             let depths = (depth, opaque.polygon_depth.as_ref());
-            tiles::sum_large(graph, inputs, &band, &tiles, &mut images, depths, with_depth)?;
+            tiles::sum_large(graph, inputs, band, &tiles, &mut images, depths, with_depth)?;
         }
         opaque.splat_depth = depth;
         if !complete {

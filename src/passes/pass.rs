@@ -1,10 +1,13 @@
 //! A pass in the making: each resource is named once, with its access and where the pass finds it; so are its pipelines, and why the
 //! frame has it.
 
-use std::cell::{Cell, RefCell};
+use std::{
+    cell::{Cell, RefCell},
+    fmt::Display,
+};
 
 use crate::passes::pipeline::{
-    cache::Shaders,
+    cache::{MissingPipelines, Shaders},
     key::{ComputeKey, GraphicsKey, Layout},
     recipe::{Key, PipelineRecipe},
     variant::Constants,
@@ -14,8 +17,12 @@ use crate::passes::{
     recording::{Pipeline, Recording},
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     error::Result,
-    graph::{Access, Graph, Handle, PassBuilder, ResourceId, Role, Start, execute::Body},
+    graph::{
+        Access, Graph, Handle, PassBuilder, ResourceId, Role, Start,
+        execute::{Body, PassContext},
+    },
     scene::Camera,
     shaders::config::{SPEC_ORTHOGRAPHIC, SPEC_PLANES, SPEC_TINTED},
     vk::DescriptorPool,
@@ -32,6 +39,8 @@ pub struct Source<'a> {
     pub planes: Planes,
     /// The tints of all chunks, where some has one.
     pub tints: Option<Tints>,
+    /// What is done where a pipeline is not there yet.
+    pub missing: MissingPipelines,
 }
 
 /// Where pipelines and descriptor sets come from.
@@ -46,7 +55,13 @@ pub enum Place<'a> {
 impl<'a> Source<'a> {
     /// Pipelines for the camera that a pass is seen by.
     pub fn new(place: Place<'a>, camera: &Camera) -> Self {
-        Self { place, is_orthographic: camera.is_orthographic(), planes: Planes::default(), tints: None }
+        Self {
+            place,
+            is_orthographic: camera.is_orthographic(),
+            planes: Planes::default(),
+            tints: None,
+            missing: MissingPipelines::Make,
+        }
     }
 
     /// The same for a frame that planes cut.
@@ -72,15 +87,25 @@ impl<'a> Source<'a> {
 /// A pass in the making.
 #[must_use = "a pass is declared by `finish`"]
 pub(crate) struct Pass<'g, 'a> {
-    declared: PassBuilder<'g, Body<'a>>,
+    declared: PassBuilder<'g, 'a, Body<'a>>,
     source: Source<'a>,
-    bound: Vec<(At, ResourceId)>,
+    bound: ArenaVec<'a, (At, ResourceId)>,
 }
 
 impl<'g, 'a> Pass<'g, 'a> {
     /// A pass of this name, unique in its frame; `why` the frame has it.
-    pub fn new(graph: &'g mut Graph<Body<'a>>, source: Source<'a>, name: &str, why: &'static str) -> Self {
-        Self { declared: graph.pass(name).why(why), source, bound: Vec::new() }
+    pub fn new(
+        graph: &'g mut Graph<'a, Body<'a>>,
+        source: Source<'a>,
+        name: impl Display,
+        why: &'static str,
+    ) -> Self {
+        Self { bound: graph.arena().growing(), declared: graph.pass(name).why(why), source }
+    }
+
+    /// The memory of the frame.
+    pub fn arena(&self) -> &'a Arena {
+        self.declared.arena()
     }
 
     /// A pipeline of compute, made where it was not made yet.
@@ -88,7 +113,7 @@ impl<'g, 'a> Pass<'g, 'a> {
         let layout = key.layout;
         self.source.complete(layout, &mut key.constants);
         let raw = match self.source.place {
-            Place::Device(shaders, _) => shaders.compute(key)?,
+            Place::Device(shaders, _) => shaders.compute_if(key, self.source.missing)?,
             Place::List(list) => self.list(list, Key::Compute(key)),
         };
         Ok(Pipeline { raw, layout })
@@ -99,7 +124,7 @@ impl<'g, 'a> Pass<'g, 'a> {
         let layout = key.layout;
         self.source.complete(layout, &mut key.constants);
         let raw = match self.source.place {
-            Place::Device(shaders, _) => shaders.graphics(key)?,
+            Place::Device(shaders, _) => shaders.graphics_if(key, self.source.missing)?,
             Place::List(list) => self.list(list, Key::Graphics(key)),
         };
         Ok(Pipeline { raw, layout })
@@ -158,15 +183,17 @@ impl<'g, 'a> Pass<'g, 'a> {
     }
 
     /// Declares the pass; `body` records it.
-    pub fn finish(self, body: impl FnOnce(&Recording<'_, 'a>) -> Result<()> + 'a) {
+    pub fn finish(self, body: impl Fn(&Recording<'_, 'a>) -> Result<()> + 'a) {
         let Self { declared, source, mut bound } = self;
         bound.sort_unstable();
-        declared.finish(Box::new(move |context| match source.place {
+        let bound = bound.into_bump_slice();
+        let body = declared.arena().keep(move |context: &PassContext<'_>| match source.place {
             Place::Device(shaders, descriptors) => {
                 let (pipeline, planes, tints) = (Cell::default(), source.planes, source.tints);
-                body(&Recording { context, shaders, descriptors, bound: &bound, pipeline, planes, tints })
+                body(&Recording { context, shaders, descriptors, bound, pipeline, planes, tints })
             }
             Place::List(_) => Ok(()),
-        }));
+        });
+        declared.finish(body);
     }
 }

@@ -77,8 +77,8 @@ pub(crate) struct LayerPredicates<'a> {
 
 impl<'a> LayerPredicates<'a> {
     /// Declares the pass that writes the arguments of all draws and makes the queries ready.
-    pub fn new(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, queries: &'a Occlusion) -> Self {
-        let words = argument_words(inputs);
+    pub fn new(graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>, queries: &'a Occlusion) -> Self {
+        let words = graph.arena().list(argument_words(inputs));
         let size_bytes = (words.len() * 4) as u64;
         let mut arguments = graph.create_buffer("arguments of layers", BufferDesc::of_bytes(size_bytes));
         let why = "--layers auto: layers are left out on the device where there is none";
@@ -87,7 +87,7 @@ impl<'a> LayerPredicates<'a> {
             .finish(move |pass| {
                 // SAFETY: outside of rendering; the frame that used the queries before has finished.
                 unsafe { queries.reset(pass.commands(), queries.count()) };
-                pass.update_buffer(transfer(0), bytemuck::cast_slice(&words))
+                pass.update_buffer(transfer(0), bytemuck::cast_slice(words))
             });
         Self { queries, arguments, fragments: None }
     }
@@ -105,12 +105,12 @@ impl<'a> LayerPredicates<'a> {
     }
 
     /// Declares the pass that takes over the count of a layer, from 0 on, that was declared.
-    pub fn count(&mut self, graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, layer: u32) {
-        let name = format!("fragments of layer {}", layer + 1);
-        let mut fragments = graph.create_buffer(&name, BufferDesc::of_bytes(4));
+    pub fn count(&mut self, graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>, layer: u32) {
+        let mut fragments =
+            graph.create_buffer(format_args!("fragments of layer {}", layer + 1), BufferDesc::of_bytes(4));
         let queries = self.queries;
         let why = "--layers auto: whether the layer is empty";
-        Pass::new(graph, inputs.source, &format!("count layer {}", layer + 1), why)
+        Pass::new(graph, inputs.source, format_args!("count layer {}", layer + 1), why)
             .write(transfer(0), &mut fragments, Access::TransferWrite, Start::Discard)
             .finish(move |pass| {
                 // SAFETY: outside of rendering, after the layer's last pass, which ends the query.
@@ -122,12 +122,12 @@ impl<'a> LayerPredicates<'a> {
 }
 
 /// The arguments of all draws that may be predicated.
-fn argument_words(inputs: Inputs<'_>) -> Vec<u32> {
+fn argument_words(inputs: Inputs<'_>) -> impl Iterator<Item = u32> {
     let primitive = Primitive::of(inputs.settings.rasterizer);
-    let splats = inputs.draws.iter().map(|draw| {
+    let splats = inputs.draws.iter().map(move |draw| {
         let [vertices, instances] = primitive.counts(draw.chunk.count);
         [vertices, instances, 0, 0, 0, 0, 0, 0]
     });
     let meshes = inputs.meshes.iter().map(|draw| [3 * draw.chunk.triangles, 1, 0, 0, 0, 0, 0, 0]);
-    std::iter::once([3, 1, 0, 0, 0, 0, 0, 0]).chain(splats).chain(meshes).flatten().collect()
+    std::iter::once([3, 1, 0, 0, 0, 0, 0, 0]).chain(splats).chain(meshes).flatten()
 }

@@ -14,7 +14,7 @@ use crate::{
     shaders::config::{
         BIND_LIST_PLANES, BIND_PLANES, BIND_READ_PLANES, BIND_READ_TINTS, BIND_TINTS, MOST_GROUPS_IN_ROW,
     },
-    vk::{Descriptor, DescriptorPool},
+    vk::{Descriptor, DescriptorPool, Given},
 };
 
 /// A pipeline of a pass, with the layout that it was made for; a null handle in a frame that is only listed.
@@ -62,7 +62,7 @@ impl Recording<'_, '_> {
     pub fn set_with(&self, place: Place, others: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
         let first = self.bound.partition_point(|(at, _)| at.place < place);
         let own = self.bound[first..].iter().take_while(|(at, _)| at.place == place);
-        let mut given = others.to_vec();
+        let mut given = Given::from_iter(others.iter().copied());
         if self.planes.count > 0 {
             let binding = match place {
                 Place::Read => Some(BIND_READ_PLANES),
@@ -96,7 +96,8 @@ impl Recording<'_, '_> {
                 return Err(ErrorKind::Graph { pass, resource: format!("{place:?}"), reason }.into());
             }
         };
-        self.descriptors.set(layout, &given)
+        // SAFETY: what the graph gives to the pass, as the pass has declared it; all of it lives as long as the frame.
+        unsafe { self.descriptors.set(layout, &given) }
     }
 
     /// Whether the pass found anything there.

@@ -26,6 +26,8 @@ pub struct Block {
     /// The angle from the axis that none of them exceeds, as a device finds it but for its roundings of unit vectors; π where they have no
     /// common direction.
     pub spread_rad: f64,
+    /// Its sine and cosine.
+    pub spread_sin_cos: [f64; 2],
     /// The largest major radius: no point of a splat is farther from its center, however skew its tangent vectors (it is the larger
     /// singular value of the two, [`crate::scene::Splats::major_radius`]), but for a rounding to f32.
     pub largest_radius: f64,
@@ -47,12 +49,14 @@ impl Block {
         let angle = |axis: DVec3, normal: DVec3| 2.0 * (0.5 * (axis - normal).length()).min(1.0).asin();
         let spread_of =
             |axis: DVec3| splats.iter().map(|splat| angle(axis, splat.normal)).fold(0.0, f64::max);
+        let spread_rad = axis.map_or(PI, spread_of).min(PI);
         Self {
             count: splats.len() as u32,
             center,
             radius: splats.iter().map(|splat| splat.center.distance(center)).fold(0.0, f64::max),
             axis: axis.unwrap_or(DVec3::Z),
-            spread_rad: axis.map_or(PI, spread_of).min(PI),
+            spread_rad,
+            spread_sin_cos: spread_rad.sin_cos().into(),
             largest_radius: splats.iter().map(|splat| splat.radius).fold(0.0, f64::max),
             levels: None,
         }
@@ -68,6 +72,41 @@ impl Block {
         let bounds =
             splats.iter().fold(nowhere, |[lo, hi], splat| [lo.min(splat.center), hi.max(splat.center)]);
         (Self::around(&splats), bounds)
+    }
+}
+
+/// Blocks of a group: a frame looks at a group first, and at its blocks where it can't tell by that.
+pub const GROUP_BLOCKS: usize = 16;
+
+/// The bounds of runs of [`GROUP_BLOCKS`] blocks, which lie near each other as their splats do; none of blocks with levels of detail.
+pub(super) fn groups(blocks: &[Block]) -> Vec<Block> {
+    if blocks.iter().any(|block| block.levels.is_some()) {
+        return Vec::new();
+    }
+    blocks.chunks(GROUP_BLOCKS).map(around_blocks).collect()
+}
+
+/// Bounds of the splats of blocks. Angles between directions add up at most; a rounding has a reserve where bounds are looked at.
+fn around_blocks(blocks: &[Block]) -> Block {
+    let [lo, hi] = blocks.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], block| {
+        [lo.min(block.center - block.radius), hi.max(block.center + block.radius)]
+    });
+    let center = 0.5 * (lo + hi);
+    let sum: DVec3 = blocks.iter().map(|block| block.axis).sum();
+    let axis = sum.try_normalize();
+    let spread_of = |axis: DVec3| {
+        blocks.iter().map(|block| axis.angle_between(block.axis) + block.spread_rad).fold(0.0, f64::max)
+    };
+    let spread_rad = axis.map_or(PI, spread_of).min(PI);
+    Block {
+        count: blocks.iter().map(|block| block.count).sum(),
+        center,
+        radius: blocks.iter().map(|block| block.center.distance(center) + block.radius).fold(0.0, f64::max),
+        axis: axis.unwrap_or(DVec3::Z),
+        spread_rad,
+        spread_sin_cos: spread_rad.sin_cos().into(),
+        largest_radius: blocks.iter().map(|block| block.largest_radius).fold(0.0, f64::max),
+        levels: None,
     }
 }
 

@@ -4,7 +4,7 @@ use ash::vk;
 use glam::DVec3;
 
 use super::{
-    blocks::{Block, BlockMaker},
+    blocks::{Block, BlockMaker, groups},
     clip_vectors::ClipVectors,
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart},
@@ -79,6 +79,8 @@ pub struct Chunk {
     pub blocks: Vec<Block>,
     /// What the host keeps of it, where its splats may change.
     pub(super) shadow: Option<Shadow>,
+    /// Runs of those, where they have no levels of detail: see [`GROUP_BLOCKS`](super::GROUP_BLOCKS).
+    pub groups: Vec<Block>,
     /// Bytes of a shape and of a color.
     pub(super) bytes_each: [u64; 2],
     /// Shapes and colors, but where a frame is only listed.
@@ -139,9 +141,15 @@ impl Chunk {
             dynamic: false,
             blocks: Vec::new(),
             shadow: None,
+            groups: Vec::new(),
             bytes_each,
             memory: uploader.map(memory).transpose()?,
         })
+    }
+
+    /// Whether a host writes its splats: then all of its blocks have the bounds of all of them.
+    pub(crate) fn is_dynamic(&self) -> bool {
+        self.dynamic
     }
 
     /// Puts its splats on the device, if there is one, batch by batch, and finds its blocks. `progress` is told how many are done.
@@ -162,6 +170,7 @@ impl Chunk {
             progress(first.into());
         }
         self.blocks = blocks.finish();
+        self.groups = groups(&self.blocks);
         Ok(())
     }
 
@@ -195,6 +204,7 @@ impl Chunk {
         for (block, levels) in self.blocks.iter_mut().zip(&levels.blocks) {
             block.levels = Some(*levels);
         }
+        self.groups = groups(&self.blocks);
         let (Some(uploader), Some(memory)) = (uploader, &self.memory) else { return Ok(()) };
         let words = levels.words.chunks(BATCH_WORDS).zip((0..).step_by(BATCH_WORDS * size_of::<u32>()));
         for (words, at) in words {

@@ -104,6 +104,7 @@ impl DynamicSplats {
             radius: 0.5 * (hi - lo).length(),
             axis: DVec3::Z,
             spread_rad: std::f64::consts::PI,
+            spread_sin_cos: std::f64::consts::PI.sin_cos().into(),
             largest_radius: self.largest_radius,
             levels: None,
         };

@@ -65,7 +65,8 @@ impl ChunkMemory {
         let given: Vec<_> = bindings
             .map(|(number, buffer)| (number, Descriptor::Buffer(buffer.raw(), buffer.size())))
             .collect();
-        let set = pool.set(uploader.layout.set(), &given)?;
+        // SAFETY: storage buffers of this device, which are kept beside the set.
+        let set = unsafe { pool.set(uploader.layout.set(), &given) }?;
         Ok(Self { set, _pool: pool.seal(), buffers })
     }
 

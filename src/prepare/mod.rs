@@ -30,7 +30,7 @@ mod sites;
 mod updatable;
 
 pub use as_packed::as_packed;
-pub use blocks::Block;
+pub use blocks::{Block, GROUP_BLOCKS};
 pub use chunk::Chunk;
 pub use dynamic::{DynamicBuffers, DynamicSplats};
 pub use levels::{BallBounds, BlockLevels, ChunkLevels, LevelPart, LevelSpace};

@@ -4,6 +4,7 @@ use ash::vk;
 
 use super::{Readbacks, SampleSum};
 use crate::{
+    arena::{Arena, ArenaVec},
     error::Result,
     frame::Target,
     graph::{
@@ -14,17 +15,17 @@ use crate::{
     passes::{self, Exported, FramePlan, Inputs},
 };
 
-pub(crate) type Imports = Vec<(ResourceId, Physical)>;
+pub(crate) type Imports<'a> = ArenaVec<'a, (ResourceId, Physical)>;
 
 /// The whole frame: its passes, and a copy for each thing that the host wants to read.
 pub(crate) fn declare<'a>(
+    arena: &'a Arena,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     target: &Target,
     readbacks: Readbacks,
-) -> Result<(Graph<Body<'a>>, Imports)> {
-    let mut graph = Graph::new();
-    let mut imports = Imports::new();
+) -> Result<(Graph<'a, Body<'a>>, Imports<'a>)> {
+    let (mut graph, mut imports) = (Graph::new(arena), arena.growing());
     let sum = match readbacks.sample {
         None => None,
         Some(sample) => {
@@ -57,8 +58,8 @@ pub(crate) fn declare<'a>(
 
 /// Declares the copy of what is in an image to a buffer that the host reads.
 pub(super) fn copy_out<'a>(
-    graph: &mut Graph<Body<'a>>,
-    imports: &mut Imports,
+    graph: &mut Graph<'a, Body<'a>>,
+    imports: &mut Imports<'a>,
     inputs: Inputs<'a>,
     (what, image, format): (&str, &Handle<Image>, vk::Format),
     buffer: vk::Buffer,
@@ -66,13 +67,13 @@ pub(super) fn copy_out<'a>(
     let mut destination = import_readback(graph, what, format, inputs.extent());
     imports.push((destination.id(), Physical::Buffer(buffer)));
     let of = (format, inputs.extent());
-    passes::readback(graph, inputs.source, &format!("read back {what}"), image, of, &mut destination);
+    passes::readback(graph, inputs.source, format_args!("read back {what}"), image, of, &mut destination);
 }
 
 /// The same for the surface as data, where it was exported and the host wants it.
 pub(super) fn copy_surface<'a>(
-    graph: &mut Graph<Body<'a>>,
-    imports: &mut Imports,
+    graph: &mut Graph<'a, Body<'a>>,
+    imports: &mut Imports<'a>,
     inputs: Inputs<'a>,
     exported: Option<&Exported>,
     buffers: Option<[vk::Buffer; 4]>,
@@ -88,8 +89,8 @@ pub(super) fn copy_surface<'a>(
 
 /// A frame into an image of its own, which is added to the sum of samples; the sum.
 fn one_sample<'a>(
-    graph: &mut Graph<Body<'a>>,
-    imports: &mut Imports,
+    graph: &mut Graph<'a, Body<'a>>,
+    imports: &mut Imports<'a>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     extent: vk::Extent2D,
@@ -117,7 +118,7 @@ fn one_sample<'a>(
 
 /// A host-visible buffer for an image: the frame before may still write it; the host reads it after.
 pub(crate) fn import_readback(
-    graph: &mut Graph<Body<'_>>,
+    graph: &mut Graph<'_, Body<'_>>,
     what: &str,
     format: vk::Format,
     extent: vk::Extent2D,
@@ -128,8 +129,12 @@ pub(crate) fn import_readback(
         access: vk::AccessFlags2::TRANSFER_WRITE,
     };
     let last = BufferState { stages: vk::PipelineStageFlags2::HOST, access: vk::AccessFlags2::HOST_READ };
-    let name = format!("read-back of {what}");
-    graph.import_buffer(&name, BufferDesc::of_bytes(size_bytes), initial, Some(last))
+    graph.import_buffer(
+        format_args!("read-back of {what}"),
+        BufferDesc::of_bytes(size_bytes),
+        initial,
+        Some(last),
+    )
 }
 
 /// Bytes of a pixel, for the formats that are read back.

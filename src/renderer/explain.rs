@@ -2,6 +2,7 @@
 
 use super::Renderer;
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     graph::{Access, PassKind, Plan, ResourceDesc},
     passes,
@@ -118,7 +119,8 @@ impl Renderer {
     /// [`crate::ErrorKind::Option`].
     pub fn check_levels(&self, scene: &PreparedScene, camera: &Camera, settings: &Settings) -> Result<()> {
         let settings = &*passes::within_budget(&[Placed::at_home(scene)], camera, settings);
-        let frame = passes::FramePlan::new(&[Placed::at_home(scene)], camera, settings, &self.limits);
+        let arena = Arena::new();
+        let frame = passes::FramePlan::new(&arena, &[Placed::at_home(scene)], camera, settings, &self.limits);
         match passes::unused_levels(scene, &frame, settings) {
             None => Ok(()),
             Some(_) => {
@@ -139,9 +141,11 @@ impl Renderer {
     ) -> Explanation {
         let limits = &self.limits;
         let settings = &*passes::within_budget(&[Placed::at_home(scene)], camera, settings);
-        let frame = passes::FramePlan::new(&[Placed::at_home(scene)], camera, settings, limits);
+        let arena = Arena::new();
+        let frame = passes::FramePlan::new(&arena, &[Placed::at_home(scene)], camera, settings, limits);
         let seen_from = &frame.range.begin(camera);
         let draws = passes::draws(Placed::at_home(scene), (seen_from, frame.range), settings, limits);
+        let draws: Vec<_> = draws.collect();
         let chunks = draws.iter().map(|draw| ExplainedChunk {
             splats: draw.chunk.count,
             ellipses: draw.chunk.ellipses,
@@ -159,7 +163,7 @@ impl Renderer {
                 .is_empty(),
         });
         let meshes = passes::mesh_draws(Placed::at_home(scene), (seen_from, frame.range), settings);
-        let meshes = meshes.iter().map(|draw| ExplainedMesh {
+        let meshes = meshes.map(|draw| ExplainedMesh {
             triangles: draw.chunk.triangles,
             vertices: draw.chunk.vertices,
             closed: draw.chunk.closed,

@@ -224,7 +224,8 @@ impl Headless {
         let epoch = unsafe { self.queue.submit(commands) }?;
         self.queue.wait(epoch)?;
         let wall_secs = submitted.elapsed().as_secs_f64();
-        let profile = self.slot.profiler().map(|profiler| profiler.read()).transpose()?;
+        // SAFETY: waited for.
+        let profile = self.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()?;
         let is_read = sample.is_none_or(|sample| sample.last);
         Ok(targets.frame(plan, profile, is_read, wall_secs, record_secs))
     }

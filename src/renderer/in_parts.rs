@@ -10,6 +10,7 @@ use super::{
     declare::{Imports, bytes_per_pixel, copy_out, copy_surface},
 };
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, SlotParts, Target},
     graph::{
@@ -76,9 +77,29 @@ impl Renderer {
         settings: &Settings,
         stage: Stage<'_>,
     ) -> Result<Arc<Plan>> {
+        let arena = slot.take_arena();
+        // SAFETY: this function's contract.
+        let recorded =
+            unsafe { self.record_stage_in(&arena, commands, slot, (scene, camera, settings), stage) };
+        slot.give_back(arena);
+        recorded
+    }
+
+    /// The same, in a frame's memory.
+    ///
+    /// # Safety
+    /// As [`Self::record_stage`].
+    unsafe fn record_stage_in(
+        &self,
+        arena: &Arena,
+        commands: vk::CommandBuffer,
+        slot: &mut FrameSlot,
+        (scene, camera, settings): (&PreparedScene, &Camera, &Settings),
+        stage: Stage<'_>,
+    ) -> Result<Arc<Plan>> {
         check(camera, settings)?;
         let settings = &Settings { edges: Edges::Hard, accumulate: Accumulate::F32, ..settings.clone() };
-        let frame = self.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
+        let frame = self.frame_plan(arena, &[Placed::at_home(scene)], camera, settings)?;
         if !frame.transparent.is_empty() || !frame.opaque.meshes.is_empty() {
             let problem = "polygons, or something transparent; expected opaque splats of a frame in parts";
             return Err(Error::input("the scene", "", problem));
@@ -87,11 +108,11 @@ impl Renderer {
         unsafe { slot.begin(passes::needs(&frame, settings, false), None) }?;
         let SlotParts { descriptors, execution, .. } = slot.parts()?;
         let inputs = Inputs::new(camera, settings, Place::Device(&self.shaders, descriptors));
-        let (graph, imports) = declare(inputs, &frame, stage)?;
+        let (graph, imports) = declare(arena, inputs, &frame, stage)?;
         // SAFETY: this function's contract.
         unsafe {
             self.shaders.begin_frame(commands)?;
-            execution.record(commands, graph, &imports)
+            execution.record(commands, &graph, &imports)
         }
     }
 }
@@ -115,11 +136,12 @@ fn check(camera: &Camera, settings: &Settings) -> Result<()> {
 
 /// The graph of a stage.
 fn declare<'a>(
+    arena: &'a Arena,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     stage: Stage<'_>,
-) -> Result<(Graph<Body<'a>>, Imports)> {
-    let (mut graph, mut imports) = (Graph::new(), Imports::new());
+) -> Result<(Graph<'a, Body<'a>>, Imports<'a>)> {
+    let (mut graph, mut imports) = (Graph::new(arena), arena.growing());
     match stage {
         Stage::See { depth } => {
             let seen = in_parts::see(&mut graph, inputs, plan)?;
@@ -157,8 +179,8 @@ fn declare<'a>(
 
 /// A buffer that the host has filled.
 fn import(
-    graph: &mut Graph<Body<'_>>,
-    imports: &mut Imports,
+    graph: &mut Graph<'_, Body<'_>>,
+    imports: &mut Imports<'_>,
     inputs: Inputs<'_>,
     (what, format, buffer): (&str, vk::Format, vk::Buffer),
 ) -> Handle<Buffer> {

@@ -21,6 +21,7 @@ pub use in_parts::Stage;
 pub use paged::{Drawn, PagedScene, Prepare};
 
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::{FrameSlot, SlotParts, Target},
     graph::{Plan, execute::Profile},
@@ -160,6 +161,7 @@ impl Renderer {
     /// The plan of scenes that can be drawn so.
     pub(crate) fn frame_plan<'a>(
         &self,
+        arena: &'a Arena,
         scenes: &[Placed<'a>],
         camera: &Camera,
         settings: &Settings,
@@ -191,7 +193,7 @@ impl Renderer {
             }
         }
         passes::check_digits(scenes, camera)?;
-        Ok(FramePlan::new(scenes, camera, settings, &self.limits))
+        Ok(FramePlan::new(arena, scenes, camera, settings, &self.limits))
     }
 
     /// Records one frame. Returns the plan that was recorded.
@@ -217,10 +219,32 @@ impl Renderer {
         readbacks: Readbacks,
         profile: Option<Profile>,
     ) -> Result<Arc<Plan>> {
+        let arena = slot.take_arena();
+        // SAFETY: this function's contract.
+        let recorded = unsafe {
+            self.record_in(&arena, commands, slot, (scene, camera, settings), (target, readbacks), profile)
+        };
+        slot.give_back(arena);
+        recorded
+    }
+
+    /// The same, in a frame's memory.
+    ///
+    /// # Safety
+    /// As [`Self::record`].
+    unsafe fn record_in(
+        &self,
+        arena: &Arena,
+        commands: vk::CommandBuffer,
+        slot: &mut FrameSlot,
+        (scene, camera, settings): (&PreparedScene, &Camera, &Settings),
+        (target, readbacks): (&Target, Readbacks),
+        profile: Option<Profile>,
+    ) -> Result<Arc<Plan>> {
         // The surface as data has no opacity of its own: a pixel is of it or not.
         let edges = if readbacks.surface.is_some() { Edges::Hard } else { settings.edges };
         let settings = &Settings { edges, ..settings.clone() };
-        let frame = self.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
+        let frame = self.frame_plan(arena, &[Placed::at_home(scene)], camera, settings)?;
         let [width, height] = settings.size_px;
         if target.extent != (vk::Extent2D { width, height }) {
             let vk::Extent2D { width: w, height: h } = target.extent;
@@ -237,11 +261,11 @@ impl Renderer {
         let inputs = Inputs::new(camera, settings, Place::Device(&self.shaders, descriptors));
         let source = inputs.source.cut_by(planes);
         let inputs = Inputs { occlusion, range: frame.range, source, ..inputs };
-        let (graph, imports) = declare(inputs, &frame, target, readbacks)?;
+        let (graph, imports) = declare(arena, inputs, &frame, target, readbacks)?;
         // SAFETY: this function's contract.
         unsafe {
             self.shaders.begin_frame(commands)?;
-            execution.record(commands, graph, &imports)
+            execution.record(commands, &graph, &imports)
         }
     }
 }

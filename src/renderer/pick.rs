@@ -4,6 +4,7 @@ use ash::vk;
 
 use super::{Headless, Renderer, headless::submit_and_wait};
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     frame::FrameSlot,
     graph::{BufferDesc as GraphBufferDesc, BufferState, Graph, execute::Physical},
@@ -27,7 +28,8 @@ impl Renderer {
         pixel: [u32; 2],
     ) -> Result<PickPlan<'a>> {
         // Whatever cannot be drawn cannot be seen.
-        let frame = self.frame_plan(&[Placed::at_home(scene)], camera, settings)?;
+        let arena = Arena::new();
+        let frame = self.frame_plan(&arena, &[Placed::at_home(scene)], camera, settings)?;
         let [width, height] = settings.size_px;
         if pixel[0] >= width || pixel[1] >= height {
             let [x, y] = pixel;
@@ -56,7 +58,8 @@ impl Renderer {
         // SAFETY: this function's contract.
         let planes = unsafe { slot.planes(plan.planes()) }?;
         let parts = slot.parts()?;
-        let mut graph = Graph::new();
+        let arena = Arena::new();
+        let mut graph = Graph::new(&arena);
         let initial = BufferState {
             stages: vk::PipelineStageFlags2::ALL_TRANSFER,
             access: vk::AccessFlags2::TRANSFER_WRITE,
@@ -69,7 +72,7 @@ impl Renderer {
         // SAFETY: this function's contract.
         unsafe {
             self.shaders.begin_frame(commands)?;
-            parts.execution.record(commands, graph, &imports)
+            parts.execution.record(commands, &graph, &imports)
         }?;
         Ok(())
     }

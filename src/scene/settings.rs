@@ -2,6 +2,8 @@
 
 use glam::DVec4;
 
+use crate::inline_vec::InlineVec;
+
 use super::{
     Budget, ClipBox, ClipPlanes, Layers, Lod, LodSteps, MOST_PLANES, Outlines, Samples, TileMemory,
     methods::{
@@ -128,8 +130,9 @@ impl Settings {
     }
 
     /// The planes that cut what is seen, in world space: unit normals toward what is left, and by how much the origin is on that side.
-    pub fn clip(&self) -> Vec<DVec4> {
-        self.clip_box.planes().chain(self.clip_planes.planes()).collect()
+    pub fn clip(&self) -> InlineVec<DVec4, MOST_PLANES> {
+        // No more than `validate` lets through.
+        self.clip_box.planes().chain(self.clip_planes.planes()).take(MOST_PLANES).collect()
     }
 
     /// Whether what faces away is not drawn of an object that is closed and opaque, or is not so. What is cut open is seen from inside.

@@ -1,11 +1,11 @@
 //! Buffers.
 
 use ash::vk;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::{
     device::Device,
     garbage::Retired,
+    host_memory::{MemoryRequest, Piece},
     memory::{Memory, MemoryUse},
     result::VkResultExt,
 };
@@ -28,7 +28,7 @@ pub struct Buffer {
     raw: vk::Buffer,
     texels: vk::BufferView,
     size: u64,
-    allocation: Option<Allocation>,
+    allocation: Option<Piece>,
 }
 
 impl Buffer {
@@ -41,15 +41,13 @@ impl Buffer {
         let raw = buffer.raw;
         // SAFETY: the buffer was just made from this device.
         let requirements = unsafe { device.raw().get_buffer_memory_requirements(raw) };
-        let allocation = device.allocate(&AllocationCreateDesc {
-            name: desc.name,
-            requirements,
-            location: memory.location(),
-            linear: true,
-            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-        })?;
+        let request = MemoryRequest { name: desc.name, requirements, touched_by: memory, linear: true };
+        let allocation = device.allocate(&request)?;
         // SAFETY: the memory outlives the buffer: both are retired together, the buffer destroyed first.
-        let bound = unsafe { device.raw().bind_buffer_memory(raw, allocation.memory(), allocation.offset()) };
+        let bound = unsafe {
+            let (memory, offset) = allocation.place();
+            device.raw().bind_buffer_memory(raw, memory, offset)
+        };
         buffer.allocation = Some(allocation);
         bound.of_call("vkBindBufferMemory", desc.name)?;
         Ok(buffer)
@@ -117,13 +115,13 @@ impl Buffer {
     /// Its bytes, where the host can see them ([`MemoryUse::Upload`], [`MemoryUse::Readback`]); else empty. For
     /// reading, the device must have finished writing.
     pub fn bytes(&self) -> &[u8] {
-        let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice).unwrap_or_default();
+        let mapped = self.allocation.as_ref().map(Piece::bytes).unwrap_or_default();
         &mapped[..mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX))]
     }
 
     /// Its bytes for writing, where the host can see them; else empty. The device must not read them meanwhile.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
-        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut).unwrap_or_default();
+        let mapped = self.allocation.as_mut().map(Piece::bytes_mut).unwrap_or_default();
         let size = mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX));
         &mut mapped[..size]
     }

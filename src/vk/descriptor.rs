@@ -2,6 +2,14 @@
 
 use ash::vk;
 
+use crate::inline_vec::InlineVec;
+
+/// The resources that bindings of a set are given, by number.
+pub type Given = InlineVec<(u32, Descriptor), MOST_BINDINGS>;
+
+/// No set has more bindings.
+pub const MOST_BINDINGS: usize = 40;
+
 /// The resource that a binding is given.
 #[derive(Clone, Copy, Debug)]
 pub enum Descriptor {
@@ -15,11 +23,24 @@ pub enum Descriptor {
     Storage(vk::ImageView),
 }
 
+impl Default for Descriptor {
+    fn default() -> Self {
+        Self::Buffer(vk::Buffer::null(), 0)
+    }
+}
+
 /// A [`Descriptor`] as Vulkan wants it.
+#[derive(Clone, Copy)]
 pub(super) enum Info {
     Buffer([vk::DescriptorBufferInfo; 1]),
     Texels([vk::BufferView; 1]),
     Image([vk::DescriptorImageInfo; 1]),
+}
+
+impl Default for Info {
+    fn default() -> Self {
+        Self::of(Descriptor::default())
+    }
 }
 
 impl Info {

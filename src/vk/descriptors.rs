@@ -11,7 +11,7 @@ use std::{
 use ash::vk;
 
 use super::{
-    descriptor::{Descriptor, Info},
+    descriptor::{Descriptor, Given, Info, MOST_BINDINGS},
     device::Device,
     garbage::Retired,
     owned::Owned,
@@ -19,7 +19,7 @@ use super::{
     sampler::Sampler,
     stand_ins::StandIns,
 };
-use crate::error::Result;
+use crate::{error::Result, inline_vec::InlineVec};
 
 /// One binding of a set: its type and the stages that see it. Its number is its place in the layout.
 #[derive(Clone, Copy, Debug)]
@@ -80,14 +80,16 @@ impl SetLayout {
         self
     }
 
-    /// The stand-ins of the bindings that are not given, by their numbers.
-    fn stand_ins(&self, is_given: impl Fn(u32) -> bool) -> Result<Vec<(u32, Descriptor)>> {
-        let Some((stand_ins, integers)) = &self.stand_ins else { return Ok(Vec::new()) };
-        let left_out = (0..).zip(&self.kinds).filter(|(number, _)| !is_given(*number));
-        let of = |(number, kind): (u32, &vk::DescriptorType)| {
-            Ok((number, stand_ins.of(*kind, integers.contains(&number))?))
-        };
-        left_out.map(of).collect()
+    /// What is given, and stand-ins for the bindings that are not.
+    fn complete(&self, given: &[(u32, Descriptor)]) -> Result<Given> {
+        let mut all = Given::from_iter(given.iter().copied());
+        let Some((stand_ins, integers)) = &self.stand_ins else { return Ok(all) };
+        for (number, kind) in (0..).zip(&self.kinds) {
+            if !given.iter().any(|(other, _)| *other == number) {
+                all.push((number, stand_ins.of(*kind, integers.contains(&number))?));
+            }
+        }
+        Ok(all)
     }
 
     /// The raw layout.
@@ -177,13 +179,19 @@ impl Sets {
 pub struct SealedPool(#[expect(dead_code, reason = "kept for its drop")] Owned<vk::DescriptorPool>);
 
 impl DescriptorPool {
+    /// A pool to be reset and used again, with room for this much at a time: beside sets that are taken back, others may be wanted in their place.
+    ///
+    /// # Errors
+    /// Whatever the driver answers.
+    pub fn for_frames(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
+        Self::new(device, name, sizes.plus(&sizes))
+    }
+
     /// A pool with this much room.
     ///
     /// # Errors
     /// Whatever the driver answers.
     pub fn new(device: &Device, name: &str, sizes: PoolSizes) -> Result<Self> {
-        // Beside sets that are taken back, others may be wanted in their place.
-        let sizes = sizes.plus(&sizes);
         let kinds = sizes.kinds().into_iter().filter(|(_, count)| *count > 0);
         let size = |(kind, count)| vk::DescriptorPoolSize::default().ty(kind).descriptor_count(count);
         let of_kinds: Vec<_> = kinds.map(size).collect();
@@ -199,13 +207,16 @@ impl DescriptorPool {
     ///
     /// # Errors
     /// Whatever the driver answers, such as an exhausted pool.
-    pub fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
+    ///
+    /// # Safety
+    /// What is given is of the pool's device, is what its binding takes, and stays alive until commands that use the set have run.
+    pub unsafe fn set(&self, layout: &SetLayout, given: &[(u32, Descriptor)]) -> Result<vk::DescriptorSet> {
         let device = &self.owned.device;
         let free = self.sets.borrow_mut().take(layout.number);
         let set = free.map_or_else(|| self.allocate(layout), Ok)?;
-        let is_given = |number: u32| given.iter().any(|(other, _)| *other == number);
-        let all = given.iter().copied().chain(layout.stand_ins(is_given)?);
-        let infos: Vec<_> = all.map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
+        let all = layout.complete(given)?;
+        let infos: InlineVec<_, MOST_BINDINGS> =
+            all.into_iter().map(|(number, descriptor)| (number, Info::of(descriptor))).collect();
         let writes = infos.iter().map(|(number, info)| {
             let kind = layout.kinds[*number as usize];
             let write =
@@ -216,8 +227,9 @@ impl DescriptorPool {
                 Info::Image(info) => write.image_info(info),
             }
         });
-        // SAFETY: the set is new or was taken back, so no command buffer uses it; what is written is alive.
-        unsafe { device.raw().update_descriptor_sets(&writes.collect::<Vec<_>>(), &[]) };
+        let writes: InlineVec<_, MOST_BINDINGS> = writes.collect();
+        // SAFETY: the set is new or was taken back, so no command buffer uses it; the rest is this function's contract.
+        unsafe { device.raw().update_descriptor_sets(&writes, &[]) };
         Ok(set)
     }
 

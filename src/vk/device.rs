@@ -12,12 +12,13 @@ use super::{
     choose::{DeviceFacts, choose},
     facts::{all_facts, check_executables},
     garbage::{Garbage, Retired},
+    host_memory::{HostMemory, Source},
     instance::Instance,
     requirements::offered,
     result::VkResultExt,
     wanted::Wanted,
 };
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{ErrorKind, Result};
 
 /// A logical device; clones share it. See [the module](super) for how things die.
 #[derive(Clone)]
@@ -33,7 +34,7 @@ struct Shared {
     /// The epoch in which commands are being recorded now: one more than the last submission's.
     epoch: AtomicU64,
     // `None` only while `drop` runs. Locked together, so that there is one order of locks.
-    memory: Mutex<Option<(Allocator, Garbage)>>,
+    memory: Mutex<Option<(Source, Garbage)>>,
     /// Whether a [`super::Queue`] counts the epochs; a host does so for a borrowed device.
     queue_taken: AtomicBool,
     origin: Origin,
@@ -104,7 +105,7 @@ impl Device {
         let raw = unsafe { instance.raw().create_device(physical, &info, None) }
             .of_call("vkCreateDevice", &facts.name)?;
         let origin = Origin::Ours { executables, presents: wanted.surface.is_some() };
-        Self::assemble(instance, physical, facts, raw, queue_family, origin)
+        Self::assemble(instance, physical, facts, raw, queue_family, (origin, None))
     }
 
     pub(super) fn assemble(
@@ -113,24 +114,30 @@ impl Device {
         facts: DeviceFacts,
         raw: ash::Device,
         queue_family: u32,
-        origin: Origin,
+        (origin, memory): (Origin, Option<Arc<dyn HostMemory>>),
     ) -> Result<Self> {
         let owned = origin != Origin::Host;
-        let allocator = Allocator::new(&AllocatorCreateDesc {
-            instance: instance.raw().clone(),
-            device: raw.clone(),
-            physical_device: physical,
-            debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
-            buffer_device_address: false,
-            allocation_sizes: block_sizes(),
-        });
-        let allocator = allocator.map_err(|error| {
-            if owned {
-                // SAFETY: just created, used by nobody.
-                unsafe { raw.destroy_device(None) };
-            }
-            Error::from(ErrorKind::Memory { object: facts.name.clone(), bytes: 0, reason: error.to_string() })
-        })?;
+        let source = match memory {
+            Some(host) => Source::Host { host, bytes: 0, pieces: 0 },
+            None => match Allocator::new(&AllocatorCreateDesc {
+                instance: instance.raw().clone(),
+                device: raw.clone(),
+                physical_device: physical,
+                debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+                buffer_device_address: false,
+                allocation_sizes: block_sizes(),
+            }) {
+                Ok(allocator) => Source::Ours(allocator),
+                Err(error) => {
+                    if owned {
+                        // SAFETY: just created, used by nobody.
+                        unsafe { raw.destroy_device(None) };
+                    }
+                    let (object, reason) = (facts.name.clone(), error.to_string());
+                    return Err(ErrorKind::Memory { object, bytes: 0, reason }.into());
+                }
+            },
+        };
         let names = instance.has_debug_utils().then(|| ext::debug_utils::Device::new(instance.raw(), &raw));
         Ok(Self(Arc::new(Shared {
             raw,
@@ -140,7 +147,7 @@ impl Device {
             queue_family,
             names,
             epoch: AtomicU64::new(FIRST_EPOCH),
-            memory: Mutex::new(Some((allocator, Garbage::default()))),
+            memory: Mutex::new(Some((source, Garbage::default()))),
             queue_taken: AtomicBool::new(!owned),
             origin,
         })))
@@ -226,7 +233,7 @@ impl Device {
         }
     }
 
-    pub(super) fn memory(&self) -> MutexGuard<'_, Option<(Allocator, Garbage)>> {
+    pub(super) fn memory(&self) -> MutexGuard<'_, Option<(Source, Garbage)>> {
         self.0.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

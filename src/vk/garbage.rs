@@ -3,13 +3,14 @@
 use std::collections::VecDeque;
 
 use ash::vk;
-use gpu_allocator::vulkan::{Allocation, Allocator};
+
+use super::host_memory::{Piece, Source};
 
 /// A raw object whose owner is gone.
 pub(super) enum Retired {
-    Buffer(vk::Buffer, vk::BufferView, Option<Allocation>),
-    Image(vk::Image, vk::ImageView, Option<Allocation>),
-    Memory(Allocation),
+    Buffer(vk::Buffer, vk::BufferView, Option<Piece>),
+    Image(vk::Image, vk::ImageView, Option<Piece>),
+    Memory(Piece),
     Pipeline(vk::Pipeline),
     PipelineLayout(vk::PipelineLayout),
     PipelineCache(vk::PipelineCache),
@@ -45,7 +46,7 @@ impl Garbage {
     ///
     /// # Safety
     /// The device has finished every submission up to epoch `done`, and `device` made every object.
-    pub unsafe fn collect(&mut self, done: u64, device: &ash::Device, allocator: &mut Allocator) {
+    pub unsafe fn collect(&mut self, done: u64, device: &ash::Device, allocator: &mut Source) {
         while self.has(done) {
             if let Some((_, object)) = self.pending.pop_front() {
                 // SAFETY: this function's contract.
@@ -57,7 +58,7 @@ impl Garbage {
 
 /// # Safety
 /// `device` made the object and nothing uses it any more.
-unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Allocator) {
+unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Source) {
     // SAFETY: this function's contract, for every call; memory goes after what is bound to it.
     unsafe {
         match object {
@@ -87,10 +88,8 @@ unsafe fn destroy(object: Retired, device: &ash::Device, allocator: &mut Allocat
     }
 }
 
-fn free(allocation: Option<Allocation>, allocator: &mut Allocator) {
+fn free(allocation: Option<Piece>, allocator: &mut Source) {
     if let Some(allocation) = allocation {
-        // Freeing fails only for an allocation of another allocator, which can't come here.
-        let freed = allocator.free(allocation);
-        debug_assert!(freed.is_ok(), "{freed:?}");
+        allocator.free(allocation);
     }
 }

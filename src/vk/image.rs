@@ -1,11 +1,11 @@
 //! Two-dimensional images, each with its one view.
 
 use ash::vk;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::{
     device::Device,
     garbage::Retired,
+    host_memory::{MemoryRequest, Piece},
     memory::{Memory, MemoryUse},
     result::VkResultExt,
 };
@@ -61,7 +61,7 @@ pub struct Image {
     view: vk::ImageView,
     format: vk::Format,
     extent: vk::Extent2D,
-    allocation: Option<Allocation>,
+    allocation: Option<Piece>,
 }
 
 impl Image {
@@ -73,16 +73,14 @@ impl Image {
         let mut image = Self::unbound(device, desc, &desc.create_info())?;
         // SAFETY: the image was just made from this device.
         let requirements = unsafe { device.raw().get_image_memory_requirements(image.raw) };
-        let allocation = device.allocate(&AllocationCreateDesc {
-            name: desc.name,
-            requirements,
-            location: MemoryUse::Device.location(),
-            linear: false,
-            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-        })?;
+        let touched_by = MemoryUse::Device;
+        let allocation =
+            device.allocate(&MemoryRequest { name: desc.name, requirements, touched_by, linear: false })?;
         // SAFETY: the memory outlives the image: both are retired together, the image destroyed first.
-        let bound =
-            unsafe { device.raw().bind_image_memory(image.raw, allocation.memory(), allocation.offset()) };
+        let bound = unsafe {
+            let (memory, offset) = allocation.place();
+            device.raw().bind_image_memory(image.raw, memory, offset)
+        };
         image.allocation = Some(allocation);
         bound.of_call("vkBindImageMemory", desc.name)?;
         image.create_view(desc)?;
@@ -108,7 +106,7 @@ impl Image {
 
     /// Bytes of memory of its own.
     pub fn bytes(&self) -> u64 {
-        self.allocation.as_ref().map_or(0, Allocation::size)
+        self.allocation.as_ref().map_or(0, Piece::size)
     }
 
     /// The raw image.

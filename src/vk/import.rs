@@ -1,11 +1,14 @@
 //! The device that an embedding host lends.
 
+use std::sync::Arc;
+
 use ash::vk;
 
 use super::{
     device::{Device, Origin},
     facts::facts,
     features::Features,
+    host_memory::HostMemory,
     instance::Instance,
 };
 use crate::error::{ErrorKind, Result};
@@ -25,6 +28,8 @@ pub struct Import<'a> {
     pub queue_family: u32,
     /// What the host really enabled.
     pub enabled: Features,
+    /// The host's allocator, which all device memory is then taken from; else it is taken from the device, in blocks of 8 to 64 MiB.
+    pub memory: Option<Arc<dyn HostMemory>>,
 }
 
 impl Device {
@@ -55,6 +60,7 @@ impl Device {
         }
         // SAFETY: this function's contract.
         let instance = unsafe { Instance::borrow(host.instance.clone(), host.debug_utils) };
-        Self::assemble(&instance, host.physical, facts, host.device.clone(), host.queue_family, Origin::Host)
+        let (device, of_host) = (host.device.clone(), (Origin::Host, host.memory.clone()));
+        Self::assemble(&instance, host.physical, facts, device, host.queue_family, of_host)
     }
 }

@@ -1,6 +1,6 @@
 //! Names of objects and labels in command buffers: for people, in captures and messages.
 
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 
 use ash::vk;
 
@@ -18,11 +18,11 @@ impl Device {
         }
     }
 
-    /// Begins a debug label in a command buffer; nothing without the debug extension.
+    /// Begins a debug label in a command buffer, of as much of a name as has room in place; nothing without the debug extension.
     pub(crate) fn begin_label(&self, commands: vk::CommandBuffer, name: &str) {
         if let Some(names) = self.debug_utils() {
-            let text = CString::new(name.replace('\0', " ")).unwrap_or_default();
-            let label = vk::DebugUtilsLabelEXT::default().label_name(&text);
+            let mut room = [0; LABEL_BYTES];
+            let label = vk::DebugUtilsLabelEXT::default().label_name(in_place(name, &mut room));
             // SAFETY: `commands` is recording (every caller records into it); the extension is enabled.
             unsafe { names.cmd_begin_debug_utils_label(commands, &label) };
         }
@@ -34,5 +34,28 @@ impl Device {
             // SAFETY: as in `begin_label`, which came before.
             unsafe { names.cmd_end_debug_utils_label(commands) };
         }
+    }
+}
+
+/// Bytes of a label with its end.
+const LABEL_BYTES: usize = 128;
+
+/// A name, or as much of it as has room, up to what would end it.
+fn in_place<'r>(name: &str, room: &'r mut [u8; LABEL_BYTES]) -> &'r CStr {
+    let end = (0..LABEL_BYTES.min(name.len() + 1)).rfind(|end| name.is_char_boundary(*end)).unwrap_or(0);
+    room[..end].copy_from_slice(&name.as_bytes()[..end]);
+    CStr::from_bytes_until_nul(room).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_names_as_far_as_they_have_room() {
+        let of = |name: &str| in_place(name, &mut [0; LABEL_BYTES]).to_str().unwrap().to_owned();
+        assert_eq!(of("depth of tiles"), "depth of tiles");
+        assert_eq!(of("ends\0here"), "ends");
+        assert_eq!(of(&"ü".repeat(100)), "ü".repeat(63));
     }
 }

@@ -1,13 +1,14 @@
 //! Device memory: where it lies, and blocks that several transient resources share.
 
 use ash::vk;
-use gpu_allocator::{
-    MemoryLocation,
-    vulkan::{Allocation, AllocationCreateDesc, AllocationScheme},
-};
+use gpu_allocator::MemoryLocation;
 
-use super::{device::Device, garbage::Retired};
-use crate::error::{Error, ErrorKind, Result};
+use super::{
+    device::Device,
+    garbage::Retired,
+    host_memory::{MemoryRequest, Piece},
+};
+use crate::error::{ErrorKind, Result};
 
 /// Who touches a piece of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +34,7 @@ impl MemoryUse {
 /// A block of device memory in which a render graph places its transient resources.
 pub struct Memory {
     device: Device,
-    allocation: Option<Allocation>,
+    allocation: Option<Piece>,
     size: u64,
 }
 
@@ -48,13 +49,8 @@ impl Memory {
         requirements: vk::MemoryRequirements,
         linear: bool,
     ) -> Result<Self> {
-        let allocation = device.allocate(&AllocationCreateDesc {
-            name,
-            requirements,
-            location: MemoryLocation::GpuOnly,
-            linear,
-            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-        })?;
+        let request = MemoryRequest { name, requirements, touched_by: MemoryUse::Device, linear };
+        let allocation = device.allocate(&request)?;
         Ok(Self { device: device.clone(), allocation: Some(allocation), size: requirements.size })
     }
 
@@ -83,7 +79,7 @@ impl Memory {
         self.allocation.as_ref().map_or((vk::DeviceMemory::null(), 0), |allocation| {
             // SAFETY: what is bound to the memory is retired before this block is: its owner drops it first, and
             // the queue of retired objects keeps the order.
-            (unsafe { allocation.memory() }, allocation.offset())
+            unsafe { allocation.place() }
         })
     }
 }
@@ -98,26 +94,25 @@ impl Drop for Memory {
 
 impl Device {
     /// Memory for an object.
-    pub(super) fn allocate(&self, desc: &AllocationCreateDesc<'_>) -> Result<Allocation> {
-        let failed = |reason: String| -> Error {
-            ErrorKind::Memory { object: desc.name.to_owned(), bytes: desc.requirements.size, reason }.into()
-        };
+    pub(super) fn allocate(&self, request: &MemoryRequest<'_>) -> Result<Piece> {
         match self.memory().as_mut() {
-            Some((allocator, _)) => allocator.allocate(desc).map_err(|error| failed(error.to_string())),
-            None => Err(failed("the device is gone".to_owned())),
+            Some((source, _)) => source.allocate(request),
+            None => {
+                let (object, bytes) = (request.name.to_owned(), request.requirements.size);
+                let reason = "the device is gone".to_owned();
+                Err(ErrorKind::Memory { object, bytes, reason }.into())
+            }
         }
     }
 
     /// Bytes of device memory that are allocated now, and how many allocations they are.
     pub fn memory_in_use(&self) -> (u64, usize) {
-        self.memory().as_ref().map_or((0, 0), |(allocator, _)| {
-            let report = allocator.generate_report();
-            (report.total_allocated_bytes, report.allocations.len())
-        })
+        self.memory().as_ref().map_or((0, 0), |(source, _)| source.in_use())
     }
 
-    /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks.
+    /// Bytes of device memory that are taken from the device now: what is allocated, and what lies idle in blocks of ours. Of a host's memory, what is
+    /// allocated.
     pub fn memory_held(&self) -> u64 {
-        self.memory().as_ref().map_or(0, |(allocator, _)| allocator.capacity())
+        self.memory().as_ref().map_or(0, |(source, _)| source.held())
     }
 }

@@ -48,8 +48,12 @@ impl Timestamps {
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn read(&self, count: u32) -> Result<Vec<Option<u64>>> {
-        let values = self.pool.read(count, 1)?;
+    ///
+    /// # Safety
+    /// As [`QueryPool::read`].
+    pub unsafe fn read(&self, count: u32) -> Result<Vec<Option<u64>>> {
+        // SAFETY: this function's contract.
+        let values = unsafe { self.pool.read(count, 1) }?;
         let mask = if self.valid_bits >= 64 { u64::MAX } else { (1 << self.valid_bits) - 1 };
         Ok(values.into_iter().map(|value| value.map(|v| v[0] & mask)).collect())
     }
@@ -94,8 +98,12 @@ impl Statistics {
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn read(&self, count: u32) -> Result<Vec<Option<[u64; 3]>>> {
-        self.pool.read(count, 3)
+    ///
+    /// # Safety
+    /// As [`QueryPool::read`].
+    pub unsafe fn read(&self, count: u32) -> Result<Vec<Option<[u64; 3]>>> {
+        // SAFETY: this function's contract.
+        unsafe { self.pool.read(count, 3) }
     }
 }
 
@@ -204,7 +212,10 @@ impl QueryPool {
     }
 
     /// The first `count` queries of `words` values each. Does not wait: what is not available is `None`.
-    fn read(&self, count: u32, words: usize) -> Result<Vec<Option<[u64; 3]>>> {
+    ///
+    /// # Safety
+    /// Commands that reset these queries have run.
+    unsafe fn read(&self, count: u32, words: usize) -> Result<Vec<Option<[u64; 3]>>> {
         let count = count.min(self.count) as usize;
         if count == 0 {
             return Ok(Vec::new());

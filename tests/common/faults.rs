@@ -8,6 +8,8 @@ use ash::vk;
 thread_local! {
     /// Calls that still succeed; the one after them fails. `u32::MAX`: none does.
     static LEFT: Cell<u32> = const { Cell::new(u32::MAX) };
+    /// What they answer then.
+    static ANSWER: Cell<vk::Result> = const { Cell::new(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY) };
     /// The function that failed.
     static FAILED: Cell<Option<&'static str>> = const { Cell::new(None) };
     /// The functions that were called since that was asked for last.
@@ -18,7 +20,13 @@ thread_local! {
 
 /// Lets `succeed` calls of this thread succeed; the next fails, and every later one of the same function.
 pub fn fail_after(succeed: u32) {
+    fail_so(succeed, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
+}
+
+/// The same with another answer.
+pub fn fail_so(succeed: u32, answer: vk::Result) {
     LEFT.set(succeed);
+    ANSWER.set(answer);
     FAILED.set(None);
 }
 
@@ -63,7 +71,7 @@ macro_rules! faulty {
     ($table:ident; $($function:ident($($argument:ident: $kind:ty),*);)*) => {$({
         unsafe extern "system" fn $function($($argument: $kind),*) -> vk::Result {
             if fails(stringify!($function)) {
-                return vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
+                return ANSWER.get();
             }
             let own = OWN.with_borrow(|own| own.as_ref().map(|own| own.$function));
             // SAFETY: the caller's own contract is that of the function behind.
@@ -99,6 +107,9 @@ pub fn device(own: &ash::Device) -> ash::Device {
         create_query_pool(d: vk::Device, i: *const vk::QueryPoolCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::QueryPool);
         create_command_pool(d: vk::Device, i: *const vk::CommandPoolCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::CommandPool);
         allocate_command_buffers(d: vk::Device, i: *const vk::CommandBufferAllocateInfo<'_>, o: *mut vk::CommandBuffer);
+        create_sampler(d: vk::Device, i: *const vk::SamplerCreateInfo<'_>, a: Allocator<'_>, o: *mut vk::Sampler);
+        reset_descriptor_pool(d: vk::Device, p: vk::DescriptorPool, f: vk::DescriptorPoolResetFlags);
+        get_query_pool_results(d: vk::Device, p: vk::QueryPool, f: u32, n: u32, s: usize, o: *mut std::ffi::c_void, t: u64, g: vk::QueryResultFlags);
         begin_command_buffer(c: vk::CommandBuffer, i: *const vk::CommandBufferBeginInfo<'_>);
         end_command_buffer(c: vk::CommandBuffer);
     }

@@ -93,6 +93,7 @@ impl Host {
             device: &raw,
             queue_family: self.queue_family,
             enabled: self.features,
+            memory: None,
         };
         // SAFETY: all handles are the host's own and belong together; the tests drop all of ours before the host.
         unsafe { Device::import(&host) }.unwrap()

@@ -214,7 +214,9 @@ fn no_hard_scene_is_another_where_memory_is_short() {
         hard.settings.accumulate = Accumulate::F32;
         let prepared = headless.prepare(&hard.scene, &|_, _| {}).unwrap();
         let [whole, cut] = [u64::MAX, 0].map(|most| {
+            let arena = surfel::arena::Arena::new();
             let plan = FramePlan::new(
+                &arena,
                 &[surfel::prepare::Placed::at_home(&prepared)],
                 &hard.camera,
                 &by_tiles(&hard, most),

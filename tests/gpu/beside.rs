@@ -3,9 +3,11 @@
 #[path = "../../examples/engine/mod.rs"]
 mod engine;
 
+mod ahead;
 mod changing;
 mod conventions;
 mod faults;
+mod memory;
 mod objects;
 mod recording;
 mod tints;
@@ -18,7 +20,9 @@ use engine::{COLOR_FORMAT, Engine, OBJECT_FORMATS, Style};
 use glam::{DVec3, DVec4};
 use surfel::{
     Scene, Settings,
-    embed::{DepthImage, Device, HostCamera, ImageState, Placed, Renderer, Rendering, View, ViewFrame},
+    embed::{
+        DepthImage, Device, HostCamera, ImageState, Import, Placed, Renderer, Rendering, View, ViewFrame,
+    },
     prepare::PreparedScene,
 };
 
@@ -46,6 +50,21 @@ impl Beside {
         let engine = Engine::new(style);
         // SAFETY: all is the engine's own, which goes last.
         let device = unsafe { Device::import(&engine.lent()) }.unwrap();
+        Self::on(engine, device)
+    }
+
+    /// On a device that counts what is made on it.
+    fn on_faulty(style: Style) -> Self {
+        crate::common::arm();
+        let engine = Engine::new(style);
+        let faulty = crate::common::faults::device(&engine.device);
+        // SAFETY: as above.
+        let device = unsafe { Device::import(&Import { device: &faulty, ..engine.lent() }) }.unwrap();
+        Self::on(engine, device)
+    }
+
+    fn on(engine: Engine, device: Device) -> Self {
+        let style = engine.style;
         let renderer = Renderer::new(&device, None).unwrap();
         let Style { depth_format, compare, samples, tells_objects, .. } = style;
         let mut color_formats = vec![COLOR_FORMAT];
@@ -94,22 +113,7 @@ impl Beside {
         corners: &[DVec3; 3],
         gives_depth: bool,
     ) {
-        let depth = self.engine.depth;
-        let written = ImageState {
-            stages: vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
-            access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
-            layout: vk::ImageLayout::ATTACHMENT_OPTIMAL,
-        };
-        let [width, height] = self.engine.style.size_px;
-        let hides = DepthImage {
-            image: depth.image,
-            view: depth.view,
-            format: self.engine.style.depth_format,
-            extent: vk::Extent2D { width, height },
-            before: written,
-            after: written,
-        };
-        let hides = gives_depth.then_some(hides);
+        let hides = gives_depth.then(|| self.hides());
         let frame =
             ViewFrame { hides, camera_before: Some(before), ..ViewFrame::new(scenes, camera, settings) };
         let in_clip =
@@ -127,6 +131,25 @@ impl Beside {
         unsafe { view.draw(renderer, engine.commands) }.unwrap();
         engine.end_rendering();
         self.submit();
+    }
+
+    /// What the engine has drawn, with a rendering just before and just after.
+    fn hides(&self) -> DepthImage {
+        let depth = self.engine.depth;
+        let written = ImageState {
+            stages: vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
+            access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
+            layout: vk::ImageLayout::ATTACHMENT_OPTIMAL,
+        };
+        let [width, height] = self.engine.style.size_px;
+        DepthImage {
+            image: depth.image,
+            view: depth.view,
+            format: self.engine.style.depth_format,
+            extent: vk::Extent2D { width, height },
+            before: written,
+            after: written,
+        }
     }
 
     fn submit(&self) {

@@ -115,7 +115,9 @@ fn images_without_room_for_tiles_half_as_high_have_full_ones() {
     let own = headless.device().facts().limits;
     let little = Limits { max_storage_buffer_range: 200_000, ..own };
     let tile_heights = [little, own].map(|limits| {
+        let arena = surfel::arena::Arena::new();
         let plan = FramePlan::new(
+            &arena,
             &[surfel::prepare::Placed::at_home(&prepared)],
             &hard.camera,
             &hard.settings,

@@ -10,7 +10,7 @@ use paths::{UsedPath, used_paths};
 
 /// A folder or file of `src/` may import what stands in a line above its own, and nothing else.
 const LAYERS: &[&[&str]] = &[
-    &["error", "notes", "progress"],
+    &["arena", "error", "inline_vec", "notes", "progress"],
     &["math", "small_file"],
     &["scene"],
     &["load", "save", "hard_scenes"],

@@ -68,6 +68,7 @@ pub fn picture(engine: &Path) -> Vec<[f32; 3]> {
             device: &raw,
             queue_family,
             enabled: needs.features,
+            memory: None,
         };
         let device = Device::import(&host).unwrap();
         let renderer = Renderer::new(&device, None).unwrap();
@@ -101,6 +102,7 @@ pub fn picture(engine: &Path) -> Vec<[f32; 3]> {
             camera_before: None,
             corner_px: [0; 2],
             hides: None,
+            missing: Default::default(),
             profile: None,
         };
         view.prepare(&renderer, (*engine).commands, &frame).unwrap();

@@ -14,7 +14,7 @@ use crate::{
 
 /// What a pass records: it is called between the pass's barriers and the next pass, inside of dynamic rendering for
 /// a graphics pass, with viewport and scissor set to the whole of the attachments.
-pub type Body<'a> = Box<dyn FnOnce(&PassContext<'_>) -> Result<()> + 'a>;
+pub type Body<'a> = &'a dyn Fn(&PassContext<'_>) -> Result<()>;
 
 /// What a body records with.
 pub struct PassContext<'a> {

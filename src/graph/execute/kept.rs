@@ -6,7 +6,7 @@ use std::{collections::HashSet, sync::Arc};
 use ash::vk;
 
 use super::{
-    super::{BufferDesc, Compiled, Graph, Plan, ResourceDesc, ResourceId},
+    super::{BufferDesc, Graph, Plan, ResourceDesc, ResourceId},
     Body, Physical, Profiler, execute,
     rooms::{Room, serve},
     transients::{Transients, memory_need},
@@ -40,13 +40,13 @@ impl Kept {
         &mut self,
         device: &Device,
         commands: vk::CommandBuffer,
-        graph: Graph<Body<'_>>,
+        graph: &Graph<'_, Body<'_>>,
         imports: &[(ResourceId, Physical)],
         profiler: Option<&mut Profiler>,
     ) -> Result<Arc<Plan>> {
-        let (last, bodies) = self.prepare(device, graph)?;
+        let last = self.prepare(device, graph)?;
         // SAFETY: this function's contract.
-        unsafe { execute(device, commands, &last.plan, bodies, &last.transients, imports, profiler) }?;
+        unsafe { execute(device, commands, (&last.plan, graph), &last.transients, imports, profiler) }?;
         Ok(Arc::clone(&last.plan))
     }
 
@@ -55,24 +55,23 @@ impl Kept {
         self.0.as_ref().map_or(0, |last| last.transients.bytes())
     }
 
-    fn prepare<'a>(&mut self, device: &Device, graph: Graph<Body<'a>>) -> Result<(&Last, Vec<Body<'a>>)> {
+    fn prepare(&mut self, device: &Device, graph: &Graph<'_, Body<'_>>) -> Result<&Last> {
         let resources = &graph.declared.resources;
         let sizes = resources.iter().map(|resource| sizes_of(&resource.desc, device));
         let rooms = match self.0.take() {
-            Some(mut last) if last.plan.has_shape_of(&graph) => {
+            Some(mut last) if last.plan.has_shape_of(graph) => {
                 if serve(&mut last.rooms, sizes) {
-                    if !last.plan.has_sizes_of(&graph) {
-                        Arc::make_mut(&mut last.plan).resize(&graph);
+                    if !last.plan.has_sizes_of(graph) {
+                        Arc::make_mut(&mut last.plan).resize(graph);
                     }
-                    let bodies = graph.bodies_of(&last.plan);
-                    return Ok((self.0.insert(last), bodies));
+                    return Ok(self.0.insert(last));
                 }
                 last.rooms
             }
             last => {
                 let varying = last.as_ref().map(Last::varying).unwrap_or_default();
                 let room = |(name, (size, most))| Room::new(size, varying.contains(name), most);
-                resources.iter().map(|resource| &*resource.name).zip(sizes).map(room).collect()
+                resources.iter().map(|resource| resource.name).zip(sizes).map(room).collect()
             }
         };
         let need = |id: ResourceId, desc: &ResourceDesc, usage| {
@@ -84,9 +83,9 @@ impl Kept {
             };
             Ok(memory_need(device, &desc, usage))
         };
-        let Compiled { plan, bodies } = graph.compile(need)?;
+        let plan = graph.compile(need)?;
         let transients = Transients::new(device, &plan, |place| rooms[place].room_bytes)?;
-        Ok((self.0.insert(Last { plan: Arc::new(plan), transients, rooms }), bodies))
+        Ok(self.0.insert(Last { plan: Arc::new(plan), transients, rooms }))
     }
 }
 

@@ -17,7 +17,7 @@ pub use self::{
     profiler::{FrameProfile, PassCounts, PassProfile, Profile, Profiler},
     transients::{Transients, memory_need},
 };
-use super::{PassKind, Plan, ResourceDesc, ResourceId};
+use super::{Graph, PassKind, Plan, ResourceDesc, ResourceId};
 use crate::{
     error::{ErrorKind, Result},
     vk::Device,
@@ -34,7 +34,7 @@ pub enum Physical {
     TexelBuffer(vk::Buffer, vk::BufferView),
 }
 
-/// Records every pass of a plan: its barriers, its debug label, its queries, its rendering, its body.
+/// Records every pass of a plan, which is that of the graph or of one of the same shape: its barriers, its debug label, its queries, its rendering, its body.
 ///
 /// # Errors
 /// [`ErrorKind::Graph`] if an import is missing or of the wrong kind, before anything is recorded; whatever a body
@@ -48,13 +48,15 @@ pub enum Physical {
 pub unsafe fn execute(
     device: &Device,
     commands: vk::CommandBuffer,
-    plan: &Plan,
-    bodies: Vec<Body<'_>>,
+    (plan, graph): (&Plan, &Graph<'_, Body<'_>>),
     transients: &Transients,
     imports: &[(ResourceId, Physical)],
     mut profiler: Option<&mut Profiler>,
 ) -> Result<()> {
-    let mut physical = transients.physical(plan.resources.len());
+    let arena = graph.arena();
+    let mut physical = arena.growing();
+    physical.extend(transients.physical());
+    physical.resize(plan.resources.len(), None);
     for (id, object) in imports {
         if let Some(place) = physical.get_mut(id.index()) {
             *place = Some(*object);
@@ -62,14 +64,15 @@ pub unsafe fn execute(
     }
     // Before the first command: what fails later would leave labels and queries open.
     check_objects(plan, &physical)?;
-    let recorder = Recorder { device, commands, plan, physical: &physical };
+    let recorder = Recorder { device, commands, plan, physical: &physical, arena };
     if let Some(profiler) = &mut profiler {
         // SAFETY: this function's contract.
         unsafe { profiler.begin_frame(commands, &plan.passes) };
     }
     let profiler = profiler.as_deref();
-    let mut bindings = vec![Binding::default(); plan.resources.len()];
-    for ((index, pass), body) in (0..).zip(&plan.passes).zip(bodies) {
+    let mut bindings = arena.growing();
+    bindings.resize(plan.resources.len(), Binding::default());
+    for (index, pass) in (0..).zip(&plan.passes) {
         let draws = pass.rendering.is_some();
         // Copies have nothing to count.
         let counting = profiler.filter(|_| draws || pass.kind == PassKind::Compute);
@@ -81,7 +84,12 @@ pub unsafe fn execute(
             counting.inspect(|profiler| profiler.begin_counts(commands, index));
         }
         Binding::declare(&mut bindings, index, pass);
-        let done = body(&PassContext { recorder: &recorder, bindings: &bindings, index, pass });
+        let done = (graph.bodies[pass.declared])(&PassContext {
+            recorder: &recorder,
+            bindings: &bindings,
+            index,
+            pass,
+        });
         // Also after a body that failed, so that the command buffer stays well-formed.
         // SAFETY: as above.
         unsafe {

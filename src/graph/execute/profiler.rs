@@ -87,22 +87,27 @@ impl Profiler {
         Ok(Self { queries: queries.unwrap_or(Queries::Nothing), passes: Vec::new() })
     }
 
-    /// The figures of the last frame, once it has finished.
+    /// The figures of the last frame.
     ///
     /// # Errors
     /// Whatever the driver answers.
-    pub fn read(&self) -> Result<FrameProfile> {
+    ///
+    /// # Safety
+    /// That frame has finished: before it has begun, its queries are not even reset.
+    pub unsafe fn read(&self) -> Result<FrameProfile> {
         let measured = (self.passes.len() as u32).min(MAX_PASSES);
         let (mut secs, mut counts) = (vec![None; self.passes.len()], vec![None; self.passes.len()]);
         let mut span_secs = None;
         match &self.queries {
             Queries::Frame(timestamps) => {
-                if let [begin, end] = timestamps.read(2)?[..] {
+                // SAFETY: this function's contract: the frame resets them, here and below.
+                if let [begin, end] = unsafe { timestamps.read(2) }?[..] {
                     span_secs = secs_between(timestamps, begin, end);
                 }
             }
             Queries::Times(timestamps) => {
-                let ticks = timestamps.read(measured + 1)?;
+                // SAFETY: as above.
+                let ticks = unsafe { timestamps.read(measured + 1) }?;
                 for (secs, ends) in secs.iter_mut().zip(ticks.windows(2)) {
                     *secs = secs_between(timestamps, ends[0], ends[1]);
                 }
@@ -110,7 +115,8 @@ impl Profiler {
                 span_secs = secs_between(timestamps, begin, end);
             }
             Queries::Counts(statistics) => {
-                let read = statistics.read(measured)?;
+                // SAFETY: as above.
+                let read = unsafe { statistics.read(measured) }?;
                 for (counts, values) in counts.iter_mut().zip(read) {
                     *counts = values;
                 }

@@ -7,6 +7,7 @@ use super::{
     Physical,
 };
 use crate::{
+    arena::Arena,
     error::{ErrorKind, Result},
     vk::Device,
 };
@@ -17,6 +18,8 @@ pub(super) struct Recorder<'a> {
     pub(super) commands: vk::CommandBuffer,
     pub(super) plan: &'a Plan,
     pub(super) physical: &'a [Option<Physical>],
+    /// For what a command is told.
+    pub(super) arena: &'a Arena,
 }
 
 impl Recorder<'_> {
@@ -39,7 +42,7 @@ impl Recorder<'_> {
                 .dst_stage_mask(dst.stages)
                 .dst_access_mask(dst.access)
         });
-        let (mut images, mut buffers) = (Vec::new(), Vec::new());
+        let (mut images, mut buffers) = (self.arena.growing(), self.arena.growing());
         for barrier in resources {
             match self.object(barrier.resource)? {
                 Physical::Image(image, _) => images.push(self.image_barrier(barrier, image)),
@@ -64,11 +67,11 @@ impl Recorder<'_> {
     pub(super) unsafe fn begin_rendering(&self, pass: &PlannedPass) -> Result<()> {
         let Some(rendering) = &pass.rendering else { return Ok(()) };
         let colors = rendering.colors.iter().map(|attachment| self.attachment(attachment));
-        let colors = colors.collect::<Result<Vec<_>>>()?;
+        let colors = self.arena.try_list(colors)?;
         let depth = rendering.depth.as_ref().map(|attachment| self.attachment(attachment)).transpose()?;
         let area = vk::Rect2D::default().extent(rendering.extent);
         let mut info =
-            vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
+            vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(colors);
         if let Some(depth) = &depth {
             info = info.depth_attachment(depth);
         }

@@ -101,7 +101,7 @@ impl Transients {
     }
 
     /// The objects by resource index.
-    pub(super) fn physical(&self, count: usize) -> Vec<Option<Physical>> {
+    pub(super) fn physical(&self) -> impl Iterator<Item = Option<Physical>> {
         let object = |object: &Option<Object>| match object {
             Some(Object::Image(image)) => Some(Physical::Image(image.raw(), image.view())),
             Some(Object::Buffer(buffer)) => Some(match buffer.texels() {
@@ -110,9 +110,7 @@ impl Transients {
             }),
             None => None,
         };
-        let mut physical: Vec<_> = self.objects.iter().map(object).collect();
-        physical.resize(count, None);
-        physical
+        self.objects.iter().map(object)
     }
 }
 

@@ -9,15 +9,15 @@ fn scope(stages: S, access: A) -> Scope {
 }
 
 /// A buffer of the caller's that nobody is at work on.
-fn idle_buffer(graph: &mut Graph<()>) -> Handle<Buffer> {
+fn idle_buffer(graph: &mut Graph<'_, ()>) -> Handle<Buffer> {
     graph.import_buffer("b", buffer(), BufferState::default(), None)
 }
 
-fn write(graph: &mut Graph<()>, name: &str, b: &mut Handle<Buffer>) {
+fn write(graph: &mut Graph<'_, ()>, name: &str, b: &mut Handle<Buffer>) {
     graph.pass(name).write(b, Access::StorageWriteCompute, Start::Load).finish(());
 }
 
-fn read(graph: &mut Graph<()>, name: &str, b: &Handle<Buffer>, access: Access) {
+fn read(graph: &mut Graph<'_, ()>, name: &str, b: &Handle<Buffer>, access: Access) {
     graph.pass(name).read(b, access).side_effect().finish(());
 }
 
@@ -30,7 +30,7 @@ const COPIED: Scope = Scope { stages: S::ALL_TRANSFER, access: A::TRANSFER_READ 
 
 #[test]
 fn a_reader_waits_for_the_writer_and_sees_its_work() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut b = idle_buffer(&mut graph);
     write(&mut graph, "write", &mut b);
     read(&mut graph, "read", &b, Access::TransferRead);
@@ -41,7 +41,7 @@ fn a_reader_waits_for_the_writer_and_sees_its_work() {
 
 #[test]
 fn a_writer_waits_for_all_readers_and_flushes_nothing() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut b = idle_buffer(&mut graph);
     read(&mut graph, "copy", &b, Access::TransferRead);
     read(&mut graph, "compute", &b, Access::StorageReadCompute);
@@ -54,7 +54,7 @@ fn a_writer_waits_for_all_readers_and_flushes_nothing() {
 
 #[test]
 fn a_writer_waits_for_the_writer_before() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut b = idle_buffer(&mut graph);
     write(&mut graph, "first", &mut b);
     write(&mut graph, "second", &mut b);
@@ -63,7 +63,7 @@ fn a_writer_waits_for_the_writer_before() {
 
 #[test]
 fn a_second_reader_waits_only_where_it_can_not_see_the_write_yet() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut b = idle_buffer(&mut graph);
     write(&mut graph, "write", &mut b);
     read(&mut graph, "copy", &b, Access::TransferRead);
@@ -78,7 +78,7 @@ fn a_second_reader_waits_only_where_it_can_not_see_the_write_yet() {
 
 #[test]
 fn two_reads_of_one_pass_are_one_barrier() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut b = idle_buffer(&mut graph);
     write(&mut graph, "write", &mut b);
     let pass = graph.pass("read").read(&b, Access::StorageReadCompute).read(&b, Access::IndirectRead);
@@ -89,7 +89,7 @@ fn two_reads_of_one_pass_are_one_barrier() {
 
 #[test]
 fn an_image_changes_its_layout_once_and_its_readers_share_it() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut target = import_target(&mut graph);
     let mut depth = graph.create_image("depth", image(DEPTH));
     graph.pass("draw").write(&mut depth, Access::DepthAttachment, FAR).finish(());
@@ -119,7 +119,7 @@ fn an_image_changes_its_layout_once_and_its_readers_share_it() {
 #[test]
 fn a_discarded_content_is_not_carried_into_the_new_layout() {
     for (start, old) in [(BLACK, L::UNDEFINED), (Start::Load, L::READ_ONLY_OPTIMAL)] {
-        let mut graph = Graph::new();
+        let mut graph = graph();
         let known = ImageState { layout: L::READ_ONLY_OPTIMAL, ..Default::default() };
         let mut target = graph.import_image("t", image(COLOR), known, None);
         graph.pass("draw").write(&mut target, Access::ColorAttachment, start).finish(());
@@ -130,7 +130,7 @@ fn a_discarded_content_is_not_carried_into_the_new_layout() {
 
 #[test]
 fn an_import_begins_in_its_initial_and_ends_in_its_final_state() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let copied = BufferState { stages: S::COPY, access: A::TRANSFER_WRITE };
     let host = BufferState { stages: S::HOST, access: A::HOST_READ };
     let mut b = graph.import_buffer("b", buffer(), copied, Some(host));
@@ -150,7 +150,7 @@ fn an_import_begins_in_its_initial_and_ends_in_its_final_state() {
 
 #[test]
 fn where_no_final_state_is_asked_for_the_end_is_told() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut b = idle_buffer(&mut graph);
     write(&mut graph, "write", &mut b);
     read(&mut graph, "copy", &b, Access::TransferRead);

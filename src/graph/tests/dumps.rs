@@ -3,7 +3,7 @@
 use super::*;
 
 fn frame() -> Plan {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let uploaded =
         BufferState { stages: vk::PipelineStageFlags2::COPY, access: vk::AccessFlags2::TRANSFER_WRITE };
     let splats = graph.import_buffer("splats", buffer(), uploaded, None);

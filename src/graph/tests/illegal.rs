@@ -4,14 +4,14 @@ use super::*;
 
 /// What is said of a graph with a color image, a depth image and a buffer, none of them written yet.
 fn refusal(
-    declare: impl FnOnce(&mut Graph<()>, &mut Handle<Image>, &mut Handle<Image>, &mut Handle<Buffer>),
+    declare: impl FnOnce(&mut Graph<'_, ()>, &mut Handle<Image>, &mut Handle<Image>, &mut Handle<Buffer>),
 ) -> String {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut color = graph.create_image("color", image(COLOR));
     let mut depth = graph.create_image("depth", image(DEPTH));
     let mut list = graph.create_buffer("list", buffer());
     declare(&mut graph, &mut color, &mut depth, &mut list);
-    let error = graph.compile(need).map(|compiled| compiled.plan.to_string()).unwrap_err();
+    let error = graph.compile(need).map(|compiled| compiled.to_string()).unwrap_err();
     assert!(matches!(error.kind(), crate::error::ErrorKind::Graph { .. }));
     error.to_string().strip_prefix("illegal render graph: ").unwrap().to_owned()
 }
@@ -63,11 +63,11 @@ fn handles_that_do_not_belong_here() {
     let expected = "pass 'p', resource 'color': the handle is stale: it took part in 1 write(s), of which 0 are in \
                     the graph; the pass of the other was not finished";
     assert_eq!(stale, expected);
-    let mut other = Graph::<()>::new();
+    let mut other = graph::<()>();
     let mut alien = other.create_image("alien", image(COLOR));
     let foreign =
         refusal(|g, _, _, _| g.pass("p").write(&mut alien, Access::ColorAttachment, BLACK).finish(()));
-    assert_eq!(foreign, "pass 'p', resource 'alien': the handle belongs to another graph");
+    assert_eq!(foreign, "pass 'p', resource '#0': the handle belongs to another graph");
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn passes_of_no_kind_or_of_two() {
 
 #[test]
 fn names_and_dimensions() {
-    let pass = |g: &mut Graph<()>, name: &str, l: &mut Handle<Buffer>| {
+    let pass = |g: &mut Graph<'_, ()>, name: &str, l: &mut Handle<Buffer>| {
         g.pass(name).write(l, Access::TransferWrite, Start::Discard).finish(());
     };
     assert_eq!(refusal(|g, _, _, l| pass(g, "", l)), "a pass has no name");

@@ -4,7 +4,7 @@ use super::*;
 
 /// `a` is drawn, sampled into `b`, that into `c`, that into the target.
 fn chain() -> (Plan, [ResourceId; 3]) {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut target = import_target(&mut graph);
     let [mut a, mut b, mut c] = ["a", "b", "c"].map(|name| graph.create_image(name, image(COLOR)));
     let color = Access::ColorAttachment;
@@ -49,7 +49,7 @@ fn the_first_access_waits_for_the_former_tenants_also_of_the_execution_before() 
 
 #[test]
 fn a_large_one_waits_for_all_the_small_ones_in_its_place() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let [mut x, mut y, mut large] = [("x", 256), ("y", 512), ("large", 1024)]
         .map(|(n, size_bytes)| graph.create_buffer(n, BufferDesc::of_bytes(size_bytes)));
     let copy = Access::TransferWrite;
@@ -66,19 +66,18 @@ fn a_large_one_waits_for_all_the_small_ones_in_its_place() {
 
 #[test]
 fn images_and_buffers_and_foreign_memory_types_lie_apart() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut color = graph.create_image("color", image(COLOR));
     let [mut x, mut y, mut z] = ["x", "y", "z"].map(|name| graph.create_buffer(name, buffer()));
     graph.pass("i").write(&mut color, Access::TransferWrite, Start::Discard).side_effect().finish(());
-    for handle in [&mut x, &mut y, &mut z] {
-        let name = format!("write {}", handle.name());
-        graph.pass(&name).write(handle, Access::TransferWrite, Start::Discard).side_effect().finish(());
+    for (name, handle) in [("write x", &mut x), ("write y", &mut y), ("write z", &mut z)] {
+        graph.pass(name).write(handle, Access::TransferWrite, Start::Discard).side_effect().finish(());
     }
     let bits = [0b111, 0b011, 0b001, 0b010];
     let needs = |id: ResourceId, _: &ResourceDesc, _| {
         Ok(MemoryNeed { size_bytes: 16, alignment_bytes: 64, type_bits: bits[id.index()] })
     };
-    let plan = graph.compile(needs).unwrap().plan;
+    let plan = graph.compile(needs).unwrap();
     simulator::check(&plan).unwrap();
     let block = |handle: ResourceId| plan.resource(handle).slot.unwrap().block;
     assert_eq!([color.id(), x.id(), y.id(), z.id()].map(block), [0, 1, 1, 2]);
@@ -87,13 +86,13 @@ fn images_and_buffers_and_foreign_memory_types_lie_apart() {
 
 #[test]
 fn offsets_are_aligned() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let [mut x, mut y] = ["x", "y"].map(|name| graph.create_buffer(name, buffer()));
     let pass = graph.pass("both").write(&mut x, Access::TransferWrite, Start::Discard);
     pass.write(&mut y, Access::TransferWrite, Start::Discard).side_effect().finish(());
     let needs =
         |_, _: &ResourceDesc, _| Ok(MemoryNeed { size_bytes: 100, alignment_bytes: 64, type_bits: 1 });
-    let plan = graph.compile(needs).unwrap().plan;
+    let plan = graph.compile(needs).unwrap();
     assert_eq!(plan.resource(y.id()).slot.unwrap().offset_bytes, 128);
     assert_eq!((plan.blocks[0].size_bytes, plan.blocks[0].alignment_bytes), (228, 64));
 }
@@ -105,7 +104,7 @@ fn what_no_device_can_hold_is_refused_and_what_is_huge_has_a_block_of_its_own() 
         "the device has no memory type for it",
     )];
     for (bad, reason) in cases {
-        let mut graph = Graph::new();
+        let mut graph = graph();
         let [mut x, mut y] = ["x", "y"].map(|name| graph.create_buffer(name, buffer()));
         let pass = graph.pass("both").write(&mut x, Access::TransferWrite, Start::Discard);
         pass.write(&mut y, Access::TransferWrite, Start::Discard).side_effect().finish(());
@@ -113,12 +112,12 @@ fn what_no_device_can_hold_is_refused_and_what_is_huge_has_a_block_of_its_own() 
         assert!(error.starts_with("illegal render graph: resource '") && error.ends_with(reason), "{error}");
     }
     for (size_bytes, blocks) in [(u64::MAX, 2), (1 << 30, 2), (1 << 29, 1)] {
-        let mut graph = Graph::new();
+        let mut graph = graph();
         let [mut x, mut y] = ["x", "y"].map(|name| graph.create_buffer(name, buffer()));
         let pass = graph.pass("both").write(&mut x, Access::TransferWrite, Start::Discard);
         pass.write(&mut y, Access::TransferWrite, Start::Discard).side_effect().finish(());
         let need = MemoryNeed { size_bytes, alignment_bytes: 2, type_bits: 1 };
-        let plan = graph.compile(|_, _, _| Ok(need)).unwrap().plan;
+        let plan = graph.compile(|_, _, _| Ok(need)).unwrap();
         assert_eq!(plan.blocks.len(), blocks, "{size_bytes}");
     }
 }

@@ -19,6 +19,11 @@ pub(super) const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 pub(super) const BLACK: Start = Start::Clear(ClearValue::Color([0.0; 4]));
 pub(super) const FAR: Start = Start::Clear(ClearValue::Depth(0.0));
 
+/// A graph that may stay for as long as a test.
+pub(in crate::graph) fn graph<Body>() -> Graph<'static, Body> {
+    Graph::new(Box::leak(Box::default()))
+}
+
 pub(super) fn image(format: vk::Format) -> ImageDesc {
     ImageDesc { format, extent: vk::Extent2D { width: 64, height: 32 } }
 }
@@ -36,14 +41,14 @@ pub(super) fn need(_: ResourceId, desc: &ResourceDesc, _: Usage) -> crate::error
     Ok(MemoryNeed { size_bytes, alignment_bytes: 256, type_bits: 0b11 })
 }
 
-pub(super) fn plan_of(graph: Graph<()>) -> Plan {
-    let plan = graph.compile(need).unwrap().plan;
+pub(super) fn plan_of(graph: Graph<'_, ()>) -> Plan {
+    let plan = graph.compile(need).unwrap();
     simulator::check(&plan).unwrap_or_else(|problem| panic!("{problem}\n{plan}"));
     plan
 }
 
 /// An image of the caller's that nothing is known of, presented in the end.
-pub(super) fn import_target(graph: &mut Graph<()>) -> Handle<Image> {
+pub(super) fn import_target(graph: &mut Graph<'_, ()>) -> Handle<Image> {
     let last = ImageState { layout: vk::ImageLayout::PRESENT_SRC_KHR, ..Default::default() };
     graph.import_image("target", image(COLOR), ImageState::default(), Some(last))
 }

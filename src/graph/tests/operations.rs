@@ -6,7 +6,7 @@ use super::*;
 
 #[test]
 fn attachments_load_and_store_only_what_is_needed() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut target = import_target(&mut graph);
     let mut depth = graph.create_image("depth", image(DEPTH));
     let [mut read, mut unread] = ["read", "unread"].map(|name| graph.create_image(name, image(COLOR)));
@@ -41,7 +41,7 @@ fn attachments_load_and_store_only_what_is_needed() {
 
 #[test]
 fn usages_are_those_of_all_accesses_that_are_left() {
-    let mut graph = Graph::new();
+    let mut graph = graph();
     let mut depth = graph.create_image("depth", image(DEPTH));
     let mut out = graph.import_buffer("out", buffer(), BufferState::default(), None);
     let mut lost = graph.create_buffer("lost", buffer());

@@ -30,8 +30,8 @@ fn state(seed: u8) -> State {
     State { stages, access, layout }
 }
 
-fn build(resources: &[ResourceSeed], passes: &[PassSeed]) -> Graph<()> {
-    let mut graph = Graph::new();
+fn build(resources: &[ResourceSeed], passes: &[PassSeed]) -> Graph<'static, ()> {
+    let mut graph = graph();
     let mut handles = Vec::new();
     // Whether there is something to read.
     let mut filled = Vec::new();
@@ -109,7 +109,7 @@ fn build(resources: &[ResourceSeed], passes: &[PassSeed]) -> Graph<()> {
         if !says_kind {
             continue;
         }
-        let mut pass = graph.pass(&format!("p{i}"));
+        let mut pass = graph.pass(format_args!("p{i}"));
         for (index, access, start) in chosen {
             filled[index] |= start.is_some();
             pass = match (&mut handles[index], start) {
@@ -142,7 +142,7 @@ proptest! {
             alignment_bytes: 1 << (sizes[id.index()] % 3),
             type_bits: [0b011, 0b110, 0b111][(sizes[id.index()] % 3) as usize],
         });
-        let plan = build(&resources, &passes).compile(needs).unwrap().plan;
+        let plan = build(&resources, &passes).compile(needs).unwrap();
         if let Err(problem) = simulator::check(&plan) {
             prop_assert!(false, "{}\n{}", problem, plan);
         }

@@ -4,6 +4,8 @@
 //! Fragments come from points of 32 pixels: a triangle over the whole image would be drawn only once by a driver that
 //! sees that the next one hides it tile by tile.
 
+use std::fmt::Display;
+
 use ash::vk;
 
 use crate::passes::pipeline::formats::{DEPTH_FORMAT, sum_format};
@@ -18,7 +20,10 @@ use crate::passes::{
 };
 use crate::{
     error::{ErrorKind, Result},
-    graph::{Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, Start, execute::Body},
+    graph::{
+        Access, Buffer, ClearValue, Graph, Handle, Image, ImageDesc, Start,
+        execute::{Body, PassContext},
+    },
     report::ThroughputProbe,
     scene::{Settings, TileInvocations},
     shaders::{self, Shader, config::*},
@@ -94,7 +99,12 @@ pub struct LimitInputs<'a> {
 }
 
 impl LimitInputs<'_> {
-    fn image(&self, graph: &mut Graph<Body<'_>>, name: &str, format: vk::Format) -> Handle<Image> {
+    fn image(
+        &self,
+        graph: &mut Graph<'_, Body<'_>>,
+        name: impl Display,
+        format: vk::Format,
+    ) -> Handle<Image> {
         let [width, height] = self.settings.size_px;
         graph.create_image(name, ImageDesc { format, extent: vk::Extent2D { width, height } })
     }
@@ -106,7 +116,7 @@ impl LimitInputs<'_> {
 /// # Errors
 /// [`ErrorKind::Graph`] for a limit that is not one of drawing; whatever the driver answers when the pipeline is made.
 pub fn limit_draws<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: LimitInputs<'a>,
     limit: ThroughputProbe,
     points: &Handle<Buffer>,
@@ -114,7 +124,7 @@ pub fn limit_draws<'a>(
 ) -> Result<()> {
     let key = |fragment| {
         let stages = (&shaders::FLOOR_POINTS_VERT, fragment);
-        GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, Vec::new())
+        GraphicsKey::new(stages, Layout::Splat, vk::PrimitiveTopology::POINT_LIST, [].into())
     };
     let sums = sum_format(inputs.settings.accumulate);
     let color = vk::Format::R8G8B8A8_UNORM;
@@ -145,7 +155,7 @@ pub fn limit_draws<'a>(
     let has_depth = key.depth.is_some();
     let mut images: Vec<_> = (0..)
         .zip(&colors)
-        .map(|(i, format)| inputs.image(graph, &format!("limit color {i}"), *format))
+        .map(|(i, format)| inputs.image(graph, format_args!("limit color {i}"), *format))
         .collect();
     let mut depth = has_depth.then(|| inputs.image(graph, "limit depth", DEPTH_FORMAT));
     // Nobody reads what is drawn.
@@ -158,7 +168,7 @@ pub fn limit_draws<'a>(
     if let Some(depth) = &mut depth {
         pass = pass.attach(depth, Access::DepthAttachment, Start::Clear(ClearValue::Depth(far)));
     }
-    let pipeline = pass.graphics(GraphicsKey { color_formats: colors, ..key })?;
+    let pipeline = pass.graphics(GraphicsKey { color_formats: colors.into_iter().collect(), ..key })?;
     pass.finish(move |pass| {
         pass.bind(pipeline);
         pass.bind_sets(pipeline.layout, 1, &[pass.set(Place::Lists(0))?])?;
@@ -171,18 +181,17 @@ pub fn limit_draws<'a>(
 }
 
 /// Declares the pass that fills a buffer: memory that was never written may not be there at all.
-pub fn limit_fill(graph: &mut Graph<Body<'_>>, buffer: &mut Handle<Buffer>) {
+pub fn limit_fill<'a>(graph: &mut Graph<'a, Body<'a>>, buffer: &mut Handle<Buffer>) {
     let id = buffer.id();
-    graph.pass("fill what is copied").write(buffer, Access::TransferWrite, Start::Discard).finish(Box::new(
-        move |context| {
-            // SAFETY: outside of rendering; all of a buffer made for transfers, whose size is a multiple of 4.
-            unsafe {
-                let (device, commands) = (context.device(), context.commands());
-                device.cmd_fill_buffer(commands, context.buffer(id)?, 0, vk::WHOLE_SIZE, 0x3c5a_96e1);
-            }
-            Ok(())
-        },
-    ));
+    let fill = graph.arena().keep(move |context: &PassContext<'_>| {
+        // SAFETY: outside of rendering; all of a buffer made for transfers, whose size is a multiple of 4.
+        unsafe {
+            let (device, commands) = (context.device(), context.commands());
+            device.cmd_fill_buffer(commands, context.buffer(id)?, 0, vk::WHOLE_SIZE, 0x3c5a_96e1);
+        }
+        Ok(())
+    });
+    graph.pass("fill what is copied").write(buffer, Access::TransferWrite, Start::Discard).finish(fill);
 }
 
 /// Declares the pass that dispatches a limit of compute, `repeats` rows of it, which write to `words`.
@@ -190,7 +199,7 @@ pub fn limit_fill(graph: &mut Graph<Body<'_>>, buffer: &mut Handle<Buffer>) {
 /// # Errors
 /// Whatever the driver answers when the pipeline is made.
 pub fn limit_dispatch<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: LimitInputs<'a>,
     limit: ThroughputProbe,
     dispatch: LimitDispatch,

@@ -15,7 +15,7 @@ use crate::{
 
 /// Declares the passes that list those of the visible splats that the visible depth does not hide.
 pub(crate) fn list_unhidden<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     visible: VisibleList,
     depth: &Handle<Image>,
@@ -31,7 +31,7 @@ pub(crate) fn list_unhidden<'a>(
         .read(Place::Cells.at(BIND_CELLS_DEPTH), depth, Access::SampledCompute)
         .write(Place::Cells.at(BIND_CELLS), &mut cells, Access::StorageWriteCompute, Start::Discard);
     let (shader, layout) = (&shaders::DEPTH_CELLS_COMP, Layout::DepthCells);
-    let pipeline = pass.compute(ComputeKey { shader, layout, constants: Vec::new() })?;
+    let pipeline = pass.compute(ComputeKey { shader, layout, constants: [].into() })?;
     pass.finish(move |pass| {
         pass.bind(pipeline);
         pass.bind_sets(layout, 0, &[pass.set(Place::Cells)?])?;

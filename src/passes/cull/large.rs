@@ -36,11 +36,11 @@ pub(crate) struct LargeList {
 }
 
 impl LargeList {
-    fn create(graph: &mut Graph<Body<'_>>, kind: &str, chunk: u32, draw: &Draw<'_>) -> Self {
+    fn create(graph: &mut Graph<'_, Body<'_>>, kind: &str, chunk: u32, draw: &Draw<'_>) -> Self {
         let words = u64::from(blocks_of(draw)) * u64::from(BLOCK_SPLATS / WORD);
         let mut buffer = |what: &str, words: u64| {
             let desc = BufferDesc::of_bytes(4 * words);
-            graph.create_buffer(&format!("large {what} of {kind}chunk {chunk}"), desc)
+            graph.create_buffer(format_args!("large {what} of {kind}chunk {chunk}"), desc)
         };
         Self {
             chunk,
@@ -65,29 +65,29 @@ impl LargeList {
 fn key(step: usize, draw: &Draw<'_>) -> ComputeKey {
     let large = (SPEC_LARGE_LIST, 1);
     match step {
-        0 => list_key(&shaders::MARK_LARGE_COMP, [draw.variant.as_slice(), &[large]].concat()),
-        1 => list_key(&shaders::LIST_SCAN_COMP, Vec::new()),
-        _ => list_key(&shaders::LIST_WRITE_COMP, vec![large]),
+        0 => list_key(&shaders::MARK_LARGE_COMP, draw.variant.with([large])),
+        1 => list_key(&shaders::LIST_SCAN_COMP, [].into()),
+        _ => list_key(&shaders::LIST_WRITE_COMP, [large].into()),
     }
 }
 
 /// Declares the three passes that list large splats; none where no chunk may have any. `kind`, in front of the names, tells several
 /// such lists of a frame apart.
 pub(crate) fn list_large<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
-) -> Result<Vec<LargeList>> {
+) -> Result<&'a [LargeList]> {
     let may_be_large = (0..).zip(inputs.draws).filter(|(_, draw)| draw.may_be_large);
-    let mut lists: Vec<_> =
-        may_be_large.map(|(chunk, draw)| LargeList::create(graph, kind, chunk, draw)).collect();
+    let mut lists = graph.arena().growing();
+    lists.extend(may_be_large.map(|(chunk, draw)| LargeList::create(graph, kind, chunk, draw)));
     if lists.is_empty() {
-        return Ok(lists);
+        return Ok(&[]);
     }
     let (read, write) = (Access::StorageReadCompute, Access::StorageWriteCompute);
     for (step, what) in ["mark", "scan", "list"].into_iter().enumerate() {
-        let mut pass = Pass::new(graph, inputs.source, &format!("{what} large {kind}splats"), WHY);
-        let mut chunks = Vec::new();
+        let mut pass = Pass::new(graph, inputs.source, format_args!("{what} large {kind}splats"), WHY);
+        let mut chunks = pass.arena().growing();
         for LargeList { chunk, bits, starts, list, arguments } in &mut lists {
             let [at_bits, at_starts, at_list, at_arguments] =
                 [BIND_LIST_BITS, BIND_LIST_STARTS, BIND_LIST_ITEMS, BIND_LIST_ARGUMENTS]
@@ -104,8 +104,9 @@ pub(crate) fn list_large<'a>(
             let draw = &inputs.draws[*chunk as usize];
             chunks.push((*chunk, draw, pass.compute(key(step, draw))?));
         }
+        let chunks = chunks.into_bump_slice();
         pass.finish(move |pass| {
-            for (chunk, draw, pipeline) in chunks {
+            for &(chunk, draw, pipeline) in chunks {
                 let blocks = blocks_of(draw);
                 // Its lists are its own.
                 let mut constants = FrameConstants { first_record: 0, chunk_color: 0, ..draw.constants };
@@ -116,7 +117,7 @@ pub(crate) fn list_large<'a>(
             Ok(())
         });
     }
-    Ok(lists)
+    Ok(lists.into_bump_slice())
 }
 
 fn blocks_of(draw: &Draw<'_>) -> u32 {

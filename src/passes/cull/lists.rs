@@ -15,23 +15,23 @@ use crate::{
 };
 
 /// What the draws of a part read.
-pub(crate) struct Lists {
-    large: Vec<LargeList>,
+pub(crate) struct Lists<'a> {
+    large: &'a [LargeList],
     visible: Option<VisibleList>,
 }
 
-impl Lists {
+impl<'a> Lists<'a> {
     /// Declares the passes that make them. `kind`, in front of the names, tells those of several parts apart.
-    pub fn make<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Self> {
+    pub fn make(graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>, kind: &str) -> Result<Self> {
         let large = list_large(graph, inputs, kind)?;
         let visible = inputs.listed.map(|listed| list_visible(graph, inputs, kind, listed)).transpose()?;
         Ok(Self { large, visible })
     }
 
     /// Declares the passes that leave out of the list what this depth hides, where that is wanted.
-    pub fn without_hidden<'a>(
+    pub fn without_hidden(
         self,
-        graph: &mut Graph<Body<'a>>,
+        graph: &mut Graph<'a, Body<'a>>,
         inputs: Inputs<'a>,
         depth: &Handle<Image>,
     ) -> Result<Self> {
@@ -43,7 +43,7 @@ impl Lists {
     }
 
     /// Adds them to a pass that draws with them.
-    pub fn read<'g, 'a>(&self, mut pass: Pass<'g, 'a>) -> Pass<'g, 'a> {
+    pub fn read<'g>(&self, mut pass: Pass<'g, 'a>) -> Pass<'g, 'a> {
         if let Some(visible) = &self.visible {
             pass = visible.read(pass);
         }

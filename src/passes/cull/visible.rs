@@ -93,29 +93,29 @@ pub(crate) fn list_key(shader: &'static Shader, constants: Constants) -> Compute
 
 /// Declares the passes. `kind`, in front of the names, tells several such lists of a frame apart.
 pub(crate) fn list_visible<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
-    listed: &'a ListedBlocks,
+    listed: ListedBlocks<'a>,
 ) -> Result<VisibleList> {
-    let what = format!("visible {kind}splats");
-    let name = format!("blocks of {what}");
+    let what = graph.arena().text(format_args!("visible {kind}splats"));
+    let name = graph.arena().text(format_args!("blocks of {what}"));
     let bytes: &[u8] = bytemuck::cast_slice(listed.words());
-    let mut blocks = graph.create_buffer(&name, BufferDesc::of_bytes(bytes.len() as u64));
-    Pass::new(graph, inputs.source, &name, WHY)
+    let mut blocks = graph.create_buffer(name, BufferDesc::of_bytes(bytes.len() as u64));
+    Pass::new(graph, inputs.source, name, WHY)
         .write(transfer(0), &mut blocks, Access::TransferWrite, Start::Discard)
         .finish(move |pass| pass.update_buffer(transfer(0), bytes));
-    let mut bits = create_bits(graph, inputs, &what);
-    let pass = Pass::new(graph, inputs.source, &format!("mark {what}"), WHY)
+    let mut bits = create_bits(graph, inputs, what);
+    let pass = Pass::new(graph, inputs.source, format_args!("mark {what}"), WHY)
         .read(lists(BIND_LIST_BLOCKS), &blocks, Access::StorageReadCompute)
         .write(lists(BIND_LIST_BITS), &mut bits, Access::StorageWriteCompute, Start::Discard);
     dispatch_words(pass, inputs, &shaders::MARK_VISIBLE_COMP)?;
-    list_marked(graph, inputs, &what, WHY, (bits, blocks))
+    list_marked(graph, inputs, what, WHY, (bits, blocks))
 }
 
 /// A bit a splat, which some pass is to set.
-pub(crate) fn create_bits(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>, what: &str) -> Handle<Buffer> {
-    graph.create_buffer(&format!("bits of {what}"), BufferDesc::of_bytes(4 * words_of(inputs.draws)))
+pub(crate) fn create_bits(graph: &mut Graph<'_, Body<'_>>, inputs: Inputs<'_>, what: &str) -> Handle<Buffer> {
+    graph.create_buffer(format_args!("bits of {what}"), BufferDesc::of_bytes(4 * words_of(inputs.draws)))
 }
 
 /// Declares a pass of a dispatch a chunk, of one invocation a word of its bits, by a shader that looks at splats.
@@ -124,8 +124,8 @@ pub(crate) fn dispatch_words<'a>(
     inputs: Inputs<'a>,
     shader: &'static Shader,
 ) -> Result<()> {
-    let of = |draw: &Draw<'_>| pass.compute(list_key(shader, draw.variant.clone()));
-    let pipelines = by_variant(inputs.draws, of)?;
+    let of = |draw: &Draw<'_>| pass.compute(list_key(shader, draw.variant));
+    let pipelines = by_variant(pass.arena(), inputs.draws, of)?;
     pass.finish(move |pass| dispatch_chunks(pass, inputs, |chunk| pipelines[chunk]));
     Ok(())
 }
@@ -146,7 +146,7 @@ fn dispatch_chunks(
 
 /// Declares the two passes that list what is marked.
 pub(crate) fn list_marked<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     what: &str,
     why: &'static str,
@@ -154,17 +154,17 @@ pub(crate) fn list_marked<'a>(
 ) -> Result<VisibleList> {
     let words = words_of(inputs.draws);
     let mut buffer = |part: &str, words: u64| {
-        graph.create_buffer(&format!("{part} of {what}"), BufferDesc::of_bytes(4 * words))
+        graph.create_buffer(format_args!("{part} of {what}"), BufferDesc::of_bytes(4 * words))
     };
     let mut starts = buffer("starts", words + 1);
     let mut list = buffer("list", words * u64::from(WORD));
     let mut arguments = buffer("arguments", ARGUMENT_WORDS * inputs.draws.len() as u64);
     let (read, write) = (Access::StorageReadCompute, Access::StorageWriteCompute);
 
-    let pass = Pass::new(graph, inputs.source, &format!("scan {what}"), why)
+    let pass = Pass::new(graph, inputs.source, format_args!("scan {what}"), why)
         .read(lists(BIND_LIST_BITS), &bits, read)
         .write(lists(BIND_LIST_STARTS), &mut starts, write, Start::Discard);
-    let scan = pass.compute(list_key(&shaders::LIST_SCAN_COMP, Vec::new()))?;
+    let scan = pass.compute(list_key(&shaders::LIST_SCAN_COMP, [].into()))?;
     pass.finish(move |pass| {
         let set = pass.set(Place::Lists(0))?;
         // One for all chunks; the set of any will do.
@@ -174,13 +174,13 @@ pub(crate) fn list_marked<'a>(
         }
     });
 
-    let pass = Pass::new(graph, inputs.source, &format!("list {what}"), why)
+    let pass = Pass::new(graph, inputs.source, format_args!("list {what}"), why)
         .read(lists(BIND_LIST_BITS), &bits, read)
         .read(lists(BIND_LIST_STARTS), &starts, read)
         .read(lists(BIND_LIST_BLOCKS), &blocks, read)
         .write(lists(BIND_LIST_ITEMS), &mut list, write, Start::Discard)
         .write(lists(BIND_LIST_ARGUMENTS), &mut arguments, write, Start::Discard);
-    let write = pass.compute(list_key(&shaders::LIST_WRITE_COMP, Vec::new()))?;
+    let write = pass.compute(list_key(&shaders::LIST_WRITE_COMP, [].into()))?;
     pass.finish(move |pass| dispatch_chunks(pass, inputs, |_| write));
     Ok(VisibleList { bits, blocks, starts, list, arguments })
 }

@@ -20,7 +20,7 @@ use crate::{
 
 /// Declares the pass; returns the depth that hides.
 pub(crate) fn depth_with_host<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     opaque: Option<&Handle<Image>>,
     (host, of_host): (&Handle<Image>, HostDepth),
@@ -32,7 +32,7 @@ pub(crate) fn depth_with_host<'a>(
         .read(sums(BIND_SUMS_DEPTH), host, Access::SampledFragment);
     let pipeline = pass.graphics(GraphicsKey {
         depth: Some((vk::CompareOp::GREATER, true)),
-        ..GraphicsKey::fullscreen(&shaders::HOST_DEPTH_FRAG, Layout::Host, Vec::new())
+        ..GraphicsKey::fullscreen(&shaders::HOST_DEPTH_FRAG, Layout::Host, [].into())
     })?;
     pass.finish(move |pass| {
         pass.bind(pipeline);

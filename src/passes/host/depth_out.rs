@@ -16,7 +16,7 @@ use crate::{
 
 /// Declares the pass. `own`: the surface's own depth, where tiles left it; else it follows from sums.
 pub(crate) fn surface_depth<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     (opaque, own): (&Opaque<'a>, Option<&Handle<Image>>),
     polygons: bool,
@@ -29,11 +29,11 @@ pub(crate) fn surface_depth<'a>(
         .attach(depth, Access::ColorAttachment, nothing)
         .read_if(sums(BIND_SUMS_POLYGON_COLORS), of_polygons, Access::SampledFragment);
     let key = |source: Option<u32>| {
-        let mut variant: Vec<_> = source.map(|source| (source, 1)).into_iter().collect();
-        variant.extend(of_polygons.map(|_| (SPEC_POLYGONS, 1)));
+        let variant =
+            source.map(|source| (source, 1)).into_iter().chain(of_polygons.map(|_| (SPEC_POLYGONS, 1)));
         GraphicsKey {
-            color_formats: vec![super::SURFACE_DEPTH_FORMAT],
-            ..GraphicsKey::fullscreen(&shaders::SURFACE_DEPTH_FRAG, Layout::Finalize, variant)
+            color_formats: [super::SURFACE_DEPTH_FORMAT].into(),
+            ..GraphicsKey::fullscreen(&shaders::SURFACE_DEPTH_FRAG, Layout::Finalize, variant.collect())
         }
     };
     if let Some(own) = own {

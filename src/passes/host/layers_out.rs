@@ -20,7 +20,7 @@ use crate::{
 
 /// Declares the pass, which leaves `layers` in the host's image of this format: with straight alpha, as the opaque surface is left.
 pub(crate) fn layers_alone<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     layers: &Handle<Image>,
     (target, format): (&mut Handle<Image>, vk::Format),
@@ -35,8 +35,8 @@ pub(crate) fn layers_alone<'a>(
     .attach(target, Access::ColorAttachment, Start::Discard)
     .read(sums(BIND_SUMS_COLORS), layers, Access::SampledFragment);
     let pipeline = pass.graphics(GraphicsKey {
-        color_formats: vec![format],
-        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, vec![(SPEC_SHADED, 1)])
+        color_formats: [format].into(),
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, [(SPEC_SHADED, 1)].into())
     })?;
     pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));
     Ok(())

@@ -27,7 +27,7 @@ const TEST: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER, true))
 
 /// Declares the passes. `surface`: the depth that is drawn, as [`super::depth_out`] leaves it.
 pub(crate) fn objects<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     surface: &Handle<Image>,
     objects: &mut Handle<Image>,
@@ -40,7 +40,7 @@ pub(crate) fn objects<'a>(
         .attach(&mut distance, Access::DepthAttachment, Start::Clear(ClearValue::Depth(0.0)))
         .read(read(BIND_READ_DEPTH), surface, Access::SampledFragment);
     let pass = lists.read(pass);
-    let color_formats = || vec![super::OBJECTS_FORMAT];
+    let color_formats = || [super::OBJECTS_FORMAT].into();
     let splats = SplatPass {
         color_formats: color_formats(),
         blend: Blend::Replace,
@@ -52,14 +52,14 @@ pub(crate) fn objects<'a>(
         color_formats: color_formats(),
         blend: Blend::Replace,
         depth: TEST,
-        constants: Vec::new(),
+        constants: [].into(),
     };
     let splats = splats.pipelines(&pass, inputs)?;
     let meshes = meshes.pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_splats(pass, inputs, &splats)?;
-        draw_meshes(pass, inputs, &meshes)
+        draw_splats(pass, inputs, splats)?;
+        draw_meshes(pass, inputs, meshes)
     });
     Ok(())
 }

@@ -46,7 +46,7 @@ pub(crate) struct OfAll<'h> {
 
 /// Declares the first stage; gives the depth of the nearest surface of these splats, reversed and moved away by ε: 0 where there is none.
 pub(crate) fn see<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
 ) -> Result<Handle<Image>> {
@@ -61,21 +61,21 @@ pub(crate) fn see<'a>(
     let mut images = TileImages::create(graph, inputs, common, false);
     clear(graph, inputs.source, "clear depth", WHY, &mut [&mut images.depth]);
     let mut depth = None;
-    for (band, inputs, plan) in inputs.of_bands() {
-        let tiles = tiles::list(graph, inputs, &band, plan)?;
+    for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
+        let tiles = tiles::list(graph, inputs, band, plan)?;
         if plan.may_be_large {
-            depth = Some(tiles::see_large(graph, inputs, &band, &tiles, depth)?);
+            depth = Some(tiles::see_large(graph, inputs, band, &tiles, depth)?);
         }
         let large = depth.as_ref().filter(|_| plan.may_be_large);
-        tiles::see(graph, inputs, &band, &tiles, &mut images, large, true)?;
-        depth = Some(tiles::depth_buffer(graph, inputs, &band, &tiles, &images.depth, depth)?);
+        tiles::see(graph, inputs, band, &tiles, &mut images, large, true)?;
+        depth = Some(tiles::depth_buffer(graph, inputs, band, &tiles, &images.depth, depth)?);
     }
     Ok(depth.unwrap_or_else(|| nothing_seen(graph, inputs)))
 }
 
 /// Declares the second stage: the sums of splats that are not behind `of_all`, the nearest depth of all parts. `with_depth`: depth is summed, too.
 pub(crate) fn sum<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     of_all: &Handle<Buffer>,
@@ -100,11 +100,11 @@ pub(crate) fn sum<'a>(
     images.depth = upload(graph, inputs, "nearest depth", of_all, VISIBLE_FORMAT);
     let may_be_large = inputs.bands.iter().any(|band| band.plan.may_be_large);
     let for_large = may_be_large.then(|| upload(graph, inputs, "depth", of_all, DEPTH_FORMAT));
-    for (band, inputs, plan) in inputs.of_bands() {
-        let tiles = tiles::list(graph, inputs, &band, plan)?;
-        tiles::sum(graph, inputs, &band, &tiles, &mut images, (None, with_depth), true)?;
+    for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
+        let tiles = tiles::list(graph, inputs, band, plan)?;
+        tiles::sum(graph, inputs, band, &tiles, &mut images, (None, with_depth), true)?;
         if let (true, Some(depth)) = (plan.may_be_large, &for_large) {
-            tiles::sum_large(graph, inputs, &band, &tiles, &mut images, (depth, None), with_depth)?;
+            tiles::sum_large(graph, inputs, band, &tiles, &mut images, (depth, None), with_depth)?;
         }
     }
     Ok([images.sums.color, images.sums.normal])
@@ -112,7 +112,7 @@ pub(crate) fn sum<'a>(
 
 /// Declares the third stage: the picture of the sums of all parts, and what is exported of them.
 pub(crate) fn shade<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     plan: &'a FramePlan<'a>,
     OfAll { depth, sums: [color, normal] }: OfAll<'_>,
@@ -126,7 +126,7 @@ pub(crate) fn shade<'a>(
         color: upload(graph, inputs, "color sums", color, PART_SUM_FORMAT),
         normal: upload(graph, inputs, "normal sums", normal, PART_SUM_FORMAT),
     };
-    let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::default() };
+    let opaque = Opaque { splats: Some(sums), splat_depth: Some(depth), ..Opaque::nothing(graph.arena()) };
     let surface = opaque.splats.as_ref().zip(opaque.splat_depth.as_ref());
     match surface.filter(|_| inputs.settings.shading == Shading::EyeDome) {
         Some(surface) => resolve::eye_dome::eye_dome(graph, inputs, surface, target, target_format)?,
@@ -137,7 +137,7 @@ pub(crate) fn shade<'a>(
     export.then(|| resolve::export::export(graph, inputs, surface)).transpose()
 }
 
-fn nothing_seen<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Handle<Image> {
+fn nothing_seen<'a>(graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>) -> Handle<Image> {
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
     let clear = Start::Clear(ClearValue::Depth(0.0));
     Pass::new(graph, inputs.source, "nothing seen", WHY)
@@ -146,7 +146,7 @@ fn nothing_seen<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Handle<I
     depth
 }
 
-fn nothing_summed<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> [Handle<Image>; 2] {
+fn nothing_summed<'a>(graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>) -> [Handle<Image>; 2] {
     let format = sum_format(Accumulate::F32);
     let [mut color, mut normal] =
         ["color sums", "normal sums"].map(|name| graph.create_image(name, inputs.image(format)));

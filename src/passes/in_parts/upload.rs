@@ -7,7 +7,7 @@ use crate::passes::{inputs::Inputs, pass::Pass, place::transfer};
 
 /// Declares the pass that copies a buffer to an image of the frame's size: rows without padding, top row first.
 pub(super) fn upload<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     name: &str,
     from: &Handle<Buffer>,
@@ -15,7 +15,7 @@ pub(super) fn upload<'a>(
 ) -> Handle<Image> {
     let extent = inputs.extent();
     let mut image = graph.create_image(name, inputs.image(format));
-    Pass::new(graph, inputs.source, &format!("upload {name}"), super::WHY)
+    Pass::new(graph, inputs.source, format_args!("upload {name}"), super::WHY)
         .read(transfer(0), from, Access::TransferRead)
         .write(transfer(1), &mut image, Access::TransferWrite, Start::Discard)
         .finish(move |pass| {

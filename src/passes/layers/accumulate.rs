@@ -28,7 +28,7 @@ const IN_LAYER: Option<(vk::CompareOp, bool)> = Some((vk::CompareOp::GREATER_OR_
 /// What the pass over splats is made of. `peeled`: only what is behind a layer.
 fn splat_pass(settings: &Settings, peeled: bool) -> SplatPass {
     SplatPass {
-        color_formats: vec![sum_format(settings.accumulate); 2],
+        color_formats: [sum_format(settings.accumulate); 2].into(),
         depth: IN_LAYER,
         constants: summed_constants(settings, Summed::Layer, peeled),
         ..SplatPass::new(settings, |drawn| drawn.accumulate(Summed::Layer))
@@ -39,16 +39,16 @@ fn splat_pass(settings: &Settings, peeled: bool) -> SplatPass {
 fn mesh_pass(settings: &Settings, peeled: bool) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_TRANSPARENT_FRAG,
-        color_formats: vec![sum_format(settings.accumulate); 2],
+        color_formats: [sum_format(settings.accumulate); 2].into(),
         blend: Blend::Add,
         depth: IN_LAYER,
-        constants: vec![(SPEC_SUMMED, SUMMED_LAYER), (SPEC_PEELED, peeled.into())],
+        constants: [(SPEC_SUMMED, SUMMED_LAYER), (SPEC_PEELED, peeled.into())].into(),
     }
 }
 
 /// Declares the pass over the splats of a layer of this depth.
 pub(crate) fn layer_accumulate<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     layer: &Layer<'a, '_>,
     depth: &Handle<Image>,
 ) -> Result<Sums> {
@@ -60,14 +60,14 @@ pub(crate) fn layer_accumulate<'a>(
     let pipelines = splat_pass(inputs.settings, layer.before.is_some()).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_splats(pass, inputs, &pipelines)
+        draw_splats(pass, inputs, pipelines)
     });
     Ok(sums)
 }
 
 /// Declares the pass over the polygons of a layer of this depth.
 pub(crate) fn layer_polygons<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     layer: &Layer<'a, '_>,
     depth: &Handle<Image>,
 ) -> Result<Sums> {
@@ -78,14 +78,14 @@ pub(crate) fn layer_polygons<'a>(
     let pipelines = mesh_pass(inputs.settings, layer.before.is_some()).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_meshes(pass, inputs, &pipelines)
+        draw_meshes(pass, inputs, pipelines)
     });
     Ok(sums)
 }
 
-fn create(graph: &mut Graph<Body<'_>>, layer: &Layer<'_, '_>, names: [&str; 2]) -> Sums {
+fn create(graph: &mut Graph<'_, Body<'_>>, layer: &Layer<'_, '_>, names: [&str; 2]) -> Sums {
     let desc = layer.inputs.image(sum_format(layer.inputs.settings.accumulate));
-    let [color, normal] = names.map(|name| graph.create_image(&layer.name(name), desc));
+    let [color, normal] = names.map(|name| graph.create_image(layer.name(name), desc));
     Sums { color, normal }
 }
 

@@ -40,36 +40,34 @@ fn key(settings: &Settings, rest: bool, [splats, polygons]: [bool; 2], lights: u
     let lights = if rest { 0 } else { lights };
     let constants = resolve_constants(settings, splats, polygons, lights);
     GraphicsKey {
-        color_formats: vec![sum_format(settings.accumulate)],
+        color_formats: [sum_format(settings.accumulate)].into(),
         blend: Blend::Under,
         ..GraphicsKey::fullscreen(fragment, Layout::Finalize, constants)
     }
 }
 
 /// The images that it reads, and where.
-fn images_of(sums: &LayerSums) -> Vec<(u32, &Handle<Image>)> {
+fn images_of(sums: &LayerSums) -> [Option<(u32, &Handle<Image>)>; 4] {
     let LayerSums { rest, splats, polygons } = sums;
-    let splat_sums = [BIND_SUMS_COLORS, BIND_SUMS_NORMALS];
-    let mut images = Vec::new();
-    if let Some(rest) = rest {
-        images.extend(both(rest, splat_sums));
-        images.extend(splats.iter().map(|sums| (BIND_SUMS_SPLATS_BEFORE, &sums.color)));
-        images.extend(polygons.iter().map(|sums| (BIND_SUMS_POLYGONS_BEFORE, &sums.color)));
-        return images;
+    match rest {
+        Some(rest) => [
+            Some((BIND_SUMS_COLORS, &rest.color)),
+            Some((BIND_SUMS_NORMALS, &rest.normal)),
+            splats.as_ref().map(|sums| (BIND_SUMS_SPLATS_BEFORE, &sums.color)),
+            polygons.as_ref().map(|sums| (BIND_SUMS_POLYGONS_BEFORE, &sums.color)),
+        ],
+        None => [
+            splats.as_ref().map(|sums| (BIND_SUMS_COLORS, &sums.color)),
+            splats.as_ref().map(|sums| (BIND_SUMS_NORMALS, &sums.normal)),
+            polygons.as_ref().map(|sums| (BIND_SUMS_POLYGON_COLORS, &sums.color)),
+            polygons.as_ref().map(|sums| (BIND_SUMS_POLYGON_NORMALS, &sums.normal)),
+        ],
     }
-    images.extend(splats.iter().flat_map(|sums| both(sums, splat_sums)));
-    let polygon_sums = [BIND_SUMS_POLYGON_COLORS, BIND_SUMS_POLYGON_NORMALS];
-    images.extend(polygons.iter().flat_map(|sums| both(sums, polygon_sums)));
-    images
-}
-
-fn both(sums: &Sums, [color, normal]: [u32; 2]) -> [(u32, &Handle<Image>); 2] {
-    [(color, &sums.color), (normal, &sums.normal)]
 }
 
 /// Declares the pass. `composed`: the layers before; `None` for the first.
 pub(crate) fn layer_compose<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     layer: &Layer<'a, '_>,
     layer_sums: &LayerSums,
     composed: Option<Handle<Image>>,
@@ -91,7 +89,7 @@ pub(crate) fn layer_compose<'a>(
         .role(Role::Blends)
         .attach(&mut target, Access::ColorAttachment, start)
         .read_if(sums(BIND_SUMS_LIGHTS), lights, Access::UniformReadFragment);
-    for (binding, image) in images_of(layer_sums) {
+    for (binding, image) in images_of(layer_sums).into_iter().flatten() {
         pass = pass.read(sums(binding), image, Access::SampledFragment);
     }
     let pipeline = pass.graphics(key(settings, layer_sums.rest.is_some(), of, inputs.lights))?;

@@ -26,7 +26,7 @@ use crate::{
 /// Declares the passes of all layers; returns what they add up to: linear light times alpha, and alpha. `opaque`: the depth
 /// of opaque things.
 pub(crate) fn layers<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     opaque: Option<&Handle<Image>>,
     kernel: Option<&Handle<Image>>,
@@ -39,6 +39,7 @@ pub(crate) fn layers<'a>(
     for number in 0..count {
         let counted = number + 1 < count;
         let layer = Layer {
+            arena: graph.arena(),
             inputs,
             number,
             before: before.as_ref(),

@@ -4,6 +4,7 @@ use crate::passes::{
     cull::lists::Lists, inputs::Inputs, pass::Pass, place::read, predicate::LayerPredicates,
 };
 use crate::{
+    arena::Arena,
     graph::{Access, Buffer, Graph, Handle, Image, execute::Body},
     shaders::config::*,
     vk::Occlusion,
@@ -11,6 +12,8 @@ use crate::{
 
 /// What the passes of one layer share.
 pub(crate) struct Layer<'a, 'f> {
+    /// The memory of the frame.
+    pub arena: &'a Arena,
     /// The transparent part.
     pub inputs: Inputs<'a>,
     /// From 0 on.
@@ -23,7 +26,7 @@ pub(crate) struct Layer<'a, 'f> {
     pub kernel: Option<&'f Handle<Image>>,
     /// Those of the scene's own.
     pub lights: Option<&'f Handle<Buffer>>,
-    pub lists: &'f Lists,
+    pub lists: &'f Lists<'a>,
     pub predicates: Option<&'f LayerPredicates<'a>>,
     /// Another layer follows, and wants to know whether this one is empty.
     pub counted: bool,
@@ -31,13 +34,18 @@ pub(crate) struct Layer<'a, 'f> {
 
 impl<'a> Layer<'a, '_> {
     /// The name of one of its passes or images.
-    pub fn name(&self, what: &str) -> String {
-        format!("{what} of layer {}", self.number + 1)
+    pub fn name(&self, what: &str) -> &'a str {
+        self.arena.text(format_args!("{what} of layer {}", self.number + 1))
     }
 
     /// A pass of it, which draws where the layer before is not empty.
-    pub fn pass<'g>(&self, graph: &'g mut Graph<Body<'a>>, what: &str, why: &'static str) -> Pass<'g, 'a> {
-        let pass = Pass::new(graph, self.inputs.source, &self.name(what), why);
+    pub fn pass<'g>(
+        &self,
+        graph: &'g mut Graph<'a, Body<'a>>,
+        what: &str,
+        why: &'static str,
+    ) -> Pass<'g, 'a> {
+        let pass = Pass::new(graph, self.inputs.source, self.name(what), why);
         match self.predicates {
             Some(predicates) => predicates.predicate(pass),
             None => pass,

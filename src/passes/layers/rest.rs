@@ -41,7 +41,7 @@ fn splat_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> S
     let mut constants = summed_constants(settings, Summed::Rest, peeled);
     constants.extend(shading_constants(settings.shading, lights));
     SplatPass {
-        color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
+        color_formats: [sum_format(settings.accumulate), weight_format(settings)].into(),
         depth: depth_test(opaque),
         constants,
         ..SplatPass::new(settings, |drawn| drawn.accumulate(Summed::Rest))
@@ -54,7 +54,7 @@ fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> Me
     constants.extend([(SPEC_SUMMED, SUMMED_REST), (SPEC_PEELED, peeled.into())]);
     MeshPass {
         fragment: &shaders::POLYGONS_TRANSPARENT_FRAG,
-        color_formats: vec![sum_format(settings.accumulate), weight_format(settings)],
+        color_formats: [sum_format(settings.accumulate), weight_format(settings)].into(),
         blend: Blend::Add,
         depth: depth_test(opaque),
         constants,
@@ -62,12 +62,12 @@ fn mesh_pass(settings: &Settings, peeled: bool, opaque: bool, lights: u32) -> Me
 }
 
 /// Declares the pass; returns Σ weight · alpha · color with Σ weight · alpha, and Σ weight.
-pub(crate) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>) -> Result<Sums> {
+pub(crate) fn layer_rest<'a>(graph: &mut Graph<'a, Body<'a>>, layer: &Layer<'a, '_>) -> Result<Sums> {
     let inputs = layer.inputs;
     let settings = inputs.settings;
     let mut sums = Sums {
-        color: graph.create_image(&layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),
-        normal: graph.create_image(&layer.name("weight sums"), inputs.image(weight_format(settings))),
+        color: graph.create_image(layer.name("color sums"), inputs.image(sum_format(settings.accumulate))),
+        normal: graph.create_image(layer.name("weight sums"), inputs.image(weight_format(settings))),
     };
     let zero = Start::Clear(ClearValue::Color([0.0; 4]));
     let why = "transparent things: lit colors and weights of all that is left";
@@ -94,8 +94,8 @@ pub(crate) fn layer_rest<'a>(graph: &mut Graph<Body<'a>>, layer: &Layer<'a, '_>)
     let meshes = mesh_pass(settings, peeled, opaque, inputs.lights).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_splats(pass, inputs, &splats)?;
-        draw_meshes(pass, inputs, &meshes)
+        draw_splats(pass, inputs, splats)?;
+        draw_meshes(pass, inputs, meshes)
     });
     Ok(sums)
 }

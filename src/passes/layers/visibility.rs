@@ -25,21 +25,21 @@ use crate::{
 fn mesh_pass(peeled: bool) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_DEPTH_FRAG,
-        color_formats: Vec::new(),
+        color_formats: [].into(),
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
-        constants: vec![(SPEC_PEELED, peeled.into())],
+        constants: [(SPEC_PEELED, peeled.into())].into(),
     }
 }
 
 /// Declares the pass, and before it, where there are opaque things, the copy of their depth; returns the layer's depth.
 pub(crate) fn layer_visibility<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     layer: &Layer<'a, '_>,
 ) -> Result<Handle<Image>> {
     let inputs = layer.inputs;
     let why = "opaque things hide transparent ones behind them";
-    let (mut depth, start) = depth_from(graph, inputs, &layer.name("depth"), why, layer.opaque);
+    let (mut depth, start) = depth_from(graph, inputs, layer.name("depth"), why, layer.opaque);
     let why =
         "transparent things: the depth of the nearest surface behind the layer before, shifted by epsilon";
     let pass = layer.pass(graph, "visibility", why).attach(&mut depth, Access::DepthAttachment, start);
@@ -49,8 +49,8 @@ pub(crate) fn layer_visibility<'a>(
     let meshes = mesh_pass(peeled).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_splats(pass, inputs, &splats)?;
-        draw_meshes(pass, inputs, &meshes)
+        draw_splats(pass, inputs, splats)?;
+        draw_meshes(pass, inputs, meshes)
     });
     Ok(depth)
 }

@@ -49,14 +49,14 @@ pub(crate) fn needs() -> Needs {
 
 /// Declares the passes; `to` is filled with [`PickPlan::size_bytes`].
 pub(crate) fn pick<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     (place, planes): (pass::Place<'a>, Planes),
     plan: &'a PickPlan<'a>,
     to: &mut Handle<Buffer>,
 ) -> Result<()> {
     const WHY: &str = "a pixel is picked";
     let source = Source::new(place, &plan.camera).cut_by(planes);
-    let bytes: &[u8] = bytemuck::cast_slice(plan.listed.words());
+    let bytes: &[u8] = bytemuck::cast_slice(&plan.listed);
     let mut blocks = graph.create_buffer("picked blocks", BufferDesc::of_bytes(bytes.len() as u64));
     Pass::new(graph, source, "picked blocks", WHY)
         .write(transfer(0), &mut blocks, Access::TransferWrite, Start::Discard)
@@ -66,11 +66,11 @@ pub(crate) fn pick<'a>(
         let pass = Pass::new(graph, source, "pick splats", WHY)
             .read(lists(BIND_LIST_BLOCKS), &blocks, Access::StorageReadCompute)
             .write(lists(BIND_LIST_ITEMS), &mut picked, Access::StorageWriteCompute, Start::Discard);
-        let of = |draw: &Draw<'_>| pass.compute(list_key(&shaders::PICK_COMP, draw.variant.clone()));
-        let pipelines = plan.draws.iter().map(of).collect::<Result<Vec<_>>>()?;
+        let of = |draw: &Draw<'_>| pass.compute(list_key(&shaders::PICK_COMP, draw.variant));
+        let pipelines = pass.arena().try_list(plan.draws.iter().map(of))?;
         pass.finish(move |pass| {
             let set = pass.set(Place::Lists(0))?;
-            plan.draws.iter().zip(pipelines).try_for_each(|(draw, pipeline)| {
+            plan.draws.iter().zip(pipelines.iter().copied()).try_for_each(|(draw, pipeline)| {
                 let groups = groups_of(draw.constants.listed_blocks());
                 dispatch(pass, draw, &draw.constants, pipeline, set, groups)
             })
@@ -86,13 +86,13 @@ pub(crate) fn pick<'a>(
         );
         let pipeline = |draw: &MeshDraw<'_>| {
             let layered = (SPEC_IN_LAYERS, u32::from(draw.chunk.transparent));
-            let constants = vec![(SPEC_CULL_BACKFACES, u32::from(draw.cull)), layered];
-            pass.compute(list_key(&shaders::PICK_POLYGONS_COMP, constants))
+            let constants = [(SPEC_CULL_BACKFACES, u32::from(draw.cull)), layered];
+            pass.compute(list_key(&shaders::PICK_POLYGONS_COMP, constants.into()))
         };
-        let pipelines = plan.meshes.iter().map(pipeline).collect::<Result<Vec<_>>>()?;
+        let pipelines = pass.arena().try_list(plan.meshes.iter().map(pipeline))?;
         pass.finish(move |pass| {
             let set = pass.set(Place::Lists(0))?;
-            for (draw, pipeline) in plan.meshes.iter().zip(pipelines) {
+            for (draw, pipeline) in plan.meshes.iter().zip(pipelines.iter().copied()) {
                 pass.bind(pipeline);
                 pass.bind_sets(pipeline.layout, 0, &[draw.chunk.set(), set])?;
                 pass.push(pipeline.layout, &draw.constants)?;

@@ -13,8 +13,10 @@ use crate::passes::plan::{
     range::DepthRange,
 };
 use crate::{
+    arena::{Arena, ArenaVec},
+    inline_vec::InlineVec,
     prepare::{Placed, PreparedScene},
-    scene::{Camera, Edges, Lod, Settings, Window},
+    scene::{Camera, Edges, Lod, MOST_PLANES, Settings, Window},
     shaders::config::*,
     vk::Limits,
 };
@@ -23,13 +25,13 @@ use crate::{
 pub struct PickPlan<'a> {
     pub(super) draws: Vec<Draw<'a>>,
     pub(super) meshes: Vec<MeshDraw<'a>>,
-    pub(super) listed: ListedBlocks,
+    pub(super) listed: Vec<u32>,
     /// Sees the one pixel.
     pub(super) camera: Camera,
     /// Where the camera is.
     eye: DVec3,
     range: DepthRange,
-    planes: Vec<ShaderPlane>,
+    planes: InlineVec<ShaderPlane, MOST_PLANES>,
     scene: &'a PreparedScene,
 }
 
@@ -84,17 +86,23 @@ impl<'a> PickPlan<'a> {
         let eye = camera.eye;
         let camera = Camera { window, ..range.begin(camera) };
         let settings = Settings { size_px: [1; 2], lod, ..settings.into_owned() };
-        let all = draws(Placed::at_home(scene), (&camera, range), &settings, limits).into_iter();
-        let (transparent, opaque) = all.partition(|draw| draw.chunk.transparent);
-        let mut draws = as_drawn(opaque, &frame.opaque);
-        draws.extend(as_drawn(transparent, &frame.transparent));
+        let arena = &Arena::new();
+        let mut all = arena.growing();
+        for (transparent, plan) in [(false, &frame.opaque), (true, &frame.transparent)] {
+            let own = draws(Placed::at_home(scene), (&camera, range), &settings, limits);
+            let mut splats = arena.growing();
+            splats.extend(own.filter(|draw| draw.chunk.transparent == transparent));
+            as_drawn(&mut splats, plan);
+            all.extend_from_slice_copy(&splats);
+        }
         // Of hybrids what is picked are polygons, whatever is drawn.
         let in_cells =
             |object: usize| scene.meshes.iter().any(|mesh| mesh.levels.is_some() && mesh.object == object);
-        draws.retain(|draw| !in_cells(draw.chunk.object));
-        let seen: Vec<_> = draws.iter().map(Draw::potentially_visible_blocks).collect();
-        let listed = ListedBlocks::of(&mut draws, &seen, 0..1);
-        let mut meshes = mesh_draws(Placed::at_home(scene), (&camera, range), &settings);
+        all.retain(|draw| !in_cells(draw.chunk.object));
+        let seen = arena.list(all.iter().map(|draw| draw.potentially_visible_blocks(arena)));
+        let listed = ListedBlocks::of(arena, &mut all, seen, 0..1).words().to_vec();
+        let draws = all.to_vec();
+        let mut meshes: Vec<_> = mesh_draws(Placed::at_home(scene), (&camera, range), &settings).collect();
         let mut first = words_of(&draws);
         for draw in &mut meshes {
             draw.constants.splat_count = draw.chunk.triangles;
@@ -180,18 +188,16 @@ impl<'a> PickPlan<'a> {
 }
 
 /// Splats with the levels of detail and the ε that a frame draws them with.
-fn as_drawn<'a>(mut splats: Vec<Draw<'a>>, plan: &SurfacePlan<'_>) -> Vec<Draw<'a>> {
-    let drawn = plan.bands().first().map_or(&plan.splats, |band| &band.splats);
-    let mut levels = drawn.iter().filter_map(|draw| draw.levels).peekable();
+fn as_drawn(splats: &mut ArenaVec<'_, Draw<'_>>, plan: &SurfacePlan<'_>) {
+    let mut levels = plan.drawn().iter().filter_map(|draw| draw.levels).peekable();
     if levels.peek().is_none() {
-        without_levels(&mut splats);
+        without_levels(splats);
     } else if !levels.any(|levels| levels.blends()) {
-        with_hard_steps(&mut splats);
+        with_hard_steps(splats);
     }
     if plan.settings.edges == Edges::Coverage {
         splats.iter_mut().for_each(|draw| draw.variant.push((SPEC_COVERAGE_EDGES, 1)));
     }
-    splats
 }
 
 /// Splats of a record.

@@ -1,5 +1,7 @@
 //! Pipelines, made when a frame first needs them, and the layouts that they share.
 
+mod kept;
+
 use std::{
     path::Path,
     sync::{
@@ -15,12 +17,12 @@ use crate::passes::{
     pipeline::{
         constants,
         key::{ComputeKey, GraphicsKey, Layout},
-        made::{Made, first_to_stay},
+        made::Made,
         variant::Constants,
     },
 };
 use crate::{
-    error::{Error, Result},
+    error::{Error, ErrorKind, Result},
     prepare::SplatSetLayout,
     shaders::{Shader, config::*},
     vk::{
@@ -39,6 +41,16 @@ pub fn room_of_lists(sets: u32) -> PoolSizes {
     PoolSizes { sets, buffers: LIST_BINDINGS * sets, uniform_buffers: sets, ..PoolSizes::default() }
 }
 
+/// What is done where a frame needs a pipeline that is not there yet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MissingPipelines {
+    /// It is made: on a GPU's driver that may take milliseconds, once.
+    #[default]
+    Make,
+    /// The frame is refused ([`ErrorKind::NotReady`]), before anything is recorded of it.
+    Refuse,
+}
+
 /// The layouts of all passes and the pipelines made so far.
 pub struct Shaders {
     device: Device,
@@ -46,6 +58,8 @@ pub struct Shaders {
     compute: Made<ComputeKey, ComputePipeline>,
     /// How often a pipeline was asked for.
     asked: AtomicU64,
+    /// How many were made.
+    made: AtomicU64,
     cache: PipelineCache,
     stand_ins: Arc<StandIns>,
     /// Set 0 of the splat passes.
@@ -141,6 +155,7 @@ impl Shaders {
             graphics: Made::default(),
             compute: Made::default(),
             asked: AtomicU64::new(0),
+            made: AtomicU64::new(0),
             cache: PipelineCache::open(device, cache_folder)?,
             stand_ins,
             splat_set,
@@ -180,30 +195,6 @@ impl Shaders {
         self.cache.save()
     }
 
-    /// The pipelines made so far, by name: vertex and fragment shader, or compute shader.
-    pub fn pipeline_names(&self) -> Vec<String> {
-        let mut names = self.graphics.for_each(|key, _| key.name());
-        names.extend(self.compute.for_each(|key, _| key.shader.name.to_owned()));
-        names.sort();
-        names
-    }
-
-    /// Keeps so many pipelines, those that were asked for last, and tells how many go; a frame that needs another makes it again. For hosts whose frames change
-    /// for hours: each has its pipelines, and a driver may take a megabyte for one.
-    ///
-    /// # Safety
-    /// All that was recorded with pipelines of this is submitted, by the last submission or one before it, and no [`crate::embed::View`] is prepared that is
-    /// still to be drawn.
-    pub unsafe fn keep_newest(&self, most: usize) -> usize {
-        if self.graphics.len() + self.compute.len() <= most {
-            return 0;
-        }
-        let mut times = self.graphics.for_each(|_, used| used);
-        times.extend(self.compute.for_each(|_, used| used));
-        let first = first_to_stay(times, most);
-        self.graphics.drop_before(first) + self.compute.drop_before(first)
-    }
-
     /// The layouts of tiles, on a device that has them.
     pub(crate) fn tiles(&self) -> Result<&TileLayouts> {
         let reason = "compute: the device has too few storage buffers for a stage";
@@ -225,9 +216,19 @@ impl Shaders {
 
     /// A pipeline, made where there is none yet. It is alive until [`Self::keep_newest`] drops it, and then until what is recorded by then
     /// is done.
-    pub(crate) fn graphics(&self, mut key: GraphicsKey) -> Result<vk::Pipeline> {
+    pub(crate) fn graphics(&self, key: GraphicsKey) -> Result<vk::Pipeline> {
+        self.graphics_if(key, MissingPipelines::Make)
+    }
+
+    /// The same, and what is done where it is not there.
+    pub(crate) fn graphics_if(
+        &self,
+        mut key: GraphicsKey,
+        missing: MissingPipelines,
+    ) -> Result<vk::Pipeline> {
         self.perturb(&mut key.constants);
         self.graphics.get(key, self.now(), |key| {
+            self.makes(missing, || key.name())?;
             let constants = &key.constants;
             let desc = GraphicsPipelineDesc {
                 name: &key.name(),
@@ -250,9 +251,15 @@ impl Shaders {
     }
 
     /// As [`Self::graphics`].
-    pub(crate) fn compute(&self, mut key: ComputeKey) -> Result<vk::Pipeline> {
+    pub(crate) fn compute(&self, key: ComputeKey) -> Result<vk::Pipeline> {
+        self.compute_if(key, MissingPipelines::Make)
+    }
+
+    /// The same, and what is done where it is not there.
+    pub(crate) fn compute_if(&self, mut key: ComputeKey, missing: MissingPipelines) -> Result<vk::Pipeline> {
         self.perturb(&mut key.constants);
         self.compute.get(key, self.now(), |key| {
+            self.makes(missing, || key.shader.name.to_owned())?;
             let desc = ComputePipelineDesc {
                 name: key.shader.name,
                 stage: key.shader.stage(&key.constants),
@@ -260,6 +267,15 @@ impl Shaders {
             };
             ComputePipeline::new(&self.device, &self.cache, &desc)
         })
+    }
+
+    /// Counts a pipeline that is made, or refuses to make it.
+    fn makes(&self, missing: MissingPipelines, name: impl Fn() -> String) -> Result<()> {
+        if missing == MissingPipelines::Refuse {
+            return Err(ErrorKind::NotReady { pipeline: name() }.into());
+        }
+        self.made.fetch_add(1, Ordering::Relaxed);
+        Ok(())
     }
 
     /// The time, in pipelines asked for.

@@ -4,6 +4,7 @@ use ash::vk;
 
 use crate::passes::pipeline::{formats::DEPTH_FORMAT, splat_shaders::Stages, variant::Constants};
 use crate::{
+    inline_vec::InlineVec,
     shaders::{self, Shader},
     vk::{Attachments, Blend},
 };
@@ -33,6 +34,9 @@ impl Layout {
     }
 }
 
+/// The formats of color attachments: Vulkan has 8 at most wherever it is asked.
+pub(crate) type ColorFormats = InlineVec<vk::Format, 8>;
+
 /// All that a graphics pipeline is made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GraphicsKey {
@@ -43,7 +47,7 @@ pub(crate) struct GraphicsKey {
     pub topology: vk::PrimitiveTopology,
     /// Polygons that face away are not drawn.
     pub cull_clockwise: bool,
-    pub color_formats: Vec<vk::Format>,
+    pub color_formats: ColorFormats,
     pub blend: Blend,
     /// The depth test: the comparison and whether it writes.
     pub depth: Option<(vk::CompareOp, bool)>,
@@ -82,7 +86,7 @@ impl GraphicsKey {
             constants,
             topology,
             cull_clockwise: false,
-            color_formats: Vec::new(),
+            color_formats: ColorFormats::new(),
             blend: Blend::Replace,
             depth: None,
             depth_format: DEPTH_FORMAT,

@@ -40,15 +40,15 @@ impl<K, P> Default for Made<K, P> {
 }
 
 impl<K: Eq + Hash, P: OwnsPipeline> Made<K, P> {
-    /// The pipeline, made where it was not made yet; it is asked for at this time.
+    /// The pipeline, made where it was not made yet; it is asked for at this time. While it is made, other threads find what is there, and may
+    /// make others, or the same, of which one stays.
     pub fn get(&self, key: K, now: u64, make: impl FnOnce(&K) -> Result<P>) -> Result<vk::Pipeline> {
-        let mut all = self.all();
-        if let Some((pipeline, used)) = all.get_mut(&key) {
+        if let Some((pipeline, used)) = self.all().get_mut(&key) {
             *used = now;
             return Ok(pipeline.raw());
         }
         let pipeline = make(&key)?;
-        Ok(all.entry(key).or_insert((pipeline, now)).0.raw())
+        Ok(self.all().entry(key).or_insert((pipeline, now)).0.raw())
     }
 
     /// How many there are.
@@ -89,6 +89,21 @@ mod tests {
     use super::*;
 
     struct Fake(u64);
+
+    /// A thread that waited for the lock would wait for ever here.
+    #[test]
+    fn while_a_pipeline_is_made_others_are_found_and_made() {
+        let made = Made::<u64, Fake>::default();
+        made.get(1, 0, |_| Ok(Fake(1))).unwrap();
+        let outer = made.get(2, 1, |_| {
+            assert_eq!(made.get(1, 2, |_| unreachable!()).unwrap(), vk::Handle::from_raw(1));
+            made.get(3, 3, |_| Ok(Fake(3)))?;
+            // Another thread is faster: what it made stays.
+            made.get(2, 4, |_| Ok(Fake(20)))?;
+            Ok(Fake(2))
+        });
+        assert_eq!((outer.unwrap(), made.len()), (vk::Handle::from_raw(20), 3));
+    }
 
     impl OwnsPipeline for Fake {
         fn raw(&self) -> vk::Pipeline {

@@ -147,8 +147,10 @@ impl Drawn {
 pub(crate) fn clipped((vertex, fragment): Stages) -> Stages {
     let clipped = |shader: &Shader| {
         let (file, stage) = shader.name.rsplit_once('.').unwrap_or((shader.name, ""));
-        let name = format!("{file}_clipped.{stage}");
-        shaders::ALL.iter().find(|other| other.name == name).copied()
+        let is_clipped = |other: &str| {
+            other.strip_prefix(file).and_then(|rest| rest.strip_prefix("_clipped.")) == Some(stage)
+        };
+        shaders::ALL.iter().find(|other| is_clipped(other.name)).copied()
     };
     (clipped(vertex).unwrap_or(vertex), clipped(fragment).unwrap_or(fragment))
 }

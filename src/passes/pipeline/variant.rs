@@ -3,13 +3,14 @@
 use std::f64::consts::LOG2_E;
 
 use crate::{
+    inline_vec::InlineVec,
     math::kernel::{gaussian_coverage_r2, gaussian_mean, psi_e_coverage_r2, psi_e_mean},
     scene::{Filter, FilterWeight, Kernel, Outlines, Rasterizer, Settings, Shading, Transition},
     shaders::config::*,
 };
 
-/// Specialization constants: number and 32-bit pattern.
-pub type Constants = Vec<(u32, u32)>;
+/// Specialization constants: number and 32-bit pattern. No pipeline has as many as there is room for.
+pub type Constants = InlineVec<(u32, u32), 48>;
 
 /// Where a kernel is as steep as f32 lets it be: infinity times a radius of 0 would be NaN.
 const STEEPEST: f64 = 1e30;
@@ -94,11 +95,8 @@ pub fn kernel_constants(kernel: Kernel) -> Constants {
         Kernel::Gaussian { sigma } => (KERNEL_GAUSSIAN, LOG2_E * 0.5 / f64::from(sigma).powi(2), 1.0),
         Kernel::PsiE { a, n, .. } => (KERNEL_PSI_E, LOG2_E * f64::from(a), n),
     };
-    vec![
-        (SPEC_KERNEL, kernel),
-        (SPEC_KERNEL_A, (a.min(STEEPEST) as f32).to_bits()),
-        (SPEC_KERNEL_N, n.to_bits()),
-    ]
+    [(SPEC_KERNEL, kernel), (SPEC_KERNEL_A, (a.min(STEEPEST) as f32).to_bits()), (SPEC_KERNEL_N, n.to_bits())]
+        .into()
 }
 
 /// The constant of where splats and polygons meet.
@@ -120,7 +118,7 @@ pub fn shading_constants(shading: Shading, lights: u32) -> Constants {
         // What eye-dome lighting makes darker.
         Shading::Albedo | Shading::EyeDome => SHADING_ALBEDO,
     };
-    vec![(SPEC_SHADING, number), (SPEC_LIGHTS, lights)]
+    [(SPEC_SHADING, number), (SPEC_LIGHTS, lights)].into()
 }
 
 /// The specialization constants of what shades sums of splats, polygons, or both (`glsl/inc/resolve.glsl`).

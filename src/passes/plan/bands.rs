@@ -10,6 +10,7 @@ use crate::passes::plan::{
     block_list::ListedBlocks, draws::Draw, seen::PotentiallyVisibleBlocks, tiles::TilePlan,
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     prepare::Chunk,
     scene::{Settings, TileMemory},
     vk::Limits,
@@ -25,21 +26,28 @@ const MOST_BANDS: usize = 16;
 const ATTEMPTS: u32 = 8;
 
 /// Rows of tiles with their lists.
+#[derive(Clone)]
 pub struct Band<'a> {
     /// The chunks.
-    pub splats: Vec<Draw<'a>>,
+    pub splats: &'a [Draw<'a>],
     /// Where splats that may be seen are looked for, if only those are set up.
-    pub visible: Option<ListedBlocks>,
+    pub visible: Option<ListedBlocks<'a>>,
     /// How they are drawn.
     pub plan: TilePlan,
 }
 
 impl<'a> Band<'a> {
     /// A band of splats that are listed first: of the blocks that may touch its rows.
-    pub fn new(splats: &[Draw<'a>], seen: &PotentiallyVisibleBlocks, plan: TilePlan) -> Self {
-        let mut splats = splats.to_vec();
-        let visible = Some(ListedBlocks::of(&mut splats, &seen.chunks, plan.rows.clone()));
-        Self { splats, visible, plan }
+    pub fn new(
+        arena: &'a Arena,
+        splats: &[Draw<'a>],
+        seen: &PotentiallyVisibleBlocks<'_>,
+        plan: TilePlan,
+    ) -> Self {
+        let mut own = arena.growing();
+        own.extend_from_slice_copy(splats);
+        let visible = Some(ListedBlocks::of(arena, &mut own, seen.chunks, plan.rows.clone()));
+        Self { splats: own.into_bump_slice(), visible, plan }
     }
 }
 
@@ -58,43 +66,45 @@ pub(crate) fn most_bytes(draws: &[Draw<'_>], memory: TileMemory) -> u64 {
 
 /// The plans of bands of what `whole` would draw at once; none where memory is enough for that, or where bands would not help: so many
 /// splats in so few rows, or in no order.
-pub(crate) fn cut_into_bands(
+pub(crate) fn cut_into_bands<'m>(
+    arena: &'m Arena,
     draws: &[Draw<'_>],
-    seen: &PotentiallyVisibleBlocks,
+    seen: &PotentiallyVisibleBlocks<'_>,
     whole: &TilePlan,
     settings: &Settings,
     limits: &Limits,
-) -> Vec<TilePlan> {
+) -> &'m [TilePlan] {
     let most_bytes = most_bytes(draws, settings.tile_memory);
     if whole.bytes() <= most_bytes {
-        return Vec::new();
+        return &[];
     }
-    let cut = Cut { draws, seen, culls_hidden: whole.hidden, settings, limits };
+    let cut = Cut { arena, draws, seen, culls_hidden: whole.hidden, settings, limits };
     cut.within(most_bytes, whole).unwrap_or_default()
 }
 
 /// What is cut into bands.
-struct Cut<'c, 'a> {
-    draws: &'c [Draw<'a>],
-    seen: &'c PotentiallyVisibleBlocks,
+struct Cut<'c, 'm> {
+    arena: &'m Arena,
+    draws: &'c [Draw<'c>],
+    seen: &'c PotentiallyVisibleBlocks<'c>,
     culls_hidden: bool,
     settings: &'c Settings,
     limits: &'c Limits,
 }
 
-impl Cut<'_, '_> {
+impl<'m> Cut<'_, 'm> {
     /// The plans of bands that take so many bytes, or little more where that would be too many bands; none where bands gain nothing.
-    fn within(&self, most_bytes: u64, whole: &TilePlan) -> Option<Vec<TilePlan>> {
+    fn within(&self, most_bytes: u64, whole: &TilePlan) -> Option<&'m [TilePlan]> {
         // All bands together take at least what the whole does.
         let most_bytes = most_bytes.max(whole.bytes() / MOST_BANDS as u64);
         let mut wanted = most_bytes;
-        let mut found: Option<Vec<TilePlan>> = None;
+        let mut found: Option<&[TilePlan]> = None;
         for _ in 0..ATTEMPTS {
             match self.plans(wanted) {
                 Some(plans) => {
                     let bytes = |plans: &[TilePlan]| plans.iter().map(TilePlan::bytes).max().unwrap_or(0);
-                    let enough = bytes(&plans) <= most_bytes;
-                    if found.as_ref().is_none_or(|found| bytes(&plans) < bytes(found)) {
+                    let enough = bytes(plans) <= most_bytes;
+                    if found.as_ref().is_none_or(|found| bytes(plans) < bytes(found)) {
                         found = Some(plans);
                     }
                     if enough {
@@ -106,7 +116,7 @@ impl Cut<'_, '_> {
                 None => wanted += wanted / 2,
             }
         }
-        let gains = |plans: &Vec<TilePlan>| {
+        let gains = |plans: &&[TilePlan]| {
             plans.len() > 1 && plans.iter().all(|plan| 4 * plan.bytes() <= 3 * whole.bytes())
         };
         found.filter(gains)
@@ -117,9 +127,9 @@ impl Cut<'_, '_> {
     }
 
     /// The plans of bands, each of as many rows as so many bytes are enough for; none where they would be too many.
-    fn plans(&self, most_bytes: u64) -> Option<Vec<TilePlan>> {
+    fn plans(&self, most_bytes: u64) -> Option<&'m [TilePlan]> {
         let Range { start: first, end } = self.seen.rows()?;
-        let mut plans: Vec<TilePlan> = Vec::new();
+        let mut plans: ArenaVec<'_, TilePlan> = self.arena.growing();
         let mut next = first;
         while next < end {
             // A row alone is a band, whatever it takes. Longer ones take no less, so that the longest is found by bisection.
@@ -137,6 +147,6 @@ impl Cut<'_, '_> {
                 return None;
             }
         }
-        Some(plans.iter().map(|plan| plan.with_common_capacity(&plans)).collect())
+        Some(self.arena.list(plans.iter().map(|plan| plan.with_common_capacity(&plans))))
     }
 }

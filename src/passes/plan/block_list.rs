@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::arena::Arena;
 use crate::passes::plan::{draws::Draw, seen::PotentiallyVisibleBlock};
 use crate::shaders::config::{ALL_OF_LEVEL, ALL_VISIBLE, BLOCK_SPLATS, LEVEL_WORDS};
 
@@ -10,13 +11,21 @@ const ROW_WORDS: usize = 2;
 
 /// The blocks of all chunks in which splats are looked for, as `glsl/inc/list.glsl` has them: the rows of tiles, then the
 /// chunks' blocks one behind the other; then, where some have levels of detail, how the camera sees them, the last chunk's first.
-pub struct ListedBlocks(Vec<u32>);
+#[derive(Clone, Copy)]
+pub struct ListedBlocks<'a>(&'a [u32]);
 
-impl ListedBlocks {
+impl<'a> ListedBlocks<'a> {
     /// Those of the blocks of each chunk that may touch some rows of tiles; gives each chunk its number, and that of its first splat
     /// among those that are looked at.
-    pub fn of(draws: &mut [Draw<'_>], seen: &[Vec<PotentiallyVisibleBlock>], rows: Range<u32>) -> Self {
-        let mut words = vec![rows.start, rows.end];
+    pub fn of(
+        arena: &'a Arena,
+        draws: &mut [Draw<'_>],
+        seen: &[&[PotentiallyVisibleBlock]],
+        rows: Range<u32>,
+    ) -> Self {
+        let mut words = arena.growing();
+        words.reserve(ROW_WORDS + seen.iter().map(|blocks| blocks.len().max(1)).sum::<usize>());
+        words.extend([rows.start, rows.end]);
         for (number, (draw, blocks)) in (0..).zip(draws.iter_mut().zip(seen)) {
             let before = words.len();
             draw.constants.number_chunk(number);
@@ -38,11 +47,11 @@ impl ListedBlocks {
             let views = draws.iter().rev().map(|draw| draw.levels.map_or(none, |levels| levels.words()));
             words.extend(views.flatten());
         }
-        Self(words)
+        Self(words.into_bump_slice())
     }
 
     /// The words, in their order.
-    pub(crate) fn words(&self) -> &[u32] {
-        &self.0
+    pub(crate) fn words(&self) -> &'a [u32] {
+        self.0
     }
 }

@@ -9,8 +9,9 @@ use crate::passes::plan::{
     seen::PotentiallyVisibleBlock,
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     math::size::{SizeBound, box_within_px},
-    prepare::{Block, Chunk, ViewFromLocal},
+    prepare::{Block, Chunk, GROUP_BLOCKS, ViewFromLocal},
     shaders::config::BAND_ROW,
 };
 
@@ -27,11 +28,16 @@ pub struct BlockCullView<'a> {
     pub levels: Option<&'a LevelView>,
     /// The planes that cut what is seen, in view space.
     pub planes: &'a [DVec4],
+    /// How far the chunk's origin is from the eye, in the view's unit.
+    pub origin_distance: f64,
 }
 
 /// What a device finds in f32 of a unit vector may differ from this file's f64 by so much of an angle: some roundings of 2⁻²⁴, and a
 /// packed normal's; much less than this.
 const ANGLE_RESERVE_RAD: f64 = 1e-3;
+
+/// Its cosine; its sine is itself but for a ten-thousandth of a millionth.
+const COS_RESERVE: f64 = 0.999_999_5;
 
 /// The same of a place, as a part of its distance from the eye; and of the distances of the chunk's origin from both, whose difference it
 /// is to a device: its sum of four terms is off by some 6 roundings of 2⁻²⁴ of them, 4e-7.
@@ -50,8 +56,36 @@ const FILTER_RESERVE_PX: f64 = 6.0;
 /// image c at most (there). The image of a ball of 2 R about that center reaches 2 R √(1 + c²) / (p_z + 2 R) at least, which is
 /// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth. Under parallel rays all of that is as
 /// large as it is.
-pub fn potentially_visible_blocks(chunk: &Chunk, look: &BlockCullView<'_>) -> Vec<PotentiallyVisibleBlock> {
-    (0..).zip(&chunk.blocks).filter_map(|(number, block)| potentially_visible(number, block, look)).collect()
+pub fn potentially_visible_blocks<'m>(
+    arena: &'m Arena,
+    chunk: &Chunk,
+    look: &BlockCullView<'_>,
+) -> &'m [PotentiallyVisibleBlock] {
+    let mut seen = arena.growing();
+    seen.reserve(chunk.blocks.len());
+    // Of a chunk that a host writes, the blocks have the same bounds: one is looked at for all.
+    if let (true, Some(first)) = (chunk.is_dynamic(), chunk.blocks.first()) {
+        let found = potentially_visible(0, first, look);
+        seen.extend(found.into_iter().flat_map(|found| found.of_all(0, &chunk.blocks)));
+        return seen.into_bump_slice();
+    }
+    let each = |first: usize, blocks: &[Block], seen: &mut ArenaVec<'m, PotentiallyVisibleBlock>| {
+        let blocks = (first as u32..).zip(blocks);
+        seen.extend(blocks.filter_map(|(number, block)| potentially_visible(number, block, look)));
+    };
+    if chunk.groups.is_empty() || look.levels.is_some() {
+        each(0, &chunk.blocks, &mut seen);
+        return seen.into_bump_slice();
+    }
+    let numbers = (0..).step_by(GROUP_BLOCKS);
+    for ((first, group), blocks) in numbers.zip(&chunk.groups).zip(chunk.blocks.chunks(GROUP_BLOCKS)) {
+        match potentially_visible(0, group, look) {
+            None => {}
+            Some(found) if found.all_seen => seen.extend(found.of_all(first as u32, blocks)),
+            Some(_) => each(first, blocks, &mut seen),
+        }
+    }
+    seen.into_bump_slice()
 }
 
 fn potentially_visible(
@@ -67,9 +101,8 @@ fn potentially_visible(
         return None;
     }
     let ball = Ball::of(block, look);
-    let angles = ball.angles(block, look);
-    let right = std::f64::consts::FRAC_PI_2;
-    if look.culls && angles[1] < right {
+    let side = if look.culls { ball.side(block, look) } else { Side::Either };
+    if side == Side::Away {
         return None;
     }
     if look.planes.iter().any(|plane| ball.is_beyond(*plane, look)) {
@@ -92,15 +125,16 @@ fn potentially_visible(
         },
         box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk).min(of_level),
         rows,
-        all_seen: is_whole && look.planes.is_empty() && (!look.culls || angles[0] > right),
+        all_seen: is_whole && look.planes.is_empty() && (!look.culls || side == Side::TowardEye),
         all_of_level: of_levels == OfBlock::All,
     })
 }
 
 /// A block from the eye, in the view's unit.
 struct Ball {
-    /// Its middle, in the local space's axes.
+    /// Its middle, in the local space's axes, and how far that is from the eye.
     middle: DVec3,
+    distance: f64,
     /// How far from there centers are.
     radius: f64,
     /// How far anything of its splats is.
@@ -126,12 +160,13 @@ impl Ball {
         let scale = look.view.view_from_local_scale;
         let middle = block.center * scale + look.view.origin_from_eye;
         // Of any splat: its block's middle may be the chunk's origin, and the eye.
-        let of_origin = look.view.origin_from_eye.length() + (block.center.length() + block.radius) * scale;
-        let reserve = LENGTH_RESERVE * middle.length() + ORIGIN_RESERVE * of_origin;
+        let of_origin = look.origin_distance + (block.center.length() + block.radius) * scale;
+        let distance = middle.length();
+        let reserve = LENGTH_RESERVE * distance + ORIGIN_RESERVE * of_origin;
         let radius = block.radius * scale + reserve;
         let [x, y, z] = (look.view.rotation * middle).into();
         // A splat's points are within its radius, its image within that of twice as much.
-        Self { middle, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
+        Self { middle, distance, radius, reach: radius + 2.0 * block.largest_radius * scale, x, y, z }
     }
 
     /// Whether all that is drawn of its splats is on the side of a plane that is cut off: no farther from a splat than it is large and a filter, which is the larger
@@ -180,23 +215,40 @@ impl Ball {
         Some(Image { rows, most_x: (x.0.abs() + x.1).max(y.0.abs() + y.1), is_whole })
     }
 
-    /// Between which the angles lie of normals and the rays to their centers: above 90° a splat shows the eye its face. From
-    /// outside a ball is seen within the arc sine of its radius over its distance; angles of directions add up at most.
-    fn angles(&self, block: &Block, look: &BlockCullView<'_>) -> [f64; 2] {
-        if look.bound.is_orthographic {
-            let of_axis = block.axis.angle_between(look.view.rotation.row(2));
-            let around = block.spread_rad + ANGLE_RESERVE_RAD;
-            return [of_axis - around, of_axis + around];
-        }
-        let distance = self.middle.length();
-        let is_outside = self.radius < distance; // NaN is not
+    /// Which side all splats show the eye. Where a normal and the ray to its center have an angle above 90° it is the face. From outside a ball is seen within
+    /// the arc sine α of its radius over its distance; angles of directions add up at most: with the spread σ of normals about an axis, which has an angle θ with
+    /// the ray to the middle, all angles are above 90° where θ − α − σ is, cos θ < −sin(α + σ), and below where θ + α + σ is, cos θ > sin(α + σ); if α + σ
+    /// itself is less.
+    fn side(&self, block: &Block, look: &BlockCullView<'_>) -> Side {
+        let (middle, distance, radius) = match look.bound.is_orthographic {
+            true => (look.view.rotation.row(2), 1.0, 0.0),
+            false => (self.middle, self.distance, self.radius),
+        };
+        let is_outside = radius < distance; // NaN is not
         if !is_outside {
-            return [0.0, std::f64::consts::PI];
+            return Side::Either;
         }
-        let of_axis = block.axis.angle_between(self.middle);
-        let around = (self.radius / distance).asin() + block.spread_rad + ANGLE_RESERVE_RAD;
-        [of_axis - around, of_axis + around]
+        let [sin, cos] = block.spread_sin_cos;
+        let (sin, cos) =
+            (sin * COS_RESERVE + cos * ANGLE_RESERVE_RAD, cos * COS_RESERVE - sin * ANGLE_RESERVE_RAD);
+        // Times the distance, as the sum of two angles has them.
+        let tangent = (distance * distance - radius * radius).sqrt();
+        let (sin_of_sum, cos_of_sum) = (radius * cos + tangent * sin, tangent * cos - radius * sin);
+        let along = block.axis.dot(middle);
+        match cos_of_sum > 0.0 {
+            true if along > sin_of_sum => Side::Away,
+            true if along < -sin_of_sum => Side::TowardEye,
+            _ => Side::Either,
+        }
     }
+}
+
+/// Which side splats show the eye.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Away,
+    TowardEye,
+    Either,
 }
 
 #[cfg(test)]

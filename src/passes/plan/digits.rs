@@ -87,7 +87,7 @@ fn check_range(scenes: &[Placed<'_>], camera: &Camera) -> Result<()> {
 /// What f32 can't tell apart in a frame, or has no digits for, in a sentence each.
 pub fn beyond_f32(scene: &PreparedScene, frame: &FramePlan<'_>, camera: &Camera) -> Vec<String> {
     let mut notes = Vec::new();
-    let splats = || frame.opaque.splats.iter().chain(&frame.transparent.splats);
+    let splats = || frame.opaque.splats.iter().chain(frame.transparent.splats);
     if let Some(share) = splats().filter_map(|draw| share_of_range(draw, camera)).reduce(f64::min) {
         notes.push(format!(
             "epsilon is {share:.1e} of how deep the scene is: surfaces that are less than a millionth of that apart are one"
@@ -201,7 +201,8 @@ mod tests {
     fn notes_of(scene: &Scene, settings: &Settings) -> Vec<String> {
         let limits = Limits::plain();
         let prepared = prepare_without_device(&limits, scene).unwrap();
-        let frame = FramePlan::new(&[Placed::at_home(&prepared)], &camera(1e-3), settings, &limits);
+        let arena = crate::arena::Arena::new();
+        let frame = FramePlan::new(&arena, &[Placed::at_home(&prepared)], &camera(1e-3), settings, &limits);
         beyond_f32(&prepared, &frame, &camera(1e-3)).into_iter().chain(super::floors(&frame)).collect()
     }
 

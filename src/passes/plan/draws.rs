@@ -18,16 +18,18 @@ use crate::passes::{
     },
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     error::Result,
+    inline_vec::InlineVec,
     math::size::{SizeBound, box_px, largest_box_px},
-    prepare::{Chunk, Placed, RadiusStep, ViewFromLocal, inverse_overlap_in_upper_half},
-    scene::{Camera, Epsilon, Filter, Settings},
+    prepare::{Chunk, Placed, ViewFromLocal, inverse_overlap_in_upper_half},
+    scene::{Camera, Epsilon, Filter, MOST_PLANES, Settings},
     shaders::config::*,
     vk::Limits,
 };
 
 /// A chunk in this frame.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub struct Draw<'a> {
     /// The splats.
     pub chunk: &'a Chunk,
@@ -37,15 +39,13 @@ pub struct Draw<'a> {
     pub constants: FrameConstants,
     /// What no splat's box exceeds, in pixels; infinite where one may come near the eye plane.
     pub largest_box_px: f64,
-    /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as above.
-    pub boxes: Vec<(u32, f64)>,
     /// From where, for [`Self::potentially_visible_blocks`].
     pub(super) view: ViewFromLocal,
     bound: SizeBound,
     /// Whether no splat's center lies outside of the view, as far as a box around all of them tells.
     pub wholly_in_view: bool,
     /// The planes that cut what is seen, in view space: unit normals toward what is left, and by how much the eye is inside.
-    pub(super) planes: Vec<DVec4>,
+    pub(super) planes: InlineVec<DVec4, MOST_PLANES>,
     /// How the camera sees its levels of detail, where some of its splats are of none that is drawn.
     pub(crate) levels: Option<LevelView>,
     /// Whether a splat of it may exceed the device's largest point, come near the eye plane or be too thin for a
@@ -58,14 +58,31 @@ pub struct Draw<'a> {
 }
 
 impl Draw<'_> {
+    /// The same of the scene of that number.
+    pub(super) fn of_scene(mut self, number: u32) -> Self {
+        self.placed = number;
+        self
+    }
+
+    /// How many splats have boxes up to how many pixels, as far as that is told apart; infinite as [`Self::largest_box_px`].
+    pub(crate) fn boxes(&self) -> impl Iterator<Item = (u32, f64)> + Clone {
+        self.chunk.radii.iter().map(|step| {
+            let radius = step.radius * self.view.view_from_local_scale;
+            (step.count, box_px(&self.bound, radius).min(self.largest_box_px))
+        })
+    }
+
     /// The blocks in which there may be something to see.
-    pub(crate) fn potentially_visible_blocks(&self) -> Vec<PotentiallyVisibleBlock> {
+    pub(crate) fn potentially_visible_blocks<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleBlock] {
+        potentially_visible_blocks(arena, self.chunk, &self.look())
+    }
+
+    /// How its blocks are looked at.
+    pub(super) fn look(&self) -> BlockCullView<'_> {
         let Self { view, bound, levels, planes, .. } = self;
-        let culls = culls(&self.variant);
-        potentially_visible_blocks(
-            self.chunk,
-            &BlockCullView { view, bound, culls, levels: levels.as_ref(), planes },
-        )
+        let (culls, levels, origin_distance) =
+            (culls(&self.variant), levels.as_ref(), view.origin_from_eye.length());
+        BlockCullView { view, bound, culls, levels, planes, origin_distance }
     }
 }
 
@@ -79,11 +96,13 @@ impl Draw<'_> {
 }
 
 /// What `make` gives for each draw, asked once for draws in a row that have the same pipelines.
-pub(crate) fn by_variant<T: Copy>(
+pub(crate) fn by_variant<'m, T: Copy>(
+    arena: &'m Arena,
     draws: &[Draw<'_>],
     mut make: impl FnMut(&Draw<'_>) -> Result<T>,
-) -> Result<Vec<T>> {
-    let mut all: Vec<T> = Vec::with_capacity(draws.len());
+) -> Result<&'m [T]> {
+    let mut all = arena.growing::<T>();
+    all.reserve(draws.len());
     for (number, draw) in draws.iter().enumerate() {
         let is_same =
             |last: &Draw<'_>| last.variant == draw.variant && last.may_be_large == draw.may_be_large;
@@ -92,23 +111,24 @@ pub(crate) fn by_variant<T: Copy>(
             _ => all.push(make(draw)?),
         }
     }
-    Ok(all)
+    Ok(all.into_bump_slice())
 }
 
 /// All chunks of splats of a scene as seen from a camera.
-pub fn draws<'a>(
+pub fn draws<'a, 's>(
     Placed { scene, at, .. }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
-    settings: &Settings,
-    limits: &Limits,
-) -> Vec<Draw<'a>> {
+    settings: &'s Settings,
+    limits: &'s Limits,
+) -> impl Iterator<Item = Draw<'a>> + use<'a, 's> {
     // All of it is in the scene's own space, in which a camera stands elsewhere.
-    let (camera, range) = (&at.camera(camera), range.within(&at));
+    let (camera, range) = (at.camera(camera), range.within(&at));
     let filter_radius_px = settings.samples.filter_radius_px();
     let sums = sums_under(settings.kernel);
     let primitive = Primitive::of(settings.rasterizer);
-    let clip: Vec<_> = settings.clip().into_iter().map(|plane| at.plane(plane)).collect();
-    let draw = |chunk: &'a Chunk| {
+    let clip: InlineVec<_, MOST_PLANES> = settings.clip().into_iter().map(|plane| at.plane(plane)).collect();
+    let draw = move |chunk: &'a Chunk| {
+        let camera = &camera;
         let view = chunk.rebase.view_from_local(camera);
         let is_orthographic = camera.is_orthographic();
         let wanted = chunk.epsilon.unwrap_or(settings.epsilon);
@@ -145,10 +165,6 @@ pub fn draws<'a>(
         let of_level =
             levels.as_ref().filter(|view| view.part.stands_for_others()).map_or(f64::INFINITY, of_level);
         let largest_box_px = largest_box_px(&bound).min(of_level);
-        let box_of = |step: &RadiusStep| {
-            let radius = step.radius * view.view_from_local_scale;
-            (step.count, box_px(&bound, radius).min(largest_box_px))
-        };
         let mut constants = FrameConstants {
             splat_count: chunk.count,
             chunk_color: u32::from(chunk.uniform_color),
@@ -164,7 +180,6 @@ pub fn draws<'a>(
             placed: 0,
             constants,
             largest_box_px,
-            boxes: chunk.radii.iter().map(box_of).collect(),
             view,
             bound,
             // What planes cut off is looked for, too.
@@ -213,11 +228,10 @@ pub fn draws<'a>(
         .filter(|chunk| chunk.count > 0)
         .map(draw)
         .filter(|draw| draw.levels.is_some() || !draw.chunk.stands_for_others())
-        .collect()
 }
 
 /// The splats of a scene themselves, where levels of detail can't be chosen.
-pub(crate) fn without_levels(splats: &mut Vec<Draw<'_>>) {
+pub(crate) fn without_levels(splats: &mut ArenaVec<'_, Draw<'_>>) {
     splats.retain(|draw| !draw.chunk.stands_for_others());
     for draw in splats {
         draw.levels = None;
@@ -236,7 +250,7 @@ pub(crate) fn with_hard_steps(splats: &mut [Draw<'_>]) {
 /// What shaders are told of the device's points.
 fn point_constants(limits: &Limits) -> Constants {
     let step_px = point_step_px(limits.point_size_granularity);
-    vec![(SPEC_POINT_CAP, limits.point_size_range[1].to_bits()), (SPEC_POINT_STEP, step_px.to_bits())]
+    [(SPEC_POINT_CAP, limits.point_size_range[1].to_bits()), (SPEC_POINT_STEP, step_px.to_bits())].into()
 }
 
 /// The step by which shaders round point sizes up. Devices may report 0, for any size; a square of pixels has a

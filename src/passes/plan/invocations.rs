@@ -24,12 +24,12 @@ const SMALL_BELOW_PX: f64 = 13.0;
 const LARGEST_SMALL_PX: f64 = 32.0;
 
 /// Whether splats with such boxes, how many with how many pixels along a side at most, are small for a tile.
-pub(crate) fn are_small<'a>(boxes: impl Iterator<Item = &'a (u32, f64)>) -> bool {
+pub(crate) fn are_small(boxes: impl Iterator<Item = (u32, f64)>) -> bool {
     let (mut count, mut sum_px, mut largest_px) = (0.0, 0.0, 0.0_f64);
     for (more, px) in boxes {
-        count += f64::from(*more);
-        sum_px += f64::from(*more) * px;
-        largest_px = largest_px.max(*px);
+        count += f64::from(more);
+        sum_px += f64::from(more) * px;
+        largest_px = largest_px.max(px);
     }
     sum_px < SMALL_BELOW_PX * count && largest_px <= LARGEST_SMALL_PX
 }
@@ -125,12 +125,13 @@ mod tests {
 
     #[test]
     fn splats_are_small_where_most_are_and_none_is_large() {
-        assert!(are_small([(1000, 11.0), (10, 32.0)].iter()));
-        assert!(!are_small([(1000, 14.0)].iter()) && !are_small([(1000, 5.0), (1, 33.0)].iter()));
+        assert!(are_small([(1000, 11.0), (10, 32.0)].into_iter()));
+        assert!(!are_small([(1000, 14.0)].into_iter()) && !are_small([(1000, 5.0), (1, 33.0)].into_iter()));
         // Such as no box bounds, and none at all.
         assert!(
-            !are_small([(1000, 5.0), (1, f64::INFINITY)].iter()) && !are_small([(1000, f64::NAN)].iter())
+            !are_small([(1000, 5.0), (1, f64::INFINITY)].into_iter())
+                && !are_small([(1000, f64::NAN)].into_iter())
         );
-        assert!(!are_small([].iter()));
+        assert!(!are_small([].into_iter()));
     }
 }

@@ -1,6 +1,7 @@
 //! Lights as a camera sees them.
 
 use crate::{
+    arena::Arena,
     error::{Error, Result},
     prepare::Placed,
     scene::{Camera, Light, LightKind, MOST_LIGHTS},
@@ -33,15 +34,24 @@ pub(crate) fn check(scenes: &[Placed<'_>]) -> Result<()> {
 }
 
 /// The lights of all scenes, which shine on all of them, as a camera sees them.
-pub(crate) fn shader_lights(scenes: &[Placed<'_>], camera: &Camera) -> Vec<ShaderLight> {
-    let of_scene = |Placed { scene, at, .. }: &Placed<'_>| of_scene(&scene.lights, &at.camera(camera));
-    each_once(scenes).flat_map(of_scene).take(MOST_LIGHTS).collect()
+pub(crate) fn shader_lights<'m>(
+    arena: &'m Arena,
+    scenes: &[Placed<'_>],
+    camera: &Camera,
+) -> &'m [ShaderLight] {
+    let mut lights = arena.growing();
+    lights.extend(
+        each_once(scenes)
+            .flat_map(|Placed { scene, at, .. }| of_scene(&scene.lights, &at.camera(camera)))
+            .take(MOST_LIGHTS),
+    );
+    lights.into_bump_slice()
 }
 
 /// Those of one, from a camera in its own space.
-fn of_scene(lights: &[Light], camera: &Camera) -> Vec<ShaderLight> {
+fn of_scene<'l>(lights: &'l [Light], camera: &Camera) -> impl Iterator<Item = ShaderLight> + use<'l> {
     let view = camera.view_from_world();
-    let of = |light: &Light| {
+    let of = move |light: &Light| {
         let [red, green, blue] = light.color;
         let (to_light, at_eye) = match light.kind {
             LightKind::Eye => (glam::Vec3::ZERO, 1.0),
@@ -51,7 +61,7 @@ fn of_scene(lights: &[Light], camera: &Camera) -> Vec<ShaderLight> {
         };
         [to_light.extend(at_eye).into(), [red, green, blue, 0.0]]
     };
-    lights.iter().map(of).collect()
+    lights.iter().map(of)
 }
 
 #[cfg(test)]
@@ -75,7 +85,7 @@ mod tests {
         let at = Placement { scale: 2.0, ..Placement::default() };
         let all =
             [Placed::at_home(&one), Placed::new(&one, at), Placed::at_home(&two), Placed::new(&two, at)];
-        assert_eq!(shader_lights(&all, &Camera::default()).len(), 3);
+        assert_eq!(shader_lights(&Arena::new(), &all, &Camera::default()).len(), 3);
         check(&all).unwrap();
         let many = lit(MOST_LIGHTS);
         check(&[Placed::at_home(&many), Placed::new(&many, at)]).unwrap();

@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// A piece of a mesh in this frame.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub struct MeshDraw<'a> {
     /// The triangles.
     pub chunk: &'a MeshChunk,
@@ -35,18 +35,19 @@ impl MeshDraw<'_> {
 }
 
 /// All pieces of meshes of a scene as seen from a camera; those in cells as a whole where no levels of detail are drawn.
-pub fn mesh_draws<'a>(
+pub fn mesh_draws<'a, 's>(
     Placed { scene, at, .. }: Placed<'a>,
     (camera, range): (&Camera, DepthRange),
-    settings: &Settings,
-) -> Vec<MeshDraw<'a>> {
-    let (camera, range) = (&at.camera(camera), range.within(&at));
+    settings: &'s Settings,
+) -> impl Iterator<Item = MeshDraw<'a>> + use<'a, 's> {
+    let (camera, range) = (at.camera(camera), range.within(&at));
     let epsilon = match settings.epsilon {
         Epsilon::Auto => Epsilon::auto_radii(true) * scene.mean_transparent_radius,
         Epsilon::Radii(radii) => radii * scene.mean_transparent_radius,
         Epsilon::Length(length) => length / at.scale,
     };
-    let draw = |chunk: &'a MeshChunk| {
+    let draw = move |chunk: &'a MeshChunk| {
+        let camera = &camera;
         let view = chunk.rebase.view_from_local(camera);
         MeshDraw {
             chunk,
@@ -62,5 +63,5 @@ pub fn mesh_draws<'a>(
             }),
         }
     };
-    scene.meshes.iter().map(draw).collect()
+    scene.meshes.iter().map(draw)
 }

@@ -19,6 +19,7 @@ use crate::passes::{
     },
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     error::{Error, Result},
     scene::{Accumulate, Rasterizer, Settings},
     vk::Limits,
@@ -36,24 +37,26 @@ type Reason = &'static str;
 /// # Errors
 /// The reason against tiles.
 pub(crate) fn tiles<'a>(
+    arena: &'a Arena,
     splats: &[Draw<'a>],
     polygons: bool,
     settings: &Settings,
     limits: &Limits,
-) -> std::result::Result<(Vec<Band<'a>>, Reason), Reason> {
+) -> std::result::Result<(&'a [Band<'a>], Reason), Reason> {
     let transparent = splats.iter().any(|draw| draw.chunk.transparent);
     let few = !polygons && !transparent && are_few(splats, settings);
     let reason = wants_tiles(few, settings, limits)?;
     if polygons && transparent {
         return Err("there are polygons in the same layers");
     }
-    let bands = bands(splats, polygons, transparent, settings, limits);
+    let bands = bands(arena, splats, polygons, transparent, settings, limits);
     bands.map(|bands| (bands, reason)).ok_or("tiles have no room for so many, or for ones so large in layers")
 }
 
 /// How the graphics pipeline draws these splats, which it numbers, and sums in as many bits as it was asked to.
 pub(crate) fn primitives<'a>(
-    splats: &mut Vec<Draw<'a>>,
+    arena: &'a Arena,
+    splats: &mut ArenaVec<'a, Draw<'a>>,
     polygons: bool,
     settings: &Settings,
     limits: &Limits,
@@ -67,35 +70,33 @@ pub(crate) fn primitives<'a>(
         return SplatMethod::default();
     }
     let rows = rows_of_image(settings);
-    let seen = PotentiallyVisibleBlocks::new(
-        splats.iter().map(Draw::potentially_visible_blocks).collect(),
-        rows.end,
-    );
+    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena)));
     SplatMethod::Primitives {
-        visible: Some(ListedBlocks::of(splats, &seen.chunks, rows)),
+        visible: Some(ListedBlocks::of(arena, splats, seen, rows)),
         culls_hidden: culling::primitives_cull_hidden(polygons, settings),
     }
 }
 
 /// Bands of all these splats; `None` where they have no room.
 fn bands<'a>(
+    arena: &'a Arena,
     splats: &[Draw<'a>],
     polygons: bool,
     transparent: bool,
     settings: &Settings,
     limits: &Limits,
-) -> Option<Vec<Band<'a>>> {
+) -> Option<&'a [Band<'a>]> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
     let rows = rows_of_image(settings);
     let seen = || {
-        let blocks = splats.iter().map(Draw::potentially_visible_blocks).collect();
-        PotentiallyVisibleBlocks::new(blocks, rows.end)
+        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena)));
+        PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
         let seen = seen();
-        if !culling::list_has_room(seen.chunks.iter().map(Vec::len).sum(), limits) {
+        if !culling::list_has_room(seen.chunks.iter().map(|blocks| blocks.len()).sum(), limits) {
             return None;
         }
         let of_blocks = TilePlan::of_blocks(splats, &seen, rows.clone(), culls_hidden, settings, limits);
@@ -107,9 +108,11 @@ fn bands<'a>(
         let gains =
             culling::may_leave_out(splats) || whole.bytes() > most_bytes(splats, settings.tile_memory);
         if !gains || !culling::lists_tiles(splats, settings, limits) {
-            let mut splats = splats.to_vec();
-            culling::number_splats(&mut splats);
-            return (!left_to_others(&whole)).then(|| vec![Band { splats, visible: None, plan: whole }]);
+            let mut own = arena.growing();
+            own.extend_from_slice_copy(splats);
+            culling::number_splats(&mut own);
+            let band = Band { splats: own.into_bump_slice(), visible: None, plan: whole };
+            return (!left_to_others(&band.plan)).then(|| std::slice::from_ref(arena.keep(band)));
         }
         let seen = seen();
         let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
@@ -120,13 +123,13 @@ fn bands<'a>(
     }
     // Polygons may be drawn between two passes over the whole image.
     let cut = match polygons {
-        true => Vec::new(),
-        false => cut_into_bands(splats, &seen, &whole, settings, limits),
+        true => &[],
+        false => cut_into_bands(arena, splats, &seen, &whole, settings, limits),
     };
     // A splat that is large for a band alone would be the graphics pipeline's, too.
     match cut.is_empty() || cut.iter().any(left_to_others) {
-        true => Some(vec![Band::new(splats, &seen, whole)]),
-        false => Some(cut.into_iter().map(|plan| Band::new(splats, &seen, plan)).collect()),
+        true => Some(std::slice::from_ref(arena.keep(Band::new(arena, splats, &seen, whole)))),
+        false => Some(arena.list(cut.iter().map(|plan| Band::new(arena, splats, &seen, plan.clone())))),
     }
 }
 

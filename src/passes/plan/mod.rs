@@ -36,8 +36,10 @@ use crate::passes::plan::{
     tiles::TilePlan,
 };
 use crate::{
+    arena::{Arena, ArenaVec},
+    inline_vec::InlineVec,
     prepare::Placed,
-    scene::{Accumulate, Camera, Edges, Rasterizer, Settings, Transition},
+    scene::{Accumulate, Camera, Edges, MOST_PLANES, Rasterizer, Settings, Transition},
     shaders::config::{SPEC_COVERAGE_EDGES, SPEC_OWN_EPSILON, SPEC_TWO_SIDED},
     vk::Limits,
 };
@@ -50,9 +52,9 @@ pub struct FramePlan<'a> {
     /// What is drawn in layers.
     pub transparent: SurfacePlan<'a>,
     /// What shines on both, where the scene has lights of its own.
-    pub lights: Vec<lights::ShaderLight>,
+    pub lights: &'a [lights::ShaderLight],
     /// The planes that cut both.
-    pub planes: Vec<planes::ShaderPlane>,
+    pub planes: InlineVec<planes::ShaderPlane, MOST_PLANES>,
     /// How deep it reaches.
     pub range: DepthRange,
     /// What is opaque once more, for the pass that finds whose the visible surface is, where that is asked for.
@@ -63,9 +65,9 @@ pub struct FramePlan<'a> {
 #[derive(Default)]
 pub struct SurfacePlan<'a> {
     /// Splats, as the graphics pipeline draws them; each band of tiles has its own copies.
-    pub splats: Vec<Draw<'a>>,
+    pub splats: &'a [Draw<'a>],
     /// Polygons.
-    pub meshes: Vec<MeshDraw<'a>>,
+    pub meshes: &'a [MeshDraw<'a>],
     /// How splats are drawn.
     pub method: SplatMethod<'a>,
     /// Why they are drawn so; empty where there are none.
@@ -81,13 +83,13 @@ pub enum SplatMethod<'a> {
     /// By the graphics pipeline, as points, quads or triangles.
     Primitives {
         /// Where splats that may be seen are looked for, if only those are drawn.
-        visible: Option<ListedBlocks>,
+        visible: Option<ListedBlocks<'a>>,
         /// Splats that visible ones hide are left out of the sums.
         culls_hidden: bool,
     },
     /// By tiles, in compute: the bands of the image from top to bottom. The whole image is one band where lists of all of it have
     /// room.
-    Tiles(Vec<Band<'a>>),
+    Tiles(&'a [Band<'a>]),
 }
 
 impl Default for SplatMethod<'_> {
@@ -97,63 +99,66 @@ impl Default for SplatMethod<'_> {
 }
 
 impl<'a> FramePlan<'a> {
-    /// Plans the frame that shows scenes.
-    pub fn new(scenes: &[Placed<'a>], camera: &Camera, settings: &Settings, limits: &Limits) -> Self {
-        let settings = &*budget::within_budget(scenes, camera, settings);
-        let range = DepthRange::of(scenes, camera);
-        let camera = &range.begin(camera);
-        let all = || {
-            (0..).zip(scenes).flat_map(|(number, placed)| {
-                let of_number = move |mut draw: Draw<'a>| {
-                    draw.placed = number;
-                    draw
-                };
-                draws(*placed, (camera, range), settings, limits).into_iter().map(of_number)
-            })
-        };
-        let (clear_splats, splats) = all().partition(|draw| draw.chunk.transparent);
-        let again = |transparent: bool| all().filter(|draw| draw.chunk.transparent == transparent).collect();
-        let meshes = (0..).zip(scenes).flat_map(|(number, placed)| {
-            let of_number = move |draw| MeshDraw { placed: number, ..draw };
-            mesh_draws(*placed, (camera, range), settings).into_iter().map(of_number)
-        });
-        let (clear_meshes, meshes) = meshes.partition(|draw| draw.chunk.transparent);
-        let mut transparent = SurfacePlan::new(clear_splats, || again(true), clear_meshes, settings, limits);
-        let lights = lights::shader_lights(scenes, camera);
-        for band in transparent.bands_mut() {
-            band.plan = band.plan.clone().with_layers(settings.layers.most(), lights.len() as u32);
-        }
-        Self {
-            opaque: SurfacePlan::new(splats, || again(false), meshes, settings, limits),
-            transparent,
-            lights,
-            planes: planes::shader_planes((camera, range), settings),
-            range,
-            objects: None,
-        }
-    }
-}
-
-impl<'a> SurfacePlan<'a> {
-    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen: then all of it is planned `again`.
-    fn new(
-        splats: Vec<Draw<'a>>,
-        again: impl FnOnce() -> Vec<Draw<'a>>,
-        meshes: Vec<MeshDraw<'a>>,
+    /// Plans the frame that shows scenes, in a frame's memory.
+    pub fn new(
+        arena: &'a Arena,
+        scenes: &[Placed<'a>],
+        camera: &Camera,
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
-        if !meshes.iter().any(MeshDraw::is_all_splats) {
-            return Self::of(splats, meshes, settings, limits);
+        let settings = &*budget::within_budget(scenes, camera, settings);
+        let range = DepthRange::of(scenes, camera);
+        let camera = &range.begin(camera);
+        let lights = lights::shader_lights(arena, scenes, camera);
+        let surface = |transparent: bool| {
+            let (mut splats, mut meshes) = (arena.growing(), arena.growing());
+            for (placed, number) in scenes.iter().zip(0..) {
+                let own = draws(*placed, (camera, range), settings, limits);
+                let own = own.filter(|draw| draw.chunk.transparent == transparent);
+                splats.extend(own.map(|draw| draw.of_scene(number)));
+                let own = mesh_draws(*placed, (camera, range), settings);
+                let own = own.filter(|draw| draw.chunk.transparent == transparent);
+                meshes.extend(own.map(|draw| MeshDraw { placed: number, ..draw }));
+            }
+            let lights = transparent.then_some(lights.len() as u32);
+            SurfacePlan::new(arena, (splats, meshes), lights, settings, limits)
+        };
+        let (opaque, transparent) = (surface(false), surface(true));
+        let planes = planes::shader_planes((camera, range), settings);
+        Self { opaque, transparent, lights, planes, range, objects: None }
+    }
+}
+
+/// Splats and polygons.
+type Things<'a> = (ArenaVec<'a, Draw<'a>>, ArenaVec<'a, MeshDraw<'a>>);
+
+impl<'a> SurfacePlan<'a> {
+    /// Meshes that are all splats have no draw, unless levels of detail turn out not to be chosen. `lights`: those under which layers are shaded, of what is
+    /// transparent.
+    fn new(
+        arena: &'a Arena,
+        (splats, meshes): Things<'a>,
+        lights: Option<u32>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        if meshes.iter().any(MeshDraw::is_all_splats) {
+            let (mut same, mut others) = (arena.growing(), arena.growing());
+            same.extend_from_slice_copy(&splats);
+            others.extend(meshes.iter().filter(|draw| !draw.is_all_splats()).copied());
+            let plan = Self::of(arena, (same, others), lights, settings, limits);
+            if plan.chooses_levels() {
+                return plan;
+            }
         }
-        let others = meshes.iter().filter(|draw| !draw.is_all_splats()).cloned().collect();
-        let plan = Self::of(splats, others, settings, limits);
-        if plan.chooses_levels() { plan } else { Self::of(again(), meshes, settings, limits) }
+        Self::of(arena, (splats, meshes), lights, settings, limits)
     }
 
     fn of(
-        mut splats: Vec<Draw<'a>>,
-        mut meshes: Vec<MeshDraw<'a>>,
+        arena: &'a Arena,
+        (mut splats, mut meshes): Things<'a>,
+        lights: Option<u32>,
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
@@ -168,11 +173,11 @@ impl<'a> SurfacePlan<'a> {
         if splats.is_empty() {
             meshes.iter_mut().for_each(|draw| draw.levels = None);
             number_meshes(&mut meshes, 0);
-            return Self { meshes, settings, sums, ..Self::default() };
+            return Self { meshes: meshes.into_bump_slice(), settings, sums, ..Self::default() };
         }
         let polygons = !meshes.is_empty();
-        let transparent = splats.iter().any(|draw| draw.chunk.transparent);
-        let tiles = method::tiles(&splats, polygons, &settings, limits);
+        let transparent = lights.is_some();
+        let tiles = method::tiles(arena, &splats, polygons, &settings, limits);
         // Tiles weigh splats without floors, also where they leave sums in images to others; layers do where all are tiles.
         let exact = settings.rasterizer == Rasterizer::Compute || tiles.is_ok() && !transparent;
         if exact && settings.weighs_splats() {
@@ -180,67 +185,73 @@ impl<'a> SurfacePlan<'a> {
         }
         let (method, reason) = match tiles {
             Ok((bands, reason)) => (SplatMethod::Tiles(bands), reason),
-            Err(reason) => (method::primitives(&mut splats, polygons, &settings, limits), reason),
+            Err(reason) => (method::primitives(arena, &mut splats, polygons, &settings, limits), reason),
         };
-        let mut plan = Self { splats, meshes, method, reason, settings, sums };
-        if !plan.chooses_levels() {
-            plan.meshes.iter_mut().for_each(|draw| draw.levels = None);
+        let drawn = match &method {
+            SplatMethod::Tiles(bands) => bands.first().map_or(&splats[..], |band| band.splats),
+            SplatMethod::Primitives { .. } => &splats,
+        };
+        if drawn.iter().all(|draw| draw.levels.is_none()) {
+            meshes.iter_mut().for_each(|draw| draw.levels = None);
         }
-        number_meshes(&mut plan.meshes, plan.splats.len());
-        plan.choose_edges(transparent);
+        number_meshes(&mut meshes, splats.len());
+        let (splats, meshes) = (splats.into_bump_slice(), meshes.into_bump_slice());
+        let mut plan = Self { splats, meshes, method, reason, settings, sums };
+        plan.finish_bands(arena, lights);
         plan
     }
 
-    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not.
-    fn choose_edges(&mut self, transparent: bool) {
+    /// Tiles that shade what they sum cover pixels in part where surfaces end; what leaves sums does not. Those of layers do it under so many lights.
+    fn finish_bands(&mut self, arena: &'a Arena, lights: Option<u32>) {
+        let transparent = lights.is_some();
         let shades = !self.bands().is_empty() && (transparent || self.tiles_can_shade(&self.settings));
-        if !shades || !self.settings.covers_in_part() {
+        let coverage = shades && self.settings.covers_in_part();
+        if !coverage {
             self.settings.edges = Edges::Hard;
+        }
+        if !coverage && !transparent {
             return;
         }
-        let two_sided = !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
+        let two_sided = coverage && !transparent && self.splats.iter().any(|draw| !culls(&draw.variant));
         let blended = self.splats.iter().filter_map(|draw| draw.levels).any(|levels| levels.blends());
-        for band in self.bands_mut() {
-            let sides = two_sided.then_some((SPEC_TWO_SIDED, 1));
-            let told = || [(SPEC_COVERAGE_EDGES, 1)].into_iter().chain(sides);
-            for draw in &mut band.splats {
-                draw.variant.extend(told());
-                if two_sided {
-                    // Surfaces are of one side: how near the other one is does not matter.
-                    draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
-                }
-            }
-            if !transparent {
-                band.plan = band.plan.clone().with_edges(two_sided, blended);
-            }
-        }
+        let most_layers = self.settings.layers.most();
+        let SplatMethod::Tiles(bands) = &mut self.method else { return };
+        let of_band = |band: &Band<'a>| {
+            let splats = match coverage {
+                true => arena.list(band.splats.iter().map(|draw| with_edges(*draw, two_sided))),
+                false => band.splats,
+            };
+            let plan = match lights {
+                None => band.plan.clone().with_edges(two_sided, blended),
+                Some(lights) => band.plan.clone().with_layers(most_layers, lights),
+            };
+            Band { splats, plan, ..*band }
+        };
+        *bands = arena.list(bands.iter().map(of_band));
     }
 
     /// Whether levels of detail are chosen; else things are drawn as they are, and hybrids as polygons.
     fn chooses_levels(&self) -> bool {
-        let splats = self.bands().first().map_or(&self.splats, |band| &band.splats);
-        splats.iter().any(|draw| draw.levels.is_some())
+        self.drawn().iter().any(|draw| draw.levels.is_some())
+    }
+
+    /// The splats as they are drawn: of tiles those of a band.
+    pub(crate) fn drawn(&self) -> &'a [Draw<'a>] {
+        self.bands().first().map_or(self.splats, |band| band.splats)
     }
 
     /// Bands of tiles; none where the graphics pipeline draws the splats.
-    pub fn bands(&self) -> &[Band<'a>] {
+    pub fn bands(&self) -> &'a [Band<'a>] {
         match &self.method {
             SplatMethod::Tiles(bands) => bands,
             SplatMethod::Primitives { .. } => &[],
         }
     }
 
-    fn bands_mut(&mut self) -> &mut [Band<'a>] {
-        match &mut self.method {
-            SplatMethod::Tiles(bands) => bands,
-            SplatMethod::Primitives { .. } => &mut [],
-        }
-    }
-
     /// Where the graphics pipeline's splats are looked for, if only those that may be seen are drawn.
-    pub(crate) fn visible(&self) -> Option<&ListedBlocks> {
+    pub(crate) fn visible(&self) -> Option<ListedBlocks<'a>> {
         match &self.method {
-            SplatMethod::Primitives { visible, .. } => visible.as_ref(),
+            SplatMethod::Primitives { visible, .. } => *visible,
             SplatMethod::Tiles(_) => None,
         }
     }
@@ -264,4 +275,15 @@ impl<'a> SurfacePlan<'a> {
     pub fn is_empty(&self) -> bool {
         self.splats.is_empty() && self.meshes.is_empty()
     }
+}
+
+/// A chunk of splats whose surface covers pixels in part where it ends.
+fn with_edges(mut draw: Draw<'_>, two_sided: bool) -> Draw<'_> {
+    draw.variant.push((SPEC_COVERAGE_EDGES, 1));
+    if two_sided {
+        draw.variant.push((SPEC_TWO_SIDED, 1));
+        // Surfaces are of one side: how near the other one is does not matter.
+        draw.variant.retain(|(number, _)| *number != SPEC_OWN_EPSILON);
+    }
+    draw
 }

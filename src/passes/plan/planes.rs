@@ -3,6 +3,7 @@
 use glam::DVec4;
 
 use crate::{
+    inline_vec::InlineVec,
     passes::plan::range::DepthRange,
     scene::{Camera, MOST_PLANES, Settings},
 };
@@ -13,7 +14,10 @@ pub type ShaderPlane = [f32; 4];
 const _: () = assert!(MOST_PLANES == crate::shaders::config::MOST_PLANES as usize);
 
 /// Planes as a camera sees them, whose depth begins where it is ([`DepthRange::begin`]).
-pub(crate) fn shader_planes((camera, range): (&Camera, DepthRange), settings: &Settings) -> Vec<ShaderPlane> {
+pub(crate) fn shader_planes(
+    (camera, range): (&Camera, DepthRange),
+    settings: &Settings,
+) -> InlineVec<ShaderPlane, MOST_PLANES> {
     let view = camera.view_from_world();
     let focal_px = camera.focal_px(settings.size_px[1]);
     let of = |plane: DVec4| {

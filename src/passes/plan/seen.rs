@@ -1,6 +1,8 @@
 //! The blocks of splats that may be seen (`blocks.rs`), and how many of their splats may touch which rows of tiles.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::ops::Range;
+
+use crate::{arena::Arena, prepare::Block};
 
 /// A block some of whose splats may be seen.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +27,11 @@ impl PotentiallyVisibleBlock {
         self.all_seen && rows.start <= self.rows.start && self.rows.end <= rows.end
     }
 
+    /// What is known of one of some blocks, the first of which has this number, where it holds for all of them.
+    pub(super) fn of_all(self, first: u32, blocks: &[Block]) -> impl Iterator<Item = Self> {
+        (first..).zip(blocks).map(move |(number, block)| Self { number, count: block.count, ..self.clone() })
+    }
+
     /// Whether it may touch any of these rows.
     pub fn touches(&self, rows: &Range<u32>) -> bool {
         self.rows.start < rows.end && rows.start < self.rows.end
@@ -32,60 +39,61 @@ impl PotentiallyVisibleBlock {
 }
 
 /// The blocks of all chunks that may be seen, and how many of their splats may touch which rows.
-pub struct PotentiallyVisibleBlocks {
+#[derive(Clone, Copy)]
+pub struct PotentiallyVisibleBlocks<'a> {
     /// Chunk by chunk.
-    pub chunks: Vec<Vec<PotentiallyVisibleBlock>>,
-    classes: Vec<SizeClass>,
-}
-
-/// Splats with boxes up to a size.
-struct SizeClass {
-    box_px: f64,
-    /// For each row: how many are in blocks that begin before it, and in such that end before it.
-    begun: Vec<u32>,
-    ended: Vec<u32>,
+    pub chunks: &'a [&'a [PotentiallyVisibleBlock]],
+    /// The sizes of boxes that there are, the smallest first.
+    sizes_px: &'a [f64],
+    /// Of each row, and of the end, all sizes: how many splats are in blocks that begin before it, and in such that end before it.
+    before: &'a [[u32; 2]],
 }
 
 /// Boxes are told apart by so many pixels.
 const SIZE_STEP_PX: f64 = 0.25;
 
-impl PotentiallyVisibleBlocks {
+impl<'a> PotentiallyVisibleBlocks<'a> {
     /// Those of some blocks, in an image with so many rows of tiles.
-    pub fn new(chunks: Vec<Vec<PotentiallyVisibleBlock>>, rows: u32) -> Self {
-        let mut classes: BTreeMap<u64, SizeClass> = BTreeMap::new();
-        for block in chunks.iter().flatten() {
-            let box_px = (block.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;
-            let none = || vec![0; rows as usize + 1];
-            let class = classes.entry(box_px.to_bits()).or_insert_with(|| SizeClass {
-                box_px,
-                begun: none(),
-                ended: none(),
-            });
-            // In the row behind the one where it begins or ends; then summed up.
-            class.begun[block.rows.start as usize + 1] += block.count;
-            class.ended[block.rows.end as usize] += block.count;
-        }
-        let mut classes: Vec<_> = classes.into_values().collect();
-        for class in &mut classes {
-            for row in 1..=rows as usize {
-                class.begun[row] += class.begun[row - 1];
-                class.ended[row] += class.ended[row - 1];
+    pub fn new(arena: &'a Arena, chunks: &'a [&'a [PotentiallyVisibleBlock]], rows: u32) -> Self {
+        let size_of = |block: &PotentiallyVisibleBlock| (block.box_px / SIZE_STEP_PX).ceil() * SIZE_STEP_PX;
+        let mut sizes_px = arena.growing::<f64>();
+        let place_of =
+            |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
+        for block in chunks.iter().copied().flatten() {
+            let size = size_of(block);
+            if let Err(place) = place_of(&sizes_px, size) {
+                sizes_px.insert(place, size);
             }
         }
-        Self { chunks, classes }
+        let count = sizes_px.len();
+        let mut before = arena.growing();
+        before.resize(count * (rows as usize + 1), [0; 2]);
+        for block in chunks.iter().copied().flatten() {
+            let (Ok(size) | Err(size)) = place_of(&sizes_px, size_of(block));
+            // In the row behind the one where it begins or ends; then summed up.
+            before[(block.rows.start as usize + 1) * count + size][0] += block.count;
+            before[block.rows.end as usize * count + size][1] += block.count;
+        }
+        for place in count..before.len() {
+            let [begun, ended] = before[place - count];
+            before[place][0] += begun;
+            before[place][1] += ended;
+        }
+        Self { chunks, sizes_px: sizes_px.into_bump_slice(), before: before.into_bump_slice() }
     }
 
     /// How many splats have boxes up to how many pixels, of the blocks that may touch these rows.
-    pub fn boxes(&self, rows: &Range<u32>) -> Vec<(u32, f64)> {
-        let of = |class: &SizeClass| {
-            (class.begun[rows.end as usize] - class.ended[rows.start as usize], class.box_px)
-        };
-        self.classes.iter().map(of).filter(|(count, _)| *count > 0).collect()
+    pub fn boxes(&self, rows: &Range<u32>) -> impl Iterator<Item = (u32, f64)> + Clone + use<'a> {
+        let (sizes_px, before) = (self.sizes_px, self.before);
+        let of_row = |row: u32| &before[row as usize * sizes_px.len()..][..sizes_px.len()];
+        let (end, start) = (of_row(rows.end), of_row(rows.start));
+        let of = |((end, start), size_px): ((&[u32; 2], &[u32; 2]), &f64)| (end[0] - start[1], *size_px);
+        end.iter().zip(start).zip(sizes_px).map(of).filter(|(count, _)| *count > 0)
     }
 
     /// The rows that any of them may touch; `None` where there is none.
     pub fn rows(&self) -> Option<Range<u32>> {
-        let rows = || self.chunks.iter().flatten().map(|block| &block.rows);
+        let rows = || self.chunks.iter().copied().flatten().map(|block| &block.rows);
         Some(rows().map(|rows| rows.start).min()?..rows().map(|rows| rows.end).max()?)
     }
 }

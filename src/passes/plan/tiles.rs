@@ -131,7 +131,7 @@ impl TilePlan {
     /// The same for so many chunks with so many splats of boxes up to so many pixels.
     pub(crate) fn of_boxes(
         chunks: usize,
-        boxes: &[(u32, f64)],
+        boxes: impl Iterator<Item = (u32, f64)> + Clone,
         [width, height]: [u32; 2],
         limits: &Limits,
         invocations: Invocations,
@@ -139,7 +139,7 @@ impl TilePlan {
         let range = limits.max_storage_buffer_range;
         // A record, or an entry, is a texel of each buffer that it is in.
         let most_texels = if invocations.fetch_texels() { u64::from(limits.max_texels) } else { u64::MAX };
-        let records: u64 = boxes.iter().map(|(count, _)| u64::from(*count)).sum();
+        let records: u64 = boxes.clone().map(|(count, _)| u64::from(count)).sum();
         let rows = 0..height.div_ceil(BAND_ROW);
         let (tiles_x, tiles_y) = (width.div_ceil(TILE_WIDTH), tile_rows(rows.end, invocations));
         let tile_count = tiles_x * tiles_y;
@@ -169,9 +169,9 @@ impl TilePlan {
         let most_of_all = u64::from(most_a_side * most_a_side).min(in_rounds);
         // A splat that is left to the graphics pipeline has an entry, too.
         let entries = |most: u64| -> u64 {
-            boxes.iter().map(|(count, px)| u64::from(*count) * tiles_of(*px, invocations).min(most)).sum()
+            boxes.clone().map(|(count, px)| u64::from(count) * tiles_of(px, invocations).min(most)).sum()
         };
-        let largest = boxes.iter().map(|(_, px)| *px).fold(0.0, f64::max);
+        let largest = boxes.clone().map(|(_, px)| px).fold(0.0, f64::max);
         // As many as there is room for if all have them; or as they have, where there is room for all.
         let most_tiles =
             if entries(most_of_all) <= room { tiles_of(largest, invocations) } else { room / records };

@@ -24,21 +24,24 @@ const DRAW_BYTES: u64 = 20;
 
 /// Declares the pass, where the frame has meshes in cells; before it, that which tells it how the camera sees them. Gives the arguments of the draws, one a
 /// cell.
-pub(crate) fn choose<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>) -> Result<Option<Handle<Buffer>>> {
+pub(crate) fn choose<'a>(
+    graph: &mut Graph<'a, Body<'a>>,
+    inputs: Inputs<'a>,
+) -> Result<Option<Handle<Buffer>>> {
     if inputs.meshes.iter().all(|draw| draw.levels.is_none()) {
         return Ok(None);
     }
-    let words = words(inputs.meshes);
+    let words = graph.arena().list(words(inputs.meshes));
     let mut view = graph.create_buffer("view of cells", BufferDesc::of_bytes(4 * words.len() as u64));
     Pass::new(graph, inputs.source, "view of cells", WHY)
         .write(transfer(0), &mut view, Access::TransferWrite, Start::Discard)
-        .finish(move |pass| pass.update_buffer(transfer(0), bytemuck::cast_slice(&words)));
+        .finish(move |pass| pass.update_buffer(transfer(0), bytemuck::cast_slice(words)));
     let bytes = offset_of(inputs.meshes, inputs.meshes.len());
     let mut draws = graph.create_buffer("cells drawn as polygons", BufferDesc::of_bytes(bytes));
     let pass = Pass::new(graph, inputs.source, "choose polygons", WHY)
         .read(lists(BIND_LIST_BLOCKS), &view, Access::StorageReadCompute)
         .write(lists(BIND_LIST_ARGUMENTS), &mut draws, Access::StorageWriteCompute, Start::Discard);
-    let pipeline = pass.compute(list_key(&shaders::CHOOSE_POLYGONS_COMP, Vec::new()))?;
+    let pipeline = pass.compute(list_key(&shaders::CHOOSE_POLYGONS_COMP, [].into()))?;
     pass.finish(move |pass| {
         let set = pass.set(Place::Lists(0))?;
         pass.bind(pipeline);
@@ -91,10 +94,10 @@ fn offset_of(meshes: &[MeshDraw<'_>], number: usize) -> u64 {
 }
 
 /// Two words that are not read, and how the camera sees each, the last one first (`glsl/inc/list.glsl`, `glsl/inc/levels.glsl`).
-fn words(meshes: &[MeshDraw<'_>]) -> Vec<u32> {
+fn words(meshes: &[MeshDraw<'_>]) -> impl Iterator<Item = u32> {
     let views = meshes
         .iter()
         .rev()
         .map(|draw| draw.levels.map_or([0; LEVEL_WORDS as usize], |levels| levels.words()));
-    [0; 2].into_iter().chain(views.flatten()).collect()
+    [0; 2].into_iter().chain(views.flatten())
 }

@@ -7,7 +7,7 @@ use crate::passes::{inputs::Inputs, pass::Pass, pipeline::formats::DEPTH_FORMAT,
 
 /// A depth, and how the pass begins that draws into it: with a copy of `source`, which a pass before it makes, or infinitely far.
 pub(crate) fn depth_from<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     name: &str,
     why: &'static str,
@@ -16,7 +16,7 @@ pub(crate) fn depth_from<'a>(
     let mut depth = graph.create_image(name, inputs.image(DEPTH_FORMAT));
     let Some(source) = source else { return (depth, Start::Clear(ClearValue::Depth(0.0))) };
     let extent = inputs.extent();
-    Pass::new(graph, inputs.source, &format!("begin {name}"), why)
+    Pass::new(graph, inputs.source, format_args!("begin {name}"), why)
         .read(transfer(0), source, Access::TransferRead)
         .write(transfer(1), &mut depth, Access::TransferWrite, Start::Discard)
         .finish(move |pass| {

@@ -29,10 +29,10 @@ use crate::{
 fn mesh_pass(settings: &Settings) -> MeshPass {
     MeshPass {
         fragment: &shaders::POLYGONS_OPAQUE_FRAG,
-        color_formats: vec![sum_format(settings.accumulate); 2],
+        color_formats: [sum_format(settings.accumulate); 2].into(),
         blend: Blend::Replace,
         depth: Some((vk::CompareOp::GREATER, true)),
-        constants: Vec::new(),
+        constants: [].into(),
     }
 }
 
@@ -42,7 +42,7 @@ fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> 
     constants.push((SPEC_HALF_FLOATS, u32::from(precision == Accumulate::F16)));
     MeshPass {
         fragment: &shaders::POLYGONS_SHADED_FRAG,
-        color_formats: vec![sum_format(precision)],
+        color_formats: [sum_format(precision)].into(),
         constants,
         ..mesh_pass(settings)
     }
@@ -50,7 +50,7 @@ fn shaded_mesh_pass(settings: &Settings, precision: Accumulate, lights: u32) -> 
 
 /// Declares the pass that draws them first, and shaded; returns their depth.
 pub(crate) fn shaded<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     (shown, precision): (&mut Handle<Image>, Accumulate),
     lights: Option<&Handle<Buffer>>,
@@ -70,7 +70,7 @@ pub(crate) fn shaded<'a>(
     let pipelines = shaded_mesh_pass(inputs.settings, precision, inputs.lights).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_meshes(pass, inputs, &pipelines)
+        draw_meshes(pass, inputs, pipelines)
     });
     Ok(depth)
 }
@@ -78,7 +78,7 @@ pub(crate) fn shaded<'a>(
 /// Declares the pass, and before it, where there are splats, the copy of their depth: accumulation needs both. Returns
 /// albedo and 1, normal and 1, where a polygon is seen; and the depth of splats and polygons together.
 pub(crate) fn polygons<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     splats: Option<&Handle<Image>>,
 ) -> Result<(Sums, Handle<Image>)> {
@@ -104,7 +104,7 @@ pub(crate) fn polygons<'a>(
     let pipelines = mesh_pass(inputs.settings).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_meshes(pass, inputs, &pipelines)
+        draw_meshes(pass, inputs, pipelines)
     });
     Ok((seen, depth))
 }

@@ -6,7 +6,7 @@ use crate::passes::{
     inputs::Inputs,
     pass::Pass,
     pipeline::{
-        key::{GraphicsKey, Layout},
+        key::{ColorFormats, GraphicsKey, Layout},
         variant::Constants,
     },
     plan::mesh_draws::MeshDraw,
@@ -23,7 +23,7 @@ use crate::{
 /// What a pass over polygons is made of: its fragment stage, and what it writes.
 pub(crate) struct MeshPass {
     pub fragment: &'static Shader,
-    pub color_formats: Vec<vk::Format>,
+    pub color_formats: ColorFormats,
     pub blend: Blend,
     /// The depth test and whether it writes, where there is one.
     pub depth: Option<(vk::CompareOp, bool)>,
@@ -34,10 +34,10 @@ impl MeshPass {
     /// What the pipeline of a piece is; normals of layers of a closed surface stay as they are.
     fn key(&self, draw: &MeshDraw<'_>) -> GraphicsKey {
         let topology = vk::PrimitiveTopology::TRIANGLE_LIST;
-        let mut constants = self.constants.clone();
-        constants.push((SPEC_OUTWARD, u32::from(draw.chunk.closed && draw.chunk.transparent)));
+        let outward = (SPEC_OUTWARD, u32::from(draw.chunk.closed && draw.chunk.transparent));
+        let constants = self.constants.with([outward]);
         GraphicsKey {
-            color_formats: self.color_formats.clone(),
+            color_formats: self.color_formats,
             blend: self.blend,
             depth: self.depth,
             cull_clockwise: draw.cull,
@@ -46,8 +46,8 @@ impl MeshPass {
     }
 
     /// The pipelines of every draw, in their order.
-    pub fn pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<Pipeline>> {
-        inputs.meshes.iter().map(|draw| pass.graphics(self.key(draw))).collect()
+    pub fn pipelines<'a>(&self, pass: &Pass<'_, 'a>, inputs: Inputs<'_>) -> Result<&'a [Pipeline]> {
+        pass.arena().try_list(inputs.meshes.iter().map(|draw| pass.graphics(self.key(draw))))
     }
 }
 

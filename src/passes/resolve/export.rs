@@ -41,12 +41,12 @@ impl Exported {
 /// What its pipeline is.
 fn key() -> GraphicsKey {
     GraphicsKey {
-        color_formats: Exported::FORMATS.to_vec(),
-        ..GraphicsKey::fullscreen(&shaders::EXPORT_FRAG, Layout::Finalize, Vec::new())
+        color_formats: Exported::FORMATS.into(),
+        ..GraphicsKey::fullscreen(&shaders::EXPORT_FRAG, Layout::Finalize, [].into())
     }
 }
 
-fn images(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>) -> Exported {
+fn images(graph: &mut Graph<'_, Body<'_>>, inputs: Inputs<'_>) -> Exported {
     let mut image = |name: &str, format| graph.create_image(name, inputs.image(format));
     let [weight, albedo, normal, depth] = Exported::FORMATS;
     Exported {
@@ -59,7 +59,7 @@ fn images(graph: &mut Graph<Body<'_>>, inputs: Inputs<'_>) -> Exported {
 
 /// Declares the pass, of a scene without opaque splats that their surface is empty. `surface`: their sums and depth.
 pub(crate) fn export<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     surface: Option<(&Sums, &Handle<Image>)>,
 ) -> Result<Exported> {

@@ -19,7 +19,7 @@ use crate::{
 /// Declares the pass. `of_splats`, `visible`: the sums of opaque splats, with depth, and what hides others behind it, all of them
 /// with content everywhere.
 pub(crate) fn eye_dome<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     (of_splats, visible): (&Sums, &Handle<Image>),
     target: &mut Handle<Image>,
@@ -32,8 +32,8 @@ pub(crate) fn eye_dome<'a>(
             .read(sums(BIND_SUMS_NORMALS), &of_splats.normal, Access::SampledFragment)
             .read(sums(BIND_SUMS_DEPTH), visible, Access::SampledFragment);
     let key = GraphicsKey {
-        color_formats: vec![target_format],
-        ..GraphicsKey::fullscreen(&shaders::EYE_DOME_FRAG, Layout::Finalize, Vec::new())
+        color_formats: [target_format].into(),
+        ..GraphicsKey::fullscreen(&shaders::EYE_DOME_FRAG, Layout::Finalize, [].into())
     };
     let (pipeline, constants) = (pass.graphics(key)?, inputs.finalize_constants());
     pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));

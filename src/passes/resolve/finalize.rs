@@ -23,6 +23,7 @@ use crate::passes::{
     },
 };
 use crate::{
+    arena::{Arena, ArenaVec},
     error::Result,
     graph::{Access, Buffer, ClearValue, Graph, Handle, Image, Start, execute::Body},
     scene::Settings,
@@ -34,7 +35,6 @@ const WHY: &str =
     "every scene: normalizes and shades the sums, unless tiles did, and puts transparent layers over them";
 
 /// What the opaque passes leave.
-#[derive(Default)]
 pub(crate) struct Opaque<'a> {
     /// Of splats.
     pub splats: Option<Sums>,
@@ -45,14 +45,27 @@ pub(crate) struct Opaque<'a> {
     /// The depth of polygons, or of the splats where those are nearer; where all is shown already, of polygons alone.
     pub polygon_depth: Option<Handle<Image>>,
     /// The tiles that have splats, where outside of them there is nothing, or only polygons that are shown.
-    pub tiles: Vec<Tiles<'a>>,
+    pub tiles: ArenaVec<'a, Tiles<'a>>,
     /// What these and polygons show, in place of sums.
     pub shown: Option<Handle<Image>>,
     /// Polygons are among what is shown.
     pub shows_polygons: bool,
 }
 
-impl Opaque<'_> {
+impl<'a> Opaque<'a> {
+    /// Nothing yet.
+    pub fn nothing(arena: &'a Arena) -> Self {
+        Self {
+            splats: None,
+            polygons: None,
+            splat_depth: None,
+            polygon_depth: None,
+            tiles: arena.growing(),
+            shown: None,
+            shows_polygons: false,
+        }
+    }
+
     /// The depth that hides what is behind it; none where there is nothing opaque.
     pub fn depth(&self) -> Option<&Handle<Image>> {
         self.polygon_depth.as_ref().or(self.splat_depth.as_ref())
@@ -79,7 +92,7 @@ fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option
     let mut constants = resolve_constants(settings, splats, polygons, lights);
     constants.push((SPEC_LAYERED, layered.into()));
     Some(GraphicsKey {
-        color_formats: vec![target_format],
+        color_formats: [target_format].into(),
         depth: (!layered).then_some((vk::CompareOp::LESS, false)),
         ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, constants)
     })
@@ -88,7 +101,7 @@ fn key(settings: &Settings, target_format: vk::Format, traits: Traits) -> Option
 /// Declares the pass. The target's format decides whether the linear light is encoded (an sRGB format) or kept. `layers`:
 /// what transparent layers add up to.
 pub(crate) fn finalize<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     opaque: &Opaque<'a>,
     layers: Option<&Handle<Image>>,
@@ -178,26 +191,23 @@ fn finalize_shown<'a>(
 
 /// The pipeline that finalizes tiles, from that of the whole target.
 fn key_of_tiles(whole: &GraphicsKey) -> GraphicsKey {
-    GraphicsKey {
-        color_formats: whole.color_formats.clone(),
-        ..runs_key(whole.fragment, whole.constants.clone())
-    }
+    GraphicsKey { color_formats: whole.color_formats, ..runs_key(whole.fragment, whole.constants) }
 }
 
 /// What the pipeline is that brings to the target what tiles show; `beside`: in a pass that has the depth of polygons.
 fn tile_resolve_key(target_format: vk::Format, beside: bool) -> GraphicsKey {
     GraphicsKey {
-        color_formats: vec![target_format],
+        color_formats: [target_format].into(),
         depth: beside.then_some((vk::CompareOp::ALWAYS, false)),
-        ..runs_key(&shaders::FINALIZE_FRAG, vec![(SPEC_SHADED, 1)])
+        ..runs_key(&shaders::FINALIZE_FRAG, [(SPEC_SHADED, 1)].into())
     }
 }
 
 /// What it is where transparent layers lie over them.
 fn layered_resolve_key(target_format: vk::Format) -> GraphicsKey {
-    let constants = vec![(SPEC_SHADED, 1), (SPEC_LAYERED, 1)];
+    let constants = [(SPEC_SHADED, 1), (SPEC_LAYERED, 1)].into();
     GraphicsKey {
-        color_formats: vec![target_format],
+        color_formats: [target_format].into(),
         ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, constants)
     }
 }
@@ -205,8 +215,8 @@ fn layered_resolve_key(target_format: vk::Format) -> GraphicsKey {
 /// What it is where there are polygons alone.
 fn polygon_resolve_key(target_format: vk::Format) -> GraphicsKey {
     GraphicsKey {
-        color_formats: vec![target_format],
+        color_formats: [target_format].into(),
         depth: Some((vk::CompareOp::LESS, false)),
-        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, vec![(SPEC_SHADED, 1)])
+        ..GraphicsKey::fullscreen(&shaders::FINALIZE_FRAG, Layout::Finalize, [(SPEC_SHADED, 1)].into())
     }
 }

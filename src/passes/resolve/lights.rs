@@ -13,7 +13,7 @@ use crate::{
 
 /// Declares the pass that fills the buffer; none where there are no lights.
 pub(crate) fn lights<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     source: Source<'a>,
     lights: &'a [ShaderLight],
 ) -> Option<Handle<Buffer>> {

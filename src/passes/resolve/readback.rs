@@ -13,9 +13,9 @@ const WHY: &str = "the host reads it";
 
 /// Declares the pass: rows of `extent.width` pixels without padding, top row first. The buffer must have room.
 pub fn readback<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     source: Source<'a>,
-    name: &str,
+    name: impl std::fmt::Display,
     image: &Handle<Image>,
     (format, extent): (vk::Format, vk::Extent2D),
     buffer: &mut Handle<Buffer>,
@@ -36,9 +36,9 @@ pub fn readback<'a>(
 
 /// Declares the pass that copies the first `size_bytes` of a buffer.
 pub fn readback_buffer<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     source: Source<'a>,
-    name: &str,
+    name: impl std::fmt::Display,
     from: &Handle<Buffer>,
     to: &mut Handle<Buffer>,
     size_bytes: u64,

@@ -25,7 +25,7 @@ const WHY: &str =
 
 /// Declares the pass that adds a sample to the sum. `first`: nothing is in it yet.
 pub(crate) fn add_sample<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     sample: &Handle<Image>,
     sum: &mut Handle<Image>,
@@ -36,9 +36,9 @@ pub(crate) fn add_sample<'a>(
         .attach(sum, Access::ColorAttachment, start)
         .read(sums(BIND_SUMS_COLORS), sample, Access::SampledFragment);
     let pipeline = pass.graphics(GraphicsKey {
-        color_formats: vec![SAMPLE_FORMAT],
+        color_formats: [SAMPLE_FORMAT].into(),
         blend: Blend::AddWeighted,
-        ..GraphicsKey::fullscreen(&shaders::SAMPLES_ADD_FRAG, Layout::Finalize, Vec::new())
+        ..GraphicsKey::fullscreen(&shaders::SAMPLES_ADD_FRAG, Layout::Finalize, [].into())
     })?;
     let constants = inputs.finalize_constants();
     pass.finish(move |pass| draw_fullscreen(pass, pipeline, &constants));
@@ -47,7 +47,7 @@ pub(crate) fn add_sample<'a>(
 
 /// Declares the pass that brings the mean of all samples to the target, whose format decides whether the light is encoded.
 pub(crate) fn resolve_samples<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     sum: &Handle<Image>,
     (target, format): (&mut Handle<Image>, vk::Format),
@@ -55,9 +55,9 @@ pub(crate) fn resolve_samples<'a>(
     let pass = Pass::new(graph, inputs.source, "resolve samples", WHY)
         .attach(target, Access::ColorAttachment, Start::Discard)
         .read(sums(BIND_SUMS_COLORS), sum, Access::SampledFragment);
-    let constants = vec![(SPEC_SAMPLES, inputs.settings.samples.0)];
+    let constants = [(SPEC_SAMPLES, inputs.settings.samples.0)].into();
     let pipeline = pass.graphics(GraphicsKey {
-        color_formats: vec![format],
+        color_formats: [format].into(),
         ..GraphicsKey::fullscreen(&shaders::SAMPLES_RESOLVE_FRAG, Layout::Finalize, constants)
     })?;
     let constants = inputs.finalize_constants();

@@ -43,14 +43,13 @@ pub(crate) fn summed_constants(settings: &Settings, summed: Summed, peeled: bool
         Summed::Layer => (SUMMED_LAYER, false),
         Summed::Rest => (SUMMED_REST, false),
     };
-    let mut constants = vec![
+    let constants = Constants::from([
         (SPEC_SUMMED, number),
         (SPEC_WITH_DEPTH, with_depth.into()),
         (SPEC_TEXTURED, u32::from(settings.kernel_eval == KernelEval::Texture)),
         (SPEC_PEELED, peeled.into()),
-    ];
-    constants.extend(outline_constant(settings));
-    constants
+    ]);
+    constants.with(outline_constant(settings))
 }
 
 /// What the pass is made of.
@@ -63,7 +62,7 @@ pub(crate) fn splat_pass(settings: &Settings, summed: Summed) -> SplatPass {
         _ => vk::CompareOp::GREATER_OR_EQUAL,
     };
     SplatPass {
-        color_formats: vec![sum_format(settings.accumulate); 2],
+        color_formats: [sum_format(settings.accumulate); 2].into(),
         depth: Some((depth, false)),
         constants: summed_constants(settings, summed, false),
         ..SplatPass::new(settings, |drawn| drawn.accumulate(summed))
@@ -72,7 +71,7 @@ pub(crate) fn splat_pass(settings: &Settings, summed: Summed) -> SplatPass {
 
 /// The kernel's texture, where it is evaluated so.
 pub(crate) fn kernel_of<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
 ) -> Result<Option<Handle<Image>>> {
     match inputs.settings.kernel_eval {
@@ -84,9 +83,9 @@ pub(crate) fn kernel_of<'a>(
 /// Declares the pass. `polygons`: the larger one of the splats' visible depth and that of polygons, where there are any;
 /// `with_depth`: something reads the surface's depth, so it is summed too.
 pub(crate) fn accumulate<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
-    lists: &Lists,
+    lists: &Lists<'a>,
     depth: &Handle<Image>,
     polygons: Option<&Handle<Image>>,
     kernel: Option<&Handle<Image>>,
@@ -108,7 +107,7 @@ pub(crate) fn accumulate<'a>(
     let pipelines = splat_pass(inputs.settings, summed).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_splats(pass, inputs, &pipelines)
+        draw_splats(pass, inputs, pipelines)
     });
     Ok(sums)
 }

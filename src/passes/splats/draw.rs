@@ -8,7 +8,7 @@ use crate::passes::{
     pass::Pass,
     pipeline::{
         constants::FrameConstants,
-        key::{GraphicsKey, Layout},
+        key::{ColorFormats, GraphicsKey, Layout},
         splat_shaders::{Drawn, Primitive, Stages, clipped},
         variant::Constants,
     },
@@ -24,7 +24,7 @@ pub(crate) struct SplatPass {
     pub primitive: Primitive,
     pub stages: Stages,
     pub stages_of_quads: Stages,
-    pub color_formats: Vec<vk::Format>,
+    pub color_formats: ColorFormats,
     pub blend: Blend,
     /// The depth test and whether it writes, where there is one.
     pub depth: Option<(vk::CompareOp, bool)>,
@@ -58,10 +58,10 @@ impl SplatPass {
             primitive,
             stages: stages(Drawn::of(primitive, settings)),
             stages_of_quads: stages(Drawn::of(Primitive::Quad, settings)),
-            color_formats: Vec::new(),
+            color_formats: [].into(),
             blend: Blend::Add,
             depth: None,
-            constants: Vec::new(),
+            constants: [].into(),
         }
     }
 
@@ -74,9 +74,9 @@ impl SplatPass {
         let stages = if draw.chunk.clipped { clipped(stages) } else { stages };
         let some_large = (SPEC_SOME_LARGE, u32::from(portion != Portion::All));
         let half_sums = (SPEC_HALF_SUMS, u32::from(draw.half_sums && !self.color_formats.is_empty()));
-        let constants = [draw.variant.as_slice(), &self.constants, &[some_large, half_sums]].concat();
+        let constants = draw.variant.with(self.constants).with([some_large, half_sums]);
         GraphicsKey {
-            color_formats: self.color_formats.clone(),
+            color_formats: self.color_formats,
             blend: self.blend,
             depth: self.depth,
             ..GraphicsKey::new(stages, Layout::Splat, primitive.topology(), constants)
@@ -84,20 +84,20 @@ impl SplatPass {
     }
 
     /// The pipelines that draw listed splats as quads, one a draw.
-    pub fn quad_pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<Pipeline>> {
+    pub fn quad_pipelines<'a>(&self, pass: &Pass<'_, 'a>, inputs: Inputs<'_>) -> Result<&'a [Pipeline]> {
         let key = |draw: &Draw<'_>| self.key(Portion::Large, draw);
-        by_variant(inputs.draws, |draw| pass.graphics(key(draw)))
+        by_variant(pass.arena(), inputs.draws, |draw| pass.graphics(key(draw)))
     }
 
     /// The pipelines of every draw, in their order.
-    pub fn pipelines(&self, pass: &Pass<'_, '_>, inputs: Inputs<'_>) -> Result<Vec<DrawPipelines>> {
+    pub fn pipelines<'a>(&self, pass: &Pass<'_, 'a>, inputs: Inputs<'_>) -> Result<&'a [DrawPipelines]> {
         let both = |draw: &Draw<'_>| {
             let make = |portion| pass.graphics(self.key(portion, draw));
             let own = if draw.may_be_large { Portion::Small } else { Portion::All };
             let own = make(own)?;
             Ok(DrawPipelines { own, quads: draw.may_be_large.then(|| make(Portion::Large)).transpose()? })
         };
-        by_variant(inputs.draws, both)
+        by_variant(pass.arena(), inputs.draws, both)
     }
 }
 

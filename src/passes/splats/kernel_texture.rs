@@ -27,14 +27,14 @@ fn key(kernel: Kernel, cut_off: bool) -> GraphicsKey {
     let mut constants = kernel_constants(kernel);
     constants.push((SPEC_CUT_OFF, cut_off.into()));
     GraphicsKey {
-        color_formats: vec![FORMAT],
+        color_formats: [FORMAT].into(),
         ..GraphicsKey::fullscreen(&shaders::KERNEL_TEXTURE_FRAG, Layout::Finalize, constants)
     }
 }
 
 /// Declares the pass; returns the texture.
 pub(crate) fn kernel_texture<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     cut_off: bool,
 ) -> Result<Handle<Image>> {

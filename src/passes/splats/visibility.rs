@@ -20,16 +20,16 @@ use crate::{
 pub(crate) fn splat_pass(settings: &Settings, layer: Option<bool>) -> SplatPass {
     SplatPass {
         depth: Some((vk::CompareOp::GREATER, true)),
-        constants: vec![(SPEC_PEELED, u32::from(layer == Some(true)))],
+        constants: [(SPEC_PEELED, u32::from(layer == Some(true)))].into(),
         ..SplatPass::new(settings, |drawn| drawn.visibility(layer.is_some()))
     }
 }
 
 /// Declares the pass; returns its reversed depth: near / z, 0 where there is nothing.
 pub(crate) fn visibility<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
-    lists: &Lists,
+    lists: &Lists<'a>,
 ) -> Result<Handle<Image>> {
     let mut depth = graph.create_image("depth", inputs.image(DEPTH_FORMAT));
     let clear = Start::Clear(ClearValue::Depth(0.0));
@@ -39,7 +39,7 @@ pub(crate) fn visibility<'a>(
     let pipelines = splat_pass(inputs.settings, None).pipelines(&pass, inputs)?;
     pass.finish(move |pass| {
         bind_read(pass)?;
-        draw_splats(pass, inputs, &pipelines)
+        draw_splats(pass, inputs, pipelines)
     });
     Ok(depth)
 }

@@ -27,20 +27,20 @@ const WHY: &str = "lists of splats by tile: counted, placed by prefix sums, fill
 
 /// The pipeline of what walks over projected splats; `listed`: they are those of a list.
 fn walk_key(shader: &'static Shader, plan: &TilePlan, listed: bool) -> ComputeKey {
-    let constants = vec![
+    let constants = [
         (SPEC_PLACE_BITS, plan.place_bits),
         (SPEC_LISTED, u32::from(listed)),
         (SPEC_TEXELS, u32::from(plan.invocations.fetch_texels())),
         (SPEC_MAY_BE_LARGE, u32::from(plan.may_be_large)),
         (SPEC_PARTED, u32::from(plan.clips)),
     ];
-    key(shader, constants)
+    key(shader, constants.into())
 }
 
 /// Declares the passes that project splats and list them by tile. `kind`, in front of the names, tells several such lists of a
 /// frame apart.
 pub(crate) fn list<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     plan: &'a TilePlan,
@@ -50,8 +50,9 @@ pub(crate) fn list<'a>(
     let mut tiles = Tiles::create(graph, kind, plan);
     project(graph, inputs, kind, &mut tiles, visible.as_ref())?;
 
-    let name = |what: &str| format!("{what} {kind}tiles");
-    Pass::new(graph, inputs.source, &name("clear counts of"), WHY)
+    let arena = graph.arena();
+    let name = |what: &str| arena.text(format_args!("{what} {kind}tiles"));
+    Pass::new(graph, inputs.source, name("clear counts of"), WHY)
         .write(transfer(0), &mut tiles.counts, Access::TransferWrite, Start::Discard)
         .finish(|pass| {
             let buffer = pass.buffer(transfer(0))?;
@@ -62,7 +63,7 @@ pub(crate) fn list<'a>(
 
     let (read, write, update) =
         (Access::StorageReadCompute, Access::StorageWriteCompute, Access::StorageUpdateCompute);
-    let pass = Pass::new(graph, inputs.source, &name("count"), WHY);
+    let pass = Pass::new(graph, inputs.source, name("count"), WHY);
     let pass = tiles.read_for_walk(pass).read_if(at(BIND_VISIBLE_STARTS), visible_starts, read).write(
         at(BIND_COUNTS),
         &mut tiles.counts,
@@ -73,25 +74,25 @@ pub(crate) fn list<'a>(
     finish(pass, inputs, (plan, count), walk)?;
 
     let groups = plan.bin_count().div_ceil(BIN_GROUP_SIZE);
-    let pass = Pass::new(graph, inputs.source, &name("total"), WHY)
+    let pass = Pass::new(graph, inputs.source, name("total"), WHY)
         .write(at(BIND_COUNTS), &mut tiles.counts, Access::StorageReadWriteCompute, Start::Load)
         .write(at(BIND_STARTS), &mut tiles.starts, write, Start::Discard);
-    let total = key(&shaders::TILE_TOTAL_COMP, Vec::new());
+    let total = key(&shaders::TILE_TOTAL_COMP, [].into());
     finish(pass, inputs, (plan, total), move |pass| pass.groups(pass.constants, groups))?;
 
-    let pass = Pass::new(graph, inputs.source, &name("start"), WHY)
+    let pass = Pass::new(graph, inputs.source, name("start"), WHY)
         .write(at(BIND_STARTS), &mut tiles.starts, Access::StorageReadWriteCompute, Start::Load)
         .write(at(BIND_NON_EMPTY_TILES), &mut tiles.seen, write, Start::Discard)
         .write(at(BIND_RUNS), &mut tiles.runs, write, Start::Discard)
         .write(at(BIND_ARGUMENTS), &mut tiles.arguments, write, Start::Discard)
         .write(at(BIND_OVERFLOW_TILES), &mut tiles.overflow, write, Start::Discard);
-    let start = vec![(SPEC_PART_LENGTH, plan.part_length), (SPEC_PARTED, u32::from(plan.clips))];
+    let start = [(SPEC_PART_LENGTH, plan.part_length), (SPEC_PARTED, u32::from(plan.clips))].into();
     let start = key(&shaders::TILE_START_COMP, start);
     finish(pass, inputs, (plan, start), |pass| pass.groups(pass.constants, 1))?;
 
     // Where the graphics pipeline draws some, it wants the splats' own numbers.
     let numbers = visible.as_ref().filter(|_| plan.may_be_large).map(|list| &list.list);
-    let pass = Pass::new(graph, inputs.source, &name("fill"), WHY);
+    let pass = Pass::new(graph, inputs.source, name("fill"), WHY);
     let pass = tiles
         .read_for_walk(pass)
         .read_if(at(BIND_VISIBLE_STARTS), visible_starts, read)

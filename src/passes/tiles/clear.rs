@@ -10,7 +10,7 @@ use crate::passes::{
 
 /// Declares the pass that sets images to 0.
 pub(crate) fn clear<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     source: Source<'a>,
     name: &str,
     why: &'static str,

@@ -23,7 +23,7 @@ use crate::{
 
 /// The depth buffer of opaque splats, and how a pass begins that draws into it: `before`, or infinitely far.
 pub(crate) fn depth_after<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     before: Option<Handle<Image>>,
 ) -> (Handle<Image>, Start) {
@@ -39,7 +39,7 @@ pub(crate) fn depth_after<'a>(
 /// Declares the pass. `kind`, in front of the tiles, tells those of several bands apart; `before`: the depth buffer that `visible`
 /// begins from; else it is 0 where there are no splats.
 pub(crate) fn depth_buffer<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
@@ -48,14 +48,14 @@ pub(crate) fn depth_buffer<'a>(
 ) -> Result<Handle<Image>> {
     let (mut depth, start) = depth_after(graph, inputs, before);
     let why = "more than splats in tiles: others are compared with their depth";
-    let pass = Pass::new(graph, inputs.source, &format!("depth of {kind}tiles"), why)
+    let pass = Pass::new(graph, inputs.source, format_args!("depth of {kind}tiles"), why)
         .read(sums(BIND_SUMS_COLORS), visible, Access::SampledFragment)
         .attach(&mut depth, Access::DepthAttachment, start);
     let (pass, runs) = read_runs(pass, slice::from_ref(tiles));
     let pipeline = pass.graphics(GraphicsKey {
         // What is there before may be nearer: polygons.
         depth: Some((vk::CompareOp::GREATER_OR_EQUAL, true)),
-        ..runs_key(&shaders::TILE_DEPTH_FRAG, Vec::new())
+        ..runs_key(&shaders::TILE_DEPTH_FRAG, [].into())
     })?;
     let constants = inputs.finalize_constants();
     pass.finish(move |pass| draw_runs(pass, pipeline, runs, constants));

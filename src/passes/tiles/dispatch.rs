@@ -34,7 +34,7 @@ pub(crate) fn finish<'a>(
     pass: Pass<'_, 'a>,
     inputs: Inputs<'a>,
     (plan, key): (&TilePlan, ComputeKey),
-    body: impl FnOnce(&TileDispatch<'_, '_>) -> Result<()> + 'a,
+    body: impl Fn(&TileDispatch<'_, '_>) -> Result<()> + 'a,
 ) -> Result<()> {
     let unclipped = match key.constants.contains(&CLIPS) {
         true => {

@@ -24,14 +24,14 @@ const WHY: &str = "a splat may be too large for tiles, or come near the eye plan
 /// Declares their visibility; returns the depth, as that of all splats is. `kind`, in front of the splats, tells those of several bands
 /// apart; `before`: the depth of other bands.
 pub(crate) fn see_large<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
     before: Option<Handle<Image>>,
 ) -> Result<Handle<Image>> {
     let (mut depth, start) = depth_after(graph, inputs, before);
-    let pass = Pass::new(graph, inputs.source, &format!("see {kind}large splats"), WHY).attach(
+    let pass = Pass::new(graph, inputs.source, format_args!("see {kind}large splats"), WHY).attach(
         &mut depth,
         Access::DepthAttachment,
         start,
@@ -42,7 +42,7 @@ pub(crate) fn see_large<'a>(
 
 /// Declares their accumulation, upon the sums of tiles. `polygons`, `with_depth`: as for all splats.
 pub(crate) fn sum_large<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
@@ -50,7 +50,7 @@ pub(crate) fn sum_large<'a>(
     (depth, polygons): (&Handle<Image>, Option<&Handle<Image>>),
     with_depth: bool,
 ) -> Result<()> {
-    let pass = Pass::new(graph, inputs.source, &format!("sum {kind}large splats"), WHY)
+    let pass = Pass::new(graph, inputs.source, format_args!("sum {kind}large splats"), WHY)
         .role(Role::Blends)
         .attach(&mut images.sums.color, Access::ColorAttachment, Start::Load)
         .attach(&mut images.sums.normal, Access::ColorAttachment, Start::Load);
@@ -73,7 +73,7 @@ fn finish<'a>(pass: Pass<'_, 'a>, inputs: Inputs<'a>, tiles: &Tiles<'a>, splats:
         // SAFETY: inside of rendering; within the image. A splat that touches several bands is listed in each.
         unsafe { pass.device().cmd_set_scissor(pass.commands(), 0, &[area]) };
         let lists = pass.set(Place::Lists(0))?;
-        for ((number, draw), pipeline) in (0..).zip(inputs.draws).zip(pipelines) {
+        for ((number, draw), pipeline) in (0..).zip(inputs.draws).zip(pipelines.iter().copied()) {
             // Of listed splats the lists have indices within their chunks.
             let first_record = if inputs.listed.is_some() { 0 } else { draw.constants.first_record };
             pass.bind(pipeline);

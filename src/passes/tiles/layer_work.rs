@@ -24,19 +24,15 @@ struct Share {
 }
 
 /// How the layers are dispatched.
-fn shares(settings: &Settings, plan: &TilePlan) -> Vec<Share> {
-    let (surfaces, rest) = layers_of(settings);
-    let at_once = plan.layers_at_once;
-    let mut shares: Vec<_> = (0..surfaces)
-        .step_by(at_once as usize)
-        .map(|first| Share { surfaces: at_once.min(surfaces - first), blends_rest: false })
-        .collect();
-    match shares.last_mut() {
-        Some(last) if rest && last.surfaces < at_once => last.blends_rest = true,
-        _ if rest => shares.push(Share { surfaces: 0, blends_rest: true }),
-        _ => {}
-    }
-    shares
+fn shares(settings: &Settings, plan: &TilePlan) -> impl Iterator<Item = Share> + use<> {
+    let ((surfaces, rest), at_once) = (layers_of(settings), plan.layers_at_once);
+    let of_surfaces = (0..surfaces).step_by(at_once as usize).map(move |first| {
+        let own = at_once.min(surfaces - first);
+        // What is left is the last one's, where that has room.
+        Share { surfaces: own, blends_rest: rest && own < at_once }
+    });
+    let alone = rest && surfaces % at_once == 0;
+    of_surfaces.chain(alone.then_some(Share { surfaces: 0, blends_rest: true }))
 }
 
 /// How a dispatch works on a tile.
@@ -53,29 +49,33 @@ pub(crate) enum Work {
 impl Work {
     /// How all but overflow tiles are worked on.
     pub fn of_whole_tiles(settings: &Settings, plan: &TilePlan) -> Self {
-        if shares(settings, plan).len() > 1 { Self::Several } else { Self::Whole }
+        if shares(settings, plan).nth(1).is_some() { Self::Several } else { Self::Whole }
     }
 }
 
-/// The constants of each dispatch.
-pub(crate) fn dispatches(
+/// The constants of each dispatch over whole tiles.
+pub(crate) fn of_shares(
     settings: &Settings,
     plan: &TilePlan,
-    work: Work,
     constants: TileConstants,
-) -> Vec<TileConstants> {
-    if work != Work::Parts {
-        let shares = (0..).zip(shares(settings, plan));
-        let of_share = |(part, Share { surfaces, blends_rest })| TileConstants {
-            part,
-            surfaces,
-            blends_rest: u32::from(blends_rest),
-            ..constants
-        };
-        return shares.map(of_share).collect();
-    }
+) -> impl Iterator<Item = TileConstants> + use<> {
+    let of_share = move |(part, Share { surfaces, blends_rest })| TileConstants {
+        part,
+        surfaces,
+        blends_rest: u32::from(blends_rest),
+        ..constants
+    };
+    (0..).zip(shares(settings, plan)).map(of_share)
+}
+
+/// The constants of each dispatch over overflow tiles.
+pub(crate) fn of_parts(
+    settings: &Settings,
+    plan: &TilePlan,
+    constants: TileConstants,
+) -> impl Iterator<Item = TileConstants> + use<> {
     let parts = plan.parts();
-    let of_step = |(surfaces, step)| {
+    let of_step = move |(surfaces, step)| {
         (0..parts).map(move |part| TileConstants {
             part,
             surfaces,
@@ -84,15 +84,14 @@ pub(crate) fn dispatches(
             ..constants
         })
     };
-    steps(settings).into_iter().flat_map(of_step).collect()
+    steps(settings).flat_map(of_step)
 }
 
 /// The steps of all layers (`STEP_*`), each with the number of surfaces before it.
-fn steps(settings: &Settings) -> Vec<(u32, u32)> {
+fn steps(settings: &Settings) -> impl Iterator<Item = (u32, u32)> + use<> {
     let (surfaces, rest) = layers_of(settings);
-    let mut steps: Vec<_> = (0..surfaces).flat_map(|n| [(n, STEP_SEE), (n, STEP_SUM)]).collect();
-    steps.extend(rest.then_some((surfaces, STEP_REST)));
-    steps
+    let of_surfaces = (0..surfaces).flat_map(|n| [(n, STEP_SEE), (n, STEP_SUM)]);
+    of_surfaces.chain(rest.then_some((surfaces, STEP_REST)))
 }
 
 #[cfg(test)]
@@ -114,13 +113,18 @@ mod tests {
                     (64, LastLayer::Blend),
                     (256, LastLayer::Drop),
                 ] {
-                    let plan =
-                        TilePlan::of_boxes(1, &[(records, 10.0)], [512, 512], &limits, Invocations::Columns)
-                            .unwrap();
+                    let plan = TilePlan::of_boxes(
+                        1,
+                        std::iter::once((records, 10.0)),
+                        [512, 512],
+                        &limits,
+                        Invocations::Columns,
+                    )
+                    .unwrap();
                     let plan = plan.with_layers(most, lights);
                     let settings =
                         Settings { layers: Layers::Fixed(most), last_layer, ..Settings::default() };
-                    let shares = shares(&settings, &plan);
+                    let shares: Vec<_> = shares(&settings, &plan).collect();
                     let all: u32 =
                         shares.iter().map(|share| share.surfaces + u32::from(share.blends_rest)).sum();
                     assert_eq!(all, most);

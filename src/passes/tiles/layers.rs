@@ -13,7 +13,7 @@ use crate::passes::{
         bins::list,
         clear::clear,
         dispatch,
-        layer_work::{Work, dispatches},
+        layer_work::{Work, of_parts, of_shares},
         lists::Tiles,
         overflow, splat,
     },
@@ -67,7 +67,7 @@ fn stacked(settings: &Settings) -> bool {
 
 /// Declares the passes, of lists too; returns what the layers add up to: linear light times alpha, and alpha.
 pub(crate) fn layers<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     opaque: Option<&Handle<Image>>,
     lights: Option<&Handle<Buffer>>,
@@ -76,12 +76,13 @@ pub(crate) fn layers<'a>(
     let why = "transparent splats: tiles without any have no layer";
     clear(graph, inputs.source, "clear layers", why, &mut [&mut layers]);
     let around = (opaque, lights);
-    for (band, inputs, plan) in inputs.of_bands() {
-        let tiles = list(graph, inputs, &format!("transparent {band}"), plan)?;
+    for (band, inputs, plan) in inputs.of_bands(graph.arena()) {
+        let kind = graph.arena().text(format_args!("transparent {band}"));
+        let tiles = list(graph, inputs, kind, plan)?;
         let work = Work::of_whole_tiles(inputs.settings, plan);
-        declare(graph, inputs, (&band, &tiles), around, &mut layers, work)?;
+        declare(graph, inputs, (band, &tiles), around, &mut layers, work)?;
         if plan.may_overflow() {
-            declare(graph, inputs, (&band, &tiles), around, &mut layers, Work::Parts)?;
+            declare(graph, inputs, (band, &tiles), around, &mut layers, Work::Parts)?;
         }
     }
     Ok(layers)
@@ -92,7 +93,7 @@ type Around<'f> = (Option<&'f Handle<Image>>, Option<&'f Handle<Buffer>>);
 
 /// Declares the pass of one kind of work, which keeps what it needs from dispatch to dispatch.
 fn declare<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     (band, tiles): (&str, &Tiles<'a>),
     (opaque, lights): Around<'_>,
@@ -100,23 +101,24 @@ fn declare<'a>(
     work: Work,
 ) -> Result<()> {
     let (settings, plan) = (inputs.settings, tiles.plan);
-    let (name, why) = match work {
+    let (which, why) = match work {
         Work::Whole | Work::Several => {
             let why = "transparent splats: all layers of one tile after the other";
-            (format!("layers of {band}tiles"), why)
+            ("", why)
         }
-        Work::Parts => (format!("layers of {band}overflow tiles"), overflow::WHY),
+        Work::Parts => ("overflow ", overflow::WHY),
     };
-    let mut peeled = (work == Work::Several)
-        .then(|| graph.create_image(&format!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT)));
+    let mut peeled = (work == Work::Several).then(|| {
+        graph.create_image(format_args!("{band}peeled depth and weight"), inputs.image(PEELED_FORMAT))
+    });
     let state_bytes = BufferDesc::of_bytes(plan.most_overflow() * STATE_BYTES);
     let mut state = (work == Work::Parts)
-        .then(|| graph.create_buffer(&format!("state of {band}overflow tiles"), state_bytes));
+        .then(|| graph.create_buffer(format_args!("state of {band}overflow tiles"), state_bytes));
 
     let update =
         if peeled.is_some() { Access::SampledAndStoredCompute } else { Access::StorageReadWriteCompute };
     let mut pass = tiles
-        .read_lists(Pass::new(graph, inputs.source, &name, why))
+        .read_lists(Pass::new(graph, inputs.source, format_args!("layers of {band}{which}tiles"), why))
         .read_if(at(BIND_DEPTH_BEFORE), opaque, Access::SampledCompute)
         .read_if(at(BIND_LIGHTS), lights, Access::UniformReadCompute)
         .write(at(BIND_COLORS), layers, update, Start::Load);
@@ -132,16 +134,16 @@ fn declare<'a>(
         pass = pass.write(at(BIND_LAYER_STATE), state, Access::StorageReadWriteCompute, Start::Discard);
     }
     let key = key(settings, plan, Beside { opaque: opaque.is_some(), lights: inputs.lights }, work);
-    dispatch::finish(pass, inputs, (plan, key), move |pass| {
-        for (number, constants) in dispatches(settings, plan, work, pass.constants).into_iter().enumerate() {
-            if number > 0 {
-                pass.wait();
+    dispatch::finish(pass, inputs, (plan, key), move |pass| match work {
+        Work::Whole | Work::Several => {
+            for (number, constants) in (0..).zip(of_shares(settings, plan, pass.constants)) {
+                if number > 0 {
+                    pass.wait();
+                }
+                pass.whole_tiles(constants)?;
             }
-            match work {
-                Work::Whole | Work::Several => pass.whole_tiles(constants)?,
-                Work::Parts => pass.indirect(constants, ARGUMENTS_OVERFLOW)?,
-            }
+            Ok(())
         }
-        Ok(())
+        Work::Parts => pass.indirect_in_turn(of_parts(settings, plan, pass.constants), ARGUMENTS_OVERFLOW),
     })
 }

@@ -46,9 +46,9 @@ pub(crate) struct Tiles<'a> {
 }
 
 impl<'a> Tiles<'a> {
-    pub fn create(graph: &mut Graph<Body<'a>>, kind: &str, plan: &'a TilePlan) -> Self {
+    pub fn create(graph: &mut Graph<'a, Body<'a>>, kind: &str, plan: &'a TilePlan) -> Self {
         let mut create = |what: &str, size_bytes, texels| {
-            graph.create_buffer(&format!("{what} of {kind}tiles"), BufferDesc { size_bytes, texels })
+            graph.create_buffer(format_args!("{what} of {kind}tiles"), BufferDesc { size_bytes, texels })
         };
         const FLOATS: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
         const WORDS: vk::Format = vk::Format::R32G32B32A32_UINT;

@@ -24,8 +24,7 @@ use crate::{
 
 /// What the pipeline is for a chunk, of which perhaps a list is projected.
 fn key(variant: &Constants, plan: &TilePlan, listed: bool) -> ComputeKey {
-    let mut constants = variant.clone();
-    constants.extend([
+    let constants = variant.with([
         (SPEC_PLACE_BITS, plan.place_bits),
         (SPEC_MOST_TILES, plan.told_most_tiles()),
         (SPEC_TILE_HEIGHT, plan.invocations.tile_height()),
@@ -37,7 +36,7 @@ fn key(variant: &Constants, plan: &TilePlan, listed: bool) -> ComputeKey {
 
 /// Declares the pass.
 pub(crate) fn project<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
@@ -47,7 +46,7 @@ pub(crate) fn project<'a>(
         false => "opaque splats: each is culled, or made ready to be drawn by tiles",
         true => "transparent splats: each is made ready to be drawn by tiles",
     };
-    let mut pass = Pass::new(graph, inputs.source, &format!("project {kind}splats"), why);
+    let mut pass = Pass::new(graph, inputs.source, format_args!("project {kind}splats"), why);
     if let Some(visible) = visible {
         pass = pass
             .read(at(BIND_VISIBLE_STARTS), &visible.starts, Access::StorageReadCompute)
@@ -65,11 +64,11 @@ pub(crate) fn project<'a>(
         None => pass.also(at(BIND_CLIPS)),
     };
     let of = |draw: &Draw<'_>| pass.compute(key(&draw.variant, tiles.plan, visible.is_some()));
-    let pipelines = by_variant(inputs.draws, of)?;
+    let pipelines = by_variant(pass.arena(), inputs.draws, of)?;
     pass.finish(move |pass| {
         let set = pass.set(Place::Tiles(0))?;
         // Chunks write places of their own.
-        for (number, (draw, pipeline)) in inputs.draws.iter().zip(pipelines).enumerate() {
+        for (number, (draw, pipeline)) in inputs.draws.iter().zip(pipelines.iter().copied()).enumerate() {
             pass.bind(pipeline);
             pass.bind_sets(pipeline.layout, 0, &[draw.chunk.set(), set])?;
             pass.push(pipeline.layout, &draw.constants)?;

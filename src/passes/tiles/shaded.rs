@@ -40,7 +40,7 @@ pub(crate) struct ShadedTiles {
 
 impl ShadedTiles {
     /// Images with nothing in them yet; where layers read all of them, and no polygons are drawn before, 0 everywhere.
-    pub fn create<'a>(graph: &mut Graph<Body<'a>>, inputs: Inputs<'a>, outputs: Outputs) -> Self {
+    pub fn create<'a>(graph: &mut Graph<'a, Body<'a>>, inputs: Inputs<'a>, outputs: Outputs) -> Self {
         let precision = outputs.shaded_precision(inputs.settings);
         let mut image = graph.create_image("shaded tiles", inputs.image(sum_format(precision)));
         let mut of_depth = |name| graph.create_image(name, inputs.image(VISIBLE_FORMAT));
@@ -90,7 +90,7 @@ fn key(
 /// Declares all of it, shading too. `polygons`: their depth, as if there were no splats; `kind`, `start`: as in
 /// [`crate::passes::tiles::splat::fused`].
 pub(crate) fn shaded<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
@@ -104,8 +104,8 @@ pub(crate) fn shaded<'a>(
     let beside = Beside { polygons: polygons.is_some(), layers, host, lights: inputs.lights };
     let (access, content) = start.access();
     let why = "opaque splats: visibility, sums and shading of one tile after the other";
-    let pass =
-        Pass::new(graph, inputs.source, &format!("see, sum and shade {kind}tiles"), why).role(Role::DrawsAll);
+    let pass = Pass::new(graph, inputs.source, format_args!("see, sum and shade {kind}tiles"), why)
+        .role(Role::DrawsAll);
     let mut pass = match plan.hidden {
         true => tiles.shorten_lists(pass),
         false => tiles.read_lists(pass),
@@ -139,7 +139,7 @@ pub(crate) fn shaded<'a>(
 
 /// Declares the passes of overflow tiles.
 fn shade_overflow<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
@@ -155,7 +155,7 @@ fn shade_overflow<'a>(
     let mut constants = shading_constants(inputs.settings.shading, inputs.lights);
     constants.extend(splat::constants(inputs.settings, plan, shown.precision));
     let (access, content) = TileStart::Bands.access(); // the other tiles
-    let pass = Pass::new(graph, inputs.source, &format!("shade {kind}overflow tiles"), overflow::WHY);
+    let pass = Pass::new(graph, inputs.source, format_args!("shade {kind}overflow tiles"), overflow::WHY);
     let mut pass = tiles
         .read_lists(pass)
         .read(at(BIND_VISIBLE_BEFORE), &images.depth, Access::SampledCompute)

@@ -42,7 +42,7 @@ pub(crate) struct TileImages {
 impl TileImages {
     /// Images with nothing in them yet; `cleared`: 0 everywhere, for what draws into them or reads all of them.
     pub fn create<'a>(
-        graph: &mut Graph<Body<'a>>,
+        graph: &mut Graph<'a, Body<'a>>,
         inputs: Inputs<'a>,
         plan: &TilePlan,
         cleared: bool,
@@ -63,10 +63,10 @@ impl TileImages {
     }
 
     /// Images of as many overflow tiles as there may be.
-    pub fn of_overflow<'a>(graph: &mut Graph<Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
+    pub fn of_overflow<'a>(graph: &mut Graph<'a, Body<'a>>, kind: &str, plan: &TilePlan) -> Self {
         let extent = extent_of_slots(plan.most_overflow() as u32, plan.tile_px());
         let mut image = |what, format| {
-            graph.create_image(&format!("{what} of {kind}overflow tiles"), ImageDesc { format, extent })
+            graph.create_image(format_args!("{what} of {kind}overflow tiles"), ImageDesc { format, extent })
         };
         let format = sum_format(Accumulate::F32);
         Self {
@@ -166,7 +166,7 @@ pub(crate) fn constants(settings: &Settings, plan: &TilePlan, images: Accumulate
 /// The constants of what draws beside polygons.
 pub(crate) fn beside_polygons(settings: &Settings) -> Constants {
     let shifted_for_all = u32::from(settings.transition == Transition::Paper);
-    vec![(SPEC_WITH_POLYGONS, 1), (SPEC_SHIFTED_FOR_ALL, shifted_for_all)]
+    [(SPEC_WITH_POLYGONS, 1), (SPEC_SHIFTED_FOR_ALL, shifted_for_all)].into()
 }
 
 /// The pipeline of a step.
@@ -188,11 +188,10 @@ fn key(settings: &Settings, plan: &TilePlan, step: Step) -> ComputeKey {
     dispatch::key(shader, constants)
 }
 
-/// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has
-/// drawn; `kind`, in front of the tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the
-/// images hold.
+/// Declares visibility and accumulation in one pass. `before`: the depth of visible splats that the graphics pipeline has drawn; `kind`, in front of the
+/// tiles, tells those of several bands apart; `with_depth`: depth is summed too; `start`: what the images hold.
 pub(crate) fn fused<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &mut Tiles<'a>,
@@ -205,7 +204,8 @@ pub(crate) fn fused<'a>(
     let mut key = key(inputs.settings, plan, step);
     key.constants.push((SPEC_KEEPS_DEPTH, u32::from(start == TileStart::Cleared)));
     let why = "opaque splats: visibility and sums of one tile after the other";
-    let pass = Pass::new(graph, inputs.source, &format!("see and sum {kind}tiles"), why).role(Role::DrawsAll);
+    let pass =
+        Pass::new(graph, inputs.source, format_args!("see and sum {kind}tiles"), why).role(Role::DrawsAll);
     let pass = if plan.hidden { tiles.shorten_lists(pass) } else { tiles.read_lists(pass) };
     let (access, content) = start.access();
     let pass = pass
@@ -223,7 +223,7 @@ pub(crate) fn fused<'a>(
 
 /// Declares visibility alone: of parts of overflow tiles, or of `all` tiles. `before`: as in [`fused`].
 pub(crate) fn see<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
@@ -249,7 +249,7 @@ pub(crate) fn see<'a>(
 /// Declares accumulation alone. `polygons`: the larger one of visible depth and that of polygons, where there are any;
 /// `with_depth`: as in [`fused`].
 pub(crate) fn sum<'a>(
-    graph: &mut Graph<Body<'a>>,
+    graph: &mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     kind: &str,
     tiles: &Tiles<'a>,
@@ -275,14 +275,14 @@ pub(crate) fn sum<'a>(
 
 /// A pass over `all` tiles, or over parts of overflow tiles.
 fn begin<'g, 'a>(
-    graph: &'g mut Graph<Body<'a>>,
+    graph: &'g mut Graph<'a, Body<'a>>,
     inputs: Inputs<'a>,
     what: &str,
     (kind, why): (&str, &'static str),
     all: bool,
 ) -> Pass<'g, 'a> {
     let (of, why) = if all { ("tiles", why) } else { ("overflow tiles", overflow::WHY) };
-    Pass::new(graph, inputs.source, &format!("{what} {kind}{of}"), why)
+    Pass::new(graph, inputs.source, format_args!("{what} {kind}{of}"), why)
 }
 
 fn finish<'a>(

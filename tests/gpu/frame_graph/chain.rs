@@ -2,9 +2,10 @@
 
 use ash::vk;
 use surfel::{
+    arena::Arena,
     graph::{
-        Access, BufferDesc as GraphBufferDesc, BufferState, Compiled, Graph, ImageDesc, ResourceId, Start,
-        execute::{Body, Physical, Transients, execute, memory_need},
+        Access, BufferDesc as GraphBufferDesc, BufferState, Graph, ImageDesc, Plan, ResourceId, Start,
+        execute::{Body, PassContext, Physical, Transients, execute, memory_need},
     },
     vk::{Buffer, BufferDesc, CommandPool, MemoryUse},
 };
@@ -18,8 +19,13 @@ const EXTENT: vk::Extent2D = vk::Extent2D { width: 64, height: 48 };
 const BYTES: u64 = 4 * EXTENT.width as u64 * EXTENT.height as u64;
 
 /// `pattern` to `first` to `second` to `third` to `result`: the third image can have the first one's memory.
-pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<Body<'static>>, Imports) {
-    let mut graph: Graph<Body<'static>> = Graph::new();
+pub fn chain<'a>(
+    arena: &'a Arena,
+    watched: &Watched,
+    pattern: &Buffer,
+    result: &Buffer,
+) -> (Plan, Graph<'a, Body<'a>>, Imports) {
+    let mut graph: Graph<'_, Body<'_>> = Graph::new(arena);
     let desc = ImageDesc { format: vk::Format::R8G8B8A8_UNORM, extent: EXTENT };
     let bytes = GraphBufferDesc::of_bytes(BYTES);
     let written = BufferState { stages: TRANSFER_WRITE.0, access: TRANSFER_WRITE.1 };
@@ -40,7 +46,7 @@ pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<
         .pass("upload")
         .read(&from, Access::TransferRead)
         .write(&mut images[0], Access::TransferWrite, Start::Discard)
-        .finish(Box::new(move |context| {
+        .finish(arena.keep(move |context: &PassContext<'_>| {
             let (buffer, (image, _)) = (context.buffer(source)?, context.image(target)?);
             let layout = context.layout(target);
             // SAFETY: both are 64×48 pixels; the graph's barriers come before.
@@ -57,7 +63,7 @@ pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<
             .pass(["copy to second", "copy to third"][i])
             .read(&before[i], Access::TransferRead)
             .write(&mut after[0], Access::TransferWrite, Start::Discard)
-            .finish(Box::new(move |context| {
+            .finish(arena.keep(move |context: &PassContext<'_>| {
                 let (from, to) = (context.image(source)?.0, context.image(target)?.0);
                 let (from_layout, to_layout) = (context.layout(source), context.layout(target));
                 let layers = region().image_subresource;
@@ -78,7 +84,7 @@ pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<
         .pass("read back")
         .read(&images[2], Access::TransferRead)
         .write(&mut to, Access::TransferWrite, Start::Discard)
-        .finish(Box::new(move |context| {
+        .finish(arena.keep(move |context: &PassContext<'_>| {
             let ((image, _), buffer) = (context.image(source)?, context.buffer(target)?);
             let layout = context.layout(source);
             // SAFETY: as above.
@@ -89,7 +95,7 @@ pub fn chain(watched: &Watched, pattern: &Buffer, result: &Buffer) -> (Compiled<
             Ok(())
         }));
     let need = |_, desc: &_, usage| Ok(memory_need(&watched.device, desc, usage));
-    (graph.compile(need).unwrap(), imports)
+    (graph.compile(need).unwrap(), graph, imports)
 }
 
 /// A pattern to upload, and the buffer for the result.
@@ -107,16 +113,15 @@ pub fn buffers(watched: &Watched) -> (Buffer, Buffer) {
 /// Records and submits without a wait; the pool must live until one.
 pub fn submit(
     watched: &Watched,
-    compiled: Compiled<Body<'static>>,
+    (plan, graph): (&Plan, &Graph<'_, Body<'_>>),
     transients: &Transients,
     imports: &Imports,
 ) -> (CommandPool, u64) {
     let pool = CommandPool::new(&watched.device, "chain").unwrap();
-    let Compiled { plan, bodies } = compiled;
     // SAFETY: the pool is new and the queue one; all that is used is alive until the callers' wait.
     unsafe {
         let commands = pool.begin().unwrap();
-        execute(&watched.device, commands, &plan, bodies, transients, imports, None).unwrap();
+        execute(&watched.device, commands, (plan, graph), transients, imports, None).unwrap();
         let epoch = watched.queue.submit(pool.end().unwrap()).unwrap();
         (pool, epoch)
     }

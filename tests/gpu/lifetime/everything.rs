@@ -105,7 +105,8 @@ pub fn everything(watched: Watched, profile: Profile) -> Vec<Box<dyn Any>> {
     let storage = BufferDesc { name: "storage", size: 256, usage: vk::BufferUsageFlags::STORAGE_BUFFER };
     let storage = Buffer::new(&device, storage, MemoryUse::Device).unwrap();
     let bound = Descriptor::Buffer(storage.raw(), storage.size());
-    pool.set(&splats, &[(0, bound), (1, bound)]).unwrap();
+    // SAFETY: a storage buffer of this device; no commands use the set.
+    unsafe { pool.set(&splats, &[(0, bound), (1, bound)]) }.unwrap();
     if let Some(timestamps) = Timestamps::new(&device, "timestamps", 4).unwrap() {
         keep(Box::new(timestamps));
     }

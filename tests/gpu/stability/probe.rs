@@ -103,7 +103,8 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
             .unwrap();
     let whole = |buffer: &Buffer| Descriptor::Buffer(buffer.raw(), buffer.size());
     let bound = [(0, whole(&given)), (1, whole(&answers))];
-    let set = pool.set(&set_layout, &bound).unwrap();
+    // SAFETY: buffers of this device, which live until the wait.
+    let set = unsafe { pool.set(&set_layout, &bound) }.unwrap();
 
     let limits = device.facts().limits;
     headless
@@ -111,12 +112,13 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
         .run_once("probe", |commands| {
             let raw = device.raw();
             for (number, asked) in asked.iter().enumerate() {
-                let draw = &draws(
+                let draw = draws(
                     surfel::prepare::Placed::at_home(asked.scene),
                     (asked.camera, DepthRange::default()),
                     asked.settings,
                     &limits,
-                )[0];
+                );
+                let draw = draw.into_iter().next().unwrap();
                 let constants = FrameConstants { splat_count: number as u32, ..draw.constants };
                 let filter = usize::from(asked.settings.filter == Filter::Adjust);
                 let pipeline = &pipelines[usize::from(draw.chunk.ellipses)][filter];

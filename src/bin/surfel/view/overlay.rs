@@ -151,7 +151,8 @@ impl OverlayPass {
         let of_vertices = filled(&mut buffers.vertices, "overlay vertices", &vertices)?;
         let of_indices = filled(&mut buffers.indices, "overlay indices", &indices)?;
         let of_atlas = Descriptor::Buffer(atlas.raw(), atlas.size());
-        let set = pool.set(&self.set, &[(0, of_vertices), (1, of_indices), (2, of_atlas)])?;
+        // SAFETY: storage buffers of this device; they are kept as long as the frame.
+        let set = unsafe { pool.set(&self.set, &[(0, of_vertices), (1, of_indices), (2, of_atlas)]) }?;
         buffers._atlas = Some(atlas);
         let constants = Constants {
             window_points: window_px.map(|side| side as f32 / frame.px_a_point),

@@ -161,7 +161,8 @@ impl Picture {
                 continue;
             }
             slot.begun = None;
-            let profile = slot.slot.profiler().map(|profiler| profiler.read()).transpose()?;
+            // SAFETY: its submission is done.
+            let profile = slot.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()?;
             let profile = profile.unwrap_or_default();
             let secs = profile.span_secs.unwrap_or_else(|| begun.at.elapsed().as_secs_f64());
             let since_input = begun.input.map(|input| input.elapsed());

@@ -45,9 +45,11 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             radius: disks.iter().map(|d| d.center.distance(middle)).fold(0.0, f64::max),
             axis,
             spread_rad: disks.iter().map(|d| d.normal.angle_between(axis)).fold(0.0, f64::max),
+            spread_sin_cos: [0.0; 2],
             largest_radius: radius,
             levels: None,
         };
+        let block = Block { spread_sin_cos: block.spread_rad.sin_cos().into(), ..block };
         let eye = DVec3::new(between(-0.5, 0.5), between(-0.5, 0.5), 3.0);
         let parallel = round % 4 > 1;
         let orthographic_height = parallel.then(|| between(0.5, 3.0));
@@ -67,8 +69,14 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             middle_px: camera.middle_px(SIZE_PX),
             filter_px: std::f64::consts::SQRT_2,
         };
-        let look =
-            BlockCullView { view: &view, bound: &bound, culls: round % 2 == 0, levels: None, planes: &[] };
+        let look = BlockCullView {
+            view: &view,
+            bound: &bound,
+            culls: round % 2 == 0,
+            levels: None,
+            planes: &[],
+            origin_distance: view.origin_from_eye.length(),
+        };
         let seen = potentially_visible(0, &block, &look);
         for disk in &disks {
             let faces_away = disk.normal.dot(ray_to(disk.center)) > 0.0;
@@ -117,4 +125,76 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
     println!("left out {left_out}, facing the eye {facing}, in less than 10 rows {narrow}");
     assert!(tightest > 0.5, "{tightest}: the bound of boxes could be less");
     assert!(left_out > 500 && facing > 100 && narrow > 500, "{left_out} {facing} {narrow}");
+}
+
+/// What is known of a group is true of its blocks: none is left out that is looked at by itself, and none said to be seen as a whole that is not. Most blocks
+/// are not looked at.
+#[test]
+fn groups_know_no_more_than_their_blocks() {
+    use crate::{
+        arena::Arena,
+        passes::plan::{draws::draws, range::DepthRange},
+        prepare::{Placed, prepare_without_device},
+        scene::{Colors, Object, Scene, Settings, Shapes, Splats},
+        vk::Limits,
+    };
+    let count: u32 = 400_000;
+    let normals: Vec<_> = (0..count)
+        .map(|i| {
+            let z: f64 = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(count);
+            let (sin, cos) = (2.399_963 * f64::from(i)).sin_cos();
+            let around = (1.0 - z * z).sqrt();
+            DVec3::new(around * cos, around * sin, z)
+        })
+        .collect();
+    let shapes = Shapes::Disks {
+        normals: normals.iter().map(|normal| normal.as_vec3()).collect(),
+        radii: vec![0.004; count as usize],
+    };
+    let splats = Splats::new(normals, shapes, Colors::Uniform([1.0; 4]));
+    let objects = vec![Object { name: "ball".to_owned(), splats, closed: true }];
+    let prepared = prepare_without_device(&Limits::plain(), &Scene { objects, ..Scene::default() }).unwrap();
+    let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
+    let (mut away, mut whole, mut looked_at) = (0, 0, 0);
+    for eye in [DVec3::new(0.0, 0.0, 6.0), DVec3::new(1.0, 0.3, 1.2), DVec3::new(-3.0, 1.0, 0.2), DVec3::ZERO]
+    {
+        for orthographic_height in [None, Some(1.2)] {
+            let camera =
+                Camera { eye, target: DVec3::new(0.0, 0.1, 0.0), orthographic_height, ..Camera::default() };
+            let range = DepthRange::of(&[Placed::at_home(&prepared)], &camera);
+            let camera = range.begin(&camera);
+            let limits = Limits::plain();
+            for draw in draws(Placed::at_home(&prepared), (&camera, range), &settings, &limits) {
+                let arena = Arena::new();
+                let chunk = draw.chunk;
+                assert_eq!(chunk.groups.len(), chunk.blocks.len().div_ceil(GROUP_BLOCKS));
+                let by_groups = draw.potentially_visible_blocks(&arena);
+                let look = draw.look();
+                let each: Vec<_> = (0..)
+                    .zip(&chunk.blocks)
+                    .filter_map(|(number, block)| potentially_visible(number, block, &look))
+                    .collect();
+                assert!(by_groups.is_sorted_by_key(|block| block.number));
+                let mut found = by_groups.iter();
+                for block in &each {
+                    let same = found.find(|other| other.number == block.number).expect("a block is left out");
+                    assert!(same.box_px >= block.box_px && same.count == block.count);
+                    assert!(same.rows.start <= block.rows.start && same.rows.end >= block.rows.end);
+                    assert!(block.all_seen || !same.all_seen, "{eye}: block {}", block.number);
+                }
+                assert_eq!(
+                    by_groups.len(),
+                    each.len(),
+                    "blocks of groups that are not all seen are looked at"
+                );
+                let of_groups: Vec<_> =
+                    chunk.groups.iter().map(|group| potentially_visible(0, group, &look)).collect();
+                away += of_groups.iter().filter(|group| group.is_none()).count();
+                whole += of_groups.iter().flatten().filter(|group| group.all_seen).count();
+                looked_at += of_groups.iter().flatten().filter(|group| !group.all_seen).count();
+            }
+        }
+    }
+    println!("groups left out {away}, seen as a whole {whole}, with blocks that are looked at {looked_at}");
+    assert!(away > 30 && whole > 10, "{away} {whole} {looked_at}");
 }

@@ -29,15 +29,15 @@ pub(crate) fn tile_rows(rows: u32, invocations: Invocations) -> u32 {
 impl TilePlan {
     /// The plan for what is drawn; none where there is nothing, or more than the device has room for.
     pub fn of(draws: &[Draw<'_>], culls_hidden: bool, settings: &Settings, limits: &Limits) -> Option<Self> {
-        let boxes: Vec<_> = draws.iter().flat_map(|draw| &draw.boxes).copied().collect();
-        Self::of_rows(draws, &boxes, rows_of_image(settings), culls_hidden, settings, limits)
+        let boxes = draws.iter().flat_map(Draw::boxes);
+        Self::of_rows(draws, boxes, rows_of_image(settings), culls_hidden, settings, limits)
     }
 
     /// This one, of all rows, or what the blocks that may be seen need, if that is less and draws as much.
     pub fn tightened_to_blocks(
         self,
         draws: &[Draw<'_>],
-        seen: &PotentiallyVisibleBlocks,
+        seen: &PotentiallyVisibleBlocks<'_>,
         settings: &Settings,
         limits: &Limits,
     ) -> Self {
@@ -50,28 +50,29 @@ impl TilePlan {
     /// The plan for the blocks that may touch some rows of tiles; none where there is none, or more than the device has room for.
     pub(crate) fn of_blocks(
         draws: &[Draw<'_>],
-        seen: &PotentiallyVisibleBlocks,
+        seen: &PotentiallyVisibleBlocks<'_>,
         rows: Range<u32>,
         culls_hidden: bool,
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
-        Self::of_rows(draws, &seen.boxes(&rows), rows, culls_hidden, settings, limits)
+        Self::of_rows(draws, seen.boxes(&rows), rows, culls_hidden, settings, limits)
     }
 
     /// The plan for some rows of tiles, in which so many splats have boxes up to so many pixels.
     fn of_rows(
         draws: &[Draw<'_>],
-        boxes: &[(u32, f64)],
+        boxes: impl Iterator<Item = (u32, f64)> + Clone,
         rows: Range<u32>,
         culls_hidden: bool,
         settings: &Settings,
         limits: &Limits,
     ) -> Option<Self> {
         // By all that is drawn, so that all bands have the same.
-        let all = || draws.iter().flat_map(|draw| &draw.boxes);
+        let all = || draws.iter().flat_map(Draw::boxes);
         let invocations = Invocations::of(settings.tile_invocations, limits, are_small(all()));
-        let of = |invocations| Self::of_boxes(draws.len(), boxes, settings.size_px, limits, invocations);
+        let of =
+            |invocations| Self::of_boxes(draws.len(), boxes.clone(), settings.size_px, limits, invocations);
         // Twice as many tiles of a huge image may have no room; in no band then.
         let plan = of(invocations).or_else(|| of(invocations.of_full_height()))?.within(rows);
         let plan = match draws.iter().any(|draw| draw.chunk.clipped) {

@@ -11,7 +11,7 @@ fn plan(boxes: &[(u32, f64)], size_px: [u32; 2]) -> Option<TilePlan> {
 }
 
 fn plan_of(boxes: &[(u32, f64)], size_px: [u32; 2], invocations: Invocations) -> Option<TilePlan> {
-    TilePlan::of_boxes(1, boxes, size_px, &limits(), invocations)
+    TilePlan::of_boxes(1, boxes.iter().copied(), size_px, &limits(), invocations)
 }
 
 const HEIGHTS: [Invocations; 2] = [Invocations::Columns, Invocations::ShortColumns];
@@ -94,14 +94,18 @@ fn what_has_no_room_has_no_plan() {
     assert_eq!(plan(&[(10, 3.0)], [65_536, 65_536]), None);
     // Counts of twice as many tiles.
     assert_eq!(plan_of(&[(10, 3.0)], [16_384, 8192], Invocations::ShortColumns), None);
-    assert_eq!(TilePlan::of_boxes(8192, &[(8192, 3.0)], [64, 64], &limits(), Invocations::Columns), None);
+    assert_eq!(
+        TilePlan::of_boxes(8192, std::iter::once((8192, 3.0)), [64, 64], &limits(), Invocations::Columns),
+        None
+    );
 }
 
 #[test]
 fn lists_that_are_fetched_have_no_more_texels_than_the_device() {
     let limits = Limits { max_storage_buffer_range: 1 << 30, max_texels: 1 << 24, ..limits() };
-    let plan =
-        |(count, px), invocations| TilePlan::of_boxes(1, &[(count, px)], [4096, 4096], &limits, invocations);
+    let plan = |(count, px), invocations| {
+        TilePlan::of_boxes(1, std::iter::once((count, px)), [4096, 4096], &limits, invocations)
+    };
     for boxes in [(10_000, 500.0), (1_000_000, 100.0), (4_000_000, 12.0), (1 << 24, 12.0)] {
         let fetched = plan(boxes, Invocations::Columns).unwrap();
         assert!(fetched.entry_room.max(fetched.record_room) <= 1 << 24, "{fetched:?}");
