@@ -132,7 +132,7 @@ fn needs(graph: &Declared<'_>, order: &[usize]) -> Vec<Vec<(ResourceId, Need)>> 
         }
         needs
     };
-    order.iter().map(|&pass| needs_of(&graph.passes[pass].uses)).collect()
+    order.iter().map(|&pass| needs_of(graph.passes[pass].uses)).collect()
 }
 
 /// What may be under way on each resource before the first pass.

@@ -36,7 +36,7 @@ pub const FLOOR_POINT_BYTES: u64 = 16;
 
 /// What the pipeline is that precomputes the points.
 fn points_key(variant: &Constants) -> ComputeKey {
-    ComputeKey { shader: &shaders::FLOOR_POINTS_COMP, layout: Layout::List, constants: variant.clone() }
+    ComputeKey { shader: &shaders::FLOOR_POINTS_COMP, layout: Layout::List, constants: *variant }
 }
 
 /// What the pipelines of the three passes are, in their order.

@@ -80,7 +80,7 @@ pub(crate) fn frame<'a>(
         true => None,
         false => splats::accumulate::kernel_of(graph, inputs)?,
     };
-    let lights = resolve::lights::lights(graph, inputs.source, &plan.lights);
+    let lights = resolve::lights::lights(graph, inputs.source, plan.lights);
     let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
     let by_depth = inputs.settings.shading == Shading::EyeDome;
     let outputs = Outputs {

@@ -95,7 +95,7 @@ impl Settings {
         for option in Self::OPTIONS {
             (option.check)(self).map_err(|problem| Error::option(format!("--{}", option.name), problem))?;
         }
-        let planes = self.clip().len();
+        let planes = self.clip_box.planes().chain(self.clip_planes.planes()).count();
         if planes > MOST_PLANES {
             let problem = format!("{planes} planes with those of --clip-box; expected at most {MOST_PLANES}");
             return Err(Error::option("--clip-plane", problem));

@@ -127,7 +127,7 @@ impl Device {
                 buffer_device_address: false,
                 allocation_sizes: block_sizes(),
             }) {
-                Ok(allocator) => Source::Ours(allocator),
+                Ok(allocator) => Source::Ours(Box::new(allocator)),
                 Err(error) => {
                     if owned {
                         // SAFETY: just created, used by nobody.

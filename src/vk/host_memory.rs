@@ -109,7 +109,7 @@ impl Piece {
 
 /// Where memory comes from.
 pub(super) enum Source {
-    Ours(Allocator),
+    Ours(Box<Allocator>),
     Host { host: std::sync::Arc<dyn HostMemory>, bytes: u64, pieces: usize },
 }
 

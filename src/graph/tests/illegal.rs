@@ -166,20 +166,35 @@ fn names_and_dimensions() {
         pass(g, "p", l);
     });
     assert_eq!(same, "pass 'p': another pass has this name");
-    let same = refusal(|g, _, _, _| drop(g.create_buffer("color", buffer())));
+    let same = refusal(|g, _, _, _| {
+        let _ = g.create_buffer("color", buffer());
+    });
     assert_eq!(same, "resource 'color': another resource has this name");
-    assert_eq!(refusal(|g, _, _, _| drop(g.create_buffer("", buffer()))), "a resource has no name");
-    let empty = refusal(|g, _, _, _| drop(g.create_buffer("b", BufferDesc::of_bytes(0))));
+    assert_eq!(
+        refusal(|g, _, _, _| {
+            let _ = g.create_buffer("", buffer());
+        }),
+        "a resource has no name"
+    );
+    let empty = refusal(|g, _, _, _| {
+        let _ = g.create_buffer("b", BufferDesc::of_bytes(0));
+    });
     assert_eq!(empty, "resource 'b': a buffer needs at least one byte");
     let wordless =
         refusal(|g, _, _, l| g.pass("p").read(l, Access::TexelReadCompute).side_effect().finish(()));
     assert_eq!(wordless, "pass 'p', resource 'list': TexelReadCompute needs a format of texels");
     let extent = vk::Extent2D { width: 4, height: 0 };
-    let empty = refusal(|g, _, _, _| drop(g.create_image("i", ImageDesc { format: COLOR, extent })));
+    let empty = refusal(|g, _, _, _| {
+        let _ = g.create_image("i", ImageDesc { format: COLOR, extent });
+    });
     assert_eq!(empty, "resource 'i': an image needs at least one pixel");
-    let formless = refusal(|g, _, _, _| drop(g.create_image("i", image(vk::Format::UNDEFINED))));
+    let formless = refusal(|g, _, _, _| {
+        let _ = g.create_image("i", image(vk::Format::UNDEFINED));
+    });
     assert_eq!(formless, "resource 'i': an image needs a format");
     let state = Some(ImageState::default());
-    let nowhere = refusal(|g, _, _, _| drop(g.import_image("i", image(COLOR), ImageState::default(), state)));
+    let nowhere = refusal(|g, _, _, _| {
+        let _ = g.import_image("i", image(COLOR), ImageState::default(), state);
+    });
     assert_eq!(nowhere, "resource 'i': no image can be brought into its final layout");
 }

@@ -119,7 +119,7 @@ pub(crate) fn shade<'a>(
     (target, target_format): (&mut Handle<Image>, ash::vk::Format),
     export: bool,
 ) -> Result<Option<Exported>> {
-    let lights = resolve::lights::lights(graph, inputs.source, &plan.lights);
+    let lights = resolve::lights::lights(graph, inputs.source, plan.lights);
     let inputs = Inputs { lights: plan.lights.len() as u32, ..inputs };
     let depth = upload(graph, inputs, "depth", depth, DEPTH_FORMAT);
     let sums = Sums {

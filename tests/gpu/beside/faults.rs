@@ -1,5 +1,7 @@
 //! Whatever call of the device fails while a view or a scene is made or a frame recorded: it is named, nothing stays behind, and the next one works.
 
+use std::collections::HashSet;
+
 use ash::vk;
 use glam::{
     DVec3,
@@ -87,12 +89,14 @@ fn each_call_fails(answer: vk::Result, with_renderer: bool) {
         let of_renderer = ["layout", "module", "pipelines", "cache", "sampler"];
         of_renderer.iter().any(|part| function.contains(part))
     };
-    for succeed in 0..calls.len() {
-        // What is beside that is tried beside a renderer that has its pipelines, which takes a fraction of the time.
-        if with_renderer && !own(&calls[succeed]) {
+    let mut tried = HashSet::new();
+    for (succeed, function) in (0..).zip(&calls) {
+        // Of a renderer that is made anew each function is tried once: the driver compiles its shaders each time. All that is beside is tried beside a renderer that
+        // has its pipelines.
+        if with_renderer && !(own(function) && tried.insert(*function)) {
             continue;
         }
-        faults::fail_so(succeed as u32, answer);
+        faults::fail_so(succeed, answer);
         let result = frame();
         let Some(function) = faults::stop() else {
             result.unwrap();
@@ -120,7 +124,8 @@ fn each_call_fails(answer: vk::Result, with_renderer: bool) {
         false => &["create_image", "create_buffer", "create_descriptor_pool"],
         true => &["create_pipeline_layout", "create_shader_module", "create_compute_pipelines"],
     };
-    assert!(failed.len() > 20 && expected.iter().all(|function| failed.contains(function)), "{failed:?}");
+    let most = if with_renderer { 3 } else { 20 };
+    assert!(failed.len() >= most && expected.iter().all(|function| failed.contains(function)), "{failed:?}");
     drop(kept);
     finish();
     assert_eq!(device.memory_in_use(), (0, 0));
