@@ -130,7 +130,7 @@ impl Settings {
     }
 
     /// The planes that cut what is seen, in world space: unit normals toward what is left, and by how much the origin is on that side.
-    pub fn clip(&self) -> InlineVec<DVec4, MOST_PLANES> {
+    pub(crate) fn clip(&self) -> InlineVec<DVec4, MOST_PLANES> {
         // No more than `validate` lets through.
         self.clip_box.planes().chain(self.clip_planes.planes()).take(MOST_PLANES).collect()
     }

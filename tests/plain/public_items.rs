@@ -11,12 +11,13 @@ use crate::import_direction::paths::{self, Token};
 const INTERFACE: &[(&[&str], &[&str])] = &[
     (
         &["embed/", "renderer/", "passes/pipeline/cache"],
-        &["View", "ViewFrame", "DepthImage", "Rendering", "NO_ID", "Renderer"],
+        &["View", "ViewFrame", "DepthImage", "Rendering", "NO_ID", "Renderer", "MissingPipelines"],
     ),
     (&["prepare/"], &["Placed", "NO_TINT", "PreparedScene", "DynamicSplats", "DynamicBuffers"]),
     (&["prepare/dynamic.rs"], &["disk", "color"]),
     (&["graph/resource.rs"], &["ImageState"]),
     (&["vk/"], &["Device", "Features", "Import", "Requirements", "requirements"]),
+    (&["vk/memory.rs", "vk/host_memory.rs"], &["HostMemory", "MemoryRequest", "MemoryUse", "HostAllocation"]),
     (
         &["scene/"],
         &[
@@ -181,6 +182,13 @@ fn declaration(tokens: &[Token]) -> String {
     if is("fn") {
         return lines;
     }
+    if is("trait") {
+        let inside = body(tokens);
+        for at in (0..inside.len()).filter(|at| inside[*at].text == "fn") {
+            write!(lines, "\n    {}", text(head(&inside[at..]))).unwrap();
+        }
+        return lines;
+    }
     if is("const") || is("type") {
         return lines.split(" = ").next().unwrap_or_default().to_owned();
     }
@@ -246,7 +254,7 @@ fn interface() -> String {
                         head(&tokens[at..]).iter().take(4).map(|token| token.text.as_str()).collect();
                     let is_it = match words.as_slice() {
                         ["pub", "struct" | "enum" | "const" | "fn" | "trait", own, ..] => own == name,
-                        ["pub", "unsafe", "fn", own] => own == name,
+                        ["pub", "unsafe", "fn" | "trait", own] => own == name,
                         _ => false,
                     };
                     let of_settings = tokens[at].text == *name
