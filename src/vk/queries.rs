@@ -50,7 +50,7 @@ impl Timestamps {
     /// Whatever the driver answers.
     ///
     /// # Safety
-    /// As [`QueryPool::read`].
+    /// Commands that reset these queries have run.
     pub unsafe fn read(&self, count: u32) -> Result<Vec<Option<u64>>> {
         // SAFETY: this function's contract.
         let values = unsafe { self.pool.read(count, 1) }?;
@@ -100,7 +100,7 @@ impl Statistics {
     /// Whatever the driver answers.
     ///
     /// # Safety
-    /// As [`QueryPool::read`].
+    /// Commands that reset these queries have run.
     pub unsafe fn read(&self, count: u32) -> Result<Vec<Option<[u64; 3]>>> {
         // SAFETY: this function's contract.
         unsafe { self.pool.read(count, 3) }
