@@ -22,6 +22,7 @@ mod floor;
 mod frame_graph;
 mod hard_cases;
 mod hierarchy_files;
+mod hybrid_cells;
 mod hybrid_levels;
 mod in_parts;
 mod in_use;
