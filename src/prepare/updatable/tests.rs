@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::{
-    prepare::prepare_without_device,
+    prepare::{blocks::GROUP_BLOCKS, prepare_without_device},
     scene::{Colors, Object, Order, Scene, SplatFormat, Storage},
     vk::Limits,
 };
@@ -68,6 +68,13 @@ fn bounds_are_those_of_what_is_there_whatever_the_order() {
         assert!((chunk.largest_radius - largest).abs() <= 1e-6 * largest);
         for (side, expected) in chunk.bounds.iter().zip(least) {
             assert!((*side - expected).length() < 1e-6, "{side} {expected}");
+        }
+        // Their groups hold the blocks.
+        assert_eq!(chunk.groups.len(), chunk.blocks.len().div_ceil(GROUP_BLOCKS));
+        for (number, block) in chunk.blocks.iter().enumerate() {
+            let group = &chunk.groups[number / GROUP_BLOCKS];
+            assert!(group.center.distance(block.center) + block.radius <= group.radius + 1e-9, "{number}");
+            assert!(block.largest_radius <= group.largest_radius, "{number}");
         }
         let count: u32 = chunk.radii.iter().map(|step| step.count).sum();
         assert!(count == 1000 && chunk.radii.last().unwrap().radius >= largest);
