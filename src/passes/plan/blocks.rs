@@ -79,10 +79,9 @@ pub fn potentially_visible_blocks<'m>(
     }
     let numbers = (0..).step_by(GROUP_BLOCKS);
     for ((first, group), blocks) in numbers.zip(&chunk.groups).zip(chunk.blocks.chunks(GROUP_BLOCKS)) {
-        match potentially_visible(0, group, look) {
-            None => {}
-            Some(found) if found.all_seen => seen.extend(found.of_all(first as u32, blocks)),
-            Some(_) => each(first, blocks, &mut seen),
+        // Where it is seen as a whole, too: the rows and the boxes of its blocks are less than its own.
+        if potentially_visible(0, group, look).is_some() {
+            each(first, blocks, &mut seen);
         }
     }
     seen.into_bump_slice()

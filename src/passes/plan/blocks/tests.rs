@@ -127,10 +127,9 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
     assert!(left_out > 500 && facing > 100 && narrow > 500, "{left_out} {facing} {narrow}");
 }
 
-/// What is known of a group is true of its blocks: none is left out that is looked at by itself, and none said to be seen as a whole that is not. Most blocks
-/// are not looked at.
+/// What is left out with its group would be left out by itself.
 #[test]
-fn groups_know_no_more_than_their_blocks() {
+fn groups_leave_out_no_more_than_their_blocks() {
     use crate::{
         arena::Arena,
         passes::plan::{draws::draws, range::DepthRange},
@@ -155,7 +154,7 @@ fn groups_know_no_more_than_their_blocks() {
     let objects = vec![Object { name: "ball".to_owned(), splats, closed: true }];
     let prepared = prepare_without_device(&Limits::plain(), &Scene { objects, ..Scene::default() }).unwrap();
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
-    let (mut away, mut whole, mut looked_at) = (0, 0, 0);
+    let (mut away, mut looked_at) = (0, 0);
     for eye in [DVec3::new(0.0, 0.0, 6.0), DVec3::new(1.0, 0.3, 1.2), DVec3::new(-3.0, 1.0, 0.2), DVec3::ZERO]
     {
         for orthographic_height in [None, Some(1.2)] {
@@ -174,27 +173,13 @@ fn groups_know_no_more_than_their_blocks() {
                     .zip(&chunk.blocks)
                     .filter_map(|(number, block)| potentially_visible(number, block, &look))
                     .collect();
-                assert!(by_groups.is_sorted_by_key(|block| block.number));
-                let mut found = by_groups.iter();
-                for block in &each {
-                    let same = found.find(|other| other.number == block.number).expect("a block is left out");
-                    assert!(same.box_px >= block.box_px && same.count == block.count);
-                    assert!(same.rows.start <= block.rows.start && same.rows.end >= block.rows.end);
-                    assert!(block.all_seen || !same.all_seen, "{eye}: block {}", block.number);
-                }
-                assert_eq!(
-                    by_groups.len(),
-                    each.len(),
-                    "blocks of groups that are not all seen are looked at"
-                );
-                let of_groups: Vec<_> =
-                    chunk.groups.iter().map(|group| potentially_visible(0, group, &look)).collect();
-                away += of_groups.iter().filter(|group| group.is_none()).count();
-                whole += of_groups.iter().flatten().filter(|group| group.all_seen).count();
-                looked_at += of_groups.iter().flatten().filter(|group| !group.all_seen).count();
+                assert_eq!(by_groups, each, "{eye}");
+                let of_groups = chunk.groups.iter().map(|group| potentially_visible(0, group, &look));
+                let [seen, all] = [of_groups.flatten().count(), chunk.groups.len()];
+                (away, looked_at) = (away + all - seen, looked_at + seen);
             }
         }
     }
-    println!("groups left out {away}, seen as a whole {whole}, with blocks that are looked at {looked_at}");
-    assert!(away > 30 && whole > 10, "{away} {whole} {looked_at}");
+    println!("groups left out {away}, with blocks that are looked at {looked_at}");
+    assert!(away > 30, "{away} {looked_at}");
 }
