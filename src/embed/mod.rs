@@ -11,6 +11,7 @@
 mod ahead;
 mod checks;
 mod depth;
+mod draw;
 mod frame;
 mod images;
 mod motion;

@@ -19,7 +19,7 @@ use crate::{
         execute::{FrameProfile, Physical},
     },
     inline_vec::InlineVec,
-    passes::{self, HostDepth, Inputs, Place, Source, Tints, host::BesideHost, pipeline::key::Layout},
+    passes::{self, HostDepth, Inputs, Place, Source, Tints, host::BesideHost},
     prepare::NO_TINT,
     renderer::{Imports, Renderer},
     scene::{Edges, Settings},
@@ -29,7 +29,7 @@ use crate::{
 
 /// One view of a host, of one frame at a time: with several frames in flight a host has one for each. It keeps what passes leave for draws.
 pub struct View {
-    device: Device,
+    pub(super) device: Device,
     pub(super) rendering: Rendering,
     slot: FrameSlot,
     images: Option<Images>,
@@ -37,20 +37,20 @@ pub struct View {
     objects: Table,
     tints: [Table; 2],
     /// What the frame that was prepared last has to draw.
-    prepared: Option<Prepared>,
+    pub(super) prepared: Option<Prepared>,
 }
 
 /// What draws are recorded with.
-struct Prepared {
-    area: vk::Rect2D,
-    depth: HostDepth,
-    draws: Draws,
+pub(super) struct Prepared {
+    pub area: vk::Rect2D,
+    pub depth: HostDepth,
+    pub draws: Draws,
     /// What is known of objects, where it is wanted.
-    objects: Option<vk::DescriptorSet>,
+    pub objects: Option<vk::DescriptorSet>,
 }
 
 /// At most one of each part.
-type Draws = InlineVec<(vk::Pipeline, vk::DescriptorSet), 3>;
+pub(super) type Draws = InlineVec<(vk::Pipeline, vk::DescriptorSet), 3>;
 
 /// Draws take two sets, each of the surface or of layers, and one of objects.
 const SETS_OF_DRAWS: PoolSizes = PoolSizes {
@@ -245,52 +245,6 @@ impl View {
         let [x, y] = frame.corner_px;
         let area = vk::Rect2D { offset: vk::Offset2D { x, y }, extent };
         self.prepared = Some(Prepared { area, depth, draws, objects });
-        Ok(())
-    }
-
-    /// Records the draws of the frame that was prepared: up to three triangles. Clobbers viewport and scissor, and of the graphics bind point the
-    /// pipeline, all descriptor sets and push constants.
-    ///
-    /// # Errors
-    /// [`crate::ErrorKind::Option`] if no frame is prepared.
-    ///
-    /// # Safety
-    /// `commands` are those of [`View::prepare`], or others that are submitted after them to the same queue; they are inside of a rendering as the
-    /// view was made for, which covers the view's area. The view stays alive, and is not prepared again, until they have run.
-    pub unsafe fn draw(&self, renderer: &Renderer, commands: vk::CommandBuffer) -> Result<()> {
-        let Some(Prepared { area, depth, draws, objects }) = &self.prepared else {
-            return Err(Error::option("draw", "no frame is prepared: expected prepare before"));
-        };
-        let layout = renderer.shaders.layout(Layout::Host)?;
-        let viewport = vk::Viewport {
-            x: area.offset.x as f32,
-            y: area.offset.y as f32,
-            width: area.extent.width as f32,
-            height: area.extent.height as f32,
-            min_depth: 0.0,
-            max_depth: 1.0,
-        };
-        let (raw, graphics) = (self.device.raw(), vk::PipelineBindPoint::GRAPHICS);
-        // SAFETY: this function's contract; pipelines and sets have this layout, and live as long as renderer and view.
-        unsafe {
-            raw.cmd_set_viewport(commands, 0, &[viewport]);
-            raw.cmd_set_scissor(commands, 0, std::slice::from_ref(area));
-            raw.cmd_push_constants(
-                commands,
-                layout.raw(),
-                layout.push_stages(),
-                0,
-                bytemuck::bytes_of(depth),
-            );
-            if let Some(set) = objects {
-                raw.cmd_bind_descriptor_sets(commands, graphics, layout.raw(), 1, &[*set], &[]);
-            }
-            for (pipeline, set) in draws {
-                raw.cmd_bind_pipeline(commands, graphics, *pipeline);
-                raw.cmd_bind_descriptor_sets(commands, graphics, layout.raw(), 0, &[*set], &[]);
-                raw.cmd_draw(commands, 3, 1, 0, 0);
-            }
-        }
         Ok(())
     }
 

@@ -1,16 +1,16 @@
 //! A scene cut into chunks: each object into pieces that a buffer holds, each piece into sites, which have an origin of their own.
 
+mod meshes;
+
 use std::ops::Range;
 
 use super::{
-    MeshChunk, PreparedScene,
+    PreparedScene,
     chunk::{self, Chunk},
     level_words::LevelWords,
     levels::{ChunkLevels, LevelPart, Leveled},
     made_levels::made_levels,
     memory::Uploader,
-    mesh_chunk::PackedMesh,
-    mesh_levels::Cells,
     near_surfaces,
     pack::{self, Packed},
     part::{Numbers, Part},
@@ -24,8 +24,7 @@ use crate::{
     error::Result,
     geometry::Overlaps,
     scene::{
-        Clip, DefectCounts, Epsilon, HybridLevels, LeveledObject, MeshObject, Object, Opacity, Order, Scene,
-        SplatFormat,
+        Clip, DefectCounts, Epsilon, HybridLevels, LeveledObject, Object, Opacity, Order, Scene, SplatFormat,
     },
     vk::Limits,
 };
@@ -287,28 +286,6 @@ impl Cut<'_, '_> {
             self.prepared.chunks.push(chunk);
         }
         self.step(range.len());
-        Ok(())
-    }
-
-    fn mesh(
-        &mut self,
-        (object_number, object): (usize, &MeshObject),
-        hybrid: Option<&HybridLevels>,
-    ) -> Result<()> {
-        let opacity = object.mesh.colors.opacity();
-        if opacity == Opacity::Invisible {
-            return Ok(());
-        }
-        let traits = (object.closed, opacity == Opacity::Transparent);
-        let cells = hybrid.map(Cells::of);
-        for packed in PackedMesh::pieces(&object.mesh, self.capacity).filter(|packed| !packed.is_empty()) {
-            let number = self.prepared.meshes.len();
-            let levels = cells.as_ref().map(|cells| cells.words(&packed.numbers, packed.rebase()));
-            let mut chunk = MeshChunk::new(self.uploader.as_mut(), number, traits, (&packed, levels))?;
-            chunk.object = object_number;
-            chunk.numbers = self.numbered.then_some(packed.numbers);
-            self.prepared.meshes.push(chunk);
-        }
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! Pipelines, made when a frame first needs them, and the layouts that they share.
 
 mod kept;
+mod missing;
 
 use std::{
     path::Path,
@@ -31,6 +32,8 @@ use crate::{
     },
 };
 
+pub use missing::MissingPipelines;
+
 /// Bindings of set 1 of the splat passes.
 const LIST_BINDINGS: u32 = BIND_LIST_BLOCKS + 1;
 
@@ -39,16 +42,6 @@ const _: () = assert!(3 + LIST_BINDINGS <= crate::vk::LEAST_STORAGE_BUFFERS);
 /// Room for so many sets of lists: all bindings count, whatever a set has in them.
 pub fn room_of_lists(sets: u32) -> PoolSizes {
     PoolSizes { sets, buffers: LIST_BINDINGS * sets, uniform_buffers: sets, ..PoolSizes::default() }
-}
-
-/// What is done where a frame needs a pipeline that is not there yet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MissingPipelines {
-    /// It is made: on a GPU's driver that may take milliseconds, once.
-    #[default]
-    Make,
-    /// The frame is refused ([`ErrorKind::NotReady`]), before anything is recorded of it.
-    Refuse,
 }
 
 /// The layouts of all passes and the pipelines made so far.
