@@ -41,8 +41,9 @@ const BATCH: usize = 1 << 16;
 /// The radius of a point that is alone: there is nothing to measure it by.
 const ALONE: f64 = 1.0;
 
-/// Cosine of the angle from which on a neighbor faces the other way: 120°, more than any edge of a solid that is not a blade.
-const OTHER_WAY: f64 = -0.5;
+/// Cosine of the angle between normals from which on a neighbor is of another face: its disk is half as wide then as seen from
+/// here, and its share of the surface beside an edge is not covered by it alone.
+const OTHER_FACE: f64 = 0.5;
 
 /// Makes a round disk of each point.
 ///
@@ -264,8 +265,8 @@ impl Cloud {
     /// The least radius of the disk at a place.
     fn reach(&self, place: usize, (offsets, cells): &mut (Vec<DVec3>, Cells)) -> f64 {
         let normal = self.normals[place];
-        let same_way = |j: usize| normal.dot(self.normals[j]) > OTHER_WAY;
-        let mut of = |near: &[u32]| cells.reach(normal, self.offsets(place, near, same_way, offsets));
+        let same_face = |j: usize| normal.dot(self.normals[j]) > OTHER_FACE;
+        let mut of = |near: &[u32]| cells.reach(normal, self.offsets(place, near, same_face, offsets));
         let first = of(&self.neighbors[place]);
         let found = match first.open {
             false => first,

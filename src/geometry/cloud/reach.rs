@@ -9,7 +9,8 @@
 //! farther than [`WIDEST_GAP`] distances of the 6th neighbor: in between, two mean distances or so, gaps are closed, and wider
 //! ones are the surface's own. At such a cut a disk reaches as far as its closed corners or its third neighbor.
 //!
-//! Neighbors that face the other way are no neighbors: they are the other side of a plate.
+//! Neighbors of other faces are no neighbors: the other side of a plate, and what lies behind an edge. A disk there is seen from
+//! its edge, and covers nothing of this face, so that its point must not take a part of this cell.
 
 use std::mem;
 

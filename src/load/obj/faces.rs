@@ -5,7 +5,8 @@ use std::collections::{HashMap, HashSet};
 use glam::DVec3;
 
 use super::{
-    lines::{Lines, shown},
+    corners::{Block, Row},
+    lines::Lines,
     materials::Material,
     vertices::Vertices,
 };
@@ -16,17 +17,6 @@ const PLAIN: u32 = 0;
 
 /// A number that no vertex has.
 const NONE: u32 = u32::MAX;
-
-/// A corner's normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Normal {
-    /// The row names none.
-    Unnamed,
-    /// The row names one that is zero, not finite, or not there.
-    Unusable,
-    /// Of length 1.
-    Is(DVec3),
-}
 
 /// The faces of a file, over vertices in the order in which faces first use them.
 pub(super) struct Faces<'a> {
@@ -46,9 +36,7 @@ pub(super) struct Faces<'a> {
     /// The others, by the file's vertex and the color.
     more_copies: HashMap<(u32, u32), u32>,
     paint_of: HashMap<[u32; 4], u32>,
-    corners: Vec<(u32, Normal)>,
-    /// Rows `v` and `vn` so far, from which negative numbers count back.
-    so_far: [u64; 2],
+    corners: Vec<(u32, Option<DVec3>)>,
     paint: u32,
     textures: HashSet<String>,
     pub counts: Counts,
@@ -82,27 +70,46 @@ impl<'a> Faces<'a> {
             more_copies: HashMap::new(),
             paint_of: HashMap::new(),
             corners: Vec::new(),
-            so_far: [0; 2],
             paint: PLAIN,
             textures: HashSet::new(),
             counts: Counts::default(),
         };
         let mut lines = Lines::new(input);
+        let mut block = Block::new(file);
         while let Some(line) = lines.next()? {
             match line.keyword() {
-                b"v" => faces.so_far[0] += 1,
-                b"vn" => faces.so_far[1] += 1,
+                b"v" => block.vertex(),
+                b"vn" => block.normal(),
                 b"usemtl" => {
                     line.rest().map(|name| faces.choose(name)).map_err(|problem| lines.fault(problem))?
                 }
                 b"f" => {
-                    let row = line.rest().and_then(|row| faces.face(row));
-                    row.map_err(|problem| lines.fault(problem))?;
+                    let (paint, most) = (faces.paint, input.options.limits.list_items);
+                    let row = line.rest().and_then(|row| block.face(row, lines.first(), paint, most));
+                    if let Err(problem) = row {
+                        // What is wrong before it is said first.
+                        faces.read_block(&mut block, &lines)?;
+                        return Err(lines.fault(problem));
+                    }
+                    if block.is_full() {
+                        faces.read_block(&mut block, &lines)?;
+                    }
                 }
                 _ => {}
             }
         }
+        faces.read_block(&mut block, &lines)?;
         Ok(faces)
+    }
+
+    fn read_block(&mut self, block: &mut Block<'a>, lines: &Lines<'_>) -> Result<()> {
+        let (rows, mut corners) = block.read().map_err(|(line, problem)| lines.fault_at(line, problem))?;
+        for (row, count) in rows.iter().zip(corners.counts(rows.len())) {
+            self.corners.clear();
+            self.corners.extend((0..count).map_while(|_| corners.next()));
+            self.face(row).map_err(|problem| lines.fault_at(row.line, problem))?;
+        }
+        Ok(())
     }
 
     /// The material of the faces that follow.
@@ -125,51 +132,37 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// Corners `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last row so far. A polygon is a fan
-    /// around its first corner: right for convex ones.
-    fn face(&mut self, row: &str) -> Result<(), String> {
-        let limits = self.input.options.limits;
-        self.corners.clear();
-        for word in row.split_ascii_whitespace() {
-            if self.corners.len() >= limits.list_items {
-                return Err(format!("more than {} corners; expected at most that many", self.corners.len()));
-            }
-            let corner = self.corner(word)?;
-            self.corners.push(corner);
+    /// A polygon is a fan around its first corner: right for convex ones.
+    fn face(&mut self, row: &Row) -> Result<(), String> {
+        if self.corners.len() < 3 {
+            self.counts.small += 1;
+            return Ok(());
         }
-        match self.corners.len() {
-            0 => return Err("a face without corners; expected 3 or more".to_owned()),
-            1 | 2 => {
-                self.counts.small += 1;
-                return Ok(());
-            }
-            _ => {}
-        }
-        let is_finite = |&(vertex, _): &(u32, Normal)| {
+        let is_finite = |&(vertex, _): &(u32, Option<DVec3>)| {
             self.file.positions.get(vertex as usize).is_some_and(|position| position.is_finite())
         };
         if !self.corners.iter().all(is_finite) {
             self.counts.not_finite += 1;
             return Ok(());
         }
-        if self.triangles.len() as u64 + self.corners.len() as u64 - 2 > limits.faces {
-            return Err(format!("more than {} triangles; expected at most that many", limits.faces));
+        let most = self.input.options.limits.faces;
+        if self.triangles.len() as u64 + self.corners.len() as u64 - 2 > most {
+            return Err(format!("more than {most} triangles; expected at most that many"));
         }
-        self.add();
+        self.add(row);
         Ok(())
     }
 
     /// Adds the face of the corners.
-    fn add(&mut self) {
-        let unusable = self.corners.iter().any(|&(_, normal)| normal == Normal::Unusable);
-        self.counts.unusable_normals += u64::from(unusable);
-        let paint = if self.file.have_colors() { PLAIN } else { self.paint };
-        self.counts.overruled += u64::from(paint != self.paint);
+    fn add(&mut self, row: &Row) {
+        self.counts.unusable_normals += u64::from(row.has_unusable_normal);
+        let paint = if self.file.have_colors() { PLAIN } else { row.paint };
+        self.counts.overruled += u64::from(paint != row.paint);
         let mut fan = [NONE; 2];
         for corner in 0..self.corners.len() {
             let Some(&(vertex, normal)) = self.corners.get(corner) else { break };
             let c = self.copy(vertex, paint);
-            if let (Normal::Is(normal), false) = (normal, unusable)
+            if let (Some(normal), false) = (normal, row.has_unusable_normal)
                 && let Some(sum) = self.normals.get_mut(c as usize)
             {
                 *sum += normal;
@@ -206,40 +199,4 @@ impl<'a> Faces<'a> {
         }
         found
     }
-
-    fn corner(&self, word: &str) -> Result<(u32, Normal), String> {
-        let mut parts = word.split('/');
-        let vertex = whole("vertex", parts.next().unwrap_or_default())?;
-        let total = self.file.positions.len() as u64;
-        let vertex = counted(vertex, self.so_far[0], total).ok_or_else(|| match total {
-            0 => format!("vertex {vertex}, but the file has none"),
-            _ => format!("vertex {vertex}; expected 1 to {total}, or -{} to -1", self.so_far[0]),
-        })?;
-        let normal = match (parts.next(), parts.next(), parts.next()) {
-            (_, None | Some(""), None) => Normal::Unnamed,
-            (_, Some(normal), None) => self.normal(whole("normal", normal)?),
-            _ => return Err(format!("a corner '{}'; expected v/vt/vn", shown(word))),
-        };
-        Ok((vertex, normal))
-    }
-
-    fn normal(&self, number: i64) -> Normal {
-        counted(number, self.so_far[1], self.file.normals.len() as u64)
-            .and_then(|i| self.file.normals.get(i as usize))
-            .and_then(|normal| normal.as_dvec3().try_normalize())
-            .map_or(Normal::Unusable, Normal::Is)
-    }
-}
-
-fn whole(what: &str, word: &str) -> Result<i64, String> {
-    word.parse().map_err(|_| format!("a corner with {what} '{}'; expected a whole number", shown(word)))
-}
-
-/// A number from 1, or counted back from the last of `so_far`, as one from 0 below `total`.
-fn counted(number: i64, so_far: u64, total: u64) -> Option<u32> {
-    let index = match u64::try_from(number) {
-        Ok(number) => number.checked_sub(1)?,
-        Err(_) => so_far.checked_sub(number.unsigned_abs())?,
-    };
-    u32::try_from(index).ok().filter(|_| index < total)
 }

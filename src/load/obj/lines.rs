@@ -103,9 +103,19 @@ impl<'a> Lines<'a> {
         Ok(line)
     }
 
+    /// The line in which the last statement begins.
+    pub(super) fn first(&self) -> u64 {
+        self.first
+    }
+
     /// An error of the last statement.
     pub(super) fn fault(&self, problem: String) -> Error {
-        self.input.fault(format!("line {}", self.first), problem)
+        self.fault_at(self.first, problem)
+    }
+
+    /// An error of a statement that begins in a line.
+    pub(super) fn fault_at(&self, line: u64, problem: String) -> Error {
+        self.input.fault(format!("line {line}"), problem)
     }
 }
 

@@ -1,14 +1,15 @@
 //! OBJ files: the mesh in them with the colors of its materials, or their vertices where no row is a face. Texture
 //! coordinates are left out; points, lines, free forms and textures, too, with a note.
 //!
-//! The crate `tobj` (4.0.5) parses materials, and what it finds in meshes is compared with ours by the tests. Rows of
-//! meshes are read here: it holds 104 bytes for a face of 8 bytes and a mesh for each change of the material, moves colors
-//! that only some vertices have to others, refuses a file for one normal that is missing, knows no continued lines and
-//! names no line. All that must be parsed to keep it from these would be parsed twice (DECISIONS.md).
+//! The crate `tobj` reads rows of numbers, and materials. What it doesn't know is closed around it: continued lines and
+//! limits (`lines`), colors of some vertices and those that no face uses (`rows`), faces before their vertices and normals
+//! that are not there (`corners`).
 
+mod corners;
 mod faces;
 mod lines;
 mod materials;
+mod rows;
 #[cfg(test)]
 mod tests;
 mod vertices;

@@ -83,10 +83,20 @@ fn normals_of_corners_are_averaged_a_vertex() {
 
 #[test]
 fn faults_name_their_line() {
-    refuses("v 0 0\n", "line 1: a vertex of 2 numbers; expected 3, 4 or 6");
-    refuses("v 0 0 0 0\n", "line 1: a vertex with w = 0; expected another divisor");
-    refuses("v 0 zero 0\n", "line 1: 'zero'; expected a number");
-    refuses("\n\nvn 0 0\n", "line 3: a normal of 2 numbers; expected 3");
+    let vertex = "expected v x y z, with nothing, w, or r g b after it";
+    refuses("v 0 0\n", &format!("line 1: 'v 0 0': position parse error; {vertex}"));
+    refuses("v 0 0 0 0\n", &format!("line 1: 'v 0 0 0 0': scaling (w) by zero; {vertex}"));
+    refuses("v 1 0 0\nv 0 zero 0\n", &format!("line 2: 'v 0 zero 0': position parse error; {vertex}"));
+    let color = "color parse error (too many or too few components)";
+    refuses("v 0 0 0\nv 0 0 0 1 1\n", &format!("line 2: 'v 0 0 0 1 1': {color}; {vertex}"));
+    let no_number = "face vertex color index out of bounds";
+    refuses("v 0 0 0 1 1 1\nv 0 0 0 1 x 1\n", &format!("line 2: 'v 0 0 0 1 x 1': {no_number}; {vertex}"));
+    refuses("\n\nvn 0 0\n", "line 3: 'vn 0 0': normal parse error; expected vn x y z");
+    // What is wrong first is said first, whatever it is.
+    let after = "v 0 0 0\nf 1 1 9\nf 1 1 x\nf\n";
+    refuses(&format!("v x\n{after}"), &format!("line 1: 'v x': position parse error; {vertex}"));
+    refuses(after, "line 2: vertex 9; expected 1 to 1, or -1 to -1");
+    refuses(&after.replace(" 9", " 1"), "line 3: a corner with vertex 'x'; expected a whole number");
     refuses(&format!("{SQUARE}f 1 2 3\nf 1 2 9\n"), "line 6: vertex 9; expected 1 to 4, or -4 to -1");
     refuses(&format!("{SQUARE}f 1 2 -5\n"), "line 5: vertex -5; expected 1 to 4, or -4 to -1");
     refuses(&format!("f 1 2 -1\n{SQUARE}"), "line 1: vertex -1; expected 1 to 4, or -0 to -1");

@@ -4,8 +4,9 @@
 use glam::{DVec3, Vec3};
 
 use super::{
-    lines::{Line, Lines, shown},
+    lines::{Line, Lines},
     materials::Materials,
+    rows::Rows,
 };
 use crate::{error::Result, load::Input, math::srgb::linear_from_srgb, scene::UNKNOWN_SRGB};
 
@@ -27,6 +28,7 @@ pub(super) struct Vertices {
     /// Rows `curv`, `curv2` and `surf`.
     pub free_forms: u64,
     pub materials: Materials,
+    rows: Rows,
 }
 
 impl Vertices {
@@ -34,51 +36,56 @@ impl Vertices {
         let mut vertices = Self::default();
         let mut lines = Lines::new(input);
         while let Some(line) = lines.next()? {
-            vertices.add(input, &line).map_err(|problem| lines.fault(problem))?;
+            vertices.add(input, &line, &lines)?;
         }
+        vertices.read_rows(&lines)?;
         Ok(vertices)
     }
 
-    fn add(&mut self, input: &Input<'_>, line: &Line<'_>) -> Result<(), String> {
+    fn add(&mut self, input: &Input<'_>, line: &Line<'_>, lines: &Lines<'_>) -> Result<()> {
+        let rest = || line.rest().map_err(|problem| lines.fault(problem));
         match line.keyword() {
             b"v" => {
-                if self.positions.len() as u64 >= input.options.limits.points {
-                    return Err(format!(
-                        "more than {} vertices; expected at most that many",
-                        self.positions.len()
-                    ));
+                let row = rest()?;
+                if self.rows.is_full() || self.rows.differ_from(row) {
+                    self.read_rows(lines)?;
                 }
-                self.vertex(line.rest()?)?;
+                let most = input.options.limits.points;
+                if (self.positions.len() + self.rows.counts[0]) as u64 >= most {
+                    return Err(lines.fault(format!("more than {most} vertices; expected at most that many")));
+                }
+                self.rows.vertex(row, lines.first());
             }
-            b"vn" => self.normal(line.rest()?)?,
+            b"vn" => {
+                if self.rows.is_full() {
+                    self.read_rows(lines)?;
+                }
+                self.rows.normal(rest()?, lines.first());
+            }
             b"f" => self.has_faces = true,
             b"l" | b"p" => self.lines_and_points += 1,
             b"curv" | b"curv2" | b"surf" => self.free_forms += 1,
-            b"mtllib" => self.materials.read_library(input, line.rest()?),
+            b"mtllib" => self.materials.read_library(input, rest()?),
             _ => {}
         }
         Ok(())
     }
 
-    /// `x y z`, then nothing, the divisor `w`, or `r g b`.
-    fn vertex(&mut self, row: &str) -> Result<(), String> {
-        let (values, count) = numbers::<6>(row)?;
-        let [x, y, z, w, ..] = values;
-        let (w, rgb) = match count {
-            3 => (1.0, None),
-            4 if w != 0.0 => (w, None),
-            4 => return Err("a vertex with w = 0; expected another divisor".to_owned()),
-            6 => (1.0, Some([values[3], values[4], values[5]])),
-            _ => return Err(format!("a vertex of {count} numbers; expected 3, 4 or 6")),
-        };
+    fn read_rows(&mut self, lines: &Lines<'_>) -> Result<()> {
+        let mesh = self.rows.read().map_err(|(line, problem)| lines.fault_at(line, problem))?;
+        let rgb = mesh.vertex_color.as_chunks().0.iter().map(|rgb| rgb.map(|value| value as f32));
         // Colors may begin or end anywhere, and belong to their vertices.
-        if let Some(rgb) = rgb {
+        if !mesh.vertex_color.is_empty() {
             self.colors.resize(self.positions.len(), NO_COLOR);
-            let rgb = rgb.map(|value| value as f32);
+        }
+        for rgb in rgb {
             self.largest = rgb.into_iter().filter(|value| value.is_finite()).fold(self.largest, f32::max);
             self.colors.push(rgb);
         }
-        self.positions.push(DVec3::new(x / w, y / w, z / w));
+        let positions = mesh.positions.as_chunks().0;
+        self.positions.extend(positions.iter().copied().map(DVec3::from_array));
+        let normals = mesh.normals.as_chunks().0;
+        self.normals.extend(normals.iter().map(|&normal| DVec3::from_array(normal).as_vec3()));
         Ok(())
     }
 
@@ -97,26 +104,4 @@ impl Vertices {
         let linear = |value: f32| linear_from_srgb(value.clamp(0.0, 1.0));
         ([linear(r), linear(g), linear(b), 1.0], is_beyond)
     }
-
-    fn normal(&mut self, row: &str) -> Result<(), String> {
-        let ([x, y, z], count) = numbers::<3>(row)?;
-        if count != 3 {
-            return Err(format!("a normal of {count} numbers; expected 3"));
-        }
-        self.normals.push(DVec3::new(x, y, z).as_vec3());
-        Ok(())
-    }
-}
-
-/// Up to `N` numbers and how many words there are in all.
-fn numbers<const N: usize>(row: &str) -> Result<([f64; N], usize), String> {
-    let (mut values, mut count) = ([0.0; N], 0);
-    for word in row.split_ascii_whitespace() {
-        let value = word.parse().map_err(|_| format!("'{}'; expected a number", shown(word)))?;
-        if let Some(slot) = values.get_mut(count) {
-            *slot = value;
-        }
-        count += 1;
-    }
-    Ok((values, count))
 }

@@ -27,8 +27,9 @@ fn a_backslash_continues_a_row() {
     let mesh = mesh(text);
     assert_eq!((mesh.positions.len(), mesh.triangles), (3, vec![[0, 1, 2], [2, 1, 0]]));
     // Faults are where the row begins, and a row after it has its own number.
-    refuses("v 0 0 0\nv \\\n1 \\\nx 0\n", "line 2: 'x'; expected a number");
-    refuses("v 0 0 0\nv \\\n1 \\\n1 0\nv 2\n", "line 5: a vertex of 1 numbers; expected 3, 4 or 6");
+    let expected = "position parse error; expected v x y z, with nothing, w, or r g b after it";
+    refuses("v 0 0 0\nv \\\n1 \\\nx 0\n", &format!("line 2: 'v 1  x 0': {expected}"));
+    refuses("v 0 0 0\nv \\\n1 \\\n1 0\nv 2\n", &format!("line 5: 'v 2': {expected}"));
 }
 
 #[test]
