@@ -7,6 +7,7 @@ mod cloud;
 mod creases;
 mod eigen;
 mod fitness;
+mod flat_front;
 mod flat_splats;
 pub mod hierarchy;
 mod hybrid;
@@ -28,6 +29,7 @@ mod up;
 
 pub use cloud::{CloudReport, splats_from_points};
 pub use fitness::{Fitness, Suited};
+pub use flat_front::is_flat_in_front;
 pub use hybrid::{
     EDGE_SPACING, Hybrid, HybridOptions, HybridReport, Multiresolution, hybrid, multiresolution,
 };

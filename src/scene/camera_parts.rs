@@ -115,6 +115,19 @@ impl CameraParts {
         }
     }
 
+    /// The unit direction from the target to the eye, if nothing is said of it: from the front, level.
+    pub fn front(&self) -> Option<DVec3> {
+        let is_said = self.eye.is_some() || self.azimuth_rad.is_some() || self.elevation_rad.is_some();
+        (!is_said).then(|| front(self.up))
+    }
+
+    /// These parts with an eye at a corner: from the front, and 30° to the right and 20° above it.
+    #[must_use]
+    pub fn from_corner(self) -> Self {
+        let [azimuth, elevation] = CORNER_RAD;
+        Self { azimuth_rad: Some(azimuth), elevation_rad: Some(elevation), ..self }
+    }
+
     /// The direction from the target to an eye that is not given, and what is up in the picture.
     fn direction(&self) -> (DVec3, Option<DVec3>) {
         if self.eye.is_some() || (self.azimuth_rad, self.elevation_rad) == (None, None) {
@@ -130,6 +143,9 @@ impl CameraParts {
 
 /// 30°.
 const RAISED_RAD: f64 = std::f64::consts::FRAC_PI_6;
+
+/// 30° and 20°: two sides and the top are seen, and the front most.
+const CORNER_RAD: [f64; 2] = [std::f64::consts::FRAC_PI_6, std::f64::consts::PI / 9.0];
 
 #[cfg(test)]
 mod tests {
@@ -173,6 +189,17 @@ mod tests {
         assert!(toward.distance(DVec3::new(0.0, -0.75_f64.sqrt(), 0.5)) < 1e-12, "{toward}");
         assert_eq!(none.with_found_up(DVec3::Y).camera(&ball, [8, 8]).unwrap(), fit);
         assert_eq!(only_eye.with_found_up(DVec3::Z).camera(&ball, [8, 8]).unwrap().eye, DVec3::ONE);
+        // From a corner, if nothing is said of it.
+        assert_eq!(
+            (none.front(), only_eye.front(), none.from_corner().front()),
+            (Some(DVec3::Z), None, None)
+        );
+        let corner = none.from_corner().camera(&ball, [8, 8]).unwrap();
+        let [azimuth, elevation] = [30.0_f64, 20.0].map(f64::to_radians);
+        let expected =
+            DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
+        let toward = (corner.eye - corner.target).normalize();
+        assert!(toward.distance(expected) < 1e-12, "{toward}");
         // By angles; from above, too.
         let [right, top] = [View::Right, View::Top].map(|view| {
             let [azimuth, elevation] = view.angles_rad();

@@ -51,6 +51,28 @@ fn sides_are_seen_by_name_by_angles_and_by_scene_files() {
     assert_eq!(middle(&folder, &["scene.toml", "--up", "y", "--eye", "0,0,9"]), cyan);
 }
 
+/// A box is seen from a corner where nobody says from where, and an open side of it from the front.
+#[test]
+fn what_has_a_flat_front_is_seen_from_a_corner() {
+    let folder = Folder::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
+    let side = "f 5 6 8 7\n";
+    folder.write("side.obj", format!("{corners}{side}"));
+    folder
+        .write("box.obj", format!("{corners}{side}f 1 3 4 2\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"));
+    let said = "seen from a corner, because its front is one flat side; --view front if not\n";
+    let render = |words: &[&str], out: &str| {
+        let run = done(&folder, &[&["render"], words, &["--size", "48x48", "-o", out]].concat());
+        run.stderr.matches(said).count()
+    };
+    assert_eq!(render(&["box.obj"], "corner.png"), 1);
+    assert_eq!(render(&["box.obj", "--azimuth", "30", "--elevation", "20"], "same.png"), 0);
+    assert_eq!(render(&["box.obj", "--view", "front"], "front.png"), 0);
+    assert_eq!(render(&["side.obj"], "open.png"), 0);
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(read("corner.png") == read("same.png") && read("corner.png") != read("front.png"));
+}
+
 #[test]
 fn the_printed_line_makes_the_same_bytes() {
     let folder = folder();

@@ -162,7 +162,10 @@ fn a_part_becomes_few_splats_with_sharp_edges() {
     // From the front a rectangle, but for a pixel at two corners; ellipses that nothing cuts have more than twice its area.
     let drawn = surfel(
         &folder,
-        &["render", "a.ply", "-o", "c.png", "--size", "64x64", "--edges", "hard", "--orthographic", "fit"],
+        &[
+            "render", "a.ply", "-o", "c.png", "--size", "64x64", "--edges", "hard", "--ortho", "--view",
+            "front",
+        ],
     );
     assert_eq!(drawn.code, 0, "{}", drawn.stderr);
     let picture = image::open(folder.path("c.png")).unwrap().to_rgb8();

@@ -24,7 +24,7 @@ pub struct CameraArguments {
     pub camera: Option<PathBuf>,
 
     /// The eye [default: on +z from the target, so far that the scene fits; on -y where z is up, and above it where nobody
-    /// said that z is]
+    /// said that z is; 30 degrees to the right of it and 20 above where the front of something closed is one flat side]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse::triple, allow_hyphen_values = true, conflicts_with_all = ["view", "azimuth", "elevation"])]
     pub eye: Option<[f64; 3]>,
 

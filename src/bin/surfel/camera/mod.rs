@@ -8,6 +8,7 @@ mod words;
 use glam::DVec3;
 use surfel::{
     Error, ErrorKind, Result,
+    geometry::is_flat_in_front,
     load::file_name,
     scene::{Ball, Camera, CameraParts, PictureHeight, View},
 };
@@ -17,6 +18,7 @@ pub use path_file::{read as read_path, text as path_text};
 pub use words::{degrees, words};
 
 use crate::{
+    console,
     scene::Loaded,
     up::{self, Up},
 };
@@ -87,11 +89,10 @@ impl CameraChoice {
         let subject = object.as_ref().map(|name| ball_named(name, loaded)).transpose()?;
         let options = CameraParts { subject, ..parts };
         match &loaded.camera {
-            None => with_up(options, loaded).camera(&loaded.ball, size_px),
+            None => as_shaped(options, loaded).camera(&loaded.ball, size_px),
             Some((path, parts)) => {
-                with_up(options.or(*parts), loaded).camera(&loaded.ball, size_px).map_err(|error| match error
-                    .kind()
-                {
+                let camera = as_shaped(options.or(*parts), loaded).camera(&loaded.ball, size_px);
+                camera.map_err(|error| match error.kind() {
                     ErrorKind::Option { problem, .. } => Error::input(path, "camera", problem),
                     _ => error,
                 })
@@ -126,6 +127,18 @@ fn ball_named(name: &str, loaded: &Loaded) -> Result<Ball> {
 
 /// Names in a message.
 const MOST_NAMES: usize = 8;
+
+/// With what is up, and from where it is seen, as the scene's shape has it where nothing is said.
+fn as_shaped(parts: CameraParts, loaded: &Loaded) -> CameraParts {
+    let parts = with_up(parts, loaded);
+    match parts.front() {
+        Some(front) if is_flat_in_front(&loaded.scene, front) => {
+            console::say("seen from a corner, because its front is one flat side; --view front if not");
+            parts.from_corner()
+        }
+        _ => parts,
+    }
+}
 
 /// With the direction that files or shapes tell, where none is given. An eye that is given and looks along it has no use for it.
 fn with_up(parts: CameraParts, loaded: &Loaded) -> CameraParts {
