@@ -4,7 +4,7 @@ use super::{Rendering, View, ViewFrame};
 use crate::{arena::Arena, error::Result, passes::MissingPipelines, renderer::Renderer};
 
 impl Renderer {
-    /// Makes the pipelines that a frame like this needs within such a rendering, and tells how many were missing: [`View::prepare`] makes none for it
+    /// Makes the pipelines that a frame like this needs within such a rendering, and tells how many were missing (and made meanwhile by other threads): [`View::prepare`] makes none for it
     /// then. Nothing is recorded. It may take long: do it while the host loads, or on a thread of its own, while others draw with what is there.
     ///
     /// A frame is like this with the same settings, showing what is of the same kind (opaque or transparent, disks or ellipses, closed or not, packed or not, polygons,

@@ -35,7 +35,9 @@ impl Table {
             }
         };
         let buffer = self.0.insert(buffer);
-        buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
+        // SAFETY: this function's contract.
+        let room = unsafe { buffer.bytes_mut() };
+        room[..bytes.len()].copy_from_slice(bytes);
         Ok((buffer.raw(), used))
     }
 

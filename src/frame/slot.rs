@@ -125,7 +125,9 @@ impl FrameSlot {
             none => none.insert(Buffer::new(&self.device, desc, MemoryUse::Upload)?),
         };
         let bytes: &[u8] = bytemuck::cast_slice(planes);
-        buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
+        // SAFETY: this function's contract: the frame before has finished.
+        let room = unsafe { buffer.bytes_mut() };
+        room[..bytes.len()].copy_from_slice(bytes);
         Ok(Planes { count: planes.len() as u32, buffer: buffer.raw() })
     }
 

@@ -96,7 +96,8 @@ impl<'a> Floor<'a> {
         };
         floor.record(headless, None, true)?;
         for chunk in &mut floor.chunks {
-            let all = chunk.buffer.bytes().chunks_exact(FLOOR_POINT_BYTES as usize);
+            // SAFETY: `record` has waited.
+            let all = unsafe { chunk.buffer.bytes() }.chunks_exact(FLOOR_POINT_BYTES as usize);
             let kept: Vec<[f32; 4]> = all
                 .map(bytemuck::pod_read_unaligned::<[f32; 4]>)
                 .filter(|point| !survivors || point[0] < 2.0)

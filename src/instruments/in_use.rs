@@ -92,7 +92,8 @@ impl Headless {
             Ok(())
         })?;
         let words = |buffer: &Buffer| {
-            buffer.bytes().chunks_exact(4).map(bytemuck::pod_read_unaligned).collect::<Vec<u32>>()
+            // SAFETY: waited for.
+            unsafe { buffer.bytes() }.chunks_exact(4).map(bytemuck::pod_read_unaligned).collect::<Vec<u32>>()
         };
         let told: BTreeMap<_, _> =
             buffers.iter().map(|(name, buffer)| (name.clone(), words(buffer))).collect();

@@ -95,5 +95,6 @@ pub fn draw_as_published(
             execution.record(commands, &graph, &imports).map(drop)
         }
     })?;
-    Ok(pixels.bytes().chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
+    // SAFETY: waited for.
+    Ok(unsafe { pixels.bytes() }.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
 }

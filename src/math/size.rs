@@ -49,10 +49,17 @@ pub fn largest_box_px(bound: &SizeBound) -> f64 {
 
 /// That bound for splats with smaller radii among them.
 pub fn box_px(bound: &SizeBound, radius: f64) -> f64 {
-    box_within_px(bound, radius, f64::INFINITY)
+    box_within_px(bound, radius, half_image(bound))
 }
 
-/// That bound for splats all of whose images lie within ±`most_x` of the image plane.
+/// From the view's axis to the farthest side, in the image plane.
+pub fn half_image(bound: &SizeBound) -> f64 {
+    let most_px = (0..2).map(|i| bound.middle_px[i].abs().max((bound.size_px[i] - bound.middle_px[i]).abs()));
+    most_px.fold(0.0, f64::max) / bound.focal_px
+}
+
+/// That bound for splats all of whose images, as far as they are in the image, lie within ±`most_x` of the image plane.
+#[inline]
 pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     if !all_regular(bound) {
         return f64::INFINITY;
@@ -60,11 +67,9 @@ pub fn box_within_px(bound: &SizeBound, radius: f64, most_x: f64) -> f64 {
     if bound.is_orthographic {
         return 1.01 * length(2.0 * radius * bound.focal_px, 2.0 * bound.filter_px) + 3.0;
     }
-    // From the axis to the farthest side.
-    let most_px = (0..2).map(|i| bound.middle_px[i].abs().max((bound.size_px[i] - bound.middle_px[i]).abs()));
-    let half_image = most_px.fold(0.0, f64::max) / bound.focal_px;
-    let splat_px = 2.0 * radius * (1.0 + half_image.min(most_x)) / bound.nearest_z * bound.focal_px;
-    let filter_px = 2.0 * bound.filter_px * (1.0 + radius / bound.nearest_z);
+    let per_z = 1.0 / bound.nearest_z;
+    let splat_px = 2.0 * radius * (1.0 + most_x) * per_z * bound.focal_px;
+    let filter_px = 2.0 * bound.filter_px * (1.0 + radius * per_z);
     1.01 * length(splat_px, filter_px) + 3.0
 }
 

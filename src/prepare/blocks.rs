@@ -13,7 +13,7 @@ use super::{
 use crate::shaders::config::BLOCK_SPLATS;
 
 /// The bounds of the splats of a block, in the chunk's local space.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Block {
     /// How many: [`BLOCK_SPLATS`], and fewer of the last one.
     pub count: u32,
@@ -31,8 +31,8 @@ pub struct Block {
     /// The largest major radius: no point of a splat is farther from its center, however skew its tangent vectors (it is the larger
     /// singular value of the two, [`crate::scene::Splats::major_radius`]), but for a rounding to f32.
     pub largest_radius: f64,
-    /// What decides about levels of detail, where there are any.
-    pub levels: Option<BlockLevels>,
+    /// What decides about levels of detail, where there are any: elsewhere, so that bounds lie close together.
+    pub levels: Option<Box<BlockLevels>>,
 }
 
 impl Block {

@@ -202,7 +202,7 @@ impl Chunk {
         levels: &LevelWords,
     ) -> Result<()> {
         for (block, levels) in self.blocks.iter_mut().zip(&levels.blocks) {
-            block.levels = Some(*levels);
+            block.levels = Some(Box::new(*levels));
         }
         self.groups = groups(&self.blocks);
         let (Some(uploader), Some(memory)) = (uploader, &self.memory) else { return Ok(()) };

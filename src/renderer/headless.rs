@@ -227,7 +227,8 @@ impl Headless {
         // SAFETY: waited for.
         let profile = self.slot.profiler().map(|profiler| unsafe { profiler.read() }).transpose()?;
         let is_read = sample.is_none_or(|sample| sample.last);
-        Ok(targets.frame(plan, profile, is_read, wall_secs, record_secs))
+        // SAFETY: waited for.
+        Ok(unsafe { targets.frame(plan, profile, is_read, wall_secs, record_secs) })
     }
 }
 

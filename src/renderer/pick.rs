@@ -104,6 +104,7 @@ impl Headless {
             // SAFETY: recording; all that it uses is alive until the wait; the slot is new.
             unsafe { self.renderer.record_pick(commands, &mut slot, &plan, answer.raw()) }
         })?;
-        Ok(plan.read(answer.bytes()))
+        // SAFETY: waited for.
+        Ok(plan.read(unsafe { answer.bytes() }))
     }
 }

@@ -112,15 +112,20 @@ impl Buffer {
         self.size
     }
 
-    /// Its bytes, where the host can see them ([`MemoryUse::Upload`], [`MemoryUse::Readback`]); else empty. For
-    /// reading, the device must have finished writing.
-    pub fn bytes(&self) -> &[u8] {
+    /// Its bytes, where the host can see them ([`MemoryUse::Upload`], [`MemoryUse::Readback`]); else empty.
+    ///
+    /// # Safety
+    /// The device writes none of them while they are borrowed: all submissions that do have finished.
+    pub unsafe fn bytes(&self) -> &[u8] {
         let mapped = self.allocation.as_ref().map(Piece::bytes).unwrap_or_default();
         &mapped[..mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX))]
     }
 
-    /// Its bytes for writing, where the host can see them; else empty. The device must not read them meanwhile.
-    pub fn bytes_mut(&mut self) -> &mut [u8] {
+    /// Its bytes for writing, where the host can see them; else empty.
+    ///
+    /// # Safety
+    /// The device neither reads nor writes any of them while they are borrowed: all submissions that do have finished.
+    pub unsafe fn bytes_mut(&mut self) -> &mut [u8] {
         let mapped = self.allocation.as_mut().map(Piece::bytes_mut).unwrap_or_default();
         let size = mapped.len().min(usize::try_from(self.size).unwrap_or(usize::MAX));
         &mut mapped[..size]

@@ -73,4 +73,21 @@ impl Features {
             .maintenance4(self.maintenance4)
             .shader_terminate_invocation(self.shader_terminate_invocation)
     }
+    /// [`Self::vulkan13`] in structures of one feature each: for hosts whose chain has others of these, beside which `VkPhysicalDeviceVulkan13Features` may not be.
+    pub fn vulkan13_apart(
+        &self,
+    ) -> (
+        vk::PhysicalDeviceSynchronization2Features<'static>,
+        vk::PhysicalDeviceDynamicRenderingFeatures<'static>,
+        vk::PhysicalDeviceMaintenance4Features<'static>,
+        vk::PhysicalDeviceShaderTerminateInvocationFeatures<'static>,
+    ) {
+        (
+            vk::PhysicalDeviceSynchronization2Features::default().synchronization2(self.synchronization2),
+            vk::PhysicalDeviceDynamicRenderingFeatures::default().dynamic_rendering(self.dynamic_rendering),
+            vk::PhysicalDeviceMaintenance4Features::default().maintenance4(self.maintenance4),
+            vk::PhysicalDeviceShaderTerminateInvocationFeatures::default()
+                .shader_terminate_invocation(self.shader_terminate_invocation),
+        )
+    }
 }

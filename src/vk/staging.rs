@@ -35,7 +35,8 @@ impl Staging {
     /// [`crate::ErrorKind::Option`] if the batch or the target has no room for them.
     pub fn push(&mut self, target: &Buffer, offset: u64, bytes: &[u8]) -> Result<()> {
         let begin = self.used;
-        let room = self.buffer.bytes_mut().get_mut(begin..begin + bytes.len());
+        // SAFETY: `record` asks that nothing be added while the device reads.
+        let room = unsafe { self.buffer.bytes_mut() }.get_mut(begin..begin + bytes.len());
         let fits = offset.checked_add(bytes.len() as u64).is_some_and(|end| end <= target.size());
         let Some(room) = room.filter(|_| fits) else {
             let problem = format!("no room for {} bytes after {begin}, or in their target", bytes.len());
@@ -55,7 +56,8 @@ impl Staging {
     /// indices.
     ///
     /// # Safety
-    /// `commands` must be recording outside of rendering; the targets are alive until it has run.
+    /// `commands` must be recording outside of rendering; the targets are alive until it has run, and nothing is
+    /// [pushed](Self::push) until then.
     pub unsafe fn record(&self, commands: vk::CommandBuffer) {
         let barriers = [vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::COPY)

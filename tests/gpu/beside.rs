@@ -10,6 +10,7 @@ mod faults;
 mod memory;
 mod objects;
 mod recording;
+mod several;
 mod tints;
 mod transparent;
 mod updates;
@@ -57,7 +58,7 @@ impl Beside {
     fn on_faulty(style: Style) -> Self {
         crate::common::arm();
         let engine = Engine::new(style);
-        let faulty = crate::common::faults::device(&engine.device);
+        let faulty = crate::common::faults::device(&engine.instance, &engine.device);
         // SAFETY: as above.
         let device = unsafe { Device::import(&Import { device: &faulty, ..engine.lent() }) }.unwrap();
         Self::on(engine, device)

@@ -3,6 +3,7 @@
 //! in use.
 
 mod everything;
+mod own_device;
 
 use crate::common::{
     builder::{self, Random},
@@ -211,7 +212,7 @@ fn assert_fail<T>(
 #[test]
 fn whichever_call_fails_is_named_and_leaves_nothing_behind() {
     let host = Host::new(Features { large_points: true, ..Features::NEEDED });
-    let device = host.lend(faults::device(&host.device));
+    let device = host.lend(faults::device(&host.instance, &host.device));
     faults::take_called();
     let own = set_up(&device).unwrap();
     let of_set_up = faults::take_called();

@@ -28,8 +28,10 @@ pub struct BlockCullView<'a> {
     pub levels: Option<&'a LevelView>,
     /// The planes that cut what is seen, in view space.
     pub planes: &'a [DVec4],
-    /// How far the chunk's origin is from the eye, in the view's unit.
-    pub origin_distance: f64,
+    /// How far the chunk's origin is from the eye, and from there the farthest of its centers, together, in the view's unit.
+    pub by_origin: f64,
+    /// [`half_image`] of the bound: the same for all blocks.
+    pub half_image: f64,
 }
 
 /// What a device finds in f32 of a unit vector may differ from this file's f64 by so much of an angle: some roundings of 2⁻²⁴, and a
@@ -56,10 +58,14 @@ const FILTER_RESERVE_PX: f64 = 6.0;
 /// image c at most (there). The image of a ball of 2 R about that center reaches 2 R √(1 + c²) / (p_z + 2 R) at least, which is
 /// no less where p_z ≥ 4 R; and it is, where the whole ball's reach is within a quarter of its depth. Under parallel rays all of that is as
 /// large as it is.
+///
+/// A group of blocks is looked at first. Of one that is seen as a whole, blocks are not, unless they are wanted `closely`: all of them are seen, and in no other rows.
+/// So what is looked at by itself is at silhouettes, at borders of the image, and near.
 pub fn potentially_visible_blocks<'m>(
     arena: &'m Arena,
     chunk: &Chunk,
     look: &BlockCullView<'_>,
+    closely: bool,
 ) -> &'m [PotentiallyVisibleBlock] {
     let mut seen = arena.growing();
     seen.reserve(chunk.blocks.len());
@@ -79,9 +85,16 @@ pub fn potentially_visible_blocks<'m>(
     }
     let numbers = (0..).step_by(GROUP_BLOCKS);
     for ((first, group), blocks) in numbers.zip(&chunk.groups).zip(chunk.blocks.chunks(GROUP_BLOCKS)) {
-        // Where it is seen as a whole, too: the rows and the boxes of its blocks are less than its own.
-        if potentially_visible(0, group, look).is_some() {
-            each(first, blocks, &mut seen);
+        match look_at(0, group, look) {
+            None => {}
+            Some((whole, most_x)) if whole.all_seen && !closely => {
+                let of_group = |(number, block)| PotentiallyVisibleBlock {
+                    box_px: box_at_px(block, nearest_z(block, look), most_x, look),
+                    ..whole.of_block(number, block)
+                };
+                seen.extend((first as u32..).zip(blocks).map(of_group));
+            }
+            Some(_) => each(first, blocks, &mut seen),
         }
     }
     seen.into_bump_slice()
@@ -92,6 +105,28 @@ fn potentially_visible(
     block: &Block,
     look: &BlockCullView<'_>,
 ) -> Option<PotentiallyVisibleBlock> {
+    look_at(number, block, look).map(|(found, _)| found)
+}
+
+/// What no box of a block's splats exceeds that are no nearer, and no farther from the middle along x and y in the image plane.
+fn box_at_px(block: &Block, nearest_z: f64, most_x: f64, look: &BlockCullView<'_>) -> f64 {
+    let largest_radius = block.largest_radius * look.view.view_from_local_scale;
+    // A box is the smaller the farther off.
+    let bound = SizeBound { nearest_z: nearest_z.max(look.bound.nearest_z), largest_radius, ..*look.bound };
+    box_within_px(&bound, largest_radius, most_x.min(look.half_image))
+}
+
+/// The smallest depth of what is of a block's splats.
+fn nearest_z(block: &Block, look: &BlockCullView<'_>) -> f64 {
+    let scale = look.view.view_from_local_scale;
+    let middle = look.view.rotation.row(2).dot(block.center * scale + look.view.origin_from_eye);
+    // No center is farther from the eye.
+    let reserve = (LENGTH_RESERVE + ORIGIN_RESERVE) * look.by_origin;
+    middle - (block.radius + 2.0 * block.largest_radius) * scale - reserve
+}
+
+/// What is seen of a block, and how far from the middle of the image plane along x and y.
+fn look_at(number: u32, block: &Block, look: &BlockCullView<'_>) -> Option<(PotentiallyVisibleBlock, f64)> {
     let of_levels = match (look.levels, &block.levels) {
         (Some(view), Some(block)) => view.of(block),
         _ => OfBlock::All,
@@ -108,25 +143,22 @@ fn potentially_visible(
         return None;
     }
     let Image { rows, most_x, is_whole } = ball.image(look)?;
-    let scale = look.view.view_from_local_scale;
-    let largest_radius = block.largest_radius * scale;
-    let bound = SizeBound { nearest_z: ball.z - ball.reach, largest_radius, ..*look.bound };
     let of_level = match (look.levels, &block.levels) {
         (Some(view), Some(block)) => view.largest_box_px(block, look.bound.filter_px),
         _ => f64::INFINITY,
     };
-    let of_chunk = box_within_px(look.bound, largest_radius, most_x);
-    Some(PotentiallyVisibleBlock {
+    let found = PotentiallyVisibleBlock {
         number,
         count: match (look.levels, &block.levels) {
             (Some(view), Some(levels)) => view.most_drawn(levels, block.count),
             _ => block.count,
         },
-        box_px: box_within_px(&bound, largest_radius, most_x).min(of_chunk).min(of_level),
+        box_px: box_at_px(block, ball.z - ball.reach, most_x, look).min(of_level),
         rows,
         all_seen: is_whole && look.planes.is_empty() && (!look.culls || side == Side::TowardEye),
         all_of_level: of_levels == OfBlock::All,
-    })
+    };
+    Some((found, most_x))
 }
 
 /// A block from the eye, in the view's unit.
@@ -158,10 +190,9 @@ impl Ball {
     fn of(block: &Block, look: &BlockCullView<'_>) -> Self {
         let scale = look.view.view_from_local_scale;
         let middle = block.center * scale + look.view.origin_from_eye;
-        // Of any splat: its block's middle may be the chunk's origin, and the eye.
-        let of_origin = look.origin_distance + (block.center.length() + block.radius) * scale;
         let distance = middle.length();
-        let reserve = LENGTH_RESERVE * distance + ORIGIN_RESERVE * of_origin;
+        // Of any splat: its block's middle may be the chunk's origin, and the eye.
+        let reserve = LENGTH_RESERVE * distance + ORIGIN_RESERVE * look.by_origin;
         let radius = block.radius * scale + reserve;
         let [x, y, z] = (look.view.rotation * middle).into();
         // A splat's points are within its radius, its image within that of twice as much.
@@ -191,12 +222,13 @@ impl Ball {
             return Some(Image { rows: all, most_x: f64::INFINITY, is_whole: false });
         }
         // A point d from the middle is seen (d_x − c d_z) / (z + d_z) from the middle's image c, |d| √(1 + c²) / (z − |d|) at most.
+        let (per_z, away_per_z) = match is_orthographic {
+            true => (1.0, self.reach),
+            false => (1.0 / self.z, self.reach / (self.z - self.reach)),
+        };
         let [x, y] = [self.x, self.y].map(|side| {
-            if is_orthographic {
-                return (side, self.reach);
-            }
-            let c = side / self.z;
-            (c, self.reach / (self.z - self.reach) * (1.0 + c.abs()))
+            let c = side * per_z;
+            (c, if is_orthographic { away_per_z } else { away_per_z * (1.0 + c.abs()) })
         });
         let in_px = |(c, away): (f64, f64), axis_px: f64| {
             let (middle_px, away_px) = (axis_px + c * look.bound.focal_px, away * look.bound.focal_px);

@@ -21,7 +21,7 @@ use crate::{
     arena::{Arena, ArenaVec},
     error::Result,
     inline_vec::InlineVec,
-    math::size::{SizeBound, box_px, largest_box_px},
+    math::size::{SizeBound, box_px, half_image, largest_box_px},
     prepare::{Chunk, Placed, ViewFromLocal, inverse_overlap_in_upper_half},
     scene::{Camera, Epsilon, Filter, MOST_PLANES, Settings},
     shaders::config::*,
@@ -72,17 +72,29 @@ impl Draw<'_> {
         })
     }
 
-    /// The blocks in which there may be something to see.
-    pub(crate) fn potentially_visible_blocks<'m>(&self, arena: &'m Arena) -> &'m [PotentiallyVisibleBlock] {
-        potentially_visible_blocks(arena, self.chunk, &self.look())
+    /// The blocks in which there may be something to see; `closely`: rows and boxes are each block's own, where its group's would do for the whole image.
+    pub(crate) fn potentially_visible_blocks<'m>(
+        &self,
+        arena: &'m Arena,
+        closely: bool,
+    ) -> &'m [PotentiallyVisibleBlock] {
+        potentially_visible_blocks(arena, self.chunk, &self.look(), closely)
     }
 
     /// How its blocks are looked at.
     pub(super) fn look(&self) -> BlockCullView<'_> {
         let Self { view, bound, levels, planes, .. } = self;
-        let (culls, levels, origin_distance) =
-            (culls(&self.variant), levels.as_ref(), view.origin_from_eye.length());
-        BlockCullView { view, bound, culls, levels, planes, origin_distance }
+        let [center, half] = center_and_half(self.chunk);
+        let farthest = (center.abs() + half).length() * view.view_from_local_scale;
+        BlockCullView {
+            view,
+            bound,
+            culls: culls(&self.variant),
+            levels: levels.as_ref(),
+            planes,
+            by_origin: view.origin_from_eye.length() + farthest,
+            half_image: half_image(bound),
+        }
     }
 }
 
@@ -158,7 +170,7 @@ pub fn draws<'a, 's>(
         let levels =
             chunk.levels.and_then(|levels| LevelView::new(levels, chunk.transparent, camera, settings));
         let of_level = |view: &LevelView| {
-            let blocks = chunk.blocks.iter().filter_map(|block| block.levels.as_ref());
+            let blocks = chunk.blocks.iter().filter_map(|block| block.levels.as_deref());
             let drawn = blocks.filter(|block| view.of(block) != OfBlock::None);
             drawn.map(|block| view.largest_box_px(block, bound.filter_px)).fold(0.0, f64::max)
         };

@@ -70,7 +70,7 @@ pub(crate) fn primitives<'a>(
         return SplatMethod::default();
     }
     let rows = rows_of_image(settings);
-    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena)));
+    let seen = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena, false)));
     SplatMethod::Primitives {
         visible: Some(ListedBlocks::of(arena, splats, seen, rows)),
         culls_hidden: culling::primitives_cull_hidden(polygons, settings),
@@ -88,14 +88,14 @@ fn bands<'a>(
 ) -> Option<&'a [Band<'a>]> {
     let culls_hidden = culling::tiles_cull_hidden(splats, polygons, settings);
     let rows = rows_of_image(settings);
-    let seen = || {
-        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena)));
+    let seen = |closely| {
+        let blocks = arena.list(splats.iter().map(|draw| draw.potentially_visible_blocks(arena, closely)));
         PotentiallyVisibleBlocks::new(arena, blocks, rows.end)
     };
     let left_to_others = |plan: &TilePlan| transparent && plan.may_be_large;
     let (seen, whole) = if splats.iter().any(|draw| draw.levels.is_some()) {
         // Of levels of detail there may be many more splats than there is room for; those that may be drawn are few.
-        let seen = seen();
+        let seen = seen(true);
         if !culling::list_has_room(seen.chunks.iter().map(|blocks| blocks.len()).sum(), limits) {
             return None;
         }
@@ -114,9 +114,20 @@ fn bands<'a>(
             let band = Band { splats: own.into_bump_slice(), visible: None, plan: whole };
             return (!left_to_others(&band.plan)).then(|| std::slice::from_ref(arena.keep(band)));
         }
-        let seen = seen();
-        let whole = whole.tightened_to_blocks(splats, &seen, settings, limits);
-        (seen, whole)
+        let most_bytes = most_bytes(splats, settings.tile_memory);
+        let tightened = |seen: &PotentiallyVisibleBlocks<'_>| {
+            whole.clone().tightened_to_blocks(splats, seen, settings, limits)
+        };
+        let roughly = seen(false);
+        let tight = tightened(&roughly);
+        if tight.bytes() <= most_bytes {
+            (roughly, tight)
+        } else {
+            // Bands are cut by rows.
+            let seen = seen(true);
+            let tight = tightened(&seen);
+            (seen, tight)
+        }
     };
     if left_to_others(&whole) {
         return None;

@@ -29,7 +29,12 @@ impl PotentiallyVisibleBlock {
 
     /// What is known of one of some blocks, the first of which has this number, where it holds for all of them.
     pub(super) fn of_all(self, first: u32, blocks: &[Block]) -> impl Iterator<Item = Self> {
-        (first..).zip(blocks).map(move |(number, block)| Self { number, count: block.count, ..self.clone() })
+        (first..).zip(blocks).map(move |(number, block)| self.of_block(number, block))
+    }
+
+    /// The same of one of these.
+    pub(super) fn of_block(&self, number: u32, block: &Block) -> Self {
+        Self { number, count: block.count, ..self.clone() }
     }
 
     /// Whether it may touch any of these rows.
@@ -59,17 +64,27 @@ impl<'a> PotentiallyVisibleBlocks<'a> {
         let mut sizes_px = arena.growing::<f64>();
         let place_of =
             |sizes_px: &[f64], size: f64| sizes_px.binary_search_by(|other| other.total_cmp(&size));
+        // Neighbors are often of one size.
+        let mut last = f64::NAN;
         for block in chunks.iter().copied().flatten() {
             let size = size_of(block);
-            if let Err(place) = place_of(&sizes_px, size) {
-                sizes_px.insert(place, size);
+            if size != last {
+                last = size;
+                if let Err(place) = place_of(&sizes_px, size) {
+                    sizes_px.insert(place, size);
+                }
             }
         }
         let count = sizes_px.len();
         let mut before = arena.growing();
         before.resize(count * (rows as usize + 1), [0; 2]);
+        let (mut last, mut size) = (f64::NAN, 0);
         for block in chunks.iter().copied().flatten() {
-            let (Ok(size) | Err(size)) = place_of(&sizes_px, size_of(block));
+            let size_px = size_of(block);
+            if size_px != last {
+                last = size_px;
+                size = place_of(&sizes_px, size_px).unwrap_or_else(|place| place);
+            }
             // In the row behind the one where it begins or ends; then summed up.
             before[(block.rows.start as usize + 1) * count + size][0] += block.count;
             before[block.rows.end as usize * count + size][1] += block.count;

@@ -68,7 +68,8 @@ impl Headless {
         let mut parts = self.parts(settings)?;
         let stage = Stage::See { depth: parts.depth.raw() };
         self.run_stage(&mut parts.slots[0], scene, camera, settings, stage)?;
-        let depth = copied(parts.depth.bytes());
+        // SAFETY: waited for.
+        let depth = copied(unsafe { parts.depth.bytes() });
         self.parts = Some(parts);
         Ok(depth)
     }
@@ -86,10 +87,12 @@ impl Headless {
         with_depth: bool,
     ) -> Result<PartSums> {
         let mut parts = self.parts(settings)?;
-        fill(&mut parts.depth, depth)?;
+        // SAFETY: every submission was waited for.
+        unsafe { fill(&mut parts.depth, depth) }?;
         let stage = Stage::Sum { depth: parts.depth.raw(), sums: parts.sums(), with_depth };
         self.run_stage(&mut parts.slots[1], scene, camera, settings, stage)?;
-        let [colors, normals] = parts.sums.each_ref().map(|buffer| copied(buffer.bytes()));
+        // SAFETY: waited for.
+        let [colors, normals] = parts.sums.each_ref().map(|buffer| copied(unsafe { buffer.bytes() }));
         self.parts = Some(parts);
         Ok(PartSums { colors, normals })
     }
@@ -107,9 +110,11 @@ impl Headless {
         wanted: Wanted,
     ) -> Result<Frame> {
         let mut parts = self.parts(settings)?;
-        fill(&mut parts.depth, depth)?;
+        // SAFETY: every submission was waited for.
+        unsafe { fill(&mut parts.depth, depth) }?;
         for (buffer, values) in parts.sums.iter_mut().zip([&sums.colors, &sums.normals]) {
-            fill(buffer, values)?;
+            // SAFETY: as above.
+            unsafe { fill(buffer, values) }?;
         }
         let begun = Instant::now();
         let wanted = Wanted { profile: None, ..wanted };
@@ -123,11 +128,15 @@ impl Headless {
         let mut slot = FrameSlot::new(&self.device);
         let plan = self.run_stage(&mut slot, scene, camera, settings, stage)?;
         self.parts = Some(parts);
-        Ok(targets.frame(plan, None, true, begun.elapsed().as_secs_f64(), 0.0))
+        // SAFETY: waited for.
+        Ok(unsafe { targets.frame(plan, None, true, begun.elapsed().as_secs_f64(), 0.0) })
     }
 
+    /// All submissions were waited for.
     fn parts(&mut self, settings: &Settings) -> Result<Parts> {
         settings.validate()?;
+        // Once more, in case that the wait for the stage before failed.
+        self.queue.wait_submitted()?;
         match self.parts.take().filter(|parts| parts.size_px == settings.size_px) {
             Some(parts) => Ok(parts),
             None => Parts::new(&self.device, settings.size_px),
@@ -156,9 +165,12 @@ impl Headless {
     }
 }
 
-fn fill(buffer: &mut Buffer, values: &[f32]) -> Result<()> {
+/// # Safety
+/// The device does nothing with the buffer.
+unsafe fn fill(buffer: &mut Buffer, values: &[f32]) -> Result<()> {
     let bytes: &[u8] = bytemuck::cast_slice(values);
-    let room = buffer.bytes_mut();
+    // SAFETY: this function's contract.
+    let room = unsafe { buffer.bytes_mut() };
     if room.len() != bytes.len() {
         let problem = format!("{} bytes of a part; expected {}, as the picture has", bytes.len(), room.len());
         return Err(Error::option("size", problem));

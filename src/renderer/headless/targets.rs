@@ -85,7 +85,10 @@ impl Targets {
     }
 
     /// Copies what was wanted out of the buffers.
-    pub(super) fn frame(
+    ///
+    /// # Safety
+    /// The frame has finished.
+    pub(super) unsafe fn frame(
         &self,
         plan: Arc<Plan>,
         profile: Option<FrameProfile>,
@@ -93,12 +96,16 @@ impl Targets {
         wall_secs: f64,
         record_secs: f64,
     ) -> Frame {
-        let picture = self.picture.as_ref().filter(|_| is_read).map(Buffer::bytes).unwrap_or_default();
+        let bytes = |buffer| {
+            // SAFETY: this function's contract.
+            unsafe { Buffer::bytes(buffer) }
+        };
+        let picture = self.picture.as_ref().filter(|_| is_read).map(bytes).unwrap_or_default();
         let (srgb, linear) = match self.wanted.linear {
             false => (copied(picture), Vec::new()),
             true => (Vec::new(), copied(picture)),
         };
-        let surface = |i: usize| self.surface.as_ref().map(|buffers| buffers[i].bytes()).unwrap_or_default();
+        let surface = |i: usize| self.surface.as_ref().map(|buffers| bytes(&buffers[i])).unwrap_or_default();
         Frame {
             size_px: self.size_px,
             srgb,

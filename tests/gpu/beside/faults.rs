@@ -64,7 +64,7 @@ fn whichever_call_fails_is_named_and_the_next_frame_works() {
 fn each_call_fails(answer: vk::Result, with_renderer: bool) {
     crate::common::arm();
     let engine = Engine::new(REVERSED);
-    let faulty = faults::device(&engine.device);
+    let faulty = faults::device(&engine.instance, &engine.device);
     let host = Import { device: &faulty, ..engine.lent() };
     // SAFETY: all is the engine's own, which goes last.
     let device = unsafe { Device::import(&host) }.unwrap();

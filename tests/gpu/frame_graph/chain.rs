@@ -103,7 +103,8 @@ pub fn buffers(watched: &Watched) -> (Buffer, Buffer) {
     let desc = |name, usage| BufferDesc { name, size: BYTES, usage };
     let pattern = desc("pattern", vk::BufferUsageFlags::TRANSFER_SRC);
     let mut pattern = Buffer::new(&watched.device, pattern, MemoryUse::Upload).unwrap();
-    for (i, byte) in (0_u32..).zip(pattern.bytes_mut()) {
+    // SAFETY: the device has not seen it yet.
+    for (i, byte) in (0_u32..).zip(unsafe { pattern.bytes_mut() }) {
         *byte = (i.wrapping_mul(2_654_435_761) >> 24) as u8;
     }
     let result = desc("result", vk::BufferUsageFlags::TRANSFER_DST);

@@ -96,7 +96,9 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
         Buffer::new(device, BufferDesc { name, size, usage }, memory).unwrap()
     };
     let mut given = buffer("questions", size_of_val(&questions[..]) as u64, MemoryUse::Upload);
-    given.bytes_mut().copy_from_slice(bytemuck::cast_slice(&questions));
+    // SAFETY: the device has not seen it yet.
+    let room = unsafe { given.bytes_mut() };
+    room.copy_from_slice(bytemuck::cast_slice(&questions));
     let answers = buffer("answers", (asked.len() * size_of::<Answer>()) as u64, MemoryUse::Readback);
     let pool =
         DescriptorPool::new(device, "probe", PoolSizes { sets: 1, buffers: 2, ..PoolSizes::default() })
@@ -145,7 +147,8 @@ pub fn ask(headless: &Headless, asked: &[Asked<'_>], wrong: Option<&str>) -> Vec
             Ok(())
         })
         .unwrap();
-    answers.bytes().chunks_exact(size_of::<Answer>()).map(bytemuck::pod_read_unaligned).collect()
+    // SAFETY: waited for.
+    unsafe { answers.bytes() }.chunks_exact(size_of::<Answer>()).map(bytemuck::pod_read_unaligned).collect()
 }
 
 fn question(asked: &Asked<'_>) -> Question {

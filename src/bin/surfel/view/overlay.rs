@@ -145,7 +145,8 @@ impl OverlayPass {
             return Ok(());
         }
         let filled = |slot: &mut Option<Buffer>, name, words: &[u32]| {
-            fill(&self.device, slot, name, words)
+            // SAFETY: this function's contract.
+            unsafe { fill(&self.device, slot, name, words) }
                 .map(|buffer| Descriptor::Buffer(buffer.raw(), buffer.size()))
         };
         let of_vertices = filled(&mut buffers.vertices, "overlay vertices", &vertices)?;
@@ -208,7 +209,10 @@ fn collect(frame: &OverlayFrame, window_px: [u32; 2]) -> (Vec<u32>, Vec<u32>, Ve
 }
 
 /// Writes words to a buffer, to another one where this has no room for them.
-fn fill<'a>(
+///
+/// # Safety
+/// The frame has finished that read it last.
+unsafe fn fill<'a>(
     device: &Device,
     slot: &'a mut Option<Buffer>,
     name: &str,
@@ -224,7 +228,8 @@ fn fill<'a>(
             slot.insert(Buffer::new(device, desc, MemoryUse::Upload)?)
         }
     };
-    if let Some(room) = buffer.bytes_mut().get_mut(..bytes.len()) {
+    // SAFETY: this function's contract.
+    if let Some(room) = unsafe { buffer.bytes_mut() }.get_mut(..bytes.len()) {
         room.copy_from_slice(bytes);
     }
     Ok(buffer)
@@ -257,7 +262,8 @@ impl Atlas {
     fn buffer(&mut self, device: &Device) -> Result<Option<Arc<Buffer>>> {
         if self.buffer.is_none() && !self.texels.is_empty() {
             let mut slot = None;
-            fill(device, &mut slot, "overlay atlas", &self.texels)?;
+            // SAFETY: a new one.
+            unsafe { fill(device, &mut slot, "overlay atlas", &self.texels) }?;
             self.buffer = slot.map(Arc::new);
         }
         Ok(self.buffer.clone())

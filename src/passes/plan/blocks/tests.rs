@@ -1,5 +1,9 @@
 use super::*;
-use crate::{math::random::SplitMix, prepare::Rebase, scene::Camera};
+use crate::{
+    math::{random::SplitMix, size::half_image},
+    prepare::Rebase,
+    scene::Camera,
+};
 
 const SIZE_PX: [u32; 2] = [200, 150];
 
@@ -75,7 +79,8 @@ fn what_is_seen_of_a_block_is_in_its_rows() {
             culls: round % 2 == 0,
             levels: None,
             planes: &[],
-            origin_distance: view.origin_from_eye.length(),
+            by_origin: view.origin_from_eye.length() + 3.0 * view.view_from_local_scale,
+            half_image: half_image(&bound),
         };
         let seen = potentially_visible(0, &block, &look);
         for disk in &disks {
@@ -154,7 +159,7 @@ fn groups_leave_out_no_more_than_their_blocks() {
     let objects = vec![Object { name: "ball".to_owned(), splats, closed: true }];
     let prepared = prepare_without_device(&Limits::plain(), &Scene { objects, ..Scene::default() }).unwrap();
     let settings = Settings { size_px: SIZE_PX, ..Settings::default() };
-    let (mut away, mut looked_at) = (0, 0);
+    let (mut away, mut looked_at, mut as_wholes) = (0, 0, 0);
     for eye in [DVec3::new(0.0, 0.0, 6.0), DVec3::new(1.0, 0.3, 1.2), DVec3::new(-3.0, 1.0, 0.2), DVec3::ZERO]
     {
         for orthographic_height in [None, Some(1.2)] {
@@ -167,19 +172,28 @@ fn groups_leave_out_no_more_than_their_blocks() {
                 let arena = Arena::new();
                 let chunk = draw.chunk;
                 assert_eq!(chunk.groups.len(), chunk.blocks.len().div_ceil(GROUP_BLOCKS));
-                let by_groups = draw.potentially_visible_blocks(&arena);
+                let by_groups = draw.potentially_visible_blocks(&arena, false);
                 let look = draw.look();
                 let each: Vec<_> = (0..)
                     .zip(&chunk.blocks)
                     .filter_map(|(number, block)| potentially_visible(number, block, &look))
                     .collect();
-                assert_eq!(by_groups, each, "{eye}");
+                assert_eq!(draw.potentially_visible_blocks(&arena, true), each, "{eye}");
+                assert_eq!(by_groups.len(), each.len(), "{eye}");
+                for (by_group, own) in by_groups.iter().zip(&each) {
+                    assert_eq!([by_group.number, by_group.count], [own.number, own.count], "{eye}");
+                    assert!(own.all_seen || !by_group.all_seen, "{eye}: {own:?}");
+                    let within = by_group.rows.start <= own.rows.start && own.rows.end <= by_group.rows.end;
+                    assert!(within && own.box_px <= by_group.box_px, "{eye}: {own:?} of {by_group:?}");
+                    assert!(by_group.box_px.min(1e9) <= 1.2 * own.box_px, "{eye}: {own:?} of {by_group:?}");
+                    as_wholes += usize::from(by_group != own);
+                }
                 let of_groups = chunk.groups.iter().map(|group| potentially_visible(0, group, &look));
                 let [seen, all] = [of_groups.flatten().count(), chunk.groups.len()];
                 (away, looked_at) = (away + all - seen, looked_at + seen);
             }
         }
     }
-    println!("groups left out {away}, with blocks that are looked at {looked_at}");
-    assert!(away > 30, "{away} {looked_at}");
+    println!("groups left out {away}, seen {looked_at}; blocks by what is known of their group {as_wholes}");
+    assert!(away > 30 && as_wholes > 300, "{away} {looked_at} {as_wholes}");
 }
