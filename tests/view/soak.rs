@@ -5,8 +5,9 @@ use std::{thread, time::Duration};
 
 use super::{
     CAMERA,
+    random::Random,
     screen::Screen,
-    window::{Folder, Random, View},
+    window::{Folder, View},
 };
 
 /// The first size, all settings and the first camera again.

@@ -9,7 +9,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::screen::{Screen, Shot};
+use super::{
+    random::Random,
+    screen::{Screen, Shot},
+};
 
 /// Patience with a machine that does other things, too.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -28,6 +31,14 @@ impl Folder {
 
     pub fn write(&self, name: &str, content: &str) {
         fs::write(self.path(name), content).unwrap();
+    }
+
+    /// A cube of triangles.
+    pub fn cube(&self, name: &str) {
+        let corner = |i: u32| [0, 1, 2].map(|axis| 2 * (i >> axis & 1)).map(|at| f64::from(at) - 1.0);
+        let corners = (0..8).map(corner).map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
+        self.write(name, &corners.chain(faces.map(|face| format!("f {face}\n"))).collect::<String>());
     }
 
     /// So many disks in colors on a ball, replaced at once.
@@ -108,10 +119,22 @@ impl<'a> View<'a> {
 
     /// The same, with the validation layer or without.
     pub fn open_as(screen: &'a Screen, folder: &'a Folder, words: &[&str], is_validated: bool) -> Self {
+        Self::open_in(screen, folder, words, is_validated, &[])
+    }
+
+    /// The same, with variables of its own.
+    pub fn open_in(
+        screen: &'a Screen,
+        folder: &'a Folder,
+        words: &[&str],
+        is_validated: bool,
+        environment: &[(&str, &str)],
+    ) -> Self {
         let first: &[&str] = if is_validated { &["view", "--validate"] } else { &["view"] };
         let mut child = command(folder, &[first, words].concat())
             .env("DISPLAY", screen.name())
             .env_remove("WAYLAND_DISPLAY")
+            .envs(environment.iter().copied())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -235,9 +258,19 @@ impl<'a> View<'a> {
     }
 
     /// Ends it by key: it has ended well, and the layer has said nothing.
-    pub fn end(mut self) -> Run {
+    pub fn end(self) -> Run {
         self.screen.drive(&["windowfocus", &self.window]);
         self.screen.key("ctrl+q");
+        let is_validated = self.is_validated;
+        let run = self.wait_for_end();
+        let Run { code, stderr, .. } = &run;
+        assert_eq!(*code, 0, "{stderr}");
+        assert!(!is_validated || stderr.contains("validation: no message"), "{stderr}");
+        run
+    }
+
+    /// Waits until it has ended by itself.
+    pub fn wait_for_end(mut self) -> Run {
         let begun = Instant::now();
         while self.is_running() {
             assert!(begun.elapsed() < PATIENCE, "it does not end");
@@ -246,9 +279,12 @@ impl<'a> View<'a> {
         let code = self.child.wait().unwrap().code().unwrap_or(-1);
         self.readers.drain(..).for_each(|reader| reader.join().unwrap());
         let (stdout, stderr) = (self.stdout.lock().unwrap().clone(), self.stderr.lock().unwrap().clone());
-        assert_eq!(code, 0, "{stderr}");
-        assert!(!self.is_validated || stderr.contains("validation: no message"), "{stderr}");
         Run { code, stdout, stderr }
+    }
+
+    /// What it has said on the standard error.
+    pub fn said(&self) -> String {
+        self.stderr.lock().unwrap().clone()
     }
 }
 
@@ -267,16 +303,4 @@ fn collect(mut from: impl std::io::Read + Send + 'static, into: &Arc<Mutex<Strin
             into.lock().unwrap().push_str(&String::from_utf8_lossy(&bytes[..count]));
         }
     })
-}
-
-/// Numbers at random, the same in every run.
-pub struct Random(pub u64);
-
-impl Random {
-    /// Below `end`.
-    pub fn below(&mut self, end: u32) -> u32 {
-        // Knuth's MMIX.
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) % u64::from(end)) as u32
-    }
 }
