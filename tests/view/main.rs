@@ -13,7 +13,7 @@ mod window;
 
 use std::time::Duration;
 
-use random::Random;
+use random::{KEYS, Random};
 use screen::Screen;
 use window::{Folder, View, render, surfel};
 
@@ -159,7 +159,7 @@ fn random_input_ends_in_a_window_that_goes_home() {
     let mut view = View::open(&screen, &folder, &words);
     let home = render(&folder, &words);
     view.wait_for(&home);
-    view.play_at_random(Random(3), Duration::from_secs(5));
+    view.play_at_random(&mut Random(3), Duration::from_secs(5), KEYS);
     assert!(view.is_running());
     view.end();
 }

@@ -235,18 +235,16 @@ impl<'a> View<'a> {
         line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() * 1024e-6
     }
 
-    /// Mouse and keys at random, all but those that end it.
-    pub fn play_at_random(&mut self, mut random: Random, long: Duration) {
-        const KEYS: &str = "h f 1 2 3 4 5 6 7 u p t r R g G k n b v V l L bracketright bracketleft m period comma x z space y o question \
-                            Escape F5 w a s d q e j X B equal minus O 0";
-        let keys: Vec<_> = KEYS.split_whitespace().collect();
+    /// Mouse and keys at random.
+    pub fn play_at_random(&mut self, random: &mut Random, long: Duration, keys: &str) {
+        let keys: Vec<_> = keys.split_whitespace().collect();
         let begun = Instant::now();
         while begun.elapsed() < long {
             let at = |random: &mut Random| [random.below(320) as i32, random.below(220) as i32];
             match random.below(6) {
                 0 | 1 => self.screen.key(keys[random.below(keys.len() as u32) as usize]),
                 2 => {
-                    let (from, to) = (at(&mut random), at(&mut random));
+                    let (from, to) = (at(random), at(random));
                     self.screen.drag(from, to, 1 + random.below(3));
                 }
                 3 => drop(self.screen.drive(&["click", if random.below(2) == 0 { "4" } else { "5" }])),
