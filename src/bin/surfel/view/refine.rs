@@ -14,10 +14,14 @@ use crate::picture::samples_unsaid;
 /// How soon the device is looked at again.
 const LOOK: Duration = Duration::from_millis(5);
 
+/// Splats up to this size are drawn as one at first: less than the filter spreads what it sees. On lavapipe 1.4 million splats at 1024x1024 take less than half the time
+/// so; at 1 pixel, where most of them are splats of the scene itself, 5 to 15% less.
+const LEVELED_PX: f64 = 1.25;
+
 /// A step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refinement {
-    /// By levels of detail, which differ from the whole by less than a pixel and take half its time or less.
+    /// By levels of detail of [`LEVELED_PX`].
     Leveled,
     /// All of it.
     Whole,
@@ -48,7 +52,7 @@ impl Refinement {
     /// How it is drawn, of how the whole is; and which of several samples it is.
     pub fn of(self, camera: Camera, whole: &Settings) -> (Camera, Settings, Option<Ends>) {
         match self {
-            Self::Leveled => (camera, Settings { lod: Lod::Auto, ..whole.clone() }, None),
+            Self::Leveled => (camera, Settings { lod: Lod::Px(LEVELED_PX), ..whole.clone() }, None),
             Self::Whole => (camera, whole.clone(), None),
             Self::Sample(number, samples) => {
                 let offsets_px = samples.offsets_px(whole.kernel);
