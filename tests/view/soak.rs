@@ -75,9 +75,9 @@ fn played(is_validated: bool) -> (f64, f64) {
     (end[1] - warm[2], longest)
 }
 
-/// Where no pipelines are made any more, nothing is left to grow: what does where they are is what the driver's compiler leaves.
+/// Where no pipelines are made any more, what else might grow is seen.
 #[test]
-#[ignore = "thirteen minutes"]
+#[ignore = "fourteen minutes"]
 fn ten_minutes_of_random_views_leave_no_more_memory() {
     let (screen, folder) = (Screen::new(), Folder::new());
     folder.splats("a.ply", 20_000);
@@ -90,11 +90,14 @@ fn ten_minutes_of_random_views_leave_no_more_memory() {
         go_back(&screen, view);
         view.resident_mb()
     };
-    let all: Vec<f64> = (0..3 + secs() / 60).map(|_| minute(&mut view)).collect();
+    let all: Vec<f64> = (0..4 + secs() / 60).map(|_| minute(&mut view)).collect();
     println!("resident after each minute, MB: {all:.1?}");
     view.end();
-    let growth_mb = all[all.len() - 1] - all[2];
-    assert!(growth_mb < 1.0, "{growth_mb}");
+    // The most of some minutes: what comes and goes is there in some of them.
+    let most = |minutes: &[f64]| minutes.iter().copied().fold(0.0, f64::max);
+    let growth_mb = most(&all[all.len() - 3..]) - most(&all[..4]);
+    println!("growth: {growth_mb:.1} MB");
+    assert!(growth_mb < MOST_GROWTH_MB, "{growth_mb}");
 }
 
 /// Layers of 1.3.239 take memory for each presentation and each query that is reset, which they keep: so without them.
